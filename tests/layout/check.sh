@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# Checks the direction of includes, the places of third-party headers, the length of files and the
+# names at the top level. Usage: check.sh [ROOT]. One line per fault, exit status 1 when there is one.
+set -euo pipefail
+cd "${1:-$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..}"
+
+rooms=(daemon hal pipeline gles_shaders tests systemd toolchains)
+topLevel=' CMakeLists.txt CMakePresets.json README.md LICENSE run .clang-format .clang-tidy .ci
+ .gitignore daemon hal pipeline gles_shaders tests systemd toolchains '
+# Not part of the tree: version control, build and output folders, recordings for measurements.
+ignored=' .git .build out shared '
+maxLines=400
+
+halTop='hal/[^/]+'
+leaves='pipeline/geometry\.h|pipeline/gpu/.+|gles_shaders/.+'
+faults=0
+
+fault() {
+    printf '%s\n' "$*"
+    faults=$((faults + 1))
+}
+
+# What the files of a room may include from the project, as a regular expression.
+allowedFrom() {
+    case $1 in
+    tests/*) echo '.+' ;;
+    daemon/rig.*) echo 'daemon/.+|pipeline/.+|hal/.+' ;;
+    daemon/tools/*) echo "daemon/.+|pipeline/.+|$halTop|hal/virtual/.+" ;;
+    daemon/*) echo "daemon/.+|pipeline/.+|$halTop" ;;
+    pipeline/geometry.* | pipeline/gpu/*) echo "$leaves|$halTop" ;;
+    pipeline/*) echo "pipeline/.+|gles_shaders/.+|$halTop" ;;
+    gles_shaders/*) echo 'gles_shaders/.+' ;;
+    hal/device/*) echo "hal/device/.+|$halTop|$leaves" ;;
+    hal/virtual/*) echo "hal/virtual/.+|$halTop|$leaves" ;;
+    hal/*) echo "$halTop" ;;
+    esac
+}
+
+# The only places of a third-party header, as a regular expression; nothing: anywhere.
+homeOf() {
+    case $1 in
+    apriltag/* | apriltag.h | tag36h11.h) echo 'pipeline/track/|tests/' ;;
+    embree*) echo 'pipeline/render/|tests/' ;;
+    EGL/* | libcamera/* | gpiod* | xf86drm* | drm/* | libdrm/* | gbm.h) echo 'hal/device/' ;;
+    GL/osmesa.h) echo 'hal/virtual/' ;;
+    esac
+}
+
+checkInclude() {
+    local file=$1 line=$2 name=$3 allowed home
+    if [[ $name == \"* ]]; then
+        name=${name//\"/}
+        allowed=$(allowedFrom "$file")
+        if [[ ! -f $name && $name == */* ]] || [[ $name != */* ]]; then
+            fault "$file:$line: \"$name\" is not a path from the top of the tree"
+        elif [[ ! $name =~ ^($allowed)$ ]]; then
+            fault "$file:$line: ${file%%/*} must not include \"$name\""
+        fi
+        return
+    fi
+    name=${name//[<>]/}
+    home=$(homeOf "$name")
+    if [[ -n $home && ! $file =~ ^($home) ]]; then
+        fault "$file:$line: <$name> belongs into ${home//|/ or } alone"
+    fi
+}
+
+checkIncludes() {
+    local entry
+    while IFS= read -r entry; do
+        [[ $entry =~ ^([^:]+):([0-9]+):[[:space:]]*\#[[:space:]]*include[[:space:]]*(\"[^\"]+\"|<[^>]+>) ]] &&
+            checkInclude "${BASH_REMATCH[1]}" "${BASH_REMATCH[2]}" "${BASH_REMATCH[3]}"
+    done < <(find "${rooms[@]}" \( -name '*.h' -o -name '*.cpp' \) -exec grep -Hn '^[[:space:]]*#[[:space:]]*include' {} + \
+        2>/dev/null)
+    return 0
+}
+
+checkLengths() {
+    local lines file
+    while read -r lines file; do
+        if [[ $file != total && $lines -gt $maxLines ]]; then
+            fault "$file: $lines lines, at most $maxLines: split it by job"
+        fi
+    done < <(find run "${rooms[@]}" -type f \( -name run -o -name '*.h' -o -name '*.cpp' \
+        -o -name '*.sh' -o -name '*.comp' -o -name '*.frag' -o -name '*.vert' -o -name '*.glsl' \
+        -o -name '*.cmake' -o -name CMakeLists.txt \) -exec wc -l {} + 2>/dev/null)
+}
+
+checkTopLevel() {
+    local name
+    while read -r name; do
+        if [[ "${topLevel//$'\n'/ } $ignored" != *" $name "* ]]; then
+            fault "$name: no such thing belongs at the top level"
+        fi
+    done < <(ls -A)
+}
+
+checkIncludes
+checkLengths
+checkTopLevel
+[[ $faults == 0 ]]

@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# check.sh must pass a sound tree and find each fault that is planted into it.
+set -euo pipefail
+check=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/check.sh
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+put() {
+    mkdir -p "$(dirname "$work/$1")"
+    printf '%s\n' "${@:2}" >"$work/$1"
+}
+
+soundTree() {
+    find "$work" -mindepth 1 -delete
+    put run '#!/bin/sh'
+    put hal/camera.h '#pragma once' '#include <chrono>'
+    put hal/device/egl.cpp '#include "hal/camera.h"' '#include <EGL/egl.h>'
+    put hal/virtual/player.h '#include "pipeline/geometry.h"'
+    put hal/virtual/osmesa.cpp '#include <GL/osmesa.h>' '#include "hal/virtual/player.h"'
+    put gles_shaders/shaders.h '#pragma once'
+    put pipeline/geometry.h '#include "hal/camera.h"'
+    put pipeline/gpu/pass.h '#include "gles_shaders/shaders.h"'
+    put pipeline/track/tags.cpp '#include <apriltag/apriltag.h>'
+    put pipeline/pipeline.h '#include "pipeline/gpu/pass.h"'
+    put daemon/app.h '#include "pipeline/pipeline.h"'
+    put daemon/rig.cpp '#include "hal/device/egl.h"' '#include "hal/virtual/player.h"'
+    put hal/device/egl.h '#include "pipeline/gpu/pass.h"'
+    put daemon/tools/sim.cpp '#include "hal/virtual/player.h"'
+    put tests/all.cpp '#include "daemon/app.h"' '#include "hal/virtual/player.h"'
+}
+
+# expectFault MESSAGE FILE LINE...: the file, planted into a sound tree, is reported with MESSAGE.
+expectFault() {
+    local message=$1 said
+    soundTree
+    put "${@:2}"
+    if said=$("$check" "$work") || [[ $said != *"$message"* ]]; then
+        echo "not found: '$message' in $2; said '$said'"
+        failures=$((failures + 1))
+    fi
+}
+
+soundTree
+if ! said=$("$check" "$work"); then
+    echo "a sound tree is refused: $said"
+    failures=1
+fi
+expectFault 'pipeline/bad.cpp:1: pipeline must not' pipeline/bad.cpp '#include "daemon/app.h"'
+expectFault 'pipeline/bad.cpp:2: pipeline must not' pipeline/bad.cpp '' '#include "hal/virtual/player.h"'
+expectFault 'pipeline/gpu/bad.h:1: pipeline must not' pipeline/gpu/bad.h '#include "pipeline/pipeline.h"'
+expectFault 'hal must not include "pipeline/geometry.h"' hal/bad.h '#include "pipeline/geometry.h"'
+expectFault 'hal must not include "pipeline/pipeline.h"' hal/device/bad.h '#include "pipeline/pipeline.h"'
+expectFault 'hal must not include "hal/virtual/player.h"' hal/device/bad.h '# include "hal/virtual/player.h"'
+expectFault 'hal must not include "hal/device/egl.h"' hal/virtual/bad.h '#include "hal/device/egl.h"'
+expectFault 'daemon must not include "hal/virtual/player.h"' daemon/app.cpp '#include "hal/virtual/player.h"'
+expectFault 'daemon must not include "hal/device/egl.h"' daemon/tools/bad.cpp '#include "hal/device/egl.h"'
+expectFault 'gles_shaders must not' gles_shaders/bad.cpp '#include "pipeline/gpu/pass.h"'
+expectFault 'not a path from the top' daemon/bad.cpp '#include "app.h"'
+expectFault 'not a path from the top' daemon/bad.cpp '#include "../hal/camera.h"'
+expectFault '<apriltag/apriltag.h> belongs into' pipeline/flow/bad.cpp '#include <apriltag/apriltag.h>'
+expectFault '<embree4/rtcore.h> belongs into' pipeline/bad.cpp '#include <embree4/rtcore.h>'
+expectFault '<EGL/egl.h> belongs into' pipeline/bad.cpp '#include <EGL/egl.h>'
+expectFault '<GL/osmesa.h> belongs into' hal/device/bad.cpp '#include <GL/osmesa.h>'
+expectFault '<libcamera/camera.h> belongs into' daemon/rig.cpp '#include <libcamera/camera.h>'
+expectFault '<gpiod.hpp> belongs into' pipeline/bad.cpp '#include <gpiod.hpp>'
+expectFault '<xf86drm.h> belongs into' daemon/bad.cpp '#include <xf86drm.h>'
+mapfile -t long < <(yes '' | head -n 401)
+expectFault 'tests/long.cpp: 401 lines' tests/long.cpp "${long[@]}"
+expectFault 'notes.txt: no such thing' notes.txt 'x'
+[[ $failures == 0 ]]
