@@ -1,0 +1,152 @@
+#include "hal/gl_context.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GLES3/gl31.h>
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace mfar {
+namespace {
+
+std::string text(GLenum name) {
+    const GLubyte* s = glGetString(name);
+    return s != nullptr ? reinterpret_cast<const char*>(s) : "unknown";
+}
+
+bool hasExtension(const char* list, std::string_view name) {
+    const std::string_view all = list != nullptr ? list : "";
+    for (std::size_t at = 0; (at = all.find(name, at)) != all.npos; at += name.size()) {
+        const std::size_t end = at + name.size();
+        if ((at == 0 || all[at - 1] == ' ') && (end == all.size() || all[end] == ' ')) return true;
+    }
+    return false;
+}
+
+template <class F>
+F proc(const char* name) {
+    return reinterpret_cast<F>(eglGetProcAddress(name));
+}
+
+EGLDisplay initialised(EGLDisplay display) {
+    if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
+        return EGL_NO_DISPLAY;
+    return display;
+}
+
+struct OpenedDisplay {
+    EGLDisplay display;
+    const char* how;
+};
+
+// A device without EGL_MESA_device_software is a GPU; the surfaceless platform is the software
+// fall-back (it may still pick a GPU by itself where the device extensions are missing).
+OpenedDisplay openDisplay(bool software) {
+    const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const auto platformDisplay = proc<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    if (platformDisplay == nullptr)
+        throw std::runtime_error("EGL: no EGL_EXT_platform_base, a newer EGL is needed");
+    if (!software && hasExtension(client, "EGL_EXT_platform_device")) {
+        const auto queryDevices = proc<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+        const auto queryString = proc<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+        std::array<EGLDeviceEXT, 16> devices{};
+        EGLint count = 0;
+        if (queryDevices != nullptr && queryString != nullptr)
+            queryDevices(devices.size(), devices.data(), &count);
+        for (EGLint i = 0; i < count; ++i) {
+            if (hasExtension(queryString(devices[i], EGL_EXTENSIONS), "EGL_MESA_device_software"))
+                continue;
+            const EGLDisplay display =
+                initialised(platformDisplay(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr));
+            if (display != EGL_NO_DISPLAY) return {display, "EGL device"};
+        }
+    }
+    if (hasExtension(client, "EGL_MESA_platform_surfaceless")) {
+        const EGLDisplay display = initialised(
+            platformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+        if (display != EGL_NO_DISPLAY) return {display, "EGL surfaceless"};
+    }
+    throw std::runtime_error(
+        "EGL: neither a GPU nor the surfaceless platform can be opened; is libgl1-mesa-dri "
+        "installed, and may this user read and write /dev/dri/renderD*?");
+}
+
+// EGL displays are shared by all contexts of the process and are never terminated: a context may
+// be created while another thread still uses the display.
+OpenedDisplay sharedDisplay() {
+    static std::mutex mutex;
+    static OpenedDisplay opened{EGL_NO_DISPLAY, ""};
+    const std::lock_guard lock(mutex);
+    if (opened.display == EGL_NO_DISPLAY) {
+        const char* wanted = std::getenv("MFAR_GL_DEVICE");
+        opened = openDisplay(wanted != nullptr && std::strcmp(wanted, "software") == 0);
+    }
+    return opened;
+}
+
+class EglContext final : public GlContext {
+public:
+    EglContext() {
+        const OpenedDisplay opened = sharedDisplay();
+        display_ = opened.display;
+        eglBindAPI(EGL_OPENGL_ES_API);
+        const std::array<EGLint, 7> configWanted{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE,
+                                                 EGL_OPENGL_ES3_BIT, EGL_NONE};
+        EGLConfig config = nullptr;
+        EGLint count = 0;
+        if (eglChooseConfig(display_, configWanted.data(), &config, 1, &count) != EGL_TRUE ||
+            count == 0)
+            throw std::runtime_error("EGL: no configuration renders OpenGL ES 3");
+        const std::array<EGLint, 5> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION,
+                                            1, EGL_NONE};
+        context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, version.data());
+        if (context_ == EGL_NO_CONTEXT)
+            throw std::runtime_error("EGL: this driver offers no OpenGL ES 3.1 context");
+        makeCurrent();
+        const std::string renderer = text(GL_RENDERER);
+        const bool software = renderer.find("llvmpipe") != renderer.npos ||
+                              renderer.find("softpipe") != renderer.npos;
+        description_ = std::string(opened.how) + ": " + renderer + ", " + text(GL_VERSION) +
+                       (software ? ", software" : ", hardware");
+        // ES 3.1 refuses indirect draws without a vertex array object.
+        glGenVertexArrays(1, &vertexArray_);
+        glBindVertexArray(vertexArray_);
+    }
+    EglContext(const EglContext&) = delete;
+    EglContext& operator=(const EglContext&) = delete;
+    ~EglContext() override {
+        if (eglGetCurrentContext() == context_)
+            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display_, context_);
+    }
+
+    void makeCurrent() override {
+        if (eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE)
+            throw std::runtime_error("EGL: the context cannot be made current without a surface");
+    }
+    void release() override {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    Proc getProcAddress(const char* name) const override { return eglGetProcAddress(name); }
+    std::string description() const override { return description_; }
+
+private:
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+    GLuint vertexArray_ = 0;
+    std::string description_;
+};
+
+}  // namespace
+
+std::unique_ptr<GlContext> createGlContext() {
+    return std::make_unique<EglContext>();
+}
+
+}  // namespace mfar

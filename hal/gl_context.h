@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace mfar {
+
+/// An OpenGL ES 3.1 capable context without a window. Belongs to the thread that made it current.
+/// Which one is linked (EGL or OSMesa) is decided at link time: both define createGlContext().
+class GlContext {
+public:
+    using Proc = void (*)();
+
+    virtual ~GlContext() = default;
+
+    virtual void makeCurrent() = 0;
+    /// Unbinds from this thread, so that another one may make it current.
+    virtual void release() = 0;
+    /// Address of an extension function, nullptr when it does not exist.
+    [[nodiscard]] virtual Proc getProcAddress(const char* name) const = 0;
+    /// One line for people: "EGL surfaceless: llvmpipe (...), OpenGL ES 3.2 ..., software".
+    [[nodiscard]] virtual std::string description() const = 0;
+};
+
+/// Creates a context and leaves it current on the calling thread. A hardware GPU is preferred;
+/// `MFAR_GL_DEVICE=software` (environment) asks for the software renderer.
+/// Throws std::runtime_error naming what is missing.
+[[nodiscard]] std::unique_ptr<GlContext> createGlContext();
+
+}  // namespace mfar
