@@ -1,0 +1,58 @@
+cmake_minimum_required(VERSION 3.25)
+
+# cmake -DOUT=file.cpp -DDIR=folder -DNAMES="a.comp,b.frag" -P embed.cmake
+# Writes the shaders into one C++ source, each #include "x.glsl" replaced by that file (once each).
+
+cmake_policy(VERSION 3.25)
+
+function(resolve name seen_var out_var)
+    file(READ "${DIR}/${name}" text)
+    string(REGEX MATCH "#include \"([^\"]+)\"[^\n]*\n" line "${text}")
+    set(seen ${${seen_var}})
+    while(line)
+        set(inner ${CMAKE_MATCH_1})
+        set(body "")
+        if(NOT inner IN_LIST seen)
+            list(APPEND seen ${inner})
+            resolve(${inner} seen body)
+        endif()
+        string(REPLACE "${line}" "${body}" text "${text}")
+        string(REGEX MATCH "#include \"([^\"]+)\"[^\n]*\n" line "${text}")
+    endwhile()
+    set(${seen_var} ${seen} PARENT_SCOPE)
+    set(${out_var} "${text}" PARENT_SCOPE)
+endfunction()
+
+string(REPLACE "," ";" names "${NAMES}")
+set(entries "")
+foreach(name IN LISTS names)
+    set(seen "")
+    resolve(${name} seen text)
+    string(APPEND entries "    {\"${name}\", R\"GLSL(${text})GLSL\"},\n")
+endforeach()
+file(WRITE "${OUT}" "#include \"gles_shaders/shaders.h\"
+
+#include <array>
+#include <stdexcept>
+#include <string>
+
+namespace mfar::shaders {
+namespace {
+
+constexpr Source kAll[] = {
+${entries}};
+
+}  // namespace
+
+std::span<const Source> all() {
+    return kAll;
+}
+
+std::string_view source(std::string_view name) {
+    for (const Source& s : kAll)
+        if (s.name == name) return s.text;
+    throw std::out_of_range(\"no shader \" + std::string(name));
+}
+
+}  // namespace mfar::shaders
+")

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "hal/frame.h"
+#include "hal/time.h"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <optional>
+
+namespace mfar {
+
+/// Pinhole camera with radial-tangential distortion (Brown-Conrady, OpenCV's order k1 k2 p1 p2 k3).
+/// Pixel centres at integers. Camera frame: x right, y down, z forward.
+struct CameraModel {
+    Size size;                           ///< [px]
+    double fx = 0, fy = 0;               ///< focal lengths [px]
+    double cx = 0, cy = 0;               ///< principal point [px]
+    std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3
+
+    /// Normalised ray (x/z, y/z) to pixel.
+    [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector2d& ray) const;
+    /// Pixel to normalised ray; Newton iterations undo the distortion. Far outside the lens's valid
+    /// circle, where the model folds over, the result is the ray of the nearest valid radius.
+    [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;
+    /// The same lens in front of a sensor of another resolution: c -> (c + 0.5) s - 0.5.
+    [[nodiscard]] CameraModel scaledTo(Size to) const;
+};
+
+/// T_a_b: maps coordinates in frame b to frame a. Metres.
+struct RigidTransform {
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+
+    [[nodiscard]] RigidTransform inverse() const {
+        const Eigen::Quaterniond r = rotation.conjugate();
+        return {r, -(r * translation)};
+    }
+    [[nodiscard]] Eigen::Vector3d operator*(const Eigen::Vector3d& p) const {
+        return rotation * p + translation;
+    }
+    [[nodiscard]] RigidTransform operator*(const RigidTransform& b) const {
+        return {(rotation * b.rotation).normalized(), rotation * b.translation + translation};
+    }
+};
+
+/// The two sensors of the board and how they stand to each other.
+struct StereoRig {
+    CameraModel video;
+    CameraModel still;
+    RigidTransform T_still_video;  ///< video camera coordinates -> still camera coordinates
+};
+
+/// Where the video camera was. `T_world_video` maps video camera coordinates to world (tag map).
+struct Pose {
+    Timestamp time;
+    RigidTransform T_world_video;
+};
+
+}  // namespace mfar

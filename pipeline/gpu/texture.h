@@ -1,0 +1,87 @@
+#pragma once
+
+#include "hal/frame.h"
+#include "pipeline/gpu/gl.h"
+
+#include <span>
+#include <vector>
+
+namespace mfar::gpu {
+
+/// Storage formats in use, each allowed as an image or a texture by the portable floor.
+enum class TexelFormat : GLenum {
+    R8 = GL_R8,
+    Rg8 = GL_RG8,
+    Rgba8 = GL_RGBA8,
+    R16F = GL_R16F,
+    Rg16F = GL_RG16F,
+    Rgba16F = GL_RGBA16F,
+    R32F = GL_R32F,
+    Rgba32F = GL_RGBA32F,
+    R32Ui = GL_R32UI,
+    Rgba32Ui = GL_RGBA32UI,
+    Depth24 = GL_DEPTH_COMPONENT24,
+};
+
+enum class Filter { Nearest, Linear };
+
+/// An immutable 2-D texture. Move-only. Needs a current context for its whole life.
+/// Throws GlError when the driver refuses the size or format.
+class Texture {
+public:
+    Texture() = default;
+    Texture(Size size, TexelFormat format, Filter filter = Filter::Nearest, int levels = 1);
+    Texture(Texture&& other) noexcept;
+    Texture& operator=(Texture&& other) noexcept;
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
+    ~Texture();
+
+    [[nodiscard]] GLuint id() const { return id_; }
+    [[nodiscard]] Size size() const { return size_; }
+    [[nodiscard]] TexelFormat format() const { return format_; }
+
+    /// True when `view` has this texture's size and format.
+    [[nodiscard]] bool takes(const ImageView& view) const {
+        const bool gray = view.format == PixelFormat::Gray8;
+        return view.size == size_ && format_ == (gray ? TexelFormat::R8 : TexelFormat::Rgba8);
+    }
+    /// Replaces level 0. Asserts takes(view).
+    void upload(const ImageView& view);
+    /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
+    [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
+    /// Reads level 0 back as four floats a texel. Waits for the GPU: not for the frame path.
+    [[nodiscard]] std::vector<float> readRgba32F() const;
+
+private:
+    GLuint id_ = 0;
+    Size size_;
+    TexelFormat format_ = TexelFormat::Rgba8;
+};
+
+/// A texture that can take the uploads of pictures like `view`. R8 samples as grey.
+[[nodiscard]] Texture pictureTexture(const ImageView& view, Filter filter = Filter::Nearest);
+
+/// A framebuffer that draws into one or more textures. Move-only; does not own the textures.
+class Framebuffer {
+public:
+    Framebuffer() = default;
+    explicit Framebuffer(std::span<const Texture* const> colour, const Texture* depth = nullptr);
+    explicit Framebuffer(const Texture& colour);
+    Framebuffer(Framebuffer&& other) noexcept;
+    Framebuffer& operator=(Framebuffer&& other) noexcept;
+    Framebuffer(const Framebuffer&) = delete;
+    Framebuffer& operator=(const Framebuffer&) = delete;
+    ~Framebuffer();
+
+    /// Makes it the target of the following draws, with a viewport over all of it.
+    void bind() const;
+    [[nodiscard]] GLuint id() const { return id_; }
+    [[nodiscard]] Size size() const { return size_; }
+
+private:
+    GLuint id_ = 0;
+    Size size_;
+};
+
+}  // namespace mfar::gpu
