@@ -1,0 +1,29 @@
+#include "hal/virtual/gl_readback.h"
+
+#include <GLES3/gl31.h>
+
+#include <stdexcept>
+
+namespace mfar {
+
+void readBack(const GlImage& image, std::uint8_t* rgba) {
+    GLint framebufferBefore = 0, packBefore = 0;
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &framebufferBefore);
+    glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &packBefore);
+    GLuint framebuffer = 0;
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image.texture,
+                           0);
+    const bool complete = glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    if (complete) {
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+        glReadPixels(0, 0, image.size.width, image.size.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(packBefore));
+    }
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(framebufferBefore));
+    glDeleteFramebuffers(1, &framebuffer);
+    if (!complete) throw std::runtime_error("the finished picture cannot be read back from GL");
+}
+
+}  // namespace mfar

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "hal/frame.h"
+#include "hal/virtual/background_writer.h"
+#include "pipeline/geometry.h"
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace mfar {
+
+struct RecorderOptions {
+    int videoBuffers = 16;  ///< video pictures copied and not yet written, at most
+    int stillBuffers = 3;   ///< the same for stills
+    int poses = 256;        ///< poses taken and not yet written, at most
+};
+
+/// Writes a recording while the frames it is made of are in use. video(), still() and pose() copy
+/// and return at once, whatever the disk does: when their buffers are full the picture is dropped
+/// and counted. A data.csv names a picture only after its file is complete, so a recording that was
+/// cut off at any moment can be loaded. The body frame B of the recording is the video camera.
+///
+/// video() is called from one thread, and so are still() and pose(); the three may be different
+/// ones. Returned false = not recorded: buffers full, time not after that of the previous picture,
+/// another size than the rig's, a pose that is not finite, or an earlier write error.
+class Recorder {
+public:
+    struct Counts {
+        std::uint64_t written = 0;
+        std::uint64_t dropped = 0;
+    };
+
+    /// Creates the folder (or takes an empty one) and writes the calibration. Throws
+    /// std::runtime_error when the folder holds anything or cannot be written.
+    Recorder(const std::filesystem::path& root, const StereoRig& rig, double videoRateHz,
+             const RecorderOptions& options = {});
+    /// Like finish(), but errors are lost.
+    ~Recorder();
+
+    bool video(const ImageView& image, Timestamp time) { return picture(video_, image, time); }
+    bool still(const ImageView& image, Timestamp time) { return picture(still_, image, time); }
+    bool pose(const Pose& pose);
+
+    /// Waits until all that was taken is written. Throws std::runtime_error with the first write
+    /// error of the recording (disk full, folder gone). May be called more than once.
+    void finish();
+    /// The first write error so far. Thread-safe, never waits.
+    [[nodiscard]] std::optional<std::string> error() const { return writer_.error(); }
+
+    [[nodiscard]] Counts videoCounts() const { return video_.counts(); }
+    [[nodiscard]] Counts stillCounts() const { return still_.counts(); }
+    [[nodiscard]] Counts poseCounts() const { return poses_.counts(); }
+
+private:
+    struct Stream {
+        std::filesystem::path folder;
+        std::optional<Timestamp> last{};
+        std::atomic<std::uint64_t> written{0};
+        std::atomic<std::uint64_t> dropped{0};
+
+        [[nodiscard]] Counts counts() const { return {written.load(), dropped.load()}; }
+    };
+    struct PictureStream : Stream {
+        PictureStream(std::filesystem::path where, Size size, int buffers)
+            : Stream{std::move(where)}, pool(size, PixelFormat::Rgba8, buffers) {}
+        FramePool pool;
+    };
+
+    [[nodiscard]] bool accepts(const Stream& stream, Timestamp time) const;
+    bool picture(PictureStream& stream, const ImageView& image, Timestamp time);
+    void writePose(const Pose& pose);
+
+    PictureStream video_;
+    PictureStream still_;
+    Stream poses_;
+    int maxPoses_;
+    std::atomic<int> pendingPoses_{0};
+    BackgroundWriter writer_{1};  // last: its thread uses all of the above
+};
+
+}  // namespace mfar

@@ -1,0 +1,153 @@
+#include "hal/virtual/recording.h"
+
+#include "hal/virtual/png_header.h"
+#include "hal/virtual/recording_csv.h"
+#include "hal/virtual/sensor_yaml.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace mfar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kUnitTolerance = 1e-3;  // ground truth is printed with as few as four digits
+
+void checkIncreasing(const CsvRow& row, Timestamp previous, Timestamp t) {
+    if (t == previous) row.fail(fmt::format("timestamp {} occurs twice", t.ns));
+    if (t < previous)
+        row.fail(fmt::format("timestamp {} comes after {}: not sorted", t.ns, previous.ns));
+}
+
+// Only files beside the list may be named: a recording from elsewhere must not reach out of itself.
+bool isPlainName(std::string_view name) {
+    return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
+           name.find('\\') == name.npos && name.find('\0') == name.npos;
+}
+
+RecordedImage readImageRow(const CsvRow& row, const fs::path& folder, Size expected) {
+    if (row.size() != 2)
+        row.fail(fmt::format("{} columns, timestamp and file name are needed", row.size()));
+    RecordedImage image{row.time(0), {}};
+    if (!isPlainName(row.text(1)))
+        row.fail(fmt::format("file name '{}' is not a plain name", row.text(1)));
+    image.file = folder / row.text(1);
+    Size size;
+    try {
+        size = pngSize(image.file);
+    } catch (const std::exception& e) {
+        row.fail(fmt::format("picture {} {}", image.file.string(), e.what()));
+    }
+    if (size != expected)
+        row.fail(fmt::format("picture {} is {}x{}, sensor.yaml says {}x{}", image.file.string(),
+                             size.width, size.height, expected.width, expected.height));
+    return image;
+}
+
+std::vector<RecordedImage> readImages(const fs::path& camera, Size expected) {
+    std::vector<RecordedImage> images;
+    forEachCsvRow(camera / "data.csv", [&](const CsvRow& row) {
+        RecordedImage image = readImageRow(row, camera / "data", expected);
+        if (!images.empty()) checkIncreasing(row, images.back().time, image.time);
+        images.push_back(std::move(image));
+    });
+    return images;
+}
+
+Pose readPoseRow(const CsvRow& row, const RigidTransform& T_body_video) {
+    if (row.size() < 8)
+        row.fail(fmt::format("{} columns, time, position and quaternion (w x y z) are needed",
+                             row.size()));
+    RigidTransform T_world_body;
+    T_world_body.translation = {row.number(1), row.number(2), row.number(3)};
+    const Eigen::Quaterniond q(row.number(4), row.number(5), row.number(6), row.number(7));
+    if (!(std::abs(q.norm() - 1) < kUnitTolerance))
+        row.fail(fmt::format("the quaternion has length {}, not 1", q.norm()));
+    T_world_body.rotation = q.normalized();
+    return {row.time(0), T_world_body * T_body_video};
+}
+
+std::vector<Pose> readPoses(const fs::path& folder, const RigidTransform& T_body_video) {
+    std::vector<Pose> poses;
+    if (!fs::exists(folder)) return poses;
+    forEachCsvRow(folder / "data.csv", [&](const CsvRow& row) {
+        const Pose pose = readPoseRow(row, T_body_video);
+        if (!poses.empty()) checkIncreasing(row, poses.back().time, pose.time);
+        poses.push_back(pose);
+    });
+    return poses;
+}
+
+void requireFolder(const fs::path& folder) {
+    if (!fs::is_directory(folder)) recordingFault(folder, 0, "folder is missing");
+}
+
+std::optional<fs::path> existing(fs::path file) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) return std::nullopt;
+    return file;
+}
+
+Recording load(const fs::path& root) {
+    const fs::path videoFolder = root / "cam0", stillFolder = root / "cam1";
+    for (const fs::path& folder : {root, videoFolder, stillFolder})
+        requireFolder(folder);
+    const SensorYaml video = readSensorYaml(videoFolder / "sensor.yaml");
+    const SensorYaml still = readSensorYaml(stillFolder / "sensor.yaml");
+    if (!(video.rateHz > 0))
+        recordingFault(videoFolder / "sensor.yaml", 0, "the video needs a rate_hz above 0");
+
+    Recording out;
+    out.root = root;
+    out.videoRateHz = video.rateHz;
+    out.rig = {video.camera, still.camera, still.T_body_sensor.inverse() * video.T_body_sensor};
+    out.video = readImages(videoFolder, video.camera.size);
+    if (out.video.empty()) recordingFault(videoFolder / "data.csv", 0, "lists no picture");
+    out.stills = readImages(stillFolder, still.camera.size);
+    out.poses = readPoses(root / "state_groundtruth_estimate0", video.T_body_sensor);
+    return out;
+}
+
+}  // namespace
+
+std::optional<Pose> Recording::poseAt(Timestamp t) const {
+    const auto next = std::lower_bound(poses.begin(), poses.end(), t,
+                                       [](const Pose& p, Timestamp at) { return p.time < at; });
+    if (next == poses.end()) return std::nullopt;
+    if (next->time == t) return *next;
+    if (next == poses.begin()) return std::nullopt;
+    const RigidTransform& a = std::prev(next)->T_world_video;
+    const RigidTransform& b = next->T_world_video;
+    const Timestamp from = std::prev(next)->time;
+    const double s =
+        static_cast<double>(t.ns - from.ns) / static_cast<double>(next->time.ns - from.ns);
+    return Pose{t,
+                {a.rotation.slerp(s, b.rotation).normalized(),
+                 (1 - s) * a.translation + s * b.translation}};
+}
+
+std::optional<fs::path> Recording::truthHighRes(Timestamp t) const {
+    return existing(root / "truth" / "highres" / fmt::format("{}.png", t.ns));
+}
+
+std::optional<fs::path> Recording::truthInverseDepth(Timestamp t) const {
+    return existing(root / "truth" / "inverse_depth" / fmt::format("{}.pfm", t.ns));
+}
+
+std::optional<fs::path> Recording::truthFlow(Timestamp from, Timestamp to) const {
+    return existing(root / "truth" / "flow" / fmt::format("{}_{}.flo", from.ns, to.ns));
+}
+
+Recording loadRecording(const fs::path& root) {
+    try {
+        return load(root);
+    } catch (const fs::filesystem_error& e) {
+        recordingFault(e.path1(), 0, e.code().message());
+    }
+}
+
+}  // namespace mfar

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "hal/frame.h"
+#include "hal/time.h"
+#include "pipeline/geometry.h"
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace mfar {
+
+/// A recording is broken. The message begins with "file:line: " (or "file: " where no line is to
+/// blame) and says what is wrong in one line.
+class RecordingError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct RecordedImage {
+    Timestamp time;
+    std::filesystem::path file;
+};
+
+/// A recording in the EuRoC layout: cam0 = video, cam1 = stills, both with sensor.yaml and
+/// data.csv. Everything here has been validated; pixel data is read later, one picture at a time.
+struct Recording {
+    std::filesystem::path root;
+    StereoRig rig;
+    double videoRateHz = 0;
+    std::vector<RecordedImage> video;   ///< strictly increasing in time, never empty
+    std::vector<RecordedImage> stills;  ///< strictly increasing in time, may be empty
+    std::vector<Pose> poses;            ///< strictly increasing in time, may be empty
+
+    /// Pose at exactly t or interpolated between its neighbours; nothing outside the covered span.
+    [[nodiscard]] std::optional<Pose> poseAt(Timestamp t) const;
+    /// Files of truth/, nothing when absent.
+    [[nodiscard]] std::optional<std::filesystem::path> truthHighRes(Timestamp t) const;
+    [[nodiscard]] std::optional<std::filesystem::path> truthInverseDepth(Timestamp t) const;
+    [[nodiscard]] std::optional<std::filesystem::path> truthFlow(Timestamp from,
+                                                                 Timestamp to) const;
+};
+
+/// Reads and validates a recording: files exist, sizes agree with sensor.yaml (from the image
+/// headers), times are sorted and unique, poses are finite. Throws RecordingError.
+[[nodiscard]] Recording loadRecording(const std::filesystem::path& root);
+
+}  // namespace mfar

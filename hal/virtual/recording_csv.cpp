@@ -1,0 +1,88 @@
+#include "hal/virtual/recording_csv.h"
+
+#include "hal/virtual/recording.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+namespace mfar {
+namespace {
+
+constexpr std::int64_t kTimeLimit = std::int64_t{1} << 62;
+
+std::string_view trimmed(std::string_view s) {
+    constexpr std::string_view kSpace = " \t\r";
+    const std::size_t first = s.find_first_not_of(kSpace);
+    if (first == s.npos) return {};
+    return s.substr(first, s.find_last_not_of(kSpace) - first + 1);
+}
+
+// Broken files hold anything: keep the message one printable line.
+std::string quoted(std::string_view s) {
+    std::string out = "'";
+    for (const char c : s.substr(0, 60))
+        out += (c >= 0 && c < 32) || c == 127 ? '?' : c;
+    return out + (s.size() > 60 ? "...'" : "'");
+}
+
+template <class T>
+bool parsed(std::string_view s, T& value) {
+    const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), value);
+    return error == std::errc{} && end == s.data() + s.size();
+}
+
+}  // namespace
+
+void recordingFault(const std::filesystem::path& file, int line, std::string_view what) {
+    if (line > 0) throw RecordingError(fmt::format("{}:{}: {}", file.string(), line, what));
+    throw RecordingError(fmt::format("{}: {}", file.string(), what));
+}
+
+CsvRow::CsvRow(const std::filesystem::path& file, int line, std::string_view text)
+    : file_(file), line_(line) {
+    std::size_t at = 0;
+    for (;;) {
+        const std::size_t comma = text.find(',', at);
+        fields_.push_back(trimmed(text.substr(at, comma - at)));
+        if (comma == text.npos) return;
+        at = comma + 1;
+    }
+}
+
+Timestamp CsvRow::time(std::size_t i) const {
+    Timestamp t;
+    if (!parsed(text(i), t.ns))
+        fail("timestamp " + quoted(text(i)) + " is not a whole number of nanoseconds");
+    if (t.ns < 0 || t.ns >= kTimeLimit) fail("timestamp " + quoted(text(i)) + " is out of range");
+    return t;
+}
+
+double CsvRow::number(std::size_t i) const {
+    double value = 0;
+    if (!parsed(text(i), value)) fail(quoted(text(i)) + " is not a number");
+    if (!std::isfinite(value)) fail(quoted(text(i)) + " is not a finite number");
+    return value;
+}
+
+void CsvRow::fail(std::string_view what) const {
+    recordingFault(file_, line_, what);
+}
+
+void forEachCsvRow(const std::filesystem::path& file,
+                   const std::function<void(const CsvRow&)>& visit) {
+    std::ifstream in(file);
+    if (!std::filesystem::is_regular_file(file) || !in) recordingFault(file, 0, "is missing");
+    std::string text;
+    for (int line = 1; std::getline(in, text); ++line) {
+        std::string_view row = text;
+        if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
+        row = trimmed(row);
+        if (!row.empty() && row.front() != '#') visit(CsvRow(file, line, row));
+    }
+    if (in.bad()) recordingFault(file, 0, "cannot be read");
+}
+
+}  // namespace mfar

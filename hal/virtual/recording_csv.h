@@ -1,0 +1,44 @@
+#pragma once
+
+#include "hal/time.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mfar {
+
+/// Throws RecordingError with the message "file:line: what", or "file: what" for line 0.
+[[noreturn]] void recordingFault(const std::filesystem::path& file, int line,
+                                 std::string_view what);
+
+/// One data row of a CSV file. The fields are trimmed and live only while the row is visited.
+class CsvRow {
+public:
+    CsvRow(const std::filesystem::path& file, int line, std::string_view text);
+
+    [[nodiscard]] std::size_t size() const { return fields_.size(); }
+    [[nodiscard]] std::string_view text(std::size_t i) const { return fields_.at(i); }
+    /// Field i as a timestamp in nanoseconds, 0 <= t < 2^62 so that differences and repeated
+    /// playing cannot overflow. Throws RecordingError.
+    [[nodiscard]] Timestamp time(std::size_t i) const;
+    /// Field i as a finite number. Throws RecordingError.
+    [[nodiscard]] double number(std::size_t i) const;
+    /// Throws RecordingError that names this row.
+    [[noreturn]] void fail(std::string_view what) const;
+
+private:
+    const std::filesystem::path& file_;
+    int line_;
+    std::vector<std::string_view> fields_;
+};
+
+/// Visits the rows of a CSV file in order; blank lines, lines that begin with '#', a byte order
+/// mark and carriage returns are passed over. Throws RecordingError when it cannot be read.
+void forEachCsvRow(const std::filesystem::path& file,
+                   const std::function<void(const CsvRow&)>& visit);
+
+}  // namespace mfar

@@ -1,0 +1,63 @@
+#include "hal/virtual/whole_file.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <system_error>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+namespace mfar {
+namespace {
+
+int writeAll(int fd, std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t n = write(fd, bytes.data(), bytes.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return errno;
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+    }
+    return 0;
+}
+
+void check(const std::filesystem::path& file, int error) {
+    if (error != 0)
+        throw std::runtime_error(
+            fmt::format("{}: {}", file.string(), std::generic_category().message(error)));
+}
+
+}  // namespace
+
+void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+    // The thread id keeps two writers of the same file apart.
+    const std::string part = fmt::format("{}.{}.part", file.string(), gettid());
+    int error = 0;
+    const int fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (fd < 0) {
+        error = errno;
+    } else {
+        error = writeAll(fd, bytes);
+        if (close(fd) != 0 && error == 0) error = errno;
+        if (error == 0 && std::rename(part.c_str(), file.c_str()) != 0) error = errno;
+        if (error != 0) unlink(part.c_str());
+    }
+    check(file, error);
+}
+
+void appendToFile(const std::filesystem::path& file, std::string_view text) {
+    const int fd = open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (fd < 0) check(file, errno);
+    const off_t before = lseek(fd, 0, SEEK_END);
+    int error = writeAll(fd, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    // Half a line would make the whole list unreadable; when even this fails, nothing can be done.
+    if (error != 0) [[maybe_unused]]
+        const int ignored = ftruncate(fd, before);
+    if (close(fd) != 0 && error == 0) error = errno;
+    check(file, error);
+}
+
+}  // namespace mfar

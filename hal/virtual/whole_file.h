@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace mfar {
+
+/// Writes a file that either exists completely or not at all: the bytes go to a temporary name
+/// beside it, which is renamed at the end. A file of that name is replaced. May be called from
+/// several threads. Throws std::runtime_error "file: reason", also when the disk is full.
+void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes);
+
+/// Adds text to the end of a file, all of it or nothing; creates the file. One thread per file.
+/// Throws like writeWholeFile().
+void appendToFile(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace mfar

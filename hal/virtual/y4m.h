@@ -1,0 +1,49 @@
+#pragma once
+
+#include "hal/frame.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mfar {
+
+/// "YUV4MPEG2 ..." with the newline. Rates are given as a fraction of at most 1001 in the
+/// denominator.
+[[nodiscard]] std::string y4mHeader(Size size, double rateHz);
+
+/// Appends "FRAME" and the three planes of an RGBA8 picture (4:2:0, chroma in the centre, BT.601
+/// limited range). An odd side has its last chroma sample from a repeated row or column.
+void appendY4mFrame(const ImageView& rgba, std::vector<std::uint8_t>& out);
+
+/// A file, FIFO or standard output ("-") that bytes are streamed to. Used by one thread at a time.
+/// The calling thread must have SIGPIPE blocked or ignored.
+class ByteSink {
+public:
+    /// Waits up to 5 s for the reader of a FIFO. Throws std::runtime_error.
+    ByteSink(std::string_view target, std::stop_token cancel);
+    ByteSink(const ByteSink&) = delete;
+    ByteSink& operator=(const ByteSink&) = delete;
+    ~ByteSink();
+
+    /// Writes all of it, waiting for a pipe's reader as long as `cancel` is not requested. Throws
+    /// std::runtime_error "target: reason".
+    void write(std::span<const std::uint8_t> bytes);
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+private:
+    [[nodiscard]] int open(const char* path) const;
+    void waitForReader() const;
+    [[noreturn]] void fail(std::string_view what) const;
+
+    std::string name_;
+    std::stop_token cancel_;
+    int fd_ = -1;
+    bool isPipe_ = false;
+};
+
+}  // namespace mfar

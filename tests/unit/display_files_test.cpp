@@ -1,0 +1,209 @@
+#include "hal/gl_context.h"
+#include "hal/virtual/display_files.h"
+#include "hal/virtual/y4m.h"
+#include "pipeline/gpu/texture.h"
+#include "tests/unit/small_recording.h"
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <thread>
+
+namespace mfar {
+namespace {
+
+namespace fs = std::filesystem;
+using test::plain;
+using test::TempFolder;
+
+std::string refusal(const std::string& spec, double rateHz = 30) {
+    try {
+        static_cast<void>(openFileDisplay(spec, rateHz));
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "opened";
+}
+
+class FileDisplays : public testing::Test {
+protected:
+    /// Shows a picture the way the pipeline does: as a texture.
+    void show(Display& display, const StoredImage& picture, Timestamp time) {
+        gpu::Texture texture(picture.size, gpu::TexelFormat::Rgba8);
+        texture.upload(picture.view());
+        display.show({texture.id(), picture.size}, time);
+    }
+
+    std::unique_ptr<GlContext> gl_ = createGlContext();
+    TempFolder folder_;
+};
+
+TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
+    StoredImage picture = plain({6, 4}, 50);
+    picture.pixels[0] = 201;                    // red, top left
+    picture.pixels[(3 * 6 + 5) * 4 + 2] = 202;  // blue, bottom right
+    for (std::size_t i = 3; i < picture.pixels.size(); i += 4)
+        picture.pixels[i] = 255;
+    const auto display = openFileDisplay("png:" + (folder_ / "out/frames").string(), 30);
+    show(*display, picture, {123});
+    display->finish();
+    EXPECT_EQ(loadImage(folder_ / "out/frames/123.png").pixels, picture.pixels);
+}
+
+TEST_F(FileDisplays, EveryPictureIsWrittenThoughTheBuffersAreFew) {
+    const auto display = openFileDisplay("png:" + folder_.path().string(), 30);
+    for (int i = 0; i < 25; ++i)
+        show(*display, plain({64, 48}, static_cast<std::uint8_t>(i)), {i});
+    display->finish();
+    for (int i = 0; i < 25; ++i)
+        EXPECT_EQ(loadImage(folder_ / fmt::format("{}.png", i)).pixels[0], i);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 25);
+}
+
+TEST_F(FileDisplays, ShowingLeavesTheBindingsAsTheyWere) {
+    const gpu::Texture target({8, 8}, gpu::TexelFormat::Rgba8);
+    const gpu::Framebuffer framebuffer(target);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.id());
+    const auto display = openFileDisplay("png:" + folder_.path().string(), 30);
+    show(*display, plain({8, 8}, 1), {1});
+    GLint bound = 0;
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &bound);
+    EXPECT_EQ(static_cast<GLuint>(bound), framebuffer.id());
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+TEST_F(FileDisplays, AFailedWriteIsReportedByFinishAndByTheNextShow) {
+    const auto display = openFileDisplay("png:" + (folder_ / "gone").string(), 30);
+    fs::remove_all(folder_ / "gone");
+    show(*display, plain({8, 8}, 1), {1});
+    EXPECT_THROW(display->finish(), std::runtime_error);
+    EXPECT_THROW(show(*display, plain({8, 8}, 1), {2}), std::runtime_error);
+}
+
+TEST_F(FileDisplays, Y4mHasTheRightHeaderSizeAndLuma) {
+    const fs::path file = folder_ / "a.y4m";
+    {
+        const auto display = openFileDisplay("y4m:" + file.string(), 29.97);
+        show(*display, plain({7, 5}, 255), {1});
+        show(*display, plain({7, 5}, 0), {2});
+        display->finish();
+    }
+    const std::string bytes = test::readFile(file);
+    const std::string header = "YUV4MPEG2 W7 H5 F30000:1001 Ip A1:1 C420jpeg XCOLORRANGE=LIMITED\n";
+    ASSERT_EQ(bytes.substr(0, header.size()), header);
+    const std::size_t picture = 7 * 5 + 2 * 4 * 3;
+    ASSERT_EQ(bytes.size(), header.size() + 2 * (6 + picture));
+    const std::string first = bytes.substr(header.size(), 6 + picture);
+    const std::string second = bytes.substr(header.size() + 6 + picture);
+    EXPECT_EQ(first.substr(0, 6), "FRAME\n");
+    EXPECT_EQ(second.substr(0, 6), "FRAME\n");
+    EXPECT_EQ(first.substr(6, 35), std::string(35, '\xeb'));   // white is 235
+    EXPECT_EQ(second.substr(6, 35), std::string(35, '\x10'));  // black is 16
+    EXPECT_EQ(first.substr(41), std::string(24, '\x80'));
+}
+
+TEST_F(FileDisplays, Y4mRefusesAnotherSizeInTheMiddle) {
+    const auto display = openFileDisplay("y4m:" + (folder_ / "a.y4m").string(), 30);
+    show(*display, plain({8, 8}, 1), {1});
+    EXPECT_THROW(show(*display, plain({8, 10}, 1), {2}), std::runtime_error);
+}
+
+TEST_F(FileDisplays, Y4mReachesTheReaderOfAPipe) {
+    const fs::path pipe = folder_ / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::string received;
+    std::thread reader([&] { received = test::readFile(pipe); });
+    {
+        const auto display = openFileDisplay("y4m:" + pipe.string(), 30);
+        for (int i = 0; i < 10; ++i)
+            show(*display, plain({320, 240}, 9), {i});
+        display->finish();
+    }
+    reader.join();
+    const std::size_t picture = 320 * 240 * 3 / 2 + 6;
+    ASSERT_GT(received.size(), 10 * picture);
+    EXPECT_EQ(received.substr(received.size() - picture, 6), "FRAME\n");
+}
+
+TEST_F(FileDisplays, Y4mMinusIsStandardOutput) {
+    const int before = dup(STDOUT_FILENO);
+    const int file = open((folder_ / "out").c_str(), O_WRONLY | O_CREAT, 0600);
+    ASSERT_GE(dup2(file, STDOUT_FILENO), 0);
+    const auto display = openFileDisplay("y4m:-", 30);
+    ASSERT_GE(dup2(before, STDOUT_FILENO), 0);
+    close(file);
+    close(before);
+    show(*display, plain({8, 8}, 1), {1});
+    display->finish();
+    EXPECT_EQ(test::readFile(folder_ / "out").substr(0, 16), "YUV4MPEG2 W8 H8 ");
+}
+
+TEST_F(FileDisplays, AClosedPipeIsAnErrorNotTheEndOfTheProcess) {
+    const fs::path pipe = folder_ / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    const auto display = openFileDisplay("y4m:" + pipe.string(), 30);
+    close(reader);
+    show(*display, plain({8, 8}, 1), {1});
+    try {
+        display->finish();
+        FAIL() << "writing to nobody went well";
+    } catch (const std::runtime_error& e) {
+        EXPECT_EQ(e.what(), pipe.string() + ": the reading program has closed the pipe");
+    }
+}
+
+TEST_F(FileDisplays, CancelEndsTheWaitForAReaderThatTakesNothing) {
+    const fs::path pipe = folder_ / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    ASSERT_GE(reader, 0);
+    std::stop_source stop;
+    const auto display = openFileDisplay("y4m:" + pipe.string(), 30, stop.get_token());
+    show(*display, plain({640, 480}, 1), {1});  // more than a pipe holds
+    stop.request_stop();
+    EXPECT_THROW(display->finish(), std::runtime_error);
+    close(reader);
+}
+
+TEST_F(FileDisplays, NoneTakesEverythingAndLeavesNothing) {
+    const auto display = openFileDisplay("none", 30);
+    show(*display, plain({8, 8}, 1), {1});
+    display->finish();
+    EXPECT_EQ(display->name(), "none");
+}
+
+TEST(OpenFileDisplay, SaysWhatIsWrong) {
+    const TempFolder folder;
+    test::writeFile(folder / "file", "x");
+    EXPECT_EQ(refusal("jpg:/tmp"),
+              "display 'jpg:/tmp' is unknown: png:DIR, y4m:FILE, y4m:- or none");
+    EXPECT_EQ(refusal(""), "display '' is unknown: png:DIR, y4m:FILE, y4m:- or none");
+    EXPECT_EQ(refusal("png:"), "png: needs a folder, png:DIR");
+    EXPECT_EQ(refusal("y4m:"), "y4m: needs a file name, or - for standard output");
+    const std::string under = (folder / "file/under").string();
+    EXPECT_EQ(refusal("png:" + under), under + ": Not a directory");
+    EXPECT_EQ(refusal("y4m:" + under), under + ": Not a directory");
+    EXPECT_EQ(refusal("y4m:" + (folder / "a").string(), 0),
+              "y4m: a frame rate of 0 Hz is impossible");
+}
+
+TEST(Y4mHeader, GivesCommonRatesAsTheirFractions) {
+    const auto rate = [](double hz) {
+        const std::string header = y4mHeader({2, 2}, hz);
+        const std::size_t at = header.find('F');
+        return header.substr(at, header.find(' ', at) - at);
+    };
+    EXPECT_EQ(rate(30), "F30:1");
+    EXPECT_EQ(rate(12.5), "F12500:1000");
+    EXPECT_EQ(rate(59.94), "F60000:1001");
+    EXPECT_EQ(rate(24000.0 / 1001), "F24000:1001");
+    EXPECT_EQ(rate(0.5), "F500:1000");
+}
+
+}  // namespace
+}  // namespace mfar

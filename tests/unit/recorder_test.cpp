@@ -1,0 +1,176 @@
+#include "hal/virtual/recorder.h"
+#include "hal/virtual/recording.h"
+#include "hal/virtual/recording_player.h"
+#include "tests/unit/small_recording.h"
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <limits>
+
+namespace mfar {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::seconds;
+using test::plain;
+using test::TempFolder;
+
+StereoRig smallRig() {
+    StereoRig rig;
+    rig.video = {test::kSmallVideo, 20.25, 21.1, 7.6, 5.3, {0.1, -0.02, 0.001, 0.002, 0.03}};
+    rig.still = {test::kSmallStill, 40.1, 41.3, 15.1, 11.7, {}};
+    rig.T_still_video.rotation = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized());
+    rig.T_still_video.translation = {-0.014, 0.001, 0.002};
+    return rig;
+}
+
+void expectEqual(const CameraModel& a, const CameraModel& b) {
+    EXPECT_EQ(a.size, b.size);
+    EXPECT_EQ(a.fx, b.fx);
+    EXPECT_EQ(a.fy, b.fy);
+    EXPECT_EQ(a.cx, b.cx);
+    EXPECT_EQ(a.cy, b.cy);
+    EXPECT_EQ(a.distortion, b.distortion);
+}
+
+TEST(Recorder, WhatIsRecordedIsWhatIsPlayed) {
+    const TempFolder folder;
+    const StereoRig rig = smallRig();
+    const Pose pose{{20}, rig.T_still_video};
+    {
+        Recorder recorder(folder / "new/run", rig, 29.97);
+        EXPECT_TRUE(recorder.video(plain(test::kSmallVideo, 11).view(), {10}));
+        EXPECT_TRUE(recorder.video(plain(test::kSmallVideo, 22).view(), {20}));
+        EXPECT_TRUE(recorder.still(plain(test::kSmallStill, 33, PixelFormat::Gray8).view(), {15}));
+        EXPECT_TRUE(recorder.pose(pose));
+        recorder.finish();
+        EXPECT_EQ(recorder.videoCounts().written, 2U);
+        EXPECT_EQ(recorder.stillCounts().written, 1U);
+        EXPECT_EQ(recorder.poseCounts().written, 1U);
+    }
+    const Recording read = loadRecording(folder / "new/run");
+    EXPECT_EQ(read.videoRateHz, 29.97);
+    expectEqual(read.rig.video, rig.video);
+    expectEqual(read.rig.still, rig.still);
+    EXPECT_LT(read.rig.T_still_video.rotation.angularDistance(rig.T_still_video.rotation), 1e-12);
+    EXPECT_TRUE(read.rig.T_still_video.translation.isApprox(rig.T_still_video.translation, 1e-12));
+    ASSERT_EQ(read.poses.size(), 1U);
+    EXPECT_LT(read.poses[0].T_world_video.rotation.angularDistance(pose.T_world_video.rotation),
+              1e-12);
+    EXPECT_EQ(read.poses[0].T_world_video.translation, pose.T_world_video.translation);
+
+    RecordingPlayer player(read, {.pace = Pace::Consumer});
+    player.video().start();
+    player.stills().start();
+    EXPECT_EQ(player.video().next(seconds(10))->view().data[0], 11);
+    EXPECT_EQ(player.stills().next(seconds(10))->view().data[0], 33);
+    EXPECT_EQ(player.video().next(seconds(10))->view().data[0], 22);
+}
+
+TEST(Recorder, PaddedRowsAreRecordedWithoutThePadding) {
+    const TempFolder folder;
+    const auto [width, height] = test::kSmallVideo;
+    const std::size_t stride = width * 4 + 12;
+    std::vector<std::uint8_t> bytes(stride * height, 200);
+    for (int y = 0; y < height; ++y)
+        std::fill_n(&bytes[y * stride], width * 4, static_cast<std::uint8_t>(y));
+    Recorder recorder(folder.path(), smallRig(), 30);
+    recorder.video({bytes.data(), test::kSmallVideo, stride, PixelFormat::Rgba8}, {1});
+    recorder.finish();
+    const StoredImage read = loadImage(folder / "cam0/data/1.png");
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            ASSERT_EQ(read.pixels[(y * width + x) * 4], y);
+}
+
+TEST(Recorder, ALockedDiskDropsAndCountsPicturesButNeverHoldsTheCaller) {
+    const TempFolder folder;
+    Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 4, .poses = 3});
+    // A pipe without a reader holds the writer in open(), as a dead disk would.
+    const fs::path list = folder / "cam0/data.csv";
+    fs::remove(list);
+    ASSERT_EQ(mkfifo(list.c_str(), 0600), 0);
+    int taken = 0;
+    for (int i = 0; i < 20; ++i)
+        taken += recorder.video(plain(test::kSmallVideo, 1).view(), {i}) ? 1 : 0;
+    EXPECT_EQ(taken, 4);
+    EXPECT_EQ(recorder.videoCounts().dropped, 16U);
+    EXPECT_EQ(recorder.videoCounts().written, 0U);
+    int poses = 0;
+    for (int i = 0; i < 5; ++i)
+        poses += recorder.pose({{i}, {}}) ? 1 : 0;
+    EXPECT_EQ(poses, 3);
+    EXPECT_EQ(recorder.poseCounts().dropped, 2U);
+
+    const int reader = open(list.c_str(), O_RDWR);
+    ASSERT_GE(reader, 0);
+    recorder.finish();
+    EXPECT_EQ(recorder.videoCounts().written, 4U);
+    EXPECT_EQ(recorder.poseCounts().written, 3U);
+    close(reader);
+}
+
+TEST(Recorder, FullDiskIsReportedAndEndsTheRecording) {
+    const TempFolder folder;
+    Recorder recorder(folder.path(), smallRig(), 30);
+    const fs::path list = folder / "cam1/data.csv";
+    fs::remove(list);
+    fs::create_symlink("/dev/full", list);
+    EXPECT_TRUE(recorder.still(plain(test::kSmallStill, 1).view(), {1}));
+    const std::string expected = list.string() + ": No space left on device";
+    try {
+        recorder.finish();
+        FAIL() << "a write error was lost";
+    } catch (const std::runtime_error& e) {
+        EXPECT_EQ(e.what(), expected);
+    }
+    EXPECT_EQ(recorder.error(), expected);
+    EXPECT_FALSE(recorder.video(plain(test::kSmallVideo, 1).view(), {2}));
+    EXPECT_EQ(recorder.videoCounts().dropped, 1U);
+    EXPECT_THROW(recorder.finish(), std::runtime_error);
+}
+
+TEST(Recorder, APictureIsListedOnlyWhenItsFileIsComplete) {
+    const TempFolder folder;
+    Recorder recorder(folder.path(), smallRig(), 30);
+    EXPECT_TRUE(recorder.video(plain(test::kSmallVideo, 1).view(), {1}));
+    recorder.finish();
+    fs::remove_all(folder / "cam0/data");
+    EXPECT_TRUE(recorder.video(plain(test::kSmallVideo, 1).view(), {2}));
+    EXPECT_THROW(recorder.finish(), std::runtime_error);
+    EXPECT_EQ(test::readFile(folder / "cam0/data.csv"), "#timestamp [ns],filename\n1,1.png\n");
+}
+
+TEST(Recorder, TakesNothingThatWouldMakeTheRecordingInvalid) {
+    const TempFolder folder;
+    Recorder recorder(folder.path(), smallRig(), 30);
+    const StoredImage picture = plain(test::kSmallVideo, 1);
+    EXPECT_FALSE(recorder.video(picture.view(), {-1}));
+    EXPECT_TRUE(recorder.video(picture.view(), {100}));
+    EXPECT_FALSE(recorder.video(picture.view(), {100}));
+    EXPECT_FALSE(recorder.video(picture.view(), {99}));
+    EXPECT_FALSE(recorder.video(plain(test::kSmallStill, 1).view(), {101}));
+    Pose pose{{1}, {}};
+    pose.T_world_video.translation.x() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(recorder.pose(pose));
+    EXPECT_EQ(recorder.videoCounts().dropped, 4U);
+    EXPECT_EQ(recorder.poseCounts().dropped, 1U);
+    recorder.finish();
+    EXPECT_EQ(loadRecording(folder.path()).video.size(), 1U);
+}
+
+TEST(Recorder, RefusesAFolderThatHoldsAnything) {
+    const TempFolder folder;
+    test::writeFile(folder / "precious", "x");
+    EXPECT_THROW(Recorder(folder.path(), smallRig(), 30), std::runtime_error);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+    EXPECT_THROW(Recorder(folder / "precious/sub", smallRig(), 30), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace mfar
