@@ -1,0 +1,14 @@
+// The paper's: the still, warped, blended with the upscaled video by the eq. 2 confidence.
+// Variant: #define PLAIN_TILE
+#include "tile_params.glsl"
+#include "look_up.glsl"
+#include "upscale.glsl"
+
+layout(binding = 1) uniform sampler2D still;
+layout(location = 0) out vec4 colour;
+
+void main() {
+    vec2 uv;
+    vec4 l = lookUp(uv);
+    colour = vec4(mix(upscaled(), textureLod(still, uv, 0.0).rgb, l.w), 1.0);
+}

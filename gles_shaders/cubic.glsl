@@ -1,0 +1,9 @@
+// Weights of the four samples around a position, t = its fraction. Keys' cubic with a = -0.75.
+vec4 cubicWeights(float t) {
+    const float a = -0.75;
+    float s = 1.0 - t;
+    float w0 = a * t * s * s;
+    float w3 = a * s * t * t;
+    float w1 = ((a + 2.0) * t - (a + 3.0)) * t * t + 1.0;
+    return vec4(w0, w1, 1.0 - w0 - w1 - w3, w3);
+}

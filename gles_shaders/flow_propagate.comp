@@ -1,0 +1,64 @@
+// Tries each cell's four neighbours' vectors and refines the one that fits better.
+// In, out: two areas of patches[], as flow_search.comp writes them. One invocation a cell.
+#include "luma.glsl"
+
+layout(local_size_x = 4, local_size_y = 4) in;
+layout(std140, binding = 0) uniform Params {
+    ivec4 from;     // level the template is taken from: offset, pitch, width, height
+    ivec4 to;       // level it is sought in
+    ivec4 cells;    // cells of this level, -, -
+    ivec4 offsets;  // in patches[]: output, input, -, -
+    ivec4 search;   // steps, -, -, -
+};
+layout(std430, binding = 0) readonly buffer Luma {
+    uint luma[];
+};
+layout(std430, binding = 1) buffer Patches {
+    vec4 patches[];
+};
+
+#include "patch.glsl"
+
+const int kNeighbours = 4;
+
+vec4 cellIn(ivec2 c) {
+    c = clamp(c, ivec2(0), cells.xy - 1);
+    return patches[offsets.y + c.y * cells.x + c.x];
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(cell, cells.xy))) return;
+    vec4 own = cellIn(cell);
+    vec2 best = own.xy;
+    Match found = Match(own.z, own.w, 0.0, 0.0, vec2(0.0));
+    Level lb = levelOf(to);
+    Template t = loadTemplate(levelOf(from), cell);
+    bool moved = false;
+    for (int k = 0; k < kNeighbours + search.x; ++k) {
+        vec2 u;
+        if (k < kNeighbours) {
+            ivec2 n = k == 0   ? ivec2(-1, 0)
+                      : k == 1 ? ivec2(1, 0)
+                      : k == 2 ? ivec2(0, -1)
+                               : ivec2(0, 1);
+            u = cellIn(cell + n).xy;
+            vec2 d = u - best;
+            if (dot(d, d) < 0.25) continue;
+        } else {
+            if (!moved) break;
+            vec2 s = stepOf(t, found.descent);
+            if (!(dot(s, s) > 2.5e-5)) break;
+            u = best + s;
+        }
+        Match m = compare(t, lb, cell, u);
+        if (m.cost < found.cost) {
+            found = m;
+            best = u;
+            moved = true;
+        } else if (k >= kNeighbours) {
+            break;
+        }
+    }
+    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found.cost, found.gain);
+}

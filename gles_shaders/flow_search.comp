@@ -1,0 +1,77 @@
+// Flow of every cell at one pyramid level: the best of the coarser level's vectors around it and of the
+// last frame's (coarsest level: of a square of whole-pixel displacements), then Gauss-Newton steps.
+// Out: patches[] = flow (x, y) [px of this level], cost, gain. One invocation a cell.
+// After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
+#include "luma.glsl"
+
+layout(local_size_x = 4, local_size_y = 4) in;
+layout(std140, binding = 0) uniform Params {
+    ivec4 from;     // level the template is taken from: offset, pitch, width, height
+    ivec4 to;       // level it is sought in
+    ivec4 cells;    // cells of this level, cells of the coarser one
+    ivec4 offsets;  // in patches[]: output, coarser level (-1 = coarsest), last frame (-1 = none), -
+    ivec4 search;   // radius at the coarsest level [px], candidates, steps, last frame's cells a row
+    vec4 prior;     // this level's pixels per pixel of the last frame's field, its cells per cell
+};
+layout(std430, binding = 0) readonly buffer Luma {
+    uint luma[];
+};
+layout(std430, binding = 1) buffer Patches {
+    vec4 patches[];
+};
+
+#include "patch.glsl"
+
+vec2 coarser(ivec2 c) {
+    c = clamp(c, ivec2(0), cells.zw - 1);
+    return 2.0 * patches[offsets.y + c.y * cells.z + c.x].xy;
+}
+
+vec2 lastFrame(ivec2 cell) {
+    ivec2 c = ivec2((vec2(cell) + 0.5) * prior.yz);
+    return prior.x * patches[offsets.z + c.y * search.w + c.x].xy;
+}
+
+vec2 candidate(ivec2 cell, int k) {
+    if (k == 0 && offsets.z >= 0) return lastFrame(cell);
+    if (offsets.z >= 0) --k;
+    if (offsets.y < 0) {
+        int n = 2 * search.x + 1;
+        k = (k + n * n / 2) % (n * n);  // no motion first: it wins where nothing tells
+        return vec2(k % n - search.x, k / n - search.x);
+    }
+    ivec2 c = cell >> 1;
+    ivec2 towards = (cell & 1) * 2 - 1;
+    return coarser(c + ivec2((k & 1) * towards.x, (k >> 1) * towards.y));
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(cell, cells.xy))) return;
+    Level lb = levelOf(to);
+    Template t = loadTemplate(levelOf(from), cell);
+    vec2 best = vec2(1e9);
+    Match found = Match(1e9, 1.0, 0.0, 0.0, vec2(0.0));
+    int candidates = search.y;
+    // One loop around one comparison: the compiler inlines it, and once is what fits the cache.
+    for (int k = 0; k < candidates + search.z; ++k) {
+        vec2 u;
+        if (k < candidates) {
+            u = candidate(cell, k);
+            vec2 d = u - best;
+            if (dot(d, d) < 0.25) continue;
+        } else {
+            vec2 s = stepOf(t, found.descent);
+            if (!(dot(s, s) > 2.5e-5)) break;
+            u = best + s;
+        }
+        Match m = compare(t, lb, cell, u);
+        if (m.cost < found.cost) {
+            found = m;
+            best = u;
+        } else if (k >= candidates) {
+            break;
+        }
+    }
+    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found.cost, found.gain);
+}

@@ -1,0 +1,18 @@
+// Where this output pixel lies in the still, and how much of that counts. Needs tile_params.glsl.
+// Composite of a plain tile: one linear function over the tile; else the field, filtered.
+#ifdef PLAIN_TILE
+in vec4 plainLookUp;
+#else
+layout(binding = 2) uniform sampler2D lookupField;
+#endif
+
+// Returns offset [still px] (x, y), weight of the detail, eq. 2 confidence.
+vec4 lookUp(out vec2 uv) {
+#ifdef PLAIN_TILE
+    vec4 l = plainLookUp;
+#else
+    vec4 l = textureLod(lookupField, gl_FragCoord.xy * scale.xy / vec2(4 * video.zw), 0.0);
+#endif
+    uv = (gl_FragCoord.xy * tune.zw + l.xy) * scale.zw;
+    return l;
+}

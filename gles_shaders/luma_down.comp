@@ -1,0 +1,30 @@
+// Next coarser pyramid level: mean of 2x2 pixels. One invocation a word, margins included.
+#include "luma.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = 0) uniform Params {
+    ivec4 fine;    // offset, pitch, width, height
+    ivec4 coarse;  // offset, pitch, width, height
+};
+layout(std430, binding = 0) buffer Luma {
+    uint luma[];
+};
+
+float pixel(int x, int y) {
+    x = clamp(x, 0, fine.z - 1);
+    y = clamp(y, 0, fine.w - 1);
+    uint word = luma[fine.x + y * fine.y + (x >> 2) + kMarginWords];
+    return float((word >> uint(8 * (x & 3))) & 255u);
+}
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (at.x >= coarse.y || at.y >= coarse.w) return;
+    vec4 v;
+    for (int i = 0; i < 4; ++i) {
+        int x = 2 * clamp(4 * (at.x - kMarginWords) + i, 0, coarse.z - 1);
+        int y = 2 * at.y;
+        v[i] = 0.25 * (pixel(x, y) + pixel(x + 1, y) + pixel(x, y + 1) + pixel(x + 1, y + 1));
+    }
+    luma[coarse.x + at.y * coarse.y + at.x] = packPixels(v);
+}

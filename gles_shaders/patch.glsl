@@ -1,0 +1,127 @@
+// Comparison of 8x8 patches between two luma levels, invariant to offset and gain.
+// A cell is 4x4 pixels; its patch has the same centre, so it starts 2 px left and above the cell.
+// Needs: `uint luma[]` and the level functions of luma.glsl.
+
+const float kPixels = 64.0;
+// Energy of noise in a patch [grey levels^2]: below it a patch counts as flat.
+const float kNoise = 128.0;
+// Added to the diagonal of the Hessian: keeps steps finite where there is no gradient.
+const float kDamping = 64.0;
+
+struct Template {
+    vec4 a[16];   // pixels, two vec4 a row
+    vec4 gx[16];  // central differences
+    vec4 gy[16];
+    float mean;
+    float variance;  // sum of squared deviations
+    vec2 sumG;
+    vec2 sumAG;  // of a (less its mean) times the gradient
+    vec3 inverseHessian;  // xx, xy, yy
+};
+
+struct Match {
+    float cost;  // 0 = alike up to gain and offset, 1 = unrelated, 2 = inverted
+    float gain;  // a is about gain * b + offset
+    float covariance;
+    float varianceB;
+    vec2 descent;  // right-hand side of the Gauss-Newton step
+};
+
+// Twelve pixels of row y from word column wx (margin included) on, less the first shift / 8.
+uvec3 fetchRow(Level l, int wx, int y, uint shift) {
+    int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
+    uvec3 w = uvec3(luma[at], luma[at + 1], luma[at + 2]);
+    if (shift == 0u) return w;
+    uint up = 32u - shift;
+    return uvec3((w.x >> shift) | (w.y << up), (w.y >> shift) | (w.z << up), w.z >> shift);
+}
+
+Template loadTemplate(Level l, ivec2 cell) {
+    Template t;
+    vec4 above0 = vec4(0.0), above1 = vec4(0.0), row0 = vec4(0.0), row1 = vec4(0.0);
+    vec4 rowGx0 = vec4(0.0), rowGx1 = vec4(0.0);
+    float sum = 0.0, sumSquares = 0.0;
+    vec2 sumG = vec2(0.0), sumAG = vec2(0.0);
+    vec3 h = vec3(0.0);
+    for (int r = 0; r < 10; ++r) {
+        // The row from one pixel left of the patch on, which sits one byte into its word.
+        uvec3 w = fetchRow(l, cell.x - 1 + kMarginWords, 4 * cell.y - 3 + r, 8u);
+        vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y), q2 = unpackPixels(w.z);
+        vec4 below0 = vec4(q0.yzw, q1.x), below1 = vec4(q1.yzw, q2.x);
+        if (r >= 2) {
+            int i = 2 * (r - 2);
+            vec4 gy0 = 0.5 * (below0 - above0), gy1 = 0.5 * (below1 - above1);
+            t.a[i] = row0;
+            t.a[i + 1] = row1;
+            t.gx[i] = rowGx0;
+            t.gx[i + 1] = rowGx1;
+            t.gy[i] = gy0;
+            t.gy[i + 1] = gy1;
+            sum += dot(row0 + row1, vec4(1.0));
+            sumSquares += dot(row0, row0) + dot(row1, row1);
+            sumG += vec2(dot(rowGx0 + rowGx1, vec4(1.0)), dot(gy0 + gy1, vec4(1.0)));
+            sumAG += vec2(dot(row0, rowGx0) + dot(row1, rowGx1), dot(row0, gy0) + dot(row1, gy1));
+            h += vec3(dot(rowGx0, rowGx0) + dot(rowGx1, rowGx1),
+                      dot(rowGx0, gy0) + dot(rowGx1, gy1), dot(gy0, gy0) + dot(gy1, gy1));
+        }
+        above0 = row0;
+        above1 = row1;
+        row0 = below0;
+        row1 = below1;
+        rowGx0 = 0.5 * (vec4(q0.zw, q1.xy) - q0);
+        rowGx1 = 0.5 * (vec4(q1.zw, q2.xy) - q1);
+    }
+    t.mean = sum / kPixels;
+    t.variance = max(sumSquares - sum * t.mean, 0.0);
+    t.sumG = sumG;
+    t.sumAG = sumAG - t.mean * sumG;
+    h += vec3(kDamping, 0.0, kDamping) - vec3(sumG.x * sumG, sumG.y * sumG.y) / kPixels;
+    t.inverseHessian = vec3(h.z, -h.y, h.x) / max(h.x * h.z - h.y * h.y, 1.0);
+    return t;
+}
+
+// The template against level l, displaced by u pixels. Positions outside are held at the border.
+Match compare(Template t, Level l, ivec2 cell, vec2 u) {
+    vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
+    vec2 whole = floor(origin);
+    vec2 f = origin - whole;
+    ivec2 at = ivec2(whole);
+    int wx = (at.x >> 2) + kMarginWords;
+    uint shift = uint(at.x & 3) * 8u;
+    vec4 above0 = vec4(0.0), above1 = vec4(0.0);
+    float sum = 0.0, sumSquares = 0.0, sumAB = 0.0;
+    vec2 sumGB = vec2(0.0);
+    for (int r = 0; r < 9; ++r) {
+        uvec3 w = fetchRow(l, wx, at.y + r, shift);
+        vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y);
+        vec4 row0 = q0 + (vec4(q0.yzw, q1.x) - q0) * f.x;
+        vec4 row1 = q1 + (vec4(q1.yzw, float(w.z & 255u)) - q1) * f.x;
+        if (r >= 1) {
+            int i = 2 * (r - 1);
+            vec4 b0 = above0 + (row0 - above0) * f.y, b1 = above1 + (row1 - above1) * f.y;
+            sum += dot(b0 + b1, vec4(1.0));
+            sumSquares += dot(b0, b0) + dot(b1, b1);
+            sumAB += dot(t.a[i], b0) + dot(t.a[i + 1], b1);
+            sumGB += vec2(dot(t.gx[i], b0) + dot(t.gx[i + 1], b1),
+                          dot(t.gy[i], b0) + dot(t.gy[i + 1], b1));
+        }
+        above0 = row0;
+        above1 = row1;
+    }
+    float mean = sum / kPixels;
+    Match m;
+    m.varianceB = max(sumSquares - sum * mean, 0.0);
+    m.covariance = sumAB - t.mean * sum;
+    m.gain = sqrt((t.variance + kNoise) / (m.varianceB + kNoise));
+    m.descent = t.sumAG - m.gain * (sumGB - mean * t.sumG);
+    float energy = t.variance + m.gain * m.gain * m.varianceB;
+    m.cost = max(energy - 2.0 * m.gain * m.covariance, 0.0) / (energy + kNoise);
+    return m;
+}
+
+// One Gauss-Newton step on the displacement, at most a pixel long.
+vec2 stepOf(Template t, vec2 descent) {
+    vec2 s = vec2(dot(t.inverseHessian.xy, descent), dot(t.inverseHessian.yz, descent));
+    float n = length(s);
+    return n > 1.0 ? s / n : s;
+}

@@ -1,0 +1,67 @@
+// How the still matches the video at each cell: what superres_weigh.comp weighs.
+// In: forward field (video -> still) and backward field in patches[], both pictures' finest luma.
+// Out: displacement image = flow (x, y) [video px], its end in the still less the scaled cell centre
+// [still px]; statistics image = covariance, variance of the video and of the still in the patch,
+// confidence. Source: paper, eq. 2 with lambda(x) = min(x, 1).
+#include "luma.glsl"
+#include "rig.glsl"
+
+layout(local_size_x = 4, local_size_y = 4) in;
+layout(std140, binding = 0) uniform Params {
+    Rig rig;
+    ivec4 video;     // finest level of the video: offset, pitch, width, height
+    ivec4 still;     // finest level of the still at the video's geometry
+    ivec4 cells;     // cells a row, rows, -, -
+    ivec4 offsets;   // in patches[]: forward field, backward field, -, -
+    vec4 tune;       // alpha [px], -, -, -
+    vec4 stillSize;  // still width, height, still px per video px (x, y)
+};
+layout(std430, binding = 0) readonly buffer Luma {
+    uint luma[];
+};
+layout(std430, binding = 1) readonly buffer Patches {
+    vec4 patches[];
+};
+layout(rgba32f, binding = 0) uniform writeonly highp image2D displacement;
+layout(rgba32f, binding = 1) uniform writeonly highp image2D statistics;
+
+#include "patch.glsl"
+
+vec2 backward(ivec2 c) {
+    c = clamp(c, ivec2(0), cells.xy - 1);
+    return patches[offsets.y + c.y * cells.x + c.x].xy;
+}
+
+vec2 backwardAt(vec2 p) {
+    vec2 g = (p + 0.5) / 4.0 - 0.5;
+    ivec2 i = ivec2(floor(g));
+    vec2 f = g - floor(g);
+    vec2 top = mix(backward(i), backward(i + ivec2(1, 0)), f.x);
+    vec2 bottom = mix(backward(i + ivec2(0, 1)), backward(i + ivec2(1, 1)), f.x);
+    return mix(top, bottom, f.y);
+}
+
+bool inside(vec2 p, vec2 size) {
+    return p.x >= 0.0 && p.y >= 0.0 && p.x <= size.x - 1.0 && p.y <= size.y - 1.0;
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(cell, cells.xy))) return;
+    vec2 u = patches[offsets.x + cell.y * cells.x + cell.x].xy;
+    Template t = loadTemplate(levelOf(video), cell);
+    Match m = compare(t, levelOf(still), cell, u);
+
+    vec2 centre = 4.0 * vec2(cell) + 1.5;
+    vec2 q = centre + u;
+    vec2 inStill = stillPixel(rig, q);
+    float confidence = 0.0;
+    if (inside(q, vec2(video.zw)) && inside(inStill, stillSize.xy)) {
+        float d = length(u + backwardAt(q)) / tune.x;
+        confidence = d < 1.0 ? 1.0 - d : 0.0;
+    }
+
+    vec2 offset = clamp(inStill - (centre + 0.5) * stillSize.zw + 0.5, vec2(-4e3), vec2(4e3));
+    imageStore(displacement, cell, vec4(u, offset));
+    imageStore(statistics, cell, vec4(m.covariance, t.variance, m.varianceB, confidence));
+}

@@ -1,0 +1,87 @@
+// Class of every tile and the draw lists of the frame.
+// In: change flags, cell field. Out: lists[] = four lists of changed tiles (all, upscaled, trusted,
+// blended; empty when the whole frame is drawn at once), draws[] = their indirect commands and the counts of the frame, classes[] per tile.
+// One invocation a tile; draws[] is zeroed before.
+#include "tiles.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = 0) uniform Params {
+    ivec4 tiles;    // tiles a row, rows, cells a row, cell rows
+    vec4 tune;      // least weight that draws detail, flow spread of a plain tile [video px], weight spread, 1 = no still
+};
+layout(std430, binding = 0) readonly buffer Changed {
+    uvec2 header;  // whole frame drawn at once, changed tiles
+    uvec2 changed[];
+};
+layout(std430, binding = 1) buffer Classes {
+    uvec2 classes[];  // class this frame, unexplained cells when last drawn
+};
+layout(std430, binding = 2) buffer Draws {
+    uvec4 draws[4];    // vertices, instances, first vertex, reserved
+    uint counts[8];    // tiles per class, unexplained tiles, confidence sum * 256
+};
+layout(std430, binding = 3) writeonly buffer Lists {
+    uint lists[];
+};
+layout(binding = 0) uniform sampler2D cellField;
+layout(binding = 1) uniform sampler2D weightField;
+
+vec4 cellAt(ivec2 c) {
+    return texelFetch(cellField, clamp(c, ivec2(0), tiles.zw - 1), 0);
+}
+
+// A tile is plain when one quad shows it: its flow is affine and its weight even, within tolerance.
+uint classOf(ivec2 first) {
+    vec4 low = vec4(1e9), high = vec4(-1e9);
+    for (int i = 0; i < 36; ++i) {
+        vec4 c = cellAt(first + ivec2(i % 6 - 1, i / 6 - 1));
+        low = min(low, c);
+        high = max(high, c);
+    }
+    if (!(high.z > tune.x)) return kUpscaled;
+    if (!(high.z - low.z < tune.z)) return kBlended;
+    vec2 origin = cellAt(first).xy;
+    vec2 dx = (cellAt(first + ivec2(3, 0)).xy - origin) / 3.0;
+    vec2 dy = (cellAt(first + ivec2(0, 3)).xy - origin) / 3.0;
+    for (int i = 0; i < 36; ++i) {
+        ivec2 k = ivec2(i % 6 - 1, i / 6 - 1);
+        vec2 d = abs(cellAt(first + k).xy - origin - float(k.x) * dx - float(k.y) * dy);
+        if (!(max(d.x, d.y) < tune.y)) return kBlended;
+    }
+    return kTrusted;
+}
+
+void append(uint list, uint packedTile) {
+    uint at = atomicAdd(draws[list].y, 1u);
+    lists[int(list) * tiles.x * tiles.y + int(at)] = packedTile;
+}
+
+void main() {
+    ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(tile, tiles.xy))) return;
+    int index = tile.y * tiles.x + tile.x;
+    uint kind = kUnchanged;
+    uint unexplained = classes[index].y;
+    float confidence = 0.0;
+    for (int i = 0; i < 16; ++i)
+        confidence += cellAt(4 * tile + ivec2(i & 3, i >> 2)).w;
+    bool whole = header.x != 0u;
+    if (whole || changed[index].x != 0u) {
+        kind = tune.w > 0.5 ? kUpscaled : classOf(4 * tile);
+        unexplained = tune.w > 0.5 ? 16u : 0u;
+        if (tune.w < 0.5) {
+            for (int i = 0; i < 16; ++i) {
+                ivec2 c = min(4 * tile + ivec2(i & 3, i >> 2), tiles.zw - 1);
+                unexplained += uint(texelFetch(weightField, c, 0).w + 0.5);
+            }
+        }
+        if (!whole) {
+            append(0u, packTile(tile));
+            append(kind, packTile(tile));
+        }
+    }
+    classes[index] = uvec2(kind, unexplained);
+    atomicAdd(counts[kind], 1u);
+    if (unexplained >= 8u) atomicAdd(counts[5], 1u);
+    if (tune.w < 0.5) atomicAdd(counts[6], uint(confidence * 16.0));
+}

@@ -1,0 +1,67 @@
+// How far the still is trusted at each cell, from the statistics of 3x3 cells.
+// In: images of superres_assess.comp. Out: cells image = flow (x, y) [video px], weight of the detail,
+// eq. 2 confidence; look-up image = the same with the flow as still pixels off the scaled cell centre;
+// weights image = weight / 2, confidence, signal share (for the sharpening), unexplained.
+// Weight of the detail: the sensors' photometric gain a = cov / (var + eps), from half resolution where
+// there is contrast enough, times the squared share of the video's variance that the still explains.
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = 0) uniform Params {
+    ivec4 cells;  // cells a row, rows, half-resolution cells a row, rows
+    vec4 tune;    // standard deviation of the video's noise [grey levels], -, -, -
+};
+layout(binding = 0) uniform sampler2D displacement;
+layout(binding = 1) uniform sampler2D statistics;
+layout(binding = 2) uniform sampler2D halfStatistics;
+layout(rgba32f, binding = 0) uniform writeonly highp image2D cellField;
+layout(rgba8, binding = 1) uniform writeonly highp image2D weightField;
+layout(rgba16f, binding = 2) uniform writeonly highp image2D lookupField;
+
+const float kPixels = 64.0;     // of a patch
+const float kRounding = 0.083;   // variance of 8-bit steps [grey levels^2]
+
+vec4 statisticsAt(ivec2 c) {
+    return texelFetch(statistics, clamp(c, ivec2(0), cells.xy - 1), 0);
+}
+
+// Sum over the 2x2 half-resolution cells nearest to the cell.
+vec3 halfAround(ivec2 cell) {
+    vec3 sum = vec3(0.0);
+    ivec2 towards = (cell & 1) * 2 - 1;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 c = (cell >> 1) + ivec2((i & 1) * towards.x, (i >> 1) * towards.y);
+        sum += 0.25 * texelFetch(halfStatistics, clamp(c, ivec2(0), cells.zw - 1), 0).xyz;
+    }
+    return sum;
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(cell, cells.xy))) return;
+    vec3 sum = vec3(0.0);
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+            sum += float((2 - abs(x)) * (2 - abs(y))) * statisticsAt(cell + ivec2(x, y)).xyz;
+    sum /= 16.0;
+    float covariance = max(sum.x, 0.0), varianceVideo = sum.y, varianceStill = sum.z;
+    float confidence = statisticsAt(cell).w;
+
+    float noise = kPixels * (tune.x * tune.x + kRounding);
+    float gain = covariance / (varianceStill + noise);
+    vec3 low = halfAround(cell);
+    float lowNoise = kPixels * (0.25 * tune.x * tune.x + kRounding);
+    float lowGain = max(low.x, 0.0) / (low.z + lowNoise);
+    float lowShare = low.z / (low.z + 8.0 * lowNoise);
+    gain = min(mix(gain, max(gain, lowGain), lowShare), 2.0);
+    float ncc2 = covariance * covariance / ((varianceVideo + noise) * (varianceStill + noise));
+    float weight = gain * ncc2 * ncc2 * confidence;
+    if (!(weight > 0.004)) weight = 0.0;
+    float signal = clamp((varianceVideo - 2.0 * noise) / (varianceVideo + noise), 0.0, 1.0);
+    float textured = step(8.0 * (noise + kPixels), varianceVideo);
+    float unexplained = textured * step(ncc2 * confidence, 0.25);
+
+    vec4 d = texelFetch(displacement, cell, 0);
+    imageStore(cellField, cell, vec4(d.xy, weight, confidence));
+    imageStore(lookupField, cell, vec4(d.zw, weight, confidence));
+    imageStore(weightField, cell, vec4(0.5 * weight, confidence, signal, unexplained));
+}

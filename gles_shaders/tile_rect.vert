@@ -1,0 +1,25 @@
+// One rectangle per listed tile, at any resolution. In: packed tile (instanced). Six vertices.
+// With PLAIN_TILE also the look-up of the tile's corners, from the cells that meet there.
+// Variant: #define PLAIN_TILE
+#include "tile_params.glsl"
+#include "tiles.glsl"
+
+layout(location = 0) in uint packedTile;
+#ifdef PLAIN_TILE
+layout(binding = 2) uniform sampler2D lookupField;
+out vec4 plainLookUp;
+#endif
+
+void main() {
+    ivec2 corner = ivec2(gl_VertexID % 3 == 1 || gl_VertexID == 3 ? 1 : 0,
+                         gl_VertexID % 3 == 2 || gl_VertexID == 3 ? 1 : 0);
+    ivec2 at = unpackTile(packedTile) + corner;
+    vec2 p = min(vec2(16 * at), vec2(video.xy));
+#ifdef PLAIN_TILE
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; ++i)
+        sum += texelFetch(lookupField, clamp(4 * at - ivec2(i & 1, i >> 1), ivec2(0), video.zw - 1), 0);
+    plainLookUp = 0.25 * sum;
+#endif
+    gl_Position = vec4(2.0 * p / vec2(video.xy) - 1.0, 0.0, 1.0);
+}

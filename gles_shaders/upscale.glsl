@@ -1,0 +1,16 @@
+// Bicubic upscaling, second half: rows. Needs the Params members `video` and `scale`.
+#include "cubic.glsl"
+
+layout(binding = 0) uniform sampler2D columns;
+
+vec3 upscaled() {
+    float x = gl_FragCoord.x * scale.x - 0.5;
+    int y = int(gl_FragCoord.y);
+    int column = int(floor(x));
+    vec4 w = cubicWeights(x - floor(x));
+    int last = video.x - 1;
+    return w.x * texelFetch(columns, ivec2(clamp(column - 1, 0, last), y), 0).rgb +
+           w.y * texelFetch(columns, ivec2(clamp(column, 0, last), y), 0).rgb +
+           w.z * texelFetch(columns, ivec2(clamp(column + 1, 0, last), y), 0).rgb +
+           w.w * texelFetch(columns, ivec2(clamp(column + 2, 0, last), y), 0).rgb;
+}

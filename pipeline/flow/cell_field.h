@@ -1,0 +1,27 @@
+#pragma once
+
+#include "hal/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mfar {
+
+/// Bilinear look-up in a read-back field of 4x4-pixel cells with four channels, at pixel (x, y).
+/// Beyond the outermost cell centres the nearest cell holds.
+[[nodiscard]] inline float sampleCells(const std::vector<float>& cells, Size count, int channel,
+                                       double x, double y) {
+    const double gx = std::clamp((x + 0.5) / 4 - 0.5, 0.0, count.width - 1.0);
+    const double gy = std::clamp((y + 0.5) / 4 - 0.5, 0.0, count.height - 1.0);
+    const int x0 = static_cast<int>(gx), y0 = static_cast<int>(gy);
+    const int x1 = std::min(x0 + 1, count.width - 1), y1 = std::min(y0 + 1, count.height - 1);
+    const double fx = gx - x0, fy = gy - y0;
+    const auto at = [&](int cx, int cy) {
+        return static_cast<double>(cells[4UL * (1UL * cy * count.width + cx) + channel]);
+    };
+    return static_cast<float>(std::lerp(std::lerp(at(x0, y0), at(x1, y0), fx),
+                                        std::lerp(at(x0, y1), at(x1, y1), fx), fy));
+}
+
+}  // namespace mfar

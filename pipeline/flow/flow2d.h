@@ -1,0 +1,74 @@
+#pragma once
+
+#include "pipeline/flow/luma_pyramid.h"
+
+#include <vector>
+
+namespace mfar {
+
+/// Dense flow between video and still without any knowledge of pose: coarse-to-fine inverse search
+/// with a gain-invariant cost on 8x8 patches every 4 pixels, propagation, Gauss-Newton refinement,
+/// robust clean-up. Both directions.
+/// Sources: Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
+class Flow2d {
+public:
+    /// A field of flow vectors, one per cell of 4x4 video pixels, in patches().
+    struct Field {
+        int offset = 0;  ///< first vec4 (flow x, y [video px], cost, gain)
+        Size cells;      ///< columns, rows
+    };
+
+    Flow2d(const LumaPyramids& pyramids, WorkPlan& plan);
+
+    /// Computes both fields, as far as the plan asks for it. `usePrior`: the last frame's field is
+    /// a candidate everywhere (not after a new still).
+    void run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePrior);
+
+    [[nodiscard]] const gpu::Buffer& patches() const { return patches_; }
+    [[nodiscard]] const Field& forward() const { return forward_; }    ///< video -> still
+    [[nodiscard]] const Field& backward() const { return backward_; }  ///< still -> video
+
+private:
+    struct SearchParams {
+        LumaLevel from, to;
+        std::int32_t cells[4], offsets[4], search[4];
+        float prior[4];
+    };
+    struct PropagateParams {
+        LumaLevel from, to;
+        std::int32_t cells[4], offsets[4], search[4];
+    };
+    struct FilterParams {
+        std::int32_t cells[4], offsets[4];
+    };
+    /// One level of one direction: two areas, because propagation cannot work in place.
+    struct Stage {
+        Size cells;
+        int area[2];
+        WorkPlan::Dispatch dispatch;
+    };
+    /// One way to go through the levels, from coarse to fine.
+    struct Direction {
+        const std::vector<LumaLevel>& from;  ///< where the patches are taken
+        const std::vector<LumaLevel>& to;    ///< where they are sought
+        const std::vector<Stage>& stages;
+        int finestPropagations;
+        bool usePrior;
+    };
+
+    void run(const Direction& way, const LumaPyramids& pyramids, const WorkPlan& plan);
+    void search(const Direction& way, int level, int area, const LumaPyramids& pyramids,
+                const WorkPlan& plan);
+    void propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,
+                   const WorkPlan& plan);
+    void filter(const Stage& stage, const Field& out, const WorkPlan& plan);
+
+    std::vector<Stage> forwardStages_, backwardStages_;
+    Field forward_, backward_;
+    gpu::Buffer patches_;
+    gpu::ComputePass<SearchParams> search_;
+    gpu::ComputePass<PropagateParams> propagate_;
+    gpu::ComputePass<FilterParams> filter_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,35 @@
+#include "pipeline/flow/cell_field.h"
+#include "pipeline/flow/flow2d.h"
+#include "pipeline/pipeline.h"
+
+#include <stdexcept>
+
+namespace mfar {
+
+std::vector<float> flowBetween(const ImageView& a, const ImageView& b) {
+    if (!(a.size == b.size) || a.size.width < 16 || a.size.height < 16)
+        throw std::invalid_argument("flow needs two pictures of the same size, 16x16 at least");
+    gpu::Texture first = gpu::pictureTexture(a), second = gpu::pictureTexture(b);
+    first.upload(a);
+    second.upload(b);
+    WorkPlan plan(a.size);
+    LumaPyramids pyramids(a.size, plan);
+    Flow2d flow(pyramids, plan);
+    plan.openAll();
+    pyramids.buildVideo(first, plan);
+    pyramids.buildSecond(second);
+    flow.run(pyramids, plan, false);
+
+    const Flow2d::Field& field = flow.forward();
+    const std::vector<float> cells = flow.patches().read<float>(
+        4UL * field.cells.width * field.cells.height, 16UL * field.offset);
+    std::vector<float> out;
+    out.reserve(2UL * a.size.width * a.size.height);
+    for (int y = 0; y < a.size.height; ++y)
+        for (int x = 0; x < a.size.width; ++x)
+            for (int channel = 0; channel < 2; ++channel)
+                out.push_back(sampleCells(cells, field.cells, channel, x, y));
+    return out;
+}
+
+}  // namespace mfar

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "pipeline/geometry.h"
+#include "pipeline/work_plan.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// One level of a luma pyramid inside the shared buffer; mirrors an ivec4 in the shaders.
+struct LumaLevel {
+    std::int32_t offset;  ///< [words]
+    std::int32_t pitch;   ///< [words], with two words of replicated border on each side
+    std::int32_t width;   ///< [px]
+    std::int32_t height;  ///< [px]
+};
+
+/// std140 mirror of `Rig` in rig.glsl.
+struct RigParams {
+    float videoPinhole[4];
+    float videoDistortion[4];
+    float stillPinhole[4];
+    float stillDistortion[4];
+    float k3[4];
+    float rotation[3][4];
+};
+[[nodiscard]] RigParams rigParams(const StereoRig& rig);
+
+/// Luma pyramids of the video frame and of the still at the video's geometry (rotation and both
+/// lenses applied, no parallax), both smoothed alike, 8 bits a pixel, four pixels a word, in one
+/// storage buffer: what the flow compares.
+class LumaPyramids {
+public:
+    LumaPyramids(Size video, WorkPlan& plan);
+
+    /// From the video frame (RGBA8 texture of the video's size), if the plan needs it.
+    void buildVideo(const gpu::Texture& video, const WorkPlan& plan);
+    /// From a still (RGBA8 texture, linear filter), through the rig. Once per still.
+    void buildStill(const gpu::Texture& still, const StereoRig& rig);
+    /// From a picture that already has the video's geometry (flow between two frames).
+    void buildSecond(const gpu::Texture& picture);
+
+    [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }
+    [[nodiscard]] const std::vector<LumaLevel>& still() const { return still_; }
+    [[nodiscard]] const gpu::Buffer& words() const { return words_; }
+
+private:
+    struct VideoParams {
+        LumaLevel target;
+        float smoothing[4];
+    };
+    struct DownParams {
+        LumaLevel fine, coarse;
+    };
+    struct StillParams {
+        RigParams rig;
+        LumaLevel target;
+        float stillTexel[4];
+    };
+
+    void buildCoarse(const std::vector<LumaLevel>& levels);
+
+    std::vector<LumaLevel> video_, still_;
+    gpu::Buffer words_;
+    std::vector<WorkPlan::Dispatch> dispatches_;
+    gpu::ComputePass<VideoParams> fromVideo_;
+    gpu::ComputePass<StillParams> fromStill_;
+    gpu::ComputePass<DownParams> down_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,103 @@
+#include "pipeline/pipeline.h"
+
+#include "pipeline/pipeline_state.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace mfar {
+namespace {
+
+void requireSize(const ImageView& view, Size size, const char* what) {
+    if (view.data != nullptr && view.size == size) return;
+    throw std::invalid_argument(std::string(what) + " is " + std::to_string(view.size.width) + "x" +
+                                std::to_string(view.size.height) + ", the calibration says " +
+                                std::to_string(size.width) + "x" + std::to_string(size.height));
+}
+
+}  // namespace
+
+Size Pipeline::State::outputSize(const StereoRig& rig, Size wanted) {
+    if (wanted.width > 0 && wanted.height > 0) return wanted;
+    const double scale = static_cast<double>(rig.still.size.width) / rig.video.size.width;
+    return {rig.still.size.width, static_cast<int>(std::lround(rig.video.size.height * scale))};
+}
+
+Pipeline::Pipeline(const StereoRig& rig, const PipelineOptions& options)
+    : state_(std::make_unique<State>(rig, options)) {}
+Pipeline::~Pipeline() = default;
+Pipeline::Pipeline(Pipeline&&) noexcept = default;
+Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
+
+void Pipeline::setStill(const ImageView& still, Timestamp) {
+    State& s = *state_;
+    requireSize(still, s.rig.still.size, "still");
+    s.still.set(still);
+    s.pyramids.buildStill(s.still.picture(), s.rig);
+    s.hasStill = true;
+    s.redraw = true;
+    s.hasPrior = false;
+}
+
+void Pipeline::dropStill() {
+    state_->hasStill = false;
+    state_->redraw = true;
+    state_->hasPrior = false;
+}
+
+void Pipeline::setMode(SuperResMode mode) {
+    state_->options.mode = mode;
+    state_->superres.setMode(mode);
+    state_->redraw = true;
+}
+
+void Pipeline::setSkipUnchanged(bool skip) {
+    state_->options.skipUnchanged = skip;
+}
+
+const FrameResult& Pipeline::run(const ImageView& video, Timestamp) {
+    State& s = *state_;
+    requireSize(video, s.rig.video.size, "video frame");
+    s.stageTimes.clear();
+    s.lastLap = std::chrono::steady_clock::now();
+
+    if (!s.video.takes(video)) s.video = gpu::pictureTexture(video);
+    s.video.upload(video);
+    s.lap("upload");
+    s.plan.update(s.video, s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
+    s.lap("plan");
+    const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
+    if (useStill) {
+        s.pyramids.buildVideo(s.video, s.plan);
+        s.lap("pyramid");
+        s.flow.run(s.pyramids, s.plan, s.hasPrior);
+        s.lap("flow");
+        s.superres.assess(s.pyramids, s.flow, s.plan);
+        s.lap("assess");
+    }
+    s.superres.draw(s.video, useStill ? &s.still : nullptr, s.plan);
+    glFlush();
+    s.lap("superres");
+    s.redraw = false;
+    s.hasPrior = useStill;
+
+    s.result.stats = s.superres.statsBefore();
+    s.result.stats.usedStill = useStill;
+    s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
+    return s.result;
+}
+
+Size Pipeline::outputSize() const {
+    return state_->superres.output().size();
+}
+
+const std::vector<StageTime>& Pipeline::stageTimes() const {
+    return state_->stageTimes;
+}
+
+void Pipeline::setMeasure(bool measure) {
+    state_->measure = measure;
+}
+
+}  // namespace mfar

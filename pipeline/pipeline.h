@@ -1,0 +1,80 @@
+#pragma once
+
+#include "hal/frame.h"
+#include "pipeline/geometry.h"
+#include "pipeline/results.h"
+
+#include <memory>
+#include <vector>
+
+namespace mfar {
+
+enum class SuperResMode {
+    Off,     ///< bicubically upscaled video
+    Blend,   ///< the paper's: warped still blended by confidence
+    Detail,  ///< the still's fine detail, as far as the video confirms it
+};
+
+struct PipelineOptions {
+    SuperResMode mode = SuperResMode::Detail;
+    /// Output size; 0x0 = the still's width at the video's aspect ratio.
+    Size output;
+    /// Leaves tiles alone that did not change. Off: every tile is computed each frame.
+    bool skipUnchanged = true;
+};
+
+/// Time of one stage of the last frame.
+struct StageTime {
+    const char* stage;
+    double ms;
+};
+
+/// The whole flow of a frame: video in, high-resolution picture out. Allocates everything in the
+/// constructor. Lives on the GL thread with its context current. Throws GlError from set-up only.
+class Pipeline {
+public:
+    Pipeline(const StereoRig& rig, const PipelineOptions& options);
+    ~Pipeline();
+    Pipeline(Pipeline&&) noexcept;
+    Pipeline& operator=(Pipeline&&) noexcept;
+
+    /// Makes this still the reference of the following frames; all per-still work happens here.
+    /// Size must be the rig's. Frames of another size throw std::invalid_argument.
+    void setStill(const ImageView& still, Timestamp time);
+    /// Forgets the still: the upscaled video is shown until the next one.
+    void dropStill();
+    /// Computes one picture. Throws std::invalid_argument for a frame of another size.
+    const FrameResult& run(const ImageView& video, Timestamp time);
+
+    /// Both take effect with the next run.
+    void setMode(SuperResMode mode);
+    void setSkipUnchanged(bool skip);
+
+    [[nodiscard]] Size outputSize() const;
+    /// CPU-side stage times of the last run. With `measure` on, each stage ends with glFinish and
+    /// the times are those of the work; off (default), the frame path is not disturbed.
+    [[nodiscard]] const std::vector<StageTime>& stageTimes() const;
+    void setMeasure(bool measure);
+
+    // Read-backs for tests, evaluation and the preview; they wait for the GPU.
+    /// Numbers of the last run; FrameResult::stats is one frame behind, so that nothing waits.
+    [[nodiscard]] FrameStats readStats() const;
+    /// Flow at every video pixel (x, y interleaved), bilinear between cells. Empty without still.
+    [[nodiscard]] std::vector<float> readFlow() const;
+    /// Eq. 2 confidence at every video pixel, [0, 1]. Empty without still.
+    [[nodiscard]] std::vector<float> readConfidence() const;
+    /// Class of every tile, row-major, ceil(video / kTileSize) tiles.
+    [[nodiscard]] std::vector<TileClass> readTileClasses() const;
+    /// Output picture, RGBA8, row 0 first.
+    [[nodiscard]] std::vector<std::uint8_t> readImage() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// Dense 2-D flow between two pictures of the same size (grey or RGBA): the flow stage alone, for
+/// evaluation and tests. Returns x, y interleaved per pixel: a(p) looks like b(p + flow).
+[[nodiscard]] std::vector<float> flowBetween(const ImageView& a, const ImageView& b);
+
+}  // namespace mfar

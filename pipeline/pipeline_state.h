@@ -1,0 +1,50 @@
+#pragma once
+
+#include "pipeline/flow/flow2d.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/superres/superres.h"
+
+#include <chrono>
+
+namespace mfar {
+
+/// What Pipeline keeps; shared by pipeline.cpp (the frame path) and readback.cpp.
+struct Pipeline::State {
+    State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
+        : rig(rigIn), options(optionsIn), plan(rig.video.size), pyramids(rig.video.size, plan),
+          flow(pyramids, plan), still(rig),
+          superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
+        stageTimes.reserve(8);
+        result.image = {superres.output().id(), superres.output().size()};
+    }
+
+    /// Closes a stage: its time since the last call, with the GPU's work when measuring.
+    void lap(const char* stage) {
+        if (measure) glFinish();
+        const auto now = std::chrono::steady_clock::now();
+        stageTimes.push_back(
+            {stage, std::chrono::duration<double, std::milli>(now - lastLap).count()});
+        lastLap = now;
+    }
+
+    /// The size asked for, or the still's width at the video's aspect ratio.
+    static Size outputSize(const StereoRig& rig, Size wanted);
+
+    StereoRig rig;
+    PipelineOptions options;
+    gpu::Texture video;
+    WorkPlan plan;
+    LumaPyramids pyramids;
+    Flow2d flow;
+    StillReference still;
+    SuperRes superres;
+    bool hasStill = false;
+    bool redraw = true;     // nothing of the last output may stay
+    bool hasPrior = false;  // the flow field of the last frame belongs to this still
+    bool measure = false;
+    FrameResult result;
+    std::vector<StageTime> stageTimes;
+    std::chrono::steady_clock::time_point lastLap;
+};
+
+}  // namespace mfar

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "hal/display.h"
+#include "pipeline/gpu/buffer.h"
+
+#include <array>
+#include <cstddef>
+
+namespace mfar {
+
+/// What the super-resolution does with a tile of 16x16 video pixels, cheapest first.
+enum class TileClass : unsigned {
+    Unchanged,  ///< neither video nor still changed: the last output stays
+    Upscaled,   ///< the still has no detail to add, or none that fits
+    Trusted,    ///< detail added everywhere in the tile with one smooth flow
+    Blended,    ///< detail added with a weight and flow that vary per pixel
+    Hidden,     ///< behind an opaque virtual object
+};
+inline constexpr std::size_t kTileClasses = 5;
+inline constexpr int kTileSize = 16;  ///< video pixels
+
+/// Dense 2-D flow from video to still, in video pixels at the video's geometry: video pixel p looks
+/// like still pyramid pixel p + flow(p). Row-major vec2, one per cell of `stride` video pixels.
+struct FlowField {
+    const gpu::Buffer* vectors = nullptr;
+    Size size;       ///< cells
+    int stride = 1;  ///< video pixels a cell; cell (i, j) stands for pixel (i + 0.5) stride - 0.5
+};
+
+/// Numbers of one frame for status, trigger and summary. Zero before the second frame.
+struct FrameStats {
+    std::array<int, kTileClasses> tiles{};  ///< count per TileClass
+    double meanConfidence = 0;              ///< of eq. 2 over the frame, [0, 1]
+    double explained = 0;  ///< share of tiles that are flat or that the still accounts for, [0, 1]
+    double changed = 0;    ///< share of tiles whose video differs from when they were last drawn
+    bool usedStill = false;
+};
+
+/// What Pipeline::run gives back. Valid until the next run.
+struct FrameResult {
+    GlImage image;
+    FlowField flow;
+    FrameStats stats;
+};
+
+}  // namespace mfar

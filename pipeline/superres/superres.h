@@ -1,0 +1,103 @@
+#pragma once
+
+#include "pipeline/flow/flow2d.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/superres/still_reference.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// Turns flow and still into the high-resolution picture. Only the tiles that the plan calls
+/// changed are drawn; the others keep their pixels from earlier frames.
+class SuperRes {
+public:
+    SuperRes(const StereoRig& rig, Size output, SuperResMode mode, const LumaPyramids& pyramids,
+             WorkPlan& plan);
+
+    /// Weighs the still cell by cell. `still` is nullptr when there is none (upscaling only).
+    void assess(const LumaPyramids& pyramids, const Flow2d& flow, const WorkPlan& plan);
+    /// Sorts the changed tiles into classes and draws them.
+    void draw(const gpu::Texture& video, const StillReference* still, const WorkPlan& plan);
+
+    void setMode(SuperResMode mode) { mode_ = mode; }
+    [[nodiscard]] const gpu::Texture& output() const { return output_; }
+    /// The video each tile was last drawn from.
+    [[nodiscard]] const gpu::Texture& drawn() const { return drawn_; }
+    /// Per cell: flow (x, y) [video px], weight of the detail, eq. 2 confidence. Rgba32F.
+    [[nodiscard]] const gpu::Texture& cellField() const { return cellField_; }
+
+    /// Counts of the frame before the last one drawn: already there, nothing waits for them.
+    [[nodiscard]] FrameStats statsBefore() const { return stats(1 - current_); }
+    /// Counts of the last frame. Waits for the GPU.
+    [[nodiscard]] FrameStats statsNow() const { return stats(current_); }
+    /// Class of every tile in the last frame, row-major. Waits for the GPU.
+    [[nodiscard]] std::vector<TileClass> readClasses() const;
+
+private:
+    struct AssessParams {
+        RigParams rig;
+        LumaLevel video, still;
+        std::int32_t cells[4], offsets[4];
+        float tune[4], stillSize[4];
+    };
+    struct GainParams {
+        LumaLevel video, still;
+        std::int32_t cells[4], offsets[4];
+    };
+    struct WeighParams {
+        std::int32_t cells[4];
+        float tune[4];
+    };
+    struct ClassifyParams {
+        std::int32_t tiles[4];
+        float tune[4];
+    };
+    struct TileParams {  // tile_params.glsl
+        std::int32_t video[4];
+        float scale[4], tune[4];
+    };
+    /// The same shader over the whole target and over a list of tiles; the plan opens one of them.
+    struct TilePass {
+        explicit TilePass(const char* fragment)
+            : whole(fragment), tiles("tile_rect.vert", fragment, "") {}
+        gpu::DrawPass<TileParams> whole, tiles;
+    };
+    /// draws[] of superres_classify.comp.
+    struct DrawBlock {
+        std::array<std::array<std::uint32_t, 4>, 4> commands;
+        std::array<std::uint32_t, 8> counts;
+    };
+    enum class List : std::uint32_t { All, Upscaled, Trusted, Blended };
+
+    [[nodiscard]] FrameStats stats(int which) const;
+    [[nodiscard]] gpu::InstanceList list(List which) const;
+    void measureGain(const LumaPyramids& pyramids, const Flow2d& flow, const WorkPlan& plan);
+    void weigh(const WorkPlan& plan);
+    void classify(const WorkPlan& plan, bool hasStill);
+    void drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
+                  const gpu::Framebuffer& target, const WorkPlan& plan);
+    [[nodiscard]] TileParams tileParams(bool useStill) const;
+
+    StereoRig rig_;
+    SuperResMode mode_;
+    Size video_, cells_, halfCells_, tiles_;
+    gpu::Texture displacement_, statistics_, halfStatistics_, cellField_, weightField_,
+        lookupField_, sharpened_, columns_, output_, drawn_;
+    gpu::Framebuffer sharpenedTarget_, columnsTarget_, outputTarget_, drawnTarget_;
+    gpu::Buffer classes_, lists_;
+    std::array<gpu::Buffer, 2> draws_;
+    int current_ = 0;
+    WorkPlan::Dispatch assessDispatch_, gainDispatch_, weighDispatch_;
+    gpu::ComputePass<AssessParams> assess_;
+    gpu::ComputePass<GainParams> gain_;
+    gpu::ComputePass<WeighParams> weigh_;
+    gpu::ComputePass<ClassifyParams> classify_;
+    TilePass sharpen_, vertical_, copy_;
+    gpu::DrawPass<TileParams> wholeUpscale_, wholeDetail_, wholeBlend_;
+    gpu::DrawPass<TileParams> upscale_, detail_, plainDetail_, blend_, plainBlend_;
+};
+
+}  // namespace mfar
