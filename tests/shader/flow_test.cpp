@@ -1,0 +1,151 @@
+#include "pipeline/flow/flow2d.h"
+#include "pipeline/pipeline.h"
+#include "tests/shader/gl_test.h"
+#include "tests/shader/levels.h"
+#include "tests/shader/twins/patch.h"
+
+#include <array>
+
+namespace mfar {
+namespace {
+
+using FlowPasses = GlTest;
+using Eigen::Vector2d;
+
+// Of cost, gain and pixels: single precision sums of 64 squares of up to 255.
+constexpr double kTolerance = 2e-3;
+constexpr Size kSize{61, 45};  // one level, the last cells cut
+constexpr Size kCells{16, 12};
+constexpr int kArea = 16 * 12;
+
+using Cell = std::array<float, 4>;  // flow (x, y), cost, gain
+
+struct SearchParams {
+    LumaLevel from, to;
+    std::int32_t cells[4], offsets[4], search[4];
+    float prior[4];
+};
+struct PropagateParams {
+    LumaLevel from, to;
+    std::int32_t cells[4], offsets[4], search[4];
+};
+struct FilterParams {
+    std::int32_t cells[4], offsets[4];
+};
+
+/// Random flow vectors; every eighth far outside.
+std::vector<Cell> randomField(unsigned seed, float reach) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> flow(-reach, reach);
+    std::vector<Cell> out(kArea);
+    for (int i = 0; i < kArea; ++i) {
+        const float far = i % 8 == 0 ? 40.0F : 1.0F;
+        out[i] = {far * flow(random), far * flow(random), 0, 0};
+    }
+    return out;
+}
+
+/// Lets flow_search.comp start from `prior` alone and take `steps` steps.
+std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, int steps) {
+    gpu::Buffer patches(2 * kArea * sizeof(Cell));
+    patches.write(std::span(prior), kArea * sizeof(Cell));
+    gpu::ComputePass<SearchParams> pass("flow_search.comp");
+    const SearchParams p{
+        pair.pyramids.video()[0], pair.pyramids.still()[0],    {kCells.width, kCells.height, 0, 0},
+        {0, -1, kArea, 0},        {0, 1, steps, kCells.width}, {1, 1, 1, 0}};
+    pass.run(p, {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
+    return patches.read<Cell>(kArea);
+}
+
+TEST_F(FlowPasses, CostAndGainMatchTwin) {
+    const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
+    const auto a = pair.first(), b = pair.second();
+    const auto prior = randomField(4, 9);
+    const auto found = search(pair, prior, 0);
+    for (int i = 0; i < kArea; ++i) {
+        const auto m = twin::comparePatch(a, b, i % 16, i / 16, {prior[i][0], prior[i][1]});
+        EXPECT_EQ(found[i][0], prior[i][0]);
+        EXPECT_NEAR(found[i][2], m.cost, kTolerance) << "cell " << i;
+        EXPECT_NEAR(found[i][3], m.gain, kTolerance * m.gain) << "cell " << i;
+    }
+}
+
+TEST_F(FlowPasses, OneStepMatchesTwin) {
+    const Waves waves(2, 10, 60, 40);
+    const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {1.3, -0.6}}));
+    const auto a = pair.first(), b = pair.second();
+    const auto prior = randomField(5, 1);
+    const auto found = search(pair, prior, 1);
+    int taken = 0;
+    for (int i = 0; i < kArea; ++i) {
+        const Vector2d u(prior[i][0], prior[i][1]);
+        const auto before = twin::comparePatch(a, b, i % 16, i / 16, u);
+        const Vector2d next = u + before.step;
+        const auto after = twin::comparePatch(a, b, i % 16, i / 16, next);
+        if (std::abs(after.cost - before.cost) < 1e-4) continue;
+        const bool falls = after.cost < before.cost;
+        taken += falls ? 1 : 0;
+        EXPECT_NEAR(found[i][0], falls ? next.x() : u.x(), 5e-3) << "cell " << i;
+        EXPECT_NEAR(found[i][1], falls ? next.y() : u.y(), 5e-3) << "cell " << i;
+    }
+    EXPECT_GT(taken, kArea / 2);
+}
+
+TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
+    const Waves waves(3, 6, 60, 40);
+    const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {4, 2}}));
+    const auto a = pair.first(), b = pair.second();
+    const auto in = search(pair, randomField(6, 6), 0);
+    gpu::Buffer patches(2 * kArea * sizeof(Cell));
+    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::ComputePass<PropagateParams> pass("flow_propagate.comp");
+    pass.run({pair.pyramids.video()[0],
+              pair.pyramids.still()[0],
+              {kCells.width, kCells.height, 0, 0},
+              {0, kArea, 0, 0},
+              {0, 0, 0, 0}},
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
+    const auto out = patches.read<Cell>(kArea);
+    const auto cellAt = [&](int x, int y) {
+        return in[std::clamp(y, 0, kCells.height - 1) * kCells.width +
+                  std::clamp(x, 0, kCells.width - 1)];
+    };
+    int moved = 0;
+    for (int i = 0; i < kArea; ++i) {
+        const int x = i % 16, y = i / 16;
+        Cell best = in[i];
+        for (const Cell& n :
+             {cellAt(x - 1, y), cellAt(x + 1, y), cellAt(x, y - 1), cellAt(x, y + 1)}) {
+            if (std::hypot(n[0] - best[0], n[1] - best[1]) < 0.5) continue;
+            const double cost = twin::comparePatch(a, b, x, y, {n[0], n[1]}).cost;
+            if (cost < best[2]) best = {n[0], n[1], static_cast<float>(cost), 0};
+        }
+        EXPECT_NEAR(out[i][2], best[2], kTolerance) << "cell " << i;
+        moved += out[i][0] != in[i][0] ? 1 : 0;
+    }
+    EXPECT_GT(moved, kArea / 4);
+}
+
+TEST_F(FlowPasses, FilterTakesTheMedianOfEachComponent) {
+    const auto in = randomField(8, 5);
+    gpu::Buffer patches(2 * kArea * sizeof(Cell));
+    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::ComputePass<FilterParams> pass("flow_filter.comp");
+    pass.run({{kCells.width, kCells.height, 0, 0}, {0, kArea, 0, 0}}, {gpu::storage(1, patches)},
+             {4, 3, 1});
+    const auto out = patches.read<Cell>(kArea);
+    for (int i = 0; i < kArea; ++i)
+        for (int component = 0; component < 2; ++component) {
+            std::array<float, 9> v{};
+            for (int k = 0; k < 9; ++k) {
+                const int x = std::clamp(i % 16 + k % 3 - 1, 0, kCells.width - 1);
+                const int y = std::clamp(i / 16 + k / 3 - 1, 0, kCells.height - 1);
+                v[k] = in[y * kCells.width + x][component];
+            }
+            std::nth_element(v.begin(), v.begin() + 4, v.end());
+            EXPECT_EQ(out[i][component], v[4]) << "cell " << i;
+        }
+}
+
+}  // namespace
+}  // namespace mfar

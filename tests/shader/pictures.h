@@ -1,0 +1,77 @@
+#pragma once
+
+#include "pipeline/geometry.h"
+#include "pipeline/gpu/texture.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace mfar {
+
+/// A picture in memory that owns its pixels.
+struct Picture {
+    Picture() = default;
+    explicit Picture(Size s, PixelFormat f = PixelFormat::Rgba8, std::uint8_t fill = 0)
+        : size(s), format(f),
+          bytes(static_cast<std::size_t>(s.width) * s.height * bytesPerPixel(f), fill) {}
+    [[nodiscard]] ImageView view() const {
+        return {bytes.data(), size, static_cast<std::size_t>(size.width) * bytesPerPixel(format),
+                format};
+    }
+    [[nodiscard]] std::uint8_t* at(int x, int y) {
+        return &bytes[(static_cast<std::size_t>(y) * size.width + x) * bytesPerPixel(format)];
+    }
+
+    Size size;
+    PixelFormat format = PixelFormat::Rgba8;
+    std::vector<std::uint8_t> bytes;
+};
+
+/// How a picture is taken from a pattern: pixel (x, y) shows the pattern around
+/// ((x, y) + 0.5) step - 0.5 + shift, averaged over a square of `footprint` pattern units.
+struct Shot {
+    double step = 1;
+    Eigen::Vector2d shift{0, 0};
+    double footprint = 1;
+    double gain = 1, offset = 0;  ///< of the grey levels
+    PixelFormat format = PixelFormat::Rgba8;
+};
+
+/// A random pattern that is known at every position: a sum of plane waves, in grey levels. The
+/// wavelengths are spread evenly in their logarithm.
+class Waves {
+public:
+    /// Wavelengths in pattern units; contrast = standard deviation [grey levels].
+    Waves(unsigned seed, double shortest, double longest, double contrast, int count = 48);
+    [[nodiscard]] Picture shoot(Size size, const Shot& shot) const;
+
+private:
+    struct Wave {
+        double kx, ky, phase, amplitude;
+    };
+    std::vector<Wave> waves_;
+};
+
+[[nodiscard]] Picture randomPicture(Size size, unsigned seed, PixelFormat f = PixelFormat::Rgba8);
+/// One pixel black, one white.
+[[nodiscard]] Picture checkerboard(Size size);
+/// Adds the same Gaussian noise to all channels of each pixel.
+void addNoise(Picture& picture, double sigma, unsigned seed);
+/// Root of the mean squared difference, turned into decibels against 255.
+[[nodiscard]] double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
+
+/// Two ideal cameras at the same place: the still is the video's view at another resolution.
+[[nodiscard]] StereoRig plainRig(Size video, Size still);
+/// Two different lenses, rotated by some degrees against each other.
+[[nodiscard]] StereoRig bentRig(Size video, Size still);
+
+[[nodiscard]] gpu::Texture uploaded(const Picture& p, gpu::Filter f = gpu::Filter::Nearest);
+/// Four floats a texel.
+[[nodiscard]] gpu::Texture floatTexture(Size size, gpu::TexelFormat format,
+                                        const std::vector<float>& values,
+                                        gpu::Filter f = gpu::Filter::Nearest);
+
+}  // namespace mfar

@@ -1,0 +1,127 @@
+#include "tests/shader/gl_test.h"
+#include "tests/shader/twins/plan.h"
+
+#include <array>
+
+namespace mfar {
+namespace {
+
+using Plan = GlTest;
+
+constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut
+// Thresholds of a frame without measured noise (0.29 grey levels).
+constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
+constexpr std::size_t kDispatches = 32;  // bytes before them in the plan's buffer
+
+struct TileState {
+    std::uint32_t changed, noise;
+};
+
+std::vector<TileState> tilesOf(const WorkPlan& plan) {
+    return plan.tiles().read<TileState>(
+        static_cast<std::size_t>(plan.tileCount().width) * plan.tileCount().height, 8);
+}
+
+std::array<std::uint32_t, 4> fourAt(const WorkPlan& plan, std::size_t bytes) {
+    const auto v = plan.wholeDraw().commands.read<std::uint32_t>(4, bytes);
+    return {v[0], v[1], v[2], v[3]};
+}
+
+/// `base` with the first `tiles` tiles turned by some grey levels.
+Picture changedIn(const Picture& base, int tiles, int by) {
+    Picture out = base;
+    for (int t = 0; t < tiles; ++t)
+        for (int i = 0; i < 256; ++i) {
+            const int x = 16 * (t % 7) + i % 16, y = 16 * (t / 7) + i / 16;
+            if (x < kSize.width && y < kSize.height)
+                out.at(x, y)[1] = static_cast<std::uint8_t>(out.at(x, y)[1] ^ by);
+        }
+    return out;
+}
+
+TEST_F(Plan, FlagsAndNoiseMatchTwin) {
+    const Picture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
+    Picture now = drawn;
+    std::mt19937 random(7);
+    for (int tile = 0; tile < 28; ++tile)  // from hardly any change to much, in one channel
+        for (int i = 0; i < 256; ++i) {
+            const int x = 16 * (tile % 7) + i % 16, y = 16 * (tile / 7) + i / 16;
+            if (x < kSize.width && y < kSize.height)
+                now.at(x, y)[tile % 3] += static_cast<std::uint8_t>(random() % (1 + tile / 3));
+        }
+    WorkPlan plan(kSize);
+    plan.update(uploaded(now), uploaded(drawn), false);
+    const auto tiles = tilesOf(plan);
+    int changed = 0, decided = 0;
+    for (int i = 0; i < 28; ++i) {
+        const twin::TileChange t = twin::tileChange(now, drawn, i % 7, i / 7);
+        EXPECT_NEAR(tiles[i].noise / 256.0, t.noise, 0.005) << "tile " << i;
+        changed += static_cast<int>(tiles[i].changed);
+        if (std::abs(t.mean - kMeanThreshold) < 1e-3) continue;
+        if (std::abs(t.absolute - kAbsoluteThreshold) < 1e-3) continue;
+        ++decided;
+        EXPECT_EQ(tiles[i].changed == 1, t.mean > kMeanThreshold || t.absolute > kAbsoluteThreshold)
+            << "tile " << i;
+    }
+    EXPECT_GE(decided, 24);
+    EXPECT_GE(changed, 5);
+    EXPECT_LE(changed, 23);
+}
+
+TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
+    for (const double sigma : {1.0, 2.0, 3.0}) {
+        WorkPlan plan({320, 240});
+        for (unsigned i = 0; i < 24; ++i) {
+            Picture noisy = Waves(5, 40, 300, 30).shoot({320, 240}, {});
+            addNoise(noisy, sigma, i);
+            plan.update(uploaded(noisy), uploaded(noisy), false);
+        }
+        EXPECT_NEAR(plan.noise(), sigma, 0.15 * sigma);
+    }
+}
+
+TEST_F(Plan, NothingChangedShutsEveryDispatch) {
+    const Picture p = randomPicture(kSize, 1);
+    WorkPlan plan(kSize);
+    static_cast<void>(plan.add({3, 2, 1}));
+    plan.update(uploaded(p), uploaded(p), false);
+    for (const TileState& t : tilesOf(plan))
+        EXPECT_EQ(t.changed, 0U);
+    EXPECT_EQ(fourAt(plan, 0)[0], 0U);
+    EXPECT_EQ(fourAt(plan, 16), (std::array<std::uint32_t, 4>{3, 0, 0, 0}));
+    EXPECT_EQ(fourAt(plan, kDispatches)[0], 0U);
+}
+
+TEST_F(Plan, AForcedFrameOpensEverything) {
+    const Picture p = randomPicture(kSize, 1);
+    WorkPlan plan(kSize);
+    static_cast<void>(plan.add({3, 2, 1}));
+    static_cast<void>(plan.add({5, 4, 2}));
+    plan.update(uploaded(p), uploaded(p), true);
+    for (const TileState& t : tilesOf(plan))
+        EXPECT_EQ(t.changed, 1U);
+    EXPECT_EQ(fourAt(plan, 0)[0], 28U);
+    EXPECT_EQ(fourAt(plan, 16), (std::array<std::uint32_t, 4>{3, 1, 0, 0}));
+    EXPECT_EQ(fourAt(plan, kDispatches), (std::array<std::uint32_t, 4>{3, 2, 1, 0}));
+    EXPECT_EQ(fourAt(plan, kDispatches + 16), (std::array<std::uint32_t, 4>{5, 4, 2, 0}));
+}
+
+TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
+    const Picture base = Waves(2, 20, 100, 20).shoot(kSize, {});
+    const int last = 12;  // 0.45 of 28 tiles are 12.6
+    for (const int tiles : {1, last, last + 1, 28}) {
+        WorkPlan plan(kSize);
+        static_cast<void>(plan.add({1, 1, 1}));
+        plan.update(uploaded(changedIn(base, tiles, 64)), uploaded(base), false);
+        const std::uint32_t whole = tiles > last ? 1 : 0;
+        EXPECT_EQ(fourAt(plan, 0)[0], static_cast<std::uint32_t>(tiles));
+        EXPECT_EQ(fourAt(plan, 0)[2], whole);
+        EXPECT_EQ(fourAt(plan, 16)[1], whole);
+        EXPECT_EQ(plan.tiles().read<std::uint32_t>(2),
+                  (std::vector<std::uint32_t>{whole, static_cast<std::uint32_t>(tiles)}));
+        EXPECT_EQ(fourAt(plan, kDispatches)[0], 1U);
+    }
+}
+
+}  // namespace
+}  // namespace mfar
