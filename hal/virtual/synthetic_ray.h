@@ -1,0 +1,40 @@
+#pragma once
+
+#include "hal/virtual/synthetic_scene.h"
+
+#include <optional>
+
+namespace mfar::synthetic {
+
+struct Ray {
+    Eigen::Vector3d origin;
+    Eigen::Vector3d direction;  ///< any length; distances count in it
+};
+
+/// The solids of a world frozen at one instant, ready for ray queries in double precision.
+/// Immutable after construction, so any number of threads may ask.
+class Snapshot {
+public:
+    Snapshot(const World& world, double t);
+
+    /// Nearest hit with distance in (0, limit).
+    [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit) const;
+    /// Whether anything but `except` lies on the ray before `limit`.
+    [[nodiscard]] bool blocked(const Ray& ray, double limit, int except) const;
+    [[nodiscard]] const RigidTransform& pose(int primitive) const {
+        return solids_[primitive].T_world_prim;
+    }
+    [[nodiscard]] int size() const { return static_cast<int>(solids_.size()); }
+
+private:
+    struct Solid {
+        Shape shape;
+        RigidTransform T_world_prim;
+        Eigen::Matrix3d toUnit;  ///< world direction -> primitive frame scaled to half extents 1
+        Eigen::Vector3d half;
+        double radius;  ///< of the bounding sphere
+    };
+    std::vector<Solid> solids_;
+};
+
+}  // namespace mfar::synthetic

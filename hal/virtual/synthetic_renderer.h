@@ -1,0 +1,99 @@
+#pragma once
+
+#include "hal/virtual/synthetic_light.h"
+#include "hal/virtual/synthetic_scene.h"
+#include "pipeline/geometry.h"
+#include "pipeline/gpu/buffer.h"
+#include "pipeline/gpu/pass.h"
+#include "pipeline/gpu/texture.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mfar::synthetic {
+
+/// How a sensor turns light into numbers.
+struct SensorLook {
+    Eigen::Vector3f gain{1, 1, 1};
+    float gamma = 2.2F;
+    float blurSigma = 0;  ///< [px], 0: none
+    float shotNoise = 0;  ///< variance per unit of signal (linear, 1 = white)
+    float readNoise = 0;  ///< constant variance (linear)
+};
+
+/// What all views of a world share: its textures, light map, materials and programs. Needs a
+/// current GL context for its whole life. Throws GlError.
+class WorldGl {
+public:
+    WorldGl(const World& world, std::uint64_t seed);
+    WorldGl(const WorldGl&) = delete;
+    WorldGl& operator=(const WorldGl&) = delete;
+    ~WorldGl();
+
+private:
+    friend class SensorView;
+    struct WorldParams {
+        std::array<float, 4> lens, distortion, light, mover, background;
+        std::array<std::uint32_t, 4> boxes, table;
+    };
+    struct SensorParams {
+        std::array<float, 4> gain, kernel, noise;
+        std::array<std::uint32_t, 4> seed;
+    };
+
+    void uploadLayers(std::uint64_t seed);
+    void uploadMaterials();
+
+    World world_;
+    LightMap light_;
+    std::array<int, static_cast<std::size_t>(Layer::Count)> slots_{};  ///< layer -> array slice
+    GLuint layers_ = 0;
+    gpu::Texture lightMap_;
+    gpu::Buffer materials_;
+    gpu::DrawPass<WorldParams> worldPass_;
+    gpu::DrawPass<SensorParams> sensorPass_;
+};
+
+/// One sensor's pictures of a world. The world and this object live in the same GL context.
+/// A picture is made in steps of at most a few ten thousand pixels, so that other work of the same
+/// thread need not wait for a large one.
+class SensorView {
+public:
+    SensorView(WorldGl& world, const CameraModel& camera, const SensorLook& look);
+
+    /// Begins a picture taken at time t [s] from a pose; `noiseSeed` 0 leaves the noise out.
+    void begin(const RigidTransform& T_world_camera, double t, std::uint64_t noiseSeed);
+    /// Renders some more; true when the picture is complete.
+    bool step();
+    [[nodiscard]] bool complete() const { return row_ == camera_.size.height; }
+    /// Writes the complete picture, RGBA8, row 0 first, rows without padding.
+    void read(std::uint8_t* out);
+
+    [[nodiscard]] Size size() const { return camera_.size; }
+
+private:
+    struct Rect {  ///< of normalised rays
+        double left, top, right, bottom;
+    };
+
+    void findTiles();
+    void uploadSolids(const RigidTransform& T_camera_world, double t);
+    void uploadTiles(const std::vector<Rect>& bounds);
+
+    WorldGl& world_;
+    CameraModel camera_;
+    SensorLook look_;
+    WorldGl::WorldParams params_{};
+    std::uint64_t noiseSeed_ = 0;
+    int row_ = 0;
+    int tilesX_ = 0, tilesY_ = 0;
+    std::vector<Rect> tileRays_;
+    gpu::Buffer solids_, surfaces_, tiles_;
+    gpu::Texture radiance_, picture_;
+    gpu::Framebuffer radianceTarget_, pictureTarget_;
+};
+
+}  // namespace mfar::synthetic

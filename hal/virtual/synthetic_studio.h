@@ -1,0 +1,97 @@
+#pragma once
+
+#include "hal/frame.h"
+#include "hal/virtual/image_files.h"
+#include "hal/virtual/synthetic_board.h"
+#include "hal/virtual/synthetic_renderer.h"
+
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace mfar {
+
+/// The thread behind a SyntheticBoard: owns a GL context, makes the pictures both cameras hand out
+/// and keeps the simulated time. All functions may be called from any thread.
+class SyntheticStudio {
+public:
+    SyntheticStudio(const SyntheticOptions& options, const synthetic::World& world,
+                    const StereoRig& rig);
+    ~SyntheticStudio();
+    SyntheticStudio(const SyntheticStudio&) = delete;
+    SyntheticStudio& operator=(const SyntheticStudio&) = delete;
+
+    void startVideo();
+    void startStills();
+    void stopVideo();
+    void stopStills();
+    [[nodiscard]] std::optional<Frame> nextVideo(std::chrono::milliseconds timeout);
+    [[nodiscard]] std::optional<Frame> nextStill(std::chrono::milliseconds timeout);
+    [[nodiscard]] bool videoEnded() const;
+    [[nodiscard]] bool stillsEnded() const;
+    Timestamp fire();
+
+    /// The video sensor's view without noise, at its own resolution with its blur, or at the
+    /// still's resolution without. Waits for the studio's thread.
+    [[nodiscard]] StoredImage cleanVideo(Timestamp t);
+    [[nodiscard]] StoredImage highRes(Timestamp t);
+
+    [[nodiscard]] Timestamp epoch() const { return epoch_; }
+    [[nodiscard]] double worldTime(Timestamp t) const { return (t - epoch_).count() * 1e-9; }
+    [[nodiscard]] Pose pose(Timestamp t) const;
+
+private:
+    struct Views;  ///< everything that lives in the GL context
+    struct Still {
+        Timestamp time;       ///< middle of the exposure
+        Timestamp available;  ///< when it leaves the sensor
+        std::optional<Frame> frame{};
+    };
+    enum class Work { Request, Video, Still, Quit };
+
+    void run(std::promise<void>& ready);
+    void serve(Views& views);
+    [[nodiscard]] Work chooseWork(std::unique_lock<std::mutex>& lock);
+    [[nodiscard]] bool videoWanted() const;
+    [[nodiscard]] bool videoAllMade() const;
+    [[nodiscard]] bool videoDone() const;
+    [[nodiscard]] bool stillWanted() const;
+    [[nodiscard]] Timestamp now() const;
+    [[nodiscard]] Timestamp videoTime(long long index) const;
+    void makeVideo(Views& views);
+    void stepStill(Views& views);
+    [[nodiscard]] bool stillReady() const;
+    [[nodiscard]] StoredImage request(std::function<StoredImage(Views&)> make);
+    [[nodiscard]] StoredImage picture(synthetic::SensorView& view, Timestamp t);
+    void rethrowFailure() const;
+
+    SyntheticOptions options_;
+    synthetic::World world_;
+    StereoRig rig_;
+    Timestamp epoch_;
+    FramePool videoPool_, stillPool_;
+
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    bool quit_ = false, videoOn_ = false, stillsOn_ = false;
+    bool starved_ = false;     ///< the consumer holds every buffer
+    bool stillsTurn_ = false;  ///< real time: video and a still's steps alternate when both wait
+    Timestamp start_;          ///< of the video, index 0
+    long long nextIndex_ = 0;  ///< of the next video frame on the grid of the rate
+    int videoMade_ = 0;
+    std::optional<Timestamp> handed_;  ///< newest video frame that was given out
+    std::optional<Timestamp> lastFire_;
+    std::deque<Frame> video_;   ///< finished, oldest first
+    std::deque<Still> stills_;  ///< exposed and not yet given out, oldest first
+    std::deque<std::packaged_task<StoredImage(Views&)>> requests_;
+    std::exception_ptr failure_;
+    std::optional<Timestamp> rendering_;  ///< still whose steps are under way; studio thread only
+    std::thread thread_;
+};
+
+}  // namespace mfar
