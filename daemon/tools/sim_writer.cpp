@@ -1,0 +1,121 @@
+#include "daemon/tools/sim_writer.h"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <fstream>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using View = SyntheticBoard::View;
+
+void writeTags(const fs::path& file, const std::vector<synthetic::Tag>& tags) {
+    std::ofstream out(file);
+    fmt::print(
+        out, "# Tags of the world. position, orientation (w x y z): tag in the world; tag frame:\n"
+             "# origin in the middle, x right, y down, z into the surface. size: edge of the\n"
+             "# black square. Metres.\nfamily = \"tag36h11\"\n");
+    for (const synthetic::Tag& tag : tags) {
+        const Eigen::Vector3d& p = tag.T_world_tag.translation;
+        const Eigen::Quaterniond& q = tag.T_world_tag.rotation;
+        fmt::print(out,
+                   "\n[[tags]]\nid = {}\nsize = {}\nposition = [{:.9f}, {:.9f}, {:.9f}]\n"
+                   "orientation = [{:.9f}, {:.9f}, {:.9f}, {:.9f}]\n",
+                   tag.id, tag.size, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+    }
+    out.flush();
+    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+}
+
+class Writer {
+public:
+    Writer(SyntheticBoard& board, const SimOptions& options)
+        : board_(board), options_(options), truth_(options.out / "truth"),
+          recorder_(options.out, board.rig(), board.video().info().rateHz) {
+        for (const char* part : {"highres", "inverse_depth", "flow"})
+            fs::create_directories(truth_ / part);
+        writeTags(options.out / "tags.toml", board.world().tags);
+    }
+
+    SimCounts run(const std::function<void(int)>& progress) {
+        board_.video().start();
+        board_.stills().start();
+        while (!board_.video().ended()) {
+            const auto frame = board_.video().next(1s);
+            takeStills();
+            if (!frame) continue;
+            takeVideo(*frame);
+            progress(counts_.video);
+        }
+        while (!board_.stills().ended())
+            if (const auto still = board_.stills().next(1s)) takeStill(*still);
+        recorder_.finish();
+        return counts_;
+    }
+
+private:
+    void takeStills() {
+        while (const auto still = board_.stills().next(0ms))
+            takeStill(*still);
+    }
+
+    void takeStill(const Frame& still) {
+        checked(recorder_.still(still.view(), still.time()));
+        newestStill_ = still.time();
+        ++counts_.stills;
+    }
+
+    void takeVideo(const Frame& frame) {
+        const Timestamp t = frame.time();
+        const double since = (t - board_.epoch()).count() * 1e-9;
+        if (options_.stillsHz > 0 && since * options_.stillsHz >= pulses_ - 1e-6) {
+            board_.trigger().fire();
+            ++pulses_;
+        }
+        checked(recorder_.video(frame.view(), t));
+        checked(recorder_.pose(board_.pose(t)));
+        if (options_.highRes)
+            savePng(truth_ / "highres" / fmt::format("{}.png", t.ns), board_.highRes(t).view());
+        if (options_.depth)
+            savePfm(truth_ / "inverse_depth" / fmt::format("{}.pfm", t.ns), board_.inverseDepth(t));
+        if (previous_) saveFlow(*previous_, View::Video, t);
+        if (newestStill_) saveFlow(t, View::StillAtVideo, *newestStill_);
+        previous_ = t;
+        ++counts_.video;
+    }
+
+    void saveFlow(Timestamp from, View view, Timestamp to) {
+        if (!options_.flow) return;
+        saveFlo(truth_ / "flow" / fmt::format("{}_{}.flo", from.ns, to.ns),
+                board_.flow(View::Video, from, view, to));
+        ++counts_.flows;
+    }
+
+    /// The recorder never waits; a simulation may.
+    void checked(bool taken) const {
+        if (!taken)
+            throw std::runtime_error(
+                recorder_.error().value_or("the disk is too slow: a picture was lost"));
+    }
+
+    SyntheticBoard& board_;
+    SimOptions options_;
+    fs::path truth_;
+    Recorder recorder_;
+    SimCounts counts_;
+    double pulses_ = 0;
+    std::optional<Timestamp> previous_, newestStill_;
+};
+
+}  // namespace
+
+SimCounts writeSimulation(SyntheticBoard& board, const SimOptions& options,
+                          const std::function<void(int)>& progress) {
+    return Writer(board, options).run(progress);
+}
+
+}  // namespace mfar

@@ -1,0 +1,187 @@
+#include "hal/virtual/synthetic_board.h"
+#include "tests/board/board_support.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace mfar::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+SyntheticOptions flat(Pace pace, int frames = 0, std::uint64_t seed = 1) {
+    SyntheticOptions options;
+    options.scene = synthetic::Scene::Flat;
+    options.pace = pace;
+    options.frames = frames;
+    options.seed = seed;
+    return options;
+}
+
+std::vector<std::uint8_t> bytes(const Frame& frame) {
+    const ImageView& v = frame.view();
+    return {v.data, v.data + v.stride * v.size.height};
+}
+
+struct Delivery {
+    std::vector<Timestamp> videoTimes, stillTimes;
+    std::vector<std::vector<std::uint8_t>> pictures;
+    std::vector<std::size_t> stillsAfterFrame;  ///< video frames given out before each still
+};
+
+/// Pulses at the given frames, one thread, until the board ends.
+Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses) {
+    Delivery out;
+    board.video().start();
+    board.stills().start();
+    while (!board.video().ended() || !board.stills().ended()) {
+        if (const auto frame = board.video().next(1s)) {
+            out.videoTimes.push_back(frame->time());
+            out.pictures.push_back(bytes(*frame));
+            for (const std::size_t p : pulses)
+                if (p == out.videoTimes.size()) board.trigger().fire();
+        }
+        while (const auto still = board.stills().next(0ms)) {
+            out.stillTimes.push_back(still->time());
+            out.pictures.push_back(bytes(*still));
+            out.stillsAfterFrame.push_back(out.videoTimes.size());
+        }
+    }
+    return out;
+}
+
+TEST(SyntheticBoard, SameSeedSameBytesOtherSeedOtherBytes) {
+    SyntheticBoard a(flat(Pace::Consumer, 5, 4)), b(flat(Pace::Consumer, 5, 4)),
+        c(flat(Pace::Consumer, 5, 5));
+    const Delivery first = runBoard(a, {1}), second = runBoard(b, {1}), other = runBoard(c, {1});
+    ASSERT_EQ(first.pictures.size(), 6U);
+    EXPECT_EQ(first.pictures, second.pictures);
+    EXPECT_EQ(first.stillTimes, second.stillTimes);
+    EXPECT_EQ(first.stillsAfterFrame, second.stillsAfterFrame);
+    EXPECT_NE(first.pictures, other.pictures);
+}
+
+TEST(SyntheticBoard, AStillComesOnlyAfterAPulseAndItsLatency) {
+    SyntheticBoard board(flat(Pace::Consumer, 8));
+    const Delivery run = runBoard(board, {2});
+    ASSERT_EQ(run.videoTimes.size(), 8U);
+    ASSERT_EQ(run.stillTimes.size(), 1U);
+    // Exposed 1 ms after the pulse for 8 ms, there 60 ms after it: two frames later.
+    EXPECT_EQ(run.stillTimes[0], run.videoTimes[1] + 5ms);
+    EXPECT_EQ(run.stillsAfterFrame[0], 4U);
+    for (std::size_t i = 1; i < run.videoTimes.size(); ++i)
+        EXPECT_NEAR((run.videoTimes[i] - run.videoTimes[i - 1]).count(), 1e9 / 30, 1);
+}
+
+TEST(SyntheticBoard, NoPulseNoStill) {
+    SyntheticBoard board(flat(Pace::Consumer, 4));
+    EXPECT_TRUE(runBoard(board, {}).stillTimes.empty());
+}
+
+TEST(SyntheticBoard, APulseDuringTheExposureIsLost) {
+    SyntheticBoard board(flat(Pace::Consumer, 6));
+    EXPECT_EQ(runBoard(board, {1, 1, 2}).stillTimes.size(), 2U);
+}
+
+TEST(SyntheticBoard, APulseBeforeTheStillSensorStartsIsLost) {
+    SyntheticBoard board(flat(Pace::Consumer, 6));
+    board.trigger().fire();
+    EXPECT_TRUE(runBoard(board, {}).stillTimes.empty());
+}
+
+TEST(SyntheticBoard, AStillOfTheLastFrameComesAfterTheEnd) {
+    SyntheticBoard board(flat(Pace::Consumer, 3));
+    EXPECT_EQ(runBoard(board, {3}).stillTimes.size(), 1U);
+}
+
+TEST(SyntheticBoard, FramesOutliveTheBoard) {
+    std::optional<Frame> frame;
+    {
+        SyntheticBoard board(flat(Pace::Consumer, 3));
+        board.video().start();
+        frame = board.video().next(1s);
+    }
+    ASSERT_TRUE(frame);
+    EXPECT_FALSE(bytes(*frame).empty());
+}
+
+TEST(SyntheticBoard, HoldingEveryFrameTimesOutInsteadOfBlocking) {
+    SyntheticOptions options = flat(Pace::Consumer);
+    options.videoBuffers = 2;
+    SyntheticBoard board(options);
+    board.video().start();
+    auto first = board.video().next(1s), second = board.video().next(1s);
+    ASSERT_TRUE(first && second);
+    EXPECT_FALSE(board.video().next(30ms));
+    first.reset();
+    EXPECT_TRUE(board.video().next(10s));
+}
+
+TEST(SyntheticBoard, RealtimeTimesAreRecentAndRising) {
+    SyntheticBoard board(flat(Pace::Realtime));
+    const Timestamp before = Timestamp::now();
+    board.video().start();
+    Timestamp last = before - 1ns;
+    for (int i = 0; i < 4; ++i) {
+        const auto frame = board.video().next(20s);
+        ASSERT_TRUE(frame);
+        EXPECT_GT(frame->time(), last);
+        EXPECT_LE(frame->time(), Timestamp::now());
+        last = frame->time();
+    }
+}
+
+TEST(SyntheticBoard, RealtimeStillArrivesWhileVideoRuns) {
+    SyntheticBoard board(flat(Pace::Realtime));
+    board.video().start();
+    board.stills().start();
+    ASSERT_TRUE(board.video().next(20s));
+    const Timestamp pulse = board.trigger().fire();
+    const auto still = board.stills().next(60s);
+    ASSERT_TRUE(still);
+    EXPECT_EQ(still->time(), pulse + 5ms);
+    EXPECT_EQ(still->exposure, 8ms);
+    EXPECT_GE(Timestamp::now(), pulse + 60ms);
+    EXPECT_TRUE(board.video().next(20s));
+}
+
+TEST(SyntheticBoard, StopWakesWaitingThreads) {
+    SyntheticBoard board(flat(Pace::Realtime));
+    board.stills().start();
+    std::optional<Frame> got;
+    std::thread waiter([&] { got = board.stills().next(std::chrono::hours(1)); });
+    std::this_thread::sleep_for(20ms);
+    board.stills().stop();
+    waiter.join();
+    EXPECT_FALSE(got);
+    EXPECT_FALSE(board.video().next(0ms));
+}
+
+TEST(SyntheticBoard, CamerasTriggerAndTruthWorkFromDifferentThreads) {
+    SyntheticBoard board(flat(Pace::Consumer, 12));
+    board.video().start();
+    board.stills().start();
+    int stills = 0;
+    std::thread consumer([&] {
+        while (!board.stills().ended())
+            if (board.stills().next(50ms)) ++stills;
+    });
+    int frames = 0;
+    Size truth;
+    while (!board.video().ended()) {
+        const auto frame = board.video().next(1s);
+        if (!frame) continue;
+        if (++frames == 3) board.trigger().fire();
+        if (frames == 5) truth = board.cleanVideo(frame->time()).size;
+    }
+    consumer.join();
+    EXPECT_EQ(frames, 12);
+    EXPECT_EQ(truth, (Size{640, 480}));
+    EXPECT_EQ(stills, 1);
+}
+
+}  // namespace
+}  // namespace mfar::test

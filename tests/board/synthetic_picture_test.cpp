@@ -1,0 +1,113 @@
+#include "tests/board/board_support.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include <chrono>
+
+namespace mfar::test {
+namespace {
+
+using namespace std::chrono_literals;
+using synthetic::Scene;
+
+constexpr double kGamma = 2.2;  // of the video sensor
+
+cv::Mat3f linear(const cv::Mat3f& picture) {
+    cv::Mat3f out;
+    cv::pow(picture, kGamma, out);
+    return out;
+}
+
+class EveryScene : public testing::TestWithParam<Scene> {};
+
+/// Takes frames until the still of one pulse arrives.
+struct Pair {
+    std::optional<Frame> video, still;
+};
+Pair takePair(SyntheticBoard& board) {
+    board.video().start();
+    board.stills().start();
+    Pair out;
+    out.video = board.video().next(10s);
+    board.trigger().fire();
+    for (int i = 0; i < 10 && !out.still; ++i) {
+        const auto passed = board.video().next(10s);
+        out.still = board.stills().next(0ms);
+    }
+    return out;
+}
+
+void expectTags(const SyntheticBoard& board, const ImageView& picture, const CameraModel& camera,
+                const RigidTransform& T_world_camera, double tolerance) {
+    const auto found = detectTags(grey(picture));
+    for (const synthetic::Tag& tag : board.world().tags) {
+        ASSERT_TRUE(found.contains(tag.id)) << "tag " << tag.id;
+        const auto expected = projectedCorners(tag, camera, T_world_camera);
+        for (int k = 0; k < 4; ++k)
+            EXPECT_LT((found.at(tag.id)[k] - expected[k]).norm(), tolerance)
+                << "tag " << tag.id << " corner " << k;
+    }
+}
+
+TEST_P(EveryScene, BothSensorsSeeTheTagsWhereTheyAre) {
+    SyntheticBoard& board = sharedBoard(GetParam());
+    const Pair pair = takePair(board);
+    ASSERT_TRUE(pair.video && pair.still);
+    const StereoRig& rig = board.rig();
+    const RigidTransform T_world_video = board.pose(pair.video->time()).T_world_video;
+    expectTags(board, pair.video->view(), rig.video, T_world_video, 0.5);
+    const RigidTransform T_world_still =
+        board.pose(pair.still->time()).T_world_video * rig.T_still_video.inverse();
+    expectTags(board, pair.still->view(), rig.still, T_world_still, 0.8);
+}
+
+TEST_P(EveryScene, HighResTruthAveragesToTheVideo) {
+    SyntheticBoard& board = sharedBoard(GetParam());
+    const Timestamp t = board.epoch() + 700ms;
+    const cv::Mat3f video = linear(colour(board.cleanVideo(t)));
+    cv::Mat3f high = linear(colour(board.highRes(t))), small;
+    cv::resize(high, small, video.size(), 0, 0, cv::INTER_AREA);
+    cv::GaussianBlur(small, small, {3, 3}, 0.36);  // the video sensor's own blur
+    EXPECT_GT(psnr(small, video), 36);
+}
+
+INSTANTIATE_TEST_SUITE_P(Synthetic, EveryScene,
+                         testing::Values(Scene::Office, Scene::Shelf, Scene::Outdoor, Scene::Flat,
+                                         Scene::Moving, Scene::Still),
+                         [](const auto& p) { return std::string(synthetic::name(p.param)); });
+
+double lostInVideo(Scene scene) {
+    SyntheticBoard& board = sharedBoard(scene);
+    const Timestamp t = board.epoch();
+    const cv::Mat3f high = colour(board.highRes(t));
+    cv::Mat3f up;
+    cv::resize(colour(board.cleanVideo(t)), up, high.size(), 0, 0, cv::INTER_CUBIC);
+    return psnr(up, high);
+}
+
+TEST(SyntheticPicture, TheStillsResolutionShowsWhatTheVideoCannot) {
+    const double office = lostInVideo(Scene::Office);
+    EXPECT_LT(office, 27);
+    EXPECT_LT(lostInVideo(Scene::Outdoor), 28);
+    EXPECT_GT(lostInVideo(Scene::Flat), office + 6);
+}
+
+TEST(SyntheticPicture, NoiseIsThereAndSmall) {
+    SyntheticBoard& board = sharedBoard(Scene::Flat);
+    board.video().start();
+    const auto frame = board.video().next(10s);
+    ASSERT_TRUE(frame);
+    const cv::Mat1b noisy = grey(frame->view());
+    const StoredImage clean = board.cleanVideo(frame->time());
+    cv::Mat difference;
+    cv::subtract(noisy, grey(clean.view()), difference, {}, CV_32F);
+    cv::Scalar mean, sigma;
+    cv::meanStdDev(difference, mean, sigma);
+    EXPECT_NEAR(mean[0], 0, 0.2);
+    EXPECT_GT(sigma[0], 0.5);
+    EXPECT_LT(sigma[0], 3);
+}
+
+}  // namespace
+}  // namespace mfar::test
