@@ -1,0 +1,12 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+/// Short names for recordings: the folder's name, or the whole path where that is not unique.
+[[nodiscard]] std::vector<std::string> labelsOf(const std::vector<std::filesystem::path>& paths);
+
+}  // namespace mfar::eval

@@ -1,0 +1,140 @@
+#include "hal/virtual/image_files.h"
+#include "hal/virtual/recording.h"
+#include "tests/eval/flow.h"
+#include "tests/eval/flow_methods.h"
+#include "tests/eval/superres.h"
+#include "tests/eval/superres_methods.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+using namespace mfar;
+using namespace mfar::eval;
+
+constexpr int kUsage = 2;
+
+constexpr const char* kSuperResHelp =
+    "Brings every video frame with truth/highres to the still's resolution and compares it with "
+    "the "
+    "truth.\n"
+    "Luma (Rec. 601), 32 px of border left out. harm_rate: share of pixels whose error exceeds "
+    "bicubic's by more than 2 grey levels.\n"
+    "The reference of a frame is the still nearest to it in time that does not show the frame's "
+    "very "
+    "own view: a still whose pose relative to the frame is below 1e-6 (from the rig at equal "
+    "times, "
+    "from the recorded poses otherwise) is never used.\n"
+    "ms: a second run on the same frame, every tile computed; work per still is not in it.";
+
+constexpr const char* kFlowHelp =
+    "Takes recordings with truth/flow (from a video frame to a still, which is first brought to "
+    "the "
+    "video's geometry) and folders with frameNN.png frameMM.png flowNN.flo.\n"
+    "epe_px: mean end-point error where truth and answer are known; bad1, bad2: share off by more "
+    "than 1, 2 px; ms: median of 3 runs after one to warm up; "
+    "flow2d's includes its set-up, what a frame costs is in mfar-bench.";
+
+std::string joined(const std::vector<std::string>& names) {
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void checkMethods(const std::vector<std::string>& asked, const std::vector<std::string>& valid) {
+    for (const std::string& name : asked)
+        if (std::find(valid.begin(), valid.end(), name) == valid.end())
+            throw EvalError(fmt::format("unknown method '{}' (valid: {})", name, joined(valid)));
+}
+
+struct Options {
+    SuperResRequest superres;
+    FlowRequest flow;
+    std::string degrade;
+    std::string csv;
+};
+
+CLI::App* addSuperRes(CLI::App& app, Options& o) {
+    CLI::App* sub = app.add_subcommand("superres", "super-resolved frames against truth/highres");
+    sub->footer(kSuperResHelp);
+    o.superres.methods = superResMethodNames();
+    sub->add_option("recording", o.superres.recordings, "folders in the EuRoC layout")->required();
+    sub->add_option("--methods", o.superres.methods, "of: " + joined(superResMethodNames()))
+        ->delimiter(',');
+    sub->add_option("--degrade", o.degrade,
+                    "make the still worse: gain=0.7,gamma=1.3,blur=0.7,noise=4; applied as blur "
+                    "(sigma, still px), gain, v^gamma, noise (sigma, grey levels)");
+    sub->add_option("--alpha", o.superres.alpha,
+                    "of the peer `paper`: two-way error at which its confidence is zero [video px]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    sub->add_option("--frames", o.superres.frames, "at most so many frames of each recording")
+        ->check(CLI::Range(1, 1000000));
+    sub->add_option("--save", o.superres.save, "folder for the pictures of every method and truth");
+    sub->add_option("--csv", o.csv, "file for the table");
+    return sub;
+}
+
+CLI::App* addFlow(CLI::App& app, Options& o) {
+    CLI::App* sub = app.add_subcommand("flow", "dense flow against the true one");
+    sub->footer(kFlowHelp);
+    o.flow.methods = flowMethodNames();
+    sub->add_option("folder", o.flow.folders, "recordings or two-frame pairs")->required();
+    sub->add_option("--methods", o.flow.methods, "of: " + joined(flowMethodNames()))
+        ->delimiter(',');
+    sub->add_option("--frames", o.flow.frames, "at most so many frames of each folder")
+        ->check(CLI::Range(1, 1000000));
+    sub->add_option("--csv", o.csv, "file for the table");
+    return sub;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("mfar-eval: accuracy and run time of this product and its peers on recordings");
+    app.require_subcommand(1);
+    Options o;
+    CLI::App* superres = addSuperRes(app, o);
+    addFlow(app, o);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : kUsage;
+    }
+    Report report({});
+    if (superres->parsed()) {
+        checkMethods(o.superres.methods, superResMethodNames());
+        o.superres.degradation = parseDegradation(o.degrade);
+        report = evaluateSuperRes(o.superres);
+    } else {
+        checkMethods(o.flow.methods, flowMethodNames());
+        report = evaluateFlow(o.flow);
+    }
+    fmt::print("{}", report.table());
+    if (!o.csv.empty()) report.writeCsv(o.csv);
+    return 0;
+}
+
+int fail(int status, const std::exception& e) {
+    fmt::print(stderr, "mfar-eval: {}\n", e.what());
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const EvalError& e) {
+        return fail(kUsage, e);
+    } catch (const RecordingError& e) {
+        return fail(kUsage, e);
+    } catch (const ImageFileError& e) {
+        return fail(kUsage, e);
+    } catch (const std::invalid_argument& e) {
+        return fail(kUsage, e);
+    } catch (const std::exception& e) {
+        return fail(1, e);
+    }
+}

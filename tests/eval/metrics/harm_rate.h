@@ -1,0 +1,13 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace mfar::eval {
+
+/// Share of pixels where the picture is wrong by more than `tolerance` grey levels beyond what
+/// plain bicubic up-scaling is wrong by: where the method did harm. All CV_64F in grey levels, same
+/// size.
+[[nodiscard]] double harmRate(const cv::Mat& picture, const cv::Mat& bicubic, const cv::Mat& truth,
+                              double tolerance = 2);
+
+}  // namespace mfar::eval

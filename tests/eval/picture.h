@@ -1,0 +1,26 @@
+#pragma once
+
+#include "hal/frame.h"
+
+#include <opencv2/core.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace mfar::eval {
+
+/// An 8-bit colour picture from a file, CV_8UC3 in OpenCV's order B G R.
+/// Throws ImageFileError.
+[[nodiscard]] cv::Mat loadPicture(const std::filesystem::path& file);
+/// Writes a PNG. Throws ImageFileError.
+void savePicture(const std::filesystem::path& file, const cv::Mat& picture);
+
+/// CV_8UC3 B G R -> CV_8UC4 R G B A, as the pipeline takes it.
+[[nodiscard]] cv::Mat toRgba(const cv::Mat& bgr);
+/// Borrows a CV_8UC4 (Rgba8) or CV_8UC1 (Gray8).
+[[nodiscard]] ImageView viewOf(const cv::Mat& picture);
+/// What Pipeline::readImage gives -> CV_8UC3 B G R.
+[[nodiscard]] cv::Mat fromRgba(const std::vector<std::uint8_t>& rgba, Size size);
+
+}  // namespace mfar::eval

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mfar::eval {
+
+/// A wrong request or unusable input: one line for the user, exit status 2.
+class EvalError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct Column {
+    std::string name;  ///< as in the CSV
+    int decimals;      ///< shown in the table; the CSV carries six
+};
+
+/// The results of an evaluation: one row per recording, frame and method, printed as one table and
+/// written as one CSV whose columns begin with recording,frame,method.
+class Report {
+public:
+    explicit Report(std::vector<Column> columns) : columns_(std::move(columns)) {}
+
+    /// One value per column; nothing where it was not measured.
+    void add(const std::string& recording, const std::string& frame, const std::string& method,
+             std::vector<std::optional<double>> values);
+    /// Appends the means: `frame` = "mean" per recording and method; with several recordings also
+    /// recording = "all", over all their frames.
+    void addMeans();
+
+    /// Columns that were never measured are left out.
+    [[nodiscard]] std::string table() const;
+    [[nodiscard]] std::string csv() const;
+    /// Throws EvalError when the file cannot be written.
+    void writeCsv(const std::filesystem::path& file) const;
+
+    struct Row {
+        std::string recording, frame, method;
+        std::vector<std::optional<double>> values;
+    };
+    [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
+
+private:
+    void addMean(const std::string& label, const std::string& method,
+                 const std::vector<const Row*>& of);
+
+    std::vector<Column> columns_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace mfar::eval

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "tests/eval/degrade.h"
+#include "tests/eval/report.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+struct SuperResRequest {
+    std::vector<std::filesystem::path> recordings;
+    std::vector<std::string> methods;  ///< of superResMethodNames()
+    Degradation degradation;           ///< done to every still
+    double alpha = 2;                  ///< of the paper's confidence [video px]
+    int frames = 0;                    ///< per recording, 0 = all that have truth
+    std::filesystem::path save;        ///< folder for the pictures, empty = none
+};
+
+/// Border left out of every measure [output px].
+inline constexpr int kSuperResBorder = 32;
+
+/// Measures every method on every frame with truth/highres; columns as in design.md, section 10.
+/// One line per frame left out goes to stderr. Throws EvalError and RecordingError.
+[[nodiscard]] Report evaluateSuperRes(const SuperResRequest& request);
+
+}  // namespace mfar::eval

@@ -1,0 +1,98 @@
+#include "tests/eval/superres_methods.h"
+
+#include "pipeline/pipeline.h"
+#include "tests/eval/paper_pipeline.h"
+#include "tests/eval/picture.h"
+#include "tests/eval/rig_resample.h"
+#include "tests/eval/stopwatch.h"
+
+#include <GLES3/gl31.h>
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include <stdexcept>
+
+namespace mfar::eval {
+namespace {
+
+class PipelineMethod final : public SuperResMethod {
+public:
+    PipelineMethod(const StereoRig& rig, SuperResMode mode)
+        : pipeline_(rig, {.mode = mode, .output = {}, .skipUnchanged = false}) {}
+
+    void setStill(const cv::Mat& still, Timestamp time) override {
+        const cv::Mat rgba = toRgba(still);
+        pipeline_.setStill(viewOf(rgba), time);
+    }
+
+    Result run(const cv::Mat& video, Timestamp time) override {
+        const cv::Mat rgba = toRgba(video);
+        pipeline_.run(viewOf(rgba), time);
+        // The picture is that of the first run: a second one could start from its own answer.
+        Result out{fromRgba(pipeline_.readImage(), pipeline_.outputSize()), 0};
+        glFinish();
+        out.ms = wallMs([&] {
+            pipeline_.run(viewOf(rgba), time);
+            glFinish();
+        });
+        return out;
+    }
+
+private:
+    Pipeline pipeline_;
+};
+
+class BicubicMethod final : public SuperResMethod {
+public:
+    explicit BicubicMethod(Size output) : output_(output.width, output.height) {}
+
+    void setStill(const cv::Mat&, Timestamp) override {}
+
+    Result run(const cv::Mat& video, Timestamp) override {
+        Result out;
+        const auto resize = [&] { cv::resize(video, out.picture, output_, 0, 0, cv::INTER_CUBIC); };
+        resize();
+        out.ms = wallMs(resize);
+        return out;
+    }
+
+private:
+    cv::Size output_;
+};
+
+class PaperMethod final : public SuperResMethod {
+public:
+    PaperMethod(const StereoRig& rig, double alpha)
+        : paper_(rig, outputSize(rig), {DisPreset::Medium, alpha}) {}
+
+    void setStill(const cv::Mat& still, Timestamp) override { paper_.setStill(still); }
+
+    Result run(const cv::Mat& video, Timestamp) override {
+        Result out{paper_.run(video).clone(), 0};
+        out.ms = wallMs([&] { paper_.run(video); });
+        return out;
+    }
+
+private:
+    PaperPipeline paper_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& superResMethodNames() {
+    static const std::vector<std::string> names{"detail", "blend", "bicubic", "paper"};
+    return names;
+}
+
+std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
+                                                        const StereoRig& rig) {
+    if (name == "bicubic") return std::make_unique<BicubicMethod>(outputSize(rig));
+    if (name == "paper") return std::make_unique<PaperMethod>(rig, alpha_);
+    if (name != "detail" && name != "blend")
+        throw std::invalid_argument(fmt::format("unknown method '{}'", name));
+    if (!context_) context_ = createGlContext();
+    return std::make_unique<PipelineMethod>(rig, name == "detail" ? SuperResMode::Detail
+                                                                  : SuperResMode::Blend);
+}
+
+}  // namespace mfar::eval
