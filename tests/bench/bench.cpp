@@ -1,0 +1,186 @@
+#include "tests/bench/bench.h"
+
+#include "pipeline/gpu/timer.h"
+#include "tests/eval/paper_pipeline.h"
+#include "tests/eval/picture.h"
+#include "tests/eval/stopwatch.h"
+
+#include <GLES3/gl31.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace mfar::bench {
+namespace {
+
+constexpr double kRestNoise = 2;  // grey levels
+constexpr std::size_t kWarmUp = 3;
+constexpr std::size_t kSetStillRuns = 5;
+
+/// Our pipeline fed with a workload's frames; brings in the stills outside the measured time.
+class Ours {
+public:
+    Ours(const Workload& work, SuperResMode mode)
+        : work_(work), pipeline_(work.rig, {.mode = mode, .output = {}, .skipUnchanged = true}) {
+        for (const cv::Mat& still : work.stills)
+            stills_.push_back(eval::toRgba(still));
+        for (const cv::Mat& frame : work.frames)
+            frames_.push_back(eval::toRgba(frame));
+    }
+
+    /// Time of frame i from upload to finished picture [ms].
+    double run(std::size_t i) {
+        if (still_ != work_.stillOf[i]) setStill(work_.stillOf[i]);
+        return eval::wallMs([&] {
+            stats_ = pipeline_.run(eval::viewOf(frames_[i]), nextTime()).stats;
+            glFinish();
+        });
+    }
+    double setStill(std::size_t index) {
+        still_ = index;
+        glFinish();
+        return eval::wallMs([&] {
+            pipeline_.setStill(eval::viewOf(stills_[index]), nextTime());
+            glFinish();
+        });
+    }
+    [[nodiscard]] Pipeline& pipeline() { return pipeline_; }
+    [[nodiscard]] const FrameStats& stats() const { return stats_; }
+
+private:
+    Timestamp nextTime() {
+        time_ = time_ + std::chrono::nanoseconds{33'333'333};
+        return time_;
+    }
+
+    const Workload& work_;
+    Pipeline pipeline_;
+    std::vector<cv::Mat> stills_, frames_;
+    std::optional<std::size_t> still_;
+    Timestamp time_;
+    FrameStats stats_;
+};
+
+void warmUp(Ours& ours, std::size_t frames) {
+    for (std::size_t i = 0; i < std::min(kWarmUp, frames); ++i)
+        ours.run(i);
+}
+
+void addTiles(CaseResult& result, const FrameStats& stats) {
+    double all = 0;
+    for (const int count : stats.tiles)
+        all += count;
+    for (std::size_t c = 0; c < kTileClasses && all > 0; ++c)
+        result.tileShare[c] += stats.tiles[c] / all / static_cast<double>(result.frame.runs);
+}
+
+/// Runs `frames` once more with each stage timed by itself.
+void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
+    std::vector<std::pair<std::string, std::vector<double>>> stages;
+    gpu::Timer timer;
+    std::vector<double> gpuMs;
+    ours.pipeline().setMeasure(true);
+    for (std::size_t i = 0; i < frames; ++i) {
+        timer.start();
+        ours.run(i);
+        timer.stop();
+        glFinish();
+        if (const auto ms = timer.read()) gpuMs.push_back(*ms);
+        for (const StageTime& time : ours.pipeline().stageTimes()) {
+            auto found = std::find_if(stages.begin(), stages.end(),
+                                      [&](const auto& s) { return s.first == time.stage; });
+            if (found == stages.end()) found = stages.insert(found, {time.stage, {}});
+            found->second.push_back(time.ms);
+        }
+    }
+    ours.pipeline().setMeasure(false);
+    for (const auto& [stage, ms] : stages)
+        result.stages.push_back({stage, summarise(ms)});
+    if (!gpuMs.empty()) result.stages.push_back({"all, by the GPU's clock", summarise(gpuMs)});
+}
+
+/// The paper's method with one of OpenCV's flows.
+class Peer {
+public:
+    Peer(std::string name, eval::DisPreset flow, const Workload& work, Size output)
+        : name_(std::move(name)), work_(work), paper_(work.rig, output, {flow, 2}) {}
+
+    double run(std::size_t i) {
+        if (still_ != work_.stillOf[i]) {
+            still_ = work_.stillOf[i];
+            paper_.setStill(work_.stills[*still_]);
+        }
+        return eval::wallMs([&] { paper_.run(work_.frames[i]); });
+    }
+    void measure(std::size_t i) { ms_.push_back(run(i)); }
+    [[nodiscard]] PeerResult result(const Summary& ours) const {
+        const Summary own = summarise(ms_);
+        return {name_, own, ours.median / own.median};
+    }
+
+private:
+    std::string name_;
+    const Workload& work_;
+    eval::PaperPipeline paper_;
+    std::optional<std::size_t> still_;
+    std::vector<double> ms_;
+};
+
+CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work,
+                       std::vector<std::unique_ptr<Peer>>* peers) {
+    const std::size_t frames = work.frames.size();
+    CaseResult result;
+    result.name = name;
+    result.frame.runs = frames;
+    warmUp(ours, frames);
+    if (peers)
+        for (const auto& peer : *peers)
+            peer->run(0);
+    std::vector<double> ms;
+    for (std::size_t i = 0; i < frames; ++i) {
+        ms.push_back(ours.run(i));
+        addTiles(result, ours.stats());
+        if (!peers) continue;
+        for (const auto& peer : *peers)
+            peer->measure(i);
+    }
+    result.frame = summarise(std::move(ms));
+    measureStages(ours, frames, result);
+    return result;
+}
+
+}  // namespace
+
+BenchResult runBench(const Workload& moving, SuperResMode mode, const std::string& renderer) {
+    Ours ours(moving, mode);
+    BenchResult out;
+    out.workload = moving.name;
+    out.renderer = renderer;
+    out.video = moving.rig.video.size;
+    out.still = moving.rig.still.size;
+    out.output = ours.pipeline().outputSize();
+    ours.setStill(0);
+    std::vector<double> setStill(kSetStillRuns);
+    for (double& ms : setStill)
+        ms = ours.setStill(0);
+    out.setStill = summarise(std::move(setStill));
+
+    std::vector<std::unique_ptr<Peer>> peers;
+    peers.push_back(std::make_unique<Peer>("paper", eval::DisPreset::Medium, moving, out.output));
+    peers.push_back(
+        std::make_unique<Peer>("paper-fast", eval::DisPreset::Fast, moving, out.output));
+    out.cases.push_back(measureCase("moving", ours, moving, &peers));
+    for (const auto& peer : peers)
+        out.peers.push_back(peer->result(out.cases[0].frame));
+
+    for (const double noise : {0.0, kRestNoise}) {
+        const Workload rest = atRest(moving, noise);
+        Ours resting(rest, mode);
+        out.cases.push_back(measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, nullptr));
+    }
+    return out;
+}
+
+}  // namespace mfar::bench

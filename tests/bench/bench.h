@@ -1,0 +1,47 @@
+#pragma once
+
+#include "pipeline/pipeline.h"
+#include "tests/bench/summary.h"
+#include "tests/bench/workload.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace mfar::bench {
+
+struct StageSummary {
+    std::string stage;
+    Summary ms;
+};
+
+/// Our pipeline on one workload.
+struct CaseResult {
+    std::string name;
+    Summary frame;                     ///< whole frame from upload to finished picture
+    std::vector<StageSummary> stages;  ///< in a run of its own: each stage waits for its end
+    std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles per TileClass
+};
+
+/// OpenCV's version of the paper on the moving workload, frame by frame in turn with ours.
+struct PeerResult {
+    std::string name;
+    Summary frame;
+    double ratio = 0;  ///< our median over the peer's: below 1 we are faster
+};
+
+struct BenchResult {
+    std::string workload;
+    std::string renderer;
+    Size video, still, output;
+    Summary setStill;  ///< per-still work of our pipeline
+    std::vector<CaseResult> cases;
+    std::vector<PeerResult> peers;
+};
+
+/// Needs a current GL context, which `renderer` describes. The first frames warm up and do not
+/// count.
+[[nodiscard]] BenchResult runBench(const Workload& moving, SuperResMode mode,
+                                   const std::string& renderer);
+
+}  // namespace mfar::bench

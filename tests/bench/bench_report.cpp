@@ -1,0 +1,86 @@
+#include "tests/bench/bench_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+namespace mfar::bench {
+namespace {
+
+constexpr std::array<const char*, kTileClasses> kClassNames{"unchanged", "upscaled", "trusted",
+                                                            "blended", "hidden"};
+
+nlohmann::json json(const Summary& s) {
+    return {{"median_ms", s.median}, {"p99_ms", s.p99}, {"min_ms", s.min}, {"runs", s.runs}};
+}
+
+nlohmann::json json(Size size) {
+    return {size.width, size.height};
+}
+
+nlohmann::json json(const CaseResult& result) {
+    nlohmann::json stages = nlohmann::json::array(), tiles = nlohmann::json::object();
+    for (const StageSummary& stage : result.stages) {
+        stages.push_back(json(stage.ms));
+        stages.back()["stage"] = stage.stage;
+    }
+    for (std::size_t c = 0; c < kTileClasses; ++c)
+        tiles[kClassNames[c]] = result.tileShare[c];
+    return {{"name", result.name},
+            {"frame", json(result.frame)},
+            {"stages", stages},
+            {"tile_share", tiles}};
+}
+
+std::string line(const std::string& name, const Summary& s) {
+    return fmt::format("{:<28} {:>9.2f} {:>9.2f} {:>9.2f} {:>6}", name, s.median, s.p99, s.min,
+                       s.runs);
+}
+
+std::string tileLine(const CaseResult& result) {
+    std::string out = "  tiles:";
+    for (std::size_t c = 0; c < kTileClasses; ++c)
+        if (result.tileShare[c] > 0)
+            out += fmt::format(" {} {:.1f} %", kClassNames[c], 100 * result.tileShare[c]);
+    return out;
+}
+
+}  // namespace
+
+nlohmann::json toJson(const BenchResult& result) {
+    nlohmann::json cases = nlohmann::json::array(), peers = nlohmann::json::array();
+    for (const CaseResult& c : result.cases)
+        cases.push_back(json(c));
+    for (const PeerResult& peer : result.peers)
+        peers.push_back({{"name", peer.name}, {"frame", json(peer.frame)}, {"ratio", peer.ratio}});
+    return {{"workload", result.workload},
+            {"renderer", result.renderer},
+            {"opencv", CV_VERSION},
+            {"opencv_threads", cv::getNumThreads()},
+            {"video", json(result.video)},
+            {"still", json(result.still)},
+            {"output", json(result.output)},
+            {"set_still", json(result.setStill)},
+            {"cases", cases},
+            {"peers", peers}};
+}
+
+std::string toTable(const BenchResult& result) {
+    std::string out =
+        fmt::format("{}\nworkload {}, video {}x{}, still {}x{}, output {}x{}\n\n", result.renderer,
+                    result.workload, result.video.width, result.video.height, result.still.width,
+                    result.still.height, result.output.width, result.output.height);
+    out += fmt::format("{:<28} {:>9} {:>9} {:>9} {:>6}\n", "[ms]", "median", "p99", "min", "runs");
+    out += line("new still", result.setStill) + '\n';
+    for (const CaseResult& c : result.cases) {
+        out += line(c.name, c.frame) + tileLine(c) + '\n';
+        for (const StageSummary& stage : c.stages)
+            out += line("  " + stage.stage, stage.ms) + '\n';
+    }
+    for (const PeerResult& peer : result.peers)
+        out += line("peer " + peer.name, peer.frame) +
+               fmt::format("  moving / {} = {:.2f}\n", peer.name, peer.ratio);
+    return out;
+}
+
+}  // namespace mfar::bench

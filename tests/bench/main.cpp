@@ -1,0 +1,96 @@
+#include "hal/gl_context.h"
+#include "hal/virtual/image_files.h"
+#include "hal/virtual/recording.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/bench_report.h"
+#include "tests/bench/workload.h"
+#include "tests/eval/report.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <string>
+
+namespace {
+
+using namespace mfar;
+using namespace mfar::bench;
+
+constexpr int kUsage = 2;
+
+constexpr const char* kHelp =
+    "mfar-bench: run time of every stage and of the whole super-resolution frame.\n"
+    "moving: every frame differs from the one before; rest: the same frame again; rest-noise: the "
+    "same view with sensor noise of sigma 2.\n"
+    "Whole frames run undisturbed up to a final glFinish; stages are timed in a run of their own. "
+    "The peers are the paper's method on OpenCV (DIS medium, DIS fast), run in turn with ours.";
+
+struct Options {
+    std::string recording, json, mode = "detail";
+    int frames = 0;
+    bool quick = false;
+};
+
+Workload workloadFor(const Options& o) {
+    const int frames = o.frames > 0 ? o.frames : (o.quick ? 4 : 40);
+    if (!o.recording.empty()) return recordedWorkload(o.recording, frames);
+    if (o.quick) return syntheticWorkload({160, 120}, {576, 432}, frames);
+    return syntheticWorkload({640, 480}, {2304, 1728}, frames);
+}
+
+void writeJson(const std::string& file, const nlohmann::json& value) {
+    std::ofstream out(file);
+    out << value.dump(2) << '\n';
+    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file));
+}
+
+int run(int argc, char** argv) {
+    CLI::App app(kHelp);
+    Options o;
+    app.add_option("--recording", o.recording, "frames and stills of a recording instead");
+    app.add_option("--frames", o.frames, "frames per case (default 40, quick 4)")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--mode", o.mode, "of the super-resolution")
+        ->check(CLI::IsMember({"detail", "blend"}))
+        ->capture_default_str();
+    app.add_option("--json", o.json, "file for all results");
+    app.add_flag("--quick", o.quick, "few small frames: shows that it runs, not how fast");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : kUsage;
+    }
+    const Workload work = workloadFor(o);
+    const auto context = createGlContext();
+    const BenchResult result =
+        runBench(work, o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail,
+                 context->description());
+    fmt::print("{}", toTable(result));
+    if (!o.json.empty()) writeJson(o.json, toJson(result));
+    return 0;
+}
+
+int fail(int status, const std::exception& e) {
+    fmt::print(stderr, "mfar-bench: {}\n", e.what());
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const eval::EvalError& e) {
+        return fail(kUsage, e);
+    } catch (const RecordingError& e) {
+        return fail(kUsage, e);
+    } catch (const ImageFileError& e) {
+        return fail(kUsage, e);
+    } catch (const std::exception& e) {
+        return fail(1, e);
+    }
+}

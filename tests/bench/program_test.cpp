@@ -1,0 +1,49 @@
+#include "tests/unit/temp_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cstdlib>
+#include <string>
+
+namespace mfar::bench {
+namespace {
+
+TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
+    const test::TempFolder folder;
+    const auto file = folder / "bench.json";
+    const std::string command =
+        fmt::format("{} --quick --json '{}' >/dev/null", MFAR_BENCH, file.string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const auto result = nlohmann::json::parse(test::readFile(file));
+    for (const char* key : {"workload", "renderer", "opencv", "opencv_threads", "set_still"})
+        EXPECT_TRUE(result.contains(key)) << key;
+    EXPECT_EQ(result.at("output"), nlohmann::json({576, 432}));
+    ASSERT_EQ(result.at("cases").size(), 3U);
+    const char* names[] = {"moving", "rest", "rest-noise"};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto& one = result.at("cases").at(i);
+        EXPECT_EQ(one.at("name"), names[i]);
+        EXPECT_GT(one.at("frame").at("median_ms").get<double>(), 0);
+        EXPECT_GE(one.at("frame").at("p99_ms"), one.at("frame").at("median_ms"));
+        EXPECT_FALSE(one.at("stages").empty());
+        EXPECT_EQ(one.at("tile_share").size(), 5U);
+    }
+    ASSERT_EQ(result.at("peers").size(), 2U);
+    const auto& peer = result.at("peers").at(0);
+    EXPECT_EQ(peer.at("name"), "paper");
+    EXPECT_NEAR(peer.at("ratio").get<double>(),
+                result.at("cases").at(0).at("frame").at("median_ms").get<double>() /
+                    peer.at("frame").at("median_ms").get<double>(),
+                1e-9);
+}
+
+TEST(MfarBench, WrongRequestsEndWithStatus2) {
+    const std::string program = MFAR_BENCH;
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " --recording /absent 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " --mode magic 2>/dev/null").c_str())), 2);
+}
+
+}  // namespace
+}  // namespace mfar::bench

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace mfar::bench {
+
+/// What repeated timings of one thing come to [ms].
+struct Summary {
+    double median = 0;
+    double p99 = 0;  ///< smallest value that 99 % of the runs do not exceed
+    double min = 0;
+    std::size_t runs = 0;
+};
+
+/// Zeroes when there is no value.
+[[nodiscard]] Summary summarise(std::vector<double> ms);
+
+}  // namespace mfar::bench
