@@ -1,0 +1,187 @@
+#include "daemon/app.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <signal.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+#include <thread>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+constexpr Seconds kFlushTime{0.4};   ///< after a signal: for what is being written
+constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
+
+const char* signalName(int signal) {
+    return signal == SIGINT ? "SIGINT" : "SIGTERM";
+}
+
+std::ofstream openSummary(const Options& options, const Config& config) {
+    std::ofstream file;
+    if (!options.summary) return file;
+    if (*options.summary == "-") {
+        if (config.display == "y4m:-")
+            throw Failure(ExitCode::Usage, "standard output cannot take both video and summary");
+        return file;
+    }
+    // Now, because after a long run is too late to learn that it cannot be written.
+    file.open(*options.summary);
+    if (!file)
+        throw Failure(ExitCode::OutputFailed,
+                      options.summary->string() + ": cannot be written: " + std::strerror(errno));
+    return file;
+}
+
+}  // namespace
+
+App::App(const Options& options, Log& log)
+    : options_(options), log_(log), config_(effectiveConfig(options)),
+      summary_(openSummary(options, config_)) {
+    // A display pipe whose reader has gone is an error of that write, not the end of the process.
+    signal(SIGPIPE, SIG_IGN);
+}
+
+ExitCode App::run() {
+    std::packaged_task<std::string()> session(
+        [this, config = config_] { return runSession(config); });
+    std::future<std::string> end = session.get_future();
+    const std::jthread glThread([&] {
+        session();
+        events_.wake();
+    });
+    if (log_.style() == Log::Style::Terminal) events_.tickEvery(Seconds(config_.status.intervalS));
+    while (end.wait_for(Seconds(0)) != std::future_status::ready)
+        handle(events_.wait());
+    return finish(end);
+}
+
+std::string App::runSession(const Config& config) {
+    Session session(config, stats_, changes_, {input_.get_token(), cancel_.get_token()});
+    RunDescription description = session.description();
+    if (options_.frames)
+        description.plannedFrames =
+            std::min(*options_.frames, description.plannedFrames.value_or(*options_.frames));
+    description.plannedSeconds = options_.seconds;
+    {
+        const std::lock_guard lock(mutex_);
+        ready_ = Ready{std::move(description), session.startLine(), Timestamp::now()};
+    }
+    events_.wake();
+    return session.run(options_.frames);
+}
+
+void App::handle(const Event& event) {
+    switch (event.kind) {
+    case Event::Kind::Signal: return onSignal(event.signal);
+    case Event::Kind::Deadline: return onDeadline();
+    case Event::Kind::Tick: return showStatus();
+    case Event::Kind::Wake: return onReady();
+    }
+}
+
+void App::onReady() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!ready_) return;
+        running_ = std::exchange(ready_, std::nullopt);
+    }
+    log_.notice(running_->startLine);
+    if (options_.seconds && !stopReason_) events_.deadlineIn(Seconds(*options_.seconds));
+}
+
+void App::onSignal(int signal) {
+    if (signal == SIGHUP) return reload();
+    if (stopSignal_) {
+        log_.endStatus();
+        log_.warning(fmt::format("second {}, ended at once", signalName(signal)));
+        std::_Exit(128 + signal);
+    }
+    stopSignal_ = signal;
+    stop(signalName(signal));
+    events_.deadlineIn(kFlushTime);
+}
+
+void App::onDeadline() {
+    if (!stopSignal_) return stop("--seconds");
+    if (cancel_.request_stop()) return events_.deadlineIn(kCancelTime);
+    log_.endStatus();
+    log_.warning("a device or display did not end in time, ended without it");
+    (void)writeSummary(*stopReason_, ExitCode::Ok);
+    std::_Exit(static_cast<int>(ExitCode::Ok));
+}
+
+void App::stop(const std::string& reason) {
+    stopReason_ = stopReason_.value_or(reason);
+    input_.request_stop();
+}
+
+void App::reload() {
+    if (!options_.config)
+        return log_.warning("SIGHUP: started without --config, nothing to read again");
+    try {
+        const Config wanted = effectiveConfig(options_);
+        const std::string restart = needRestart(config_, wanted);
+        config_.superres = wanted.superres;
+        config_.trigger = wanted.trigger;
+        config_.status = wanted.status;
+        changes_.put(tunables(config_));
+        if (log_.style() == Log::Style::Terminal)
+            events_.tickEvery(Seconds(config_.status.intervalS));
+        if (running_) running_->description.mode = name(config_.superres.mode);
+        log_.notice(options_.config->string() + ": read again" +
+                    (restart.empty() ? "" : "; after a restart only: " + restart));
+    } catch (const Failure& failure) {
+        log_.error(fmt::format("{}\nthe old configuration stays", failure.what()));
+    }
+}
+
+void App::showStatus() {
+    if (!running_) return;
+    const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
+    log_.status(statusLine(stats_.count(), running_->description, elapsed));
+}
+
+ExitCode App::finish(std::future<std::string>& end) {
+    onReady();
+    showStatus();
+    log_.endStatus();
+    try {
+        const std::string reason = end.get();
+        return writeSummary(stopReason_.value_or(reason), ExitCode::Ok) ? ExitCode::Ok
+                                                                        : ExitCode::OutputFailed;
+    } catch (const std::exception& error) {
+        if (cancel_.stop_requested()) {
+            log_.warning(fmt::format("not everything was written: {}", error.what()));
+            (void)writeSummary(*stopReason_, ExitCode::Ok);
+            return ExitCode::Ok;
+        }
+        (void)writeSummary(fmt::format("error: {}", error.what()), exitCode(error));
+        throw;
+    }
+}
+
+bool App::writeSummary(const std::string& reason, ExitCode code) {
+    const Counted counted = stats_.count();
+    if (log_.style() == Log::Style::Terminal)
+        log_.notice(fmt::format("{} pictures in {:.1f} s, {:.1f} fps: {}", counted.frames,
+                                counted.seconds, counted.fps, reason));
+    if (!options_.summary) return true;
+    std::ostream& out = summary_.is_open() ? summary_ : std::cout;
+    const RunDescription description = running_ ? running_->description : RunDescription{};
+    out << summary(counted, description, reason, static_cast<int>(code)).dump(2) << "\n"
+        << std::flush;
+    if (!out)
+        log_.error(fmt::format("{}: the summary cannot be written", options_.summary->string()));
+    return static_cast<bool>(out);
+}
+
+}  // namespace mfar

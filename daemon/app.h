@@ -1,0 +1,70 @@
+#pragma once
+
+#include "daemon/config.h"
+#include "daemon/events.h"
+#include "daemon/exit_code.h"
+#include "daemon/log.h"
+#include "daemon/mailbox.h"
+#include "daemon/options.h"
+#include "daemon/session.h"
+#include "daemon/stats.h"
+#include "daemon/status.h"
+
+#include <fstream>
+#include <future>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+namespace mfar {
+
+/// The main thread: signals, timers, status, shutdown. It waits for nothing but its events, so that
+/// it can end the program whatever a device or a driver does:
+///   signal -> no more frames -> after 0.4 s slow displays are given up -> after 0.9 s the process
+///   ends as it is. A second signal ends it at once.
+class App {
+public:
+    /// Throws ConfigError, Failure.
+    App(const Options& options, Log& log);
+
+    /// Runs until the end and writes the summary, also of a run that failed. Throws what ended it.
+    [[nodiscard]] ExitCode run();
+
+private:
+    /// What the GL thread tells after set-up.
+    struct Ready {
+        RunDescription description;
+        std::string startLine;
+        Timestamp time;
+    };
+
+    [[nodiscard]] std::string runSession(const Config& config);
+    void handle(const Event& event);
+    void onReady();
+    void onSignal(int signal);
+    void onDeadline();
+    void stop(const std::string& reason);
+    void reload();
+    void showStatus();
+    [[nodiscard]] ExitCode finish(std::future<std::string>& end);
+    [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
+
+    const Options options_;
+    Log& log_;
+    Config config_;
+    std::ofstream summary_;
+    Events events_;
+    Stats stats_;
+    Mailbox<Tunables> changes_{HandOver::NewestWins};
+    std::stop_source input_;
+    std::stop_source cancel_;
+    std::optional<std::string> stopReason_;
+    std::optional<int> stopSignal_;
+    std::optional<Ready> running_;
+
+    std::mutex mutex_;
+    std::optional<Ready> ready_;  ///< guarded by the mutex; moves to running_
+};
+
+}  // namespace mfar

@@ -1,0 +1,108 @@
+#include "daemon/config.h"
+
+#include "daemon/exit_code.h"
+#include "daemon/rig.h"
+#include "daemon/toml_reader.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <span>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+template <class E>
+using Word = std::pair<std::string_view, E>;
+
+constexpr std::array<Word<SuperResMode>, 3> kSuperResModes = {
+    {{"detail", SuperResMode::Detail}, {"blend", SuperResMode::Blend}, {"off", SuperResMode::Off}}};
+constexpr std::array<Word<SourcePace>, 3> kPaces = {{{"auto", SourcePace::Auto},
+                                                     {"realtime", SourcePace::Realtime},
+                                                     {"consumer", SourcePace::Consumer}}};
+constexpr std::array<Word<TriggerMode>, 3> kTriggerModes = {
+    {{"demand", TriggerMode::Demand}, {"rate", TriggerMode::Rate}, {"off", TriggerMode::Off}}};
+
+template <class E>
+std::optional<E> meaning(std::span<const Word<E>> words, std::string_view word) {
+    for (const auto& [known, value] : words)
+        if (known == word) return value;
+    return std::nullopt;
+}
+
+void readTrigger(TomlReader& file, TriggerConfig& trigger) {
+    file.choice<TriggerMode>("trigger.mode", trigger.mode, kTriggerModes);
+    file.number("trigger.rate_hz", trigger.rateHz, 0.01, 60);
+    file.number("trigger.explained_below", trigger.explainedBelow, 0, 1);
+    file.number("trigger.max_age_s", trigger.maxAgeS, 0.1, 86400);
+    file.number("trigger.min_interval_s", trigger.minIntervalS, 0, 3600);
+    file.number("trigger.timeout_s", trigger.timeoutS, 0.05, 60);
+}
+
+}  // namespace
+
+Config parseConfig(std::string_view toml, const std::string& fileName) {
+    Config config;
+    TomlReader file(toml, fileName);
+    file.text("source", config.source, sourceFault);
+    std::string recording;
+    file.text("recording", recording);
+    config.recording = recording;
+    file.text("display", config.display, displayFault);
+    file.choice<SourcePace>("pace", config.pace, kPaces);
+    file.integer("seed", config.seed);
+    file.choice<SuperResMode>("superres.mode", config.superres.mode, kSuperResModes);
+    file.boolean("superres.skip_unchanged", config.superres.skipUnchanged);
+    readTrigger(file, config.trigger);
+    std::string recordTo;
+    file.text("record.directory", recordTo);
+    config.recordTo = recordTo;
+    file.number("status.interval_s", config.status.intervalS, 0.1, 3600);
+    file.boolean("status.measure", config.status.measure);
+    file.finish();
+    return config;
+}
+
+Config loadConfig(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text;
+    std::array<char, 4096> part{};
+    while (in.read(part.data(), part.size()) || in.gcount() > 0)
+        text.append(part.data(), static_cast<std::size_t>(in.gcount()));
+    if (!in.is_open() || in.bad())
+        throw Failure(ExitCode::NoInput,
+                      file.string() + ": cannot be read: " + std::strerror(errno));
+    return parseConfig(text, file.string());
+}
+
+std::string needRestart(const Config& running, const Config& wanted) {
+    std::string names;
+    const auto compare = [&](bool same, const char* key) {
+        if (!same) names += (names.empty() ? "" : ", ") + std::string(key);
+    };
+    compare(running.source == wanted.source, "source");
+    compare(running.recording == wanted.recording, "recording");
+    compare(running.display == wanted.display, "display");
+    compare(running.pace == wanted.pace, "pace");
+    compare(running.seed == wanted.seed, "seed");
+    compare(running.recordTo == wanted.recordTo, "record.directory");
+    return names;
+}
+
+std::optional<SuperResMode> superResMode(std::string_view word) {
+    return meaning<SuperResMode>(kSuperResModes, word);
+}
+
+std::optional<SourcePace> sourcePace(std::string_view word) {
+    return meaning<SourcePace>(kPaces, word);
+}
+
+std::string_view name(SuperResMode mode) {
+    for (const auto& [word, value] : kSuperResModes)
+        if (value == mode) return word;
+    return "";
+}
+
+}  // namespace mfar

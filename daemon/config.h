@@ -1,0 +1,71 @@
+#pragma once
+
+#include "daemon/exit_code.h"
+#include "daemon/still_policy.h"
+#include "pipeline/pipeline.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace mfar {
+
+/// Who sets the speed of a virtual source.
+enum class SourcePace {
+    Auto,      ///< Consumer for recordings, Realtime for every other source
+    Realtime,  ///< the source's own timestamps; frames nobody takes in time are dropped
+    Consumer,  ///< as fast as frames are taken; none is dropped
+};
+
+struct SuperResConfig {
+    SuperResMode mode = SuperResMode::Detail;
+    bool skipUnchanged = true;
+    bool operator==(const SuperResConfig&) const = default;
+};
+
+struct StatusConfig {
+    double intervalS = 1;
+    bool measure = false;  ///< wait for the GPU after each stage, so that its time is the work's
+    bool operator==(const StatusConfig&) const = default;
+};
+
+/// Everything the daemon can be told, from the configuration file and the command line. The
+/// defaults here are the product's; systemd/mfard.toml shows them.
+struct Config {
+    std::string source = "synthetic";  ///< not used when `recording` is set
+    std::filesystem::path recording;   ///< empty: none
+    std::string display = "none";
+    SourcePace pace = SourcePace::Auto;
+    std::uint64_t seed = 1;          ///< of the synthetic board
+    std::filesystem::path recordTo;  ///< empty: nothing is recorded
+    SuperResConfig superres;
+    TriggerConfig trigger;
+    StatusConfig status;
+};
+
+/// The configuration file is wrong. The message has one line per fault, each
+/// "file:line:column: what is wrong".
+class ConfigError : public Failure {
+public:
+    explicit ConfigError(const std::string& message) : Failure(ExitCode::BadConfig, message) {}
+};
+
+/// Reads text as configuration; keys that are absent keep their defaults. `file` is for messages.
+/// Throws ConfigError with every fault found.
+[[nodiscard]] Config parseConfig(std::string_view toml, const std::string& file);
+
+/// Reads a file. Throws ConfigError, or Failure(NoInput) when it cannot be read.
+[[nodiscard]] Config loadConfig(const std::filesystem::path& file);
+
+/// Names of what differs between two configurations and cannot be changed while running,
+/// "source, display"; empty when there is no such thing.
+[[nodiscard]] std::string needRestart(const Config& running, const Config& wanted);
+
+/// Words of the configuration and the command line. Nothing when the word is unknown.
+[[nodiscard]] std::optional<SuperResMode> superResMode(std::string_view word);
+[[nodiscard]] std::optional<SourcePace> sourcePace(std::string_view word);
+[[nodiscard]] std::string_view name(SuperResMode mode);
+
+}  // namespace mfar

@@ -1,0 +1,102 @@
+#include "daemon/events.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <sys/epoll.h>
+#include <sys/eventfd.h>
+#include <sys/signalfd.h>
+#include <sys/timerfd.h>
+#include <system_error>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+
+namespace mfar {
+namespace {
+
+sigset_t watchedSignals() {
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        sigaddset(&set, signal);
+    return set;
+}
+
+int openSignals() {
+    const sigset_t set = watchedSignals();
+    pthread_sigmask(SIG_BLOCK, &set, nullptr);
+    return signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
+}
+
+void arm(const Fd& timer, std::chrono::duration<double> time, bool repeat) {
+    const double s = std::max(time.count(), 1e-6);
+    timespec at{};
+    at.tv_sec = static_cast<time_t>(s);
+    at.tv_nsec = static_cast<long>((s - std::floor(s)) * 1e9);
+    const itimerspec spec{repeat ? at : timespec{}, at};
+    if (timerfd_settime(timer.get(), 0, &spec, nullptr) != 0)
+        throw std::system_error(errno, std::generic_category(), "timer");
+}
+
+/// Takes the count out of a timer or event descriptor; false when it was not set.
+bool drained(const Fd& fd) {
+    std::uint64_t count = 0;
+    return read(fd.get(), &count, sizeof count) == sizeof count;
+}
+
+}  // namespace
+
+Fd::Fd(int fd, const char* what) : fd_(fd) {
+    if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
+}
+
+Fd::~Fd() {
+    close(fd_);
+}
+
+Events::Events()
+    : epoll_(epoll_create1(EPOLL_CLOEXEC), "epoll"), signals_(openSignals(), "signalfd"),
+      tick_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK), "timerfd"),
+      deadline_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK), "timerfd"),
+      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd") {
+    for (const Fd* fd : {&signals_, &tick_, &deadline_, &wake_}) {
+        epoll_event interest{};
+        interest.events = EPOLLIN;
+        if (epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd->get(), &interest) != 0)
+            throw std::system_error(errno, std::generic_category(), "epoll");
+    }
+}
+
+Event Events::wait() {
+    for (;;) {
+        signalfd_siginfo info{};
+        if (read(signals_.get(), &info, sizeof info) == sizeof info)
+            return {Event::Kind::Signal, static_cast<int>(info.ssi_signo)};
+        if (drained(wake_)) return {Event::Kind::Wake};
+        if (drained(deadline_)) return {Event::Kind::Deadline};
+        if (drained(tick_)) return {Event::Kind::Tick};
+        epoll_event ready{};
+        if (epoll_wait(epoll_.get(), &ready, 1, -1) < 0 && errno != EINTR)
+            throw std::system_error(errno, std::generic_category(), "epoll");
+    }
+}
+
+void Events::tickEvery(std::chrono::duration<double> period) {
+    arm(tick_, period, true);
+}
+
+void Events::deadlineIn(std::chrono::duration<double> time) {
+    arm(deadline_, time, false);
+}
+
+void Events::wake() {
+    const std::uint64_t one = 1;
+    // Can only fail when the counter is full, and then the main thread wakes anyway.
+    [[maybe_unused]] const ssize_t n = write(wake_.get(), &one, sizeof one);
+}
+
+}  // namespace mfar

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+namespace mfar {
+
+/// What happens when the sender is faster than the receiver.
+enum class HandOver {
+    NewestWins,  ///< the waiting item is replaced and counted as dropped (live sources)
+    /// The sender waits until the receiver has taken the item and asks for the next one: nothing is
+    /// lost, and as both work in turn a run can be repeated exactly (recordings, consumer pace).
+    Lossless,
+};
+
+/// One slot between one sending and one receiving thread. When an item is replaced, the newer one
+/// may save what must not be lost of it: `void supersede(T&& older)`, if T has that member.
+/// All functions may be called from any thread.
+template <class T>
+class Mailbox {
+public:
+    enum class Put { Stored, Replaced, Closed };
+
+    explicit Mailbox(HandOver handOver) : handOver_(handOver) {}
+
+    /// Closed: nobody takes any more; the item is destroyed, unless it was taken before.
+    Put put(T item) {
+        std::unique_lock lock(mutex_);
+        if (closed_) return Put::Closed;
+        std::optional<T> older = std::exchange(slot_, std::nullopt);
+        if constexpr (requires(T newer) { newer.supersede(std::move(*older)); }) {
+            if (older) item.supersede(std::move(*older));
+        }
+        slot_ = std::move(item);
+        if (older) ++dropped_;
+        stored_.notify_one();
+        if (handOver_ == HandOver::Lossless) {
+            asked_.wait(lock, [&] { return closed_ || (asking_ && !slot_); });
+            if (closed_) return Put::Closed;
+        }
+        return older ? Put::Replaced : Put::Stored;
+    }
+
+    /// Waits for an item; nothing once the mailbox is closed, or finished and empty.
+    [[nodiscard]] std::optional<T> take() {
+        std::unique_lock lock(mutex_);
+        asking_ = true;
+        asked_.notify_one();
+        stored_.wait(lock, [&] { return closed_ || finished_ || slot_; });
+        asking_ = false;
+        return std::exchange(slot_, std::nullopt);
+    }
+
+    /// The item if there is one; never waits.
+    [[nodiscard]] std::optional<T> tryTake() {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(slot_, std::nullopt);
+    }
+
+    /// The sender's last word: what is in the slot is still handed out, then take() returns
+    /// nothing.
+    void finish() {
+        {
+            const std::lock_guard lock(mutex_);
+            finished_ = true;
+        }
+        stored_.notify_all();
+    }
+
+    /// Wakes both sides at once; an item in the slot is destroyed. Idempotent.
+    void close() {
+        std::optional<T> left;
+        {
+            const std::lock_guard lock(mutex_);
+            closed_ = true;
+            left = std::exchange(slot_, std::nullopt);
+        }
+        stored_.notify_all();
+        asked_.notify_all();
+    }
+
+    /// Items replaced before anybody took them.
+    [[nodiscard]] std::uint64_t dropped() const {
+        const std::lock_guard lock(mutex_);
+        return dropped_;
+    }
+
+private:
+    const HandOver handOver_;
+    mutable std::mutex mutex_;
+    std::condition_variable stored_;
+    std::condition_variable asked_;
+    std::optional<T> slot_;
+    bool asking_ = false;  ///< the receiver waits in take()
+    bool finished_ = false;
+    bool closed_ = false;
+    std::uint64_t dropped_ = 0;
+};
+
+}  // namespace mfar

@@ -1,0 +1,33 @@
+#include "daemon/app.h"
+#include "daemon/exit_code.h"
+#include "daemon/log.h"
+#include "daemon/options.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+
+int main(int argc, char** argv) {
+    using namespace mfar;
+    Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO));
+    try {
+        const CommandLine line = parseCommandLine(argc, argv);
+        if (line.print) {
+            fmt::print("{}", *line.print);
+            return static_cast<int>(ExitCode::Ok);
+        }
+        if (line.options.checkConfig) {
+            (void)effectiveConfig(line.options);
+            fmt::print("ok\n");
+            return static_cast<int>(ExitCode::Ok);
+        }
+        App app(line.options, log);
+        return static_cast<int>(app.run());
+    } catch (const std::exception& error) {
+        log.endStatus();
+        log.error(error.what());
+        return static_cast<int>(exitCode(error));
+    }
+}

@@ -1,0 +1,42 @@
+#pragma once
+
+#include "daemon/config.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace mfar {
+
+/// The command line of mfard. What is absent here is left to the configuration file.
+struct Options {
+    std::optional<std::filesystem::path> config;
+    bool checkConfig = false;
+    std::optional<std::string> source;
+    std::optional<std::filesystem::path> recording;
+    std::optional<std::string> display;
+    std::optional<std::filesystem::path> recordTo;
+    std::optional<SuperResMode> mode;
+    std::optional<SourcePace> pace;
+    std::optional<std::uint64_t> seed;
+    std::optional<std::uint64_t> frames;           ///< end after that many pictures
+    std::optional<double> seconds;                 ///< end after that time
+    std::optional<std::filesystem::path> summary;  ///< "-" = standard output
+    bool measure = false;
+};
+
+/// What the command line asks for: a run, or only a text to be printed.
+struct CommandLine {
+    Options options;
+    std::optional<std::string> print;  ///< --help, --version
+};
+
+/// Throws Failure(Usage).
+[[nodiscard]] CommandLine parseCommandLine(int argc, const char* const* argv);
+
+/// The file named by --config, if any, with the command line's wishes on top. Throws ConfigError
+/// and Failure(NoInput).
+[[nodiscard]] Config effectiveConfig(const Options& options);
+
+}  // namespace mfar

@@ -1,0 +1,245 @@
+#include "daemon/rig.h"
+
+#include "hal/virtual/display_files.h"
+#include "hal/virtual/recorder.h"
+#include "hal/virtual/recording_player.h"
+#include "hal/virtual/synthetic_board.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+using synthetic::Path;
+using synthetic::Scene;
+
+constexpr std::array kScenes = {Scene::Office, Scene::Shelf,  Scene::Outdoor,
+                                Scene::Flat,   Scene::Moving, Scene::Still};
+constexpr std::array kPaths = {Path::Handheld, Path::Pan,    Path::Orbit,
+                               Path::Forward,  Path::Rotate, Path::Rest};
+
+struct SourceWords {
+    std::string_view kind;
+    std::optional<std::string_view> scene;
+    std::optional<std::string_view> path;
+};
+
+// "kind[:scene[,path]]"
+SourceWords split(std::string_view source) {
+    SourceWords words;
+    const std::size_t colon = source.find(':');
+    words.kind = source.substr(0, colon);
+    if (colon == source.npos) return words;
+    const std::string_view rest = source.substr(colon + 1);
+    const std::size_t comma = rest.find(',');
+    words.scene = rest.substr(0, comma);
+    if (comma != rest.npos) words.path = rest.substr(comma + 1);
+    return words;
+}
+
+template <class Kinds>
+std::string names(const Kinds& kinds) {
+    std::string all;
+    for (const auto kind : kinds)
+        all.append(all.empty() ? "" : " ").append(synthetic::name(kind));
+    return all;
+}
+
+Pace playerPace(SourcePace wanted, SourcePace automatic) {
+    const SourcePace pace = wanted == SourcePace::Auto ? automatic : wanted;
+    return pace == SourcePace::Realtime ? Pace::Realtime : Pace::Consumer;
+}
+
+HandOver handOverAt(Pace pace) {
+    return pace == Pace::Realtime ? HandOver::NewestWins : HandOver::Lossless;
+}
+
+}  // namespace
+
+/// A set of devices that belong together.
+class Rig::Source {
+public:
+    virtual ~Source() = default;
+    [[nodiscard]] virtual const StereoRig& geometry() const = 0;
+    [[nodiscard]] virtual Camera& video() = 0;
+    [[nodiscard]] virtual Camera& still() = 0;
+    [[nodiscard]] virtual Trigger* trigger() = 0;
+    [[nodiscard]] virtual std::string name() const = 0;
+
+    HandOver handOver = HandOver::NewestWins;
+    ExitCode failure = ExitCode::Unavailable;
+    std::optional<std::uint64_t> videoFrames{};
+};
+
+struct Rig::Synthetic final : Rig::Source {
+    explicit Synthetic(const Config& config) : source(config.source), board(options(config)) {
+        handOver = handOverAt(options(config).pace);
+    }
+    static SyntheticOptions options(const Config& config) {
+        SyntheticOptions options;
+        const SourceWords words = split(config.source);
+        if (words.scene) options.scene = synthetic::sceneNamed(*words.scene).value();
+        if (words.path) options.path = synthetic::pathNamed(*words.path);
+        options.seed = config.seed;
+        options.pace = playerPace(config.pace, SourcePace::Realtime);
+        return options;
+    }
+    [[nodiscard]] const StereoRig& geometry() const override { return board.rig(); }
+    [[nodiscard]] Camera& video() override { return board.video(); }
+    [[nodiscard]] Camera& still() override { return board.stills(); }
+    [[nodiscard]] Trigger* trigger() override { return &board.trigger(); }
+    [[nodiscard]] std::string name() const override { return source; }
+
+    std::string source;
+    SyntheticBoard board;
+};
+
+struct Rig::Played final : Rig::Source {
+    explicit Played(const Config& config)
+        : player(load(config.recording), {playerPace(config.pace, SourcePace::Consumer)}) {
+        handOver = handOverAt(playerPace(config.pace, SourcePace::Consumer));
+        failure = ExitCode::BadData;
+        videoFrames = player.recording().video.size();
+    }
+    static Recording load(const std::filesystem::path& folder) {
+        if (!std::filesystem::is_directory(folder))
+            throw Failure(ExitCode::NoInput, folder.string() + ": there is no such recording");
+        try {
+            return loadRecording(folder);
+        } catch (const RecordingError& error) {
+            throw Failure(ExitCode::BadData, error.what());
+        }
+    }
+    [[nodiscard]] const StereoRig& geometry() const override { return player.recording().rig; }
+    [[nodiscard]] Camera& video() override { return player.video(); }
+    [[nodiscard]] Camera& still() override { return player.stills(); }
+    // The recording's stills were triggered when it was made.
+    [[nodiscard]] Trigger* trigger() override { return nullptr; }
+    [[nodiscard]] std::string name() const override {
+        return "recording " + player.recording().root.string();
+    }
+
+    RecordingPlayer player;
+};
+
+std::unique_ptr<Rig::Source> Rig::openSource(const Config& config) {
+    if (!config.recording.empty()) return std::make_unique<Played>(config);
+    if (const std::optional<std::string> fault = sourceFault(config.source))
+        throw Failure(ExitCode::BadConfig, *fault);
+    try {
+        return std::make_unique<Synthetic>(config);
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::Unavailable, config.source + ": " + error.what());
+    }
+}
+
+Rig::Rig(const Config& config) : source_(openSource(config)) {
+    if (config.recordTo.empty()) return;
+    try {
+        recorder_ = std::make_unique<Recorder>(config.recordTo, geometry(), video().info().rateHz);
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::OutputFailed, error.what());
+    }
+}
+
+Rig::~Rig() = default;
+
+const StereoRig& Rig::geometry() const {
+    return source_->geometry();
+}
+
+Camera& Rig::video() {
+    return source_->video();
+}
+
+Camera& Rig::still() {
+    return source_->still();
+}
+
+Trigger* Rig::trigger() {
+    return source_->trigger();
+}
+
+HandOver Rig::handOver() const {
+    return source_->handOver;
+}
+
+std::optional<std::uint64_t> Rig::videoFrames() const {
+    return source_->videoFrames;
+}
+
+std::string Rig::description() const {
+    const CameraInfo video = source_->video().info();
+    const CameraInfo still = source_->still().info();
+    return fmt::format("{}: video {}x{} at {:g} Hz, still {}x{}", source_->name(), video.size.width,
+                       video.size.height, video.rateHz, still.size.width, still.size.height);
+}
+
+ExitCode Rig::inputFailure() const {
+    return source_->failure;
+}
+
+void Rig::recordVideo(const Frame& frame) {
+    if (recorder_) recorder_->video(frame.view(), frame.time());
+}
+
+void Rig::recordStill(const Frame& frame) {
+    if (recorder_) recorder_->still(frame.view(), frame.time());
+}
+
+std::uint64_t Rig::notRecorded() const {
+    return recorder_ ? recorder_->videoCounts().dropped + recorder_->stillCounts().dropped : 0;
+}
+
+void Rig::checkRecording() const {
+    if (!recorder_) return;
+    if (const std::optional<std::string> error = recorder_->error())
+        throw Failure(ExitCode::OutputFailed, *error);
+}
+
+void Rig::finishRecording() {
+    if (!recorder_) return;
+    try {
+        recorder_->finish();
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::OutputFailed, error.what());
+    }
+}
+
+std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::stop_token cancel) {
+    try {
+        return openFileDisplay(config.display, rateHz, std::move(cancel));
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::OutputFailed, error.what());
+    }
+}
+
+std::optional<std::string> sourceFault(std::string_view source) {
+    const SourceWords words = split(source);
+    if (words.kind != "synthetic")
+        return fmt::format("no source \"{}\"; there is synthetic[:scene[,path]], and --recording "
+                           "for recordings",
+                           words.kind);
+    if (words.scene && !synthetic::sceneNamed(*words.scene))
+        return fmt::format("no scene \"{}\"; there are {}", *words.scene, names(kScenes));
+    if (words.path && !synthetic::pathNamed(*words.path))
+        return fmt::format("no path \"{}\"; there are {}", *words.path, names(kPaths));
+    return std::nullopt;
+}
+
+std::optional<std::string> displayFault(std::string_view display) {
+    if (display == "none") return std::nullopt;
+    for (const std::string_view kind : {"png:", "y4m:"})
+        if (display.starts_with(kind) && display.size() > kind.size()) return std::nullopt;
+    return fmt::format("no display \"{}\"; there are none, png:FOLDER and y4m:FILE", display);
+}
+
+std::string sourceHelp() {
+    return fmt::format("scenes: {}\npaths: {}", names(kScenes), names(kPaths));
+}
+
+}  // namespace mfar

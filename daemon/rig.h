@@ -1,0 +1,76 @@
+#pragma once
+
+#include "daemon/config.h"
+#include "daemon/exit_code.h"
+#include "daemon/mailbox.h"
+#include "hal/camera.h"
+#include "hal/display.h"
+#include "hal/trigger.h"
+#include "pipeline/geometry.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+namespace mfar {
+
+class Recorder;
+
+/// The devices of one run. This is the one place that knows which kinds exist.
+class Rig {
+public:
+    /// Opens the source that the configuration names, and the recorder. Throws Failure.
+    explicit Rig(const Config& config);
+    ~Rig();
+
+    [[nodiscard]] const StereoRig& geometry() const;
+    [[nodiscard]] Camera& video();
+    [[nodiscard]] Camera& still();
+    /// nullptr where stills come by themselves.
+    [[nodiscard]] Trigger* trigger();
+    [[nodiscard]] HandOver handOver() const;
+    /// How many video frames there will be at most, where that is known.
+    [[nodiscard]] std::optional<std::uint64_t> videoFrames() const;
+    /// "synthetic office: video 640x480 at 30 Hz, still 2304x1728"
+    [[nodiscard]] std::string description() const;
+    /// What it means when a camera fails.
+    [[nodiscard]] ExitCode inputFailure() const;
+
+    /// Copies a frame into the recording, if there is one; never waits. Both are called from the
+    /// capture thread.
+    void recordVideo(const Frame& frame);
+    void recordStill(const Frame& frame);
+    /// Frames and stills that the recording misses. Any thread.
+    [[nodiscard]] std::uint64_t notRecorded() const;
+    /// Throws Failure when the recording can no longer be written. Any thread, never waits.
+    void checkRecording() const;
+    /// Waits until everything is written. Throws Failure.
+    void finishRecording();
+
+private:
+    class Source;
+    struct Synthetic;
+    struct Played;
+
+    static std::unique_ptr<Source> openSource(const Config& config);
+
+    std::unique_ptr<Source> source_;
+    std::unique_ptr<Recorder> recorder_;
+};
+
+/// Opens the display that the configuration names. A request on `cancel` ends its waiting. Throws
+/// Failure.
+[[nodiscard]] std::unique_ptr<Display> openDisplay(const Config& config, double rateHz,
+                                                   std::stop_token cancel);
+
+/// What is wrong with the name of a source or display, nothing when there is such a one. Says which
+/// exist. Does not try to open it.
+[[nodiscard]] std::optional<std::string> sourceFault(std::string_view source);
+[[nodiscard]] std::optional<std::string> displayFault(std::string_view display);
+/// Scenes and paths that follow "synthetic:", for the help text.
+[[nodiscard]] std::string sourceHelp();
+
+}  // namespace mfar

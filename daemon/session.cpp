@@ -1,0 +1,122 @@
+#include "daemon/session.h"
+
+#include "daemon/exit_code.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+std::unique_ptr<GlContext> openGl() {
+    try {
+        return createGlContext();
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::Unavailable, error.what());
+    }
+}
+
+}  // namespace
+
+// The context comes after the rig: a synthetic source has its own, and this one has to be current
+// on this thread at the end.
+Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes, StopTokens stop)
+    : stats_(stats), changes_(changes), stop_(std::move(stop)), rig_(config), gl_(openGl()),
+      pipeline_(rig_.geometry(), {config.superres.mode, {}, config.superres.skipUnchanged}),
+      display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
+      policy_(config.trigger) {
+    pipeline_.setMeasure(config.status.measure);
+    description_ = {gl_->description(), rig_.description(),
+                    display_->name(),   std::string(name(config.superres.mode)),
+                    rig_.videoFrames(), std::nullopt};
+}
+
+Session::~Session() = default;
+
+std::string Session::startLine() const {
+    const Size out = pipeline_.outputSize();
+    return fmt::format("{}; {}; display {}, {}x{}", description_.renderer, description_.source,
+                       description_.display, out.width, out.height);
+}
+
+std::string Session::run(std::optional<std::uint64_t> maxFrames) {
+    Mailbox<CapturedFrame> mailbox(rig_.handOver());
+    CaptureThread capture(rig_, stats_, mailbox);
+    const std::stop_callback onStop(stop_.input, [&] { capture.stop(); });
+    bool enough = false;
+    while (!enough) {
+        std::optional<CapturedFrame> captured = mailbox.take();
+        if (!captured) break;
+        if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
+        // Without a clock of its own a source waits for us: only our own time is latency then.
+        if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
+        process(std::move(*captured));
+        enough = maxFrames && shown_ >= *maxFrames;
+    }
+    capture.stop();
+    capture.join();
+    rig_.finishRecording();
+    stats_.recorderDropped(rig_.notRecorded());
+    try {
+        display_->finish();
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::OutputFailed, error.what());
+    }
+    return enough ? "all frames asked for are shown" : "end of the source";
+}
+
+void Session::apply(const Tunables& wanted) {
+    pipeline_.setMode(wanted.superres.mode);
+    pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
+    pipeline_.setMeasure(wanted.measure);
+    policy_.configure(wanted.trigger);
+}
+
+void Session::process(CapturedFrame captured) {
+    if (captured.still) useStill(*std::exchange(captured.still, std::nullopt));
+    const Timestamp time = captured.video.time();
+    const FrameResult& result = pipeline_.run(captured.video.view(), time);
+    // Before the display, which may wait: the exposure runs meanwhile.
+    askForStill(time, result.stats);
+    previous_ = time;
+    show(result.image, time);
+    ++shown_;
+    std::optional<double> age;
+    if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
+    stats_.picture({result.stats, pipeline_.stageTimes(), captured.arrived, Timestamp::now(), age});
+    stats_.recorderDropped(rig_.notRecorded());
+    rig_.checkRecording();
+}
+
+void Session::useStill(const Frame& still) {
+    pipeline_.setStill(still.view(), still.time());
+    stillTime_ = still.time();
+    policy_.stillArrived(still.time());
+    stats_.stillUsed();
+}
+
+void Session::askForStill(Timestamp frame, const FrameStats& stats) {
+    Trigger* trigger = rig_.trigger();
+    if (trigger == nullptr) return;
+    if (policy_.decide(frame, previous_.value_or(frame), stats)) {
+        try {
+            trigger->fire();
+        } catch (const std::runtime_error& error) {
+            throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
+        }
+    }
+    stats_.triggers(static_cast<std::uint64_t>(policy_.fired()),
+                    static_cast<std::uint64_t>(policy_.lost()));
+}
+
+void Session::show(const GlImage& image, Timestamp time) {
+    try {
+        display_->show(image, time);
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::OutputFailed, error.what());
+    }
+}
+
+}  // namespace mfar

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "daemon/capture.h"
+#include "daemon/config.h"
+#include "daemon/mailbox.h"
+#include "daemon/rig.h"
+#include "daemon/stats.h"
+#include "daemon/status.h"
+#include "daemon/still_policy.h"
+#include "hal/display.h"
+#include "hal/gl_context.h"
+#include "pipeline/pipeline.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+namespace mfar {
+
+/// What can be changed while running.
+struct Tunables {
+    SuperResConfig superres;
+    TriggerConfig trigger;
+    bool measure = false;
+};
+
+[[nodiscard]] inline Tunables tunables(const Config& config) {
+    return {config.superres, config.trigger, config.status.measure};
+}
+
+/// Two ways to end a session from outside.
+struct StopTokens {
+    std::stop_token input;   ///< no more frames; what has been processed is still written
+    std::stop_token cancel;  ///< also give up what waits for a slow display
+};
+
+/// One run from devices to display: everything that lives on the GL thread. Made, run and destroyed
+/// by that thread.
+class Session {
+public:
+    /// Opens devices, GL and display. All references must outlive this. Throws Failure.
+    Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes, StopTokens stop);
+    ~Session();
+
+    [[nodiscard]] const RunDescription& description() const { return description_; }
+    /// One line for the start: renderer, sensors, display, output size.
+    [[nodiscard]] std::string startLine() const;
+
+    /// Processes frames until the source ends, a stop is requested or `maxFrames` are shown, and
+    /// waits until they are out. Returns why it ended. Throws Failure.
+    [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames);
+
+private:
+    void apply(const Tunables& wanted);
+    void process(CapturedFrame captured);
+    void useStill(const Frame& still);
+    void askForStill(Timestamp frame, const FrameStats& stats);
+    void show(const GlImage& image, Timestamp time);
+
+    Stats& stats_;
+    Mailbox<Tunables>& changes_;
+    StopTokens stop_;
+    Rig rig_;
+    std::unique_ptr<GlContext> gl_;
+    Pipeline pipeline_;
+    std::unique_ptr<Display> display_;
+    StillPolicy policy_;
+    std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
+    std::optional<Timestamp> stillTime_;
+    std::uint64_t shown_ = 0;
+    RunDescription description_;
+};
+
+}  // namespace mfar

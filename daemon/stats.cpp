@@ -1,0 +1,92 @@
+#include "daemon/stats.h"
+
+#include <algorithm>
+
+namespace mfar {
+namespace {
+
+double milliseconds(std::chrono::nanoseconds d) {
+    return static_cast<double>(d.count()) * 1e-6;
+}
+
+// Frame intervals per second between two moments; 0 when that says nothing.
+double rate(std::uint64_t intervals, Timestamp from, Timestamp to) {
+    const double s = to.seconds() - from.seconds();
+    return s > 0 ? static_cast<double>(intervals) / s : 0;
+}
+
+}  // namespace
+
+void Stats::picture(const Picture& picture) {
+    const std::lock_guard lock(mutex_);
+    ++counted_.frames;
+    if (!firstShown_) {
+        firstShown_ = shownBefore_ = picture.shown;
+        framesBefore_ = 1;
+    }
+    lastShown_ = picture.shown;
+    counted_.latencyMs.add(milliseconds(picture.shown - picture.arrived));
+    for (const StageTime& stage : picture.stages) {
+        auto known = std::find_if(counted_.stageMs.begin(), counted_.stageMs.end(),
+                                  [&](const auto& one) { return one.first == stage.stage; });
+        if (known == counted_.stageMs.end())
+            known = counted_.stageMs.insert(known, {stage.stage, Histogram{}});
+        known->second.add(stage.ms);
+    }
+    for (std::size_t i = 0; i < kTileClasses; ++i)
+        counted_.tiles[i] += static_cast<std::uint64_t>(std::max(picture.stats.tiles[i], 0));
+    if (picture.stats.usedStill) {
+        confidenceSum_ += picture.stats.meanConfidence;
+        ++confidenceFrames_;
+    }
+    counted_.last = picture.stats;
+    counted_.lastStages = picture.stages;
+    counted_.stillAgeS = picture.stillAgeS;
+}
+
+void Stats::videoGap(std::uint64_t frames) {
+    const std::lock_guard lock(mutex_);
+    counted_.drops.sensor += frames;
+}
+
+void Stats::stillReceived() {
+    const std::lock_guard lock(mutex_);
+    ++counted_.stills.received;
+}
+
+void Stats::stillUsed() {
+    const std::lock_guard lock(mutex_);
+    ++counted_.stills.used;
+}
+
+void Stats::triggers(std::uint64_t fired, std::uint64_t lost) {
+    const std::lock_guard lock(mutex_);
+    counted_.stills.triggered = fired;
+    counted_.stills.lost = lost;
+}
+
+void Stats::mailboxDropped(std::uint64_t total) {
+    const std::lock_guard lock(mutex_);
+    counted_.drops.mailbox = total;
+}
+
+void Stats::recorderDropped(std::uint64_t total) {
+    const std::lock_guard lock(mutex_);
+    counted_.drops.recorder = total;
+}
+
+Counted Stats::count() {
+    const std::lock_guard lock(mutex_);
+    if (firstShown_) {
+        counted_.seconds = lastShown_.seconds() - firstShown_->seconds();
+        counted_.fps = rate(counted_.frames - 1, *firstShown_, lastShown_);
+        counted_.recentFps = rate(counted_.frames - framesBefore_, shownBefore_, lastShown_);
+        framesBefore_ = counted_.frames;
+        shownBefore_ = lastShown_;
+    }
+    if (confidenceFrames_ > 0)
+        counted_.meanConfidence = confidenceSum_ / static_cast<double>(confidenceFrames_);
+    return counted_;
+}
+
+}  // namespace mfar

@@ -1,0 +1,81 @@
+#pragma once
+
+#include "daemon/histogram.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/results.h"
+
+#include <array>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mfar {
+
+/// Frames that never became a picture, by cause.
+struct Drops {
+    std::uint64_t sensor = 0;    ///< gaps in the video's time stamps
+    std::uint64_t mailbox = 0;   ///< replaced by a newer frame before they were processed
+    std::uint64_t recorder = 0;  ///< shown, but not recorded
+};
+
+struct StillCounts {
+    std::uint64_t triggered = 0;
+    std::uint64_t received = 0;
+    std::uint64_t used = 0;  ///< became the reference of a frame
+    std::uint64_t lost = 0;  ///< triggered and not received in time
+};
+
+/// Everything counted since the start, and the latest frame. A copy, free of locks.
+struct Counted {
+    std::uint64_t frames = 0;
+    double seconds = 0;  ///< from the first to the last picture
+    double fps = 0;
+    double recentFps = 0;  ///< since the previous call of Stats::count()
+    Histogram latencyMs;   ///< from the frame's arrival to its picture shown
+    std::vector<std::pair<std::string, Histogram>> stageMs;
+    std::array<std::uint64_t, kTileClasses> tiles{};
+    double meanConfidence = 0;  ///< over the frames that used a still
+    Drops drops;
+    StillCounts stills;
+    FrameStats last;
+    std::vector<StageTime> lastStages;
+    std::optional<double> stillAgeS;  ///< at the last frame
+};
+
+/// One finished picture.
+struct Picture {
+    FrameStats stats;
+    const std::vector<StageTime>& stages;
+    Timestamp arrived;  ///< of the video frame in the daemon, CLOCK_MONOTONIC
+    Timestamp shown;    ///< CLOCK_MONOTONIC
+    std::optional<double> stillAgeS;
+};
+
+/// Collects what the threads report. Thread-safe.
+class Stats {
+public:
+    void picture(const Picture& picture);
+    void videoGap(std::uint64_t frames);
+    void stillReceived();
+    void stillUsed();
+    void triggers(std::uint64_t fired, std::uint64_t lost);
+    void mailboxDropped(std::uint64_t total);
+    void recorderDropped(std::uint64_t total);
+
+    [[nodiscard]] Counted count();
+
+private:
+    std::mutex mutex_;
+    Counted counted_;
+    double confidenceSum_ = 0;
+    std::uint64_t confidenceFrames_ = 0;
+    std::optional<Timestamp> firstShown_;
+    Timestamp lastShown_;
+    std::uint64_t framesBefore_ = 0;  ///< at the previous count()
+    Timestamp shownBefore_;
+};
+
+}  // namespace mfar

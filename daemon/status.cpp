@@ -1,0 +1,115 @@
+#include "daemon/status.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
+
+namespace mfar {
+namespace {
+
+constexpr std::array<const char*, kTileClasses> kTileNames = {"unchanged", "upscaled", "trusted",
+                                                              "blended", "hidden"};
+
+// Share of the run that is done; nothing where it has no planned end.
+std::optional<double> progress(const Counted& counted, const RunDescription& run, double elapsedS) {
+    std::optional<double> done;
+    if (run.plannedFrames && *run.plannedFrames > 0) {
+        // A frame that was dropped will not come again.
+        const auto past = counted.frames + counted.drops.mailbox + counted.drops.sensor;
+        done = static_cast<double>(past) / static_cast<double>(*run.plannedFrames);
+    }
+    if (run.plannedSeconds && *run.plannedSeconds > 0)
+        done = std::max(done.value_or(0), elapsedS / *run.plannedSeconds);
+    if (done) done = std::clamp(*done, 0.0, 1.0);
+    return done;
+}
+
+std::string bar(double done) {
+    constexpr int kWidth = 16;
+    const int full = static_cast<int>(done * kWidth);
+    return fmt::format("[{:#<{}}{:.<{}}] {:3.0f}% ", "", full, "", kWidth - full, done * 100);
+}
+
+template <class Tiles>
+std::array<double, kTileClasses> shares(const Tiles& tiles) {
+    double all = 0;
+    for (const auto count : tiles)
+        all += static_cast<double>(count);
+    std::array<double, kTileClasses> out{};
+    for (std::size_t i = 0; i < kTileClasses; ++i)
+        out[i] = all > 0 ? static_cast<double>(tiles[i]) / all : 0;
+    return out;
+}
+
+nlohmann::ordered_json quantiles(const Histogram& times) {
+    return {{"median", times.quantile(0.5)}, {"p99", times.quantile(0.99)}};
+}
+
+}  // namespace
+
+// The most important first: what does not fit on the terminal is cut off.
+std::string statusLine(const Counted& counted, const RunDescription& run, double elapsedS) {
+    std::string line;
+    const auto out = std::back_inserter(line);
+    if (const std::optional<double> done = progress(counted, run, elapsedS)) line = bar(*done);
+    if (counted.frames == 0) return line + "waiting for the first picture";
+    fmt::format_to(out, "{:.1f} fps", counted.recentFps);
+    const Drops& drops = counted.drops;
+    fmt::format_to(out, ", {} dropped", drops.mailbox + drops.sensor);
+    if (drops.recorder > 0) fmt::format_to(out, ", {} not recorded", drops.recorder);
+    if (counted.last.usedStill) {
+        fmt::format_to(out, ", confidence {:.2f}, still {:.1f} s", counted.last.meanConfidence,
+                       counted.stillAgeS.value_or(0));
+    } else {
+        line += ", no still";
+    }
+    line += " |";
+    for (const StageTime& stage : counted.lastStages)
+        fmt::format_to(out, " {} {:.1f}", stage.stage, stage.ms);
+    line += " ms |";
+    const auto tiles = shares(counted.last.tiles);
+    for (std::size_t i = 0; i < kTileClasses; ++i)
+        if (counted.last.tiles[i] > 0)
+            fmt::format_to(out, " {} {:.0f}%", kTileNames[i], tiles[i] * 100);
+    return line;
+}
+
+nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run,
+                               const std::string& exitReason, int exitCode) {
+    nlohmann::ordered_json stages = nlohmann::ordered_json::object();
+    for (const auto& [stage, times] : counted.stageMs)
+        stages[stage] = quantiles(times);
+    nlohmann::ordered_json tiles;
+    const auto tileShares = shares(counted.tiles);
+    for (std::size_t i = 0; i < kTileClasses; ++i)
+        tiles[kTileNames[i]] = tileShares[i];
+    return {
+        {"version", MFAR_VERSION},
+        {"exit_reason", exitReason},
+        {"exit_code", exitCode},
+        {"renderer", run.renderer},
+        {"source", run.source},
+        {"display", run.display},
+        {"mode", run.mode},
+        {"frames", counted.frames},
+        {"seconds", counted.seconds},
+        {"fps", counted.fps},
+        {"latency_ms", quantiles(counted.latencyMs)},
+        {"stage_ms", stages},
+        {"tile_share", tiles},
+        {"mean_confidence", counted.meanConfidence},
+        {"stills",
+         {{"triggered", counted.stills.triggered},
+          {"received", counted.stills.received},
+          {"used", counted.stills.used},
+          {"lost", counted.stills.lost}}},
+        {"drops",
+         {{"sensor", counted.drops.sensor},
+          {"mailbox", counted.drops.mailbox},
+          {"recorder", counted.drops.recorder}}},
+    };
+}
+
+}  // namespace mfar

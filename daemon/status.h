@@ -1,0 +1,31 @@
+#pragma once
+
+#include "daemon/stats.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace mfar {
+
+/// What the run is made of, in words; known after set-up.
+struct RunDescription {
+    std::string renderer;
+    std::string source;
+    std::string display;
+    std::string mode;
+    std::optional<std::uint64_t> plannedFrames;  ///< recording or --frames: how many there will be
+    std::optional<double> plannedSeconds;        ///< --seconds
+};
+
+/// One line for the terminal: with a bar where the end is known. `elapsedS` since the first frame.
+[[nodiscard]] std::string statusLine(const Counted& counted, const RunDescription& run,
+                                     double elapsedS);
+
+/// What the run measured, for programs. Shares and confidences are in [0, 1], times in ms.
+[[nodiscard]] nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run,
+                                             const std::string& exitReason, int exitCode);
+
+}  // namespace mfar

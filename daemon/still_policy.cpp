@@ -1,0 +1,72 @@
+#include "daemon/still_policy.h"
+
+namespace mfar {
+namespace {
+
+/// A share of changed tiles below this is sensor noise, flicker or a blinking light, not motion.
+constexpr double kMovedShare = 0.05;
+
+std::chrono::nanoseconds nanoseconds(double s) {
+    return std::chrono::nanoseconds{Timestamp::fromSeconds(s).ns};
+}
+
+}  // namespace
+
+bool StillPolicy::decide(Timestamp now, Timestamp statsOf, const FrameStats& stats) {
+    if (still_ && !usedSince_) usedSince_ = now;
+    // The first frame with a new still or mode is drawn anew as a whole, which is no motion.
+    const bool changed = stats.changed > kMovedShare && statsOf != usedSince_;
+    if (changed && firedAt_ && statsOf > *firedAt_) movedSinceTrigger_ = true;
+    if (changed && usedSince_ && statsOf > *usedSince_) movedInUse_ = true;
+    if (config_.mode == TriggerMode::Off) arrived_ = true;
+    const bool fires = pending() ? timedOut(now) : wanted(now, statsOf, stats);
+    if (fires) fire(now);
+    return fires;
+}
+
+void StillPolicy::configure(const TriggerConfig& config) {
+    config_ = config;
+    usedSince_.reset();
+}
+
+void StillPolicy::stillArrived(Timestamp exposed) {
+    still_ = exposed;
+    usedSince_.reset();
+    movedInUse_ = false;
+    if (firedAt_ && exposed < *firedAt_) return;
+    arrived_ = true;
+    repeated_ = false;
+    notBefore_.reset();
+}
+
+bool StillPolicy::wanted(Timestamp now, Timestamp statsOf, const FrameStats& stats) const {
+    if (config_.mode == TriggerMode::Off || (notBefore_ && now < *notBefore_)) return false;
+    if (config_.mode == TriggerMode::Rate) return !due_ || now >= *due_;
+    if (!still_) return true;
+    if (firedAt_ && now - *firedAt_ < nanoseconds(config_.minIntervalS)) return false;
+    if (movedInUse_ && now - *still_ > nanoseconds(config_.maxAgeS)) return true;
+    // At rest a new still would show what the old one shows, however little that explains.
+    return movedSinceTrigger_ && statsOf >= *usedSince_ && stats.explained < config_.explainedBelow;
+}
+
+bool StillPolicy::timedOut(Timestamp now) {
+    if (now - *firedAt_ < nanoseconds(config_.timeoutS)) return false;
+    ++lost_;
+    arrived_ = true;
+    repeated_ = !repeated_;
+    if (!repeated_ && config_.mode == TriggerMode::Demand)
+        notBefore_ = now + nanoseconds(config_.maxAgeS);
+    return repeated_;
+}
+
+void StillPolicy::fire(Timestamp now) {
+    // Counted from the due time, so that the frame clock's steps do not slow the rate down.
+    const std::chrono::nanoseconds period = nanoseconds(1 / config_.rateHz);
+    due_ = due_ && now >= *due_ && now - *due_ < period ? *due_ + period : now + period;
+    firedAt_ = now;
+    arrived_ = false;
+    movedSinceTrigger_ = false;
+    ++fired_;
+}
+
+}  // namespace mfar

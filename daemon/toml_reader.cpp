@@ -1,0 +1,152 @@
+#include "daemon/toml_reader.h"
+
+#include "daemon/config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace mfar {
+namespace {
+
+std::string_view kind(const toml::node& node) {
+    switch (node.type()) {
+    case toml::node_type::table: return "a section";
+    case toml::node_type::array: return "a list";
+    case toml::node_type::string: return "a text";
+    case toml::node_type::integer: return "a whole number";
+    case toml::node_type::floating_point: return "a number";
+    case toml::node_type::boolean: return "true or false";
+    default: return "a date or time";
+    }
+}
+
+std::size_t editDistance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t change = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({change, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+std::string_view lastPart(std::string_view key) {
+    return key.substr(key.rfind('.') + 1);
+}
+
+// A key in the wrong section is as likely as a slip of the finger, so the name alone counts too.
+std::size_t distance(std::string_view given, std::string_view known) {
+    return std::min(editDistance(given, known), editDistance(lastPart(given), lastPart(known)) + 1);
+}
+
+std::string place(const std::string& file, const toml::source_position& at) {
+    return fmt::format("{}:{}:{}: ", file, at.line, at.column);
+}
+
+}  // namespace
+
+TomlReader::TomlReader(std::string_view text, std::string file) : file_(std::move(file)) {
+    try {
+        root_ = toml::parse(text, file_);
+    } catch (const toml::parse_error& error) {
+        throw ConfigError(place(file_, error.source().begin) + std::string(error.description()));
+    }
+}
+
+void TomlReader::number(std::string_view key, double& out, double least, double most) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    if (!node->is_number())
+        return fault(node->source(), fmt::format("{} must be a number, not {}", key, kind(*node)));
+    const double value = node->value<double>().value();
+    if (!(value >= least && value <= most))
+        return fault(node->source(),
+                     fmt::format("{} must be from {} to {}, not {}", key, least, most, value));
+    out = value;
+}
+
+void TomlReader::integer(std::string_view key, std::uint64_t& out) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    if (!node->is_integer())
+        return fault(node->source(),
+                     fmt::format("{} must be a whole number, not {}", key, kind(*node)));
+    const std::int64_t value = node->value<std::int64_t>().value();
+    if (value < 0)
+        return fault(node->source(), fmt::format("{} must not be negative: {}", key, value));
+    out = static_cast<std::uint64_t>(value);
+}
+
+void TomlReader::boolean(std::string_view key, bool& out) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    if (!node->is_boolean())
+        return fault(node->source(),
+                     fmt::format("{} must be true or false, not {}", key, kind(*node)));
+    out = node->value<bool>().value();
+}
+
+void TomlReader::text(std::string_view key, std::string& out, const Check& check) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    if (!node->is_string())
+        return fault(node->source(),
+                     fmt::format("{} must be a text in quotes, not {}", key, kind(*node)));
+    std::string value = node->value<std::string>().value();
+    if (const std::optional<std::string> wrong = check ? check(value) : std::nullopt)
+        return fault(node->source(), fmt::format("{} = \"{}\": {}", key, value, *wrong));
+    out = std::move(value);
+}
+
+void TomlReader::finish() {
+    refuseUnknown(root_, "");
+    if (faults_.empty()) return;
+    std::stable_sort(faults_.begin(), faults_.end(),
+                     [](const Fault& a, const Fault& b) { return a.at < b.at; });
+    std::string all;
+    for (const Fault& one : faults_)
+        all += (all.empty() ? "" : "\n") + place(file_, one.at) + one.message;
+    throw ConfigError(all);
+}
+
+const toml::node* TomlReader::find(std::string_view key) {
+    known_.emplace_back(key);
+    return root_.at_path(key).node();
+}
+
+void TomlReader::fault(const toml::source_region& at, std::string message) {
+    faults_.push_back({at.begin, std::move(message)});
+}
+
+void TomlReader::refuseUnknown(const toml::table& table, const std::string& prefix) {
+    for (const auto& [key, value] : table) {
+        const std::string name = prefix + std::string(key.str());
+        if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+        const bool isSection =
+            std::any_of(known_.begin(), known_.end(),
+                        [&](const std::string& known) { return known.starts_with(name + "."); });
+        if (isSection && value.is_table()) {
+            refuseUnknown(*value.as_table(), name + ".");
+            continue;
+        }
+        if (isSection) {
+            fault(key.source(),
+                  fmt::format("{} must be a section [{}], not {}", name, name, kind(value)));
+            continue;
+        }
+        const auto nearest = std::min_element(known_.begin(), known_.end(),
+                                              [&](const std::string& a, const std::string& b) {
+                                                  return distance(name, a) < distance(name, b);
+                                              });
+        fault(key.source(),
+              fmt::format("unknown key {}; the nearest known one is {}", name, *nearest));
+    }
+}
+
+}  // namespace mfar

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mfar {
+
+/// Reads typed values from TOML text and collects every fault with its place, so that a file with
+/// three mistakes says all three. A key that is asked for is a known key; finish() refuses others.
+class TomlReader {
+public:
+    /// Says what is wrong with a text, nothing when it is good.
+    using Check = std::function<std::optional<std::string>(std::string_view)>;
+
+    /// `file` is for messages. Throws ConfigError on broken syntax.
+    TomlReader(std::string_view text, std::string file);
+
+    /// Each takes a key "name" or "section.name" and leaves `out` alone when it is absent or wrong.
+    void number(std::string_view key, double& out, double least, double most);
+    void integer(std::string_view key, std::uint64_t& out);
+    void boolean(std::string_view key, bool& out);
+    /// The text is good when `check` says nothing.
+    void text(std::string_view key, std::string& out, const Check& check = nullptr);
+    template <class E>
+    void choice(std::string_view key, E& out,
+                std::span<const std::pair<std::string_view, E>> words);
+
+    /// Call when all keys have been read. Throws ConfigError with every fault, in file order.
+    void finish();
+
+private:
+    struct Fault {
+        toml::source_position at;
+        std::string message;
+    };
+
+    const toml::node* find(std::string_view key);
+    void fault(const toml::source_region& at, std::string message);
+    void refuseUnknown(const toml::table& table, const std::string& prefix);
+
+    std::string file_;
+    toml::table root_;
+    std::vector<std::string> known_;
+    std::vector<Fault> faults_;
+};
+
+template <class E>
+void TomlReader::choice(std::string_view key, E& out,
+                        std::span<const std::pair<std::string_view, E>> words) {
+    std::string word;
+    text(key, word, [&](std::string_view given) -> std::optional<std::string> {
+        std::string list;
+        for (const auto& [name, value] : words) {
+            if (name == given) {
+                out = value;
+                return std::nullopt;
+            }
+            list.append(list.empty() ? "\"" : ", \"").append(name).append("\"");
+        }
+        return "must be one of " + list;
+    });
+}
+
+}  // namespace mfar

@@ -1,0 +1,52 @@
+#include "daemon/events.h"
+
+#include <gtest/gtest.h>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <thread>
+
+namespace mfar {
+namespace {
+
+using std::chrono::milliseconds;
+
+TEST(Events, WakeFromAnotherThreadArrives) {
+    Events events;
+    std::jthread other([&] { events.wake(); });
+    EXPECT_EQ(events.wait().kind, Event::Kind::Wake);
+}
+
+TEST(Events, SignalsComeFirstAndByNumber) {
+    Events events;
+    events.wake();
+    kill(getpid(), SIGHUP);
+    const Event first = events.wait();
+    EXPECT_EQ(first.kind, Event::Kind::Signal);
+    EXPECT_EQ(first.signal, SIGHUP);
+    EXPECT_EQ(events.wait().kind, Event::Kind::Wake);
+}
+
+TEST(Events, TicksRepeatAndADeadlineComesOnce) {
+    Events events;
+    events.deadlineIn(milliseconds(1));
+    EXPECT_EQ(events.wait().kind, Event::Kind::Deadline);
+    events.tickEvery(milliseconds(1));
+    EXPECT_EQ(events.wait().kind, Event::Kind::Tick);
+    EXPECT_EQ(events.wait().kind, Event::Kind::Tick);
+}
+
+TEST(Events, ANewDeadlineReplacesTheOldOne) {
+    Events events;
+    events.deadlineIn(std::chrono::hours(1));
+    events.deadlineIn(milliseconds(1));
+    EXPECT_EQ(events.wait().kind, Event::Kind::Deadline);
+}
+
+TEST(Fd, RefusesWhatCouldNotBeOpened) {
+    EXPECT_THROW(Fd(-1, "thing"), std::system_error);
+}
+
+}  // namespace
+}  // namespace mfar

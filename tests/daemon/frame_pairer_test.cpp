@@ -1,0 +1,81 @@
+#include "daemon/capture.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+namespace mfar {
+namespace {
+
+Frame frame(double s) {
+    return {ImageView{}, Timestamp::fromSeconds(s), nullptr};
+}
+
+/// Stills that have come already, oldest first.
+class Stills {
+public:
+    explicit Stills(std::initializer_list<double> times) : times_(times) {}
+
+    FramePairer::NextStill source() {
+        return [this]() -> std::optional<Frame> {
+            if (times_.empty()) return std::nullopt;
+            const double time = times_.front();
+            times_.pop_front();
+            return frame(time);
+        };
+    }
+    void add(double time) { times_.push_back(time); }
+
+private:
+    std::deque<double> times_;
+};
+
+std::optional<double> stillTime(const CapturedFrame& captured) {
+    if (!captured.still) return std::nullopt;
+    return captured.still->time().seconds();
+}
+
+TEST(FramePairer, NoStillNoPair) {
+    Stills stills({});
+    FramePairer pairer(stills.source());
+    const CapturedFrame captured = pairer.pair(frame(1), Timestamp{5});
+    EXPECT_FALSE(captured.still);
+    EXPECT_EQ(captured.video.time(), Timestamp::fromSeconds(1));
+    EXPECT_EQ(captured.arrived, Timestamp{5});
+}
+
+TEST(FramePairer, AStillGoesWithTheFirstFrameThatIsNotOlder) {
+    Stills stills({2});
+    FramePairer pairer(stills.source());
+    EXPECT_EQ(stillTime(pairer.pair(frame(1), {})), std::nullopt);
+    EXPECT_EQ(stillTime(pairer.pair(frame(2), {})), 2) << "equal times belong together";
+    EXPECT_EQ(stillTime(pairer.pair(frame(3), {})), std::nullopt) << "handed over once";
+}
+
+TEST(FramePairer, TheNewestOfSeveralStillsWins) {
+    Stills stills({1, 2, 3, 9});
+    FramePairer pairer(stills.source());
+    EXPECT_EQ(stillTime(pairer.pair(frame(4), {})), 3);
+    EXPECT_EQ(stillTime(pairer.pair(frame(10), {})), 9);
+}
+
+TEST(FramePairer, AStillThatComesLateIsNotLost) {
+    Stills stills({});
+    FramePairer pairer(stills.source());
+    EXPECT_EQ(stillTime(pairer.pair(frame(1), {})), std::nullopt);
+    stills.add(0.5);
+    EXPECT_EQ(stillTime(pairer.pair(frame(2), {})), 0.5);
+}
+
+TEST(CapturedFrame, ADroppedFrameLeavesItsStillToTheNextOne) {
+    CapturedFrame older{frame(1), frame(0.5), {}};
+    CapturedFrame newer{frame(2), std::nullopt, {}};
+    newer.supersede(std::move(older));
+    EXPECT_EQ(stillTime(newer), 0.5);
+    CapturedFrame newest{frame(3), frame(2.5), {}};
+    newest.supersede(std::move(newer));
+    EXPECT_EQ(stillTime(newest), 2.5) << "the newer still wins";
+}
+
+}  // namespace
+}  // namespace mfar

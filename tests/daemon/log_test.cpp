@@ -1,0 +1,86 @@
+#include "daemon/log.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+namespace mfar {
+namespace {
+
+/// What a log writes into a pipe.
+std::string written(Log::Style style, const std::function<void(Log&)>& talk) {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) return "no pipe";
+    Log log(ends[1], style);
+    talk(log);
+    close(ends[1]);
+    std::string all;
+    std::array<char, 4096> part{};
+    for (ssize_t n = 0; (n = read(ends[0], part.data(), part.size())) > 0;)
+        all.append(part.data(), static_cast<std::size_t>(n));
+    close(ends[0]);
+    return all;
+}
+
+void talkMuch(Log& log) {
+    log.status("12 fps");
+    log.error("broken\nreally");
+    log.warning("late");
+    log.notice("started");
+    log.endStatus();
+}
+
+TEST(Log, PlainHasOnlyMessages) {
+    EXPECT_EQ(written(Log::Style::Plain, talkMuch),
+              "mfard: error: broken\nmfard: error: really\nmfard: warning: late\n"
+              "mfard: started\n");
+}
+
+TEST(Log, JournalLinesCarryTheirPriority) {
+    EXPECT_EQ(written(Log::Style::Journal, talkMuch),
+              "<3>mfard: error: broken\n<3>mfard: error: really\n<4>mfard: warning: late\n"
+              "<5>mfard: started\n");
+}
+
+TEST(Log, TerminalKeepsTheStatusLineBelowMessages) {
+    EXPECT_EQ(written(Log::Style::Terminal,
+                      [](Log& log) {
+                          log.status("12 fps");
+                          log.warning("late");
+                          log.endStatus();
+                          log.notice("end");
+                      }),
+              "\r\x1b[K12 fps\r\x1b[Kmfard: warning: late\n12 fps\nmfard: end\n");
+}
+
+TEST(Log, StatusLineNeverWraps) {
+    const std::string out =
+        written(Log::Style::Terminal, [](Log& log) { log.status(std::string(500, 'x')); });
+    EXPECT_EQ(out, "\r\x1b[K" + std::string(79, 'x'));
+}
+
+TEST(Log, StyleFollowsTheJournalsSocket) {
+    const int file = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    ASSERT_GE(file, 0);
+    struct stat status{};
+    ASSERT_EQ(fstat(file, &status), 0);
+    const std::string self = fmt::format("{}:{}", status.st_dev, status.st_ino);
+    setenv("JOURNAL_STREAM", self.c_str(), 1);
+    EXPECT_EQ(Log::styleOf(file), Log::Style::Journal);
+    setenv("JOURNAL_STREAM", "1:1", 1);
+    EXPECT_EQ(Log::styleOf(file), Log::Style::Plain);
+    unsetenv("JOURNAL_STREAM");
+    EXPECT_EQ(Log::styleOf(file), Log::Style::Plain);
+    close(file);
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,127 @@
+#include "daemon/mailbox.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+TEST(Mailbox, NewestWinsAndTheReplacedAreCounted) {
+    Mailbox<int> box(HandOver::NewestWins);
+    EXPECT_EQ(box.put(1), Mailbox<int>::Put::Stored);
+    EXPECT_EQ(box.put(2), Mailbox<int>::Put::Replaced);
+    EXPECT_EQ(box.put(3), Mailbox<int>::Put::Replaced);
+    EXPECT_EQ(box.take(), 3);
+    EXPECT_EQ(box.dropped(), 2U);
+    EXPECT_EQ(box.tryTake(), std::nullopt);
+}
+
+TEST(Mailbox, MovesWhatCannotBeCopied) {
+    Mailbox<std::unique_ptr<int>> box(HandOver::NewestWins);
+    box.put(std::make_unique<int>(7));
+    EXPECT_EQ(**box.take(), 7);
+}
+
+struct Parcel {
+    std::string letter;
+    std::string kept;
+    void supersede(Parcel&& older) { kept = older.kept + older.letter; }
+};
+
+TEST(Mailbox, TheNewerItemInheritsFromTheReplacedOne) {
+    Mailbox<Parcel> box(HandOver::NewestWins);
+    box.put({"a", ""});
+    box.put({"b", ""});
+    box.put({"c", ""});
+    const auto parcel = box.take();
+    EXPECT_EQ(parcel->letter, "c");
+    EXPECT_EQ(parcel->kept, "ab");
+}
+
+TEST(Mailbox, LosslessHandsOverEveryItemInOrder) {
+    constexpr int kItems = 2000;
+    Mailbox<int> box(HandOver::Lossless);
+    std::vector<int> received;
+    std::jthread receiver([&] {
+        while (const auto item = box.take())
+            received.push_back(*item);
+    });
+    for (int i = 0; i < kItems; ++i)
+        ASSERT_EQ(box.put(i), Mailbox<int>::Put::Stored);
+    box.finish();
+    receiver.join();
+    ASSERT_EQ(received.size(), static_cast<std::size_t>(kItems));
+    for (int i = 0; i < kItems; ++i)
+        EXPECT_EQ(received[i], i);
+    EXPECT_EQ(box.dropped(), 0U);
+}
+
+TEST(Mailbox, NewestWinsUnderLoadLosesNothingUncounted) {
+    constexpr int kItems = 2000;
+    Mailbox<int> box(HandOver::NewestWins);
+    int received = 0;
+    int last = -1;
+    std::jthread receiver([&] {
+        while (const auto item = box.take()) {
+            EXPECT_GT(*item, last);
+            last = *item;
+            ++received;
+        }
+    });
+    for (int i = 0; i < kItems; ++i)
+        box.put(i);
+    box.finish();
+    receiver.join();
+    EXPECT_EQ(last, kItems - 1);
+    EXPECT_EQ(received + static_cast<int>(box.dropped()), kItems);
+}
+
+TEST(Mailbox, LosslessSenderAndReceiverWorkInTurn) {
+    Mailbox<int> box(HandOver::Lossless);
+    std::atomic<int> working{0};
+    std::jthread receiver([&] {
+        while (box.take()) {
+            ++working;
+            std::this_thread::yield();
+            --working;
+        }
+    });
+    for (int i = 0; i < 500; ++i) {
+        box.put(i);
+        ASSERT_EQ(working, 0) << "the receiver has finished an item before the next one is made";
+    }
+    box.finish();
+}
+
+TEST(Mailbox, FinishLetsTheLastItemThrough) {
+    Mailbox<int> box(HandOver::NewestWins);
+    box.put(5);
+    box.finish();
+    EXPECT_EQ(box.take(), 5);
+    EXPECT_EQ(box.take(), std::nullopt);
+}
+
+TEST(Mailbox, CloseWakesAWaitingReceiver) {
+    Mailbox<int> box(HandOver::NewestWins);
+    std::jthread receiver([&] { EXPECT_EQ(box.take(), std::nullopt); });
+    box.close();
+}
+
+TEST(Mailbox, CloseWakesAWaitingSenderAndDestroysTheItem) {
+    using Item = std::shared_ptr<int>;
+    Item item = std::make_shared<int>(1);
+    Mailbox<Item> box(HandOver::Lossless);
+    std::jthread sender([&] { EXPECT_EQ(box.put(item), Mailbox<Item>::Put::Closed); });
+    box.close();
+    sender.join();
+    EXPECT_EQ(item.use_count(), 1);
+    EXPECT_EQ(box.put(item), Mailbox<Item>::Put::Closed);
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,97 @@
+#include "daemon/exit_code.h"
+#include "daemon/options.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+CommandLine parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "mfard");
+    return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
+}
+
+/// What the program says against these arguments.
+std::string usageFault(std::vector<const char*> arguments) {
+    try {
+        (void)parse(std::move(arguments));
+        return "";
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code, ExitCode::Usage);
+        return failure.what();
+    }
+}
+
+TEST(Options, NothingGivenLeavesEverythingToTheDefaults) {
+    const CommandLine line = parse({});
+    EXPECT_FALSE(line.print);
+    const Config config = effectiveConfig(line.options);
+    EXPECT_EQ(needRestart(config, Config{}), "");
+    EXPECT_FALSE(line.options.frames || line.options.seconds || line.options.summary);
+}
+
+TEST(Options, EveryOptionIsRead) {
+    const Options options =
+        parse({"--recording", "/data/run", "--display", "png:out",   "--record",
+               "new",         "--mode",    "blend",     "--pace",    "consumer",
+               "--seed",      "7",         "--frames",  "12",        "--seconds",
+               "2.5",         "--summary", "-",         "--measure", "--check-config"})
+            .options;
+    EXPECT_TRUE(options.checkConfig);
+    EXPECT_EQ(options.frames, 12U);
+    EXPECT_EQ(options.seconds, 2.5);
+    EXPECT_EQ(options.summary, "-");
+    const Config config = effectiveConfig(options);
+    EXPECT_EQ(config.recording, "/data/run");
+    EXPECT_EQ(config.display, "png:out");
+    EXPECT_EQ(config.recordTo, "new");
+    EXPECT_EQ(config.superres.mode, SuperResMode::Blend);
+    EXPECT_EQ(config.pace, SourcePace::Consumer);
+    EXPECT_EQ(config.seed, 7U);
+    EXPECT_TRUE(config.status.measure);
+}
+
+TEST(Options, TheCommandLineComesBeforeTheFile) {
+    const std::string file = testing::TempDir() + "options_test.toml";
+    std::ofstream(file) << "recording = \"/data/run\"\nseed = 5\n[superres]\nmode = \"off\"\n";
+    const Config fromFile = effectiveConfig(parse({"--config", file.c_str()}).options);
+    EXPECT_EQ(fromFile.recording, "/data/run");
+    EXPECT_EQ(fromFile.superres.mode, SuperResMode::Off);
+    const Config both = effectiveConfig(
+        parse({"--config", file.c_str(), "--source", "synthetic:flat", "--mode", "detail"})
+            .options);
+    EXPECT_EQ(both.source, "synthetic:flat");
+    EXPECT_EQ(both.recording, "") << "a source given by hand replaces the file's recording";
+    EXPECT_EQ(both.superres.mode, SuperResMode::Detail);
+    EXPECT_EQ(both.seed, 5U);
+}
+
+TEST(Options, UsageFaultsSayWhatIsPossible) {
+    EXPECT_THAT(usageFault({"--source", "webcam"}), HasSubstr("synthetic"));
+    EXPECT_THAT(usageFault({"--display", "screen"}), AllOf(HasSubstr("none"), HasSubstr("y4m")));
+    EXPECT_THAT(usageFault({"--mode", "best"}), HasSubstr("detail"));
+    EXPECT_THAT(usageFault({"--pace", "slow"}), HasSubstr("consumer"));
+    EXPECT_THAT(usageFault({"--frames", "0"}), HasSubstr("--frames"));
+    EXPECT_THAT(usageFault({"--frames", "-3"}), HasSubstr("--frames"));
+    EXPECT_THAT(usageFault({"--seconds", "nan"}), HasSubstr("--seconds"));
+    EXPECT_THAT(usageFault({"--seed", "x"}), HasSubstr("--seed"));
+    EXPECT_THAT(usageFault({"--colour"}), HasSubstr("--colour"));
+    EXPECT_THAT(usageFault({"--source", "synthetic", "--recording", "x"}),
+                HasSubstr("--recording"));
+}
+
+TEST(Options, HelpAndVersionArePrinted) {
+    EXPECT_THAT(parse({"--help"}).print.value_or(""),
+                AllOf(HasSubstr("--recording"), HasSubstr("office"), HasSubstr("handheld")));
+    EXPECT_THAT(parse({"--version"}).print.value_or(""), HasSubstr("mfard " MFAR_VERSION));
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,116 @@
+#include "daemon/status.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <gmock/gmock.h>
+
+namespace mfar {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
+
+/// A second of pictures, 50 ms apart, each 20 ms after its frame.
+void showPictures(Stats& stats, int count) {
+    for (int i = 0; i < count; ++i) {
+        FrameStats frame;
+        frame.tiles = {100, 0, 50, 50, 0};
+        frame.meanConfidence = 0.8;
+        frame.usedStill = i >= count / 2;
+        const Timestamp arrived = Timestamp::fromSeconds(10 + 0.05 * i);
+        stats.picture({frame, kStages, arrived, arrived + std::chrono::milliseconds(20), 1.5});
+    }
+}
+
+TEST(Stats, RatesLatencyAndSharesAreThoseOfThePictures) {
+    Stats stats;
+    showPictures(stats, 21);
+    const Counted counted = stats.count();
+    EXPECT_EQ(counted.frames, 21U);
+    EXPECT_NEAR(counted.fps, 20, 1e-6);
+    EXPECT_NEAR(counted.recentFps, 20, 1e-6);
+    EXPECT_NEAR(counted.latencyMs.quantile(0.5), 20, 0.3);
+    EXPECT_NEAR(counted.meanConfidence, 0.8, 1e-9) << "frames without still do not count";
+}
+
+TEST(Stats, NothingShownIsAllZero) {
+    Stats stats;
+    const Counted counted = stats.count();
+    EXPECT_EQ(counted.fps, 0);
+    EXPECT_EQ(counted.recentFps, 0);
+    EXPECT_EQ(counted.meanConfidence, 0);
+}
+
+TEST(Stats, RecentRateFallsToZeroWhenPicturesStop) {
+    Stats stats;
+    showPictures(stats, 10);
+    EXPECT_GT(stats.count().recentFps, 0);
+    EXPECT_EQ(stats.count().recentFps, 0);
+}
+
+TEST(Status, SummaryHoldsWhatTheRunMeasured) {
+    Stats stats;
+    showPictures(stats, 21);
+    stats.stillReceived();
+    stats.stillUsed();
+    stats.triggers(3, 2);
+    stats.mailboxDropped(4);
+    stats.videoGap(5);
+    stats.recorderDropped(6);
+    const auto json =
+        summary(stats.count(), {"llvmpipe", "synthetic", "none", "detail", {}, {}}, "SIGTERM", 0);
+    EXPECT_EQ(json["exit_reason"], "SIGTERM");
+    EXPECT_EQ(json["exit_code"], 0);
+    EXPECT_EQ(json["renderer"], "llvmpipe");
+    EXPECT_EQ(json["frames"], 21);
+    EXPECT_NEAR(json["stage_ms"]["flow"]["median"].get<double>(), 30, 0.5);
+    EXPECT_NEAR(json["stage_ms"]["superres"]["p99"].get<double>(), 10, 0.2);
+    EXPECT_DOUBLE_EQ(json["tile_share"]["unchanged"].get<double>(), 0.5);
+    EXPECT_DOUBLE_EQ(json["tile_share"]["trusted"].get<double>(), 0.25);
+    EXPECT_EQ(json["stills"]["triggered"], 3);
+    EXPECT_EQ(json["stills"]["received"], 1);
+    EXPECT_EQ(json["stills"]["lost"], 2);
+    EXPECT_EQ(json["drops"]["mailbox"], 4);
+    EXPECT_EQ(json["drops"]["sensor"], 5);
+    EXPECT_EQ(json["drops"]["recorder"], 6);
+}
+
+TEST(Status, SummaryOfAnEmptyRunHasNoHoles) {
+    Stats stats;
+    const auto json = summary(stats.count(), {}, "error", 70);
+    EXPECT_EQ(json.dump().find("null"), std::string::npos) << json.dump();
+}
+
+TEST(Status, LineShowsTheLastFrame) {
+    Stats stats;
+    showPictures(stats, 21);
+    const std::string line = statusLine(stats.count(), {}, 1);
+    EXPECT_THAT(line,
+                AllOf(HasSubstr("20.0 fps"), HasSubstr("flow 30.0"), HasSubstr("confidence 0.80"),
+                      HasSubstr("still 1.5 s"), HasSubstr("unchanged 50%"), HasSubstr("0 dropped"),
+                      Not(HasSubstr("hidden"))));
+    EXPECT_THAT(line, Not(HasSubstr("["))) << "no bar where the end is unknown";
+}
+
+TEST(Status, LineSaysThatNothingHasComeYet) {
+    Stats stats;
+    EXPECT_EQ(statusLine(stats.count(), {}, 1), "waiting for the first picture");
+}
+
+TEST(Status, LineHasABarWhereTheEndIsKnown) {
+    Stats stats;
+    showPictures(stats, 20);
+    RunDescription run;
+    run.plannedFrames = 40;
+    EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[########........]  50% "));
+    run.plannedFrames.reset();
+    run.plannedSeconds = 4;
+    EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[####............]  25%"));
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,230 @@
+#include "daemon/still_policy.h"
+
+#include <gtest/gtest.h>
+
+namespace mfar {
+namespace {
+
+constexpr double kFrame = 1.0 / 30;
+
+/// A sensor that answers a trigger after a fixed time, or never.
+class Simulation {
+public:
+    explicit Simulation(const TriggerConfig& config) : policy(config) {}
+
+    /// Runs frames for `seconds`; returns how often the policy fired.
+    int run(double seconds, FrameStats stats) {
+        int fired = 0;
+        for (const double end = now + seconds; now < end; now += kFrame) {
+            const Timestamp statsOf = Timestamp::fromSeconds(now - delay);
+            if (answerAt && now >= *answerAt) {
+                policy.stillArrived(Timestamp::fromSeconds(*answerAt - latency / 2));
+                answerAt.reset();
+            }
+            if (!policy.decide(Timestamp::fromSeconds(now), statsOf, stats)) continue;
+            ++fired;
+            firedAt.push_back(now);
+            if (answers) answerAt = now + latency;
+        }
+        return fired;
+    }
+
+    StillPolicy policy;
+    double now = 100;
+    double delay = 0;  ///< of the numbers behind their frame
+    double latency = 0.2;
+    bool answers = true;
+    std::optional<double> answerAt;
+    std::vector<double> firedAt;
+};
+
+FrameStats frame(double explained, double changed) {
+    FrameStats stats;
+    stats.explained = explained;
+    stats.changed = changed;
+    return stats;
+}
+
+const FrameStats kRest = frame(0.95, 0);
+const FrameStats kMovingExplained = frame(0.9, 0.8);
+const FrameStats kMovingUnexplained = frame(0.2, 0.8);
+
+TEST(StillPolicy, WithoutAStillTheFirstFrameFires) {
+    Simulation board({});
+    EXPECT_EQ(board.run(kFrame / 2, frame(0, 1)), 1);
+}
+
+TEST(StillPolicy, CameraAtRestFiresOnceOnly) {
+    Simulation board({});
+    EXPECT_EQ(board.run(3600, kRest), 1);
+}
+
+TEST(StillPolicy, CameraAtRestFiresOnceEvenWhereTheStillExplainsNothing) {
+    Simulation board({});
+    EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
+}
+
+// The numbers of the first frame, where everything is new, come after the trigger it caused.
+TEST(StillPolicy, NumbersFromBeforeTheTriggerAreNoMotion) {
+    Simulation board({});
+    board.delay = kFrame;
+    EXPECT_EQ(board.run(kFrame * 1.5, frame(0, 1)), 1);
+    EXPECT_EQ(board.run(60, frame(0.1, 0)), 0);
+}
+
+// The pipeline draws every tile anew when it gets a still, also where nothing moves.
+TEST(StillPolicy, TheRedrawForANewStillIsNoMotion) {
+    TriggerConfig config;
+    config.maxAgeS = 0.5;
+    Simulation board(config);
+    board.delay = kFrame;
+    board.latency = 2.5 * kFrame;
+    board.run(3.5 * kFrame, kRest);
+    board.run(kFrame, frame(0.9, 1));
+    EXPECT_EQ(board.run(60, kRest), 0);
+    board.policy.configure(config);
+    board.run(kFrame, kRest);
+    board.run(kFrame, frame(0.9, 1));
+    EXPECT_EQ(board.run(60, kRest), 0) << "a reload redraws, too";
+}
+
+TEST(StillPolicy, NumbersFromBeforeTheStillSayNothingAboutIt) {
+    TriggerConfig config;
+    config.minIntervalS = 0;
+    Simulation board(config);
+    board.delay = kFrame;
+    board.run(1, kRest);
+    board.latency = 6.5 * kFrame;
+    EXPECT_EQ(board.run(6.5 * kFrame, kMovingUnexplained), 1);
+    EXPECT_EQ(board.run(0.5 * kFrame, kMovingUnexplained), 0) << "the still has just come";
+    EXPECT_EQ(board.run(2, kMovingExplained), 0);
+}
+
+TEST(StillPolicy, NewViewThatTheStillDoesNotExplainFires) {
+    Simulation board({});
+    board.run(2, kRest);
+    EXPECT_EQ(board.run(kFrame / 2, kMovingUnexplained), 1);
+}
+
+TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
+    TriggerConfig config;
+    config.maxAgeS = 5;
+    Simulation board(config);
+    board.run(1, kRest);
+    EXPECT_EQ(board.run(3.9, kMovingExplained), 0);
+    EXPECT_EQ(board.run(0.5, kMovingExplained), 1);
+}
+
+// A sensor's noise has to be learnt first, so that the first frames seem to change.
+TEST(StillPolicy, ChangesBeforeAStillIsInUseDoNotMakeItAge) {
+    TriggerConfig config;
+    config.maxAgeS = 5;
+    Simulation board(config);
+    board.delay = kFrame;
+    board.run(0.1, frame(0, 1));
+    EXPECT_EQ(board.run(60, kRest), 0);
+}
+
+// The camera swings and stops while the still is on its way, which then shows the wrong view.
+TEST(StillPolicy, AStillOutrunByTheMotionIsReplaced) {
+    Simulation board({});
+    board.latency = 0.4;
+    board.run(0.3, kMovingUnexplained);
+    EXPECT_EQ(board.run(30, frame(0.2, 0)), 1);
+}
+
+TEST(StillPolicy, MotionBeforeTheAgeLimitCountsWhenItIsReached) {
+    TriggerConfig config;
+    config.maxAgeS = 5;
+    Simulation board(config);
+    board.run(1, kRest);
+    board.run(0.2, kMovingExplained);
+    EXPECT_EQ(board.run(10, kRest), 1);
+}
+
+TEST(StillPolicy, NeverFiresWhileAStillIsPending) {
+    TriggerConfig config;
+    config.minIntervalS = 0;
+    Simulation board(config);
+    board.latency = 1;
+    board.run(10, kMovingUnexplained);
+    for (std::size_t i = 1; i < board.firedAt.size(); ++i)
+        EXPECT_GE(board.firedAt[i] - board.firedAt[i - 1], board.latency);
+    EXPECT_GE(board.firedAt.size(), 9U);
+}
+
+TEST(StillPolicy, KeepsTheShortestInterval) {
+    TriggerConfig config;
+    config.minIntervalS = 0.5;
+    Simulation board(config);
+    board.latency = 0.05;
+    board.run(10, kMovingUnexplained);
+    for (std::size_t i = 1; i < board.firedAt.size(); ++i)
+        EXPECT_GE(board.firedAt[i] - board.firedAt[i - 1], 0.5 - 1e-6);
+    EXPECT_GE(board.firedAt.size(), 18U);
+}
+
+TEST(StillPolicy, LostStillIsCountedAndRepeatedOnce) {
+    TriggerConfig config;
+    config.timeoutS = 1;
+    config.maxAgeS = 30;
+    Simulation board(config);
+    board.answers = false;
+    EXPECT_EQ(board.run(25, kRest), 2);
+    EXPECT_EQ(board.policy.lost(), 2);
+    EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
+}
+
+TEST(StillPolicy, AfterTwoLostStillsItTriesAgainLater) {
+    TriggerConfig config;
+    config.timeoutS = 1;
+    config.maxAgeS = 3;
+    Simulation board(config);
+    board.answers = false;
+    board.run(4.5, kRest);
+    ASSERT_EQ(board.firedAt.size(), 2U);
+    board.answers = true;
+    EXPECT_EQ(board.run(60, kRest), 1);
+    EXPECT_EQ(board.policy.lost(), 2);
+}
+
+TEST(StillPolicy, LateAnswerDoesNotSettleTheRepetition) {
+    TriggerConfig config;
+    config.timeoutS = 1;
+    Simulation board(config);
+    board.answers = false;
+    board.run(1.2, kRest);
+    ASSERT_EQ(board.firedAt.size(), 2U);
+    board.policy.stillArrived(Timestamp::fromSeconds(board.firedAt[0] + 0.1));
+    EXPECT_TRUE(board.policy.pending());
+    board.policy.stillArrived(Timestamp::fromSeconds(board.firedAt[1] + 0.1));
+    EXPECT_FALSE(board.policy.pending());
+}
+
+TEST(StillPolicy, RateHoldsOnTheFrameClock) {
+    TriggerConfig config;
+    config.mode = TriggerMode::Rate;
+    config.rateHz = 4;
+    Simulation board(config);
+    const int fired = board.run(30, kRest);
+    EXPECT_NEAR(fired, 120, 1);
+}
+
+TEST(StillPolicy, OffNeverFires) {
+    TriggerConfig config;
+    config.mode = TriggerMode::Off;
+    Simulation board(config);
+    EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
+}
+
+TEST(StillPolicy, ReloadFromOffToDemandFires) {
+    TriggerConfig config;
+    config.mode = TriggerMode::Off;
+    Simulation board(config);
+    board.run(1, kRest);
+    board.policy.configure({});
+    EXPECT_EQ(board.run(5, kRest), 1);
+}
+
+}  // namespace
+}  // namespace mfar
