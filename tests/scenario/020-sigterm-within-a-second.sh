@@ -1,0 +1,65 @@
+#!/bin/bash
+# SIGTERM and SIGINT end mfard within one second, whatever it waits for. The limits leave half a
+# second for the scheduler.
+. "$(dirname "$0")/lib.sh"
+
+limit=1500
+# SIGHUP, SIGINT and SIGTERM are blocked as soon as mfard waits for them itself.
+signals_watched() { grep -q '^SigBlk:.*4003$' "/proc/$pid/status"; }
+record run 3 --source synthetic:flat,rest
+mkfifo pipe
+
+echo "while frames come"
+start --source synthetic:flat --summary summary.json
+until_true started
+kill -TERM "$pid"
+ends_with 0 $limit
+summary_has exit_reason '"SIGTERM"'
+
+echo "while waiting for a frame that comes in an hour"
+cp -r run gap
+last=$(tail -n 1 gap/cam0/data.csv)
+sed -i '$d' gap/cam0/data.csv
+echo "$((${last%,*} + 3600000000000)),${last#*,}" >>gap/cam0/data.csv
+start --recording gap --pace realtime --summary summary.json
+until_true started
+kill -INT "$pid"
+ends_with 0 $limit
+summary_has exit_reason '"SIGINT"'
+
+echo "while waiting for somebody who reads the display pipe"
+start --recording run --display y4m:pipe
+until_true signals_watched
+sleep 1
+kill -TERM "$pid"
+ends_with 0 $limit
+
+echo "while the reader of the display pipe takes nothing"
+exec 3<>pipe
+start --recording run --display y4m:pipe --summary summary.json
+until_true started
+sleep 1
+kill -TERM "$pid"
+ends_with 0 $limit
+summary_has exit_reason '"SIGTERM"'
+says err 'not everything was written'
+
+echo "a second signal ends it at once"
+start --recording run --display y4m:pipe
+until_true started
+sleep 1
+kill -TERM "$pid"
+sleep 0.05
+kill -INT "$pid"
+ends_with 130 $limit
+says err 'second SIGINT'
+exec 3>&-
+
+echo "during the first milliseconds"
+start --source synthetic:flat
+sleep 0.02
+kill -TERM "$pid"
+# Before signals are taken over, the system's own way to end is as good.
+code=0
+wait "$pid" || code=$?
+[ "$code" = 0 ] || [ "$code" = 143 ] || fail "ended with $code"

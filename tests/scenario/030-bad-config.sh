@@ -1,0 +1,33 @@
+#!/bin/bash
+# A wrong configuration is refused with the place of every fault, and nothing is touched.
+. "$(dirname "$0")/lib.sh"
+
+cat >mfard.toml <<'END'
+display = "png:shown"
+sed = 3
+[trigger]
+mode = "sometimes"
+max_age_s = -1
+END
+for check in "" --check-config; do
+    run 78 --config mfard.toml $check
+    says err 'mfard.toml:2:1: unknown key sed; the nearest known one is seed$'
+    says err 'mfard.toml:4:8: trigger.mode = "sometimes": .*"demand"'
+    says err 'mfard.toml:5:13: trigger.max_age_s must be from'
+    [ "$(wc -l <err)" = 3 ] || fail "more than three messages"
+done
+[ ! -e shown ] || fail "the display was opened"
+
+echo 'seed = ' >mfard.toml
+run 78 --config mfard.toml
+says err 'mfard.toml:1:'
+
+echo 'seed = 3' >mfard.toml
+run 0 --config mfard.toml --check-config
+says out '^ok$'
+
+run 66 --config missing.toml
+says err 'missing.toml: cannot be read'
+run 64 --recording
+run 64 --source camera
+says err 'synthetic'

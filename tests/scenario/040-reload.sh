@@ -1,0 +1,34 @@
+#!/bin/bash
+# SIGHUP reads the configuration again; a bad one is refused and the old one stays.
+. "$(dirname "$0")/lib.sh"
+
+lines() { [ "$(grep -Ec "$1" err)" -ge "$2" ]; }
+
+echo 'source = "synthetic:flat,rest"' >mfard.toml
+start --config mfard.toml --summary summary.json
+until_true started
+
+printf '[superres]\nmode = "best"\n' >>mfard.toml
+kill -HUP "$pid"
+until_true lines 'the old configuration stays' 1
+says err 'mfard.toml:3:8: superres.mode'
+
+sed -i 's/best/off/; s/rest"/pan"/' mfard.toml
+kill -HUP "$pid"
+until_true lines 'mfard.toml: read again; after a restart only: source$' 1
+
+rm mfard.toml
+kill -HUP "$pid"
+until_true lines 'mfard.toml: cannot be read' 1
+
+kill -TERM "$pid"
+ends_with 0 1500
+summary_has mode '"off"'
+
+echo "without a file there is nothing to read again"
+start --source synthetic:flat
+until_true started
+kill -HUP "$pid"
+until_true lines 'started without --config' 1
+kill -TERM "$pid"
+ends_with 0 1500

@@ -1,0 +1,19 @@
+#!/bin/bash
+# What was shown live is shown again from its recording: same frames, same still, same pictures.
+. "$(dirname "$0")/lib.sh"
+
+record run 8 --source synthetic:office --display png:live --summary summary.json
+summary_has recorder 0
+summary_has used 1
+run 0 --recording run --display png:again --summary summary.json
+summary_has frames 8
+[ "$(grep -vc '^#' run/cam0/data.csv)" = 8 ] || fail "not all frames were recorded"
+[ "$(grep -vc '^#' run/cam1/data.csv)" = 1 ] || fail "the still was not recorded"
+
+# The still was taken before the frame it was first used for, so the recording may use it a few
+# frames earlier. Before its exposure and at the end both runs are in the same state.
+first=$(ls live | sort -n | head -n 1)
+cmp "live/$first" "again/$first" || fail "the first picture differs"
+
+run 74 --recording run --record run
+says err 'not empty'

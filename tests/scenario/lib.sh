@@ -1,0 +1,93 @@
+# Common words of the scenarios. Each is run as "NNN-name.sh PATH-OF-MFARD" and tells one story of
+# the real program in a folder of its own. MFAR_PATIENCE (default 1) stretches all time limits, for
+# sanitizers and slow machines.
+
+set -eu -o pipefail
+
+mfard=$1
+patience=${MFAR_PATIENCE:-1}
+work=$(mktemp -d)
+cd "$work"
+pids=()
+
+# ThreadSanitizer cannot see into TBB, behind OpenCV's loops, which stays alone on a single CPU. It
+# finds the races of other threads all the same, as it looks for order, not for simultaneity.
+if [ -n "${MFAR_ONE_CPU:-}" ]; then
+    first=$(sed -n 's/^Cpus_allowed_list:[[:space:]]*\([0-9]*\).*/\1/p' /proc/self/status)
+    taskset -pc "$first" $$ >/dev/null
+fi
+
+clean_up() {
+    for pid in "${pids[@]}"; do kill -KILL "$pid" 2>/dev/null || true; done
+    rm -rf "$work"
+}
+trap clean_up EXIT
+
+fail() {
+    echo "FAILED: $*" >&2
+    for file in err summary.json; do
+        if [ -f "$file" ]; then echo "--- $file" >&2 && tail -n 40 "$file" >&2; fi
+    done
+    exit 1
+}
+
+milliseconds() {
+    local now=${EPOCHREALTIME/[.,]/}
+    echo $((now / 1000))
+}
+
+# run EXIT-CODE ARGUMENT...: mfard must end with this code. Messages are in the file err.
+run() {
+    local expected=$1 code=0
+    shift
+    timeout -s KILL $((60 * patience)) "$mfard" "$@" >out 2>err || code=$?
+    [ "$code" = "$expected" ] || fail "mfard $* ended with $code instead of $expected"
+}
+
+# start ARGUMENT...: mfard in the background, its id in $pid.
+start() {
+    "$mfard" "$@" >out 2>err &
+    pid=$!
+    pids+=("$pid")
+}
+
+# until_true COMMAND...: waits until the command succeeds.
+until_true() {
+    local end=$(($(milliseconds) + 30000 * patience))
+    until "$@"; do
+        [ "$(milliseconds)" -lt "$end" ] || fail "it never came true: $*"
+        sleep 0.05
+    done
+}
+
+# The line with renderer, sensors and display: devices are open and frames come.
+started() { grep -q 'display ' err; }
+
+# ends_with EXIT-CODE LIMIT-MS: the background mfard ends with this code, this long from now at most.
+ends_with() {
+    local begin code=0 took
+    begin=$(milliseconds)
+    # Only the process table is asked, so that a hanging mfard fails this test and not the timeout.
+    while kill -0 "$pid" 2>/dev/null && [ $(($(milliseconds) - begin)) -lt 30000 ]; do
+        sleep 0.02
+    done
+    took=$(($(milliseconds) - begin))
+    kill -0 "$pid" 2>/dev/null && fail "mfard does not end"
+    wait "$pid" || code=$?
+    echo "ended with $code after $took ms"
+    [ "$code" = "$1" ] || fail "ended with $code instead of $1"
+    [ "$took" -le $(($2 * patience)) ] || fail "took $took ms, limit $2 ms times $patience"
+}
+
+# says FILE PATTERN
+says() { grep -Eq -- "$2" "$1" || fail "$1 does not say: $2"; }
+
+# summary_has KEY VALUE: one scalar of summary.json, keys are unique there.
+summary_has() { says summary.json "\"$1\": $2,?\$"; }
+
+# record DIR FRAMES [ARGUMENT...]: a small recording of the synthetic board.
+record() {
+    local dir=$1 frames=$2
+    shift 2
+    run 0 --pace consumer --frames "$frames" --record "$dir" "$@"
+}
