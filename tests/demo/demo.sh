@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Runs the daemon on the simulated board and leaves pictures of what it does.
+# Usage: demo.sh BUILD_FOLDER OUTPUT_FOLDER
+set -euo pipefail
+build=$1
+out=$2
+frames=60
+seconds=1
+
+rm -rf "$out"
+mkdir -p "$out"
+work=$(mktemp -d -p "$out")
+trap 'rm -rf "$work"' EXIT
+
+echo "1/3  mfard on the synthetic scene 'office', hand-held, $frames frames"
+"$build/daemon/mfard" --source synthetic:office --pace consumer --frames "$frames" \
+    --display "y4m:$work/video.y4m" --summary "$out/summary.json"
+
+echo "2/3  the same scene with its truth, for comparison"
+"$build/daemon/tools/mfar-sim" --scene office --path handheld --seconds "$seconds" --stills 4 \
+    --out "$work/recording"
+
+echo "3/3  pictures"
+"$build/tests/demo/mfar-demo" "$work/recording" "$out" --video "$work/video.y4m"
+
+cat <<EOF
+
+In $out:
+  comparison.png    upscaled video, result and truth, with a magnified detail
+  confidence.png    how far each place of the still is trusted
+  tile_classes.png  which work each tile needed
+  video.avi         what the daemon showed, at half size
+  summary.json      its numbers
+EOF

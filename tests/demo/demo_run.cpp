@@ -1,0 +1,119 @@
+#include "tests/demo/demo_run.h"
+
+#include "pipeline/pipeline.h"
+#include "tests/eval/metrics/harm_rate.h"
+#include "tests/eval/metrics/luma.h"
+#include "tests/eval/metrics/psnr.h"
+#include "tests/eval/metrics/ssim.h"
+#include "tests/eval/picture.h"
+
+#include <GLES3/gl31.h>
+#include <opencv2/imgproc.hpp>
+
+#include <chrono>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+namespace mfar::demo {
+namespace {
+
+constexpr int kBorder = 32;
+
+cv::Mat lumaInside(const cv::Mat& picture) {
+    const cv::Rect inside(kBorder, kBorder, picture.cols - 2 * kBorder, picture.rows - 2 * kBorder);
+    return eval::luma(picture(inside));
+}
+
+void addQuality(const Shown& shown, Quality& sum) {
+    const cv::Mat truth = lumaInside(shown.truth);
+    const cv::Mat upscaled = lumaInside(shown.upscaled);
+    const cv::Mat result = lumaInside(shown.result);
+    sum.upscaledPsnrDb += eval::psnr(upscaled, truth);
+    sum.resultPsnrDb += eval::psnr(result, truth);
+    sum.upscaledSsim += eval::ssim(upscaled, truth);
+    sum.resultSsim += eval::ssim(result, truth);
+    sum.harmRate += eval::harmRate(result, upscaled, truth);
+    ++sum.frames;
+}
+
+void addStats(const FrameStats& stats, Quality& sum) {
+    sum.meanConfidence += stats.meanConfidence;
+    const double tiles = std::accumulate(stats.tiles.begin(), stats.tiles.end(), 0.0);
+    for (std::size_t i = 0; i < kTileClasses; ++i)
+        sum.tileShares[i] += stats.tiles[i] / tiles;
+}
+
+void divideByFrames(Quality& sum) {
+    const double n = sum.frames;
+    for (double* value : {&sum.upscaledPsnrDb, &sum.resultPsnrDb, &sum.upscaledSsim,
+                          &sum.resultSsim, &sum.harmRate, &sum.meanConfidence, &sum.frameMs})
+        *value /= n;
+    for (double& share : sum.tileShares)
+        share /= n;
+}
+
+/// Gives the pipeline the newest still taken before the frame, once each.
+class StillFeed {
+public:
+    explicit StillFeed(const Recording& recording) : recording_(recording) {}
+
+    void feed(Pipeline& pipeline, Timestamp frame) {
+        const std::size_t before = next_;
+        while (next_ < recording_.stills.size() && recording_.stills[next_].time < frame)
+            ++next_;
+        if (next_ == before) return;
+        const RecordedImage& still = recording_.stills[next_ - 1];
+        const cv::Mat rgba = eval::toRgba(eval::loadPicture(still.file));
+        pipeline.setStill(eval::viewOf(rgba), still.time);
+    }
+
+private:
+    const Recording& recording_;
+    std::size_t next_ = 0;  ///< the first still not taken before the last frame
+};
+
+Shown shownBy(const Pipeline& pipeline, const cv::Mat& video, const cv::Mat& truth) {
+    Shown out;
+    const Size size = pipeline.outputSize();
+    cv::resize(video, out.upscaled, {size.width, size.height}, 0, 0, cv::INTER_CUBIC);
+    out.result = eval::fromRgba(pipeline.readImage(), size);
+    out.truth = truth;
+    out.confidence = pipeline.readConfidence();
+    out.classes = pipeline.readTileClasses();
+    out.video = {video.cols, video.rows};
+    return out;
+}
+
+}  // namespace
+
+DemoRun runDemo(const Recording& recording, const std::function<void(int, int)>& progress) {
+    Pipeline pipeline(recording.rig, {});
+    StillFeed stills(recording);
+    DemoRun run;
+    int done = 0;
+    for (const RecordedImage& frame : recording.video) {
+        const cv::Mat video = eval::loadPicture(frame.file);
+        const cv::Mat rgba = eval::toRgba(video);
+        stills.feed(pipeline, frame.time);
+        const auto begun = std::chrono::steady_clock::now();
+        const FrameResult& result = pipeline.run(eval::viewOf(rgba), frame.time);
+        glFinish();
+        const std::chrono::duration<double, std::milli> took =
+            std::chrono::steady_clock::now() - begun;
+        const auto truth = recording.truthHighRes(frame.time);
+        if (truth && result.stats.usedStill) {
+            addStats(result.stats, run.quality);
+            run.quality.frameMs += took.count();
+            run.last = shownBy(pipeline, video, eval::loadPicture(*truth));
+            addQuality(run.last, run.quality);
+        }
+        progress(++done, static_cast<int>(recording.video.size()));
+    }
+    if (run.quality.frames == 0)
+        throw std::runtime_error(recording.root.string() + ": no frame has truth and a still");
+    divideByFrames(run.quality);
+    return run;
+}
+
+}  // namespace mfar::demo
