@@ -55,8 +55,10 @@ TEST(SimWriter, TheRecordingLoadsWithAllItsTruth) {
         EXPECT_TRUE(i == 0 || r.truthFlow(r.video[i - 1].time, t));
     }
     EXPECT_EQ(loadImage(*r.truthHighRes(r.video[0].time)).size, board.rig().still.size);
-    // The second still is the newest one that has arrived when the fourth frame is shown.
-    const auto toStill = r.truthFlow(r.video[3].time, r.stills[1].time);
+    // The newest still that has arrived when the fourth frame is shown: the second, or the first
+    // when the machine is too busy to have rendered the second by then.
+    auto toStill = r.truthFlow(r.video[3].time, r.stills[1].time);
+    if (!toStill) toStill = r.truthFlow(r.video[3].time, r.stills[0].time);
     ASSERT_TRUE(toStill);
     EXPECT_TRUE(std::isfinite(loadFlo(*toStill).at(320, 240)[0]));
     EXPECT_TRUE(fs::exists(folder.path / "tags.toml"));
