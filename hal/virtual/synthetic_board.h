@@ -43,9 +43,10 @@ class SyntheticStudio;
 ///
 /// Pace::Consumer: a frame as soon as it is asked for, none left out. Time is that of the newest
 /// frame that video().next() gave out (its epoch before the first): a pulse is fired at that time,
-/// and the still is there once a video frame of at least stillLatency later has been given out, or
-/// once the video has ended. next() waits for the renderer regardless of its timeout; the timeout
-/// counts while the consumer holds all buffers, and for stills.
+/// and the still is there once a video frame of at least stillLatency later has been given out, or,
+/// for a next() with a timeout above zero, once the video has ended. next() waits for the renderer
+/// regardless of its timeout; the timeout counts while the consumer holds all buffers, and for
+/// stills.
 ///
 /// A pulse is lost, as on a real sensor, while the last exposure lasts or stillBuffers - 1 stills
 /// are on their way, and while the still camera is not started.

@@ -160,9 +160,11 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     std::unique_lock lock(mutex_);
     const auto ready = [&] {
         if (video_.empty()) return false;
-        // A still that is due before this frame must be there first, in every run.
-        return options_.pace == Pace::Realtime || stills_.empty() || stills_.front().frame ||
-               stills_.front().available > video_.front().time();
+        // Stills that are due before this frame must be there first, in every run.
+        const Timestamp time = video_.front().time();
+        return options_.pace == Pace::Realtime || std::ranges::all_of(stills_, [&](const Still& s) {
+                   return s.frame || s.available > time;
+               });
     };
     while (!ready()) {
         rethrowFailure();
@@ -179,15 +181,18 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     return frame;
 }
 
-bool SyntheticStudio::stillReady() const {
+// After the video's end only a caller who waits lets the remaining latency pass: a poll would see
+// what the renderer happens to have finished.
+bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
-    return now() >= stills_.front().available || (options_.pace == Pace::Consumer && videoDone());
+    return now() >= stills_.front().available ||
+           (mayWait && options_.pace == Pace::Consumer && videoDone());
 }
 
 std::optional<Frame> SyntheticStudio::nextStill(std::chrono::milliseconds timeout) {
     auto deadline = std::chrono::steady_clock::now() + timeout;
     std::unique_lock lock(mutex_);
-    while (!stillReady()) {
+    while (!stillReady(timeout > 0ms)) {
         rethrowFailure();
         if (!stillsOn_ || (videoDone() && stills_.empty())) return std::nullopt;
         const auto left = deadline - std::chrono::steady_clock::now();

@@ -65,7 +65,7 @@ private:
     [[nodiscard]] Timestamp videoTime(long long index) const;
     void makeVideo(Views& views);
     void stepStill(Views& views);
-    [[nodiscard]] bool stillReady() const;
+    [[nodiscard]] bool stillReady(bool mayWait) const;
     [[nodiscard]] StoredImage request(std::function<StoredImage(Views&)> make);
     [[nodiscard]] StoredImage picture(synthetic::SensorView& view, Timestamp t);
     void rethrowFailure() const;
