@@ -55,6 +55,11 @@ struct StereoRig {
 struct Pose {
     Timestamp time;
     RigidTransform T_world_video;
+    /// Of a small motion in the video camera's own frame, T_world_video * exp(rotation [rad],
+    /// translation [m]). Zero: taken as exact, as recorded poses are.
+    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    int tags = 0;                  ///< tags it was measured from; 0: predicted or recorded
+    double reprojectionError = 0;  ///< root mean square over the tags' corners [px]
 };
 
 }  // namespace mfar
