@@ -60,5 +60,5 @@ void main() {
             break;
         }
     }
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found.cost, found.gain);
+    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found.cost, t.variance);
 }

@@ -1,6 +1,6 @@
 // Flow of every cell at one pyramid level: the best of the coarser level's vectors around it and of the
 // last frame's (coarsest level: of a square of whole-pixel displacements), then Gauss-Newton steps.
-// Out: patches[] = flow (x, y) [px of this level], cost, gain. One invocation a cell.
+// Out: patches[] = flow (x, y) [px of this level], cost, texture (energy of the patch). One invocation a cell.
 // After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
 #include "luma.glsl"
 
@@ -73,5 +73,5 @@ void main() {
             break;
         }
     }
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found.cost, found.gain);
+    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found.cost, t.variance);
 }

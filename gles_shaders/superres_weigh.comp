@@ -3,7 +3,11 @@
 // eq. 2 confidence; look-up image = the same with the flow as still pixels off the scaled cell centre;
 // weights image = weight / 2, confidence, signal share (for the sharpening), unexplained.
 // Weight of the detail: the sensors' photometric gain a = cov / (var + eps), from half resolution where
-// there is contrast enough, times the squared share of the video's variance that the still explains.
+// there is contrast enough, times a trust in the match. Where the flow is even, both sensors see the
+// surface from the same side, and what they have in common at the video's resolution tells little about
+// detail that aliases there: a match good enough to be right is trusted wholly. Where the flow bends,
+// the surface is seen from another side, and trust falls with the squared share of the video's variance
+// that the still explains.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
@@ -19,6 +23,23 @@ layout(rgba16f, binding = 2) uniform writeonly highp image2D lookupField;
 
 const float kPixels = 64.0;     // of a patch
 const float kRounding = 0.083;   // variance of 8-bit steps [grey levels^2]
+
+// What the bilinear look-up takes from the finest detail.
+const float kLookUpLoss = 1.15;
+// Change of the flow per pixel that noise explains, and that makes another view of it.
+const float kEven = 0.015;
+const float kBent = 0.07;
+
+vec2 flowAt(ivec2 c) {
+    return texelFetch(displacement, clamp(c, ivec2(0), cells.xy - 1), 0).xy;
+}
+
+// How much the flow changes around the cell [px per px].
+float bendAt(ivec2 c) {
+    vec2 dx = flowAt(c + ivec2(1, 0)) - flowAt(c - ivec2(1, 0));
+    vec2 dy = flowAt(c + ivec2(0, 1)) - flowAt(c - ivec2(0, 1));
+    return sqrt(dot(dx, dx) + dot(dy, dy)) / 8.0;
+}
 
 vec4 statisticsAt(ivec2 c) {
     return texelFetch(statistics, clamp(c, ivec2(0), cells.xy - 1), 0);
@@ -54,7 +75,9 @@ void main() {
     float lowShare = low.z / (low.z + 8.0 * lowNoise);
     gain = min(mix(gain, max(gain, lowGain), lowShare), 2.0);
     float ncc2 = covariance * covariance / ((varianceVideo + noise) * (varianceStill + noise));
-    float weight = gain * ncc2 * ncc2 * confidence;
+    float apart = smoothstep(kEven, kBent, bendAt(cell));
+    float trust = mix(kLookUpLoss * smoothstep(0.2, 0.6, ncc2), ncc2 * ncc2, apart);
+    float weight = gain * trust * confidence;
     if (!(weight > 0.004)) weight = 0.0;
     float signal = clamp((varianceVideo - 2.0 * noise) / (varianceVideo + noise), 0.0, 1.0);
     float textured = step(8.0 * (noise + kPixels), varianceVideo);

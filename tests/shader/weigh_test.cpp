@@ -63,13 +63,20 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
 }
 
 TEST_F(Weigh, WeightsMatchTwin) {
-    const twin::Cells displacement = randomStatistics(kCells, 9);
+    // From an even flow on the left to one that bends on the right.
+    twin::Cells displacement{kCells, {}};
+    for (int y = 0; y < kCells.height; ++y)
+        for (int x = 0; x < kCells.width; ++x)
+            for (const float v :
+                 {0.012F * static_cast<float>(x * x), 0.3F * static_cast<float>(y % 2),
+                  10.0F + static_cast<float>(x), 20.0F})
+                displacement.values.push_back(v);
     const twin::Cells statistics = randomStatistics(kCells, 1), half = randomStatistics(kHalf, 2);
     const Weighed got = weigh(displacement, statistics, half, kSigma);
     int zero = 0, strong = 0, unexplained = 0;
     for (int y = 0; y < kCells.height; ++y)
         for (int x = 0; x < kCells.width; ++x) {
-            const twin::Weight t = twin::weigh(statistics, half, x, y, kSigma);
+            const twin::Weight t = twin::weigh(displacement, statistics, half, x, y, kSigma);
             const Eigen::Vector4d f = got.field.at(x, y), d = displacement.at(x, y);
             EXPECT_NEAR(f[2], t.weight, 1e-3 * t.weight + 1e-6) << x << ", " << y;
             EXPECT_NEAR(f[3], t.confidence, 1e-6);
@@ -98,11 +105,24 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
     return out;
 }
 
+// Half of the variance in common: enough where the sensors look from the same side, a quarter of
+// the weight where they do not.
+TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
+    const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
+    const twin::Cells matched = constantCells(kCells, {7.07e4F, 1e5F, 1e5F, 1});
+    twin::Cells bent{kCells, {}};
+    for (int i = 0; i < kCells.width * kCells.height; ++i)
+        for (const float v : {0.5F * static_cast<float>(i % kCells.width), 0.0F, 0.0F, 0.0F})
+            bent.values.push_back(v);
+    const double even = weigh(matched, matched, half, 0.3).field.at(5, 5)[2];
+    EXPECT_LT(weigh(bent, matched, half, 0.3).field.at(5, 5)[2], 0.4 * even);
+}
+
 TEST_F(Weigh, AlikeTextureCountsFullyAndUnrelatedNotAtAll) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kCells, {1e5F, 1e5F, 1e5F, 1});
     for (const float v : {weigh(alike, alike, half, 0.3).field.at(5, 5)[2]})
-        EXPECT_NEAR(v, 1, 0.01);
+        EXPECT_NEAR(v, twin::kLookUpLoss, 0.01);
     for (const std::array<float, 4>& s :
          {std::array<float, 4>{0, 1e5F, 1e5F, 1}, std::array<float, 4>{-1e5F, 1e5F, 1e5F, 1},
           std::array<float, 4>{1e5F, 1e5F, 1e5F, 0}, std::array<float, 4>{0, 0, 0, 1}})

@@ -41,12 +41,28 @@ inline constexpr double kSmallestWeight = 0.004;
 inline constexpr double kTextured = 8;  // times the noise, and a grey level
 inline constexpr double kUnexplainedBelow = 0.25;
 
+inline constexpr double kLookUpLoss = 1.15;
+inline constexpr double kEven = 0.015, kBent = 0.07;  // change of flow [px per px]
+
 struct Weight {
     double weight, confidence, signal, unexplained;
 };
 
+/// How much the flow changes around a cell [px per px].
+inline double bendAt(const Cells& flow, int x, int y) {
+    const Eigen::Vector4d dx = flow.at(x + 1, y) - flow.at(x - 1, y);
+    const Eigen::Vector4d dy = flow.at(x, y + 1) - flow.at(x, y - 1);
+    return std::sqrt(dx.head<2>().squaredNorm() + dy.head<2>().squaredNorm()) / 8;
+}
+
+inline double smoothstep(double low, double high, double v) {
+    const double t = std::clamp((v - low) / (high - low), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
 /// statistics: covariance, variance of the video, of the still, confidence.
-inline Weight weigh(const Cells& statistics, const Cells& half, int x, int y, double sigma) {
+inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& half, int x, int y,
+                    double sigma) {
     Eigen::Vector4d s = Eigen::Vector4d::Zero(), h = Eigen::Vector4d::Zero();
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i)
@@ -63,7 +79,9 @@ inline Weight weigh(const Cells& statistics, const Cells& half, int x, int y, do
     const double ncc2 = covariance * covariance / ((s[1] + noise) * (s[2] + noise));
     const double conf = statistics.at(x, y)[3];
     const double a = std::min(std::lerp(gain, std::max(gain, halfGain), share), kLargestGain);
-    const double w = a * ncc2 * ncc2 * conf;
+    const double trust = std::lerp(kLookUpLoss * smoothstep(0.2, 0.6, ncc2), ncc2 * ncc2,
+                                   smoothstep(kEven, kBent, bendAt(flow, x, y)));
+    const double w = a * trust * conf;
     const bool textured = s[1] >= kTextured * (noise + kPatchPixels);
     return {w > kSmallestWeight ? w : 0, conf,
             std::clamp((s[1] - 2 * noise) / (s[1] + noise), 0.0, 1.0),
