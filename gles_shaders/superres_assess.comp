@@ -1,5 +1,6 @@
 // How the still matches the video at each cell: what superres_weigh.comp weighs.
-// In: forward field (video -> still) and backward field in patches[], both pictures' finest luma.
+// In: forward field (video -> still) and backward field or two-way errors in patches[], both pictures'
+// finest luma.
 // Out: displacement image = flow (x, y) [video px], its end in the still less the scaled cell centre
 // [still px]; statistics image = covariance, variance of the video and of the still in the patch,
 // confidence. Source: paper, eq. 2 with lambda(x) = min(x, 1).
@@ -12,7 +13,7 @@ layout(std140, binding = 0) uniform Params {
     ivec4 video;     // finest level of the video: offset, pitch, width, height
     ivec4 still;     // finest level of the still at the video's geometry
     ivec4 cells;     // cells a row, rows, -, -
-    ivec4 offsets;   // in patches[]: forward field, backward field, -, -
+    ivec4 offsets;   // in patches[]: forward field, backward field; 1 = that holds two-way errors; -
     vec4 tune;       // alpha [px], -, -, -
     vec4 stillSize;  // still width, height, still px per video px (x, y)
 };
@@ -57,8 +58,9 @@ void main() {
     vec2 inStill = stillPixel(rig, q);
     float confidence = 0.0;
     if (inside(q, vec2(video.zw)) && inside(inStill, stillSize.xy)) {
-        float d = length(u + backwardAt(q)) / tune.x;
-        confidence = d < 1.0 ? 1.0 - d : 0.0;
+        float d = offsets.z != 0 ? patches[offsets.y + cell.y * cells.x + cell.x].x
+                                 : length(u + backwardAt(q));
+        confidence = d < tune.x ? 1.0 - d / tune.x : 0.0;
     }
 
     vec2 offset = clamp(inStill - (centre + 0.5) * stillSize.zw + 0.5, vec2(-4e3), vec2(4e3));

@@ -30,10 +30,12 @@ Pipeline::~Pipeline() = default;
 Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
-void Pipeline::setStill(const ImageView& still, Timestamp) {
+void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<Pose>& pose) {
     State& s = *state_;
     requireSize(still, s.rig.still.size, "still");
     s.still.set(still);
+    s.epipolar.dropStill();
+    if (pose) s.epipolar.setStill(s.pyramids.readStill(s.still.picture(), s.rig), *pose);
     s.pyramids.buildStill(s.still.picture(), s.rig);
     s.hasStill = true;
     s.redraw = true;
@@ -42,6 +44,7 @@ void Pipeline::setStill(const ImageView& still, Timestamp) {
 
 void Pipeline::dropStill() {
     state_->hasStill = false;
+    state_->epipolar.dropStill();
     state_->redraw = true;
     state_->hasPrior = false;
 }
@@ -56,7 +59,8 @@ void Pipeline::setSkipUnchanged(bool skip) {
     state_->options.skipUnchanged = skip;
 }
 
-const FrameResult& Pipeline::run(const ImageView& video, Timestamp) {
+const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
+                                 const std::optional<Pose>& pose) {
     State& s = *state_;
     requireSize(video, s.rig.video.size, "video frame");
     s.stageTimes.clear();
@@ -71,7 +75,13 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp) {
     if (useStill) {
         s.pyramids.buildVideo(s.video, s.plan);
         s.lap("pyramid");
-        s.flow.run(s.pyramids, s.plan, s.hasPrior);
+        if (pose && s.epipolar.hasStill()) {
+            s.epipolar.run(video, *pose);
+            s.lap("epipolar");
+            s.flow.refine(s.pyramids, s.plan, s.epipolar.forward(), s.epipolar.hidden());
+        } else {
+            s.flow.run(s.pyramids, s.plan, s.hasPrior);
+        }
         s.lap("flow");
         s.superres.assess(s.pyramids, s.flow, s.plan);
         s.lap("assess");

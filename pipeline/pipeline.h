@@ -5,6 +5,7 @@
 #include "pipeline/results.h"
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mfar {
@@ -40,11 +41,14 @@ public:
 
     /// Makes this still the reference of the following frames; all per-still work happens here.
     /// Size must be the rig's. Frames of another size throw std::invalid_argument.
-    void setStill(const ImageView& still, Timestamp time);
+    /// `pose` of the video camera at the still's time: with it and a frame's the flow is sought
+    /// along epipolar lines; without one of them it is sought in both dimensions.
+    void setStill(const ImageView& still, Timestamp time, const std::optional<Pose>& pose = {});
     /// Forgets the still: the upscaled video is shown until the next one.
     void dropStill();
     /// Computes one picture. Throws std::invalid_argument for a frame of another size.
-    const FrameResult& run(const ImageView& video, Timestamp time);
+    const FrameResult& run(const ImageView& video, Timestamp time,
+                           const std::optional<Pose>& pose = {});
 
     /// Both take effect with the next run.
     void setMode(SuperResMode mode);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/flow/epipolar_flow.h"
 #include "pipeline/flow/flow2d.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/superres/superres.h"
@@ -12,8 +13,8 @@ namespace mfar {
 struct Pipeline::State {
     State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
         : rig(rigIn), options(optionsIn), plan(rig.video.size), pyramids(rig.video.size, plan),
-          flow(pyramids, plan), still(rig),
-          superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
+          flow(pyramids, plan), workers(std::make_shared<Workers>()), epipolar(rig, workers),
+          still(rig), superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
         stageTimes.reserve(8);
         result.image = {superres.output().id(), superres.output().size()};
     }
@@ -36,6 +37,8 @@ struct Pipeline::State {
     WorkPlan plan;
     LumaPyramids pyramids;
     Flow2d flow;
+    std::shared_ptr<Workers> workers;
+    EpipolarFlow epipolar;
     StillReference still;
     SuperRes superres;
     bool hasStill = false;

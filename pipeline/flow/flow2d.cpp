@@ -48,16 +48,36 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan)
     }
     forward_ = {take(forwardStages_[0].cells), forwardStages_[0].cells};
     backward_ = {take(backwardStages_[0].cells), backwardStages_[0].cells};
+    seed_ = take(forward_.cells);
     patches_ = gpu::Buffer(static_cast<std::size_t>(next) * 4 * sizeof(float));
 }
 
 void Flow2d::run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePrior) {
+    errorsGiven_ = false;
     const auto& video = pyramids.video();
     const auto& still = pyramids.still();
     run({video, still, forwardStages_, kForwardPropagations, usePrior}, pyramids, plan);
     run({still, video, backwardStages_, kBackwardPropagations, false}, pyramids, plan);
     filter(forwardStages_[0], forward_, plan);
     filter(backwardStages_[0], backward_, plan);
+}
+
+void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells forward,
+                    Cells errors) {
+    errorsGiven_ = true;
+    patches_.write(forward, 16UL * seed_);
+    patches_.write(errors, 16UL * backward_.offset);
+    const Stage& stage = forwardStages_[0];
+    SearchParams p{};
+    p.from = pyramids.video()[0];
+    p.to = pyramids.still()[0];
+    put(p.cells, stage.cells.width, stage.cells.height, 0, 0);
+    put(p.offsets, stage.area[0], -1, seed_, 0);
+    put(p.search, 0, 1, kSearchSteps, forward_.cells.width);
+    p.prior[0] = p.prior[1] = p.prior[2] = 1.0F;
+    plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
+             stage.dispatch);
+    filter(stage, forward_, plan);
 }
 
 void Flow2d::run(const Direction& way, const LumaPyramids& pyramids, const WorkPlan& plan) {

@@ -2,6 +2,8 @@
 
 #include "pipeline/flow/luma_pyramid.h"
 
+#include <array>
+#include <span>
 #include <vector>
 
 namespace mfar {
@@ -14,7 +16,7 @@ class Flow2d {
 public:
     /// A field of flow vectors, one per cell of 4x4 video pixels, in patches().
     struct Field {
-        int offset = 0;  ///< first vec4 (flow x, y [video px], cost, gain)
+        int offset = 0;  ///< first vec4 (flow x, y [video px], cost, texture)
         Size cells;      ///< columns, rows
     };
 
@@ -24,8 +26,15 @@ public:
     /// a candidate everywhere (not after a new still).
     void run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePrior);
 
+    /// Computes the forward field from one vector per cell that is right but for a fraction of a
+    /// pixel; `errors`: what is known of the two-way error of eq. 2, in x [px].
+    using Cells = std::span<const std::array<float, 4>>;
+    void refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells forward, Cells errors);
+
     [[nodiscard]] const gpu::Buffer& patches() const { return patches_; }
-    [[nodiscard]] const Field& forward() const { return forward_; }    ///< video -> still
+    [[nodiscard]] const Field& forward() const { return forward_; }  ///< video -> still
+    /// After refine(): backward() holds the two-way errors of the video's cells instead.
+    [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }  ///< still -> video
 
 private:
@@ -65,6 +74,8 @@ private:
 
     std::vector<Stage> forwardStages_, backwardStages_;
     Field forward_, backward_;
+    bool errorsGiven_ = false;
+    int seed_;  // first vec4 of refine()'s forward vectors
     gpu::Buffer patches_;
     gpu::ComputePass<SearchParams> search_;
     gpu::ComputePass<PropagateParams> propagate_;

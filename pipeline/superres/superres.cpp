@@ -65,6 +65,7 @@ void SuperRes::assess(const LumaPyramids& pyramids, const Flow2d& flow, const Wo
     p.cells[1] = fw.cells.height;
     p.offsets[0] = fw.offset;
     p.offsets[1] = bw.offset;
+    p.offsets[2] = flow.errorsGiven() ? 1 : 0;
     p.tune[0] = kAlpha;
     p.stillSize[0] = static_cast<float>(rig_.still.size.width);
     p.stillSize[1] = static_cast<float>(rig_.still.size.height);

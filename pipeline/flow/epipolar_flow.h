@@ -1,0 +1,52 @@
+#pragma once
+
+#include "pipeline/flow/epipolar_search.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// Flow between a frame and the still from the epipolar search, ready for what works on cells of
+/// 4x4 video pixels.
+class EpipolarFlow {
+public:
+    /// Row-major, one entry per cell of 4x4 video pixels.
+    using Cells = std::vector<std::array<float, 4>>;
+
+    EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers);
+
+    /// The new reference: luma at the video's geometry, and where the video camera was then.
+    void setStill(const LumaImage& still, const Pose& pose);
+    void dropStill() { stillPose_.reset(); }
+    [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
+
+    /// Searches; needs a still. Then forward() and hidden() are of this frame.
+    void run(const ImageView& video, const Pose& pose);
+
+    /// Video -> still: flow x, y [video px at the video's geometry], -, -.
+    [[nodiscard]] const Cells& forward() const { return forward_; }
+    /// What eq. 2 calls the two-way error, from a z-test: how much less parallax a cell has than
+    /// the nearest surface that lands on the same place of the still [px], -, -, -.
+    [[nodiscard]] const Cells& hidden() const { return hidden_; }
+    [[nodiscard]] const EpipolarSearch& search() const { return search_; }
+
+private:
+    void fillForward();
+    void testDepth();
+    [[nodiscard]] std::optional<std::size_t> landing(int i, int j) const;
+
+    StereoRig rig_;
+    Size cells_;
+    EpipolarSearch search_;
+    EpipolarLens lens_;
+    std::optional<RigidTransform> stillPose_;  // T_world_video
+    LumaImage luma_;
+    Cells forward_, hidden_;
+    std::vector<float> nearness_,
+        nearest_;  // s per cell of the video, and landed per cell of the still
+};
+
+}  // namespace mfar

@@ -1,0 +1,63 @@
+#include "pipeline/flow/epipolar_lens.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+// Rays are followed beyond the picture by this factor, if the lens does not fold them back before.
+constexpr double kBeyondPicture = 2;
+
+/// Largest radius of a ray up to which the lens's radial distortion keeps rising.
+double rimOf(const CameraModel& camera, double picture) {
+    const auto& k = camera.distortion;
+    const auto distorted = [&](double r) {
+        const double q = r * r;
+        return r * (1 + q * (k[0] + q * (k[1] + q * k[4])));
+    };
+    constexpr int kSteps = 64;
+    double rim = picture;
+    for (int i = 1; i <= kSteps; ++i) {
+        const double r = picture * (1 + (kBeyondPicture - 1) * i / kSteps);
+        if (!(distorted(r) > distorted(rim))) break;
+        rim = r;
+    }
+    return rim;
+}
+
+}  // namespace
+
+EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.size) {
+    const double scale = 1.0 / (1 << level);
+    for (int i = 0; i < level; ++i)
+        size_ = {(size_.width + 1) / 2, (size_.height + 1) / 2};
+    const auto& d = camera.distortion;
+    fx_ = static_cast<float>(camera.fx * scale);
+    fy_ = static_cast<float>(camera.fy * scale);
+    cx_ = static_cast<float>((camera.cx + 0.5) * scale - 0.5);
+    cy_ = static_cast<float>((camera.cy + 0.5) * scale - 0.5);
+    k1_ = static_cast<float>(d[0]);
+    k2_ = static_cast<float>(d[1]);
+    p1_ = static_cast<float>(d[2]);
+    p2_ = static_cast<float>(d[3]);
+    k3_ = static_cast<float>(d[4]);
+    rays_.reserve(2UL * size_.width * size_.height);
+    double rim = 0;  // of the picture's corners, squared
+    for (int y = 0; y < size_.height; ++y) {
+        for (int x = 0; x < size_.width; ++x) {
+            const Eigen::Vector2d fine((x + 0.5) / scale - 0.5, (y + 0.5) / scale - 0.5);
+            const Eigen::Vector2d ray = camera.unproject(fine);
+            rays_.push_back(static_cast<float>(ray.x()));
+            rays_.push_back(static_cast<float>(ray.y()));
+            rim = std::max(rim, ray.squaredNorm());
+        }
+    }
+    rim2_ = static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim)), 2));
+}
+
+float EpipolarLens::rimScale(float r2) const {
+    return std::sqrt(rim2_ / r2);
+}
+
+}  // namespace mfar

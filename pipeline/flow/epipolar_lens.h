@@ -1,0 +1,50 @@
+#pragma once
+
+#include "pipeline/geometry.h"
+
+#include <vector>
+
+namespace mfar {
+
+/// The rays of a camera's pixels at one pyramid level, and where a translation moves them.
+///
+/// The state is s [1/unit of length], the inverse depth seen from the second view: a point at ray
+/// r = (x, y) with depth Z, seen from a camera of the same orientation that moved so that points
+/// move by t, lies at r + s (t.xy - r t.z) with s = 1 / (Z + t.z). It is linear in s, so equal
+/// steps of s are equal steps on the epipolar line; rho = s / (1 - s t.z) (Hartley and
+/// Zisserman, 9.5).
+class EpipolarLens {
+public:
+    /// `camera` of the finest level, `level` halvings; size is halved and rounded up each time.
+    EpipolarLens(const CameraModel& camera, int level);
+
+    [[nodiscard]] Size size() const { return size_; }
+    [[nodiscard]] float rayX(std::size_t pixel) const { return rays_[2 * pixel]; }
+    [[nodiscard]] float rayY(std::size_t pixel) const { return rays_[2 * pixel + 1]; }
+
+    struct Point {
+        float x, y;
+    };
+    /// Ray (x / z, y / z) to pixel of this level, with the lens's distortion. Rays beyond what the
+    /// lens can show are held at its rim, so that distortion never folds them back.
+    [[nodiscard]] Point project(float x, float y) const {
+        const float r2 = x * x + y * y;
+        const float c = r2 > rim2_ ? rimScale(r2) : 1.0F;
+        x *= c;
+        y *= c;
+        const float q = r2 > rim2_ ? rim2_ : r2;
+        const float radial = 1 + q * (k1_ + q * (k2_ + q * k3_));
+        const float xy = 2 * x * y;
+        return {fx_ * (x * radial + p1_ * xy + p2_ * (q + 2 * x * x)) + cx_,
+                fy_ * (y * radial + p2_ * xy + p1_ * (q + 2 * y * y)) + cy_};
+    }
+
+private:
+    [[nodiscard]] float rimScale(float r2) const;
+
+    Size size_;
+    float fx_, fy_, cx_, cy_, k1_, k2_, p1_, p2_, k3_, rim2_;
+    std::vector<float> rays_;  // x, y per pixel
+};
+
+}  // namespace mfar

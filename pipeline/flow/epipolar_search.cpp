@@ -1,0 +1,308 @@
+#include "pipeline/flow/epipolar_search.h"
+
+#include "pipeline/flow/census.h"
+#include "pipeline/flow/field_filters.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace mfar {
+namespace {
+
+// The coarsest level has at least this many pixels on its short side.
+constexpr int kCoarsest = 60;
+constexpr int kLevels = 3;
+// The longest parallax sought, as a share of the picture's width: beyond it little is left in view.
+constexpr double kLongest = 0.8;
+// Labels beyond infinity at the finest level: the slack for noise and errors of the pose.
+constexpr int kBeyond = 4;
+// Parallax below this [px] over the whole picture and range is none.
+constexpr double kNoParallax = 0.3;
+constexpr int kSmallestCanvas = 16;
+constexpr int kUnseenCost = kCensusBits / 2;
+
+Smoothness smoothnessFor(double noise) {
+    return {.step = std::clamp(static_cast<int>(11 + 3 * noise), 12, 24),
+            .jump = 60,
+            .noise = 2 * noise};
+}
+
+// Weight of a neighbour before the census: nothing below one grey level of noise (smoothing costs
+// a third more bad pixels on clean pictures), the full three-pixel binomial from four on.
+float smoothingFor(double noise) {
+    return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
+}
+
+int levelsFor(Size size) {
+    int levels = 1;
+    while (levels < kLevels && std::min(size.width, size.height) / 2 >= kCoarsest) {
+        size = {(size.width + 1) / 2, (size.height + 1) / 2};
+        ++levels;
+    }
+    return levels;
+}
+
+/// Vectors of labels of the whole picture, at the level that needs most.
+std::size_t mostVectors(Size size) {
+    const auto pixels = [](Size s) { return static_cast<std::size_t>(s.width) * s.height; };
+    const std::size_t finest = pixels(size);
+    const double longest = kLongest * size.width;
+    int scale = 1;
+    for (int i = levelsFor(size); i > 1; --i) {
+        size = {(size.width + 1) / 2, (size.height + 1) / 2};
+        scale *= 2;
+    }
+    const double labels = longest / scale + kBeyond + 1;
+    const auto coarsest = static_cast<std::size_t>(std::ceil(labels / SemiGlobal::kLabels));
+    return std::max(finest, coarsest * pixels(size));
+}
+
+struct Segment {
+    EpipolarLens::Point from, to;
+};
+
+std::uint8_t difference(std::uint32_t a, std::uint32_t b) {
+    return (b & kNoCensus) != 0 ? kUnseenCost : static_cast<std::uint8_t>(std::popcount(a ^ b));
+}
+
+/// Where label k's census goes, so that the counts of four words interleave to bytes in order.
+constexpr int slotOf(int label) {
+    return label % 4 * 4 + label / 4;
+}
+
+/// The same for a whole vector of labels: bits are counted side by side in words, because a count
+/// of one word is a slow library call on the oldest processors of both families.
+void differences(std::uint32_t own, const std::uint32_t* slots, std::uint8_t* out) {
+    using Words = std::uint32_t __attribute__((vector_size(16)));
+    Words bytes{};
+    for (int i = 3; i >= 0; --i) {
+        Words w;
+        std::memcpy(&w, slots + 4L * i, sizeof w);
+        const Words unseen = Words{} - (w >> 31);
+        w ^= own;
+        w -= (w >> 1) & 0x55555555U;
+        w = (w & 0x33333333U) + ((w >> 2) & 0x33333333U);
+        w = (w + (w >> 4)) & 0x0F0F0FU;
+        w = (w + (w >> 8) + (w >> 16)) & 0x1FU;
+        bytes = (bytes << 8) | (w & ~unseen) | (unseen & kUnseenCost);
+    }
+    std::memcpy(out, &bytes, sizeof bytes);
+}
+
+/// Costs of one pixel at evenly spaced points of a segment, ends included, nearest pixels taken.
+/// The segment is short, so the lens may be taken as straight along it.
+void costsAlong(const Segment& way, std::uint32_t own, const std::uint32_t* still, Size size,
+                std::uint8_t* out) {
+    constexpr int kSteps = SemiGlobal::kLabels - 1;
+    constexpr float kOne = 65536.0F;
+    const float w = static_cast<float>(size.width) - 0.51F,
+                h = static_cast<float>(size.height) - 0.51F;
+    const auto inside = [&](EpipolarLens::Point p) {
+        return p.x > -0.49F && p.y > -0.49F && p.x < w && p.y < h;
+    };
+    if (inside(way.from) && inside(way.to)) {
+        int x = static_cast<int>((way.from.x + 0.5F) * kOne),
+            y = static_cast<int>((way.from.y + 0.5F) * kOne);
+        const int dx = static_cast<int>((way.to.x - way.from.x) * (kOne / kSteps));
+        const int dy = static_cast<int>((way.to.y - way.from.y) * (kOne / kSteps));
+        std::uint32_t seen[SemiGlobal::kLabels];
+        for (int k = 0; k <= kSteps; ++k, x += dx, y += dy)
+            seen[slotOf(k)] = still[(y >> 16) * size.width + (x >> 16)];
+        differences(own, seen, out);
+        return;
+    }
+    for (int k = 0; k <= kSteps; ++k) {
+        const float a = static_cast<float>(k) / kSteps;
+        const EpipolarLens::Point p{way.from.x + a * (way.to.x - way.from.x),
+                                    way.from.y + a * (way.to.y - way.from.y)};
+        out[k] = kUnseenCost;
+        if (inside(p))
+            out[k] = difference(
+                own,
+                still[static_cast<int>(p.y + 0.5F) * size.width + static_cast<int>(p.x + 0.5F)]);
+    }
+}
+
+}  // namespace
+
+EpipolarSearch::EpipolarSearch(const CameraModel& video, std::shared_ptr<Workers> workers)
+    : camera_(video), workers_(std::move(workers)), matcher_(mostVectors(video.size)) {
+    for (int i = 0; i < levelsFor(video.size); ++i) {
+        levels_.push_back({EpipolarLens(video, i), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+        Level& level = levels_.back();
+        const Size size = level.lens.size();
+        const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
+        level.videoCensus.resize(pixels);
+        level.base.resize(pixels);
+        level.labels.resize(pixels);
+    }
+    inverseDepth_.resize(levels_[0].labels.size());
+    scratch_.resize(inverseDepth_.size());
+}
+
+void EpipolarSearch::setStill(const LumaImage& still) {
+    still_ = still;
+    stillNoise_ = noiseOf(still_);
+}
+
+bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_video) {
+    rotation_ = T_still_video.rotation.toRotationMatrix().cast<float>();
+    translation_ = (T_still_video.rotation.conjugate() * T_still_video.translation).cast<float>();
+    levels_[0].video = video;
+    videoNoise_ = noiseOf(video);
+    if (!turnStill()) return false;
+    measureParallax();
+    const int longest = static_cast<int>(kLongest * video.size.width);
+    labels_ = 0;
+    std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
+    if (!(pixelsPerUnit_ > 0)) return true;
+    labels_ = longest;
+    for (int i = static_cast<int>(levels_.size()) - 1; i >= 0; --i) {
+        prepare(levels_[i]);
+        search(i);
+    }
+    const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
+    median3x3(levels_[0].labels, levels_[0].lens.size(), *workers_, inverseDepth_);
+    for (float& s : inverseDepth_)
+        s *= perLabel;
+    return true;
+}
+
+// The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
+// holds what of it a parallax can reach.
+bool EpipolarSearch::turnStill() {
+    turned_.place(camera_, rotation_.cast<double>(), kLongest);
+    if (turned_.size().width < kSmallestCanvas || turned_.size().height < kSmallestCanvas)
+        return false;
+    Level& fine = levels_[0];
+    turned_.draw(still_, *workers_, fine.still, fine.seen);
+    fine.origin = turned_.origin();
+    for (std::size_t l = 1; l < levels_.size(); ++l) {
+        const Level& finer = levels_[l - 1];
+        Level& level = levels_[l];
+        halve(finer.video, level.video);
+        halve(finer.still, level.still);
+        level.origin = {finer.origin.x / 2, finer.origin.y / 2};
+        const Size s = level.still.size;
+        level.seen.resize(static_cast<std::size_t>(s.width) * s.height);
+        for (int y = 0; y < s.height; ++y)
+            for (int x = 0; x < s.width; ++x)
+                level.seen[static_cast<std::size_t>(y) * s.width + x] =
+                    finer.seen[static_cast<std::size_t>(2 * y) * finer.still.size.width + 2 * x];
+    }
+    return true;
+}
+
+// One label is one pixel where a change of s moves the picture most.
+void EpipolarSearch::measureParallax() {
+    const EpipolarLens& lens = levels_[0].lens;
+    const Size size = lens.size();
+    const Eigen::Vector3f& t = translation_;
+    pixelsPerUnit_ = 0;
+    const float norm = t.norm();
+    if (!(norm > 1e-12F)) return;
+    const float small = 1e-3F / norm;
+    for (int j = 0; j <= 8; ++j) {
+        for (int i = 0; i <= 8; ++i) {
+            const std::size_t p = static_cast<std::size_t>(j * (size.height - 1) / 8) * size.width +
+                                  i * (size.width - 1) / 8;
+            const float x = lens.rayX(p), y = lens.rayY(p);
+            const auto a = lens.project(x, y);
+            const auto b =
+                lens.project(x + small * (t.x() - x * t.z()), y + small * (t.y() - y * t.z()));
+            pixelsPerUnit_ = std::max(
+                pixelsPerUnit_, static_cast<double>(std::hypot(b.x - a.x, b.y - a.y) / small));
+        }
+    }
+}
+
+void EpipolarSearch::prepare(Level& level) {
+    const float v = smoothingFor(videoNoise_), s = smoothingFor(stillNoise_);
+    const float both = std::max(v, s);
+    const LumaImage* video = &level.video;
+    const LumaImage* still = &level.still;
+    if (both > 0) {
+        smooth(level.video, both, level.smoothVideo);
+        smooth(level.still, both, level.smoothStill);
+        video = &level.smoothVideo;
+        still = &level.smoothStill;
+    }
+    const Size canvas = still->size;
+    level.stillCensus.resize(static_cast<std::size_t>(canvas.width) * canvas.height);
+    workers_->forRange(video->size.height, 8, [&](int first, int last) {
+        census(*video, first, last, level.videoCensus);
+    });
+    workers_->forRange(canvas.height, 8, [&](int first, int last) {
+        census(*still, first, last, level.stillCensus);
+        for (std::size_t i = static_cast<std::size_t>(first) * canvas.width;
+             i < static_cast<std::size_t>(last) * canvas.width; ++i)
+            if (level.seen[i] == 0) level.stillCensus[i] = kNoCensus;
+    });
+}
+
+void EpipolarSearch::search(int index) {
+    Level& level = levels_[index];
+    const bool coarsest = index + 1 == static_cast<int>(levels_.size());
+    int vectors = 1;
+    if (coarsest) {
+        const int beyond = (kBeyond + (1 << index) - 1) >> index;
+        std::fill(level.base.begin(), level.base.end(), static_cast<std::int16_t>(-beyond));
+        vectors = ((labels_ >> index) + beyond + SemiGlobal::kLabels - 1) / SemiGlobal::kLabels;
+    } else {
+        centreWindows(levels_[index + 1], level);
+    }
+    matcher_.run(
+        level.video, level.base, vectors, smoothnessFor(std::max(videoNoise_, stillNoise_)),
+        [&](int y, std::uint8_t* out) { costRow(level, index, vectors, y, out); }, *workers_,
+        level.labels);
+}
+
+// The window of a pixel covers what the coarser level found around it, with room on both sides.
+void EpipolarSearch::centreWindows(const Level& coarse, Level& fine) {
+    constexpr int kRoom = 2;
+    constexpr int kRadius = 2;
+    const Size from = coarse.lens.size(), to = fine.lens.size();
+    median3x3(coarse.labels, from, *workers_, scratch_);
+    localRange(scratch_, from, kRadius, range_);
+    for (std::size_t i = 0; i < coarse.labels.size(); ++i) {
+        constexpr float kHalf = SemiGlobal::kLabels / 2.0F - kRoom;
+        const float low = 2 * range_.low[i], high = 2 * range_.high[i];
+        const float centre = high - low < 2 * kHalf
+                                 ? 0.5F * (low + high)
+                                 : std::clamp(2 * scratch_[i], low + kHalf, high - kHalf);
+        range_.low[i] = std::round(centre - 0.5F * (SemiGlobal::kLabels - 1));
+    }
+    for (int y = 0; y < to.height; ++y)
+        for (int x = 0; x < to.width; ++x)
+            fine.base[static_cast<std::size_t>(y) * to.width + x] = static_cast<std::int16_t>(
+                range_.low[static_cast<std::size_t>(y / 2) * from.width + x / 2]);
+}
+
+void EpipolarSearch::costRow(const Level& level, int index, int vectors, int y,
+                             std::uint8_t* out) const {
+    const Size size = level.lens.size();
+    const float perLabel = static_cast<float>((1 << index) / pixelsPerUnit_);
+    const Eigen::Vector3f& t = translation_;
+    const auto ox = static_cast<float>(level.origin.x), oy = static_cast<float>(level.origin.y);
+    for (int x = 0; x < size.width; ++x) {
+        const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
+        const float rx = level.lens.rayX(i), ry = level.lens.rayY(i);
+        const float ex = t.x() - rx * t.z(), ey = t.y() - ry * t.z();
+        for (int v = 0; v < vectors; ++v, out += SemiGlobal::kLabels) {
+            const float s0 = perLabel * static_cast<float>(level.base[i] + SemiGlobal::kLabels * v);
+            const float s1 = s0 + perLabel * (SemiGlobal::kLabels - 1);
+            auto from = level.lens.project(rx + s0 * ex, ry + s0 * ey);
+            auto to = level.lens.project(rx + s1 * ex, ry + s1 * ey);
+            from.x -= ox;
+            from.y -= oy;
+            to.x -= ox;
+            to.y -= oy;
+            costsAlong({from, to}, level.videoCensus[i], level.stillCensus.data(), level.still.size,
+                       out);
+        }
+    }
+}
+
+}  // namespace mfar

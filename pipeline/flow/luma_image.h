@@ -1,0 +1,39 @@
+#pragma once
+
+#include "hal/frame.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// A grey picture in main memory, 8 bits a pixel, rows without gaps.
+struct LumaImage {
+    Size size;
+    std::vector<std::uint8_t> pixels;
+
+    LumaImage() = default;
+    explicit LumaImage(Size s) : size(s), pixels(static_cast<std::size_t>(s.width) * s.height) {}
+    [[nodiscard]] const std::uint8_t* row(int y) const {
+        return pixels.data() + static_cast<std::size_t>(y) * size.width;
+    }
+    [[nodiscard]] std::uint8_t* row(int y) {
+        return pixels.data() + static_cast<std::size_t>(y) * size.width;
+    }
+};
+
+/// Luma (Rec. 601) of a grey or RGBA picture, as luma.glsl computes it. `out` has its size.
+void lumaOf(const ImageView& picture, LumaImage& out);
+
+/// Half the size, rounded up: mean of 2x2 pixels, the last column and row repeated.
+void halve(const LumaImage& fine, LumaImage& coarse);
+
+/// Three taps each way, `side` the weight of a neighbour in [0, 1/3]; `in` and `out` differ.
+void smooth(const LumaImage& in, float side, LumaImage& out);
+
+/// Standard deviation of the picture's noise [grey levels], from its quietest fifth of 8x8 blocks:
+/// what remains there of a mask that no plane, step or line along an axis passes.
+/// Source: Immerkaer, Fast noise variance estimation, 1996 (the mask).
+[[nodiscard]] double noiseOf(const LumaImage& picture);
+
+}  // namespace mfar

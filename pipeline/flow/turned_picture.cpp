@@ -1,0 +1,109 @@
+#include "pipeline/flow/turned_picture.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+constexpr float kOutside = -1e6F;
+// Points along each side of the picture whose hull bounds what is seen of it.
+constexpr int kSidePoints = 16;
+
+int alignDown(double v) {
+    return static_cast<int>(std::floor(v / TurnedPicture::kAlign)) * TurnedPicture::kAlign;
+}
+
+}  // namespace
+
+void TurnedPicture::place(const CameraModel& camera, const Eigen::Matrix3d& rotation,
+                          double beyond) {
+    const double reach = beyond * camera.size.width;
+    const double right = camera.size.width - 1 + reach, bottom = camera.size.height - 1 + reach;
+    double x0 = right, y0 = bottom, x1 = -reach, y1 = -reach;
+    const auto include = [&](double u, double v) {
+        const Eigen::Vector2d ray =
+            camera.unproject({u * (camera.size.width - 1), v * (camera.size.height - 1)});
+        const Eigen::Vector3d turned = rotation.transpose() * ray.homogeneous();
+        // Beside or behind the camera: whatever the canvas can hold may be seen.
+        Eigen::Vector2d low(-reach, -reach), high(right, bottom);
+        if (turned.z() > 0.2) low = high = camera.project(turned.hnormalized());
+        x0 = std::min(x0, low.x());
+        y0 = std::min(y0, low.y());
+        x1 = std::max(x1, high.x());
+        y1 = std::max(y1, high.y());
+    };
+    for (int i = 0; i <= kSidePoints; ++i) {
+        const double a = static_cast<double>(i) / kSidePoints;
+        include(a, 0);
+        include(a, 1);
+        include(0, a);
+        include(1, a);
+    }
+    x0 = std::max(x0, -reach);
+    y0 = std::max(y0, -reach);
+    x1 = std::min(x1, right);
+    y1 = std::min(y1, bottom);
+    size_ = {};
+    if (!(x1 - x0 >= 1 && y1 - y0 >= 1)) return;
+    origin_ = {alignDown(x0), alignDown(y0)};
+    size_ = {static_cast<int>(std::ceil(x1)) - origin_.x + 1,
+             static_cast<int>(std::ceil(y1)) - origin_.y + 1};
+    mapGrid(camera, rotation);
+}
+
+void TurnedPicture::mapGrid(const CameraModel& camera, const Eigen::Matrix3d& rotation) {
+    gridWidth_ = size_.width / kAlign + 2;
+    const int gridHeight = size_.height / kAlign + 2;
+    grid_.clear();
+    for (int j = 0; j < gridHeight; ++j) {
+        for (int i = 0; i < gridWidth_; ++i) {
+            const Eigen::Vector2d pixel(origin_.x + kAlign * i, origin_.y + kAlign * j);
+            const Eigen::Vector3d p = rotation * camera.unproject(pixel).homogeneous();
+            Source s{kOutside, kOutside};
+            if (p.z() > 0.05) {
+                const Eigen::Vector2d q = camera.project(p.hnormalized());
+                s = {static_cast<float>(q.x()), static_cast<float>(q.y())};
+            }
+            grid_.push_back(s);
+        }
+    }
+}
+
+void TurnedPicture::draw(const LumaImage& picture, Workers& workers, LumaImage& out,
+                         std::vector<std::uint8_t>& seen) const {
+    if (!(out.size == size_)) out = LumaImage(size_);
+    seen.resize(out.pixels.size());
+    const float right = static_cast<float>(picture.size.width) - 1.001F;
+    const float bottom = static_cast<float>(picture.size.height) - 1.001F;
+    workers.forRange(size_.height, kAlign, [&](int first, int last) {
+        for (int y = first; y < last; ++y) {
+            const float v = static_cast<float>(y % kAlign) / kAlign;
+            const Source* above =
+                grid_.data() + static_cast<std::ptrdiff_t>(y / kAlign) * gridWidth_;
+            const Source* below = above + gridWidth_;
+            std::uint8_t* to = out.row(y);
+            std::uint8_t* known = seen.data() + static_cast<std::size_t>(y) * size_.width;
+            for (int x = 0; x < size_.width; ++x) {
+                const int c = x / kAlign;
+                const float u = static_cast<float>(x % kAlign) / kAlign;
+                const float ax = above[c].x + v * (below[c].x - above[c].x);
+                const float ay = above[c].y + v * (below[c].y - above[c].y);
+                const float bx = above[c + 1].x + v * (below[c + 1].x - above[c + 1].x);
+                const float by = above[c + 1].y + v * (below[c + 1].y - above[c + 1].y);
+                const float sx = ax + u * (bx - ax), sy = ay + u * (by - ay);
+                known[x] = sx > -0.5F && sy > -0.5F && sx < right + 0.5F && sy < bottom + 0.5F;
+                const float px = std::clamp(sx, 0.0F, right), py = std::clamp(sy, 0.0F, bottom);
+                const int ix = static_cast<int>(px), iy = static_cast<int>(py);
+                const float fx = px - static_cast<float>(ix), fy = py - static_cast<float>(iy);
+                const std::uint8_t* p = picture.row(iy) + ix;
+                const std::uint8_t* q = p + picture.size.width;
+                const float top = static_cast<float>(p[0]) + fx * static_cast<float>(p[1] - p[0]);
+                const float low = static_cast<float>(q[0]) + fx * static_cast<float>(q[1] - q[0]);
+                to[x] = static_cast<std::uint8_t>(top + fy * (low - top) + 0.5F);
+            }
+        }
+    });
+}
+
+}  // namespace mfar

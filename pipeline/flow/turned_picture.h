@@ -1,0 +1,49 @@
+#pragma once
+
+#include "pipeline/flow/luma_image.h"
+#include "pipeline/geometry.h"
+#include "pipeline/workers.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// Whole pixels.
+struct PixelOffset {
+    int x = 0, y = 0;
+};
+
+/// A picture as the same camera would show it after a turn about its optical centre, on a canvas
+/// that may lie beside the camera's own picture.
+class TurnedPicture {
+public:
+    /// The canvas that holds what the camera, turned so that rays r of its new orientation are
+    /// rotation * r in that of the picture, would see of the picture, no farther outside its own
+    /// frame than `beyond` times its width. Size 0x0 when that is nothing.
+    void place(const CameraModel& camera, const Eigen::Matrix3d& rotation, double beyond);
+
+    [[nodiscard]] Size size() const { return size_; }
+    /// Camera pixel of canvas pixel (0, 0); both coordinates are multiples of kAlign.
+    [[nodiscard]] PixelOffset origin() const { return origin_; }
+    static constexpr int kAlign = 8;
+
+    /// Fills the canvas, bilinear. `seen`: 1 where the picture is, 0 elsewhere.
+    void draw(const LumaImage& picture, Workers& workers, LumaImage& out,
+              std::vector<std::uint8_t>& seen) const;
+
+private:
+    struct Source {
+        float x, y;  // far outside where the picture cannot be
+    };
+    void mapGrid(const CameraModel& camera, const Eigen::Matrix3d& rotation);
+
+    Size size_;
+    PixelOffset origin_;
+    int gridWidth_ = 0;
+    std::vector<Source> grid_;  // picture pixel of every kAlign-th canvas pixel
+};
+
+}  // namespace mfar
