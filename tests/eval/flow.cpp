@@ -4,51 +4,75 @@
 #include "tests/eval/flow_samples.h"
 #include "tests/eval/labels.h"
 #include "tests/eval/metrics/flow_error.h"
-#include "tests/eval/stopwatch.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
+#include <optional>
+#include <utility>
 
 namespace mfar::eval {
 namespace {
 
-double medianMs(const FlowMethod& method, const FlowPictures& pictures) {
-    std::array<double, 3> ms{};
-    for (double& value : ms)
-        value = wallMs([&] { (void)method(pictures.a, pictures.b); });
-    std::sort(ms.begin(), ms.end());
-    return ms[1];
-}
+/// One folder with the methods set up for its rig.
+class FolderRun {
+public:
+    FolderRun(const FlowRequest& request, FlowSet set, std::string label, FlowFactory& factory)
+        : request_(request), set_(std::move(set)), label_(std::move(label)) {
+        for (const std::string& name : request.methods)
+            methods_.push_back(factory.create(name, set_.rig));
+        if (request.frames > 0 && set_.samples.size() > static_cast<std::size_t>(request.frames))
+            set_.samples.resize(static_cast<std::size_t>(request.frames));
+    }
+
+    void measure(Report& report) {
+        for (const FlowSample& sample : set_.samples)
+            measure(sample, report);
+    }
+
+private:
+    void measure(const FlowSample& sample, Report& report) {
+        const cv::Mat truth = loadTruth(set_, sample);
+        Shot frame = loadFrame(set_, sample);
+        if (frame.pose)
+            frame.pose = turned(*frame.pose, request_.poseNoiseDeg,
+                                static_cast<std::uint64_t>(frame.time.ns));
+        setStill(sample);
+        for (std::size_t i = 0; i < methods_.size(); ++i) {
+            const auto result = methods_[i]->run(frame);
+            const FlowError error = flowError(result.flow, truth);
+            if (error.known == 0)
+                throw EvalError(fmt::format("{}: no vector is known", sample.truth.string()));
+            const auto epe = error.coverage > 0 ? std::optional(error.epe) : std::nullopt;
+            report.add(label_, sample.frame, request_.methods[i],
+                       {result.ms, epe, error.bad1, error.bad2, error.coverage});
+        }
+    }
+
+    void setStill(const FlowSample& sample) {
+        if (still_ == sample.still) return;
+        Shot still = loadStill(set_, sample);
+        still.picture =
+            degrade(still.picture, request_.degradation, static_cast<std::uint64_t>(still.time.ns));
+        for (const auto& method : methods_)
+            method->setStill(still);
+        still_ = sample.still;
+    }
+
+    const FlowRequest& request_;
+    FlowSet set_;
+    std::string label_;
+    std::vector<std::unique_ptr<FlowMethod>> methods_;
+    std::filesystem::path still_;
+};
 
 }  // namespace
 
 Report evaluateFlow(const FlowRequest& request) {
     Report report({{"ms", 1}, {"epe_px", 3}, {"bad1", 4}, {"bad2", 4}, {"coverage", 4}});
     FlowFactory factory;
-    std::vector<FlowMethod> methods;
-    methods.reserve(request.methods.size());
-    for (const std::string& name : request.methods)
-        methods.push_back(factory.create(name));
     const auto labels = labelsOf(request.folders);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        auto samples = flowSamplesOf(request.folders[i]);
-        if (request.frames > 0 && samples.size() > static_cast<std::size_t>(request.frames))
-            samples.resize(static_cast<std::size_t>(request.frames));
-        for (const FlowSample& sample : samples) {
-            const FlowPictures pictures = loadFlowPictures(sample);
-            for (std::size_t m = 0; m < methods.size(); ++m) {
-                const cv::Mat flow = methods[m](pictures.a, pictures.b);
-                const FlowError error = flowError(flow, pictures.truth);
-                if (error.known == 0)
-                    throw EvalError(fmt::format("{}: no vector is known", sample.truth.string()));
-                report.add(labels[i], sample.frame, request.methods[m],
-                           {medianMs(methods[m], pictures), error.epe, error.bad1, error.bad2,
-                            error.coverage});
-            }
-        }
-    }
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        FolderRun(request, flowSamplesOf(request.folders[i]), labels[i], factory).measure(report);
     report.addMeans();
     return report;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tests/eval/degrade.h"
 #include "tests/eval/report.h"
 
 #include <filesystem>
@@ -11,11 +12,13 @@ namespace mfar::eval {
 struct FlowRequest {
     std::vector<std::filesystem::path> folders;  ///< recordings or two-frame pairs
     std::vector<std::string> methods;            ///< of flowMethodNames()
+    Degradation degradation;                     ///< done to every still or second picture
+    double poseNoiseDeg = 0;                     ///< every frame's pose is turned by so much
     int frames = 0;                              ///< per folder, 0 = all that have truth
 };
 
-/// Measures every method on every pair of pictures with true flow; columns as in design.md, section
-/// 10. `ms` is the median of three runs after one to warm up. Throws EvalError and RecordingError.
+/// Measures every method on every sample of flowSamplesOf(); columns as in design.md, section 10.
+/// Throws EvalError and RecordingError.
 [[nodiscard]] Report evaluateFlow(const FlowRequest& request);
 
 }  // namespace mfar::eval

@@ -3,21 +3,55 @@
 #include "pipeline/pipeline.h"
 #include "tests/eval/paper_pipeline.h"
 #include "tests/eval/picture.h"
+#include "tests/eval/rig_resample.h"
+#include "tests/eval/stopwatch.h"
 
 #include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include <algorithm>
+#include <array>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 namespace mfar::eval {
 namespace {
 
-FlowMethod disMethod(DisPreset preset, bool fullResolution) {
+cv::Mat grey(const cv::Mat& picture) {
+    cv::Mat out;
+    cv::cvtColor(picture, out, cv::COLOR_BGR2GRAY);
+    return out;
+}
+
+/// A peer that knows nothing of cameras: from one grey picture to another of the same size.
+using PlainFlow = std::function<cv::Mat(const cv::Mat& a, const cv::Mat& b)>;
+
+class PlainMethod final : public FlowMethod {
+public:
+    PlainMethod(const StereoRig& rig, PlainFlow flow) : rig_(rig), flow_(std::move(flow)) {}
+
+    void setStill(const Shot& still) override { still_ = grey(resampleStill(still.picture, rig_)); }
+
+    Result run(const Shot& frame) override {
+        const cv::Mat video = grey(frame.picture);
+        return measured([&] { return flow_(video, still_); });
+    }
+
+private:
+    StereoRig rig_;
+    PlainFlow flow_;
+    cv::Mat still_;
+};
+
+PlainFlow dis(DisPreset preset, bool fullResolution, bool bothWays) {
     auto dis = createDis(preset);
     if (fullResolution) dis->setFinestScale(0);
-    return [dis](const cv::Mat& a, const cv::Mat& b) {
-        cv::Mat flow;
+    return [dis, bothWays](const cv::Mat& a, const cv::Mat& b) {
+        cv::Mat flow, back;
         dis->calc(a, b, flow);
+        if (bothWays) dis->calc(b, a, back);
         return flow;
     };
 }
@@ -29,28 +63,82 @@ cv::Mat farneback(const cv::Mat& a, const cv::Mat& b) {
     return flow;
 }
 
-cv::Mat flow2d(const cv::Mat& a, const cv::Mat& b) {
-    std::vector<float> vectors = flowBetween(viewOf(a), viewOf(b));
-    CV_Assert(vectors.size() == 2 * a.total());
-    return cv::Mat(a.rows, a.cols, CV_32FC2, vectors.data()).clone();
+PlainFlow plainFlow(const std::string& name) {
+    if (name == "dis-fast") return dis(DisPreset::Fast, false, false);
+    if (name == "dis-medium") return dis(DisPreset::Medium, false, false);
+    if (name == "dis-medium-both") return dis(DisPreset::Medium, false, true);
+    if (name == "dis-medium-full") return dis(DisPreset::Medium, true, false);
+    if (name == "farneback") return farneback;
+    return {};
 }
+
+/// The product without a pose. Its flow goes both ways; its time is that of both.
+class Flow2dMethod final : public FlowMethod {
+public:
+    explicit Flow2dMethod(const StereoRig& rig)
+        : size_(rig.video.size), pipeline_(rig, {.mode = SuperResMode::Detail,
+                                                 .output = rig.video.size,
+                                                 .skipUnchanged = false}) {
+        pipeline_.setMeasure(true);
+    }
+
+    void setStill(const Shot& still) override {
+        const cv::Mat rgba = toRgba(still.picture);
+        pipeline_.setStill(viewOf(rgba), still.time);
+    }
+
+    Result run(const Shot& frame) override {
+        const cv::Mat rgba = toRgba(frame.picture);
+        pipeline_.run(viewOf(rgba), frame.time);
+        std::vector<float> vectors = pipeline_.readFlow();
+        Result out{cv::Mat(size_.height, size_.width, CV_32FC2, vectors.data()).clone(), 0};
+        std::array<double, 3> ms{};
+        for (double& value : ms) {
+            pipeline_.run(viewOf(rgba), frame.time);
+            value = flowMs();
+        }
+        std::sort(ms.begin(), ms.end());
+        out.ms = ms[1];
+        return out;
+    }
+
+private:
+    [[nodiscard]] double flowMs() const {
+        double sum = 0;
+        for (const StageTime& stage : pipeline_.stageTimes())
+            if (const std::string_view name = stage.stage; name == "pyramid" || name == "flow")
+                sum += stage.ms;
+        return sum;
+    }
+
+    Size size_;
+    Pipeline pipeline_;
+};
 
 }  // namespace
 
+FlowMethod::Result measured(const std::function<cv::Mat()>& compute) {
+    FlowMethod::Result out{compute(), 0};
+    std::array<double, 3> ms{};
+    for (double& value : ms)
+        value = wallMs([&] { (void)compute(); });
+    std::sort(ms.begin(), ms.end());
+    out.ms = ms[1];
+    return out;
+}
+
 const std::vector<std::string>& flowMethodNames() {
-    static const std::vector<std::string> names{"flow2d", "dis-fast", "dis-medium",
-                                                "dis-medium-full", "farneback"};
+    static const std::vector<std::string> names{"flow2d",          "dis-fast",        "dis-medium",
+                                                "dis-medium-both", "dis-medium-full", "farneback"};
     return names;
 }
 
-FlowMethod FlowFactory::create(const std::string& name) {
-    if (name == "dis-fast") return disMethod(DisPreset::Fast, false);
-    if (name == "dis-medium") return disMethod(DisPreset::Medium, false);
-    if (name == "dis-medium-full") return disMethod(DisPreset::Medium, true);
-    if (name == "farneback") return farneback;
+std::unique_ptr<FlowMethod> FlowFactory::create(const std::string& name, const StereoRig& rig) {
+    if (PlainFlow plain = plainFlow(name))
+        return std::make_unique<PlainMethod>(rig, std::move(plain));
     if (name != "flow2d") throw std::invalid_argument(fmt::format("unknown method '{}'", name));
     if (!context_) context_ = createGlContext();
-    return flow2d;
+    return std::make_unique<Flow2dMethod>(rig);
 }
 
 }  // namespace mfar::eval

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "hal/gl_context.h"
-
-#include <opencv2/core.hpp>
+#include "tests/eval/shot.h"
 
 #include <functional>
 #include <memory>
@@ -11,17 +10,32 @@
 
 namespace mfar::eval {
 
-/// Dense flow from a to b: CV_8UC1 pictures of one size in, CV_32FC2 [px] out.
-using FlowMethod = std::function<cv::Mat(const cv::Mat& a, const cv::Mat& b)>;
+/// One way to find the flow from video frames to a still, set up for one rig. Frames come in the
+/// order of their times, so that a method may carry what it knows from one to the next.
+class FlowMethod {
+public:
+    virtual ~FlowMethod() = default;
+
+    /// The reference of the following frames.
+    virtual void setStill(const Shot& still) = 0;
+    struct Result {
+        cv::Mat flow;   ///< CV_32FC2 [video px], FlowField in pipeline/results.h; NaN = no answer
+        double ms = 0;  ///< wall time, work finished; what is done once per still is not in it
+    };
+    [[nodiscard]] virtual Result run(const Shot& frame) = 0;
+};
+
+/// The answer of the first call and the median time of three more.
+[[nodiscard]] FlowMethod::Result measured(const std::function<cv::Mat()>& compute);
 
 /// What --methods accepts for flow.
 [[nodiscard]] const std::vector<std::string>& flowMethodNames();
 
-/// The method of this product needs a GL context: it is created on first need and stays current.
+/// The methods of this product need a GL context: it is created on first need and stays current.
 /// Throws std::invalid_argument for an unknown name.
 class FlowFactory {
 public:
-    [[nodiscard]] FlowMethod create(const std::string& name);
+    [[nodiscard]] std::unique_ptr<FlowMethod> create(const std::string& name, const StereoRig& rig);
 
 private:
     std::unique_ptr<GlContext> context_;

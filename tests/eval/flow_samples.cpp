@@ -1,13 +1,12 @@
 #include "tests/eval/flow_samples.h"
 
 #include "hal/virtual/image_files.h"
-#include "hal/virtual/recording.h"
+#include "tests/eval/flow_truth.h"
 #include "tests/eval/picture.h"
 #include "tests/eval/report.h"
-#include "tests/eval/rig_resample.h"
+#include "tests/eval/still_choice.h"
 
 #include <fmt/format.h>
-#include <opencv2/imgproc.hpp>
 
 #include <system_error>
 
@@ -48,89 +47,153 @@ std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_vi
     return out;
 }
 
-std::vector<FlowSample> pairsOf(const fs::path& folder) {
+/// What is not known of a pair's camera: one pinhole as wide as it is far, straight ahead.
+StereoRig pairRig(const fs::path& picture) {
+    const Size size = loadImage(picture).size;
+    StereoRig rig;
+    const double width = size.width, height = size.height;
+    rig.video = {size, width, width, (width - 1) / 2, (height - 1) / 2, {}};
+    rig.still = rig.video;
+    return rig;
+}
+
+FlowSet pairsOf(const fs::path& folder) {
     const auto frames = numbered(folder, "frame", ".png");
-    std::vector<FlowSample> out;
+    FlowSet out;
     for (const auto& [number, truth] : numbered(folder, "flow", ".flo")) {
         const auto a = frames.find(number), b = frames.upper_bound(number);
         if (a == frames.end() || b == frames.end())
             throw EvalError(fmt::format("{}: needs frame{}.png and a later frame beside it",
                                         truth.string(), number));
-        out.push_back({std::to_string(number), a->second, b->second, truth});
+        out.samples.push_back(
+            {std::to_string(number), a->second, b->second, truth, {number}, {b->first}});
     }
-    if (out.empty())
+    if (out.samples.empty())
         throw EvalError(fmt::format("{}: neither a recording (no cam0) nor a pair (no flowNN.flo)",
                                     folder.string()));
+    out.rig = pairRig(out.samples.front().video);
     return out;
 }
 
-std::optional<fs::path> pictureAt(const std::vector<RecordedImage>& images, std::int64_t ns) {
+const RecordedImage* pictureAt(const std::vector<RecordedImage>& images, std::int64_t ns) {
     const auto found = std::find_if(images.begin(), images.end(),
                                     [&](const RecordedImage& i) { return i.time.ns == ns; });
-    return found == images.end() ? std::nullopt : std::optional(found->file);
+    return found == images.end() ? nullptr : &*found;
 }
 
-FlowSample recordedSample(const Recording& recording, const fs::path& truth) {
-    const std::string stem = truth.stem().string();
-    const std::size_t bar = std::min(stem.find('_'), stem.size());
-    const auto from = parseDigits(stem.substr(0, bar));
-    const auto to = parseDigits(stem.substr(std::min(bar + 1, stem.size())));
-    if (!from || !to) throw EvalError(fmt::format("{}: name is not <ns>_<ns>.flo", truth.string()));
-    const auto a = pictureAt(recording.video, *from);
-    const auto still = pictureAt(recording.stills, *to);
-    const auto video = pictureAt(recording.video, *to);
-    if (!a || (!still && !video))
-        throw EvalError(fmt::format("{}: no picture was taken at these times", truth.string()));
-    return {stem, *a, still ? *still : *video, truth,
-            still ? std::optional(recording.rig) : std::nullopt};
+FlowSample sampleOf(const Recording& recording, const RecordedImage& video,
+                    const RecordedImage& still, const fs::path& truth) {
+    return {fmt::format("{}_{}", video.time.ns, still.time.ns),
+            video.file,
+            still.file,
+            truth,
+            video.time,
+            still.time,
+            posesOf(recording, video.time, still.time)};
 }
 
-std::vector<FlowSample> samplesOfRecording(const fs::path& folder) {
-    const Recording recording = loadRecording(folder);
+/// The samples of truth/flow, apart by what they lead to.
+struct RecordedFlows {
+    std::vector<FlowSample> toStill, toVideo;
+
+    void add(const Recording& recording, const fs::path& truth) {
+        const std::string stem = truth.stem().string();
+        const std::size_t bar = std::min(stem.find('_'), stem.size());
+        const auto from = parseDigits(stem.substr(0, bar));
+        const auto to = parseDigits(stem.substr(std::min(bar + 1, stem.size())));
+        if (!from || !to)
+            throw EvalError(fmt::format("{}: name is not <ns>_<ns>.flo", truth.string()));
+        const RecordedImage* frame = pictureAt(recording.video, *from);
+        const RecordedImage* still = pictureAt(recording.stills, *to);
+        const RecordedImage* video = pictureAt(recording.video, *to);
+        if (!frame || (!still && !video))
+            throw EvalError(fmt::format("{}: no picture was taken at these times", truth.string()));
+        if (!still)
+            toVideo.push_back(sampleOf(recording, *frame, *video, truth));
+        else if (!showsOwnView(recording, still->time, frame->time))
+            toStill.push_back(sampleOf(recording, *frame, *still, truth));
+    }
+};
+
+RecordedFlows recordedFlows(const Recording& recording) {
+    RecordedFlows out;
+    const fs::path folder = recording.root / "truth" / "flow";
+    if (!fs::is_directory(folder)) return out;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".flo") out.add(recording, entry.path());
+    return out;
+}
+
+std::vector<FlowSample> samplesByDepth(const Recording& recording) {
     std::vector<FlowSample> out;
-    if (fs::is_directory(folder / "truth" / "flow"))
-        for (const auto& entry : fs::directory_iterator(folder / "truth" / "flow"))
-            if (entry.path().extension() == ".flo")
-                out.push_back(recordedSample(recording, entry.path()));
-    if (out.empty())
-        throw EvalError(fmt::format("{}: no truth: truth/flow has no .flo file", folder.string()));
-    std::sort(out.begin(), out.end(), [](const FlowSample& x, const FlowSample& y) {
-        return x.truth.filename() < y.truth.filename();
+    for (const RecordedImage& video : recording.video) {
+        const auto truth = recording.truthInverseDepth(video.time);
+        const auto still = truth ? referenceStill(recording, video.time) : std::nullopt;
+        if (!still) continue;
+        FlowSample sample = sampleOf(recording, video, recording.stills[*still], *truth);
+        if (sample.poses.frame && sample.poses.still) out.push_back(std::move(sample));
+    }
+    return out;
+}
+
+FlowSet samplesOfRecording(const fs::path& folder) {
+    const Recording recording = loadRecording(folder);
+    RecordedFlows flows = recordedFlows(recording);
+    FlowSet out{recording.rig, std::move(flows.toStill)};
+    if (out.samples.empty()) out.samples = samplesByDepth(recording);
+    if (out.samples.empty()) {
+        out.samples = std::move(flows.toVideo);
+        out.rig = {recording.rig.video, recording.rig.video, {}};
+    }
+    if (out.samples.empty())
+        throw EvalError(fmt::format("{}: no truth: neither truth/flow nor truth/inverse_depth "
+                                    "tells where a frame lies in a still",
+                                    folder.string()));
+    std::sort(out.samples.begin(), out.samples.end(), [](const FlowSample& x, const FlowSample& y) {
+        return std::pair(x.videoTime, x.stillTime) < std::pair(y.videoTime, y.stillTime);
     });
     return out;
 }
 
-cv::Mat grey(const cv::Mat& picture) {
-    cv::Mat out;
-    cv::cvtColor(picture, out, cv::COLOR_BGR2GRAY);
-    return out;
+void requireSize(const fs::path& file, Size got, Size wanted) {
+    if (got != wanted)
+        throw EvalError(fmt::format("{}: has {}x{} pixels, not {}x{}", file.string(), got.width,
+                                    got.height, wanted.width, wanted.height));
 }
 
-void requireSameSize(const fs::path& file, const cv::Mat& got, const cv::Mat& wanted) {
-    if (got.size() != wanted.size())
-        throw EvalError(fmt::format("{}: has {}x{} pixels, its first frame {}x{}", file.string(),
-                                    got.cols, got.rows, wanted.cols, wanted.rows));
+Shot shotOf(const fs::path& file, Timestamp time, const std::optional<Pose>& pose, Size wanted) {
+    Shot out{loadPicture(file), time, pose};
+    requireSize(file, {out.picture.cols, out.picture.rows}, wanted);
+    return out;
 }
 
 }  // namespace
 
-std::vector<FlowSample> flowSamplesOf(const fs::path& folder) {
+FlowSet flowSamplesOf(const fs::path& folder) {
     if (!fs::is_directory(folder))
         throw EvalError(fmt::format("{}: no such folder", folder.string()));
     return fs::exists(folder / "cam0") ? samplesOfRecording(folder) : pairsOf(folder);
 }
 
-FlowPictures loadFlowPictures(const FlowSample& sample) {
-    FlowPictures out;
-    out.a = grey(loadPicture(sample.a));
-    const cv::Mat b = loadPicture(sample.b);
-    out.b = grey(sample.rig ? resampleStill(b, *sample.rig) : b);
-    requireSameSize(sample.b, out.b, out.a);
+cv::Mat loadTruth(const FlowSet& set, const FlowSample& sample) {
+    const Size size = set.rig.video.size;
+    if (sample.truth.extension() == ".pfm") {
+        const FloatImage truth = loadPfm(sample.truth);
+        requireSize(sample.truth, truth.size, size);
+        return flowOfInverseDepth(
+            truth, set.rig, stillFromFrame(set.rig, *sample.poses.frame, *sample.poses.still));
+    }
     FlowImage truth = loadFlo(sample.truth);
-    out.truth =
-        cv::Mat(truth.size.height, truth.size.width, CV_32FC2, truth.vectors.data()).clone();
-    requireSameSize(sample.truth, out.truth, out.a);
-    return out;
+    requireSize(sample.truth, truth.size, size);
+    return cv::Mat(size.height, size.width, CV_32FC2, truth.vectors.data()).clone();
+}
+
+Shot loadFrame(const FlowSet& set, const FlowSample& sample) {
+    return shotOf(sample.video, sample.videoTime, sample.poses.frame, set.rig.video.size);
+}
+
+Shot loadStill(const FlowSet& set, const FlowSample& sample) {
+    return shotOf(sample.still, sample.stillTime, sample.poses.still, set.rig.still.size);
 }
 
 }  // namespace mfar::eval

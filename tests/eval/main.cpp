@@ -33,12 +33,17 @@ constexpr const char* kSuperResHelp =
     "ms: a second run on the same frame, every tile computed; work per still is not in it.";
 
 constexpr const char* kFlowHelp =
-    "Takes recordings with truth/flow (from a video frame to a still, which is first brought to "
-    "the "
-    "video's geometry) and folders with frameNN.png frameMM.png flowNN.flo.\n"
-    "epe_px: mean end-point error where truth and answer are known; bad1, bad2: share off by more "
-    "than 1, 2 px; ms: median of 3 runs after one to warm up; "
-    "flow2d's includes its set-up, what a frame costs is in mfar-bench.";
+    "Takes recordings with truth/flow from video frames to stills, or else with "
+    "truth/inverse_depth and known poses (a scene at rest; occluded pixels found by projecting the "
+    "truth into the still), or else with truth/flow between video frames; and folders with "
+    "frameNN.png frameMM.png flowNN.flo.\n"
+    "Flow is in video pixels, to the still at the video's geometry (rotation of the rig and both "
+    "lenses, no parallax); the reference of a frame is chosen as for superres.\n"
+    "epe_px: mean end-point error where truth and answer are known; bad1, bad2: share of the "
+    "pixels "
+    "with known truth off by more than 1, 2 px, no answer is off; ms: median of 3 runs after one "
+    "to "
+    "warm up, without work per still; flow2d and dis-medium-both compute both directions.";
 
 std::string joined(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ", "));
@@ -54,8 +59,19 @@ struct Options {
     SuperResRequest superres;
     FlowRequest flow;
     std::string degrade;
+    double poseNoiseDeg = 0;
     std::string csv;
 };
+
+/// What is made worse than recorded, for every task alike.
+void addDisturbances(CLI::App& sub, Options& o) {
+    sub.add_option("--degrade", o.degrade,
+                   "make the still worse: gain=0.7,gamma=1.3,blur=0.7,noise=4; applied as blur "
+                   "(sigma, still px), gain, v^gamma, noise (sigma, grey levels)");
+    sub.add_option("--pose-noise-deg", o.poseNoiseDeg,
+                   "turn the pose of every frame by so much about a random axis; the same each run")
+        ->check(CLI::Range(0.0, 180.0));
+}
 
 CLI::App* addSuperRes(CLI::App& app, Options& o) {
     CLI::App* sub = app.add_subcommand("superres", "super-resolved frames against truth/highres");
@@ -64,9 +80,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     sub->add_option("recording", o.superres.recordings, "folders in the EuRoC layout")->required();
     sub->add_option("--methods", o.superres.methods, "of: " + joined(superResMethodNames()))
         ->delimiter(',');
-    sub->add_option("--degrade", o.degrade,
-                    "make the still worse: gain=0.7,gamma=1.3,blur=0.7,noise=4; applied as blur "
-                    "(sigma, still px), gain, v^gamma, noise (sigma, grey levels)");
+    addDisturbances(*sub, o);
     sub->add_option("--alpha", o.superres.alpha,
                     "of the peer `paper`: two-way error at which its confidence is zero [video px]")
         ->check(CLI::PositiveNumber)
@@ -85,6 +99,7 @@ CLI::App* addFlow(CLI::App& app, Options& o) {
     sub->add_option("folder", o.flow.folders, "recordings or two-frame pairs")->required();
     sub->add_option("--methods", o.flow.methods, "of: " + joined(flowMethodNames()))
         ->delimiter(',');
+    addDisturbances(*sub, o);
     sub->add_option("--frames", o.flow.frames, "at most so many frames of each folder")
         ->check(CLI::Range(1, 1000000));
     sub->add_option("--csv", o.csv, "file for the table");
@@ -106,9 +121,12 @@ int run(int argc, char** argv) {
     if (superres->parsed()) {
         checkMethods(o.superres.methods, superResMethodNames());
         o.superres.degradation = parseDegradation(o.degrade);
+        o.superres.poseNoiseDeg = o.poseNoiseDeg;
         report = evaluateSuperRes(o.superres);
     } else {
         checkMethods(o.flow.methods, flowMethodNames());
+        o.flow.degradation = parseDegradation(o.degrade);
+        o.flow.poseNoiseDeg = o.poseNoiseDeg;
         report = evaluateFlow(o.flow);
     }
     fmt::print("{}", report.table());

@@ -79,34 +79,46 @@ public:
     }
 
     void measure(const Sample& sample, Report& report) {
-        const cv::Mat video = loadPicture(sample.video.file);
+        const Shot frame = loadFrame(sample);
         const cv::Mat truthPicture = loadTruth(sample, recording_.rig);
         const cv::Mat truth = luma(withoutBorder(truthPicture));
         cv::Mat bicubicPicture;
-        cv::resize(video, bicubicPicture, truthPicture.size(), 0, 0, cv::INTER_CUBIC);
+        cv::resize(frame.picture, bicubicPicture, truthPicture.size(), 0, 0, cv::INTER_CUBIC);
         const cv::Mat bicubic = luma(withoutBorder(bicubicPicture));
-        setStill(sample.still);
-        const std::string frame = std::to_string(sample.video.time.ns);
-        save(frame, "truth", truthPicture);
+        setStill(sample);
+        const std::string name = std::to_string(sample.video.time.ns);
+        save(name, "truth", truthPicture);
         for (std::size_t i = 0; i < methods_.size(); ++i) {
-            const auto result = methods_[i]->run(video, sample.video.time);
+            const auto result = methods_[i]->run(frame);
             CV_Assert(result.picture.size() == truthPicture.size());
             const cv::Mat picture = luma(withoutBorder(result.picture));
-            report.add(label_, frame, request_.methods[i],
+            report.add(label_, name, request_.methods[i],
                        {result.ms, psnr(picture, truth), ssim(picture, truth), std::nullopt,
                         std::nullopt, harmRate(picture, bicubic, truth)});
-            save(frame, request_.methods[i], result.picture);
+            save(name, request_.methods[i], result.picture);
         }
     }
 
 private:
-    void setStill(const RecordedImage& still) {
-        if (still.time == stillTime_) return;
-        const cv::Mat picture = degrade(loadPicture(still.file), request_.degradation,
-                                        static_cast<std::uint64_t>(still.time.ns));
+    [[nodiscard]] Shot loadFrame(const Sample& sample) const {
+        const Timestamp time = sample.video.time;
+        Shot out{loadPicture(sample.video.file), time,
+                 posesOf(recording_, time, sample.still.time).frame};
+        if (out.pose)
+            out.pose =
+                turned(*out.pose, request_.poseNoiseDeg, static_cast<std::uint64_t>(time.ns));
+        return out;
+    }
+
+    void setStill(const Sample& sample) {
+        const Timestamp time = sample.still.time;
+        if (time == stillTime_) return;
+        const cv::Mat picture = degrade(loadPicture(sample.still.file), request_.degradation,
+                                        static_cast<std::uint64_t>(time.ns));
+        const Shot still{picture, time, posesOf(recording_, sample.video.time, time).still};
         for (const auto& method : methods_)
-            method->setStill(picture, still.time);
-        stillTime_ = still.time;
+            method->setStill(still);
+        stillTime_ = time;
     }
 
     void save(const std::string& frame, const std::string& name, const cv::Mat& picture) const {

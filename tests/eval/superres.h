@@ -13,6 +13,7 @@ struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
     std::vector<std::string> methods;  ///< of superResMethodNames()
     Degradation degradation;           ///< done to every still
+    double poseNoiseDeg = 0;           ///< every frame's pose is turned by so much
     double alpha = 2;                  ///< of the paper's confidence [video px]
     int frames = 0;                    ///< per recording, 0 = all that have truth
     std::filesystem::path save;        ///< folder for the pictures, empty = none

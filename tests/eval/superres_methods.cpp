@@ -20,19 +20,19 @@ public:
     PipelineMethod(const StereoRig& rig, SuperResMode mode)
         : pipeline_(rig, {.mode = mode, .output = {}, .skipUnchanged = false}) {}
 
-    void setStill(const cv::Mat& still, Timestamp time) override {
-        const cv::Mat rgba = toRgba(still);
-        pipeline_.setStill(viewOf(rgba), time);
+    void setStill(const Shot& still) override {
+        const cv::Mat rgba = toRgba(still.picture);
+        pipeline_.setStill(viewOf(rgba), still.time);
     }
 
-    Result run(const cv::Mat& video, Timestamp time) override {
-        const cv::Mat rgba = toRgba(video);
-        pipeline_.run(viewOf(rgba), time);
+    Result run(const Shot& frame) override {
+        const cv::Mat rgba = toRgba(frame.picture);
+        pipeline_.run(viewOf(rgba), frame.time);
         // The picture is that of the first run: a second one could start from its own answer.
         Result out{fromRgba(pipeline_.readImage(), pipeline_.outputSize()), 0};
         glFinish();
         out.ms = wallMs([&] {
-            pipeline_.run(viewOf(rgba), time);
+            pipeline_.run(viewOf(rgba), frame.time);
             glFinish();
         });
         return out;
@@ -46,11 +46,13 @@ class BicubicMethod final : public SuperResMethod {
 public:
     explicit BicubicMethod(Size output) : output_(output.width, output.height) {}
 
-    void setStill(const cv::Mat&, Timestamp) override {}
+    void setStill(const Shot&) override {}
 
-    Result run(const cv::Mat& video, Timestamp) override {
+    Result run(const Shot& frame) override {
         Result out;
-        const auto resize = [&] { cv::resize(video, out.picture, output_, 0, 0, cv::INTER_CUBIC); };
+        const auto resize = [&] {
+            cv::resize(frame.picture, out.picture, output_, 0, 0, cv::INTER_CUBIC);
+        };
         resize();
         out.ms = wallMs(resize);
         return out;
@@ -65,11 +67,11 @@ public:
     PaperMethod(const StereoRig& rig, double alpha)
         : paper_(rig, outputSize(rig), {DisPreset::Medium, alpha}) {}
 
-    void setStill(const cv::Mat& still, Timestamp) override { paper_.setStill(still); }
+    void setStill(const Shot& still) override { paper_.setStill(still.picture); }
 
-    Result run(const cv::Mat& video, Timestamp) override {
-        Result out{paper_.run(video).clone(), 0};
-        out.ms = wallMs([&] { paper_.run(video); });
+    Result run(const Shot& frame) override {
+        Result out{paper_.run(frame.picture).clone(), 0};
+        out.ms = wallMs([&] { paper_.run(frame.picture); });
         return out;
     }
 

@@ -1,9 +1,7 @@
 #pragma once
 
 #include "hal/gl_context.h"
-#include "pipeline/geometry.h"
-
-#include <opencv2/core.hpp>
+#include "tests/eval/shot.h"
 
 #include <memory>
 #include <string>
@@ -16,12 +14,12 @@ class SuperResMethod {
 public:
     virtual ~SuperResMethod() = default;
 
-    virtual void setStill(const cv::Mat& still, Timestamp time) = 0;
+    virtual void setStill(const Shot& still) = 0;
     struct Result {
         cv::Mat picture;
         double ms = 0;  ///< wall time of a second run on the same frame, work finished
     };
-    [[nodiscard]] virtual Result run(const cv::Mat& video, Timestamp time) = 0;
+    [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
 
 /// What --methods accepts for superres.
