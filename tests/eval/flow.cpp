@@ -42,9 +42,12 @@ private:
             const FlowError error = flowError(result.flow, truth);
             if (error.known == 0)
                 throw EvalError(fmt::format("{}: no vector is known", sample.truth.string()));
-            const auto epe = error.coverage > 0 ? std::optional(error.epe) : std::nullopt;
+            // A method that had no answer was not at work either.
+            const bool answered = error.coverage > 0;
             report.add(label_, sample.frame, request_.methods[i],
-                       {result.ms, epe, error.bad1, error.bad2, error.coverage});
+                       {answered ? std::optional(result.ms) : std::nullopt,
+                        answered ? std::optional(error.epe) : std::nullopt, error.bad1, error.bad2,
+                        error.coverage});
         }
     }
 

@@ -4,14 +4,15 @@
 #include "tests/eval/paper_pipeline.h"
 #include "tests/eval/picture.h"
 #include "tests/eval/rig_resample.h"
+#include "tests/eval/sgbm_peer.h"
 #include "tests/eval/stopwatch.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
-#include <algorithm>
-#include <array>
+#include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -36,7 +37,9 @@ public:
 
     Result run(const Shot& frame) override {
         const cv::Mat video = grey(frame.picture);
-        return measured([&] { return flow_(video, still_); });
+        Result out{flow_(video, still_), 0};
+        out.ms = medianOfThree([&] { return wallMs([&] { (void)flow_(video, still_); }); });
+        return out;
     }
 
 private:
@@ -72,6 +75,30 @@ PlainFlow plainFlow(const std::string& name) {
     return {};
 }
 
+class SgbmMethod final : public FlowMethod {
+public:
+    explicit SgbmMethod(const StereoRig& rig) : rig_(rig), peer_(rig) {}
+
+    void setStill(const Shot& still) override {
+        peer_.setStill(still.picture);
+        stillPose_ = still.pose;
+    }
+
+    Result run(const Shot& frame) override {
+        constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+        if (!frame.pose || !stillPose_)
+            return {cv::Mat(frame.picture.size(), CV_32FC2, cv::Scalar(kNan, kNan)), 0};
+        SgbmPeer::Result out =
+            peer_.run(frame.picture, stillFromFrame(rig_, *frame.pose, *stillPose_));
+        return {out.flow, out.ms};
+    }
+
+private:
+    StereoRig rig_;
+    SgbmPeer peer_;
+    std::optional<Pose> stillPose_;
+};
+
 /// The product without a pose. Its flow goes both ways; its time is that of both.
 class Flow2dMethod final : public FlowMethod {
 public:
@@ -92,13 +119,10 @@ public:
         pipeline_.run(viewOf(rgba), frame.time);
         std::vector<float> vectors = pipeline_.readFlow();
         Result out{cv::Mat(size_.height, size_.width, CV_32FC2, vectors.data()).clone(), 0};
-        std::array<double, 3> ms{};
-        for (double& value : ms) {
+        out.ms = medianOfThree([&] {
             pipeline_.run(viewOf(rgba), frame.time);
-            value = flowMs();
-        }
-        std::sort(ms.begin(), ms.end());
-        out.ms = ms[1];
+            return flowMs();
+        });
         return out;
     }
 
@@ -117,25 +141,17 @@ private:
 
 }  // namespace
 
-FlowMethod::Result measured(const std::function<cv::Mat()>& compute) {
-    FlowMethod::Result out{compute(), 0};
-    std::array<double, 3> ms{};
-    for (double& value : ms)
-        value = wallMs([&] { (void)compute(); });
-    std::sort(ms.begin(), ms.end());
-    out.ms = ms[1];
-    return out;
-}
-
 const std::vector<std::string>& flowMethodNames() {
-    static const std::vector<std::string> names{"flow2d",          "dis-fast",        "dis-medium",
-                                                "dis-medium-both", "dis-medium-full", "farneback"};
+    static const std::vector<std::string> names{
+        "flow2d",          "dis-fast",  "dis-medium", "dis-medium-both",
+        "dis-medium-full", "farneback", "sgbm"};
     return names;
 }
 
 std::unique_ptr<FlowMethod> FlowFactory::create(const std::string& name, const StereoRig& rig) {
     if (PlainFlow plain = plainFlow(name))
         return std::make_unique<PlainMethod>(rig, std::move(plain));
+    if (name == "sgbm") return std::make_unique<SgbmMethod>(rig);
     if (name != "flow2d") throw std::invalid_argument(fmt::format("unknown method '{}'", name));
     if (!context_) context_ = createGlContext();
     return std::make_unique<Flow2dMethod>(rig);

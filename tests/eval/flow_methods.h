@@ -3,7 +3,6 @@
 #include "hal/gl_context.h"
 #include "tests/eval/shot.h"
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,14 +18,12 @@ public:
     /// The reference of the following frames.
     virtual void setStill(const Shot& still) = 0;
     struct Result {
-        cv::Mat flow;   ///< CV_32FC2 [video px], FlowField in pipeline/results.h; NaN = no answer
-        double ms = 0;  ///< wall time, work finished; what is done once per still is not in it
+        cv::Mat flow;  ///< CV_32FC2 [video px], FlowField in pipeline/results.h; NaN = no answer
+        double ms =
+            0;  ///< wall time [ms], median of three after the answer, work per still not in it
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
-
-/// The answer of the first call and the median time of three more.
-[[nodiscard]] FlowMethod::Result measured(const std::function<cv::Mat()>& compute);
 
 /// What --methods accepts for flow.
 [[nodiscard]] const std::vector<std::string>& flowMethodNames();

@@ -118,7 +118,7 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
                                                         MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 6 + 6) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 7 + 7) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage"));
     EXPECT_EQ(rows[1][2], "flow2d");
     EXPECT_EQ(rows[3][2], "dis-medium");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <utility>
 
@@ -12,6 +14,16 @@ template <class F>
     std::forward<F>(call)();
     const std::chrono::duration<double, std::milli> span = std::chrono::steady_clock::now() - begin;
     return span.count();
+}
+
+/// The middle of what three calls return.
+template <class F>
+[[nodiscard]] double medianOfThree(F&& call) {
+    std::array<double, 3> values{};
+    for (double& value : values)
+        value = call();
+    std::sort(values.begin(), values.end());
+    return values[1];
 }
 
 }  // namespace mfar::eval

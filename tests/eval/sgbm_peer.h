@@ -1,0 +1,35 @@
+#pragma once
+
+#include "pipeline/geometry.h"
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+
+namespace mfar::eval {
+
+/// Peer for flow with a known pose: OpenCV's StereoSGBM, 3-way, on the rectified pictures. Its
+/// range of disparities is [0, width / 6). What it leaves open (hidden in the still by its own
+/// check, or ambiguous) is filled along the row with the farther of the two neighbours.
+class SgbmPeer {
+public:
+    explicit SgbmPeer(const StereoRig& rig);
+
+    /// The reference of the following frames: CV_8UC3 of the rig's still size. Per-still work.
+    void setStill(const cv::Mat& still);
+
+    struct Result {
+        cv::Mat flow;   ///< CV_32FC2 [video px], FlowField in pipeline/results.h; NaN = no answer
+        double ms = 0;  ///< rectifying both pictures and matching; the maps are made before
+    };
+    /// No answer anywhere where rectification is impossible. Frame: CV_8UC3. `T_still_frame`: video
+    /// camera coordinates at the frame's time -> still camera coordinates at the still's time.
+    [[nodiscard]] Result run(const cv::Mat& video, const RigidTransform& T_still_frame);
+
+private:
+    StereoRig rig_;
+    int disparities_;
+    cv::Ptr<cv::StereoSGBM> matcher_;
+    cv::Mat still_;  ///< grey, at the video's geometry
+};
+
+}  // namespace mfar::eval
