@@ -33,6 +33,10 @@ Eigen::Vector2d CameraModel::project(const Eigen::Vector2d& ray) const {
     return {fx * p.x() + cx, fy * p.y() + cy};
 }
 
+Eigen::Matrix2d CameraModel::projectJacobian(const Eigen::Vector2d& ray) const {
+    return Eigen::Vector2d(fx, fy).asDiagonal() * distort(ray, distortion).jacobian;
+}
+
 Eigen::Vector2d CameraModel::unproject(const Eigen::Vector2d& pixel) const {
     const Eigen::Vector2d target{(pixel.x() - cx) / fx, (pixel.y() - cy) / fy};
     Eigen::Vector2d ray = target;

@@ -20,6 +20,8 @@ struct CameraModel {
 
     /// Normalised ray (x/z, y/z) to pixel.
     [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector2d& ray) const;
+    /// Derivative of project() by the ray [px].
+    [[nodiscard]] Eigen::Matrix2d projectJacobian(const Eigen::Vector2d& ray) const;
     /// Pixel to normalised ray; Newton iterations undo the distortion. Far outside the lens's valid
     /// circle, where the model folds over, the result is the ray of the nearest valid radius.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;

@@ -1,0 +1,58 @@
+#include "pipeline/track/tag_map.h"
+
+#include "pipeline/track/se3.h"
+#include "pipeline/track/tag_map_faults.h"
+
+#include <system_error>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+namespace mfar {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 4U << 20U;  // all 2115 tags of a family take 0.4 MB
+
+std::string readAll(const std::filesystem::path& file) {
+    std::error_code error;
+    const bool regular = std::filesystem::is_regular_file(file, error);
+    if (error || !regular) tagMapFault(file.string(), 0, "no such file");
+    if (std::filesystem::file_size(file, error) > kLargestFile || error)
+        tagMapFault(file.string(), 0, "too large for a tag map");
+    std::ifstream in(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    if (!in) tagMapFault(file.string(), 0, "cannot be read");
+    return text;
+}
+
+}  // namespace
+
+TagMap::TagMap(const std::vector<MappedTag>& tags) {
+    for (const MappedTag& one : tags) {
+        if (!(one.size > 0) || !std::isfinite(one.size) || !isFinite(one.T_world_tag))
+            throw std::invalid_argument("tag map: a tag without a size or a place");
+        if (!tags_.emplace(one.tag, one).second)
+            throw std::invalid_argument("tag map: a tag is there twice");
+    }
+}
+
+const MappedTag* TagMap::find(TagKey tag) const {
+    const auto it = tags_.find(tag);
+    return it == tags_.end() ? nullptr : &it->second;
+}
+
+std::vector<TagFamily> TagMap::families() const {
+    std::vector<TagFamily> out;
+    for (const auto& [key, tag] : tags_)
+        if (out.empty() || out.back() != key.family) out.push_back(key.family);
+    return out;
+}
+
+TagMap loadTagMap(const std::filesystem::path& file) {
+    const std::string text = readAll(file), ending = file.extension().string();
+    if (ending == ".yaml" || ending == ".yml") return tagMapFromRosYaml(text, file.string());
+    return tagMapFromToml(text, file.string());
+}
+
+}  // namespace mfar

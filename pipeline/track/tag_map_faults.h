@@ -1,0 +1,52 @@
+#pragma once
+
+#include "pipeline/track/tag_map.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace mfar {
+
+/// A tag as a file gives it. What is wrong with the values of one tag is the same in every format.
+struct RawTag {
+    TagFamily family = TagFamily::Tag36h11;
+    std::int64_t id = -1;
+    double size = 0;
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Vector4d wxyz{1, 0, 0, 0};
+};
+
+[[noreturn]] inline void tagMapFault(const std::string& file, int line, std::string_view what) {
+    throw TagMapError(line > 0 ? fmt::format("{}:{}: {}", file, line, what)
+                               : fmt::format("{}: {}", file, what));
+}
+
+/// What is wrong with the tag, nothing when it is good. Adds it to `seen`.
+inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
+    const TagFamilyInfo& family = info(raw.family);
+    if (raw.id < 0 || raw.id >= family.count)
+        return fmt::format("id must be from 0 to {} in {}, not {}", family.count - 1, family.name,
+                           raw.id);
+    if (!(raw.size > 0) || !std::isfinite(raw.size))
+        return fmt::format("size must be positive [m], not {}", raw.size);
+    if (!raw.position.allFinite()) return "the position must be finite";
+    // Nine digits are written; what is off by more was no rotation.
+    if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
+        return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());
+    if (!seen.insert({raw.family, static_cast<int>(raw.id)}).second)
+        return fmt::format("tag {} of {} is there twice", raw.id, family.name);
+    return std::nullopt;
+}
+
+inline MappedTag mapped(const RawTag& raw) {
+    const Eigen::Vector4d& q = raw.wxyz;
+    return {{raw.family, static_cast<int>(raw.id)},
+            raw.size,
+            {Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized(), raw.position}};
+}
+
+}  // namespace mfar

@@ -1,0 +1,115 @@
+#include "pipeline/track/tag_map.h"
+#include "pipeline/track/tag_map_faults.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+
+namespace mfar {
+namespace {
+
+class Reader {
+public:
+    Reader(std::string_view text, const std::string& file) : file_(file) {
+        try {
+            root_ = toml::parse(text, file);
+        } catch (const toml::parse_error& error) {
+            tagMapFault(file, static_cast<int>(error.source().begin.line), error.description());
+        }
+    }
+
+    TagMap read() {
+        refuseUnknown(root_, {"family", "tags"});
+        const toml::node* list = root_.get("tags");
+        if (list == nullptr) tagMapFault(file_, 0, "no [[tags]]");
+        if (!list->is_array()) fail(*list, "tags must be a list [[tags]]");
+        std::vector<MappedTag> tags;
+        for (const toml::node& node : *list->as_array()) {
+            if (!node.is_table()) fail(node, "a tag must be a section [[tags]]");
+            const RawTag raw = readTag(*node.as_table());
+            if (const auto wrong = wrongWith(raw, seen_)) fail(node, *wrong);
+            tags.push_back(mapped(raw));
+        }
+        if (tags.empty()) fail(*list, "no tag");
+        return TagMap(tags);
+    }
+
+private:
+    [[noreturn]] void fail(const toml::node& at, const std::string& what) const {
+        tagMapFault(file_, static_cast<int>(at.source().begin.line), what);
+    }
+
+    void refuseUnknown(const toml::table& table,
+                       std::initializer_list<std::string_view> known) const {
+        for (const auto& [key, value] : table)
+            if (std::find(known.begin(), known.end(), key.str()) == known.end())
+                tagMapFault(
+                    file_, static_cast<int>(key.source().begin.line),
+                    fmt::format("unknown key {}; known are {}", key.str(), fmt::join(known, ", ")));
+    }
+
+    [[nodiscard]] const toml::node& get(const toml::table& table, std::string_view key) const {
+        const toml::node* node = table.get(key);
+        if (node == nullptr) fail(table, fmt::format("a tag without {}", key));
+        return *node;
+    }
+
+    [[nodiscard]] double number(const toml::node& node, std::string_view key) const {
+        const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+        if (!value || !std::isfinite(*value))
+            fail(node, fmt::format("{} must be a finite number", key));
+        return *value;
+    }
+
+    template <int N>
+    [[nodiscard]] Eigen::Matrix<double, N, 1> numbers(const toml::table& table,
+                                                      std::string_view key) const {
+        const toml::node& node = get(table, key);
+        const toml::array* list = node.as_array();
+        if (list == nullptr || list->size() != N)
+            fail(node, fmt::format("{} must be a list of {} numbers", key, N));
+        Eigen::Matrix<double, N, 1> out;
+        for (int i = 0; i < N; ++i)
+            out(i) = number(*list->get(static_cast<std::size_t>(i)), key);
+        return out;
+    }
+
+    [[nodiscard]] TagFamily family(const toml::table& tag) const {
+        const toml::node* node = tag.get("family");
+        if (node == nullptr) node = root_.get("family");
+        if (node == nullptr) fail(tag, "a tag without family");
+        const auto name = node->value<std::string>();
+        const auto out = name ? tagFamilyNamed(*name) : std::nullopt;
+        if (!out)
+            fail(*node, "family must be one of \"tag36h11\", \"tag25h9\", \"tag16h5\", "
+                        "\"tagStandard41h12\"");
+        return *out;
+    }
+
+    [[nodiscard]] RawTag readTag(const toml::table& tag) const {
+        refuseUnknown(tag, {"id", "size", "position", "orientation", "family"});
+        RawTag out;
+        out.family = family(tag);
+        const toml::node& id = get(tag, "id");
+        if (!id.is_integer()) fail(id, "id must be a whole number");
+        out.id = id.value<std::int64_t>().value();
+        out.size = number(get(tag, "size"), "size");
+        out.position = numbers<3>(tag, "position");
+        out.wxyz = numbers<4>(tag, "orientation");
+        return out;
+    }
+
+    const std::string& file_;
+    toml::table root_;
+    std::set<TagKey> seen_;
+};
+
+}  // namespace
+
+TagMap tagMapFromToml(std::string_view text, const std::string& file) {
+    return Reader(text, file).read();
+}
+
+}  // namespace mfar

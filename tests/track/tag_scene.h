@@ -1,0 +1,61 @@
+#pragma once
+
+#include "hal/frame.h"
+#include "pipeline/geometry.h"
+#include "pipeline/track/tag_detector.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mfar::test {
+
+struct PlacedTag {
+    TagKey tag;
+    double size = 0.1;  ///< between corners [m]
+    RigidTransform T_world_tag;
+};
+
+struct GrayPicture {
+    Size size;
+    std::vector<std::uint8_t> pixels;
+
+    GrayPicture(Size pictureSize, std::uint8_t value)
+        : size(pictureSize),
+          pixels(static_cast<std::size_t>(pictureSize.width) * pictureSize.height, value) {}
+    [[nodiscard]] ImageView view() const {
+        return {pixels.data(), size, static_cast<std::size_t>(size.width), PixelFormat::Gray8};
+    }
+};
+
+struct SensorLook {
+    double gamma = 2.2;   ///< grey = 255 light^(1 / gamma)
+    double noise = 0;     ///< standard deviation [grey levels]
+    unsigned seed = 1;    ///< of the noise
+    double dark = 0.03;   ///< light of black paper
+    double bright = 0.8;  ///< light of white paper
+};
+
+/// Tags with their quiet zones on a grey ground, through the lens, 4 x 4 rays a pixel.
+[[nodiscard]] GrayPicture renderTags(const CameraModel& camera,
+                                     const RigidTransform& T_world_camera,
+                                     const std::vector<PlacedTag>& tags,
+                                     const SensorLook& look = {});
+
+/// Where the corners of a tag are in the picture, in the order of TagDetection::corners.
+[[nodiscard]] std::array<Eigen::Vector2d, 4>
+cornersOf(const CameraModel& camera, const RigidTransform& T_world_camera, const PlacedTag& tag);
+
+/// A camera of 640x480 with the distortion of a cheap lens.
+[[nodiscard]] CameraModel testCamera();
+
+/// Camera `distance` in front of the world's origin, looking at it along +z, then tilted around it
+/// by pitch (about x) and yaw (about y) and rolled [rad].
+[[nodiscard]] RigidTransform cameraAt(double distance, double pitch, double yaw, double roll = 0);
+
+/// Angle between two rotations [rad].
+[[nodiscard]] double angleBetween(const RigidTransform& a, const RigidTransform& b);
+
+}  // namespace mfar::test
