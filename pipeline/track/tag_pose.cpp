@@ -181,8 +181,9 @@ std::optional<CameraPoses> solveTagPose(std::span<const TagObservation> tags,
     for (std::size_t i = 0; i < tags.size(); ++i)
         if (auto one = examine(i, tags[i], camera, options)) fit.push_back(std::move(*one));
     if (fit.empty()) return std::nullopt;
-    std::stable_sort(fit.begin(), fit.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.area > b.area; });
+    std::sort(fit.begin(), fit.end(), [](const Candidate& a, const Candidate& b) {
+        return std::pair(-a.area, a.index) < std::pair(-b.area, b.index);
+    });
     std::vector<CornerSet> sets;
     for (const Candidate& one : fit)
         sets.push_back(one.corners);

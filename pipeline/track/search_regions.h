@@ -1,0 +1,23 @@
+#pragma once
+
+#include "pipeline/geometry.h"
+#include "pipeline/track/se3.h"
+#include "pipeline/track/tag_detector.h"
+#include "pipeline/track/tag_map.h"
+
+#include <vector>
+
+namespace mfar {
+
+/// Where in the picture the tags of the map are to be sought: a rectangle around every tag that
+/// faces the camera and whose middle is in the picture, with room for its quiet zone, for motion
+/// and for three standard deviations of the predicted pose. Rectangles that overlap are one.
+/// `covariance`: of T_world_camera, in the camera's own frame.
+[[nodiscard]] std::vector<PixelRect> searchRegions(const TagMap& map, const CameraModel& camera,
+                                                   const RigidTransform& T_world_camera,
+                                                   const Matrix6& covariance);
+
+/// [px]
+[[nodiscard]] double areaOf(const std::vector<PixelRect>& regions);
+
+}  // namespace mfar

@@ -1,0 +1,174 @@
+#include "pipeline/track/tracker.h"
+
+#include "pipeline/track/search_regions.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+// Above that share of the picture, regions are no cheaper than all of it.
+constexpr double kWorthwhile = 0.6;
+
+PixelRect wholeOf(Size size) {
+    return {0, 0, size.width, size.height};
+}
+
+double areaOf(const TagDetection& tag) {
+    double area = 0;
+    for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector2d &a = tag.corners[k], &b = tag.corners[(k + 1) % 4];
+        area -= (a.x() * b.y() - a.y() * b.x()) / 2;
+    }
+    return area;
+}
+
+void require(bool good, const char* what) {
+    if (!good) throw std::invalid_argument(std::string("tracker: ") + what);
+}
+
+}  // namespace
+
+Tracker::Eye Tracker::eye(const CameraModel& camera, double decimation, double gamma,
+                          const TrackerOptions& options) {
+    DetectorOptions detector;
+    detector.families = options.map.empty() ? options.families : options.map.families();
+    detector.decimation = decimation;
+    detector.threads = options.threads;
+    return {camera, decimation, TagDetector(detector), CornerRefiner(gamma), {}};
+}
+
+Tracker::Tracker(const StereoRig& rig, TrackerOptions options)
+    : rig_(rig), options_(std::move(options)),
+      video_(eye(rig.video, options_.decimation, options_.gamma, options_)),
+      still_(eye(rig.still, options_.stillDecimation, options_.stillGamma, options_)),
+      map_(options_.map), estimator_(options_.pose) {
+    require(options_.tagSize > 0 && std::isfinite(options_.tagSize), "tagSize must be positive");
+    require(options_.fullSearchInterval >= 1, "fullSearchInterval must be positive");
+}
+
+std::vector<TagDetection> Tracker::search(Eye& eye, const ImageView& picture,
+                                          const std::vector<PixelRect>& regions) {
+    std::vector<TagDetection> out;
+    for (const PixelRect& region : regions) {
+        // The detector grows a region to its grid, the refiner looks a little over the edge.
+        const int over = static_cast<int>(4 * eye.decimation) + 8;
+        const ImageView luma = eye.luma.of(
+            picture, {region.x0 - over, region.y0 - over, region.x1 + over, region.y1 + over});
+        for (TagDetection& tag : eye.detector.detect(luma, region)) {
+            eye.refiner.refine(luma, eye.camera, tag);
+            out.push_back(std::move(tag));
+        }
+    }
+    return out;
+}
+
+std::vector<PixelRect> Tracker::regionsFor(const CameraModel& camera,
+                                           const RigidTransform& T_camera_video,
+                                           Timestamp time) const {
+    const std::scoped_lock lock(mutex_);
+    const auto predicted = estimator_.predict(time);
+    if (!predicted || map_.empty()) return {};
+    auto regions = searchRegions(map_, camera, predicted->T_world_video * T_camera_video.inverse(),
+                                 moved(predicted->covariance, T_camera_video));
+    const double all = static_cast<double>(camera.size.width) * camera.size.height;
+    if (mfar::areaOf(regions) > kWorthwhile * all) regions.clear();
+    return regions;
+}
+
+std::vector<TagDetection> Tracker::searchVideo(const ImageView& picture, Timestamp time) {
+    if (++sinceFullSearch_ < options_.fullSearchInterval) {
+        const auto regions = regionsFor(rig_.video, {}, time);
+        auto found = search(video_, picture, regions);
+        const std::scoped_lock lock(mutex_);
+        const bool anyKnown = std::any_of(found.begin(), found.end(), [&](const TagDetection& tag) {
+            return map_.find(tag.tag) != nullptr;
+        });
+        if (anyKnown) {
+            ++stats_.roiSearches;
+            return found;
+        }
+    }
+    sinceFullSearch_ = 0;
+    auto found = search(video_, picture, {wholeOf(picture.size)});
+    const std::scoped_lock lock(mutex_);
+    ++stats_.fullSearches;
+    return found;
+}
+
+void Tracker::adoptWorld(const std::vector<TagDetection>& tags) {
+    const auto largest = std::max_element(
+        tags.begin(), tags.end(),
+        [](const TagDetection& a, const TagDetection& b) { return areaOf(a) < areaOf(b); });
+    if (largest == tags.end()) return;
+    map_ = TagMap({{largest->tag, options_.tagSize, {}}});
+}
+
+std::vector<TagObservation> Tracker::placed(const std::vector<TagDetection>& tags) const {
+    std::vector<TagObservation> out;
+    for (const TagDetection& tag : tags)
+        if (const MappedTag* known = map_.find(tag.tag))
+            out.push_back({known->size, known->T_world_tag, tag.corners});
+    return out;
+}
+
+std::optional<Pose> Tracker::track(const ImageView& picture, Timestamp time) {
+    require(picture.size == rig_.video.size, "a frame of another size than the calibration");
+    const auto begin = std::chrono::steady_clock::now();
+    detections_ = searchVideo(picture, time);
+    const std::scoped_lock lock(mutex_);
+    const bool adopts = map_.empty();
+    if (adopts) adoptWorld(detections_);
+    const auto out = estimator_.update(placed(detections_), rig_.video, time);
+    // What cannot be used now may not have been a tag at all.
+    if (adopts && !estimator_.raw()) map_ = {};
+    const std::chrono::duration<double, std::milli> span = std::chrono::steady_clock::now() - begin;
+    count(span.count());
+    return out;
+}
+
+std::optional<Pose> Tracker::trackStill(const ImageView& still, Timestamp time) {
+    require(still.size == rig_.still.size, "a still of another size than the calibration");
+    const auto observe = [&](const std::vector<PixelRect>& regions) {
+        const auto tags = search(still_, still, regions);
+        const std::scoped_lock lock(mutex_);
+        return estimator_.measure(placed(tags), rig_.still, rig_.T_still_video, time);
+    };
+    const auto regions = regionsFor(rig_.still, rig_.T_still_video, time);
+    if (!regions.empty())
+        if (auto pose = observe(regions)) return pose;
+    return observe({wholeOf(still.size)});
+}
+
+std::optional<Pose> Tracker::raw() const {
+    const std::scoped_lock lock(mutex_);
+    return estimator_.raw();
+}
+
+std::optional<Pose> Tracker::predict(Timestamp time) const {
+    const std::scoped_lock lock(mutex_);
+    return estimator_.predict(time);
+}
+
+void Tracker::count(double ms) {
+    ++stats_.frames;
+    stats_.lastMs = ms;
+    stats_.meanMs += (ms - stats_.meanMs) / static_cast<double>(stats_.frames);
+    stats_.worstMs = std::max(stats_.worstMs, ms);
+}
+
+TrackStats Tracker::stats() const {
+    const std::scoped_lock lock(mutex_);
+    TrackStats out = stats_;
+    out.flips = estimator_.flips();
+    out.rejected = estimator_.rejected();
+    out.jumps = estimator_.jumps();
+    return out;
+}
+
+}  // namespace mfar
