@@ -15,9 +15,10 @@ namespace mfar {
 /// sit up to 0.25 px too far out or in, and all its distances are wrong with them.
 class CornerRefiner {
 public:
-    /// gamma: grey level ~ light^(1 / gamma). 2.2 for pictures made to be looked at, 1 for a
-    /// sensor that gives raw values. Throws std::invalid_argument unless 0.2 <= gamma <= 5.
-    explicit CornerRefiner(double gamma = 2.2);
+    /// gamma: grey level ~ light^(1 / gamma). About 2 for pictures made to be looked at (2.2 on
+    /// paper; what is smoothed after the encoding brings it down), 1 for a sensor that gives raw
+    /// values. Throws std::invalid_argument unless 0.2 <= gamma <= 5.
+    explicit CornerRefiner(double gamma = 2);
 
     /// `luma`: the Gray8 picture of `camera`'s size that the tag was found in. The corners stay
     /// where they are when too little of an edge is seen or one would move by more than two pixels.

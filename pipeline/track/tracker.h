@@ -23,8 +23,8 @@ struct TrackerOptions {
     double stillDecimation = 4;   ///< of the stills
     int threads = 1;              ///< of libapriltag, per sensor
     int fullSearchInterval = 15;  ///< frames from one search of the whole picture to the next
-    double gamma = 2.2;           ///< of the video, see CornerRefiner
-    double stillGamma = 2.2;      ///< of the stills
+    double gamma = 2;             ///< of the video, see CornerRefiner
+    double stillGamma = 2;        ///< of the stills
     PoseEstimatorOptions pose;
 };
 

@@ -2,6 +2,7 @@
 #include "hal/virtual/recording.h"
 #include "tests/eval/flow.h"
 #include "tests/eval/flow_methods.h"
+#include "tests/eval/pose_command.h"
 #include "tests/eval/superres.h"
 #include "tests/eval/superres_methods.h"
 
@@ -58,6 +59,7 @@ void checkMethods(const std::vector<std::string>& asked, const std::vector<std::
 struct Options {
     SuperResRequest superres;
     FlowRequest flow;
+    PoseRequest pose;
     std::string degrade;
     double poseNoiseDeg = 0;
     std::string csv;
@@ -111,6 +113,7 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     Options o;
     CLI::App* superres = addSuperRes(app, o);
+    CLI::App* pose = addPoseCommand(app, o.pose, o.csv);
     addFlow(app, o);
     try {
         app.parse(argc, argv);
@@ -123,6 +126,9 @@ int run(int argc, char** argv) {
         o.superres.degradation = parseDegradation(o.degrade);
         o.superres.poseNoiseDeg = o.poseNoiseDeg;
         report = evaluateSuperRes(o.superres);
+    } else if (pose->parsed()) {
+        checkMethods(o.pose.methods, poseMethodNames());
+        report = evaluatePose(o.pose);
     } else {
         checkMethods(o.flow.methods, flowMethodNames());
         o.flow.degradation = parseDegradation(o.degrade);
@@ -147,6 +153,8 @@ int main(int argc, char** argv) {
     } catch (const EvalError& e) {
         return fail(kUsage, e);
     } catch (const RecordingError& e) {
+        return fail(kUsage, e);
+    } catch (const TagMapError& e) {
         return fail(kUsage, e);
     } catch (const ImageFileError& e) {
         return fail(kUsage, e);
