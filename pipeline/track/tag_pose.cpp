@@ -67,6 +67,7 @@ std::optional<Candidate> examine(std::size_t index, const TagObservation& tag,
         out.T_world_camera[i] = tag.T_world_tag * T_camera_tag.inverse();
     }
     out.corners.pixels = tag.corners;
+    out.corners.outwards = outwardsOf(tag.corners);
     for (int k = 0; k < 4; ++k) {
         const Vector2d corner = kTagCorners[k] * tag.size / 2;
         out.corners.world[k] = tag.T_world_tag * Vector3d(corner.x(), corner.y(), 0);
@@ -136,15 +137,23 @@ std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransf
     return refined;
 }
 
-std::optional<CameraPose> finish(const RefinedPose& refined, int tags,
-                                 const TagPoseOptions& options) {
+/// With several tags the edge shift is set free for the last steps.
+std::optional<CameraPose> finish(RefinedPose refined, std::span<const CornerSet> sets, int tags,
+                                 const CameraModel& camera, const TagPoseOptions& options) {
+    if (tags > 1) {
+        const double share = options.cornerSigma / options.edgeShiftSigma;
+        const auto freed = refinePose(sets, refined.T_world_camera, camera, share * share);
+        if (!freed) return std::nullopt;
+        refined = *freed;
+    }
     const auto inverse = inverseOf(refined.information);
     if (!inverse) return std::nullopt;
     CameraPose out;
+    out.edgeShift = refined.edgeShift;
     out.T_world_camera = refined.T_world_camera;
     out.squaredError = refined.squaredError;
     out.tags = tags;
-    const double variance = refined.squaredError / (8 * tags - 6);
+    const double variance = refined.squaredError / (8 * tags - (tags > 1 ? 7 : 6));
     out.covariance = std::max(options.cornerSigma * options.cornerSigma, variance) * *inverse;
     return out;
 }
@@ -199,10 +208,10 @@ std::optional<CameraPoses> solveTagPose(std::span<const TagObservation> tags,
     }
     auto other = otherMinimum(fit, sets, *best, camera);
     if (other && other->squaredError < best->squaredError) std::swap(*other, *best);
-    const auto finished = finish(*best, used, options);
+    const auto finished = finish(*best, sets, used, camera, options);
     if (!finished || !(finished->rms() <= options.farthestCorner)) return std::nullopt;
     out.best = *finished;
-    if (other) out.other = finish(*other, used, options);
+    if (other) out.other = finish(*other, sets, used, camera, options);
     return out;
 }
 

@@ -27,6 +27,7 @@ struct CameraPose {
     Matrix6 covariance = Matrix6::Zero();
     double squaredError = 0;  ///< sum over all corners of the tags used [px^2]
     int tags = 0;             ///< tags used
+    double edgeShift = 0;     ///< how far out the tags' edges are seen; 0 with one tag [px]
 
     /// Root mean square over the corners [px].
     [[nodiscard]] double rms() const;
@@ -44,6 +45,8 @@ struct TagPoseOptions {
     /// Standard deviation of a corner's coordinates [px]. The covariance never claims less than it,
     /// and more where the corners fit worse.
     double cornerSigma = 0.1;
+    /// Standard deviation of how far out or in all edges of a picture's tags are seen [px].
+    double edgeShiftSigma = 0.1;
     double farthestCorner = 2;    ///< a tag whose corners miss by more is left out, rms [px]
     double smallestEdge = 8;      ///< a tag with a shorter edge is left out [px]
     double grazingAngleDeg = 80;  ///< a tag seen from farther off its normal is left out

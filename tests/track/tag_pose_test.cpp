@@ -1,3 +1,4 @@
+#include "pipeline/track/pose_refine.h"
 #include "pipeline/track/tag_pose.h"
 #include "tests/track/tag_scene.h"
 
@@ -136,6 +137,47 @@ TEST(TagPose, SeveralTagsAreMoreExactThanOne) {
     }
     EXPECT_GT(one, 0);
     EXPECT_LT(all, 0.5 * one);
+}
+
+// Blur, gamma and ink move the edges of all tags alike.
+TEST(TagPose, SeveralTagsTellHowFarOutTheirEdgesAreSeen) {
+    const CameraModel camera = testCamera();
+    const RigidTransform truth = cameraAt(0.5, 0.3, 0.2, 0.4);
+    for (const double shift : {-0.3, 0., 0.3}) {
+        std::vector<TagObservation> seen;
+        for (const PlacedTag& tag : page()) {
+            seen.push_back(observe(camera, truth, tag));
+            const auto outwards = outwardsOf(seen.back().corners);
+            for (int k = 0; k < 4; ++k)
+                seen.back().corners[k] += shift * outwards[k];
+        }
+        const auto many = solveTagPose(seen, camera), one = solveTagPose({seen.data(), 1}, camera);
+        ASSERT_TRUE(many && one);
+        // The prior holds back a little of it.
+        EXPECT_NEAR(many->best.edgeShift, shift, 0.1 * std::abs(shift) + 1e-6);
+        const auto error = [&](const CameraPoses& poses) {
+            return (poses.best.T_world_camera.translation - truth.translation).norm();
+        };
+        EXPECT_LT(error(*many), 2e-4 + 1e-7);
+        EXPECT_NEAR(one->best.edgeShift, 0, 1e-9);
+        if (shift != 0) {
+            EXPECT_GT(error(*one), 2e-3);
+        }
+    }
+}
+
+TEST(TagPose, OutwardsMoveEveryEdgeByOne) {
+    const CameraModel camera = testCamera();
+    const auto corners = cornersOf(camera, cameraAt(0.5, 0.6, 0.2, 0.4), kTag);
+    const auto outwards = outwardsOf(corners);
+    const Eigen::Vector2d middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+    for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector2d edge = (corners[(k + 1) % 4] - corners[k]).normalized();
+        const Eigen::Vector2d normal(-edge.y(), edge.x());
+        EXPECT_GT(normal.dot(corners[k] - middle), 0);
+        EXPECT_NEAR(normal.dot(outwards[k]), 1, 1e-9);
+        EXPECT_NEAR(normal.dot(outwards[(k + 1) % 4]), 1, 1e-9);
+    }
 }
 
 TEST(TagPose, ATagThatContradictsTheOthersIsLeftOut) {
