@@ -48,10 +48,10 @@ const PlacedTag kTag{{TagFamily::Tag36h11, 0}, 0.08, {}};
 /// 2 x 2 tags in one plane, like a printed page.
 std::vector<PlacedTag> page() {
     std::vector<PlacedTag> out;
-    for (int i = 0; i < 4; ++i)
-        out.push_back({{TagFamily::Tag36h11, i},
-                       0.06,
-                       {Eigen::Quaterniond::Identity(), {0.1 * (i % 2), 0.1 * (i / 2), 0}}});
+    for (int i = 0; i < 4; ++i) {
+        const Eigen::Vector3d place(i % 2 == 0 ? 0 : 0.1, i < 2 ? 0 : 0.1, 0);
+        out.push_back({{TagFamily::Tag36h11, i}, 0.06, {Eigen::Quaterniond::Identity(), place}});
+    }
     return out;
 }
 

@@ -58,8 +58,9 @@ double lightAt(const CameraModel& camera, const Drawn& tag, int x, int y, double
                const SensorLook& look) {
     double sum = 0;
     for (int i = 0; i < kRays * kRays; ++i) {
-        const Eigen::Vector2d pixel(x + (i % kRays + 0.5) / kRays - 0.5,
-                                    y + (i / kRays + 0.5) / kRays - 0.5);
+        const int column = i % kRays, row = i / kRays;
+        const Eigen::Vector2d pixel(x + (column + 0.5) / kRays - 0.5,
+                                    y + (row + 0.5) / kRays - 0.5);
         const auto paper = paperAt(tag, camera.unproject(pixel));
         sum += !paper ? ground : *paper == 1 ? look.bright : look.dark;
     }
