@@ -24,6 +24,7 @@ FrameStats Pipeline::readStats() const {
 std::vector<float> Pipeline::readFlow() const {
     const State& s = *state_;
     if (!s.hasPrior) return {};
+    if (s.flow.errorsGiven()) return s.epipolar.flow();
     const std::vector<float> cells = s.superres.cellField().readRgba32F();
     std::vector<float> out(2UL * s.rig.video.size.width * s.rig.video.size.height);
     for (int channel = 0; channel < 2; ++channel)

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kCell = 4;
 constexpr float kNowhere = 1e4F;
+constexpr float kNearPlane = 0.05F;  // of rays turned into the still's frame
 // Neighbours on one slanted surface that land on the same cell differ by this much [px].
 constexpr float kSlope = 1.0F;
 
@@ -43,12 +44,35 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
     testDepth();
 }
 
+// Where the still, at the video's geometry, shows a ray's point; far outside when it is behind.
+EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
+    const Eigen::Vector3f& t = search_.translation();
+    const Eigen::Vector3f p =
+        search_.rotation() *
+        Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()), rayY + s * (t.y() - rayY * t.z()), 1);
+    if (!(p.z() > kNearPlane)) return {kNowhere, kNowhere};
+    return lens_.project(p.x() / p.z(), p.y() / p.z());
+}
+
+std::vector<float> EpipolarFlow::flow() const {
+    const Size size = rig_.video.size;
+    std::vector<float> out;
+    out.reserve(2UL * size.width * size.height);
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
+            const auto q = endOf(lens_.rayX(i), lens_.rayY(i), search_.inverseDepth()[i]);
+            out.push_back(q.x - static_cast<float>(x));
+            out.push_back(q.y - static_cast<float>(y));
+        }
+    }
+    return out;
+}
+
 // The middle two of a cell's four central pixels: an edge between them does not pull it off.
 void EpipolarFlow::fillForward() {
     const Size video = rig_.video.size;
     const auto& field = search_.inverseDepth();
-    const Eigen::Matrix3f& r = search_.rotation();
-    const Eigen::Vector3f& t = search_.translation();
     for (int j = 0; j < cells_.height; ++j) {
         for (int i = 0; i < cells_.width; ++i) {
             const int x = std::min(kCell * i + 1, video.width - 2);
@@ -60,17 +84,9 @@ void EpipolarFlow::fillForward() {
             const float nearness = 0.5F * (s[1] + s[2]);
             const float rx = 0.5F * (lens_.rayX(p) + lens_.rayX(p + video.width + 1));
             const float ry = 0.5F * (lens_.rayY(p) + lens_.rayY(p + video.width + 1));
-            const float sx = rx + nearness * (t.x() - rx * t.z());
-            const float sy = ry + nearness * (t.y() - ry * t.z());
-            const float z = r(2, 0) * sx + r(2, 1) * sy + r(2, 2);
+            const auto q = endOf(rx, ry, nearness);
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
             nearness_[cell] = nearness;
-            if (!(z > 0.05F)) {
-                forward_[cell] = {kNowhere, kNowhere, 0, 0};
-                continue;
-            }
-            const auto q = lens_.project((r(0, 0) * sx + r(0, 1) * sy + r(0, 2)) / z,
-                                         (r(1, 0) * sx + r(1, 1) * sy + r(1, 2)) / z);
             forward_[cell] = {q.x - static_cast<float>(x) - 0.5F,
                               q.y - static_cast<float>(y) - 0.5F, 0, 0};
         }

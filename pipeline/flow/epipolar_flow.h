@@ -31,9 +31,12 @@ public:
     /// What eq. 2 calls the two-way error, from a z-test: how much less parallax a cell has than
     /// the nearest surface that lands on the same place of the still [px], -, -, -.
     [[nodiscard]] const Cells& hidden() const { return hidden_; }
+    /// Flow at every video pixel, x, y interleaved; far outside where the still cannot see it.
+    [[nodiscard]] std::vector<float> flow() const;
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
 
 private:
+    [[nodiscard]] EpipolarLens::Point endOf(float rayX, float rayY, float s) const;
     void fillForward();
     void testDepth();
     [[nodiscard]] std::optional<std::size_t> landing(int i, int j) const;

@@ -99,28 +99,31 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product without a pose. Its flow goes both ways; its time is that of both.
-class Flow2dMethod final : public FlowMethod {
+/// The product, along epipolar lines where both poses are known or without them. Its time is that
+/// of what the field needs: all of the 2-D flow, which goes both ways, or the search along the
+/// lines.
+class ProductMethod final : public FlowMethod {
 public:
-    explicit Flow2dMethod(const StereoRig& rig)
-        : size_(rig.video.size), pipeline_(rig, {.mode = SuperResMode::Detail,
-                                                 .output = rig.video.size,
-                                                 .skipUnchanged = false}) {
+    ProductMethod(const StereoRig& rig, bool usePoses)
+        : size_(rig.video.size), usePoses_(usePoses), pipeline_(rig, {.mode = SuperResMode::Detail,
+                                                                      .output = rig.video.size,
+                                                                      .skipUnchanged = false}) {
         pipeline_.setMeasure(true);
     }
 
     void setStill(const Shot& still) override {
         const cv::Mat rgba = toRgba(still.picture);
-        pipeline_.setStill(viewOf(rgba), still.time);
+        pipeline_.setStill(viewOf(rgba), still.time, usePoses_ ? still.pose : std::nullopt);
     }
 
     Result run(const Shot& frame) override {
         const cv::Mat rgba = toRgba(frame.picture);
-        pipeline_.run(viewOf(rgba), frame.time);
+        const auto pose = usePoses_ ? frame.pose : std::nullopt;
+        pipeline_.run(viewOf(rgba), frame.time, pose);
         std::vector<float> vectors = pipeline_.readFlow();
         Result out{cv::Mat(size_.height, size_.width, CV_32FC2, vectors.data()).clone(), 0};
         out.ms = medianOfThree([&] {
-            pipeline_.run(viewOf(rgba), frame.time);
+            pipeline_.run(viewOf(rgba), frame.time, pose);
             return flowMs();
         });
         return out;
@@ -128,14 +131,17 @@ public:
 
 private:
     [[nodiscard]] double flowMs() const {
-        double sum = 0;
-        for (const StageTime& stage : pipeline_.stageTimes())
-            if (const std::string_view name = stage.stage; name == "pyramid" || name == "flow")
-                sum += stage.ms;
-        return sum;
+        double search = 0, twoDimensional = 0;
+        for (const StageTime& stage : pipeline_.stageTimes()) {
+            const std::string_view name = stage.stage;
+            if (name == "epipolar") search += stage.ms;
+            if (name == "pyramid" || name == "flow") twoDimensional += stage.ms;
+        }
+        return search > 0 ? search : twoDimensional;
     }
 
     Size size_;
+    bool usePoses_;
     Pipeline pipeline_;
 };
 
@@ -143,8 +149,8 @@ private:
 
 const std::vector<std::string>& flowMethodNames() {
     static const std::vector<std::string> names{
-        "flow2d",          "dis-fast",  "dis-medium", "dis-medium-both",
-        "dis-medium-full", "farneback", "sgbm"};
+        "epipolar",        "flow2d",          "dis-fast",  "dis-medium",
+        "dis-medium-both", "dis-medium-full", "farneback", "sgbm"};
     return names;
 }
 
@@ -152,9 +158,10 @@ std::unique_ptr<FlowMethod> FlowFactory::create(const std::string& name, const S
     if (PlainFlow plain = plainFlow(name))
         return std::make_unique<PlainMethod>(rig, std::move(plain));
     if (name == "sgbm") return std::make_unique<SgbmMethod>(rig);
-    if (name != "flow2d") throw std::invalid_argument(fmt::format("unknown method '{}'", name));
+    if (name != "epipolar" && name != "flow2d")
+        throw std::invalid_argument(fmt::format("unknown method '{}'", name));
     if (!context_) context_ = createGlContext();
-    return std::make_unique<Flow2dMethod>(rig);
+    return std::make_unique<ProductMethod>(rig, name == "epipolar");
 }
 
 }  // namespace mfar::eval

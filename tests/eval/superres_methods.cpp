@@ -17,28 +17,31 @@ namespace {
 
 class PipelineMethod final : public SuperResMethod {
 public:
-    PipelineMethod(const StereoRig& rig, SuperResMode mode)
-        : pipeline_(rig, {.mode = mode, .output = {}, .skipUnchanged = false}) {}
+    PipelineMethod(const StereoRig& rig, SuperResMode mode, bool usePoses)
+        : usePoses_(usePoses),
+          pipeline_(rig, {.mode = mode, .output = {}, .skipUnchanged = false}) {}
 
     void setStill(const Shot& still) override {
         const cv::Mat rgba = toRgba(still.picture);
-        pipeline_.setStill(viewOf(rgba), still.time);
+        pipeline_.setStill(viewOf(rgba), still.time, usePoses_ ? still.pose : std::nullopt);
     }
 
     Result run(const Shot& frame) override {
         const cv::Mat rgba = toRgba(frame.picture);
-        pipeline_.run(viewOf(rgba), frame.time);
+        const auto pose = usePoses_ ? frame.pose : std::nullopt;
+        pipeline_.run(viewOf(rgba), frame.time, pose);
         // The picture is that of the first run: a second one could start from its own answer.
         Result out{fromRgba(pipeline_.readImage(), pipeline_.outputSize()), 0};
         glFinish();
         out.ms = wallMs([&] {
-            pipeline_.run(viewOf(rgba), frame.time);
+            pipeline_.run(viewOf(rgba), frame.time, pose);
             glFinish();
         });
         return out;
     }
 
 private:
+    bool usePoses_;
     Pipeline pipeline_;
 };
 
@@ -82,7 +85,7 @@ private:
 }  // namespace
 
 const std::vector<std::string>& superResMethodNames() {
-    static const std::vector<std::string> names{"detail", "blend", "bicubic", "paper"};
+    static const std::vector<std::string> names{"detail", "detail2d", "blend", "bicubic", "paper"};
     return names;
 }
 
@@ -90,11 +93,11 @@ std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
                                                         const StereoRig& rig) {
     if (name == "bicubic") return std::make_unique<BicubicMethod>(outputSize(rig));
     if (name == "paper") return std::make_unique<PaperMethod>(rig, alpha_);
-    if (name != "detail" && name != "blend")
+    if (name != "detail" && name != "detail2d" && name != "blend")
         throw std::invalid_argument(fmt::format("unknown method '{}'", name));
     if (!context_) context_ = createGlContext();
-    return std::make_unique<PipelineMethod>(rig, name == "detail" ? SuperResMode::Detail
-                                                                  : SuperResMode::Blend);
+    return std::make_unique<PipelineMethod>(
+        rig, name == "blend" ? SuperResMode::Blend : SuperResMode::Detail, name != "detail2d");
 }
 
 }  // namespace mfar::eval
