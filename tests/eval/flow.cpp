@@ -33,9 +33,7 @@ private:
     void measure(const FlowSample& sample, Report& report) {
         const cv::Mat truth = loadTruth(set_, sample);
         Shot frame = loadFrame(set_, sample);
-        if (frame.pose)
-            frame.pose = turned(*frame.pose, request_.poseNoiseDeg,
-                                static_cast<std::uint64_t>(frame.time.ns));
+        if (frame.pose) frame.pose = turned(*frame.pose, request_.poseNoise, label_);
         setStill(sample);
         for (std::size_t i = 0; i < methods_.size(); ++i) {
             const auto result = methods_[i]->run(frame);

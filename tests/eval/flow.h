@@ -2,6 +2,7 @@
 
 #include "tests/eval/degrade.h"
 #include "tests/eval/report.h"
+#include "tests/eval/shot.h"
 
 #include <filesystem>
 #include <string>
@@ -13,7 +14,7 @@ struct FlowRequest {
     std::vector<std::filesystem::path> folders;  ///< recordings or two-frame pairs
     std::vector<std::string> methods;            ///< of flowMethodNames()
     Degradation degradation;                     ///< done to every still or second picture
-    double poseNoiseDeg = 0;                     ///< every frame's pose is turned by so much
+    PoseNoise poseNoise;                         ///< of every frame
     int frames = 0;                              ///< per folder, 0 = all that have truth
 };
 

@@ -1,3 +1,4 @@
+#include "hal/virtual/synthetic_truth.h"
 #include "tests/eval/flow_truth.h"
 #include "tests/eval/rig_resample.h"
 
@@ -36,7 +37,7 @@ TEST(FlowTruth, LeadsToTheStillPixelThatShowsThePoint) {
     int known = 0;
     for (int y = 10; y < 50; ++y)
         for (int x = 10; x < 70; ++x) {
-            const auto v = flow.at<cv::Vec2f>(y, x);
+            const auto& v = flow.at<cv::Vec2f>(y, x);
             if (std::isnan(v[0])) continue;
             const cv::Mat place(1, 1, CV_32FC2, cv::Scalar(x + v[0], y + v[1]));
             cv::Mat q;
@@ -78,7 +79,7 @@ TEST(FlowTruth, WhatIsHiddenOrOutsideInTheStillIsUnknown) {
     const cv::Mat flow = flowOfInverseDepth(depth, rig, rig.T_still_video);
     // The wall moves 5 px to the left and leaves the picture, the panel 10 px: it hides 5 columns.
     for (int x = 0; x < 80; ++x) {
-        const auto v = flow.at<cv::Vec2f>(30, x);
+        const auto& v = flow.at<cv::Vec2f>(30, x);
         if (x < 5 || (x >= 25 && x < 30))
             EXPECT_TRUE(std::isnan(v[0])) << x;
         else
@@ -98,11 +99,45 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotHideItself) {
                 depth.at(x, y) = 0.2F + 0.015F * static_cast<float>(x);
         const cv::Mat flow = flowOfInverseDepth(depth, rig, rig.T_still_video);
         for (int x = 0; x < 80; ++x) {
-            const auto v = flow.at<cv::Vec2f>(30, x);
+            const auto& v = flow.at<cv::Vec2f>(30, x);
             const double rho = depth.at(x, 30);
             const double q = 39.5 + ((x - 39.5) + 100 * side * rho) / (1 + 0.05 * rho);
             EXPECT_EQ(std::isnan(v[0]), q < -0.5 || q > 79.5) << x;
         }
+    }
+}
+
+/// Rays through the exact world know better than the projected truth what hides what.
+TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
+    using synthetic::Path;
+    using synthetic::Scene;
+    StereoRig rig = synthetic::boardRig();
+    rig.video = rig.video.scaledTo({160, 120});
+    for (const auto& [scene, path] :
+         {std::pair(Scene::Office, Path::Orbit), std::pair(Scene::Shelf, Path::Forward)}) {
+        const synthetic::World world = makeWorld(scene, 1);
+        const RigidTransform T_world_frame = cameraPose(world, path, 1, 1.5);
+        const RigidTransform T_world_still =
+            cameraPose(world, path, 1, 0) * rig.T_still_video.inverse();
+        RigidTransform T_world_turned = T_world_still;  // oriented as the video, see FlowField
+        T_world_turned.rotation = T_world_still.rotation * rig.T_still_video.rotation;
+        const synthetic::Viewpoint frame{rig.video, T_world_frame, 0};
+        const FlowImage exact = flowBetween(world, frame, {rig.video, T_world_turned, 0});
+        const cv::Mat flow = flowOfInverseDepth(inverseDepth(world, frame), rig,
+                                                T_world_still.inverse() * T_world_frame);
+        int both = 0, either = 0, far = 0;
+        for (int y = 0; y < 120; ++y)
+            for (int x = 0; x < 160; ++x) {
+                const auto& ours = flow.at<cv::Vec2f>(y, x);
+                const auto& wanted = exact.at(x, y);
+                const bool a = !std::isnan(ours[0]), b = !std::isnan(wanted[0]);
+                either += a || b;
+                both += a && b;
+                far += a && b && !(std::hypot(ours[0] - wanted[0], ours[1] - wanted[1]) < 1e-3);
+            }
+        EXPECT_EQ(far, 0);
+        EXPECT_GT(both, 8000);
+        EXPECT_GT(both, 0.95 * either);  // silhouettes to a pixel, the borders of two lenses
     }
 }
 

@@ -126,6 +126,56 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     EXPECT_EQ(std::stod(rows[3][7]), 1);
 }
 
+/// A flat wall at 2 m, taken by both sensors at one time: 1/m and a baseline, no flow.
+void writeStereo(const fs::path& root) {
+    const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
+    const cv::Size size(160, 120);
+    StereoRig rig;
+    rig.video = {{160, 120}, 160, 160, 79.5, 59.5, {}};
+    rig.still = rig.video;
+    rig.T_still_video.translation = {-0.1, 0, 0};  // 8 px of parallax
+    Recorder recorder(root, rig, 30);
+    const cv::Mat left = toRgba(world(cv::Rect({40, 40}, size)).clone());
+    const cv::Mat right = toRgba(world(cv::Rect({48, 40}, size)).clone());
+    ASSERT_TRUE(recorder.video(viewOf(left), {1000}));
+    ASSERT_TRUE(recorder.still(viewOf(right), {1000}));
+    recorder.finish();
+    fs::create_directories(root / "truth/inverse_depth");
+    savePfm(root / "truth/inverse_depth/1000.pfm",
+            {{160, 120}, std::vector<float>(160 * 120, 0.5F)});
+}
+
+TEST(MfarEval, FlowOfAStereoPairKnowsItsPoseAndHowFarItIsOff) {
+    const TempFolder folder;
+    writeStereo(folder / "wall");
+    const auto bad1 = [&](const std::string& options) {
+        const Outcome outcome = execute(
+            folder, fmt::format("{0} flow {1}/wall --methods flow2d,dis-medium,sgbm {2} --csv "
+                                "{1}/out.csv",
+                                MFAR_EVAL, folder.path().string(), options));
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        const auto rows = readCsv(folder / "out.csv");
+        EXPECT_EQ(rows.size(), 1U + 3 + 3) << outcome.text;
+        std::vector<double> out;
+        for (std::size_t i = 1; i < rows.size() && i < 4; ++i) {
+            EXPECT_EQ(rows[i][1], "1000_1000");
+            out.push_back(std::stod(rows[i].at(5)));
+        }
+        out.resize(3, -1);
+        return out;
+    };
+    const auto clean = bad1(""), worse = bad1("--degrade gain=0.3,noise=25");
+    const auto off = bad1("--pose-noise-deg 3"), other = bad1("--pose-noise-deg 3 "
+                                                              "--pose-noise-seed 1");
+    for (const double share : clean)
+        EXPECT_LT(share, 0.05);
+    EXPECT_GT(worse[1], clean[1] + 0.05);
+    EXPECT_EQ(off[1], clean[1]);  // knows no pose
+    EXPECT_GT(off[2], 0.5);
+    EXPECT_GT(other[2], 0.5);
+    EXPECT_NE(off[2], other[2]);
+}
+
 TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
     const TempFolder folder;
     const std::string dir = folder.path().string();
@@ -139,6 +189,9 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},
         {"flow " + dir, "neither a recording"},
+        {"flow " + dir + "/tiny --degrade noise=-1", "noise=-1"},
+        {"flow " + dir + "/tiny --pose-noise-deg 181", "--pose-noise-deg"},
+        {"superres " + dir + "/tiny --pose-noise-deg nan", "--pose-noise-deg"},
         {"depth " + dir, ""},
     };
     for (const auto& [arguments, message] : cases) {

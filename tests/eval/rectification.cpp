@@ -29,15 +29,15 @@ void eachBorderPixel(Size size, const Visit& visit) {
 }  // namespace
 
 Rectification::Rectification(const CameraModel& camera, const RigidTransform& T_second_first)
-    : camera_(camera), R_rect_first_(Eigen::Matrix3d::Zero()),
-      R_rect_second_(Eigen::Matrix3d::Zero()), centre_(camera.cx, camera.cy) {
+    : camera_(camera), firstTurn_(Eigen::Matrix3d::Zero()), secondTurn_(Eigen::Matrix3d::Zero()),
+      centre_(camera.cx, camera.cy) {
     const RigidTransform T_first_second = T_second_first.inverse();
     const Eigen::Vector3d along = T_first_second.translation.normalized();
     const Eigen::Vector3d axis =
         Eigen::Vector3d::UnitZ() + T_first_second.rotation * Eigen::Vector3d::UnitZ();
     const Eigen::Vector3d forward = (axis - along * along.dot(axis)).normalized();
-    R_rect_first_ << along.transpose(), forward.cross(along).transpose(), forward.transpose();
-    R_rect_second_ = R_rect_first_ * T_first_second.rotation.toRotationMatrix();
+    firstTurn_ << along.transpose(), forward.cross(along).transpose(), forward.transpose();
+    secondTurn_ = firstTurn_ * T_first_second.rotation.toRotationMatrix();
 }
 
 std::optional<Rectification> Rectification::of(const CameraModel& camera,
@@ -55,8 +55,8 @@ bool Rectification::fit(int disparities) {
     bool flat = false;
     eachBorderPixel(camera_.size, [&](const Eigen::Vector2d& pixel) {
         const Eigen::Vector3d ray = rayOf(camera_, pixel).normalized();
-        flat = flat || !((R_rect_first_ * ray).z() > kFlattest) ||
-               !((R_rect_second_ * ray).z() > kFlattest);
+        flat =
+            flat || !((firstTurn_ * ray).z() > kFlattest) || !((secondTurn_ * ray).z() > kFlattest);
         const Eigen::Vector2d place = ofFirst(pixel);
         low = low.cwiseMin(place);
         high = high.cwiseMax(place);
@@ -74,7 +74,7 @@ bool Rectification::fit(int disparities) {
 }
 
 Eigen::Vector2d Rectification::ofFirst(const Eigen::Vector2d& pixel) const {
-    const Eigen::Vector3d ray = R_rect_first_ * rayOf(camera_, pixel);
+    const Eigen::Vector3d ray = firstTurn_ * rayOf(camera_, pixel);
     return camera_.fx * ray.head<2>() / ray.z() + centre_;
 }
 

@@ -22,13 +22,13 @@ public:
 
     [[nodiscard]] cv::Size size() const { return size_; }
     /// For cv::remap, CV_32FC2 of size(): pixel of the view that each rectified pixel shows.
-    [[nodiscard]] cv::Mat firstMap() const { return mapOf(R_rect_first_); }
-    [[nodiscard]] cv::Mat secondMap() const { return mapOf(R_rect_second_); }
+    [[nodiscard]] cv::Mat firstMap() const { return mapOf(firstTurn_); }
+    [[nodiscard]] cv::Mat secondMap() const { return mapOf(secondTurn_); }
     /// Rectified pixel of a pixel of the first view; pixel of the second view that a rectified
     /// pixel shows, far outside when it is behind that camera.
     [[nodiscard]] Eigen::Vector2d ofFirst(const Eigen::Vector2d& pixel) const;
     [[nodiscard]] Eigen::Vector2d toSecond(const Eigen::Vector2d& rectified) const {
-        return toView(rectified, R_rect_second_);
+        return toView(rectified, secondTurn_);
     }
 
 private:
@@ -39,8 +39,8 @@ private:
     [[nodiscard]] cv::Mat mapOf(const Eigen::Matrix3d& R_rect_view) const;
 
     CameraModel camera_;
-    Eigen::Matrix3d R_rect_first_, R_rect_second_;
-    Eigen::Vector2d centre_;  ///< principal point of the rectified pictures [px]
+    Eigen::Matrix3d firstTurn_, secondTurn_;  ///< R_rect_first, R_rect_second
+    Eigen::Vector2d centre_;                  ///< principal point of the rectified pictures [px]
     cv::Size size_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace mfar::eval {
 
@@ -32,8 +33,14 @@ struct PosePair {
 [[nodiscard]] RigidTransform stillFromFrame(const StereoRig& rig, const Pose& frame,
                                             const Pose& still);
 
-/// The pose of a camera turned by `degrees` about an axis of its own, drawn evenly from all
-/// directions: the relative pose to any still is off by exactly that angle. Same seed, same axis.
-[[nodiscard]] Pose turned(const Pose& pose, double degrees, std::uint64_t seed);
+/// Poses that are off: each frame's is turned about an axis of its own.
+struct PoseNoise {
+    double degrees = 0;      ///< each frame's by exactly so much
+    std::uint64_t seed = 0;  ///< another seed, other axes
+};
+
+/// The pose of a camera turned about an axis drawn evenly from all directions: the relative pose to
+/// any still is off by exactly the angle. Same recording, time and seed: same axis.
+[[nodiscard]] Pose turned(const Pose& pose, const PoseNoise& noise, std::string_view recording);
 
 }  // namespace mfar::eval

@@ -38,7 +38,7 @@ TEST(Turned, TurnsTheRelativePoseByExactlyTheAngle) {
     const RigidTransform exact = stillFromFrame(rig, frame, still);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
-        const RigidTransform off = stillFromFrame(rig, turned(frame, 0.2, seed), still);
+        const RigidTransform off = stillFromFrame(rig, turned(frame, {0.2, seed}, "a"), still);
         EXPECT_NEAR(off.rotation.angularDistance(exact.rotation), 0.2 * std::numbers::pi / 180,
                     1e-9);
         EXPECT_NEAR((off.translation - exact.translation).norm(), 0, 1e-12);
@@ -47,12 +47,16 @@ TEST(Turned, TurnsTheRelativePoseByExactlyTheAngle) {
     EXPECT_LT(sum.norm() / 200, 0.2);  // no direction is preferred
 }
 
-TEST(Turned, SameSeedSameAxis) {
-    const auto a = turned(somePose(1), 1, 7), b = turned(somePose(1), 1, 7);
-    const auto c = turned(somePose(1), 1, 8);
-    EXPECT_EQ(a.T_world_video.rotation.coeffs(), b.T_world_video.rotation.coeffs());
-    EXPECT_NE(a.T_world_video.rotation.coeffs(), c.T_world_video.rotation.coeffs());
-    EXPECT_NEAR(turned(somePose(1), 0, 8)
+TEST(Turned, EveryRecordingFrameAndSeedHasItsOwnAxis) {
+    const auto axis = [](std::int64_t ns, std::uint64_t seed, std::string_view recording) {
+        const Pose still{{ns}, {}};
+        return turned(still, {1, seed}, recording).T_world_video.rotation.vec().eval();
+    };
+    EXPECT_EQ(axis(1, 7, "a"), axis(1, 7, "a"));
+    EXPECT_NE(axis(1, 7, "a"), axis(2, 7, "a"));
+    EXPECT_NE(axis(1, 7, "a"), axis(1, 8, "a"));
+    EXPECT_NE(axis(1, 7, "a"), axis(1, 7, "b"));
+    EXPECT_NEAR(turned(somePose(1), {}, "a")
                     .T_world_video.rotation.angularDistance(somePose(1).T_world_video.rotation),
                 0, 1e-9);
 }

@@ -104,9 +104,7 @@ private:
         const Timestamp time = sample.video.time;
         Shot out{loadPicture(sample.video.file), time,
                  posesOf(recording_, time, sample.still.time).frame};
-        if (out.pose)
-            out.pose =
-                turned(*out.pose, request_.poseNoiseDeg, static_cast<std::uint64_t>(time.ns));
+        if (out.pose) out.pose = turned(*out.pose, request_.poseNoise, label_);
         return out;
     }
 

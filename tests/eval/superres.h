@@ -2,6 +2,7 @@
 
 #include "tests/eval/degrade.h"
 #include "tests/eval/report.h"
+#include "tests/eval/shot.h"
 
 #include <filesystem>
 #include <string>
@@ -13,7 +14,7 @@ struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
     std::vector<std::string> methods;  ///< of superResMethodNames()
     Degradation degradation;           ///< done to every still
-    double poseNoiseDeg = 0;           ///< every frame's pose is turned by so much
+    PoseNoise poseNoise;               ///< of every frame
     double alpha = 2;                  ///< of the paper's confidence [video px]
     int frames = 0;                    ///< per recording, 0 = all that have truth
     std::filesystem::path save;        ///< folder for the pictures, empty = none
