@@ -35,7 +35,7 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
     requireSize(still, s.rig.still.size, "still");
     s.still.set(still);
     s.epipolar.dropStill();
-    if (pose) s.epipolar.setStill(s.pyramids.readStill(s.still.picture(), s.rig), *pose);
+    if (pose) s.epipolar.setStill(still, *pose);
     s.pyramids.buildStill(s.still.picture(), s.rig);
     s.hasStill = true;
     s.redraw = true;

@@ -19,8 +19,8 @@ Size cellsOf(Size video) {
 }  // namespace
 
 EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers)
-    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig.video, std::move(workers)),
-      lens_(rig.video, 0) {
+    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, std::move(workers)),
+      lens_(rig.video, 0), rotation_(Eigen::Matrix3f::Identity()) {
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);
     hidden_.resize(count);
@@ -28,18 +28,17 @@ EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> worker
     nearest_.resize(count);
 }
 
-void EpipolarFlow::setStill(const LumaImage& still, const Pose& pose) {
+void EpipolarFlow::setStill(const ImageView& still, const Pose& pose) {
     search_.setStill(still);
     stillPose_ = pose.T_world_video;
 }
 
 void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
     lumaOf(video, luma_);
-    RigidTransform T_still_video = stillPose_->inverse() * pose.T_world_video;
-    // The still at the video's geometry keeps the video's orientation; only its centre is its own.
-    T_still_video.translation +=
-        rig_.T_still_video.rotation.conjugate() * rig_.T_still_video.translation;
-    search_.run(luma_, T_still_video);
+    const RigidTransform T_then_now = stillPose_->inverse() * pose.T_world_video;
+    // At the video's geometry the still keeps the video's orientation.
+    rotation_ = T_then_now.rotation.toRotationMatrix().cast<float>();
+    search_.run(luma_, rig_.T_still_video * T_then_now);
     fillForward();
     testDepth();
 }
@@ -47,9 +46,8 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
 // Where the still, at the video's geometry, shows a ray's point; far outside when it is behind.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
-    const Eigen::Vector3f p =
-        search_.rotation() *
-        Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()), rayY + s * (t.y() - rayY * t.z()), 1);
+    const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),
+                                                          rayY + s * (t.y() - rayY * t.z()), 1);
     if (!(p.z() > kNearPlane)) return {kNowhere, kNowhere};
     return lens_.project(p.x() / p.z(), p.y() / p.z());
 }

@@ -18,8 +18,8 @@ public:
 
     EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers);
 
-    /// The new reference: luma at the video's geometry, and where the video camera was then.
-    void setStill(const LumaImage& still, const Pose& pose);
+    /// The new reference as its sensor took it, and where the video camera was then.
+    void setStill(const ImageView& still, const Pose& pose);
     void dropStill() { stillPose_.reset(); }
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
@@ -45,6 +45,7 @@ private:
     Size cells_;
     EpipolarSearch search_;
     EpipolarLens lens_;
+    Eigen::Matrix3f rotation_;  // of rays, from the frame to the still at the video's geometry
     std::optional<RigidTransform> stillPose_;  // T_world_video
     LumaImage luma_;
     Cells forward_, hidden_;

@@ -24,7 +24,7 @@ constexpr int kSmallestCanvas = 16;
 constexpr int kUnseenCost = kCensusBits / 2;
 
 Smoothness smoothnessFor(double noise) {
-    return {.step = std::clamp(static_cast<int>(11 + 3 * noise), 12, 24),
+    return {.step = std::clamp(static_cast<int>(10 + 4.5 * noise), 12, 30),
             .jump = 60,
             .noise = 2 * noise};
 }
@@ -57,6 +57,15 @@ std::size_t mostVectors(Size size) {
     const double labels = longest / scale + kBeyond + 1;
     const auto coarsest = static_cast<std::size_t>(std::ceil(labels / SemiGlobal::kLabels));
     return std::max(finest, coarsest * pixels(size));
+}
+
+/// The still camera with a sensor of about as many pixels per ray as the video camera's.
+CameraModel atScaleOf(const StereoRig& rig) {
+    const auto scaled = [](int pixels, double ratio) {
+        return std::max(2, static_cast<int>(std::lround(pixels * std::min(ratio, 1.0))));
+    };
+    return rig.still.scaledTo({scaled(rig.still.size.width, rig.video.fx / rig.still.fx),
+                               scaled(rig.still.size.height, rig.video.fy / rig.still.fy)});
 }
 
 struct Segment {
@@ -127,10 +136,11 @@ void costsAlong(const Segment& way, std::uint32_t own, const std::uint32_t* stil
 
 }  // namespace
 
-EpipolarSearch::EpipolarSearch(const CameraModel& video, std::shared_ptr<Workers> workers)
-    : camera_(video), workers_(std::move(workers)), matcher_(mostVectors(video.size)) {
-    for (int i = 0; i < levelsFor(video.size); ++i) {
-        levels_.push_back({EpipolarLens(video, i), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers)
+    : video_(rig.video), still_(atScaleOf(rig)), workers_(std::move(workers)),
+      matcher_(mostVectors(rig.video.size)) {
+    for (int i = 0; i < levelsFor(video_.size); ++i) {
+        levels_.push_back({EpipolarLens(video_, i), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
         Level& level = levels_.back();
         const Size size = level.lens.size();
         const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
@@ -142,25 +152,25 @@ EpipolarSearch::EpipolarSearch(const CameraModel& video, std::shared_ptr<Workers
     scratch_.resize(inverseDepth_.size());
 }
 
-void EpipolarSearch::setStill(const LumaImage& still) {
-    still_ = still;
-    stillNoise_ = noiseOf(still_);
+void EpipolarSearch::setStill(const ImageView& still) {
+    shrinkLuma(still, still_.size, *workers_, picture_);
+    stillNoise_ = noiseOf(picture_);
 }
 
 bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_video) {
-    rotation_ = T_still_video.rotation.toRotationMatrix().cast<float>();
-    translation_ = (T_still_video.rotation.conjugate() * T_still_video.translation).cast<float>();
+    const Eigen::Matrix3d R_still_video = T_still_video.rotation.toRotationMatrix();
+    translation_ = (R_still_video.transpose() * T_still_video.translation).cast<float>();
     levels_[0].video = video;
     videoNoise_ = noiseOf(video);
-    if (!turnStill()) return false;
-    measureParallax();
-    const int longest = static_cast<int>(kLongest * video.size.width);
     labels_ = 0;
     std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
+    if (!turnStill(R_still_video)) return false;
+    measureParallax();
+    const int longest = static_cast<int>(kLongest * video.size.width);
     if (!(pixelsPerUnit_ > 0)) return true;
     labels_ = longest;
     for (int i = static_cast<int>(levels_.size()) - 1; i >= 0; --i) {
-        prepare(levels_[i]);
+        prepare(levels_[i], std::max(videoNoise_, stillNoise_) / (1 << i));
         search(i);
     }
     const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
@@ -172,12 +182,12 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
 
 // The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
 // holds what of it a parallax can reach.
-bool EpipolarSearch::turnStill() {
-    turned_.place(camera_, rotation_.cast<double>(), kLongest);
+bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video) {
+    turned_.place(video_, still_, R_still_video, kLongest);
     if (turned_.size().width < kSmallestCanvas || turned_.size().height < kSmallestCanvas)
         return false;
     Level& fine = levels_[0];
-    turned_.draw(still_, *workers_, fine.still, fine.seen);
+    turned_.draw(picture_, *workers_, fine.still, fine.seen);
     fine.origin = turned_.origin();
     for (std::size_t l = 1; l < levels_.size(); ++l) {
         const Level& finer = levels_[l - 1];
@@ -218,9 +228,8 @@ void EpipolarSearch::measureParallax() {
     }
 }
 
-void EpipolarSearch::prepare(Level& level) {
-    const float v = smoothingFor(videoNoise_), s = smoothingFor(stillNoise_);
-    const float both = std::max(v, s);
+void EpipolarSearch::prepare(Level& level, double noise) {
+    const float both = smoothingFor(noise);
     const LumaImage* video = &level.video;
     const LumaImage* still = &level.still;
     if (both > 0) {

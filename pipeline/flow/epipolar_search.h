@@ -15,19 +15,17 @@ namespace mfar {
 /// Dense matching of a video frame with a still whose relative pose is known: a search along each
 /// pixel's epipolar line, coarse to fine, with a census cost and semi-global smoothness.
 ///
-/// Everything is at the video's geometry: the still comes as the video camera would have seen it
-/// from the still camera's place at the time of the still (see LumaPyramids). Runs on the host's
-/// processor; no GL.
+/// Runs on the host's processor; no GL.
 class EpipolarSearch {
 public:
-    EpipolarSearch(const CameraModel& video, std::shared_ptr<Workers> workers);
+    EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers);
 
-    /// The still at the video's geometry, luma. Size must be the camera's.
-    void setStill(const LumaImage& still);
+    /// The still as its sensor took it.
+    void setStill(const ImageView& still);
 
-    /// `T_still_video`: video coordinates of the frame to those of the still at the video's
-    /// geometry; its unit of length is free. Returns false, and no field, where no pixel of the
-    /// frame can see the still.
+    /// `T_still_video`: video camera coordinates at the frame's time to still camera coordinates at
+    /// the still's; its unit of length is free. Returns false, and a field of zeros, where nothing
+    /// of the still is in reach.
     bool run(const LumaImage& video, const RigidTransform& T_still_video);
 
     /// Per pixel: s [1/unit of length], see EpipolarLens. Less than zero where the best match lies
@@ -37,7 +35,6 @@ public:
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
     /// Translation of points from the frame to the still, in the frame's orientation.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
-    [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
     /// Labels compared at the finest level; zero when nothing was searched.
     [[nodiscard]] int labels() const { return labels_; }
 
@@ -52,21 +49,20 @@ private:
         std::vector<float> labels;
     };
 
-    [[nodiscard]] bool turnStill();
+    [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video);
     void measureParallax();
-    void prepare(Level& level);
+    void prepare(Level& level, double noise);
     void search(int index);
     void centreWindows(const Level& coarse, Level& fine);
     void costRow(const Level& level, int index, int vectors, int y, std::uint8_t* out) const;
 
-    CameraModel camera_;
+    CameraModel video_, still_;  // the still's at the scale of the video
     std::shared_ptr<Workers> workers_;
     TurnedPicture turned_;
     std::vector<Level> levels_;
-    LumaImage still_;
+    LumaImage picture_;  // of the still
     SemiGlobal matcher_;
     double stillNoise_ = 0, videoNoise_ = 0;
-    Eigen::Matrix3f rotation_ = Eigen::Matrix3f::Identity();
     Eigen::Vector3f translation_ = Eigen::Vector3f::Zero();
     double pixelsPerUnit_ = 0;
     int labels_ = 0;

@@ -10,23 +10,78 @@ namespace {
 // Rec. 601 in 1/65536, which sum to one.
 constexpr int kRed = 19595, kGreen = 38470, kBlue = 7471;
 
+void lumaRow(const ImageView& picture, int y, std::uint8_t* to) {
+    const std::uint8_t* from = picture.data + static_cast<std::size_t>(y) * picture.stride;
+    if (picture.format == PixelFormat::Gray8) {
+        std::copy_n(from, picture.size.width, to);
+        return;
+    }
+    for (int x = 0; x < picture.size.width; ++x) {
+        const std::uint8_t* p = from + 4 * static_cast<std::size_t>(x);
+        to[x] =
+            static_cast<std::uint8_t>((kRed * p[0] + kGreen * p[1] + kBlue * p[2] + 32768) >> 16);
+    }
+}
+
+/// The pixels that one pixel of a smaller picture covers, the outer two in part; weights sum to
+/// one.
+struct Span {
+    int first, last;
+    float firstWeight, innerWeight, lastWeight;
+
+    [[nodiscard]] float weightOf(int i) const {
+        if (i == first) return firstWeight;
+        return i == last ? lastWeight : innerWeight;
+    }
+};
+
+std::vector<Span> spansOf(int from, int to) {
+    const double step = static_cast<double>(from) / to;
+    std::vector<Span> out;
+    for (int i = 0; i < to; ++i) {
+        const double begin = i * step, end = (i + 1) * step;
+        const int first = std::min(static_cast<int>(begin + 1e-6), from - 1);
+        const int last = std::clamp(static_cast<int>(std::ceil(end - 1e-6)) - 1, first, from - 1);
+        const auto share = [&](double pixels) { return static_cast<float>(pixels / step); };
+        out.push_back(
+            {first, last, share(std::min(first + 1.0, end) - begin), share(1), share(end - last)});
+        if (first == last) out.back().firstWeight = 1;
+    }
+    return out;
+}
+
 }  // namespace
 
 void lumaOf(const ImageView& picture, LumaImage& out) {
     if (!(out.size == picture.size)) out = LumaImage(picture.size);
-    for (int y = 0; y < picture.size.height; ++y) {
-        const std::uint8_t* from = picture.data + static_cast<std::size_t>(y) * picture.stride;
-        std::uint8_t* to = out.row(y);
-        if (picture.format == PixelFormat::Gray8) {
-            std::copy_n(from, picture.size.width, to);
-            continue;
+    for (int y = 0; y < picture.size.height; ++y)
+        lumaRow(picture, y, out.row(y));
+}
+
+void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out) {
+    if (!(out.size == size)) out = LumaImage(size);
+    const Size from = picture.size;
+    const auto across = spansOf(from.width, size.width), down = spansOf(from.height, size.height);
+    workers.forRange(size.height, 4, [&](int first, int last) {
+        std::vector<std::uint8_t> luma(from.width);
+        std::vector<float> columns(from.width);
+        for (int y = first; y < last; ++y) {
+            std::fill(columns.begin(), columns.end(), 0.0F);
+            for (int j = down[y].first; j <= down[y].last; ++j) {
+                lumaRow(picture, j, luma.data());
+                const float weight = down[y].weightOf(j);
+                for (int x = 0; x < from.width; ++x)
+                    columns[x] += weight * static_cast<float>(luma[x]);
+            }
+            std::uint8_t* to = out.row(y);
+            for (int x = 0; x < size.width; ++x) {
+                float sum = 0;
+                for (int i = across[x].first; i <= across[x].last; ++i)
+                    sum += across[x].weightOf(i) * columns[i];
+                to[x] = static_cast<std::uint8_t>(std::clamp(sum + 0.5F, 0.0F, 255.0F));
+            }
         }
-        for (int x = 0; x < picture.size.width; ++x) {
-            const std::uint8_t* p = from + 4 * static_cast<std::size_t>(x);
-            to[x] = static_cast<std::uint8_t>(
-                (kRed * p[0] + kGreen * p[1] + kBlue * p[2] + 32768) >> 16);
-        }
-    }
+    });
 }
 
 void halve(const LumaImage& fine, LumaImage& coarse) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/frame.h"
+#include "pipeline/workers.h"
 
 #include <cstdint>
 #include <vector>
@@ -24,6 +25,10 @@ struct LumaImage {
 
 /// Luma (Rec. 601) of a grey or RGBA picture, as luma.glsl computes it. `out` has its size.
 void lumaOf(const ImageView& picture, LumaImage& out);
+
+/// The picture's luma at another size, none larger than its own: each pixel the mean of the area
+/// that it covers.
+void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out);
 
 /// Half the size, rounded up: mean of 2x2 pixels, the last column and row repeated.
 void halve(const LumaImage& fine, LumaImage& coarse);

@@ -79,31 +79,14 @@ void LumaPyramids::buildVideo(const gpu::Texture& video, const WorkPlan& plan) {
         plan.run(down_, {video_[i - 1], video_[i]}, {gpu::storage(0, words_)}, dispatches_[i]);
 }
 
-void LumaPyramids::fromStill(const gpu::Texture& still, const StereoRig& rig, double footprint) {
+void LumaPyramids::buildStill(const gpu::Texture& still, const StereoRig& rig) {
     StillParams p{};
     p.rig = rigParams(rig);
     p.target = still_[0];
     put(p.stillTexel, 1.0 / still.size().width, 1.0 / still.size().height,
-        footprint * rig.still.fx / rig.video.fx, 0);
+        kBoxWidening * rig.still.fx / rig.video.fx, 0);
     fromStill_.run(p, {gpu::sampler(0, still), gpu::storage(0, words_)}, groupsOf(still_[0]));
-}
-
-void LumaPyramids::buildStill(const gpu::Texture& still, const StereoRig& rig) {
-    fromStill(still, rig, kBoxWidening);
     buildCoarse(still_);
-}
-
-LumaImage LumaPyramids::readStill(const gpu::Texture& still, const StereoRig& rig) {
-    fromStill(still, rig, 1);
-    const LumaLevel& level = still_[0];
-    const auto words =
-        words_.read<std::uint32_t>(1UL * level.pitch * level.height, 4UL * level.offset);
-    LumaImage out({level.width, level.height});
-    for (int y = 0; y < level.height; ++y)
-        for (int x = 0; x < level.width; ++x)
-            out.row(y)[x] = static_cast<std::uint8_t>(
-                words[1UL * y * level.pitch + x / 4 + kMarginWords] >> (8 * (x % 4)));
-    return out;
 }
 
 void LumaPyramids::buildSecond(const gpu::Texture& picture) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "pipeline/flow/luma_image.h"
 #include "pipeline/geometry.h"
 #include "pipeline/work_plan.h"
 
@@ -40,9 +39,6 @@ public:
     void buildVideo(const gpu::Texture& video, const WorkPlan& plan);
     /// From a still (RGBA8 texture, linear filter), through the rig. Once per still.
     void buildStill(const gpu::Texture& still, const StereoRig& rig);
-    /// The still's finest level as buildStill() makes it but unsmoothed, read back. Waits for the
-    /// GPU; its place is used: buildStill() must follow.
-    [[nodiscard]] LumaImage readStill(const gpu::Texture& still, const StereoRig& rig);
     /// From a picture that already has the video's geometry (flow between two frames).
     void buildSecond(const gpu::Texture& picture);
 
@@ -64,7 +60,6 @@ private:
         float stillTexel[4];
     };
 
-    void fromStill(const gpu::Texture& still, const StereoRig& rig, double footprint);
     void buildCoarse(const std::vector<LumaLevel>& levels);
 
     std::vector<LumaLevel> video_, still_;

@@ -16,15 +16,15 @@ int alignDown(double v) {
 
 }  // namespace
 
-void TurnedPicture::place(const CameraModel& camera, const Eigen::Matrix3d& rotation,
-                          double beyond) {
+void TurnedPicture::place(const CameraModel& camera, const CameraModel& source,
+                          const Eigen::Matrix3d& R_source_camera, double beyond) {
     const double reach = beyond * camera.size.width;
     const double right = camera.size.width - 1 + reach, bottom = camera.size.height - 1 + reach;
     double x0 = right, y0 = bottom, x1 = -reach, y1 = -reach;
     const auto include = [&](double u, double v) {
         const Eigen::Vector2d ray =
-            camera.unproject({u * (camera.size.width - 1), v * (camera.size.height - 1)});
-        const Eigen::Vector3d turned = rotation.transpose() * ray.homogeneous();
+            source.unproject({u * (source.size.width - 1), v * (source.size.height - 1)});
+        const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
         // Beside or behind the camera: whatever the canvas can hold may be seen.
         Eigen::Vector2d low(-reach, -reach), high(right, bottom);
         if (turned.z() > 0.2) low = high = camera.project(turned.hnormalized());
@@ -49,20 +49,21 @@ void TurnedPicture::place(const CameraModel& camera, const Eigen::Matrix3d& rota
     origin_ = {alignDown(x0), alignDown(y0)};
     size_ = {static_cast<int>(std::ceil(x1)) - origin_.x + 1,
              static_cast<int>(std::ceil(y1)) - origin_.y + 1};
-    mapGrid(camera, rotation);
+    mapGrid(camera, source, R_source_camera);
 }
 
-void TurnedPicture::mapGrid(const CameraModel& camera, const Eigen::Matrix3d& rotation) {
+void TurnedPicture::mapGrid(const CameraModel& camera, const CameraModel& source,
+                            const Eigen::Matrix3d& R_source_camera) {
     gridWidth_ = size_.width / kAlign + 2;
     const int gridHeight = size_.height / kAlign + 2;
     grid_.clear();
     for (int j = 0; j < gridHeight; ++j) {
         for (int i = 0; i < gridWidth_; ++i) {
             const Eigen::Vector2d pixel(origin_.x + kAlign * i, origin_.y + kAlign * j);
-            const Eigen::Vector3d p = rotation * camera.unproject(pixel).homogeneous();
+            const Eigen::Vector3d p = R_source_camera * camera.unproject(pixel).homogeneous();
             Source s{kOutside, kOutside};
             if (p.z() > 0.05) {
-                const Eigen::Vector2d q = camera.project(p.hnormalized());
+                const Eigen::Vector2d q = source.project(p.hnormalized());
                 s = {static_cast<float>(q.x()), static_cast<float>(q.y())};
             }
             grid_.push_back(s);
