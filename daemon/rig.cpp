@@ -17,10 +17,10 @@ namespace {
 using synthetic::Path;
 using synthetic::Scene;
 
-constexpr std::array kScenes = {Scene::Office, Scene::Shelf,  Scene::Outdoor,
-                                Scene::Flat,   Scene::Moving, Scene::Still};
-constexpr std::array kPaths = {Path::Handheld, Path::Pan,    Path::Orbit,
-                               Path::Forward,  Path::Rotate, Path::Rest};
+constexpr std::array kScenes = {Scene::Office, Scene::Shelf, Scene::Outdoor,    Scene::Flat,
+                                Scene::Moving, Scene::Still, Scene::Calibration};
+constexpr std::array kPaths = {Path::Handheld, Path::Pan,  Path::Orbit, Path::Forward,
+                               Path::Rotate,   Path::Rest, Path::Survey};
 
 struct SourceWords {
     std::string_view kind;

@@ -19,10 +19,10 @@ namespace {
 using synthetic::Path;
 using synthetic::Scene;
 
-constexpr std::array kScenes{Scene::Office, Scene::Shelf,  Scene::Outdoor,
-                             Scene::Flat,   Scene::Moving, Scene::Still};
-constexpr std::array kPaths{Path::Handheld, Path::Pan,    Path::Orbit,
-                            Path::Forward,  Path::Rotate, Path::Rest};
+constexpr std::array kScenes{Scene::Office, Scene::Shelf, Scene::Outdoor,    Scene::Flat,
+                             Scene::Moving, Scene::Still, Scene::Calibration};
+constexpr std::array kPaths{Path::Handheld, Path::Pan,  Path::Orbit, Path::Forward,
+                            Path::Rotate,   Path::Rest, Path::Survey};
 
 template <class T, std::size_t N>
 std::vector<std::string> names(const std::array<T, N>& values) {
@@ -45,7 +45,8 @@ void declare(CLI::App& app, Arguments& a) {
         ->check(CLI::IsMember(names(kScenes)))
         ->capture_default_str();
     app.add_option("--path", a.path,
-                   "how the camera moves (default: handheld; rest in scene still)")
+                   "how the camera moves (default: handheld; rest in scene still, "
+                   "survey in calibration)")
         ->check(CLI::IsMember(names(kPaths)));
     app.add_option("--seconds", a.seconds, "length of the recording")
         ->check(CLI::Range(0.01, 3600.0))

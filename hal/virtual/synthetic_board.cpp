@@ -53,9 +53,12 @@ private:
 };
 
 SyntheticOptions withPath(SyntheticOptions options) {
-    if (!options.path)
-        options.path = options.scene == synthetic::Scene::Still ? synthetic::Path::Rest
-                                                                : synthetic::Path::Handheld;
+    if (options.path) return options;
+    switch (options.scene) {
+    case synthetic::Scene::Still: options.path = synthetic::Path::Rest; break;
+    case synthetic::Scene::Calibration: options.path = synthetic::Path::Survey; break;
+    default: options.path = synthetic::Path::Handheld; break;
+    }
     return options;
 }
 

@@ -16,7 +16,7 @@ namespace mfar {
 
 struct SyntheticOptions {
     synthetic::Scene scene = synthetic::Scene::Office;
-    /// Nothing: at rest in `still`, hand-held in the others.
+    /// Nothing: at rest in `still`, survey in `calibration`, hand-held in the others.
     std::optional<synthetic::Path> path{};
     std::uint64_t seed = 1;
     Pace pace = Pace::Realtime;

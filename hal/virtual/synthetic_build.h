@@ -51,5 +51,6 @@ private:
 [[nodiscard]] World makeShelf(std::uint64_t seed);
 [[nodiscard]] World makeOutdoor(std::uint64_t seed);
 [[nodiscard]] World makeFlat(std::uint64_t seed);
+[[nodiscard]] World makeCalibration();
 
 }  // namespace mfar::synthetic

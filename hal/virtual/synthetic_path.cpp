@@ -48,6 +48,22 @@ RigidTransform shake(std::uint64_t seed, double t, double amount) {
         {metres * wobble(seed, 0, t), metres * wobble(seed, 1, t), metres * wobble(seed, 2, t)}};
 }
 
+/// Round a target in front of `eye`: near and far, from all sides, turned, and with the target in
+/// every part of the picture. What a person does to calibrate a camera.
+RigidTransform survey(const World& world, double t) {
+    const auto swing = [t](double amplitude, double period, double phase) {
+        return amplitude * std::sin(2 * std::numbers::pi * (t / period + phase));
+    };
+    const Eigen::Quaterniond around =
+        Eigen::AngleAxisd(swing(34 * kDegree, 5.3, 0), Eigen::Vector3d::UnitZ()) *
+        Eigen::AngleAxisd(swing(26 * kDegree, 3.7, 0.2), Eigen::Vector3d::UnitX());
+    const double distance = 1.05 + swing(0.3, 7.1, 0.6);
+    const Eigen::Vector3d arm = around * (world.eye - world.target) * distance;
+    const Eigen::Vector3d aside{swing(0.13, 2.9, 0.1), 0, swing(0.12, 2.3, 0.4)};
+    return lookAt(world.target + arm, world.target + aside) *
+           RigidTransform{tilt(0, 0, swing(25 * kDegree, 6.1, 0.3)), Eigen::Vector3d::Zero()};
+}
+
 }  // namespace
 
 RigidTransform cameraPose(const World& world, Path path, std::uint64_t seed, double t) {
@@ -76,6 +92,7 @@ RigidTransform cameraPose(const World& world, Path path, std::uint64_t seed, dou
                                           6 * kDegree * std::sin(turn / 7 + 1),
                                           4 * kDegree * std::sin(turn / 6 + 2)),
                                      Eigen::Vector3d::Zero()};
+    case Path::Survey: return survey(world, t) * shake(seed, t, 0.15);
     case Path::Rest: break;
     }
     return base;

@@ -191,35 +191,13 @@ cv::Mat4b edges(std::uint64_t seed) {
     return toBytes(colour, cv::Mat1f(colour.size(), 0.02F));
 }
 
-/// Family 36h11, ids 0..3: 36 bits from the most significant down, in the family's order.
-constexpr std::array<std::uint64_t, 4> kTagCodes{0xd7e00984bULL, 0xdda664ca7ULL, 0xdc4a1c821ULL,
-                                                 0xe17b470e9ULL};
-
-/// White cells of a tag in the 8x8 grid whose rim is the black border. The 36 bits go round in
-/// four quarter turns of nine.
-std::array<std::array<bool, 8>, 8> tagCells(std::uint64_t code) {
-    constexpr std::array<std::array<int, 2>, 9> kFirst{
-        {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {2, 2}, {3, 2}, {4, 2}, {3, 3}}};
-    std::array<std::array<bool, 8>, 8> cells{};
-    for (int bit = 0; bit < 36; ++bit) {
-        auto [x, y] = kFirst[bit % 9];
-        for (int turn = 0; turn < bit / 9; ++turn) {
-            const int old = x;
-            x = 7 - y;
-            y = old;
-        }
-        cells[y][x] = (code >> (35 - bit) & 1) != 0;
-    }
-    return cells;
-}
-
 cv::Mat4b tags(std::uint64_t seed) {
     constexpr int kHalf = kLayerSize / 2;  // texels of one tag
     const cv::Mat1f grain = fractal(seed, 200, 200, 2, 0.7F);
     cv::Mat3f colour(kLayerSize, kLayerSize);
-    std::array<std::array<std::array<bool, 8>, 8>, 4> cells{};
+    std::array<TagCells, 4> cells{};
     for (int i = 0; i < 4; ++i)
-        cells[i] = tagCells(kTagCodes[i]);
+        cells[i] = tagCells(kTagIds[i]);
     eachPixel(colour, [&](cv::Vec3f& c, const int* at) {
         const int which = at[0] / kHalf * 2 + at[1] / kHalf;
         const auto cell = [=](int texel) { return (2 * (texel % kHalf) + 1) * 5 / kHalf - 1; };
@@ -241,6 +219,7 @@ cv::Mat4b makePrint(Layer layer, std::uint64_t seed) {
     case Layer::Spine: return spine(seed);
     case Layer::Label: return label(seed);
     case Layer::Edges: return edges(seed);
+    case Layer::AprilGrid: return aprilGrid(seed);
     default: return tags(seed);
     }
 }

@@ -14,18 +14,20 @@ namespace {
 template <class T, std::size_t N>
 using Names = std::array<std::pair<T, std::string_view>, N>;
 
-constexpr Names<Scene, 6> kScenes{{{Scene::Office, "office"},
+constexpr Names<Scene, 7> kScenes{{{Scene::Office, "office"},
                                    {Scene::Shelf, "shelf"},
                                    {Scene::Outdoor, "outdoor"},
                                    {Scene::Flat, "flat"},
                                    {Scene::Moving, "moving"},
-                                   {Scene::Still, "still"}}};
-constexpr Names<Path, 6> kPaths{{{Path::Handheld, "handheld"},
+                                   {Scene::Still, "still"},
+                                   {Scene::Calibration, "calibration"}}};
+constexpr Names<Path, 7> kPaths{{{Path::Handheld, "handheld"},
                                  {Path::Pan, "pan"},
                                  {Path::Orbit, "orbit"},
                                  {Path::Forward, "forward"},
                                  {Path::Rotate, "rotate"},
-                                 {Path::Rest, "rest"}}};
+                                 {Path::Rest, "rest"},
+                                 {Path::Survey, "survey"}}};
 
 template <class T, std::size_t N>
 std::string_view nameIn(const Names<T, N>& names, T value) {
@@ -73,6 +75,7 @@ World makeWorld(Scene scene, std::uint64_t seed) {
     case Scene::Outdoor: return makeOutdoor(seed);
     case Scene::Flat: return makeFlat(seed);
     case Scene::Moving: return makeOffice(seed, true);
+    case Scene::Calibration: return makeCalibration();
     case Scene::Office:
     case Scene::Still: break;
     }

@@ -16,8 +16,8 @@
 /// function of scene, seed and time.
 namespace mfar::synthetic {
 
-enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still };
-enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest };
+enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still, Calibration };
+enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 
 /// Name as on the command line, and back. Unknown names give nothing.
 [[nodiscard]] std::string_view name(Scene scene);
@@ -40,10 +40,11 @@ enum class Layer : std::uint8_t {
     Foliage,
     Brick,
     Gravel,
-    Forest,  ///< distant tree line under a sky
-    Enamel,  ///< smooth surface with fine specks
-    Clouds,  ///< low-frequency variation that breaks the repetition of the others
-    Tags,    ///< 2 x 2 AprilTags 36h11, see kTagIds
+    Forest,     ///< distant tree line under a sky
+    Enamel,     ///< smooth surface with fine specks
+    Clouds,     ///< low-frequency variation that breaks the repetition of the others
+    Tags,       ///< 2 x 2 AprilTags 36h11, see kTagIds
+    AprilGrid,  ///< calibration target, see kGridTags
     Count
 };
 
@@ -115,6 +116,12 @@ struct World {
 inline constexpr int kMaxPrimitives = 128;
 /// Tags on the Tags layer, row by row.
 inline constexpr std::array<int, 4> kTagIds{0, 1, 2, 3};
+
+/// The target of scene Calibration as Kalibr describes it: 6 x 6 tags of family 36h11, id 0 at the
+/// bottom left, ids rising to the right and then upwards, a black square at every corner.
+inline constexpr int kGridTags = 6;            ///< a side
+inline constexpr double kGridTagSize = 0.064;  ///< edge of a black square with its tag [m]
+inline constexpr double kGridSpacing = 0.25;   ///< gap between tags / kGridTagSize
 
 [[nodiscard]] World makeWorld(Scene scene, std::uint64_t seed);
 

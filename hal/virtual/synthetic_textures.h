@@ -4,6 +4,7 @@
 
 #include <opencv2/core.hpp>
 
+#include <array>
 #include <cstdint>
 
 namespace mfar::synthetic {
@@ -39,8 +40,15 @@ void eachPixel(cv::Mat_<T>& image, const Paint& paint) {
 /// Reflectance and mask to bytes.
 [[nodiscard]] cv::Mat4b toBytes(const cv::Mat3f& colour, const cv::Mat1f& gloss);
 
-/// The printed layers (synthetic_print.cpp) and the grown ones (synthetic_nature.cpp).
+/// White cells of a tag of family 36h11, [row][column]; the outermost ones are its black border.
+/// Ids 0 to 35.
+using TagCells = std::array<std::array<bool, 8>, 8>;
+[[nodiscard]] TagCells tagCells(int id);
+
+/// The printed layers (synthetic_print.cpp), one of them in a file of its own (synthetic_grid.cpp),
+/// and the grown ones (synthetic_nature.cpp).
 [[nodiscard]] cv::Mat4b makePrint(Layer layer, std::uint64_t seed);
+[[nodiscard]] cv::Mat4b aprilGrid(std::uint64_t seed);
 [[nodiscard]] cv::Mat4b makeNature(Layer layer, std::uint64_t seed);
 
 }  // namespace mfar::synthetic
