@@ -1,8 +1,8 @@
 #include "hal/virtual/recorder.h"
 
 #include "hal/virtual/image_files.h"
-#include "hal/virtual/sensor_yaml.h"
 #include "hal/virtual/whole_file.h"
+#include "pipeline/calibration/sensor_yaml.h"
 
 #include <fmt/format.h>
 

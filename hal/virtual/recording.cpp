@@ -2,7 +2,7 @@
 
 #include "hal/virtual/png_header.h"
 #include "hal/virtual/recording_csv.h"
-#include "hal/virtual/sensor_yaml.h"
+#include "pipeline/calibration/sensor_yaml.h"
 
 #include <fmt/format.h>
 
@@ -145,6 +145,8 @@ std::optional<fs::path> Recording::truthFlow(Timestamp from, Timestamp to) const
 Recording loadRecording(const fs::path& root) {
     try {
         return load(root);
+    } catch (const CalibrationError& e) {
+        throw RecordingError(e.what());
     } catch (const fs::filesystem_error& e) {
         recordingFault(e.path1(), 0, e.code().message());
     }

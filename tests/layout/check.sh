@@ -12,7 +12,7 @@ ignored=' .git .build out shared '
 maxLines=400
 
 halTop='hal/[^/]+'
-leaves='pipeline/geometry\.h|pipeline/gpu/.+|gles_shaders/.+'
+leaves='pipeline/geometry\.h|pipeline/calibration/.+|pipeline/gpu/.+|gles_shaders/.+'
 faults=0
 
 fault() {
@@ -27,7 +27,7 @@ allowedFrom() {
     daemon/rig.*) echo 'daemon/.+|pipeline/.+|hal/.+' ;;
     daemon/tools/*) echo "daemon/.+|pipeline/.+|$halTop|hal/virtual/.+" ;;
     daemon/*) echo "daemon/.+|pipeline/.+|$halTop" ;;
-    pipeline/geometry.* | pipeline/gpu/*) echo "$leaves|$halTop" ;;
+    pipeline/geometry.* | pipeline/calibration/* | pipeline/gpu/*) echo "$leaves|$halTop" ;;
     pipeline/*) echo "pipeline/.+|gles_shaders/.+|$halTop" ;;
     gles_shaders/*) echo 'gles_shaders/.+' ;;
     hal/device/*) echo "hal/device/.+|$halTop|$leaves" ;;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "pipeline/calibration/calibration_error.h"
 #include "pipeline/geometry.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,8 +18,9 @@ struct SensorYaml {
 };
 
 /// Reads and validates: pinhole model, finite and plausible numbers, a T_BS that is a rotation and
-/// a translation. Throws RecordingError ("file:line: what").
-[[nodiscard]] SensorYaml readSensorYaml(const std::filesystem::path& file);
+/// a translation, the wanted size if there is one. Throws CalibrationError.
+[[nodiscard]] SensorYaml readSensorYaml(const std::filesystem::path& file,
+                                        std::optional<Size> wanted = {});
 
 /// The text of a sensor.yaml that readSensorYaml() reads back to the last bit but rounding of the
 /// rotation.

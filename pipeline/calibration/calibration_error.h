@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string_view>
+
+namespace mfar {
+
+/// A calibration cannot be used. The message begins with "file:line: " (or "file: " where no line
+/// is to blame) and says what is wrong in one line.
+class CalibrationError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Throws CalibrationError; line 0: none.
+[[noreturn]] void calibrationFault(const std::filesystem::path& file, int line,
+                                   std::string_view what);
+
+}  // namespace mfar
