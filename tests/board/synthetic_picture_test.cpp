@@ -77,6 +77,27 @@ INSTANTIATE_TEST_SUITE_P(Synthetic, EveryScene,
                                          Scene::Moving, Scene::Still),
                          [](const auto& p) { return std::string(synthetic::name(p.param)); });
 
+TEST(SyntheticPicture, TheCalibrationTargetsTagsAreWhereTheyAre) {
+    SyntheticOptions options;
+    options.scene = Scene::Calibration;
+    options.path = synthetic::Path::Rest;
+    options.pace = Pace::Consumer;
+    SyntheticBoard board(options);
+    const Timestamp t = board.epoch();
+    cv::Mat1b picture = grey(board.cleanVideo(t).view());
+    // Black squares that touch crosswise would hide the tags from the detector.
+    cv::dilate(picture, picture, cv::Mat::ones(3, 3, CV_8U));
+    const auto found = detectTags(picture);
+    EXPECT_GE(found.size(), 30U);
+    for (const synthetic::Tag& tag : board.world().tags) {
+        if (!found.contains(tag.id)) continue;
+        const auto expected = projectedCorners(tag, board.rig().video, board.pose(t).T_world_video);
+        for (int k = 0; k < 4; ++k)
+            EXPECT_LT((found.at(tag.id)[k] - expected[k]).norm(), 2.5)
+                << "tag " << tag.id << " corner " << k;
+    }
+}
+
 double lostInVideo(Scene scene) {
     SyntheticBoard& board = sharedBoard(scene);
     const Timestamp t = board.epoch();
