@@ -44,6 +44,16 @@ FamilyHandle makeFamily(TagFamily family) {
     return {maker.create(), maker.destroy};
 }
 
+/// The same codes inside a border that is one cell wider.
+void widenBorder(apriltag_family_t& family) {
+    family.width_at_border += 2;
+    family.total_width += 2;
+    for (std::uint32_t bit = 0; bit < family.nbits; ++bit) {
+        ++family.bit_x[bit];
+        ++family.bit_y[bit];
+    }
+}
+
 struct DetectorDeleter {
     void operator()(apriltag_detector_t* d) const { apriltag_detector_destroy(d); }
 };
@@ -71,6 +81,7 @@ void check(const DetectorOptions& o) {
     require(o.threads >= 1 && o.threads <= 64, "threads must be from 1 to 64");
     require(o.blur >= 0 && o.blur <= 5, "blur must be from 0 to 5");
     require(o.maxHamming == 0 || o.maxHamming == 1, "maxHamming must be 0 or 1");
+    require(o.borderCells == 1 || o.borderCells == 2, "borderCells must be 1 or 2");
     require(o.minMargin >= 0 && o.minMargin <= 255, "minMargin must be from 0 to 255");
 }
 
@@ -124,6 +135,7 @@ TagDetector::TagDetector(const DetectorOptions& options)
     families.erase(std::unique(families.begin(), families.end()), families.end());
     for (const TagFamily family : families) {
         library_->families.push_back(makeFamily(family));
+        if (options.borderCells == 2) widenBorder(*library_->families.back());
         // Tables for two bits take 90 MB for tagStandard41h12, and double the false finds.
         apriltag_detector_add_family_bits(&detector, library_->families.back().get(), 1);
     }

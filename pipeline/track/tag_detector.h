@@ -43,6 +43,8 @@ struct DetectorOptions {
     /// Detections with more corrected bits are dropped (0 or 1). tag16h5 is too easily found in
     /// noise: of it only detections without any corrected bit and with twice the margin are kept.
     int maxHamming = 1;
+    /// Width of the black border [cells], 1 or 2. Kalibr prints its tags with 2, all others have 1.
+    int borderCells = 1;
     double minMargin = 20;  ///< detections with less contrast are dropped [grey levels]
 };
 
