@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -86,6 +88,16 @@ int list() {
     return 0;
 }
 
+/// The target of scene calibration, for mfar-calibrate and for Kalibr.
+void writeGrid(const std::filesystem::path& file) {
+    std::ofstream out(file);
+    out << fmt::format("target_type: 'aprilgrid'\ntagCols: {0}\ntagRows: {0}\n"
+                       "tagSize: {1}  # [m]\ntagSpacing: {2}  # gap / tagSize\n",
+                       synthetic::kGridTags, synthetic::kGridTagSize, synthetic::kGridSpacing);
+    out.close();
+    if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
 int simulate(Arguments a) {
     a.board.scene = *synthetic::sceneNamed(a.scene);
     if (!a.path.empty()) a.board.path = synthetic::pathNamed(a.path);
@@ -98,6 +110,7 @@ int simulate(Arguments a) {
     const SimCounts counts = writeSimulation(board, a.sim, [&](int done) {
         if (terminal) showProgress(done, a.board.frames);
     });
+    if (a.board.scene == Scene::Calibration) writeGrid(a.sim.out / "aprilgrid.yaml");
     fmt::print("{}: {} video frames, {} stills, {} flow fields\n", a.sim.out.string(), counts.video,
                counts.stills, counts.flows);
     return 0;

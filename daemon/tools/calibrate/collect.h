@@ -1,0 +1,23 @@
+#pragma once
+
+#include "daemon/tools/calibrate/coverage.h"
+#include "daemon/tools/calibrate/solve.h"
+#include "hal/virtual/recording.h"
+
+#include <functional>
+
+namespace mfar::calibration {
+
+/// How far a sensor's pictures have been looked at.
+struct Progress {
+    const Coverage& coverage;
+    int done = 0, of = 0, found = 0;  ///< pictures
+};
+
+/// Looks for the target in all pictures of one sensor. `progress` is called after each. Throws
+/// ImageFileError.
+[[nodiscard]] SensorViews collect(const std::vector<RecordedImage>& pictures, Size picture,
+                                  const Target& target,
+                                  const std::function<void(const Progress&)>& progress);
+
+}  // namespace mfar::calibration

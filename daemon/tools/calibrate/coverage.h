@@ -1,0 +1,31 @@
+#pragma once
+
+#include "daemon/tools/calibrate/target.h"
+#include "hal/frame.h"
+
+#include <string>
+#include <vector>
+
+namespace mfar::calibration {
+
+/// Where in a picture corners have been seen, in a grid of cells.
+class Coverage {
+public:
+    static constexpr int kColumns = 16, kRows = 12;
+
+    explicit Coverage(Size picture);
+    void add(const std::vector<Corner>& corners);
+
+    /// Share of the cells with a corner, 0..1.
+    [[nodiscard]] double share() const;
+    /// The part of the picture that most lacks corners, in words: "the top left".
+    [[nodiscard]] std::string emptiest() const;
+    /// kRows lines of kColumns characters, from ' ' (none) to '#' (many).
+    [[nodiscard]] std::vector<std::string> map() const;
+
+private:
+    Size picture_;
+    std::vector<int> counts_;
+};
+
+}  // namespace mfar::calibration

@@ -1,0 +1,70 @@
+#include "daemon/tools/calibrate/rig_start.h"
+
+#include "pipeline/track/se3.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mfar::calibration {
+namespace {
+
+Timestamp later(Timestamp t, double seconds) {
+    return {t.ns + static_cast<std::int64_t>(std::llround(seconds * 1e9))};
+}
+
+struct Agreement {
+    double spread = std::numeric_limits<double>::infinity();  ///< [rad]
+    RigidTransform T_still_video;
+    int stills = 0;
+};
+
+/// The candidate that is nearest to all others is their middle, however bad a few of them are.
+Agreement agreementAt(const PoseTrack& video, const std::vector<StillPose>& stills, double offset) {
+    std::vector<RigidTransform> candidates;
+    double distance = 0;
+    for (const StillPose& still : stills) {
+        const auto T_video_target = video.at(later(still.time, offset));
+        if (!T_video_target) continue;
+        candidates.push_back(still.T_still_target * T_video_target->inverse());
+        distance += T_video_target->translation.norm();
+    }
+    Agreement out;
+    out.stills = static_cast<int>(candidates.size());
+    distance /= std::max(1, out.stills);
+    for (const RigidTransform& middle : candidates) {
+        std::vector<double> away;
+        for (const RigidTransform& other : candidates) {
+            const Vector6 d = logarithm(middle.inverse() * other);
+            away.push_back(d.head<3>().norm() + d.tail<3>().norm() / distance);
+        }
+        const auto median = away.begin() + static_cast<std::ptrdiff_t>(away.size() / 2);
+        std::nth_element(away.begin(), median, away.end());
+        if (!(*median < out.spread)) continue;
+        out.spread = *median;
+        out.T_still_video = middle;
+    }
+    return out;
+}
+
+}  // namespace
+
+RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills,
+                    double maxOffset) {
+    RigStart out;
+    Agreement best;
+    const double step = std::max(1e-3, video.interval() / 8);
+    // From zero outwards: where nothing moves, every offset agrees, and zero stays.
+    for (int i = 0; i * step <= maxOffset; ++i) {
+        for (const double offset : {i * step, -i * step}) {
+            const Agreement now = agreementAt(video, stills, offset);
+            // At the ends of the video fewer stills agree more easily.
+            if (now.stills * 4 < best.stills * 3 || !(now.spread < best.spread)) continue;
+            best = now;
+            out = {now.T_still_video, offset, now.stills};
+        }
+    }
+    return out;
+}
+
+}  // namespace mfar::calibration

@@ -1,0 +1,213 @@
+#include "daemon/tools/calibrate/solve.h"
+
+#include "daemon/tools/calibrate/rig_start.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace mfar::calibration {
+namespace {
+
+constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
+constexpr double kMaxOffsetDeviation = 0.002;    // [s]; beyond it the offset is not known
+constexpr double kMaxFocalDeviation = 0.005;     // of the focal length
+constexpr double kMaxBaselineDeviation = 0.002;  // [m]
+
+/// Which view of which sensor stands behind a view of the bundle.
+struct Member {
+    int view = 0;
+    int index = 0;  ///< in the bundle
+};
+
+/// The joint adjustment, from two cameras that were calibrated on their own.
+class Assembly {
+public:
+    Assembly(const Target& target, const SensorViews& video, const SensorViews& still,
+             const SolveOptions& options)
+        : target_(target), video_(video), still_(still), options_(options),
+          videoFit_(fitCamera(target, video_.views, video.picture, "video", options.videoViews)),
+          stillFit_(fitCamera(target, still_.views, still.picture, "still", options.stillViews)) {
+        for (int i = 0; i < static_cast<int>(video_.views.size()); ++i) {
+            if (!videoFit_.poses[i]) continue;
+            track_.add(video_.views[i].time, *videoFit_.poses[i]);
+            trackViews_.push_back(i);
+        }
+        std::vector<StillPose> stills;
+        for (std::size_t i = 0; i < still_.views.size(); ++i)
+            if (stillFit_.poses[i]) stills.push_back({still_.views[i].time, *stillFit_.poses[i]});
+        start_ = startOfRig(track_, stills, options.maxOffset);
+        if (start_.stills < kLeastPairs)
+            throw Unsuitable(fmt::format("only {} stills were taken while the video saw the "
+                                         "target, at least {} are needed",
+                                         start_.stills, kLeastPairs));
+    }
+
+    Calibration run() {
+        Calibration out;
+        std::optional<RigBundle> bundle = adjusted(start_.offset, true, out);
+        if (!out.offsetKnown) bundle = adjusted(0, false, out);
+        // Stills that contradict the video's motion only show up together with it.
+        if (leaveOut(*bundle)) bundle = adjusted(bundle->offset(), out.offsetKnown, out);
+        out.rig = {bundle->rig(), bundle->offset()};
+        out.extrinsicDeviations = bundle->deviations().segment<6>(kExtrinsicAt);
+        out.offsetDeviation = bundle->deviations()[kOffsetAt];
+        out.pairs = pairs_;
+        out.video = result(*bundle, video_, videoFit_, videoMembers_, false);
+        out.still = result(*bundle, still_, stillFit_, stillMembers_, true);
+        return out;
+    }
+
+private:
+    int poseOf(RigBundle& bundle, int videoView) {
+        const auto [at, isNew] = videoPoses_.try_emplace(videoView, 0);
+        if (isNew) {
+            at->second = bundle.addPose(*videoFit_.poses[videoView]);
+            const auto& corners = video_.views[videoView].corners;
+            videoMembers_.push_back({videoView, bundle.addView(false, corners, at->second)});
+        }
+        return at->second;
+    }
+
+    void addStill(RigBundle& bundle, int view, double offset) {
+        const TargetView& still = still_.views[view];
+        const auto shift = static_cast<std::int64_t>(std::llround(offset * 1e9));
+        const auto nodes = track_.around({still.time.ns + shift});
+        if (!nodes) {
+            const int pose = bundle.addPose(*stillFit_.poses[view]);
+            stillMembers_.push_back({view, bundle.addView(true, still.corners, pose)});
+            return;
+        }
+        std::array<int, 4> poses{};
+        std::array<double, 4> times{};
+        for (int j = 0; j < 4; ++j) {
+            poses[j] = poseOf(bundle, trackViews_[(*nodes)[j]]);
+            times[j] = static_cast<double>((track_.time((*nodes)[j]) - still.time).count()) * 1e-9;
+        }
+        stillMembers_.push_back({view, bundle.addTied(still.corners, poses, times)});
+        ++pairs_;
+    }
+
+    [[nodiscard]] RigBundle assembled(double offset) {
+        videoPoses_.clear();
+        videoMembers_.clear();
+        stillMembers_.clear();
+        pairs_ = 0;
+        RigBundle bundle(target_, {videoFit_.camera, stillFit_.camera, start_.T_still_video},
+                         offset);
+        for (const int view : videoFit_.chosen)
+            poseOf(bundle, view);
+        for (const int view : stillFit_.chosen)
+            addStill(bundle, view, offset);
+        if (pairs_ < kLeastPairs)
+            throw Unsuitable(fmt::format("only {} stills were taken while the video saw the "
+                                         "target, at least {} are needed",
+                                         pairs_, kLeastPairs));
+        return bundle;
+    }
+
+    [[nodiscard]] RigBundle adjusted(double offset, bool withOffset, Calibration& out) {
+        std::array<bool, kShared> fixed{};
+        fixed[8] = fixed[kStillAt + 8] = !options_.k3;
+        fixed[kOffsetAt] = !withOffset || options_.maxOffset == 0;
+        RigBundle bundle = assembled(offset);
+        bundle.solve({videoFit_.sigma, stillFit_.sigma}, fixed);
+        out.offsetKnown = withOffset && options_.maxOffset > 0 &&
+                          bundle.deviations()[kOffsetAt] <= kMaxOffsetDeviation;
+        return bundle;
+    }
+
+    bool leaveOut(const RigBundle& bundle) {
+        // A still sees its pose more sharply than the video does and would draw the bundle's video
+        // poses to itself: they are taken from the video alone.
+        const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
+        std::vector<double> errors;
+        for (const Member& m : stillMembers_) {
+            const TargetView& view = still_.views[m.view];
+            const auto T_video_target = track_.at({view.time.ns + shift});
+            errors.push_back(rms(T_video_target ? residualsOf(target_, view, bundle.rig().still,
+                                                              bundle.rig().T_still_video *
+                                                                  *T_video_target)
+                                                : bundle.residuals(m.index)));
+        }
+        const std::vector<bool> bad = outliers(errors);
+        bool any = false;
+        for (std::size_t k = 0; k < bad.size(); ++k) {
+            if (!bad[k]) continue;
+            stillFit_.poses[stillMembers_[k].view].reset();
+            std::erase(stillFit_.chosen, stillMembers_[k].view);
+            any = true;
+        }
+        return any;
+    }
+
+    [[nodiscard]] SensorResult result(const RigBundle& bundle, const SensorViews& sensor,
+                                      const CameraFit& fit, const std::vector<Member>& members,
+                                      bool still) const {
+        SensorResult out;
+        out.camera = still ? bundle.rig().still : bundle.rig().video;
+        out.deviations = bundle.deviations().segment<9>(still ? kStillAt : 0);
+        double sum = 0;
+        std::size_t corners = 0;
+        for (const Member& m : members) {
+            const TargetView& view = sensor.views[m.view];
+            out.views.push_back({view.time, view.corners, bundle.residuals(m.index), true});
+            for (const Eigen::Vector2d& r : out.views.back().residuals)
+                sum += r.squaredNorm();
+            corners += view.corners.size();
+        }
+        out.rms = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, corners)));
+        for (std::size_t i = 0; i < fit.poses.size(); ++i) {
+            if (fit.poses[i]) continue;
+            const TargetView& view = sensor.views[i];
+            const auto pose = targetPose(target_, view, out.camera);
+            out.views.push_back({view.time, view.corners, {}, false});
+            if (pose) out.views.back().residuals = residualsOf(target_, view, out.camera, *pose);
+        }
+        std::ranges::sort(out.views, {}, [](const ViewResult& v) { return v.time.ns; });
+        return out;
+    }
+
+    const Target& target_;
+    SensorViews video_, still_;  ///< less the corners that do not fit
+    const SolveOptions& options_;
+    CameraFit videoFit_, stillFit_;
+    PoseTrack track_;
+    std::vector<int> trackViews_;  ///< view of the video behind a pose of the track
+    RigStart start_;
+    std::map<int, int> videoPoses_;  ///< view of the video -> pose of the bundle
+    std::vector<Member> videoMembers_, stillMembers_;
+    int pairs_ = 0;
+};
+
+void checkCertainty(const Calibration& c) {
+    for (const SensorResult* sensor : {&c.video, &c.still}) {
+        const double focal = sensor->deviations.head<2>().maxCoeff() / sensor->camera.fx;
+        if (!(focal <= kMaxFocalDeviation))
+            throw Unsuitable(fmt::format("the views leave the focal length of the {} uncertain by "
+                                         "{:.1f} %: tilt the target more and come closer",
+                                         sensor == &c.video ? "video" : "still", 100 * focal));
+    }
+    const double baseline = c.extrinsicDeviations.tail<3>().maxCoeff();
+    if (!(baseline <= kMaxBaselineDeviation))
+        throw Unsuitable(fmt::format("the views leave the distance of the sensors uncertain by "
+                                     "{:.1f} mm: take more stills, close to the target",
+                                     1000 * baseline));
+}
+
+}  // namespace
+
+Calibration calibrate(const Target& target, const SensorViews& video, const SensorViews& still,
+                      const SolveOptions& options) {
+    checkViews(target, video.views, video.picture, "video", kLeastVideoViews);
+    checkViews(target, still.views, still.picture, "still", kLeastStillViews);
+    Calibration out = Assembly(target, video, still, options).run();
+    checkCertainty(out);
+    return out;
+}
+
+}  // namespace mfar::calibration

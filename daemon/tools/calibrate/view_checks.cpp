@@ -1,0 +1,86 @@
+#include "daemon/tools/calibrate/camera_fit.h"
+#include "daemon/tools/calibrate/coverage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mfar::calibration {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+// With less the focal length and the distance can be exchanged for each other.
+constexpr double kLeastTilt = 12 * kDegree;
+constexpr double kLeastDepth = 1.2;     // farthest corner / nearest corner
+constexpr double kLeastCoverage = 0.6;  // share of the cells
+constexpr double kMostlyAt = 0.9;       // quantile that single views cannot move
+
+double quantile(std::vector<double> values, double q) {
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+struct Spread {
+    double tilt = 0;   ///< of the target's normals around their mean, and of the mean view [rad]
+    double depth = 1;  ///< farthest corner / nearest corner
+};
+
+Spread spreadOf(const Target& target, const std::vector<TargetView>& views, Size picture) {
+    const CameraModel camera = guessedCamera(picture);
+    std::vector<Eigen::Vector3d> normals;
+    std::vector<double> depths;
+    for (const TargetView& view : views) {
+        const auto T = targetPose(target, view, camera);
+        if (!T) continue;
+        normals.emplace_back(T->rotation * Eigen::Vector3d::UnitZ());
+        for (const Corner& c : view.corners)
+            depths.push_back((*T * target.points[c.index]).z());
+    }
+    Spread out;
+    if (normals.empty()) return out;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& n : normals)
+        mean += n;
+    std::vector<double> angles;
+    for (const Eigen::Vector3d& n : normals)
+        angles.push_back(std::acos(std::clamp(n.dot(mean.normalized()), -1., 1.)));
+    out.tilt = quantile(angles, kMostlyAt);
+    out.depth = quantile(depths, kMostlyAt) / quantile(depths, 1 - kMostlyAt);
+    return out;
+}
+
+}  // namespace
+
+void checkViews(const Target& target, const std::vector<TargetView>& views, Size picture,
+                const std::string& sensor, int leastViews) {
+    const int count = static_cast<int>(views.size());
+    if (count < leastViews)
+        throw Unsuitable(fmt::format("too few views: {} pictures of the {} show the target, at "
+                                     "least {} are needed",
+                                     count, sensor, leastViews));
+    const Spread spread = spreadOf(target, views, picture);
+    if (!(spread.tilt >= kLeastTilt))
+        throw Unsuitable(
+            fmt::format("the {} saw the target from nearly one direction (tilted by {:.0f} "
+                        "degrees, at least {:.0f} are needed): tilt it to all sides",
+                        sensor, spread.tilt / kDegree, kLeastTilt / kDegree));
+    if (!(spread.depth >= kLeastDepth))
+        throw Unsuitable(fmt::format("the {} saw the target at nearly one distance (farthest to "
+                                     "nearest corner {:.2f} to 1, at least {:.2f} is needed): come "
+                                     "closer and go farther",
+                                     sensor, spread.depth, kLeastDepth));
+    Coverage coverage(picture);
+    for (const TargetView& view : views)
+        coverage.add(view.corners);
+    if (!(coverage.share() >= kLeastCoverage))
+        throw Unsuitable(fmt::format("the target was seen in {:.0f} % of the {}'s picture only, at "
+                                     "least {:.0f} % are needed: show it at {}",
+                                     100 * coverage.share(), sensor, 100 * kLeastCoverage,
+                                     coverage.emptiest()));
+}
+
+}  // namespace mfar::calibration

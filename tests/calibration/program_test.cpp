@@ -1,0 +1,101 @@
+#include "pipeline/calibration/rig_files.h"
+#include "tests/unit/temp_folder.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <string>
+
+/// mfar-calibrate as a user runs it, on pictures that mfar-sim took of a target.
+namespace mfar::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int status = -1;
+    std::string text;  ///< standard output and error
+};
+
+Outcome execute(const TempFolder& folder, const std::string& command) {
+    const fs::path log = folder / "log.txt";
+    const int raw = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());
+    return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, readFile(log)};
+}
+
+/// The still sensor's clock is now `ns` ahead.
+void shiftStills(const fs::path& recording, long long ns) {
+    std::istringstream in(readFile(recording / "cam1/data.csv"));
+    std::string out;
+    for (std::string line; std::getline(in, line);) {
+        long long time = 0;
+        const std::size_t comma = line.find(',');
+        if (line[0] != '#' && comma != line.npos) {
+            std::from_chars(line.data(), line.data() + comma, time);
+            line = std::to_string(time + ns) + line.substr(comma);
+        }
+        out += line + "\n";
+    }
+    writeFile(recording / "cam1/data.csv", out);
+}
+
+void expectCamera(const CameraModel& found, const CameraModel& truth) {
+    EXPECT_NEAR(found.fx, truth.fx, 1e-3 * truth.fx);
+    EXPECT_NEAR(found.fy, truth.fy, 1e-3 * truth.fy);
+    EXPECT_NEAR(found.cx, truth.cx, 0.5);
+    EXPECT_NEAR(found.cy, truth.cy, 0.5);
+}
+
+TEST(MfarCalibrate, RecoversTheRigFromARecording) {
+    const TempFolder folder;
+    const std::string recording = (folder / "recording").string(), out = (folder / "out").string();
+    const Outcome made = execute(
+        folder, fmt::format("{} --scene calibration --seconds 5 --rate 8 --stills 2 --no-truth "
+                            "--out {}",
+                            MFAR_SIM, recording));
+    ASSERT_EQ(made.status, 0) << made.text;
+    shiftStills(recording, 25'000'000);
+    const Outcome ran = execute(folder, fmt::format("{} {} --aprilgrid {}/aprilgrid.yaml --out {}",
+                                                    MFAR_CALIBRATE, recording, recording, out));
+    ASSERT_EQ(ran.status, 0) << ran.text;
+    const RigCalibration truth = loadRig(recording), found = loadRig(out);
+    expectCamera(found.rig.video, truth.rig.video);
+    expectCamera(found.rig.still, truth.rig.still);
+    const double baseline = truth.rig.T_still_video.translation.norm();
+    EXPECT_NEAR(found.rig.T_still_video.translation.norm(), baseline, 0.01 * baseline);
+    EXPECT_NEAR(found.stillTimeOffset, -0.025, 0.001);
+    EXPECT_TRUE(fs::exists(fs::path(out) / "residuals.png"));
+    for (const char* const words : {"% covered", "video views", "still views", "mm apart", "+-"})
+        EXPECT_NE(ran.text.find(words), std::string::npos) << words << " in\n" << ran.text;
+}
+
+TEST(MfarCalibrate, OneMomentIsNotEnoughAndNothingIsWritten) {
+    const TempFolder folder;
+    const std::string recording = (folder / "recording").string(), out = (folder / "out").string();
+    const Outcome made = execute(folder, fmt::format("{} --scene calibration --path rest --seconds "
+                                                     "0.2 --stills 5 --no-truth --out {}",
+                                                     MFAR_SIM, recording));
+    ASSERT_EQ(made.status, 0) << made.text;
+    const auto calibrate = [&](const std::string& target) {
+        return execute(folder,
+                       fmt::format("{} {} {} --out {}", MFAR_CALIBRATE, recording, target, out));
+    };
+    const Outcome ran = calibrate("--aprilgrid " + recording + "/aprilgrid.yaml");
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_NE(ran.text.find("mfar-calibrate: too few views"), std::string::npos) << ran.text;
+    EXPECT_FALSE(fs::exists(out));
+    EXPECT_NE(calibrate("").text.find("the target is needed"), std::string::npos);
+    EXPECT_NE(calibrate("--checkerboard 8x6 --square 0.02").text.find("upside down"),
+              std::string::npos);
+    EXPECT_NE(calibrate("--aprilgrid none.yaml").text.find("none.yaml: is missing"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace mfar::test
