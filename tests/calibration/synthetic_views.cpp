@@ -2,6 +2,7 @@
 
 #include "hal/virtual/synthetic_scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -17,6 +18,10 @@ constexpr double kRateHz = 30;
 
 /// T_video_target: tilted to all sides, near and far, the target in every part of the picture.
 RigidTransform poseAt(const Target& target, const Motion& m, double t) {
+    if (m.rests) {
+        const double second = std::floor(t), s = std::max(0., (t - second - 0.8) / 0.2);
+        t = second + s * s * (3 - 2 * s);
+    }
     const auto swing = [t](double amplitude, double period, double phase) {
         return amplitude * std::sin(2 * std::numbers::pi * (t / period + phase));
     };
@@ -64,7 +69,7 @@ BothViews makeViews(const Target& target, const Motion& motion) {
     for (double t = 0; t < motion.seconds; t += 1 / kRateHz)
         out.video.views.push_back(
             {time(t), project(target, rig.video, poseAt(target, motion, t), motion.noise, random)});
-    for (double t = 0.3; t < motion.seconds - 0.3; t += 1 / motion.stillsHz + 0.0071) {
+    for (double t = 0.4; t < motion.seconds - 0.4; t += 1 / motion.stillsHz + 0.0031) {
         const RigidTransform T = rig.T_still_video * poseAt(target, motion, t);
         out.still.views.push_back(
             {time(t - motion.offset), project(target, rig.still, T, motion.noise, random)});

@@ -14,6 +14,7 @@ struct Motion {
     double offset = 0;       ///< [s] still's time + offset = video's time
     double seconds = 12;
     double stillsHz = 2;
+    bool rests = false;  ///< the board rests where stills are taken, and moves in between
     double noise = 0.1;  ///< of a corner's coordinate in both pictures [px]
     std::uint64_t seed = 1;
 };

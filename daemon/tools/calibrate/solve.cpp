@@ -14,7 +14,9 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
-constexpr double kMaxOffsetDeviation = 0.002;    // [s]; beyond it the offset is not known
+constexpr double kMaxOffsetDeviation = 0.002;  // [s]; beyond it the offset is not known
+constexpr double kLeastMotion = 1;             // [px of the video] over three frame intervals
+constexpr int kLeastMoving = 3;  // stills that the offset of the clocks is measured with
 constexpr double kMaxFocalDeviation = 0.005;     // of the focal length
 constexpr double kMaxBaselineDeviation = 0.002;  // [m]
 
@@ -37,10 +39,11 @@ public:
             track_.add(video_.views[i].time, *videoFit_.poses[i]);
             trackViews_.push_back(i);
         }
+        if (movingStills() < kLeastMoving) options_.maxOffset = 0;
         std::vector<StillPose> stills;
         for (std::size_t i = 0; i < still_.views.size(); ++i)
             if (stillFit_.poses[i]) stills.push_back({still_.views[i].time, *stillFit_.poses[i]});
-        start_ = startOfRig(track_, stills, options.maxOffset);
+        start_ = startOfRig(track_, stills, options_.maxOffset);
         if (start_.stills < kLeastPairs)
             throw Unsuitable(fmt::format("only {} stills were taken while the video saw the "
                                          "target, at least {} are needed",
@@ -63,6 +66,28 @@ public:
     }
 
 private:
+    /// Stills around which the video moves by more than noise; at rest, noise passes for motion and
+    /// makes up an offset with a small deviation.
+    [[nodiscard]] int movingStills() const {
+        const CameraModel& camera = videoFit_.camera;
+        const auto seen = [&](const RigidTransform& T, const Eigen::Vector3d& point) {
+            const Eigen::Vector3d p = T * point;
+            return Eigen::Vector2d(camera.fx * p.x() / p.z(), camera.fy * p.y() / p.z());
+        };
+        int out = 0;
+        for (const TargetView& still : still_.views) {
+            const auto nodes = track_.around(still.time);
+            if (!nodes || still.corners.empty()) continue;
+            double sum = 0;
+            for (const Corner& c : still.corners)
+                sum += (seen(track_.pose((*nodes)[3]), target_.points[c.index]) -
+                        seen(track_.pose((*nodes)[0]), target_.points[c.index]))
+                           .norm();
+            out += sum / static_cast<double>(still.corners.size()) >= kLeastMotion ? 1 : 0;
+        }
+        return out;
+    }
+
     int poseOf(RigBundle& bundle, int videoView) {
         const auto [at, isNew] = videoPoses_.try_emplace(videoView, 0);
         if (isNew) {
@@ -129,10 +154,10 @@ private:
         for (const Member& m : stillMembers_) {
             const TargetView& view = still_.views[m.view];
             const auto T_video_target = track_.at({view.time.ns + shift});
-            errors.push_back(rms(T_video_target ? residualsOf(target_, view, bundle.rig().still,
-                                                              bundle.rig().T_still_video *
-                                                                  *T_video_target)
-                                                : bundle.residuals(m.index)));
+            errors.push_back(rms(T_video_target
+                                     ? residualsOf(target_, view, bundle.rig().still,
+                                                   bundle.rig().T_still_video * *T_video_target)
+                                     : bundle.residuals(m.index)));
         }
         const std::vector<bool> bad = outliers(errors);
         bool any = false;
@@ -174,7 +199,7 @@ private:
 
     const Target& target_;
     SensorViews video_, still_;  ///< less the corners that do not fit
-    const SolveOptions& options_;
+    SolveOptions options_;
     CameraFit videoFit_, stillFit_;
     PoseTrack track_;
     std::vector<int> trackViews_;  ///< view of the video behind a pose of the track
