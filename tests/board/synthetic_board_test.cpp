@@ -32,7 +32,8 @@ struct Delivery {
     std::vector<std::size_t> stillsAfterFrame;  ///< video frames given out before each still
 };
 
-/// Pulses at the given frames, one thread, until the board ends.
+/// Pulses at the given frames, one thread, until the board ends. Polls for stills while frames
+/// come; after them only a caller who waits gets what is left.
 Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses) {
     Delivery out;
     board.video().start();
@@ -44,7 +45,8 @@ Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses)
             for (const std::size_t p : pulses)
                 if (p == out.videoTimes.size()) board.trigger().fire();
         }
-        while (const auto still = board.stills().next(0ms)) {
+        const std::chrono::milliseconds wait = board.video().ended() ? 60s : 0s;
+        while (const auto still = board.stills().next(wait)) {
             out.stillTimes.push_back(still->time());
             out.pictures.push_back(bytes(*still));
             out.stillsAfterFrame.push_back(out.videoTimes.size());
