@@ -36,12 +36,18 @@ ends_with 0 $limit
 
 echo "while the reader of the display pipe takes nothing"
 exec 3<>pipe
-start --recording run --display y4m:pipe --summary summary.json
-until_true started
-sleep 1
-kill -TERM "$pid"
-ends_with 0 $limit
-summary_has exit_reason '"SIGTERM"'
+# The threads get half a second to give up, then mfard ends without them. A starved machine may need
+# longer, which is as good an end; on any other they make it, so one of a few tries must.
+for _ in $(seq "$patience"); do
+    start --recording run --display y4m:pipe --summary summary.json
+    until_true started
+    sleep 1
+    kill -TERM "$pid"
+    ends_with 0 $limit
+    summary_has exit_reason '"SIGTERM"'
+    if grep -q 'not everything was written' err; then break; fi
+    says err 'did not end in time'
+done
 says err 'not everything was written'
 
 echo "a second signal ends it at once"
