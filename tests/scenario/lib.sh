@@ -46,6 +46,8 @@ run() {
 
 # start ARGUMENT...: mfard in the background, its id in $pid.
 start() {
+    # Here, as what the last one said would pass for its words until the new process runs.
+    : >err
     "$mfard" "$@" >out 2>err &
     pid=$!
     pids+=("$pid")
