@@ -22,12 +22,12 @@ CapturedFrame FramePairer::pair(Frame video, Timestamp arrived) {
     for (;;) {
         if (!upcoming_) upcoming_ = nextStill_();
         if (!upcoming_ || upcoming_->time() > paired.video.time()) return paired;
-        paired.still = std::exchange(upcoming_, std::nullopt);
+        paired.still = CapturedStill{*std::exchange(upcoming_, std::nullopt)};
     }
 }
 
-CaptureThread::CaptureThread(Rig& rig, Stats& stats, Mailbox<CapturedFrame>& out)
-    : rig_(rig), stats_(stats), out_(out) {
+CaptureThread::CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<CapturedFrame>& out)
+    : rig_(rig), poses_(poses), stats_(stats), out_(out) {
     try {
         rig_.video().start();
         rig_.still().start();
@@ -79,7 +79,10 @@ bool CaptureThread::captureOne(FramePairer& pairer) {
     const Timestamp arrived = Timestamp::now();
     countGap(video->time());
     rig_.recordVideo(*video);
-    const auto put = out_.put(pairer.pair(std::move(*video), arrived));
+    CapturedFrame captured = pairer.pair(std::move(*video), arrived);
+    captured.pose = poses_.ofVideo(captured.video);
+    if (captured.still) captured.still->pose = poses_.ofStill(captured.still->frame);
+    const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());
     return put != Mailbox<CapturedFrame>::Put::Closed;
 }

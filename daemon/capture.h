@@ -1,6 +1,7 @@
 #pragma once
 
 #include "daemon/mailbox.h"
+#include "daemon/pose_finder.h"
 #include "daemon/rig.h"
 #include "daemon/stats.h"
 #include "hal/camera.h"
@@ -14,11 +15,18 @@
 
 namespace mfar {
 
+/// A still and the video camera's pose at its time, where that is known.
+struct CapturedStill {
+    Frame frame;
+    std::optional<Pose> pose{};
+};
+
 /// A video frame and the newest still that is not younger than it and has not been handed over.
 struct CapturedFrame {
     Frame video;
-    std::optional<Frame> still;
-    Timestamp arrived;  ///< in the daemon, CLOCK_MONOTONIC
+    std::optional<CapturedStill> still;
+    Timestamp arrived;           ///< in the daemon, CLOCK_MONOTONIC
+    std::optional<Pose> pose{};  ///< of the video frame
 
     /// A dropped video frame must not take its still with it.
     void supersede(CapturedFrame&& older) {
@@ -42,11 +50,12 @@ private:
     std::optional<Frame> upcoming_;  ///< younger than the last video frame
 };
 
-/// The thread that fetches frames from the rig's cameras and hands them to the mailbox.
+/// The thread that fetches frames from the rig's cameras, has their poses found and hands them to
+/// the mailbox. So tags are sought beside the GL thread's work on the frame before.
 class CaptureThread {
 public:
     /// Starts the cameras and the thread. All arguments must outlive this. Throws Failure.
-    CaptureThread(Rig& rig, Stats& stats, Mailbox<CapturedFrame>& out);
+    CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<CapturedFrame>& out);
     CaptureThread(const CaptureThread&) = delete;
     CaptureThread& operator=(const CaptureThread&) = delete;
     ~CaptureThread();
@@ -64,6 +73,7 @@ private:
     void countGap(Timestamp time);
 
     Rig& rig_;
+    PoseFinder& poses_;
     Stats& stats_;
     Mailbox<CapturedFrame>& out_;
     std::optional<Timestamp> lastVideo_;

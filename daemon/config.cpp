@@ -56,6 +56,9 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     file.choice<SuperResMode>("superres.mode", config.superres.mode, kSuperResModes);
     file.boolean("superres.skip_unchanged", config.superres.skipUnchanged);
     readTrigger(file, config.trigger);
+    readPose(file, config.pose);
+    if (!config.pose.tags.empty())
+        config.pose.tags = std::filesystem::path(fileName).parent_path() / config.pose.tags;
     std::string recordTo;
     file.text("record.directory", recordTo);
     config.recordTo = recordTo;
@@ -88,6 +91,8 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.pace == wanted.pace, "pace");
     compare(running.seed == wanted.seed, "seed");
     compare(running.recordTo == wanted.recordTo, "record.directory");
+    // Another tag map is another world, and a tracker that starts anew has no pose for a while.
+    compare(running.pose == wanted.pose, "pose");
     return names;
 }
 

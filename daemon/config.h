@@ -1,6 +1,7 @@
 #pragma once
 
 #include "daemon/exit_code.h"
+#include "daemon/pose_config.h"
 #include "daemon/still_policy.h"
 #include "pipeline/pipeline.h"
 
@@ -42,6 +43,7 @@ struct Config {
     std::filesystem::path recordTo;  ///< empty: nothing is recorded
     SuperResConfig superres;
     TriggerConfig trigger;
+    PoseConfig pose;
     StatusConfig status;
 };
 
@@ -52,7 +54,8 @@ public:
     explicit ConfigError(const std::string& message) : Failure(ExitCode::BadConfig, message) {}
 };
 
-/// Reads text as configuration; keys that are absent keep their defaults. `file` is for messages.
+/// Reads text as configuration; keys that are absent keep their defaults. `file` is for messages,
+/// and a tag map without an absolute path is beside it.
 /// Throws ConfigError with every fault found.
 [[nodiscard]] Config parseConfig(std::string_view toml, const std::string& file);
 

@@ -25,6 +25,7 @@ CLI::Validator oneOf(std::optional<E> (*meaning)(std::string_view), const char* 
 struct Words {
     std::string mode;
     std::string pace;
+    std::string pose;
 };
 
 void addInputs(CLI::App& app, Options& options, Words& words) {
@@ -47,6 +48,10 @@ void addInputs(CLI::App& app, Options& options, Words& words) {
                    "auto (default): consumer for recordings, realtime for the rest")
         ->check(oneOf(sourcePace, "auto, realtime, consumer"))
         ->type_name("PACE");
+    app.add_option("--pose", words.pose,
+                   "Where the camera's pose comes from: tags (default), recorded or none")
+        ->check(oneOf(poseOrigin, "tags, recorded, none"))
+        ->type_name("POSE");
     app.add_option("--seed", options.seed, "Random numbers of the synthetic source")
         ->type_name("N");
 }
@@ -102,6 +107,7 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
         throw Failure(ExitCode::Usage, "--seconds must be more than 0 and at most 1e7");
     if (!words.mode.empty()) line.options.mode = superResMode(words.mode);
     if (!words.pace.empty()) line.options.pace = sourcePace(words.pace);
+    if (!words.pose.empty()) line.options.pose = poseOrigin(words.pose);
     return line;
 }
 
@@ -116,8 +122,12 @@ Config effectiveConfig(const Options& options) {
     if (options.recordTo) config.recordTo = *options.recordTo;
     if (options.mode) config.superres.mode = *options.mode;
     if (options.pace) config.pace = *options.pace;
+    if (options.pose) config.pose.source = *options.pose;
     if (options.seed) config.seed = *options.seed;
     if (options.measure) config.status.measure = true;
+    if (config.pose.source == PoseOrigin::Recorded && config.recording.empty())
+        throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording");
+    (void)configuredTags(config.pose);
     return config;
 }
 

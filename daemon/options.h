@@ -19,6 +19,7 @@ struct Options {
     std::optional<std::filesystem::path> recordTo;
     std::optional<SuperResMode> mode;
     std::optional<SourcePace> pace;
+    std::optional<PoseOrigin> pose;
     std::optional<std::uint64_t> seed;
     std::optional<std::uint64_t> frames;           ///< end after that many pictures
     std::optional<double> seconds;                 ///< end after that time
@@ -35,8 +36,9 @@ struct CommandLine {
 /// Throws Failure(Usage).
 [[nodiscard]] CommandLine parseCommandLine(int argc, const char* const* argv);
 
-/// The file named by --config, if any, with the command line's wishes on top. Throws ConfigError
-/// and Failure(NoInput).
+/// The file named by --config, if any, with the command line's wishes on top. Throws ConfigError,
+/// Failure(NoInput) for a missing file or tag map, Failure(BadData) for a tag map that is wrong and
+/// Failure(BadConfig) for what does not go together.
 [[nodiscard]] Config effectiveConfig(const Options& options);
 
 }  // namespace mfar

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <functional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace mfar {
 namespace {
@@ -69,6 +71,10 @@ public:
     [[nodiscard]] virtual Camera& still() = 0;
     [[nodiscard]] virtual Trigger* trigger() = 0;
     [[nodiscard]] virtual std::string name() const = 0;
+    /// Tags where they are known, else empty.
+    [[nodiscard]] virtual TagMap tags() const = 0;
+    /// Empty where poses are not recorded.
+    [[nodiscard]] virtual std::function<std::optional<Pose>(Timestamp)> recordedPoses() const = 0;
 
     HandOver handOver = HandOver::NewestWins;
     ExitCode failure = ExitCode::Unavailable;
@@ -93,6 +99,17 @@ struct Rig::Synthetic final : Rig::Source {
     [[nodiscard]] Camera& still() override { return board.stills(); }
     [[nodiscard]] Trigger* trigger() override { return &board.trigger(); }
     [[nodiscard]] std::string name() const override { return source; }
+    [[nodiscard]] TagMap tags() const override {
+        std::vector<MappedTag> known;
+        for (const synthetic::Tag& tag : board.world().tags)
+            // One that moves says nothing about where the camera is.
+            if (!tag.moves)
+                known.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
+        return TagMap(known);
+    }
+    [[nodiscard]] std::function<std::optional<Pose>(Timestamp)> recordedPoses() const override {
+        return {};
+    }
 
     std::string source;
     SyntheticBoard board;
@@ -121,6 +138,14 @@ struct Rig::Played final : Rig::Source {
     [[nodiscard]] Trigger* trigger() override { return nullptr; }
     [[nodiscard]] std::string name() const override {
         return "recording " + player.recording().root.string();
+    }
+    [[nodiscard]] TagMap tags() const override {
+        const std::filesystem::path file = player.recording().root / "tags.toml";
+        return std::filesystem::exists(file) ? readTagMap(file) : TagMap();
+    }
+    [[nodiscard]] std::function<std::optional<Pose>(Timestamp)> recordedPoses() const override {
+        if (player.recording().poses.empty()) return {};
+        return [this](Timestamp t) { return player.recording().poseAt(t); };
     }
 
     RecordingPlayer player;
@@ -170,6 +195,11 @@ HandOver Rig::handOver() const {
 
 std::optional<std::uint64_t> Rig::videoFrames() const {
     return source_->videoFrames;
+}
+
+PoseInputs Rig::poseInputs() const {
+    return {source_->name(), geometry(), source_->video().info().rateHz, source_->tags(),
+            source_->recordedPoses()};
 }
 
 std::string Rig::description() const {

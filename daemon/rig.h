@@ -3,6 +3,7 @@
 #include "daemon/config.h"
 #include "daemon/exit_code.h"
 #include "daemon/mailbox.h"
+#include "daemon/pose_finder.h"
 #include "hal/camera.h"
 #include "hal/display.h"
 #include "hal/trigger.h"
@@ -34,6 +35,9 @@ public:
     [[nodiscard]] HandOver handOver() const;
     /// How many video frames there will be at most, where that is known.
     [[nodiscard]] std::optional<std::uint64_t> videoFrames() const;
+    /// What is known about poses: a recording's tags.toml and poses, the synthetic board's tags.
+    /// Valid as long as the rig. Throws Failure for a tags.toml that is wrong.
+    [[nodiscard]] PoseInputs poseInputs() const;
     /// "synthetic office: video 640x480 at 30 Hz, still 2304x1728"
     [[nodiscard]] std::string description() const;
     /// What it means when a camera fails.

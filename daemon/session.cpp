@@ -23,27 +23,29 @@ std::unique_ptr<GlContext> openGl() {
 // The context comes after the rig: a synthetic source has its own, and this one has to be current
 // on this thread at the end.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes, StopTokens stop)
-    : stats_(stats), changes_(changes), stop_(std::move(stop)), rig_(config), gl_(openGl()),
+    : stats_(stats), changes_(changes), stop_(std::move(stop)), rig_(config),
+      poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl()),
       pipeline_(rig_.geometry(), {config.superres.mode, {}, config.superres.skipUnchanged}),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
       policy_(config.trigger) {
     pipeline_.setMeasure(config.status.measure);
-    description_ = {gl_->description(), rig_.description(),
-                    display_->name(),   std::string(name(config.superres.mode)),
-                    rig_.videoFrames(), std::nullopt};
+    description_ = {gl_->description(),  rig_.description(),
+                    display_->name(),    std::string(name(config.superres.mode)),
+                    rig_.videoFrames(),  std::nullopt,
+                    poses_.description()};
 }
 
 Session::~Session() = default;
 
 std::string Session::startLine() const {
     const Size out = pipeline_.outputSize();
-    return fmt::format("{}; {}; display {}, {}x{}", description_.renderer, description_.source,
-                       description_.display, out.width, out.height);
+    return fmt::format("{}; {}; {}; display {}, {}x{}", description_.renderer, description_.source,
+                       description_.poses, description_.display, out.width, out.height);
 }
 
 std::string Session::run(std::optional<std::uint64_t> maxFrames) {
     Mailbox<CapturedFrame> mailbox(rig_.handOver());
-    CaptureThread capture(rig_, stats_, mailbox);
+    CaptureThread capture(rig_, poses_, stats_, mailbox);
     const std::stop_callback onStop(stop_.input, [&] { capture.stop(); });
     bool enough = false;
     while (!enough) {
@@ -77,7 +79,7 @@ void Session::apply(const Tunables& wanted) {
 void Session::process(CapturedFrame captured) {
     if (captured.still) useStill(*std::exchange(captured.still, std::nullopt));
     const Timestamp time = captured.video.time();
-    const FrameResult& result = pipeline_.run(captured.video.view(), time);
+    const FrameResult& result = pipeline_.run(captured.video.view(), time, captured.pose);
     // Before the display, which may wait: the exposure runs meanwhile.
     askForStill(time, result.stats);
     previous_ = time;
@@ -90,10 +92,10 @@ void Session::process(CapturedFrame captured) {
     rig_.checkRecording();
 }
 
-void Session::useStill(const Frame& still) {
-    pipeline_.setStill(still.view(), still.time());
-    stillTime_ = still.time();
-    policy_.stillArrived(still.time());
+void Session::useStill(const CapturedStill& still) {
+    pipeline_.setStill(still.frame.view(), still.frame.time(), still.pose);
+    stillTime_ = still.frame.time();
+    policy_.stillArrived(still.frame.time());
     stats_.stillUsed();
 }
 

@@ -3,6 +3,7 @@
 #include "daemon/capture.h"
 #include "daemon/config.h"
 #include "daemon/mailbox.h"
+#include "daemon/pose_finder.h"
 #include "daemon/rig.h"
 #include "daemon/stats.h"
 #include "daemon/status.h"
@@ -55,7 +56,7 @@ public:
 private:
     void apply(const Tunables& wanted);
     void process(CapturedFrame captured);
-    void useStill(const Frame& still);
+    void useStill(const CapturedStill& still);
     void askForStill(Timestamp frame, const FrameStats& stats);
     void show(const GlImage& image, Timestamp time);
 
@@ -63,6 +64,7 @@ private:
     Mailbox<Tunables>& changes_;
     StopTokens stop_;
     Rig rig_;
+    PoseFinder poses_;
     std::unique_ptr<GlContext> gl_;
     Pipeline pipeline_;
     std::unique_ptr<Display> display_;

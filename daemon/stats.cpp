@@ -39,6 +39,7 @@ void Stats::picture(const Picture& picture) {
         confidenceSum_ += picture.stats.meanConfidence;
         ++confidenceFrames_;
     }
+    if (picture.stats.usedPose) ++counted_.epipolarFrames;
     counted_.last = picture.stats;
     counted_.lastStages = picture.stages;
     counted_.stillAgeS = picture.stillAgeS;
@@ -57,6 +58,16 @@ void Stats::stillReceived() {
 void Stats::stillUsed() {
     const std::lock_guard lock(mutex_);
     ++counted_.stills.used;
+}
+
+void Stats::framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker) {
+    const std::lock_guard lock(mutex_);
+    counted_.poses.addFrame(pose, tracker);
+}
+
+void Stats::stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms) {
+    const std::lock_guard lock(mutex_);
+    counted_.poses.addStill(pose, ms);
 }
 
 void Stats::triggers(std::uint64_t fired, std::uint64_t lost) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "daemon/histogram.h"
+#include "daemon/pose_counts.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/results.h"
 
@@ -40,6 +41,8 @@ struct Counted {
     double meanConfidence = 0;  ///< over the frames that used a still
     Drops drops;
     StillCounts stills;
+    PoseCounts poses;
+    std::uint64_t epipolarFrames = 0;  ///< pictures that were matched along epipolar lines
     FrameStats last;
     std::vector<StageTime> lastStages;
     std::optional<double> stillAgeS;  ///< at the last frame
@@ -61,6 +64,9 @@ public:
     void videoGap(std::uint64_t frames);
     void stillReceived();
     void stillUsed();
+    /// See PoseCounts.
+    void framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker);
+    void stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms);
     void triggers(std::uint64_t fired, std::uint64_t lost);
     void mailboxDropped(std::uint64_t total);
     void recorderDropped(std::uint64_t total);

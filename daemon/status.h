@@ -18,6 +18,7 @@ struct RunDescription {
     std::string mode;
     std::optional<std::uint64_t> plannedFrames;  ///< recording or --frames: how many there will be
     std::optional<double> plannedSeconds;        ///< --seconds
+    std::string poses;                           ///< where they come from
 };
 
 /// One line for the terminal: with a bar where the end is known. `elapsedS` since the first frame.

@@ -59,7 +59,8 @@ TomlReader::TomlReader(std::string_view text, std::string file) : file_(std::mov
     }
 }
 
-void TomlReader::number(std::string_view key, double& out, double least, double most) {
+void TomlReader::number(std::string_view key, double& out, double least, double most,
+                        const NumberCheck& check) {
     const toml::node* node = find(key);
     if (node == nullptr) return;
     if (!node->is_number())
@@ -68,6 +69,8 @@ void TomlReader::number(std::string_view key, double& out, double least, double 
     if (!(value >= least && value <= most))
         return fault(node->source(),
                      fmt::format("{} must be from {} to {}, not {}", key, least, most, value));
+    if (const std::optional<std::string> wrong = check ? check(value) : std::nullopt)
+        return fault(node->source(), fmt::format("{} = {}: {}", key, value, *wrong));
     out = value;
 }
 
@@ -81,6 +84,19 @@ void TomlReader::integer(std::string_view key, std::uint64_t& out) {
     if (value < 0)
         return fault(node->source(), fmt::format("{} must not be negative: {}", key, value));
     out = static_cast<std::uint64_t>(value);
+}
+
+void TomlReader::integer(std::string_view key, int& out, int least, int most) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    if (!node->is_integer())
+        return fault(node->source(),
+                     fmt::format("{} must be a whole number, not {}", key, kind(*node)));
+    const std::int64_t value = node->value<std::int64_t>().value();
+    if (value < least || value > most)
+        return fault(node->source(),
+                     fmt::format("{} must be from {} to {}, not {}", key, least, most, value));
+    out = static_cast<int>(value);
 }
 
 void TomlReader::boolean(std::string_view key, bool& out) {
@@ -102,6 +118,27 @@ void TomlReader::text(std::string_view key, std::string& out, const Check& check
     if (const std::optional<std::string> wrong = check ? check(value) : std::nullopt)
         return fault(node->source(), fmt::format("{} = \"{}\": {}", key, value, *wrong));
     out = std::move(value);
+}
+
+void TomlReader::texts(std::string_view key, std::vector<std::string>& out, const Check& check) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    const toml::array* list = node->as_array();
+    if (list == nullptr || list->empty())
+        return fault(node->source(), fmt::format("{} must be a list of texts in quotes, not {}",
+                                                 key, list ? "an empty one" : kind(*node)));
+    std::vector<std::string> values;
+    for (const toml::node& element : *list) {
+        if (!element.is_string())
+            return fault(element.source(),
+                         fmt::format("{} must be a list of texts in quotes, and not hold {}", key,
+                                     kind(element)));
+        std::string value = element.value<std::string>().value();
+        if (const std::optional<std::string> wrong = check ? check(value) : std::nullopt)
+            return fault(element.source(), fmt::format("{} \"{}\": {}", key, value, *wrong));
+        values.push_back(std::move(value));
+    }
+    out = std::move(values);
 }
 
 void TomlReader::finish() {

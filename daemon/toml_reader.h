@@ -20,15 +20,22 @@ public:
     /// Says what is wrong with a text, nothing when it is good.
     using Check = std::function<std::optional<std::string>(std::string_view)>;
 
+    /// The same for a number that is in its range.
+    using NumberCheck = std::function<std::optional<std::string>(double)>;
+
     /// `file` is for messages. Throws ConfigError on broken syntax.
     TomlReader(std::string_view text, std::string file);
 
     /// Each takes a key "name" or "section.name" and leaves `out` alone when it is absent or wrong.
-    void number(std::string_view key, double& out, double least, double most);
+    void number(std::string_view key, double& out, double least, double most,
+                const NumberCheck& check = nullptr);
     void integer(std::string_view key, std::uint64_t& out);
+    void integer(std::string_view key, int& out, int least, int most);
     void boolean(std::string_view key, bool& out);
     /// The text is good when `check` says nothing.
     void text(std::string_view key, std::string& out, const Check& check = nullptr);
+    /// A list of texts, at least one, each good for `check`.
+    void texts(std::string_view key, std::vector<std::string>& out, const Check& check = nullptr);
     template <class E>
     void choice(std::string_view key, E& out,
                 std::span<const std::pair<std::string_view, E>> words);

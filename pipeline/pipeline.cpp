@@ -94,6 +94,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
 
     s.result.stats = s.superres.statsBefore();
     s.result.stats.usedStill = useStill;
+    s.result.stats.usedPose = useStill && pose && s.epipolar.hasStill();
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
     return s.result;
 }

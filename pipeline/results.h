@@ -34,6 +34,7 @@ struct FrameStats {
     double explained = 0;  ///< share of tiles that are flat or that the still accounts for, [0, 1]
     double changed = 0;    ///< share of tiles whose video differs from when they were last drawn
     bool usedStill = false;
+    bool usedPose = false;  ///< matched along epipolar lines, as the poses of both were known
 };
 
 /// What Pipeline::run gives back. Valid until the next run.

@@ -26,6 +26,7 @@ void expectSame(const Config& a, const Config& b) {
     EXPECT_EQ(needRestart(a, b), "");
     EXPECT_EQ(a.superres, b.superres);
     EXPECT_EQ(a.trigger, b.trigger);
+    EXPECT_EQ(a.pose, b.pose);
     EXPECT_EQ(a.status, b.status);
 }
 
@@ -54,6 +55,15 @@ explained_below = 0.25
 max_age_s = 3.5
 min_interval_s = 1
 timeout_s = 0.5
+[pose]
+source = "recorded"
+tags = "/data/tags.toml"
+families = ["tag25h9", "tag16h5", "tag25h9"]
+tag_size = 0.05
+decimation = 1.5
+threads = 2
+full_search_interval = 30
+bridge_frames = 0
 [record]
 directory = "/data/new"
 [status]
@@ -68,6 +78,14 @@ measure = true
     EXPECT_EQ(config.seed, 42U);
     EXPECT_EQ(config.superres, (SuperResConfig{SuperResMode::Blend, false}));
     EXPECT_EQ(config.trigger, (TriggerConfig{TriggerMode::Rate, 4, 0.25, 3.5, 1, 0.5}));
+    PoseConfig pose{PoseOrigin::Recorded, "/data/tags.toml"};
+    pose.families = {TagFamily::Tag25h9, TagFamily::Tag16h5};
+    pose.tagSize = 0.05;
+    pose.decimation = 1.5;
+    pose.threads = 2;
+    pose.fullSearchInterval = 30;
+    pose.bridgeFrames = 0;
+    EXPECT_EQ(config.pose, pose);
     EXPECT_EQ(config.recordTo, "/data/new");
     EXPECT_EQ(config.status, (StatusConfig{0.5, true}));
 }
@@ -146,6 +164,37 @@ TEST(Config, AFileThatCannotBeReadIsAMissingInput) {
     }
 }
 
+TEST(Config, ATagMapIsBesideTheFileThatNamesIt) {
+    const char* text = "[pose]\ntags = \"maps/tags.toml\"\n";
+    EXPECT_EQ(parseConfig(text, "/etc/mfar/mfard.toml").pose.tags, "/etc/mfar/maps/tags.toml");
+    EXPECT_EQ(parseConfig(text, "mfard.toml").pose.tags, "maps/tags.toml");
+    EXPECT_EQ(parseConfig("", "/etc/mfar/mfard.toml").pose.tags, "") << "none named";
+}
+
+TEST(Config, EveryPoseKeyIsChecked) {
+    const std::pair<const char*, const char*> wrong[] = {
+        {"source = \"gps\"", "2:10: pose.source = \"gps\": must be one of \"tags\", \"recorded\""},
+        {"tags = 3", "2:8: pose.tags must be a text"},
+        {"families = \"tag36h11\"", "2:12: pose.families must be a list of texts"},
+        {"families = []", "2:12: pose.families must be a list of texts in quotes, not an empty"},
+        {"families = [\"tag36h11\", 4]", "2:25: pose.families must be a list of texts"},
+        {"families = [\"tag36h10\"]", "2:13: pose.families \"tag36h10\": must be one of"},
+        {"tag_size = 0.0", "2:12: pose.tag_size must be from 0.001 to 100"},
+        {"tag_size = nan", "2:12: pose.tag_size must be from 0.001 to 100"},
+        {"decimation = 2.5", "2:14: pose.decimation = 2.5: must be 1, 1.5 or a whole number"},
+        {"decimation = 9", "2:14: pose.decimation must be from 1 to 8"},
+        {"threads = 0", "2:11: pose.threads must be from 1 to 64"},
+        {"threads = 1.5", "2:11: pose.threads must be a whole number"},
+        {"full_search_interval = 0", "2:24: pose.full_search_interval must be from 1"},
+        {"bridge_frames = -1", "2:17: pose.bridge_frames must be from 0 to 300"},
+        {"tag_sise = 1", "2:1: unknown key pose.tag_sise; the nearest known one is pose.tag_size"},
+    };
+    for (const auto& [line, message] : wrong)
+        EXPECT_THAT(faults(std::string("[pose]\n") + line + "\n"),
+                    StartsWith(std::string("test.toml:") + message))
+            << line;
+}
+
 TEST(Config, NeedRestartNamesWhatCannotChangeWhileRunning) {
     Config wanted;
     wanted.superres.mode = SuperResMode::Off;
@@ -154,7 +203,8 @@ TEST(Config, NeedRestartNamesWhatCannotChangeWhileRunning) {
     EXPECT_EQ(needRestart(Config{}, wanted), "");
     wanted.display = "png:x";
     wanted.seed = 3;
-    EXPECT_EQ(needRestart(Config{}, wanted), "display, seed");
+    wanted.pose.threads = 2;
+    EXPECT_EQ(needRestart(Config{}, wanted), "display, seed, pose");
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ private:
 
 std::optional<double> stillTime(const CapturedFrame& captured) {
     if (!captured.still) return std::nullopt;
-    return captured.still->time().seconds();
+    return captured.still->frame.time().seconds();
 }
 
 TEST(FramePairer, NoStillNoPair) {
@@ -67,12 +67,20 @@ TEST(FramePairer, AStillThatComesLateIsNotLost) {
     EXPECT_EQ(stillTime(pairer.pair(frame(2), {})), 0.5);
 }
 
+Pose withTags(int tags) {
+    Pose pose;
+    pose.tags = tags;
+    return pose;
+}
+
 TEST(CapturedFrame, ADroppedFrameLeavesItsStillToTheNextOne) {
-    CapturedFrame older{frame(1), frame(0.5), {}};
+    CapturedFrame older{frame(1), CapturedStill{frame(0.5), withTags(3)}, {}};
     CapturedFrame newer{frame(2), std::nullopt, {}};
     newer.supersede(std::move(older));
     EXPECT_EQ(stillTime(newer), 0.5);
-    CapturedFrame newest{frame(3), frame(2.5), {}};
+    EXPECT_EQ(newer.still->pose.value().tags, 3) << "and the still its pose";
+    EXPECT_FALSE(newer.pose) << "which is not the frame's";
+    CapturedFrame newest{frame(3), CapturedStill{frame(2.5)}, {}};
     newest.supersede(std::move(newer));
     EXPECT_EQ(stillTime(newest), 2.5) << "the newer still wins";
 }

@@ -42,7 +42,8 @@ TEST(Options, EveryOptionIsRead) {
         parse({"--recording", "/data/run", "--display", "png:out",   "--record",
                "new",         "--mode",    "blend",     "--pace",    "consumer",
                "--seed",      "7",         "--frames",  "12",        "--seconds",
-               "2.5",         "--summary", "-",         "--measure", "--check-config"})
+               "2.5",         "--summary", "-",         "--measure", "--check-config",
+               "--pose",      "recorded"})
             .options;
     EXPECT_TRUE(options.checkConfig);
     EXPECT_EQ(options.frames, 12U);
@@ -54,6 +55,7 @@ TEST(Options, EveryOptionIsRead) {
     EXPECT_EQ(config.recordTo, "new");
     EXPECT_EQ(config.superres.mode, SuperResMode::Blend);
     EXPECT_EQ(config.pace, SourcePace::Consumer);
+    EXPECT_EQ(config.pose.source, PoseOrigin::Recorded);
     EXPECT_EQ(config.seed, 7U);
     EXPECT_TRUE(config.status.measure);
 }

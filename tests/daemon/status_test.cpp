@@ -21,6 +21,7 @@ void showPictures(Stats& stats, int count) {
         frame.tiles = {100, 0, 50, 50, 0};
         frame.meanConfidence = 0.8;
         frame.usedStill = i >= count / 2;
+        frame.usedPose = frame.usedStill;
         const Timestamp arrived = Timestamp::fromSeconds(10 + 0.05 * i);
         stats.picture({frame, kStages, arrived, arrived + std::chrono::milliseconds(20), 1.5});
     }
@@ -61,8 +62,8 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     stats.mailboxDropped(4);
     stats.videoGap(5);
     stats.recorderDropped(6);
-    const auto json =
-        summary(stats.count(), {"llvmpipe", "synthetic", "none", "detail", {}, {}}, "SIGTERM", 0);
+    const auto json = summary(
+        stats.count(), {"llvmpipe", "synthetic", "none", "detail", {}, {}, "2 tags"}, "SIGTERM", 0);
     EXPECT_EQ(json["exit_reason"], "SIGTERM");
     EXPECT_EQ(json["exit_code"], 0);
     EXPECT_EQ(json["renderer"], "llvmpipe");
@@ -77,6 +78,66 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     EXPECT_EQ(json["drops"]["mailbox"], 4);
     EXPECT_EQ(json["drops"]["sensor"], 5);
     EXPECT_EQ(json["drops"]["recorder"], 6);
+}
+
+Pose fromTags(int tags, double errorPx) {
+    Pose pose;
+    pose.tags = tags;
+    pose.reprojectionError = errorPx;
+    return pose;
+}
+
+/// Three frames: seen, predicted, lost; two stills: seen, and placed between frames.
+void findPoses(Stats& stats) {
+    TrackStats tracker{.frames = 3, .fullSearches = 1, .roiSearches = 2, .flips = 4, .lastMs = 2};
+    stats.framePose(fromTags(6, 0.25), tracker);
+    stats.framePose(Pose{}, tracker);
+    stats.framePose({}, tracker);
+    stats.stillPose(fromTags(5, 0.1), 8.);
+    stats.stillPose(Pose{}, 8.);
+}
+
+TEST(Status, SummaryTellsHowPosesWereFound) {
+    Stats stats;
+    showPictures(stats, 4);
+    findPoses(stats);
+    RunDescription run;
+    run.poses = "2 tags";
+    const auto pose = summary(stats.count(), run, "", 0)["pose"];
+    EXPECT_EQ(pose["from"], "2 tags");
+    EXPECT_EQ(pose["asked"], 3);
+    EXPECT_EQ(pose["tracked"], 2);
+    EXPECT_EQ(pose["measured"], 1);
+    EXPECT_NEAR(pose["tracked_share"].get<double>(), 2. / 3, 1e-9);
+    EXPECT_EQ(pose["epipolar_frames"], 2) << "half of the pictures";
+    EXPECT_EQ(pose["tags"], 6) << "frames without tags do not count";
+    EXPECT_EQ(pose["reprojection_px"], 0.25);
+    EXPECT_EQ(pose["full_searches"], 1);
+    EXPECT_EQ(pose["roi_searches"], 2);
+    EXPECT_EQ(pose["flips"], 4);
+    EXPECT_NEAR(pose["track_ms"]["median"].get<double>(), 2, 0.05);
+    EXPECT_EQ(pose["stills_asked"], 2);
+    EXPECT_EQ(pose["stills_tracked"], 2);
+    EXPECT_EQ(pose["stills_measured"], 1);
+    EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
+}
+
+TEST(Status, LineTellsHowTheLastPoseWasFound) {
+    Stats stats;
+    showPictures(stats, 2);
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("tracked"))) << "not asked for";
+    const TrackStats tracker{.frames = 1, .lastMs = 2};
+    stats.framePose(fromTags(6, 0.25), tracker);
+    EXPECT_THAT(statusLine(stats.count(), {}, 1),
+                HasSubstr(", tracked 100% (6 tags, 0.25 px, 2.0 ms) |"));
+    stats.framePose(Pose{}, tracker);
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr("100% (no tag, predicted, 2.0 ms)"));
+    stats.framePose({}, tracker);
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr("67% (no tag, 2.0 ms)"));
+    Stats recorded;
+    showPictures(recorded, 2);
+    recorded.framePose(Pose{}, {});
+    EXPECT_THAT(statusLine(recorded.count(), {}, 1), HasSubstr(", tracked 100% |"));
 }
 
 TEST(Status, SummaryOfAnEmptyRunHasNoHoles) {

@@ -1,10 +1,11 @@
-# Common words of the scenarios. Each is run as "NNN-name.sh PATH-OF-MFARD" and tells one story of
-# the real program in a folder of its own. MFAR_PATIENCE (default 1) stretches all time limits, for
-# sanitizers and slow machines.
+# Common words of the scenarios. Each is run as "NNN-name.sh MFARD MFAR-SIM", the paths of the two
+# programs, and tells one story of the real program in a folder of its own. MFAR_PATIENCE (default 1)
+# stretches all time limits, for sanitizers and slow machines.
 
 set -eu -o pipefail
 
 mfard=$1
+sim=$2
 patience=${MFAR_PATIENCE:-1}
 work=$(mktemp -d)
 cd "$work"

@@ -1,0 +1,93 @@
+#include "daemon/pose_config.h"
+
+#include "daemon/exit_code.h"
+#include "daemon/toml_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, PoseOrigin>, 3> kOrigins = {
+    {{"tags", PoseOrigin::Tags}, {"recorded", PoseOrigin::Recorded}, {"none", PoseOrigin::None}}};
+
+std::optional<std::string> familyFault(std::string_view family) {
+    if (tagFamilyNamed(family)) return std::nullopt;
+    std::string known;
+    for (const TagFamilyInfo& one : kTagFamilies)
+        known.append(known.empty() ? "\"" : ", \"").append(one.name).append("\"");
+    return "must be one of " + known;
+}
+
+std::optional<std::string> decimationFault(double value) {
+    if (value == 1.5 || value == std::round(value)) return std::nullopt;
+    return "must be 1, 1.5 or a whole number";
+}
+
+}  // namespace
+
+void readPose(TomlReader& file, PoseConfig& pose) {
+    file.choice<PoseOrigin>("pose.source", pose.source, kOrigins);
+    std::string tags;
+    file.text("pose.tags", tags);
+    pose.tags = tags;
+    std::vector<std::string> families;
+    file.texts("pose.families", families, familyFault);
+    if (!families.empty()) pose.families.clear();
+    for (const std::string& name : families) {
+        const TagFamily family = tagFamilyNamed(name).value();
+        if (std::find(pose.families.begin(), pose.families.end(), family) == pose.families.end())
+            pose.families.push_back(family);
+    }
+    file.number("pose.tag_size", pose.tagSize, 0.001, 100);
+    file.number("pose.decimation", pose.decimation, 1, 8, decimationFault);
+    file.integer("pose.threads", pose.threads, 1, 64);
+    file.integer("pose.full_search_interval", pose.fullSearchInterval, 1, 1000000);
+    file.integer("pose.bridge_frames", pose.bridgeFrames, 0, 300);
+}
+
+std::optional<PoseOrigin> poseOrigin(std::string_view word) {
+    for (const auto& [name, origin] : kOrigins)
+        if (name == word) return origin;
+    return std::nullopt;
+}
+
+TagMap readTagMap(const std::filesystem::path& file) {
+    std::error_code ignored;
+    const bool there = std::filesystem::exists(file, ignored);
+    try {
+        return loadTagMap(file);
+    } catch (const TagMapError& error) {
+        throw Failure(there ? ExitCode::BadData : ExitCode::NoInput, error.what());
+    }
+}
+
+TagMap configuredTags(const PoseConfig& pose) {
+    if (pose.source != PoseOrigin::Tags || pose.tags.empty()) return {};
+    return readTagMap(pose.tags);
+}
+
+TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz) {
+    TrackerOptions out;
+    out.map = std::move(map);
+    out.families = pose.families;
+    out.tagSize = pose.tagSize;
+    out.decimation = pose.decimation;
+    out.threads = pose.threads;
+    out.fullSearchInterval = pose.fullSearchInterval;
+    PoseFilterOptions& filter = out.pose.filter;
+    filter.bridgeFrames = pose.bridgeFrames;
+    // The frames decide, so the time must not end before them, and stills are older than a frame.
+    if (rateHz > 0) {
+        const std::chrono::duration<double> frames((pose.bridgeFrames + 0.5) / rateHz);
+        filter.bridge =
+            std::max(filter.bridge, std::chrono::duration_cast<std::chrono::nanoseconds>(frames));
+    }
+    return out;
+}
+
+}  // namespace mfar

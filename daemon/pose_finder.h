@@ -1,0 +1,49 @@
+#pragma once
+
+#include "daemon/pose_config.h"
+#include "daemon/pose_history.h"
+#include "daemon/stats.h"
+#include "hal/frame.h"
+#include "pipeline/geometry.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace mfar {
+
+/// What a source of pictures knows about poses.
+struct PoseInputs {
+    std::string source;  ///< its name, for messages
+    StereoRig rig;
+    double rateHz = 0;  ///< of the video
+    TagMap tags;        ///< empty: unknown
+    /// The pose at a time; empty where there are no recorded poses.
+    std::function<std::optional<Pose>(Timestamp)> recorded;
+};
+
+/// Gives frames and stills the video camera's pose at their time, from where the configuration
+/// says. Used by one thread, which is not the GL thread.
+class PoseFinder {
+public:
+    /// `stats` must outlive this. Throws Failure when there is no such thing as configured.
+    PoseFinder(const PoseConfig& config, PoseInputs inputs, Stats& stats);
+
+    /// Frames in the order of their times. Nothing when the pose is not known.
+    [[nodiscard]] std::optional<Pose> ofVideo(const Frame& video);
+    /// A still that is not younger than the last frame. One whose own tags cannot be used gets the
+    /// pose between those of the frames around it, where PoseHistory has one.
+    [[nodiscard]] std::optional<Pose> ofStill(const Frame& still);
+
+    /// "poses from 12 tags"
+    [[nodiscard]] const std::string& description() const { return description_; }
+
+private:
+    Stats& stats_;
+    std::string description_;
+    std::function<std::optional<Pose>(Timestamp)> recorded_;
+    std::optional<Tracker> tracker_;
+    PoseHistory history_;  ///< of frames whose own tags were seen
+};
+
+}  // namespace mfar

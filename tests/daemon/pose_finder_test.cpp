@@ -1,0 +1,160 @@
+#include "daemon/exit_code.h"
+#include "daemon/pose_finder.h"
+#include "tests/track/tag_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace mfar {
+namespace {
+
+using namespace test;
+
+const StereoRig kRig{testCamera(), testCamera().scaledTo({1152, 864}), {}};
+const PlacedTag kTag{{TagFamily::Tag36h11, 4}, 0.1, {}};
+
+PoseInputs inputs() {
+    return {"bench", kRig, 30, TagMap({{kTag.tag, kTag.size, kTag.T_world_tag}}), {}};
+}
+
+RigidTransform view(double frame) {
+    return cameraAt(0.6, 0.3 + 0.004 * frame, 0.2 - 0.006 * frame);
+}
+
+Timestamp frameTime(double frame) {
+    return Timestamp::fromSeconds(2 + frame / 30);
+}
+
+/// Lends a picture of the tag, or of nothing, taken that many frames after the start.
+struct Shot {
+    Shot(const CameraModel& camera, double at, bool withTag)
+        : picture(withTag ? renderTags(camera, view(at), {kTag}) : GrayPicture(camera.size, 90)),
+          frame(picture.view(), frameTime(at), nullptr) {}
+    GrayPicture picture;
+    Frame frame;
+};
+
+std::optional<Pose> video(PoseFinder& finder, double at, bool withTag = true) {
+    return finder.ofVideo(Shot(kRig.video, at, withTag).frame);
+}
+
+std::optional<Pose> still(PoseFinder& finder, double at, bool withTag) {
+    return finder.ofStill(Shot(kRig.still, at, withTag).frame);
+}
+
+double rotationError(const Pose& pose, double at) {
+    return angleBetween(pose.T_world_video, view(at));
+}
+
+TEST(PoseFinder, TagsGiveFramesAndStillsTheirPose) {
+    Stats stats;
+    PoseFinder finder({}, inputs(), stats);
+    EXPECT_EQ(finder.description(), "poses from 1 tags");
+    for (int i = 0; i < 4; ++i)
+        EXPECT_LT(rotationError(video(finder, i).value(), i), 0.01) << i;
+    const std::optional<Pose> sharp = still(finder, 2.5, true);
+    ASSERT_TRUE(sharp);
+    EXPECT_GT(sharp->tags, 0);
+    EXPECT_LT(rotationError(*sharp, 2.5), 0.005);
+    const PoseCounts counts = stats.count().poses;
+    EXPECT_EQ(counts.frames, 4U);
+    EXPECT_EQ(counts.measured, 4U);
+    EXPECT_EQ(counts.stillsMeasured, 1U);
+    EXPECT_EQ(counts.ms.count(), 4U);
+}
+
+TEST(PoseFinder, AStillWithoutTagsStandsBetweenTheFramesAroundIt) {
+    Stats stats;
+    PoseFinder finder({}, inputs(), stats);
+    for (int i = 0; i < 4; ++i)
+        (void)video(finder, i);
+    const std::optional<Pose> between = still(finder, 1.5, false);
+    ASSERT_TRUE(between);
+    EXPECT_EQ(between->tags, 0);
+    EXPECT_LT(rotationError(*between, 1.5), 0.01);
+    EXPECT_FALSE(still(finder, -1, false)) << "before all that is known";
+    const PoseCounts counts = stats.count().poses;
+    EXPECT_EQ(counts.stills, 2U);
+    EXPECT_EQ(counts.stillsTracked, 1U);
+    EXPECT_EQ(counts.stillsMeasured, 0U);
+}
+
+TEST(PoseFinder, PredictedPosesAreNotWhatStillsStandBetween) {
+    Stats stats;
+    PoseFinder finder({}, inputs(), stats);
+    for (int i = 0; i < 3; ++i)
+        (void)video(finder, i);
+    for (int i = 3; i < 6; ++i)
+        EXPECT_TRUE(video(finder, i, false)) << "bridged";
+    EXPECT_FALSE(still(finder, 4.5, false));
+    EXPECT_EQ(stats.count().poses.tracked, 6U);
+    EXPECT_EQ(stats.count().poses.measured, 3U);
+}
+
+TEST(PoseFinder, NoFramesAreBridgedWhereThatIsConfigured) {
+    Stats stats;
+    PoseConfig config;
+    config.bridgeFrames = 0;
+    PoseFinder finder(config, inputs(), stats);
+    EXPECT_TRUE(video(finder, 0));
+    EXPECT_FALSE(video(finder, 1, false));
+}
+
+TEST(PoseFinder, WithoutAMapTheFirstTagIsTheWorld) {
+    Stats stats;
+    PoseInputs unknown = inputs();
+    unknown.tags = {};
+    PoseFinder finder({}, unknown, stats);
+    EXPECT_EQ(finder.description(), "poses from the first tag, 0.1 m");
+    EXPECT_LT(rotationError(video(finder, 0).value(), 0), 0.01);
+}
+
+TEST(PoseFinder, RecordedPosesAreTakenAsTheyAre) {
+    Stats stats;
+    PoseConfig config;
+    config.source = PoseOrigin::Recorded;
+    PoseInputs recording = inputs();
+    recording.recorded = [](Timestamp t) -> std::optional<Pose> {
+        if (t < frameTime(1)) return std::nullopt;
+        return Pose{.time = t,
+                    .T_world_video = {Eigen::Quaterniond::Identity(), {0, 0, t.seconds()}}};
+    };
+    PoseFinder finder(config, recording, stats);
+    EXPECT_FALSE(video(finder, 0)) << "not recorded, although the tag is seen";
+    EXPECT_EQ(video(finder, 2).value().T_world_video.translation.z(), frameTime(2).seconds());
+    EXPECT_EQ(still(finder, 1.5, true).value().T_world_video.translation.z(),
+              frameTime(1.5).seconds());
+    const PoseCounts counts = stats.count().poses;
+    EXPECT_EQ(counts.tracked, 1U);
+    EXPECT_EQ(counts.stillsTracked, 1U);
+    EXPECT_EQ(counts.tracker.frames, 0) << "no tags were sought";
+    EXPECT_EQ(counts.ms.count() + counts.stillMs.count(), 0U);
+}
+
+TEST(PoseFinder, ASourceWithoutPosesIsRefusedByName) {
+    Stats stats;
+    PoseConfig config;
+    config.source = PoseOrigin::Recorded;
+    try {
+        const PoseFinder finder(config, inputs(), stats);
+        FAIL();
+    } catch (const Failure& failure) {
+        EXPECT_EQ(failure.code, ExitCode::BadData);
+        EXPECT_THAT(failure.what(), testing::StartsWith("bench: has no poses"));
+    }
+}
+
+TEST(PoseFinder, NoneAsksNobody) {
+    Stats stats;
+    PoseConfig config;
+    config.source = PoseOrigin::None;
+    PoseFinder finder(config, inputs(), stats);
+    EXPECT_FALSE(video(finder, 0));
+    EXPECT_FALSE(still(finder, 0, true));
+    EXPECT_EQ(stats.count().poses.frames, 0U);
+    EXPECT_EQ(finder.description(), "no poses");
+}
+
+}  // namespace
+}  // namespace mfar

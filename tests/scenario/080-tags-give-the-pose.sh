@@ -1,0 +1,33 @@
+#!/bin/bash
+# The tags of the scene give every frame and still its pose, and flow follows epipolar lines.
+. "$(dirname "$0")/lib.sh"
+
+run 0 --source synthetic:office --pace consumer --frames 8 --summary summary.json
+says err 'poses from [0-9]+ tags; '
+summary_has asked 8
+summary_has tracked 8
+summary_has measured 8
+summary_has used 1
+summary_has stills_measured 1
+summary_has jumps 0
+says summary.json '"epipolar_frames": [1-8],$'
+
+echo "without poses the same frames are matched in both dimensions"
+run 0 --source synthetic:office --pace consumer --frames 4 --pose none --summary summary.json
+says err 'no poses; '
+summary_has asked 0
+summary_has epipolar_frames 0
+summary_has used 1
+
+echo "a tag map that is wrong or missing is refused with its place, also by --check-config"
+printf '[pose]\ntags = "map.toml"\n' >mfard.toml
+for check in "" --check-config; do
+    run 66 --config mfard.toml $check
+    says err 'map.toml: no such file$'
+done
+printf 'family = "tag36h11"\n[[tags]]\nid = 3\nsize = -0.1\n' >map.toml
+for check in "" --check-config; do
+    run 65 --config mfard.toml $check
+    says err 'map.toml:[0-9]+: '
+    [ "$(wc -l <err)" = 1 ] || fail "more than one message"
+done

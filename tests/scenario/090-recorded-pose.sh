@@ -1,0 +1,42 @@
+#!/bin/bash
+# Poses of a recording replace the tags; a recording without poses is refused when they are wanted.
+. "$(dirname "$0")/lib.sh"
+
+"$sim" --scene office --path pan --seconds 0.2 --stills 5 --no-truth \
+    --out run >/dev/null || fail "no recording"
+frames=$(grep -vc '^#' run/cam0/data.csv)
+
+run 0 --recording run --pose recorded --summary summary.json
+says err 'recorded poses; '
+summary_has frames "$frames"
+summary_has tracked "$frames"
+summary_has measured 0
+summary_has stills_tracked 1
+summary_has stills_measured 0
+says summary.json '"epipolar_frames": [1-9]'
+
+echo "its tags are known, too"
+run 0 --recording run --summary summary.json
+says err 'poses from [0-9]+ tags; '
+summary_has measured "$frames"
+
+echo "a tags.toml that is wrong is refused with its place"
+sed -i 's/^size = .*/size = 0/' run/tags.toml
+run 65 --recording run
+says err 'run/tags.toml:[0-9]+: size must be positive'
+
+echo "without a map its largest tag is the world"
+rm run/tags.toml
+run 0 --recording run --summary summary.json
+says err 'poses from the first tag, 0.1 m; '
+summary_has measured "$frames"
+
+echo "without poses there are none to take"
+rm -r run/state_groundtruth_estimate0
+run 65 --recording run --pose recorded
+says err 'recording run: has no poses'
+[ "$(wc -l <err)" = 1 ] || fail "more than one message"
+run 78 --source synthetic:flat --pose recorded
+says err 'needs a recording'
+run 64 --recording run --pose gps
+says err 'tags, recorded, none'
