@@ -4,27 +4,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace mfar {
 namespace {
 
 constexpr int kLanes = SemiGlobal::kLabels;
-// Beside the labels of a pixel: reads of up to a whole window off find this, which never wins.
-constexpr int kMargin = 32;
+// Beside the labels of a pixel: a label that the last pixel's window has not finds this, which
+// never wins.
 constexpr std::uint8_t kNever = 200;
-constexpr int kFarthestShift = kLanes;
 
-int strideOf(int vectors) {
-    return kLanes * vectors + 2 * kMargin;
+/// Such bytes on either side of a pixel's labels: room for a window that has none of the last's,
+/// nor a neighbour of them.
+constexpr int marginOf(int vectors) {
+    return kLanes * (vectors + 1);
+}
+
+constexpr int strideOf(int vectors) {
+    return kLanes * vectors + 2 * marginOf(vectors);
 }
 
 /// One step of a path: `from` = the last pixel's path costs, `shift` = difference of the windows.
 /// Path costs are kept less their least, so that they are bounded and the sums comparable.
-template <int kVectors>
+template <int Vectors>
 inline void step(const std::uint8_t* from, int shift, Bytes16 stepPenalty, Bytes16 jumpPenalty,
                  const std::uint8_t* cost, std::uint8_t* to, int vectors) {
-    const int n = kVectors > 0 ? kVectors : vectors;
-    const std::uint8_t* at = from + kMargin + std::clamp(shift, -kFarthestShift, kFarthestShift);
+    const int n = Vectors > 0 ? Vectors : vectors;
+    const int apart = kLanes * n + 1;
+    const std::uint8_t* at = from + std::clamp(shift, -apart, apart);
     Bytes16 least = spread(255), sum{};
     for (int v = 0; v < n; ++v) {
         const Bytes16 same = loadBytes(at + kLanes * v);
@@ -32,17 +39,22 @@ inline void step(const std::uint8_t* from, int shift, Bytes16 stepPenalty, Bytes
             lesser(loadBytes(at + kLanes * v - 1), loadBytes(at + kLanes * v + 1)) + stepPenalty;
         sum = loadBytes(cost + kLanes * v) + lesser(lesser(same, beside), jumpPenalty);
         least = lesser(least, sum);
-        if constexpr (kVectors != 1) storeBytes(to + kMargin + kLanes * v, sum);
+        if constexpr (Vectors != 1) storeBytes(to + kLanes * v, sum);
     }
     least = leastOf(least);
-    if constexpr (kVectors == 1) {
-        storeBytes(to + kMargin, sum - least);
+    if constexpr (Vectors == 1) {
+        storeBytes(to, sum - least);
         return;
     }
     for (int v = 0; v < n; ++v) {
-        std::uint8_t* lane = to + kMargin + kLanes * v;
+        std::uint8_t* lane = to + kLanes * v;
         storeBytes(lane, loadBytes(lane) - least);
     }
+}
+
+/// The penalties of jumps by difference of luma are in `table`, a vector each.
+inline Bytes16 jumpOf(const std::array<std::uint8_t, 256UL * 16>& table, int a, int b) {
+    return loadBytes(table.data() + 16UL * std::abs(a - b));
 }
 
 using Sums8 = std::int16_t __attribute__((vector_size(16)));
@@ -126,13 +138,10 @@ void SemiGlobal::alongRow(const Task& task, int y, std::uint8_t* scratch) {
     std::uint8_t* costs = costs_.data() + task.pixel(0, y) * labels;
     std::uint8_t* sums = sums_.data() + task.pixel(0, y) * labels;
     task.costs(y, costs);
-    std::uint8_t* last = scratch;
-    std::uint8_t* now = scratch + strideOf(task.vectors);
-    const auto jumpOf = [&](int a, int b) {
-        return loadBytes(jump_.data() + 16UL * std::abs(a - b));
-    };
+    std::uint8_t* last = scratch + marginOf(task.vectors);
+    std::uint8_t* now = last + strideOf(task.vectors);
     const auto advance = [&](int x, int from) {
-        const Bytes16 jump = jumpOf(luma[x], luma[from]);
+        const Bytes16 jump = jumpOf(jump_, luma[x], luma[from]);
         const std::uint8_t* cost = costs + x * labels;
         if (task.vectors == 1)
             step<1>(last, base[x] - base[from], task.step, jump, cost, now, 1);
@@ -140,63 +149,82 @@ void SemiGlobal::alongRow(const Task& task, int y, std::uint8_t* scratch) {
             step<0>(last, base[x] - base[from], task.step, jump, cost, now, task.vectors);
         std::swap(last, now);
     };
-    std::fill_n(last + kMargin, labels, std::uint8_t{0});
+    std::fill_n(last, labels, std::uint8_t{0});
     for (int x = 0; x < width; ++x) {
         advance(x, std::max(x - 1, 0));
-        std::copy_n(last + kMargin, labels, sums + x * labels);
+        std::copy_n(last, labels, sums + x * labels);
     }
-    std::fill_n(last + kMargin, labels, std::uint8_t{0});
+    std::fill_n(last, labels, std::uint8_t{0});
     for (int x = width - 1; x >= 0; --x) {
         advance(x, std::min(x + 1, width - 1));
         for (int v = 0; v < task.vectors; ++v) {
             std::uint8_t* sum = sums + x * labels + kLanes * v;
-            storeBytes(sum, loadBytes(sum) + loadBytes(last + kMargin + kLanes * v));
+            storeBytes(sum, loadBytes(sum) + loadBytes(last + kLanes * v));
         }
     }
 }
 
+/// The path costs of columns [x0, x1), which all go down or up together.
+class SemiGlobal::Columns {
+public:
+    Columns(const SemiGlobal& matcher, const Task& task, int x0, int x1)
+        : matcher_(matcher), task_(task), x0_(x0), x1_(x1),
+          paths_(static_cast<std::size_t>(x1 - x0) * strideOf(task.vectors), kNever),
+          fresh_(strideOf(task.vectors), kNever) {}
+
+    void restart() {
+        for (int x = x0_; x < x1_; ++x)
+            std::fill_n(pathOf(x), task_.labels(), std::uint8_t{0});
+    }
+
+    /// The path costs of pixel (x, y), come from row `from`.
+    const std::uint8_t* advance(int x, int y, int from) {
+        const std::size_t i = task_.pixel(x, y), j = task_.pixel(x, from);
+        const auto& luma = task_.guide.pixels;
+        const Bytes16 jump = jumpOf(matcher_.jump_, luma[i], luma[j]);
+        std::uint8_t* path = pathOf(x);
+        const std::uint8_t* cost = matcher_.costs_.data() + i * task_.labels();
+        const int shift = task_.base[i] - task_.base[j];
+        if (task_.vectors == 1) {
+            step<1>(path, shift, task_.step, jump, cost, path, 1);
+        } else {
+            std::uint8_t* fresh = fresh_.data() + marginOf(task_.vectors);
+            step<0>(path, shift, task_.step, jump, cost, fresh, task_.vectors);
+            std::copy_n(fresh, task_.labels(), path);
+        }
+        return path;
+    }
+
+private:
+    std::uint8_t* pathOf(int x) {
+        return paths_.data() + static_cast<std::size_t>(x - x0_) * strideOf(task_.vectors) +
+               marginOf(task_.vectors);
+    }
+
+    const SemiGlobal& matcher_;
+    const Task& task_;
+    int x0_, x1_;
+    std::vector<std::uint8_t> paths_, fresh_;
+};
+
 void SemiGlobal::alongColumns(const Task& task, int x0, int x1) {
     const int height = task.guide.size.height;
     const std::size_t labels = task.labels();
-    const int stride = strideOf(task.vectors);
-    std::vector<std::uint8_t> paths(static_cast<std::size_t>(x1 - x0) * stride, kNever);
-    std::vector<std::uint8_t> fresh(stride, kNever);
-    const auto restart = [&] {
-        for (int x = x0; x < x1; ++x)
-            std::fill_n(paths.begin() + static_cast<std::ptrdiff_t>(x - x0) * stride + kMargin,
-                        labels, std::uint8_t{0});
-    };
-    const auto jumpOf = [&](int a, int b) {
-        return loadBytes(jump_.data() + 16UL * std::abs(a - b));
-    };
-    const auto advance = [&](int x, int y, int from) {
-        const std::size_t i = task.pixel(x, y), j = task.pixel(x, from);
-        const Bytes16 jump = jumpOf(task.guide.pixels[i], task.guide.pixels[j]);
-        std::uint8_t* path = paths.data() + static_cast<std::size_t>(x - x0) * stride;
-        const std::uint8_t* cost = costs_.data() + i * labels;
-        const int shift = task.base[i] - task.base[j];
-        if (task.vectors == 1) {
-            step<1>(path, shift, task.step, jump, cost, path, 1);
-        } else {
-            step<0>(path, shift, task.step, jump, cost, fresh.data(), task.vectors);
-            std::copy_n(fresh.data() + kMargin, labels, path + kMargin);
-        }
-        return path + kMargin;
-    };
-    restart();
+    Columns columns(*this, task, x0, x1);
+    columns.restart();
     for (int y = 0; y < height; ++y) {
         for (int x = x0; x < x1; ++x) {
-            const std::uint8_t* path = advance(x, y, std::max(y - 1, 0));
+            const std::uint8_t* path = columns.advance(x, y, std::max(y - 1, 0));
             std::uint8_t* sum = sums_.data() + task.pixel(x, y) * labels;
             for (int v = 0; v < task.vectors; ++v)
                 storeBytes(sum + kLanes * v,
                            loadBytes(sum + kLanes * v) + loadBytes(path + kLanes * v));
         }
     }
-    restart();
+    columns.restart();
     for (int y = height - 1; y >= 0; --y) {
         for (int x = x0; x < x1; ++x) {
-            const std::uint8_t* path = advance(x, y, std::min(y + 1, height - 1));
+            const std::uint8_t* path = columns.advance(x, y, std::min(y + 1, height - 1));
             const std::size_t i = task.pixel(x, y);
             task.out[i] = static_cast<float>(task.base[i]) +
                           bestOf(sums_.data() + i * labels, path, task.vectors);

@@ -39,6 +39,7 @@ public:
 
 private:
     struct Task;
+    class Columns;
     void alongRow(const Task& task, int y, std::uint8_t* scratch);
     void alongColumns(const Task& task, int x0, int x1);
 
