@@ -9,8 +9,9 @@ namespace {
 // Rays are followed beyond the picture by this factor, if the lens does not fold them back before.
 constexpr double kBeyondPicture = 2;
 
-/// Largest radius of a ray up to which the lens's radial distortion keeps rising.
-double rimOf(const CameraModel& camera, double picture) {
+}  // namespace
+
+double rimOf(const CameraModel& camera, double picture, double beyond) {
     const auto& k = camera.distortion;
     const auto distorted = [&](double r) {
         const double q = r * r;
@@ -19,14 +20,12 @@ double rimOf(const CameraModel& camera, double picture) {
     constexpr int kSteps = 64;
     double rim = picture;
     for (int i = 1; i <= kSteps; ++i) {
-        const double r = picture * (1 + (kBeyondPicture - 1) * i / kSteps);
+        const double r = picture * (1 + (beyond - 1) * i / kSteps);
         if (!(distorted(r) > distorted(rim))) break;
         rim = r;
     }
     return rim;
 }
-
-}  // namespace
 
 EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.size) {
     const double scale = 1.0 / (1 << level);
@@ -53,7 +52,7 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
             rim = std::max(rim, ray.squaredNorm());
         }
     }
-    rim2_ = static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim)), 2));
+    rim2_ = static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2));
 }
 
 float EpipolarLens::rimScale(float r2) const {

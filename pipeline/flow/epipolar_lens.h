@@ -6,6 +6,10 @@
 
 namespace mfar {
 
+/// Largest radius of a ray that the lens's radial distortion does not fold back, from `picture`,
+/// that of the picture's corners, to `beyond` times as much.
+[[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
+
 /// The rays of a camera's pixels at one pyramid level, and where a translation moves them.
 ///
 /// The state is s [1/unit of length], the inverse depth seen from the second view: a point at ray

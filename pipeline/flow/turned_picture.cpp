@@ -1,5 +1,9 @@
 #include "pipeline/flow/turned_picture.h"
 
+#include "pipeline/flow/epipolar_lens.h"
+
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,31 +11,46 @@ namespace mfar {
 namespace {
 
 constexpr float kOutside = -1e6F;
+// Rays flatter than this [z of a picture's ray (x, y, 1)] count as beside the camera.
+constexpr double kBeside = 0.2;
 // Points along each side of the picture whose hull bounds what is seen of it.
 constexpr int kSidePoints = 16;
+
+// Rays are followed to this many times the radius of the picture's corners, if the lens's model
+// does not fold them back before.
+constexpr double kFarthestRay = 4;
+
+double rimOf(const CameraModel& camera) {
+    double picture = 0;
+    for (const double x : {0.0, camera.size.width - 1.0})
+        for (const double y : {0.0, camera.size.height - 1.0})
+            picture = std::max(picture, camera.unproject({x, y}).norm());
+    return rimOf(camera, picture, kFarthestRay);
+}
 
 int alignDown(double v) {
     return static_cast<int>(std::floor(v / TurnedPicture::kAlign)) * TurnedPicture::kAlign;
 }
 
-}  // namespace
-
-void TurnedPicture::place(const CameraModel& camera, const CameraModel& source,
-                          const Eigen::Matrix3d& R_source_camera, double beyond) {
-    const double reach = beyond * camera.size.width;
-    const double right = camera.size.width - 1 + reach, bottom = camera.size.height - 1 + reach;
-    double x0 = right, y0 = bottom, x1 = -reach, y1 = -reach;
+/// Bounds of what the camera sees of the picture, within `whole`; empty: nothing.
+Eigen::AlignedBox2d boundsOf(const CameraModel& camera, const CameraModel& source,
+                             const Eigen::Matrix3d& R_source_camera,
+                             const Eigen::AlignedBox2d& whole) {
+    const double rim = rimOf(camera);
+    Eigen::AlignedBox2d bounds;
+    bool before = false;
     const auto include = [&](double u, double v) {
         const Eigen::Vector2d ray =
             source.unproject({u * (source.size.width - 1), v * (source.size.height - 1)});
         const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
         // Beside or behind the camera: whatever the canvas can hold may be seen.
-        Eigen::Vector2d low(-reach, -reach), high(right, bottom);
-        if (turned.z() > 0.2) low = high = camera.project(turned.hnormalized());
-        x0 = std::min(x0, low.x());
-        y0 = std::min(y0, low.y());
-        x1 = std::max(x1, high.x());
-        y1 = std::max(y1, high.y());
+        if (!(turned.z() > kBeside)) {
+            bounds.extend(whole);
+            return;
+        }
+        const Eigen::Vector2d there = turned.hnormalized();
+        bounds.extend(camera.project(there * std::min(1.0, rim / there.norm())));
+        before = true;
     };
     for (int i = 0; i <= kSidePoints; ++i) {
         const double a = static_cast<double>(i) / kSidePoints;
@@ -40,29 +59,43 @@ void TurnedPicture::place(const CameraModel& camera, const CameraModel& source,
         include(0, a);
         include(1, a);
     }
-    x0 = std::max(x0, -reach);
-    y0 = std::max(y0, -reach);
-    x1 = std::min(x1, right);
-    y1 = std::min(y1, bottom);
+    // The picture's rays all lie between those of its outline.
+    return before ? bounds.intersection(whole) : Eigen::AlignedBox2d();
+}
+
+}  // namespace
+
+void TurnedPicture::place(const CameraModel& camera, const CameraModel& source,
+                          const Eigen::Matrix3d& R_source_camera, double beyond) {
+    const double reach = beyond * camera.size.width;
+    const Eigen::AlignedBox2d whole(
+        Eigen::Vector2d(-reach, -reach),
+        Eigen::Vector2d(camera.size.width - 1 + reach, camera.size.height - 1 + reach));
+    const Eigen::AlignedBox2d bounds = boundsOf(camera, source, R_source_camera, whole);
+    const Eigen::Vector2d &low = bounds.min(), &high = bounds.max();
     size_ = {};
-    if (!(x1 - x0 >= 1 && y1 - y0 >= 1)) return;
-    origin_ = {alignDown(x0), alignDown(y0)};
-    size_ = {static_cast<int>(std::ceil(x1)) - origin_.x + 1,
-             static_cast<int>(std::ceil(y1)) - origin_.y + 1};
+    if (!((high - low).minCoeff() >= 1)) return;
+    origin_ = {alignDown(low.x()), alignDown(low.y())};
+    size_ = {static_cast<int>(std::ceil(high.x())) - origin_.x + 1,
+             static_cast<int>(std::ceil(high.y())) - origin_.y + 1};
     mapGrid(camera, source, R_source_camera);
 }
 
 void TurnedPicture::mapGrid(const CameraModel& camera, const CameraModel& source,
                             const Eigen::Matrix3d& R_source_camera) {
+    const double rim = rimOf(source);
     gridWidth_ = size_.width / kAlign + 2;
     const int gridHeight = size_.height / kAlign + 2;
     grid_.clear();
     for (int j = 0; j < gridHeight; ++j) {
         for (int i = 0; i < gridWidth_; ++i) {
             const Eigen::Vector2d pixel(origin_.x + kAlign * i, origin_.y + kAlign * j);
-            const Eigen::Vector3d p = R_source_camera * camera.unproject(pixel).homogeneous();
+            const Eigen::Vector2d ray = camera.unproject(pixel);
+            const Eigen::Vector3d p = R_source_camera * ray.homogeneous();
+            // Beyond its fold the lens shows nothing, and no picture has anything to show.
+            const bool shown = (camera.project(ray) - pixel).squaredNorm() < 1e-2;
             Source s{kOutside, kOutside};
-            if (p.z() > 0.05) {
+            if (shown && p.z() > 0.05 && p.head<2>().norm() < rim * p.z()) {
                 const Eigen::Vector2d q = source.project(p.hnormalized());
                 s = {static_cast<float>(q.x()), static_cast<float>(q.y())};
             }
@@ -101,7 +134,8 @@ void TurnedPicture::draw(const LumaImage& picture, Workers& workers, LumaImage& 
                 const std::uint8_t* q = p + picture.size.width;
                 const float top = static_cast<float>(p[0]) + fx * static_cast<float>(p[1] - p[0]);
                 const float low = static_cast<float>(q[0]) + fx * static_cast<float>(q[1] - q[0]);
-                to[x] = static_cast<std::uint8_t>(top + fy * (low - top) + 0.5F);
+                const float rounded = top + fy * (low - top) + 0.5F;
+                to[x] = static_cast<std::uint8_t>(rounded);
             }
         }
     });
