@@ -18,8 +18,6 @@ constexpr int kLevels = 3;
 constexpr double kLongest = 0.8;
 // Labels beyond infinity at the finest level: the slack for noise and errors of the pose.
 constexpr int kBeyond = 4;
-// Parallax below this [px] over the whole picture and range is none.
-constexpr double kNoParallax = 0.3;
 constexpr int kSmallestCanvas = 16;
 constexpr int kUnseenCost = kCensusBits / 2;
 
@@ -100,6 +98,12 @@ void differences(std::uint32_t own, const std::uint32_t* slots, std::uint8_t* ou
     std::memcpy(out, &bytes, sizeof bytes);
 }
 
+/// The pixel that holds a coordinate above -0.5.
+int pixelOf(float v) {
+    const float fromEdge = v + 0.5F;
+    return static_cast<int>(fromEdge);
+}
+
 /// Costs of one pixel at evenly spaced points of a segment, ends included, nearest pixels taken.
 /// The segment is short, so the lens may be taken as straight along it.
 void costsAlong(const Segment& way, std::uint32_t own, const std::uint32_t* still, Size size,
@@ -127,10 +131,7 @@ void costsAlong(const Segment& way, std::uint32_t own, const std::uint32_t* stil
         const EpipolarLens::Point p{way.from.x + a * (way.to.x - way.from.x),
                                     way.from.y + a * (way.to.y - way.from.y)};
         out[k] = kUnseenCost;
-        if (inside(p))
-            out[k] = difference(
-                own,
-                still[static_cast<int>(p.y + 0.5F) * size.width + static_cast<int>(p.x + 0.5F)]);
+        if (inside(p)) out[k] = difference(own, still[pixelOf(p.y) * size.width + pixelOf(p.x)]);
     }
 }
 
@@ -163,12 +164,12 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
     levels_[0].video = video;
     videoNoise_ = noiseOf(video);
     labels_ = 0;
+    pixelsPerUnit_ = 0;
     std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
     if (!turnStill(R_still_video)) return false;
     measureParallax();
-    const int longest = static_cast<int>(kLongest * video.size.width);
     if (!(pixelsPerUnit_ > 0)) return true;
-    labels_ = longest;
+    labels_ = static_cast<int>(kLongest * video.size.width);
     for (int i = static_cast<int>(levels_.size()) - 1; i >= 0; --i) {
         prepare(levels_[i], std::max(videoNoise_, stillNoise_) / (1 << i));
         search(i);
@@ -210,7 +211,6 @@ void EpipolarSearch::measureParallax() {
     const EpipolarLens& lens = levels_[0].lens;
     const Size size = lens.size();
     const Eigen::Vector3f& t = translation_;
-    pixelsPerUnit_ = 0;
     const float norm = t.norm();
     if (!(norm > 1e-12F)) return;
     const float small = 1e-3F / norm;
