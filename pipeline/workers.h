@@ -19,8 +19,8 @@ public:
 
     [[nodiscard]] int count() const { return static_cast<int>(threads_.size()) + 1; }
 
-    /// Calls body(first, last) on consecutive parts of [0, end), each at least `grain` long, and
-    /// returns when all are done. One caller at a time; body must not throw.
+    /// Calls body(first, last) on consecutive parts of [0, end), each but the last at least `grain`
+    /// long, and returns when all are done. One caller at a time; body must not throw.
     void forRange(int end, int grain, const std::function<void(int, int)>& body);
 
 private:
