@@ -1,0 +1,155 @@
+#include "pipeline/flow/epipolar_lens.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace mfar {
+namespace {
+
+CameraModel plain() {
+    return {{161, 119}, 150, 148, 79.2, 60.7, {}};
+}
+
+CameraModel barrel() {
+    return {{161, 119}, 120, 121, 82.5, 57.1, {-0.31, 0.08, 0.002, -0.0015, 0.004}};
+}
+
+CameraModel pincushion() {
+    return {{161, 119}, 150, 150, 80, 59, {0.15, 0.03, 0, 0, 0.01}};
+}
+
+// Folds back soon beyond the corners of the picture.
+CameraModel fisheye() {
+    return {{161, 119}, 110, 110, 80, 59, {-0.17, 0, 0, 0, 0}};
+}
+
+double rimOf(const CameraModel& camera) {
+    double rim = 0;
+    for (const double x : {0.0, camera.size.width - 1.0})
+        for (const double y : {0.0, camera.size.height - 1.0})
+            rim = std::max(rim, camera.unproject({x, y}).norm());
+    return rim;
+}
+
+TEST(EpipolarLens, RaysAreThoseOfThePixelsOfEveryLevel) {
+    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+        Size size = camera.size;
+        for (int level = 0; level < 4; ++level) {
+            const EpipolarLens lens(camera, level);
+            ASSERT_EQ(lens.size(), size);
+            const double scale = 1 << level;
+            for (int y = 0; y < size.height; ++y) {
+                for (int x = 0; x < size.width; ++x) {
+                    // The mean of 2x2 pixels lies between them.
+                    const Eigen::Vector2d ray = camera.unproject(
+                        {scale * x + 0.5 * (scale - 1), scale * y + 0.5 * (scale - 1)});
+                    const std::size_t p = static_cast<std::size_t>(y) * size.width + x;
+                    ASSERT_NEAR(lens.rayX(p), ray.x(), 1e-6);
+                    ASSERT_NEAR(lens.rayY(p), ray.y(), 1e-6);
+                }
+            }
+            size = {(size.width + 1) / 2, (size.height + 1) / 2};
+        }
+    }
+}
+
+TEST(EpipolarLens, ProjectsAsTheCameraDoesWithinThePicture) {
+    std::mt19937 random(3);
+    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+        std::uniform_real_distribution<double> x(-0.5, camera.size.width - 0.5);
+        std::uniform_real_distribution<double> y(-0.5, camera.size.height - 0.5);
+        for (int level = 0; level < 3; ++level) {
+            const EpipolarLens lens(camera, level);
+            for (int i = 0; i < 2000; ++i) {
+                const Eigen::Vector2d ray = camera.unproject({x(random), y(random)});
+                if (ray.norm() > rimOf(camera)) continue;
+                const Eigen::Vector2d fine = camera.project(ray);
+                const auto p =
+                    lens.project(static_cast<float>(ray.x()), static_cast<float>(ray.y()));
+                ASSERT_NEAR(p.x, (fine.x() + 0.5) / (1 << level) - 0.5, 1e-3);
+                ASSERT_NEAR(p.y, (fine.y() + 0.5) / (1 << level) - 0.5, 1e-3);
+            }
+        }
+    }
+}
+
+TEST(EpipolarLens, PixelsComeBackFromTheirRays) {
+    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+        const EpipolarLens lens(camera, 1);
+        for (int y = 0; y < lens.size().height; ++y) {
+            for (int x = 0; x < lens.size().width; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y) * lens.size().width + x;
+                const auto p = lens.project(lens.rayX(i), lens.rayY(i));
+                ASSERT_NEAR(p.x, x, 1e-3);
+                ASSERT_NEAR(p.y, y, 1e-3);
+            }
+        }
+    }
+}
+
+// Out along a ray, what the lens shows moves outwards or stays; it never comes back.
+TEST(EpipolarLens, NeverFoldsBack) {
+    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+        const EpipolarLens lens(camera, 0);
+        const auto centre = lens.project(0, 0);
+        for (int a = 0; a < 64; ++a) {
+            const double angle = 2 * std::numbers::pi * a / 64;
+            double last = -1;
+            for (double r = 0; r < 50; r = r * 1.02 + 0.005) {
+                const auto p = lens.project(static_cast<float>(r * std::cos(angle)),
+                                            static_cast<float>(r * std::sin(angle)));
+                const double far = std::hypot(p.x - centre.x, p.y - centre.y);
+                ASSERT_GE(far, last - 0.01) << "radius " << r;
+                last = far;
+            }
+        }
+    }
+}
+
+TEST(EpipolarLens, RaysFarBesideThePictureStayOutsideIt) {
+    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+        const EpipolarLens lens(camera, 0);
+        for (const double r : {1.05, 1.3, 2.0, 5.0, 1e3, 1e6}) {
+            for (int a = 0; a < 64; ++a) {
+                const double angle = 2 * std::numbers::pi * a / 64;
+                const auto p =
+                    lens.project(static_cast<float>(r * rimOf(camera) * std::cos(angle)),
+                                 static_cast<float>(r * rimOf(camera) * std::sin(angle)));
+                ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y));
+                EXPECT_TRUE(p.x < 0 || p.y < 0 || p.x > camera.size.width - 1.0F ||
+                            p.y > camera.size.height - 1.0F)
+                    << p.x << ',' << p.y << " at " << r;
+            }
+        }
+    }
+}
+
+TEST(EpipolarLens, StateIsTheInverseDepthOfTheSecondView) {
+    std::mt19937 random(9);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    for (const CameraModel& camera : {plain(), barrel()}) {
+        const EpipolarLens lens(camera, 0);
+        for (int i = 0; i < 1000; ++i) {
+            const Eigen::Vector2d r(0.3 * unit(random), 0.25 * unit(random));
+            const Eigen::Vector3d t(0.2 * unit(random), 0.2 * unit(random), 0.5 * unit(random));
+            const double z = 2 + unit(random);
+            const Eigen::Vector3d moved = z * r.homogeneous() + t;
+            const double s = 1 / (z + t.z());
+            EXPECT_NEAR(s / (1 - s * t.z()), 1 / z, 1e-12);
+            const Eigen::Vector2d ray = r + s * (t.head<2>() - r * t.z());
+            ASSERT_LT((ray - moved.hnormalized()).norm(), 1e-12);
+            if (ray.norm() > rimOf(camera)) continue;
+            const auto p = lens.project(static_cast<float>(ray.x()), static_cast<float>(ray.y()));
+            const Eigen::Vector2d truth = camera.project(moved.hnormalized());
+            ASSERT_NEAR(p.x, truth.x(), 1e-3);
+            ASSERT_NEAR(p.y, truth.y(), 1e-3);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace mfar

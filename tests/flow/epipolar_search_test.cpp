@@ -1,0 +1,209 @@
+#include "pipeline/flow/epipolar_search.h"
+#include "tests/flow/flow_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace mfar {
+namespace {
+
+using test::errorsOf;
+using test::FlowErrors;
+using test::landing;
+using test::motion;
+using test::Scene;
+using test::Surface;
+using test::View;
+
+CameraModel plain() {
+    return {{200, 150}, 190, 190, 99.5, 74.5, {}};
+}
+
+CameraModel barrel() {
+    return {{200, 150}, 160, 161, 103, 72, {-0.29, 0.08, 0.001, -0.0012, 0.002}};
+}
+
+Scene flatScene() {
+    return {{{{0, 0, 1}, 2}}, 30, 100};
+}
+
+/// A wall, slanted to the right and down.
+Scene slantedScene() {
+    return {{{Eigen::Vector3d(0.35, 0.2, 1).normalized(), 2}}, 30, 100};
+}
+
+/// A panel before a wall.
+Scene stepScene() {
+    return {{{{0, 0, 1}, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
+}
+
+EpipolarSearch searched(const View& view, int threads = 2) {
+    EpipolarSearch search = test::searchWith(view.camera, threads);
+    search.setStill(test::viewOf(view.still()));
+    EXPECT_TRUE(search.run(view.video(), view.T_still_video));
+    EXPECT_TRUE(test::isFinite(search));
+    return search;
+}
+
+// Costs are those of the nearest pixels: what is found may be half a pixel off along a line, by
+// the same at every pixel whose way is as long. Along rows and columns labels are whole pixels, and
+// what is off is what is drawn to them.
+constexpr double kAcross = 0.45, kAlongAxis = 0.22;
+
+void expectErrors(const View& view, double median, double bad) {
+    const FlowErrors errors = errorsOf(searched(view), view);
+    EXPECT_GT(errors.pixels, 4000U);
+    EXPECT_LT(errors.median, median);
+    EXPECT_LT(errors.bad, bad);
+    testing::Test::RecordProperty("median", std::to_string(errors.median));
+    testing::Test::RecordProperty("bad", std::to_string(errors.bad));
+}
+
+TEST(EpipolarSearch, FindsAWallSideways) {
+    for (const double t : {-0.25, -0.02, 0.05, 0.2})
+        expectErrors({plain(), flatScene(), motion({0, 0, 0}, {t, 0, 0})}, kAlongAxis, 0.02);
+    expectErrors({plain(), flatScene(), motion({0, 0, 0}, {0, 0.15, 0})}, kAlongAxis, 0.02);
+}
+
+TEST(EpipolarSearch, FindsASlantedWall) {
+    expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {-0.2, 0, 0})}, kAlongAxis, 0.02);
+    expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {-0.2, 0.05, 0})}, kAcross, 0.02);
+    expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {0.1, -0.1, 0.02})}, kAcross, 0.02);
+}
+
+TEST(EpipolarSearch, FindsAStep) {
+    expectErrors({plain(), stepScene(), motion({0, 0, 0}, {-0.2, 0, 0})}, kAlongAxis, 0.04);
+    expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0.1, 0.15, 0})}, kAcross, 0.04);
+}
+
+TEST(EpipolarSearch, FindsDepthAsWellAsFlow) {
+    const View view{plain(), stepScene(), motion({0, 0, 0}, {-0.3, 0, 0})};
+    const EpipolarSearch search = searched(view);
+    const auto depthAt = [&](int x, int y) {
+        return 1 / search.inverseDepth()[static_cast<std::size_t>(y) * 200 + x];
+    };
+    EXPECT_NEAR(depthAt(105, 70), 2, 0.05);
+    EXPECT_NEAR(depthAt(170, 20), 3, 0.1);
+}
+
+// The epipole lies within the picture: the longest ways are at its border.
+TEST(EpipolarSearch, FindsScenesAhead) {
+    for (const double t : {-0.4, 0.4}) {
+        expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0, 0, t})}, 0.15, 0.04);
+        expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {0.03, 0.02, t})}, 0.15, 0.03);
+    }
+}
+
+TEST(EpipolarSearch, FindsScenesAfterATurnThroughALens) {
+    expectErrors({barrel(), slantedScene(), motion({4, -6, 8}, {-0.15, 0.1, 0.05})}, 0.2, 0.03);
+    expectErrors({barrel(), stepScene(), motion({-3, 9, -25}, {0.2, 0.05, -0.2})}, 0.2, 0.06);
+    expectErrors({barrel(), flatScene(), motion({0, 0, 90}, {0.1, 0.1, 0})}, 0.2, 0.03);
+    expectErrors({barrel(), flatScene(), motion({2, -28, 5}, {0.15, 0, 0.1})}, 0.2, 0.04);
+}
+
+// Three levels, and a way longer than a window of the coarsest.
+TEST(EpipolarSearch, FindsLongWaysThroughThreeLevels) {
+    const CameraModel camera{{320, 240}, 300, 300, 159.5, 119.5, {}};
+    const Scene scene{{{{0, 0, 1}, 3}, {{0, 0, 1}, 1.5, {-0.3, -0.3}, {0.3, 0.3}}}, 35, 100};
+    expectErrors({camera, scene, motion({0, 0, 0}, {-0.5, 0, 0})}, 0.15, 0.05);
+}
+
+TEST(EpipolarSearch, FarAwayIsInfinity) {
+    const View view{plain(), {{{{0, 0, 1}, 1e5}}, 6e-4, 100}, motion({0, 3, 0}, {0.2, 0, 0})};
+    const EpipolarSearch search = searched(view);
+    const FlowErrors errors = errorsOf(search, view);
+    EXPECT_LT(errors.median, 0.15);
+    EXPECT_LT(errors.bad, 0.01);
+}
+
+TEST(EpipolarSearch, PureRotationNeedsNoSearch) {
+    for (const CameraModel& camera : {plain(), barrel()}) {
+        for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(5, -9, 12)}) {
+            const EpipolarSearch search = searched({camera, stepScene(), motion(turn, {0, 0, 0})});
+            EXPECT_EQ(search.labels(), 0);
+            EXPECT_EQ(search.pixelsPerUnit(), 0);
+            for (const float s : search.inverseDepth())
+                ASSERT_EQ(s, 0);
+        }
+    }
+}
+
+// One unit of s moves no pixel of the picture by more, and some by nearly as much.
+TEST(EpipolarSearch, PixelsPerUnitIsTheLongestWay) {
+    for (const Eigen::Vector3d& t :
+         {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0.1, -0.1, 0.3), Eigen::Vector3d(0, 0, -1)}) {
+        const EpipolarSearch search = searched({plain(), flatScene(), motion({0, 0, 0}, t)});
+        double longest = 0;
+        for (int y = 0; y < 150; ++y) {
+            for (int x = 0; x < 200; ++x) {
+                const Eigen::Vector2d r = plain().unproject({x, y});
+                longest = std::max(longest, 190 * (t.head<2>() - r * t.z()).norm());
+            }
+        }
+        EXPECT_NEAR(search.pixelsPerUnit(), longest, 2e-3 * longest);
+    }
+}
+
+TEST(EpipolarSearch, UnitOfLengthIsFree) {
+    const Eigen::Vector3d t(-0.15, 0.1, 0.05);
+    View view{barrel(), stepScene(), motion({2, -3, 4}, t)};
+    const LumaImage video = view.video(), still = view.still();
+    const EpipolarSearch metres = searched(view);
+    for (const double unit : {1e-6, 1e-3, 1e3, 1e6}) {
+        EpipolarSearch search = test::searchWith(view.camera, 2);
+        search.setStill(test::viewOf(still));
+        view.T_still_video.translation = unit * t;
+        ASSERT_TRUE(search.run(video, view.T_still_video));
+        EXPECT_EQ(search.labels(), metres.labels());
+        EXPECT_NEAR(search.pixelsPerUnit(), unit * metres.pixelsPerUnit(),
+                    1e-3 * unit * metres.pixelsPerUnit());
+        // The step along the line is measured in floats: a rounding may tip a pixel here or there.
+        int apart = 0;
+        for (int y = 0; y < 150; ++y)
+            for (int x = 0; x < 200; ++x)
+                apart += (landing(search, view, x, y) - landing(metres, view, x, y)).norm() > 0.1;
+        EXPECT_LT(apart, 200 * 150 / 200) << unit;
+    }
+}
+
+LumaImage developed(LumaImage picture, const std::function<double(double)>& curve) {
+    for (std::uint8_t& p : picture.pixels)
+        p = static_cast<std::uint8_t>(std::lround(std::clamp(curve(p), 0.0, 255.0)));
+    return picture;
+}
+
+TEST(EpipolarSearch, GainAndGammaChangeLittle) {
+    const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
+    const LumaImage video = view.video(), still = view.still();
+    const double plainBad = errorsOf(searched(view), view).bad;
+    const std::function<double(double)> curves[] = {
+        [](double v) { return 0.6 * v; },
+        [](double v) { return 40 + 0.7 * v; },
+        [](double v) { return 255 * std::pow(v / 255, 0.6); },
+        [](double v) { return 200 * std::pow(v / 255, 1.6); },
+    };
+    for (const auto& curve : curves) {
+        EpipolarSearch search = test::searchWith(view.camera, 2);
+        search.setStill(test::viewOf(developed(still, curve)));
+        ASSERT_TRUE(search.run(video, view.T_still_video));
+        EXPECT_LT(errorsOf(search, view).bad, plainBad + 0.01);
+        EXPECT_LT(errorsOf(search, view).median, kAcross);
+    }
+}
+
+TEST(EpipolarSearch, NoiseCostsLittle) {
+    const View view{plain(), slantedScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
+    std::mt19937 random(4);
+    std::normal_distribution<double> noise(0, 5);
+    const auto grain = [&](double v) { return v + noise(random); };
+    EpipolarSearch search = test::searchWith(view.camera, 2);
+    search.setStill(test::viewOf(developed(view.still(), grain)));
+    ASSERT_TRUE(search.run(developed(view.video(), grain), view.T_still_video));
+    EXPECT_LT(errorsOf(search, view).bad, 0.05);
+}
+
+}  // namespace
+}  // namespace mfar
