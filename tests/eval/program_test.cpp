@@ -93,7 +93,7 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
                                     MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 2 * 4 + 4) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 2 * 5 + 5) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate"));
     for (std::size_t i = 1; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].size(), rows[0].size());
@@ -104,8 +104,9 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
         EXPECT_TRUE(rows[i][6].empty() && rows[i][7].empty());
         EXPECT_LE(std::stod(rows[i][8]), 1);
     }
-    EXPECT_EQ(rows[3][2], "bicubic");
-    EXPECT_EQ(std::stod(rows[3][8]), 0);
+    EXPECT_EQ(rows[2][2], "detail2d");
+    EXPECT_EQ(rows[4][2], "bicubic");
+    EXPECT_EQ(std::stod(rows[4][8]), 0);
     EXPECT_EQ(rows.back()[1], "mean");
     EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1000_detail.png"));
     EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1001_truth.png"));
@@ -118,12 +119,13 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
                                                         MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 7 + 7) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 8 + 8) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage"));
-    EXPECT_EQ(rows[1][2], "flow2d");
-    EXPECT_EQ(rows[3][2], "dis-medium");
-    EXPECT_LT(std::stod(rows[3][4]), 0.5);
-    EXPECT_EQ(std::stod(rows[3][7]), 1);
+    EXPECT_EQ(rows[1][2], "epipolar");
+    EXPECT_EQ(rows[2][2], "flow2d");
+    EXPECT_EQ(rows[4][2], "dis-medium");
+    EXPECT_LT(std::stod(rows[4][4]), 0.5);
+    EXPECT_EQ(std::stod(rows[4][7]), 1);
 }
 
 /// A flat wall at 2 m, taken by both sensors at one time: 1/m and a baseline, no flow.
@@ -184,7 +186,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/absent", "absent"},
         {"superres " + dir + "/tiny", "no truth"},
         {"superres " + dir + "/tiny --methods detail,wonder",
-         "unknown method 'wonder' (valid: detail, blend, bicubic, paper)"},
+         "unknown method 'wonder' (valid: detail, detail2d, blend, bicubic, paper)"},
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},
