@@ -98,7 +98,7 @@ std::optional<std::size_t> EpipolarFlow::landing(int i, int j) const {
     if (!(x > -0.5F && y > -0.5F && x < static_cast<float>(cells_.width) - 0.5F &&
           y < static_cast<float>(cells_.height) - 0.5F))
         return std::nullopt;
-    return static_cast<std::size_t>(y + 0.5F) * cells_.width + static_cast<std::size_t>(x + 0.5F);
+    return static_cast<std::size_t>(std::lround(y)) * cells_.width + std::lround(x);
 }
 
 void EpipolarFlow::testDepth() {
