@@ -34,14 +34,21 @@ sleep 1
 kill -TERM "$pid"
 ends_with 0 $limit
 
-echo "while the reader of the display pipe takes nothing"
-exec 3<>pipe
+# The reader takes the first bytes of a picture. The pipe holds a hundredth of the others, so that
+# mfard soon waits.
+start_blocked() {
+    exec 3>&- # nobody has it open any more, so it is empty again
+    exec 3<>pipe
+    start --recording run --display y4m:pipe --summary summary.json
+    timeout $((30 * patience)) head -c 5000 <&3 >/dev/null || fail "no picture comes"
+    sleep 1
+}
+
+echo "while the reader of the display pipe takes nothing more"
 # The threads get half a second to give up, then mfard ends without them. A starved machine may need
 # longer, which is as good an end; on any other they make it, so one of a few tries must.
 for _ in $(seq "$patience"); do
-    start --recording run --display y4m:pipe --summary summary.json
-    until_true started
-    sleep 1
+    start_blocked
     kill -TERM "$pid"
     ends_with 0 $limit
     summary_has exit_reason '"SIGTERM"'
@@ -51,9 +58,7 @@ done
 says err 'not everything was written'
 
 echo "a second signal ends it at once"
-start --recording run --display y4m:pipe
-until_true started
-sleep 1
+start_blocked
 kill -TERM "$pid"
 sleep 0.05
 kill -INT "$pid"
