@@ -159,8 +159,9 @@ TEST_F(FlowPasses, FilterMatchesTwin) {
 TEST_F(FlowPasses, FilterKeepsPlanesAndTheStepBetweenThem) {
     std::vector<Cell> in(kArea);
     for (int i = 0; i < kArea; ++i) {
-        const float x = static_cast<float>(i % 16), y = static_cast<float>(i / 16);
-        in[i] = i % 16 < 8 ? Cell{0.1F * x - 0.05F * y, 0.2F * y, 0, 1e5F}
+        const int column = i % 16, row = i / 16;
+        const auto x = static_cast<float>(column), y = static_cast<float>(row);
+        in[i] = column < 8 ? Cell{0.1F * x - 0.05F * y, 0.2F * y, 0, 1e5F}
                            : Cell{9.0F + 0.05F * x, -4.0F, 0, 1e5F};
     }
     const auto out = filtered(in);
