@@ -30,7 +30,8 @@ void put(std::int32_t (&out)[4], std::int32_t a, std::int32_t b, std::int32_t c,
 }  // namespace
 
 Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan)
-    : search_("flow_search.comp"), propagate_("flow_propagate.comp"), filter_("flow_filter.comp") {
+    : search_("flow_search.comp"), propagate_("flow_propagate.comp"),
+      fitPlanes_("flow_filter.comp"), median_("flow_filter.comp", "#define MEDIAN_ONLY\n") {
     int next = 0;
     const auto take = [&](Size cells) {
         const int at = next;
@@ -58,8 +59,8 @@ void Flow2d::run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePri
     const auto& still = pyramids.still();
     run({video, still, forwardStages_, kForwardPropagations, usePrior}, pyramids, plan);
     run({still, video, backwardStages_, kBackwardPropagations, false}, pyramids, plan);
-    filter(forwardStages_[0], forward_, plan);
-    filter(backwardStages_[0], backward_, plan);
+    filter(fitPlanes_, forwardStages_[0], forward_, plan);
+    filter(median_, backwardStages_[0], backward_, plan);  // it only confirms
 }
 
 void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells forward,
@@ -77,7 +78,7 @@ void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells fo
     p.prior[0] = p.prior[1] = p.prior[2] = 1.0F;
     plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
              stage.dispatch);
-    filter(stage, forward_, plan);
+    filter(fitPlanes_, stage, forward_, plan);
 }
 
 void Flow2d::run(const Direction& way, const LumaPyramids& pyramids, const WorkPlan& plan) {
@@ -129,11 +130,12 @@ void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaPy
              stage.dispatch);
 }
 
-void Flow2d::filter(const Stage& stage, const Field& out, const WorkPlan& plan) {
+void Flow2d::filter(gpu::ComputePass<FilterParams>& pass, const Stage& stage, const Field& out,
+                    const WorkPlan& plan) {
     FilterParams p{};
     put(p.cells, stage.cells.width, stage.cells.height, 0, 0);
     put(p.offsets, out.offset, stage.area[0], 0, 0);
-    plan.run(filter_, p, {gpu::storage(1, patches_)}, stage.dispatch);
+    plan.run(pass, p, {gpu::storage(1, patches_)}, stage.dispatch);
 }
 
 }  // namespace mfar

@@ -70,7 +70,8 @@ private:
                 const WorkPlan& plan);
     void propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,
                    const WorkPlan& plan);
-    void filter(const Stage& stage, const Field& out, const WorkPlan& plan);
+    void filter(gpu::ComputePass<FilterParams>& pass, const Stage& stage, const Field& out,
+                const WorkPlan& plan);
 
     std::vector<Stage> forwardStages_, backwardStages_;
     Field forward_, backward_;
@@ -79,7 +80,7 @@ private:
     gpu::Buffer patches_;
     gpu::ComputePass<SearchParams> search_;
     gpu::ComputePass<PropagateParams> propagate_;
-    gpu::ComputePass<FilterParams> filter_;
+    gpu::ComputePass<FilterParams> fitPlanes_, median_;
 };
 
 }  // namespace mfar
