@@ -40,6 +40,7 @@ void Stats::picture(const Picture& picture) {
         ++confidenceFrames_;
     }
     if (picture.stats.usedPose) ++counted_.epipolarFrames;
+    counted_.tilesSearched2d += static_cast<std::uint64_t>(std::max(picture.stats.searched2d, 0));
     counted_.last = picture.stats;
     counted_.lastStages = picture.stages;
     counted_.stillAgeS = picture.stillAgeS;

@@ -42,7 +42,8 @@ struct Counted {
     Drops drops;
     StillCounts stills;
     PoseCounts poses;
-    std::uint64_t epipolarFrames = 0;  ///< pictures that were matched along epipolar lines
+    std::uint64_t epipolarFrames = 0;   ///< pictures that were matched along epipolar lines
+    std::uint64_t tilesSearched2d = 0;  ///< in them, as the lines did not explain them
     FrameStats last;
     std::vector<StageTime> lastStages;
     std::optional<double> stillAgeS;  ///< at the last frame

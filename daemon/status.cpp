@@ -69,6 +69,7 @@ nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& fr
         {"measured", poses.measured},
         {"tracked_share", poses.trackedShare()},
         {"epipolar_frames", counted.epipolarFrames},
+        {"tiles_searched_2d", counted.tilesSearched2d},
         {"tags", poses.meanTags()},
         {"reprojection_px", poses.meanErrorPx()},
         {"full_searches", poses.tracker.fullSearches},

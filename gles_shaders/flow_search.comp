@@ -1,8 +1,14 @@
 // Flow of every cell at one pyramid level: the best of the coarser level's vectors around it and of the
 // last frame's (coarsest level: of a square of whole-pixel displacements), then Gauss-Newton steps.
 // Out: patches[] = flow (x, y) [px of this level], cost, texture (energy of the patch). One invocation a cell.
+// Variant: #define LISTED
+// works on the groups of 4x4 cells in lists[] only, and turns the two-way errors of cells that leave
+// their epipolar line into what their match is worth.
 // After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
 #include "luma.glsl"
+#ifdef LISTED
+#include "tiles.glsl"
+#endif
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
@@ -12,6 +18,7 @@ layout(std140, binding = 0) uniform Params {
     ivec4 offsets;  // in patches[]: output, coarser level (-1 = coarsest), last frame (-1 = none), -
     ivec4 search;   // radius at the coarsest level [px], candidates, steps, last frame's cells a row
     vec4 prior;     // this level's pixels per pixel of the last frame's field, its cells per cell
+    ivec4 listed;   // first group in lists[], two-way errors in patches[] (-1 = not this level), -, -
 };
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
@@ -19,6 +26,17 @@ layout(std430, binding = 0) readonly buffer Luma {
 layout(std430, binding = 1) buffer Patches {
     vec4 patches[];
 };
+
+#ifdef LISTED
+layout(std430, binding = 2) readonly buffer Lists {
+    uint lists[];
+};
+// The z-test says nothing about what moves by itself: its cells are trusted by their cost, from wholly
+// to not at all (error = alpha of eq. 2).
+const float kGoodCost = 0.1;
+const float kErrorPerCost = 5.0;
+const float kOnLine = 1.0;  // [px]
+#endif
 
 #include "patch.glsl"
 
@@ -46,7 +64,12 @@ vec2 candidate(ivec2 cell, int k) {
 }
 
 void main() {
+#ifdef LISTED
+    ivec2 group = unpackTile(lists[listed.x + int(gl_WorkGroupID.x)]);
+    ivec2 cell = 4 * group + ivec2(gl_LocalInvocationID.xy);
+#else
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+#endif
     if (any(greaterThanEqual(cell, cells.xy))) return;
     Level lb = levelOf(to);
     Template t = loadTemplate(levelOf(from), cell);
@@ -73,5 +96,11 @@ void main() {
             break;
         }
     }
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found.cost, t.variance);
+    int at = cell.y * cells.x + cell.x;
+#ifdef LISTED
+    vec2 moved = best - patches[offsets.x + at].xy;
+    if (listed.y >= 0 && dot(moved, moved) > kOnLine * kOnLine)
+        patches[listed.y + at].x = max(found.cost - kGoodCost, 0.0) * kErrorPerCost;
+#endif
+    patches[offsets.x + at] = vec4(best, found.cost, t.variance);
 }

@@ -72,11 +72,13 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
     s.plan.update(s.video, s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
+    const bool usePose = useStill && pose && s.epipolar.hasStill();
     if (useStill) {
         s.pyramids.buildVideo(s.video, s.plan);
         s.lap("pyramid");
-        if (pose && s.epipolar.hasStill()) {
-            s.epipolar.run(video, *pose);
+        if (usePose) {
+            // The search runs on the processor, so that has to know whether it is needed.
+            if (s.plan.changedTiles() > 0) s.epipolar.run(video, *pose);
             s.lap("epipolar");
             s.flow.refine(s.pyramids, s.plan, s.epipolar.forward(), s.epipolar.hidden());
         } else {
@@ -94,7 +96,8 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
 
     s.result.stats = s.superres.statsBefore();
     s.result.stats.usedStill = useStill;
-    s.result.stats.usedPose = useStill && pose && s.epipolar.hasStill();
+    s.result.stats.usedPose = usePose;
+    s.result.stats.searched2d = s.flow.searched().countBefore();
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
     return s.result;
 }

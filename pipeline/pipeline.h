@@ -63,13 +63,16 @@ public:
     // Read-backs for tests, evaluation and the preview; they wait for the GPU.
     /// Numbers of the last run; FrameResult::stats is one frame behind, so that nothing waits.
     [[nodiscard]] FrameStats readStats() const;
-    /// Flow at every video pixel (x, y interleaved): with poses that of the inverse depth field,
-    /// otherwise bilinear between cells. Empty without still.
+    /// Flow at every video pixel (x, y interleaved): with poses that of the inverse depth field
+    /// except in tiles searched in both dimensions, there and without poses bilinear between cells.
+    /// Empty without still.
     [[nodiscard]] std::vector<float> readFlow() const;
     /// Eq. 2 confidence at every video pixel, [0, 1]. Empty without still.
     [[nodiscard]] std::vector<float> readConfidence() const;
     /// Class of every tile, row-major, ceil(video / kTileSize) tiles.
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
+    /// Of every tile: FrameStats::searched2d counts it.
+    [[nodiscard]] std::vector<bool> readSearchedTiles() const;
     /// Output picture, RGBA8, row 0 first.
     [[nodiscard]] std::vector<std::uint8_t> readImage() const;
 

@@ -1,6 +1,8 @@
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
 
+#include <algorithm>
+
 namespace mfar {
 namespace {
 
@@ -13,23 +15,39 @@ void channelInto(std::vector<float>& out, int stride, int at, const std::vector<
             out[i * stride + at] = sampleCells(cells, cellCount, channel, x, y);
 }
 
+std::size_t tileAt(int x, int y, Size video) {
+    const int columns = (video.width + kTileSize - 1) / kTileSize;
+    return static_cast<std::size_t>(y / kTileSize) * columns + x / kTileSize;
+}
+
 }  // namespace
 
 FrameStats Pipeline::readStats() const {
     FrameStats stats = state_->superres.statsNow();
     stats.usedStill = state_->result.stats.usedStill;
+    stats.usedPose = state_->result.stats.usedPose;
+    stats.searched2d = state_->flow.searched().count();
     return stats;
 }
 
 std::vector<float> Pipeline::readFlow() const {
     const State& s = *state_;
     if (!s.hasPrior) return {};
-    if (s.flow.errorsGiven()) return s.epipolar.flow();
+    const Size video = s.rig.video.size;
     const std::vector<float> cells = s.superres.cellField().readRgba32F();
-    std::vector<float> out(2UL * s.rig.video.size.width * s.rig.video.size.height);
+    std::vector<float> out(2UL * video.width * video.height);
     for (int channel = 0; channel < 2; ++channel)
-        channelInto(out, 2, channel, cells, s.superres.cellField().size(), channel,
-                    s.rig.video.size);
+        channelInto(out, 2, channel, cells, s.superres.cellField().size(), channel, video);
+    if (!s.flow.errorsGiven()) return out;
+    const std::vector<bool> searched = readSearchedTiles();
+    const std::vector<float> alongLines = s.epipolar.flow();
+    for (int y = 0; y < video.height; ++y)
+        for (int x = 0; x < video.width; ++x) {
+            if (searched[tileAt(x, y, video)]) continue;
+            const std::size_t i = 2 * (static_cast<std::size_t>(y) * video.width + x);
+            std::copy_n(alongLines.begin() + static_cast<std::ptrdiff_t>(i), 2,
+                        out.begin() + static_cast<std::ptrdiff_t>(i));
+        }
     return out;
 }
 
@@ -44,6 +62,10 @@ std::vector<float> Pipeline::readConfidence() const {
 
 std::vector<TileClass> Pipeline::readTileClasses() const {
     return state_->superres.readClasses();
+}
+
+std::vector<bool> Pipeline::readSearchedTiles() const {
+    return state_->flow.searched().read();
 }
 
 std::vector<std::uint8_t> Pipeline::readImage() const {

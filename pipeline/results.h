@@ -35,6 +35,9 @@ struct FrameStats {
     double changed = 0;    ///< share of tiles whose video differs from when they were last drawn
     bool usedStill = false;
     bool usedPose = false;  ///< matched along epipolar lines, as the poses of both were known
+    /// Tiles that those lines did not explain (something moves there, or a pose is wrong), which
+    /// were searched in both dimensions. Without poses all changed tiles are, and none counted.
+    int searched2d = 0;
 };
 
 /// What Pipeline::run gives back. Valid until the next run.

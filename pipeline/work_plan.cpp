@@ -40,6 +40,10 @@ void WorkPlan::openAll() {
     plan_.write(std::span<const std::array<std::uint32_t, 4>>(wanted_), kPlanHeader);
 }
 
+int WorkPlan::changedTiles() const {
+    return static_cast<int>(plan_.read<std::uint32_t>(1)[0]);
+}
+
 void WorkPlan::update(const gpu::Texture& now, const gpu::Texture& drawn, bool force) {
     if (plan_.bytes() == 0) upload();
     if (measured_) {

@@ -41,6 +41,8 @@ public:
     /// The command of the full-screen draws: one instance when so much changed that drawing
     /// everything beats drawing tiles, none otherwise.
     [[nodiscard]] gpu::IndirectDraw wholeDraw() const { return {plan_, 16}; }
+    /// Number of tiles that the last update() found changed. Waits for the GPU.
+    [[nodiscard]] int changedTiles() const;
     [[nodiscard]] Size tileCount() const { return tileCount_; }
     /// Standard deviation of the video's noise [grey levels], from the quietest tiles; follows
     /// update() a frame late, so that nothing waits. Before that: that of 8-bit rounding.

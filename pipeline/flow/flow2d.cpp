@@ -27,11 +27,17 @@ void put(std::int32_t (&out)[4], std::int32_t a, std::int32_t b, std::int32_t c,
     out[3] = d;
 }
 
+Size cellsOf(const LumaLevel& level) {
+    return {(level.width + 3) / 4, (level.height + 3) / 4};
+}
+
 }  // namespace
 
 Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan)
-    : search_("flow_search.comp"), propagate_("flow_propagate.comp"),
-      fitPlanes_("flow_filter.comp"), median_("flow_filter.comp", "#define MEDIAN_ONLY\n") {
+    : searched_(cellsOf(pyramids.video()[0]), static_cast<int>(pyramids.video().size()), plan),
+      search_("flow_search.comp"), searchListed_("flow_search.comp", "#define LISTED\n"),
+      propagate_("flow_propagate.comp"), fitPlanes_("flow_filter.comp"),
+      median_("flow_filter.comp", "#define MEDIAN_ONLY\n") {
     int next = 0;
     const auto take = [&](Size cells) {
         const int at = next;
@@ -40,7 +46,7 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan)
     };
     for (std::vector<Stage>* stages : {&forwardStages_, &backwardStages_}) {
         for (const LumaLevel& level : pyramids.video()) {
-            const Size cells{(level.width + 3) / 4, (level.height + 3) / 4};
+            const Size cells = cellsOf(level);
             stages->push_back({cells,
                                {take(cells), take(cells)},
                                plan.add({gpu::groupsFor(cells.width, kGroup),
@@ -55,6 +61,7 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan)
 
 void Flow2d::run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePrior) {
     errorsGiven_ = false;
+    searched_.clear();
     const auto& video = pyramids.video();
     const auto& still = pyramids.still();
     run({video, still, forwardStages_, kForwardPropagations, usePrior}, pyramids, plan);
@@ -78,7 +85,23 @@ void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells fo
     p.prior[0] = p.prior[1] = p.prior[2] = 1.0F;
     plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
              stage.dispatch);
+    searched_.find({patches_, stage.area[0], backward_.offset}, plan);
+    searchListed(pyramids);
     filter(fitPlanes_, stage, forward_, plan);
+}
+
+// No propagation: a listed group's neighbours need not be listed. What the lines found is a
+// candidate at every level, and at the finest it stays where nothing fits better.
+void Flow2d::searchListed(const LumaPyramids& pyramids) {
+    const Direction way{pyramids.video(), pyramids.still(), forwardStages_, 0, false};
+    for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
+        SearchParams p = searchParams(way, level, 0, kSearchRadius, forwardStages_[0].area[0]);
+        put(p.listed, searched_.first(level), level == 0 ? backward_.offset : -1, 0, 0);
+        searchListed_.runIndirect(p,
+                                  {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_),
+                                   gpu::storage(2, searched_.lists())},
+                                  searched_.commands(), 16UL * level);
+    }
 }
 
 void Flow2d::run(const Direction& way, const LumaPyramids& pyramids, const WorkPlan& plan) {
@@ -95,26 +118,31 @@ void Flow2d::run(const Direction& way, const LumaPyramids& pyramids, const WorkP
 
 void Flow2d::search(const Direction& way, int level, int area, const LumaPyramids& pyramids,
                     const WorkPlan& plan) {
+    const SearchParams p =
+        searchParams(way, level, area, way.usePrior ? kTrackingRadius : kSearchRadius,
+                     way.usePrior ? forward_.offset : -1);
+    plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
+             way.stages[level].dispatch);
+}
+
+// `prior`: first vec4 of a field of the finest level whose vectors are candidates, or -1.
+Flow2d::SearchParams Flow2d::searchParams(const Direction& way, int level, int area, int radius,
+                                          int prior) const {
     const Stage& stage = way.stages[level];
     const bool coarsest = level + 1 == static_cast<int>(way.stages.size());
-    const int radius = way.usePrior ? kTrackingRadius : kSearchRadius;
     const int side = 2 * radius + 1;
-    const int prior = way.usePrior ? 1 : 0;
-
     SearchParams p{};
     p.from = way.from[level];
     p.to = way.to[level];
     const Size coarser = coarsest ? Size{} : way.stages[level + 1].cells;
     put(p.cells, stage.cells.width, stage.cells.height, coarser.width, coarser.height);
-    put(p.offsets, stage.area[area], coarsest ? -1 : way.stages[level + 1].area[0],
-        way.usePrior ? forward_.offset : -1, 0);
-    put(p.search, radius, prior + (coarsest ? side * side : kCoarserCandidates), kSearchSteps,
-        forward_.cells.width);
+    put(p.offsets, stage.area[area], coarsest ? -1 : way.stages[level + 1].area[0], prior, 0);
+    put(p.search, radius, (prior >= 0 ? 1 : 0) + (coarsest ? side * side : kCoarserCandidates),
+        kSearchSteps, forward_.cells.width);
     p.prior[0] = 1.0F / static_cast<float>(1 << level);
     p.prior[1] = static_cast<float>(forward_.cells.width) / static_cast<float>(stage.cells.width);
     p.prior[2] = static_cast<float>(forward_.cells.height) / static_cast<float>(stage.cells.height);
-    plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
-             stage.dispatch);
+    return p;
 }
 
 void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/flow/luma_pyramid.h"
+#include "pipeline/flow/tile_lists.h"
 
 #include <array>
 #include <span>
@@ -27,9 +28,13 @@ public:
     void run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePrior);
 
     /// Computes the forward field from one vector per cell that is right but for a fraction of a
-    /// pixel; `errors`: what is known of the two-way error of eq. 2, in x [px].
+    /// pixel; `errors`: what is known of the two-way error of eq. 2, in x [px]. Tiles where the
+    /// vectors turn out wrong, as nothing explains, are searched in 2-D from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells forward, Cells errors);
+
+    /// The tiles that the last refine() had to search.
+    [[nodiscard]] const TileLists& searched() const { return searched_; }
 
     [[nodiscard]] const gpu::Buffer& patches() const { return patches_; }
     [[nodiscard]] const Field& forward() const { return forward_; }  ///< video -> still
@@ -42,6 +47,7 @@ private:
         LumaLevel from, to;
         std::int32_t cells[4], offsets[4], search[4];
         float prior[4];
+        std::int32_t listed[4];
     };
     struct PropagateParams {
         LumaLevel from, to;
@@ -68,6 +74,9 @@ private:
     void run(const Direction& way, const LumaPyramids& pyramids, const WorkPlan& plan);
     void search(const Direction& way, int level, int area, const LumaPyramids& pyramids,
                 const WorkPlan& plan);
+    void searchListed(const LumaPyramids& pyramids);
+    [[nodiscard]] SearchParams searchParams(const Direction& way, int level, int area, int radius,
+                                            int prior) const;
     void propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,
                    const WorkPlan& plan);
     void filter(gpu::ComputePass<FilterParams>& pass, const Stage& stage, const Field& out,
@@ -78,7 +87,8 @@ private:
     bool errorsGiven_ = false;
     int seed_;  // first vec4 of refine()'s forward vectors
     gpu::Buffer patches_;
-    gpu::ComputePass<SearchParams> search_;
+    TileLists searched_;
+    gpu::ComputePass<SearchParams> search_, searchListed_;
     gpu::ComputePass<PropagateParams> propagate_;
     gpu::ComputePass<FilterParams> fitPlanes_, median_;
 };

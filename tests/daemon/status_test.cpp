@@ -22,6 +22,7 @@ void showPictures(Stats& stats, int count) {
         frame.meanConfidence = 0.8;
         frame.usedStill = i >= count / 2;
         frame.usedPose = frame.usedStill;
+        frame.searched2d = frame.usedPose ? 3 : 0;
         const Timestamp arrived = Timestamp::fromSeconds(10 + 0.05 * i);
         stats.picture({frame, kStages, arrived, arrived + std::chrono::milliseconds(20), 1.5});
     }
@@ -110,6 +111,7 @@ TEST(Status, SummaryTellsHowPosesWereFound) {
     EXPECT_EQ(pose["measured"], 1);
     EXPECT_NEAR(pose["tracked_share"].get<double>(), 2. / 3, 1e-9);
     EXPECT_EQ(pose["epipolar_frames"], 2) << "half of the pictures";
+    EXPECT_EQ(pose["tiles_searched_2d"], 6) << "three of each";
     EXPECT_EQ(pose["tags"], 6) << "frames without tags do not count";
     EXPECT_EQ(pose["reprojection_px"], 0.25);
     EXPECT_EQ(pose["full_searches"], 1);

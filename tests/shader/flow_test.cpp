@@ -25,6 +25,7 @@ struct SearchParams {
     LumaLevel from, to;
     std::int32_t cells[4], offsets[4], search[4];
     float prior[4];
+    std::int32_t listed[4];
 };
 struct PropagateParams {
     LumaLevel from, to;
@@ -51,9 +52,13 @@ std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, 
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(prior), kArea * sizeof(Cell));
     gpu::ComputePass<SearchParams> pass("flow_search.comp");
-    const SearchParams p{
-        pair.pyramids.video()[0], pair.pyramids.still()[0],    {kCells.width, kCells.height, 0, 0},
-        {0, -1, kArea, 0},        {0, 1, steps, kCells.width}, {1, 1, 1, 0}};
+    const SearchParams p{pair.pyramids.video()[0],
+                         pair.pyramids.still()[0],
+                         {kCells.width, kCells.height, 0, 0},
+                         {0, -1, kArea, 0},
+                         {0, 1, steps, kCells.width},
+                         {1, 1, 1, 0},
+                         {}};
     pass.run(p, {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
     return patches.read<Cell>(kArea);
 }

@@ -1,0 +1,45 @@
+// The groups of 4x4 cells of one pyramid level that the 2-D search of the flagged tiles needs: those
+// with a flagged tile in them or within a margin, from which the finer level takes its candidates. A tile
+// with two flagged ones beside it counts as flagged: what moves has plain parts, too.
+// In: flags[] of flow_flag.comp. Out: lists[] = packed groups of the level, commands[] = its dispatch,
+// zeroed before but for the two ones. One invocation a group.
+#include "tiles.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = 0) uniform Params {
+    ivec4 tiles;   // tiles a row, rows, -, -
+    ivec4 groups;  // groups a row, rows, tiles a group and axis, margin [tiles]
+    ivec4 target;    // index in commands[], first entry in lists[], -, -
+};
+layout(std430, binding = 0) readonly buffer Flags {
+    uint flags[];
+};
+layout(std430, binding = 1) buffer Commands {
+    uvec4 commands[];
+};
+layout(std430, binding = 2) writeonly buffer Lists {
+    uint lists[];
+};
+
+uint flagAt(int x, int y) {
+    bool within = x >= 0 && y >= 0 && x < tiles.x && y < tiles.y;
+    return within ? flags[y * tiles.x + x] : 0u;
+}
+
+bool flagged(int x, int y) {
+    uint beside = flagAt(x - 1, y) + flagAt(x + 1, y) + flagAt(x, y - 1) + flagAt(x, y + 1);
+    return flagAt(x, y) != 0u || beside >= 2u;
+}
+
+void main() {
+    ivec2 group = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(group, groups.xy))) return;
+    ivec2 first = max(groups.z * group - groups.w, ivec2(0));
+    ivec2 end = min(groups.z * (group + 1) + groups.w, tiles.xy);
+    bool needed = false;
+    for (int y = first.y; y < end.y; ++y)
+        for (int x = first.x; x < end.x; ++x) needed = needed || flagged(x, y);
+    if (!needed) return;
+    uint at = atomicAdd(commands[target.x].x, 1u);
+    lists[target.y + int(at)] = packTile(group);
+}

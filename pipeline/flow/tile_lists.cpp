@@ -1,0 +1,82 @@
+#include "pipeline/flow/tile_lists.h"
+
+#include <algorithm>
+#include <array>
+
+namespace mfar {
+namespace {
+
+constexpr int kCellsPerTile = 4;  // each way
+constexpr int kGroup = 8;         // tiles a workgroup and axis, as in the shaders
+// Energy of an 8x8 patch [grey levels^2] from which on its cost says something: eight times that of
+// a grey level of noise.
+constexpr double kTexturePerVariance = 8 * 64;
+constexpr float kUnexplained = 0.4F;  // cost: 1 less the correlation
+// Two-way error [px] of cells that the still cannot show. What lies behind something else is
+// searched: what moves hides and is hidden, and the z-test believes the lines.
+constexpr float kNotShown = 100;
+constexpr int kLeastCells = 3;  // of 16
+
+int divideUp(int a, int b) {
+    return (a + b - 1) / b;
+}
+
+WorkPlan::Dispatch addGroups(WorkPlan& plan, Size size) {
+    return plan.add({gpu::groupsFor(size.width, kGroup), gpu::groupsFor(size.height, kGroup), 1});
+}
+
+}  // namespace
+
+TileLists::TileLists(Size cells, int levels, WorkPlan& plan)
+    : cells_(cells),
+      tiles_{divideUp(cells.width, kCellsPerTile), divideUp(cells.height, kCellsPerTile)},
+      flags_(sizeof(std::uint32_t) * tiles_.width * tiles_.height), commands_(16UL * levels),
+      flagDispatch_(addGroups(plan, tiles_)), flag_("flow_flag.comp"), list_("flow_list.comp") {
+    int entries = 0;
+    for (int l = 0; l < levels; ++l) {
+        const Size groups{divideUp(tiles_.width, 1 << l), divideUp(tiles_.height, 1 << l)};
+        levels_.push_back({groups, entries, addGroups(plan, groups)});
+        entries += groups.width * groups.height;
+    }
+    lists_ = gpu::Buffer(sizeof(std::uint32_t) * entries);
+}
+
+void TileLists::clear() {
+    countBefore_ = count();
+    const std::vector<std::array<std::uint32_t, 4>> none(levels_.size(), {0, 1, 1, 0});
+    commands_.write(std::span(none));
+}
+
+void TileLists::find(const Field& field, const WorkPlan& plan) {
+    clear();
+    FlagParams f{{tiles_.width, tiles_.height, cells_.width, cells_.height},
+                 {field.vectors, field.errors, kLeastCells, 0},
+                 {static_cast<float>(kTexturePerVariance * (1 + plan.noise() * plan.noise())),
+                  kUnexplained, kNotShown, 0}};
+    plan.run(flag_, f, {gpu::storage(1, field.patches), gpu::storage(2, flags_)}, flagDispatch_);
+    for (int l = 0; l < static_cast<int>(levels_.size()); ++l) {
+        const Level& level = levels_[l];
+        // A group's search looks at the coarser groups beside its own, and those at theirs.
+        const int margin = (2 << l) - 2;
+        const ListParams p{{tiles_.width, tiles_.height, 0, 0},
+                           {level.groups.width, level.groups.height, 1 << l, margin},
+                           {l, level.first, 0, 0}};
+        plan.run(list_, p,
+                 {gpu::storage(0, flags_), gpu::storage(1, commands_), gpu::storage(2, lists_)},
+                 level.dispatch);
+    }
+}
+
+int TileLists::count() const {
+    return static_cast<int>(commands_.read<std::uint32_t>(1)[0]);
+}
+
+std::vector<bool> TileLists::read() const {
+    const auto listed = lists_.read<std::uint32_t>(count());
+    std::vector<bool> out(static_cast<std::size_t>(tiles_.width) * tiles_.height);
+    for (const std::uint32_t tile : listed)
+        out[static_cast<std::size_t>(tile >> 16) * tiles_.width + (tile & 0xFFFF)] = true;
+    return out;
+}
+
+}  // namespace mfar

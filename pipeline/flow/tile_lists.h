@@ -1,0 +1,63 @@
+#pragma once
+
+#include "pipeline/work_plan.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// Finds on the GPU the tiles that a field along epipolar lines does not explain, and lists them
+/// for the 2-D search, for each pyramid level what that level's search has to cover.
+class TileLists {
+public:
+    /// A field of cells and its two-way errors, both by their first vec4 in `patches`.
+    struct Field {
+        const gpu::Buffer& patches;
+        int vectors, errors;
+    };
+
+    /// `cells` of the finest level; the plan opens and shuts the search for tiles.
+    TileLists(Size cells, int levels, WorkPlan& plan);
+
+    void find(const Field& field, const WorkPlan& plan);
+    /// Nothing is listed any more.
+    void clear();
+
+    /// Packed groups of 4x4 cells, those of a level from first(level) on.
+    [[nodiscard]] const gpu::Buffer& lists() const { return lists_; }
+    [[nodiscard]] int first(int level) const { return levels_[level].first; }
+    /// Group counts of the dispatches, one every 16 bytes from the finest level on.
+    [[nodiscard]] const gpu::Buffer& commands() const { return commands_; }
+
+    /// Number of listed tiles before the last find() or clear(): already there, nothing waits.
+    [[nodiscard]] int countBefore() const { return countBefore_; }
+    /// Number of listed tiles. Waits for the GPU.
+    [[nodiscard]] int count() const;
+    /// Of every tile, row-major: is it listed? Waits for the GPU.
+    [[nodiscard]] std::vector<bool> read() const;
+
+private:
+    struct FlagParams {
+        std::int32_t tiles[4], offsets[4];
+        float tune[4];
+    };
+    struct ListParams {
+        std::int32_t tiles[4], groups[4], target[4];
+    };
+    struct Level {
+        Size groups;
+        int first;
+        WorkPlan::Dispatch dispatch;
+    };
+
+    Size cells_, tiles_;
+    std::vector<Level> levels_;
+    int countBefore_ = 0;
+    gpu::Buffer flags_, commands_, lists_;
+    WorkPlan::Dispatch flagDispatch_;
+    gpu::ComputePass<FlagParams> flag_;
+    gpu::ComputePass<ListParams> list_;
+};
+
+}  // namespace mfar

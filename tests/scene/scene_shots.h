@@ -1,0 +1,22 @@
+#pragma once
+
+#include "hal/virtual/synthetic_board.h"
+
+#include <memory>
+#include <vector>
+
+namespace mfar::test {
+
+/// A still and a later frame of a scene, as the board's sensors take them, with their exact poses.
+struct SceneShots {
+    SceneShots(synthetic::Scene scene, synthetic::Path path, int framesLater);
+
+    /// Of every tile of 16x16 pixels: does at least a quarter of it move against the still other
+    /// than the camera's motion explains, by a pixel or more?
+    [[nodiscard]] std::vector<bool> movingTiles() const;
+
+    std::unique_ptr<SyntheticBoard> board;
+    Frame still, frame;
+};
+
+}  // namespace mfar::test
