@@ -1,5 +1,6 @@
 #include "pipeline/calibration/rig_files.h"
 #include "tests/calibration/rig_texts.h"
+#include "tests/unit/damage.h"
 #include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -128,8 +129,6 @@ TEST(RigFiles, AnyDamageEitherLoadsOrIsACalibrationError) {
     const TempFolder folder;
     writeAll(folder.path());
     std::mt19937 random(11);
-    const std::string letters = "0123456789.,-+eE#:[]{}&*!|>'\"%@\n\r\t \xff\x80"
-                                "anif/";
     int refused = 0;
     constexpr int kRounds = 300;
     for (int round = 0; round < kRounds; ++round) {
@@ -138,15 +137,7 @@ TEST(RigFiles, AnyDamageEitherLoadsOrIsACalibrationError) {
         const auto which = random() % 5;
         const fs::path file = folder / files[which];
         const std::string good = readFile(file);
-        std::string bad = good;
-        for (auto n = random() % 4 + 1; n > 0; --n) {
-            const std::size_t at = random() % bad.size();
-            switch (random() % 3) {
-            case 0: bad[at] = letters[random() % letters.size()]; break;
-            case 1: bad.insert(at, 1, letters[random() % letters.size()]); break;
-            default: bad.erase(at, random() % 8); break;
-            }
-        }
+        const std::string bad = damaged(good, random);
         writeFile(file, bad);
         SCOPED_TRACE(bad);
         refused += faultOf(folder / loads[which]) != "no fault found" ? 1 : 0;

@@ -1,4 +1,5 @@
 #include "hal/virtual/recording.h"
+#include "tests/unit/damage.h"
 #include "tests/unit/small_recording.h"
 
 #include <gtest/gtest.h>
@@ -278,22 +279,12 @@ TEST(Recording, AnyDamageEitherLoadsOrIsARecordingError) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     std::mt19937 random(7);
-    const std::string letters = "0123456789.,-+eE#:[]{}&*!|>'\"%@\n\r\t \xff\x80"
-                                "anif/";
     int refused = 0;
     for (int round = 0; round < 200; ++round) {
         const char* const files[] = {kVideoYaml, kStillYaml, kVideoCsv, kPoses};
         const fs::path file = folder / files[random() % 4];
         const std::string good = test::readFile(file);
-        std::string bad = good;
-        for (auto n = random() % 4 + 1; n > 0; --n) {
-            const std::size_t at = random() % bad.size();
-            switch (random() % 3) {
-            case 0: bad[at] = letters[random() % letters.size()]; break;
-            case 1: bad.insert(at, 1, letters[random() % letters.size()]); break;
-            default: bad.erase(at, random() % 8); break;
-            }
-        }
+        const std::string bad = test::damaged(good, random);
         writeFile(file, bad);
         SCOPED_TRACE(bad);
         refused += faultOf(folder.path()) != "no fault found" ? 1 : 0;
