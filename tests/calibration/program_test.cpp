@@ -1,13 +1,10 @@
 #include "pipeline/calibration/rig_files.h"
-#include "tests/unit/temp_folder.h"
+#include "tests/unit/run_program.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
-
 #include <charconv>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -17,17 +14,6 @@ namespace mfar::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Outcome {
-    int status = -1;
-    std::string text;  ///< standard output and error
-};
-
-Outcome execute(const TempFolder& folder, const std::string& command) {
-    const fs::path log = folder / "log.txt";
-    const int raw = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());
-    return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, readFile(log)};
-}
 
 /// The still sensor's clock is now `ns` ahead.
 void shiftStills(const fs::path& recording, long long ns) {

@@ -1,14 +1,11 @@
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recorder.h"
 #include "tests/track/tag_scene.h"
-#include "tests/unit/temp_folder.h"
+#include "tests/unit/run_program.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <sys/wait.h>
-
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <sstream>
@@ -22,16 +19,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace test;
 
-struct Outcome {
-    int status = -1;
-    std::string text;  ///< standard output and error
-};
-
-Outcome execute(const TempFolder& folder, const std::string& arguments) {
-    const fs::path log = folder / "log.txt";
-    const int raw = std::system(
-        fmt::format("'{}' pose {} >'{}' 2>&1", MFAR_EVAL, arguments, log.string()).c_str());
-    return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, readFile(log)};
+Outcome evaluate(const TempFolder& folder, const std::string& arguments) {
+    return execute(folder, fmt::format("'{}' pose {}", MFAR_EVAL, arguments));
 }
 
 using CsvRow = std::map<std::string, std::string>;
@@ -89,7 +78,7 @@ TEST(MfarEvalPose, MeasuresARecording) {
     const TempFolder folder;
     writeRecording(folder / "tiny");
     const Outcome outcome =
-        execute(folder, fmt::format("{0}/tiny --csv {0}/out.csv", folder.path().string()));
+        evaluate(folder, fmt::format("{0}/tiny --csv {0}/out.csv", folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 4U + 4 + 1 + 3 + 3) << outcome.text;
@@ -118,7 +107,7 @@ TEST(MfarEvalPose, CountsTagsInPictures) {
         line += fmt::format(", ({:.4f} {:.4f})", c.x() + 0.5, c.y() + 0.5);
     writeFile(folder / "tags" / "a.txt", line + "\n13, (9 9), (19 9), (19 19), (9 19)\n");
     const std::string arguments = fmt::format("{0}/tags --csv {0}/out.csv", folder.path().string());
-    const Outcome outcome = execute(folder, arguments);
+    const Outcome outcome = evaluate(folder, arguments);
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 2U + 2) << outcome.text;
@@ -129,7 +118,7 @@ TEST(MfarEvalPose, CountsTagsInPictures) {
         EXPECT_EQ(std::stod(row.at("false")), 0);
     }
     writeFile(folder / "tags" / "a.txt", line + "\n13, (9 9), (19 9), (19 19), (9 nan)\n");
-    const Outcome broken = execute(folder, arguments);
+    const Outcome broken = evaluate(folder, arguments);
     EXPECT_EQ(broken.status, 2);
     EXPECT_NE(broken.text.find("a.txt:2: not \"id, (x y)"), std::string::npos) << broken.text;
 }
@@ -149,7 +138,7 @@ TEST(MfarEvalPose, WrongRequestsEndWithOneLineAndStatus2) {
         {"bare --methods wonder", "unknown method 'wonder' (valid: filtered, raw, still)"},
     };
     for (const auto& [arguments, message] : cases) {
-        const Outcome outcome = execute(folder, folder.path().string() + '/' + arguments);
+        const Outcome outcome = evaluate(folder, folder.path().string() + '/' + arguments);
         EXPECT_EQ(outcome.status, 2) << arguments;
         EXPECT_NE(outcome.text.find(message), std::string::npos) << outcome.text;
     }

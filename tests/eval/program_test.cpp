@@ -2,16 +2,13 @@
 #include "hal/virtual/recorder.h"
 #include "tests/bench/workload.h"
 #include "tests/eval/picture.h"
-#include "tests/unit/temp_folder.h"
+#include "tests/unit/run_program.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include <sys/wait.h>
-
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -22,19 +19,10 @@
 namespace mfar::eval {
 namespace {
 
+using test::execute;
+using test::Outcome;
 using test::TempFolder;
 namespace fs = std::filesystem;
-
-struct Outcome {
-    int status = -1;
-    std::string text;  ///< standard output and error
-};
-
-Outcome execute(const TempFolder& folder, const std::string& command) {
-    const fs::path log = folder / "log.txt";
-    const int raw = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());
-    return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, test::readFile(log)};
-}
 
 std::vector<std::string> split(const std::string& line) {
     std::vector<std::string> out;

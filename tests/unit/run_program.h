@@ -1,0 +1,27 @@
+#pragma once
+
+#include "tests/unit/temp_folder.h"
+
+#include <fmt/format.h>
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace mfar::test {
+
+struct Outcome {
+    int status = -1;   ///< exit status, -1 when a signal ended it
+    std::string text;  ///< standard output and error
+};
+
+/// Runs a command of the shell; what it prints goes through log.txt in `folder`.
+inline Outcome execute(const TempFolder& folder, const std::string& command) {
+    const std::filesystem::path log = folder / "log.txt";
+    const int raw = std::system(fmt::format("{} >'{}' 2>&1", command, log.string()).c_str());
+    return {WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, readFile(log)};
+}
+
+}  // namespace mfar::test
