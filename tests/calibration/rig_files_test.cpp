@@ -1,6 +1,7 @@
 #include "pipeline/calibration/rig_files.h"
 #include "pipeline/calibration/sensor_yaml.h"
 #include "tests/calibration/rig_texts.h"
+#include "tests/unit/same_camera.h"
 #include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
@@ -14,16 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void expectSame(const CameraModel& a, const CameraModel& b) {
-    EXPECT_EQ(a.size, b.size);
-    EXPECT_EQ(a.fx, b.fx);
-    EXPECT_EQ(a.fy, b.fy);
-    EXPECT_EQ(a.cx, b.cx);
-    EXPECT_EQ(a.cy, b.cy);
-    EXPECT_EQ(a.distortion, b.distortion);
-}
-
-void expectSame(const RigCalibration& a, const RigCalibration& b, double offset) {
+void expectSameRig(const RigCalibration& a, const RigCalibration& b, double offset) {
     expectSame(a.rig.video, b.rig.video);
     expectSame(a.rig.still, b.rig.still);
     EXPECT_LT(a.rig.T_still_video.rotation.angularDistance(b.rig.T_still_video.rotation), 1e-12);
@@ -37,14 +29,15 @@ TEST(RigFiles, WhatIsSavedIsReadBack) {
     rig.rig.video.fx = 560.1234567890123;
     rig.rig.still.distortion[4] = 1. / 3;
     saveRig(folder / "made", rig);
-    expectSame(loadRig(folder / "made"), rig, 0.0025);
-    expectSame(loadRig(folder / "made/rig.yaml", {Size{640, 480}, Size{2304, 1728}}), rig, 0.0025);
+    expectSameRig(loadRig(folder / "made"), rig, 0.0025);
+    expectSameRig(loadRig(folder / "made/rig.yaml", {Size{640, 480}, Size{2304, 1728}}), rig,
+                  0.0025);
 }
 
 TEST(RigFiles, KalibrsCamchainIsRead) {
     const TempFolder folder;
     writeFile(folder / "camchain.yaml", kKalibrText);
-    expectSame(loadRig(folder / "camchain.yaml"), sampleRig(), 0.0025);
+    expectSameRig(loadRig(folder / "camchain.yaml"), sampleRig(), 0.0025);
 }
 
 TEST(RigFiles, KalibrsCamerasMayBePlacedByTheInertialSensor) {
@@ -63,14 +56,14 @@ TEST(RigFiles, KalibrsCamerasMayBePlacedByTheInertialSensor) {
 TEST(RigFiles, OpenCvStorageIsReadFromOneFileOrTwo) {
     const TempFolder folder;
     writeFile(folder / "all.yml", openCvText());
-    expectSame(loadRig(folder / "all.yml"), sampleRig(), 0);
+    expectSameRig(loadRig(folder / "all.yml"), sampleRig(), 0);
     const std::array<fs::path, 2> pair{folder / "intrinsics.yml", folder / "extrinsics.yml"};
     writeFile(pair[0], kOpenCvIntrinsics);
     writeFile(pair[1], kOpenCvExtrinsics);
     const WantedSizes sizes{Size{640, 480}, Size{2304, 1728}};
-    expectSame(loadRig(pair, sizes), sampleRig(), 0);
+    expectSameRig(loadRig(pair, sizes), sampleRig(), 0);
     const std::array<fs::path, 2> turned{pair[1], pair[0]};
-    expectSame(loadRig(turned, sizes), sampleRig(), 0);
+    expectSameRig(loadRig(turned, sizes), sampleRig(), 0);
 }
 
 TEST(RigFiles, OpenCvsLongNamesAndOldHeaderAreRead) {
@@ -84,7 +77,7 @@ TEST(RigFiles, OpenCvsLongNamesAndOldHeaderAreRead) {
     for (const auto& [from, to] : names)
         text.replace(text.find(from), std::string(from).size(), to);
     writeFile(folder / "all.yml", text);
-    expectSame(loadRig(folder / "all.yml"), sampleRig(), 0);
+    expectSameRig(loadRig(folder / "all.yml"), sampleRig(), 0);
 }
 
 TEST(RigFiles, EurocFilesAreReadAsPairOrFromTheirRecording) {

@@ -1,6 +1,7 @@
 #include "hal/virtual/recorder.h"
 #include "hal/virtual/recording.h"
 #include "hal/virtual/recording_player.h"
+#include "tests/unit/same_camera.h"
 #include "tests/unit/small_recording.h"
 
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using std::chrono::seconds;
+using test::expectSame;
 using test::plain;
 using test::TempFolder;
 
@@ -27,15 +29,6 @@ StereoRig smallRig() {
     rig.T_still_video.rotation = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized());
     rig.T_still_video.translation = {-0.014, 0.001, 0.002};
     return rig;
-}
-
-void expectEqual(const CameraModel& a, const CameraModel& b) {
-    EXPECT_EQ(a.size, b.size);
-    EXPECT_EQ(a.fx, b.fx);
-    EXPECT_EQ(a.fy, b.fy);
-    EXPECT_EQ(a.cx, b.cx);
-    EXPECT_EQ(a.cy, b.cy);
-    EXPECT_EQ(a.distortion, b.distortion);
 }
 
 TEST(Recorder, WhatIsRecordedIsWhatIsPlayed) {
@@ -55,8 +48,8 @@ TEST(Recorder, WhatIsRecordedIsWhatIsPlayed) {
     }
     const Recording read = loadRecording(folder / "new/run");
     EXPECT_EQ(read.videoRateHz, 29.97);
-    expectEqual(read.rig.video, rig.video);
-    expectEqual(read.rig.still, rig.still);
+    expectSame(read.rig.video, rig.video);
+    expectSame(read.rig.still, rig.still);
     EXPECT_LT(read.rig.T_still_video.rotation.angularDistance(rig.T_still_video.rotation), 1e-12);
     EXPECT_TRUE(read.rig.T_still_video.translation.isApprox(rig.T_still_video.translation, 1e-12));
     ASSERT_EQ(read.poses.size(), 1U);
