@@ -61,10 +61,8 @@ TomlReader::TomlReader(std::string_view text, std::string file) : file_(std::mov
 
 void TomlReader::number(std::string_view key, double& out, double least, double most,
                         const NumberCheck& check) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, "a number", &toml::node::is_number);
     if (node == nullptr) return;
-    if (!node->is_number())
-        return fault(node->source(), fmt::format("{} must be a number, not {}", key, kind(*node)));
     const double value = node->value<double>().value();
     if (!(value >= least && value <= most))
         return fault(node->source(),
@@ -75,11 +73,8 @@ void TomlReader::number(std::string_view key, double& out, double least, double 
 }
 
 void TomlReader::integer(std::string_view key, std::uint64_t& out) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, "a whole number", &toml::node::is_integer);
     if (node == nullptr) return;
-    if (!node->is_integer())
-        return fault(node->source(),
-                     fmt::format("{} must be a whole number, not {}", key, kind(*node)));
     const std::int64_t value = node->value<std::int64_t>().value();
     if (value < 0)
         return fault(node->source(), fmt::format("{} must not be negative: {}", key, value));
@@ -87,11 +82,8 @@ void TomlReader::integer(std::string_view key, std::uint64_t& out) {
 }
 
 void TomlReader::integer(std::string_view key, int& out, int least, int most) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, "a whole number", &toml::node::is_integer);
     if (node == nullptr) return;
-    if (!node->is_integer())
-        return fault(node->source(),
-                     fmt::format("{} must be a whole number, not {}", key, kind(*node)));
     const std::int64_t value = node->value<std::int64_t>().value();
     if (value < least || value > most)
         return fault(node->source(),
@@ -100,20 +92,14 @@ void TomlReader::integer(std::string_view key, int& out, int least, int most) {
 }
 
 void TomlReader::boolean(std::string_view key, bool& out) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, "true or false", &toml::node::is_boolean);
     if (node == nullptr) return;
-    if (!node->is_boolean())
-        return fault(node->source(),
-                     fmt::format("{} must be true or false, not {}", key, kind(*node)));
     out = node->value<bool>().value();
 }
 
 void TomlReader::text(std::string_view key, std::string& out, const Check& check) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, "a text in quotes", &toml::node::is_string);
     if (node == nullptr) return;
-    if (!node->is_string())
-        return fault(node->source(),
-                     fmt::format("{} must be a text in quotes, not {}", key, kind(*node)));
     std::string value = node->value<std::string>().value();
     if (const std::optional<std::string> wrong = check ? check(value) : std::nullopt)
         return fault(node->source(), fmt::format("{} = \"{}\": {}", key, value, *wrong));
@@ -155,6 +141,14 @@ void TomlReader::finish() {
 const toml::node* TomlReader::find(std::string_view key) {
     known_.emplace_back(key);
     return root_.at_path(key).node();
+}
+
+const toml::node* TomlReader::find(std::string_view key, std::string_view wanted,
+                                   bool (toml::node::*is)() const) {
+    const toml::node* node = find(key);
+    if (node == nullptr || (node->*is)()) return node;
+    fault(node->source(), fmt::format("{} must be {}, not {}", key, wanted, kind(*node)));
+    return nullptr;
 }
 
 void TomlReader::fault(const toml::source_region& at, std::string message) {

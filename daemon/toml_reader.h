@@ -50,6 +50,9 @@ private:
     };
 
     const toml::node* find(std::string_view key);
+    /// The node when it is of the `wanted` kind; another kind is a fault.
+    const toml::node* find(std::string_view key, std::string_view wanted,
+                           bool (toml::node::*is)() const);
     void fault(const toml::source_region& at, std::string message);
     void refuseUnknown(const toml::table& table, const std::string& prefix);
 
