@@ -41,9 +41,7 @@ Problem randomProblem(Size size, int vectors, int reach, unsigned seed, int grea
     return p;
 }
 
-std::vector<float> solve(const Problem& p, int threads) {
-    Workers workers(threads);
-    SemiGlobal matcher(p.guide.pixels.size() * p.vectors);
+std::vector<float> solve(const Problem& p, SemiGlobal& matcher, Workers& workers) {
     std::vector<float> out(p.guide.pixels.size());
     const std::size_t row = static_cast<std::size_t>(p.guide.size.width) * p.labels();
     matcher.run(
@@ -53,6 +51,12 @@ std::vector<float> solve(const Problem& p, int threads) {
         },
         workers, out);
     return out;
+}
+
+std::vector<float> solve(const Problem& p, int threads) {
+    Workers workers(threads);
+    SemiGlobal matcher(p.guide.pixels.size() * p.vectors);
+    return solve(p, matcher, workers);
 }
 
 /// Adds the costs of the path that comes to every pixel from (dx, dy) before it, straight from
@@ -209,17 +213,8 @@ TEST(SemiGlobal, MayBeUsedAgainForSmallerProblems) {
     Workers workers(2);
     SemiGlobal matcher(40UL * 30 * 3);
     for (const Problem& p : {randomProblem({40, 30}, 3, 20, 1), randomProblem({20, 15}, 1, 20, 2),
-                             randomProblem({40, 30}, 2, 20, 3)}) {
-        std::vector<float> out(p.guide.pixels.size());
-        const std::size_t row = static_cast<std::size_t>(p.guide.size.width) * p.labels();
-        matcher.run(
-            p.guide, p.base, p.vectors, p.smoothness,
-            [&](int y, std::uint8_t* costs) {
-                std::copy_n(p.costs.begin() + static_cast<std::ptrdiff_t>(y * row), row, costs);
-            },
-            workers, out);
-        EXPECT_EQ(out, twin(p));
-    }
+                             randomProblem({40, 30}, 2, 20, 3)})
+        EXPECT_EQ(solve(p, matcher, workers), twin(p));
 }
 
 }  // namespace
