@@ -1,12 +1,13 @@
 #include "hal/virtual/synthetic_build.h"
 
+#include "hal/virtual/synthetic_textures.h"
+
 #include <cassert>
 
 namespace mfar::synthetic {
 namespace {
 
-constexpr double kPlateCells = 10;  // black square 8 cells, white rim of one cell
-constexpr double kTagCells = 8;
+constexpr double kPlateCells = kTagCells + 2;  // a white rim of one cell
 constexpr double kPlateThickness = 0.004;
 
 Eigen::Quaterniond aboutZ(double yaw) {

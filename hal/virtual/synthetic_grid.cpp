@@ -20,7 +20,7 @@ static_assert(kTagCodes.size() == static_cast<std::size_t>(kGridTags) * kGridTag
 
 // The layer is a grid of cells, all of them whole texels down to the fourth mipmap, so that no edge
 // is off its place in a picture: white rim, then squares and tags in turns.
-constexpr int kTagCells = 8, kGapCells = 2, kPitch = kTagCells + kGapCells;
+constexpr int kGapCells = 2, kPitch = kTagCells + kGapCells;
 constexpr int kRim = 1;
 constexpr int kLayerCells = 2 * kRim + kGridTags * kPitch + kGapCells;
 static_assert(kLayerSize % (16 * kLayerCells) == 0);

@@ -40,9 +40,10 @@ void eachPixel(cv::Mat_<T>& image, const Paint& paint) {
 /// Reflectance and mask to bytes.
 [[nodiscard]] cv::Mat4b toBytes(const cv::Mat3f& colour, const cv::Mat1f& gloss);
 
+inline constexpr int kTagCells = 8;  ///< along a side of a tag's black square
 /// White cells of a tag of family 36h11, [row][column]; the outermost ones are its black border.
 /// Ids 0 to 35.
-using TagCells = std::array<std::array<bool, 8>, 8>;
+using TagCells = std::array<std::array<bool, kTagCells>, kTagCells>;
 [[nodiscard]] TagCells tagCells(int id);
 
 /// The printed layers (synthetic_print.cpp), one of them in a file of its own (synthetic_grid.cpp),
