@@ -20,33 +20,30 @@ namespace fs = std::filesystem;
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr int kMaxSide = 16384;
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kFloMagic = 202021.25F;
 constexpr float kFloUnknownAbove = 1e9F;
 constexpr float kFloUnknown = 1e10F;
 
-[[noreturn]] void fail(const fs::path& file, std::string_view what) {
-    throw ImageFileError(fmt::format("{}: {}", file.string(), what));
-}
-
 std::string wholeFile(const fs::path& file) {
     std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) fail(file, "is missing");
+    if (!fs::is_regular_file(file, ignored)) throw ImageFileError(file, "is missing");
     std::ifstream in(file, std::ios::binary);
-    if (!in) fail(file, "cannot be read");
+    if (!in) throw ImageFileError(file, "cannot be read");
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void checkSize(const fs::path& file, Size size) {
-    if (size.width < 1 || size.height < 1 || size.width > kMaxSide || size.height > kMaxSide)
-        fail(file, fmt::format("size {}x{} is impossible, 1 to {} can be read", size.width,
-                               size.height, kMaxSide));
+    if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide ||
+        size.height > kMaxImageSide)
+        throw ImageFileError(file, fmt::format("size {}x{} is impossible, 1 to {} can be read",
+                                               size.width, size.height, kMaxImageSide));
 }
 
 void checkBytes(const fs::path& file, std::size_t got, std::size_t needed) {
     if (got != needed)
-        fail(file, fmt::format("has {} bytes of values, {} are needed", got, needed));
+        throw ImageFileError(file,
+                             fmt::format("has {} bytes of values, {} are needed", got, needed));
 }
 
 std::size_t pixelCount(Size size) {
@@ -58,14 +55,15 @@ class PfmHeader {
 public:
     PfmHeader(const fs::path& file, std::string_view text) : file_(file), text_(text) {
         if (const std::string_view magic = word(); magic != "Pf")
-            fail(file_,
-                 magic == "PF" ? "is a colour PFM, one channel is needed" : "is not a PFM file");
+            throw ImageFileError(file_, magic == "PF" ? "is a colour PFM, one channel is needed"
+                                                      : "is not a PFM file");
         number(size.width);
         number(size.height);
         number(scale);
         ++at_;
         checkSize(file_, size);
-        if (!std::isfinite(scale) || scale == 0) fail(file_, "PFM scale is 0 or not finite");
+        if (!std::isfinite(scale) || scale == 0)
+            throw ImageFileError(file_, "PFM scale is 0 or not finite");
     }
     [[nodiscard]] std::string_view values() const {
         return at_ < text_.size() ? text_.substr(at_) : std::string_view{};
@@ -89,7 +87,7 @@ private:
         const std::string_view w = word();
         const auto [end, error] = std::from_chars(w.data(), w.data() + w.size(), value);
         if (error != std::errc{} || end != w.data() + w.size())
-            fail(file_, "PFM header is malformed");
+            throw ImageFileError(file_, "PFM header is malformed");
     }
 
     const fs::path& file_;
@@ -145,7 +143,7 @@ FlowImage loadFlo(const fs::path& file) {
     constexpr std::size_t kHeader = 12;
     const std::string text = wholeFile(file);
     if (text.size() < kHeader || readFloat(text.data(), false) != kFloMagic)
-        fail(file, "is not a .flo file");
+        throw ImageFileError(file, "is not a .flo file");
     FlowImage out;
     std::memcpy(&out.size.width, text.data() + 4, 4);
     std::memcpy(&out.size.height, text.data() + 8, 4);

@@ -16,10 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, std::string_view what) {
-    throw ImageFileError(fmt::format("{}: {}", file.string(), what));
-}
-
 bool isPng(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     char first = 0;
@@ -28,17 +24,17 @@ bool isPng(const fs::path& file) {
 
 cv::Mat decoded(const fs::path& file) {
     std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) fail(file, "is missing");
+    if (!fs::is_regular_file(file, ignored)) throw ImageFileError(file, "is missing");
     cv::Mat bgr;
     try {
         if (isPng(file)) static_cast<void>(pngSize(file));
         bgr = cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
     } catch (const cv::Exception& e) {
-        fail(file, "cannot be decoded: " + e.err);
+        throw ImageFileError(file, "cannot be decoded: " + e.err);
     } catch (const std::runtime_error& e) {
-        fail(file, e.what());
+        throw ImageFileError(file, e.what());
     }
-    if (bgr.empty()) fail(file, "cannot be decoded as PNG or JPEG");
+    if (bgr.empty()) throw ImageFileError(file, "cannot be decoded as PNG or JPEG");
     return bgr;
 }
 
@@ -56,8 +52,8 @@ StoredImage loadImage(const fs::path& file) {
 void loadImageInto(const fs::path& file, Size expected, std::uint8_t* rgba, std::size_t stride) {
     const cv::Mat bgr = decoded(file);
     if (Size{bgr.cols, bgr.rows} != expected)
-        fail(file, fmt::format("is {}x{}, not {}x{}", bgr.cols, bgr.rows, expected.width,
-                               expected.height));
+        throw ImageFileError(file, fmt::format("is {}x{}, not {}x{}", bgr.cols, bgr.rows,
+                                               expected.width, expected.height));
     cv::Mat target(bgr.rows, bgr.cols, CV_8UC4, rgba, stride);
     cv::cvtColor(bgr, target, cv::COLOR_BGR2RGBA);
 }
@@ -80,7 +76,7 @@ void savePng(const fs::path& file, const ImageView& image) {
         encodePng(image, bytes);
         writeWholeFile(file, bytes);
     } catch (const cv::Exception& e) {
-        fail(file, "cannot be encoded: " + e.err);
+        throw ImageFileError(file, "cannot be encoded: " + e.err);
     } catch (const std::runtime_error& e) {
         throw ImageFileError(e.what());
     }

@@ -6,14 +6,21 @@
 #include <cstdint>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace mfar {
 
 /// An image file cannot be read or written. The message is "file: what is wrong".
 class ImageFileError : public std::runtime_error {
+public:
     using std::runtime_error::runtime_error;
+    ImageFileError(const std::filesystem::path& file, std::string_view what)
+        : std::runtime_error(file.string().append(": ").append(what)) {}
 };
+
+inline constexpr int kMaxImageSide = 16384;  ///< [px]; a file that says more is refused
 
 /// A picture in memory, rows without padding, row 0 on top.
 struct StoredImage {

@@ -1,5 +1,7 @@
 #include "hal/virtual/png_header.h"
 
+#include "hal/virtual/image_files.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -14,7 +16,6 @@ constexpr std::array<std::uint8_t, 16> kStart{0x89, 'P', 'N', 'G', 0x0D, 0x0A, 0
                                               0,    0,   0,   13,  'I',  'H',  'D',  'R'};
 // The IEND chunk is always these twelve bytes.
 constexpr std::array<std::uint8_t, 12> kEnd{0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xAE, 0x42, 0x60, 0x82};
-constexpr std::uint32_t kMaxSide = 16384;
 
 std::uint32_t bigEndian(const std::uint8_t* p) {
     return std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 | std::uint32_t{p[2]} << 8 | p[3];
@@ -33,7 +34,7 @@ Size pngSize(const std::filesystem::path& file) {
         throw std::runtime_error("is not a PNG file");
     if (got < start.size()) throw std::runtime_error("is a truncated PNG file");
     const std::uint32_t width = bigEndian(&start[16]), height = bigEndian(&start[20]);
-    if (width == 0 || height == 0 || width > kMaxSide || height > kMaxSide)
+    if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide)
         throw std::runtime_error("is a PNG file of impossible size");
     std::array<std::uint8_t, 12> end{};
     in.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
