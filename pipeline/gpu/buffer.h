@@ -38,11 +38,6 @@ public:
         readBytes(out.data(), count * sizeof(T), offsetBytes);
         return out;
     }
-    template <class T>
-    void readInto(std::span<T> out, std::size_t offsetBytes = 0) const {
-        static_assert(std::is_trivially_copyable_v<T>);
-        readBytes(out.data(), out.size_bytes(), offsetBytes);
-    }
 
 private:
     void writeBytes(const void* data, std::size_t bytes, std::size_t offset);

@@ -102,9 +102,6 @@ void Program::use(const void* params, std::size_t bytes, Bindings bindings) {
             glActiveTexture(GL_TEXTURE0 + b.index);
             glBindTexture(GL_TEXTURE_2D, b.id);
             break;
-        case Binding::Kind::ImageRead:
-            glBindImageTexture(b.index, b.id, 0, GL_FALSE, 0, GL_READ_ONLY, b.format);
-            break;
         case Binding::Kind::ImageWrite:
             glBindImageTexture(b.index, b.id, 0, GL_FALSE, 0, GL_WRITE_ONLY, b.format);
             break;

@@ -14,7 +14,7 @@ namespace mfar::gpu {
 
 /// One resource bound to one binding point of a shader.
 struct Binding {
-    enum class Kind { Sampler, ImageRead, ImageWrite, Storage, Uniform };
+    enum class Kind { Sampler, ImageWrite, Storage, Uniform };
     Kind kind;
     GLuint index;
     GLuint id;
@@ -23,9 +23,6 @@ struct Binding {
 
 inline Binding sampler(GLuint unit, const Texture& t) {
     return {Binding::Kind::Sampler, unit, t.id()};
-}
-inline Binding imageRead(GLuint unit, const Texture& t) {
-    return {Binding::Kind::ImageRead, unit, t.id(), static_cast<GLenum>(t.format())};
 }
 inline Binding imageWrite(GLuint unit, const Texture& t) {
     return {Binding::Kind::ImageWrite, unit, t.id(), static_cast<GLenum>(t.format())};
