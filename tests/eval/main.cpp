@@ -21,16 +21,13 @@ using namespace mfar::eval;
 constexpr int kUsage = 2;
 
 constexpr const char* kSuperResHelp =
-    "Brings every video frame with truth/highres to the still's resolution and compares it with "
-    "the "
-    "truth.\n"
-    "Luma (Rec. 601), 32 px of border left out. harm_rate: share of pixels whose error exceeds "
-    "bicubic's by more than 2 grey levels.\n"
-    "The reference of a frame is the still nearest to it in time that does not show the frame's "
-    "very "
-    "own view: a still whose pose relative to the frame is below 1e-6 (from the rig at equal "
-    "times, "
-    "from the recorded poses otherwise) is never used.\n"
+    "Brings every video frame with truth/highres to the still's resolution and compares it "
+    "with the truth.\n"
+    "Luma (Rec. 601), 32 px of border left out. harm_rate: share of pixels whose error "
+    "exceeds bicubic's by more than 2 grey levels.\n"
+    "The reference of a frame is the still nearest to it in time that does not show the "
+    "frame's very own view: a still whose pose relative to the frame is below 1e-6 (from the "
+    "rig at equal times, from the recorded poses otherwise) is never used.\n"
     "ms: a second run on the same frame, every tile computed; work per still is not in it.";
 
 constexpr const char* kFlowHelp =
