@@ -7,7 +7,7 @@
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 cells;    // cells a row, rows, -, -
+    ivec4 cells;    // cells a row, rows, rounds of plane fits, -
     ivec4 offsets;  // in patches[]: output, input, -, -
 };
 layout(std430, binding = 1) buffer Patches {
@@ -94,8 +94,9 @@ void main() {
     order(middle, high);
     order(low, middle);
 #ifndef MEDIAN_ONLY
-    Plane plane = planeAt(cell, Plane(middle, vec2(0.0), vec2(0.0)), kFirstReach);
-    middle = planeAt(cell, plane, kReach).value;
+    Plane plane = Plane(middle, vec2(0.0), vec2(0.0));
+    for (int i = 0; i < cells.z; ++i) plane = planeAt(cell, plane, i == 0 ? kFirstReach : kReach);
+    middle = plane.value;
 #endif
     patches[offsets.x + cell.y * cells.x + cell.x] = vec4(middle, cellIn(cell).zw);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/frame.h"
+#include "pipeline/flow/flow_options.h"
 #include "pipeline/geometry.h"
 #include "pipeline/results.h"
 
@@ -22,6 +23,8 @@ struct PipelineOptions {
     Size output;
     /// Leaves tiles alone that did not change. Off: every tile is computed each frame.
     bool skipUnchanged = true;
+    Flow2dOptions flow2d{};
+    EpipolarOptions epipolar{};
 };
 
 /// Time of one stage of the last frame.
@@ -31,7 +34,8 @@ struct StageTime {
 };
 
 /// The whole flow of a frame: video in, high-resolution picture out. Allocates everything in the
-/// constructor. Lives on the GL thread with its context current. Throws GlError from set-up only.
+/// constructor. Lives on the GL thread with its context current. Throws GlError and, for options
+/// out of range, std::invalid_argument from set-up only.
 class Pipeline {
 public:
     Pipeline(const StereoRig& rig, const PipelineOptions& options);

@@ -13,8 +13,9 @@ namespace mfar {
 struct Pipeline::State {
     State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
         : rig(rigIn), options(optionsIn), plan(rig.video.size), pyramids(rig.video.size, plan),
-          flow(pyramids, plan), workers(std::make_shared<Workers>()), epipolar(rig, workers),
-          still(rig), superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
+          flow(pyramids, plan, options.flow2d), workers(std::make_shared<Workers>()),
+          epipolar(rig, workers, options.epipolar), still(rig),
+          superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
         stageTimes.reserve(8);
         result.image = {superres.output().id(), superres.output().size()};
     }

@@ -18,8 +18,9 @@ Size cellsOf(Size video) {
 
 }  // namespace
 
-EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers)
-    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, std::move(workers)),
+EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
+                           const EpipolarOptions& options)
+    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, std::move(workers), options),
       lens_(rig.video, 0), rotation_(Eigen::Matrix3f::Identity()) {
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);

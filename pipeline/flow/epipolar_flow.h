@@ -16,7 +16,8 @@ public:
     /// Row-major, one entry per cell of 4x4 video pixels.
     using Cells = std::vector<std::array<float, 4>>;
 
-    EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers);
+    EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
+                 const EpipolarOptions& options = {});
 
     /// The new reference as its sensor took it, and where the video camera was then.
     void setStill(const ImageView& still, const Pose& pose);

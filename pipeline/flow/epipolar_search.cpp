@@ -13,17 +13,16 @@ namespace {
 
 // The coarsest level has at least this many pixels on its short side.
 constexpr int kCoarsest = 60;
-constexpr int kLevels = 3;
-// The longest parallax sought, as a share of the picture's width: beyond it little is left in view.
-constexpr double kLongest = 0.8;
 // Labels beyond infinity at the finest level: the slack for noise and errors of the pose.
 constexpr int kBeyond = 4;
 constexpr int kSmallestCanvas = 16;
+constexpr int kMostStep = 30;
 constexpr int kUnseenCost = kCensusBits / 2;
 
-Smoothness smoothnessFor(double noise) {
-    return {.step = std::clamp(static_cast<int>(10 + 4.5 * noise), 12, 30),
-            .jump = 60,
+Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
+    const int step = options.stepPenalty;
+    return {.step = std::clamp(static_cast<int>(step - 2 + 4.5 * noise), step, kMostStep),
+            .jump = options.jumpPenalty,
             .noise = 2 * noise};
 }
 
@@ -33,9 +32,9 @@ float smoothingFor(double noise) {
     return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
 }
 
-int levelsFor(Size size) {
+int levelsFor(Size size, const EpipolarOptions& options) {
     int levels = 1;
-    while (levels < kLevels && std::min(size.width, size.height) / 2 >= kCoarsest) {
+    while (levels < options.levels && std::min(size.width, size.height) / 2 >= kCoarsest) {
         size = {(size.width + 1) / 2, (size.height + 1) / 2};
         ++levels;
     }
@@ -43,12 +42,12 @@ int levelsFor(Size size) {
 }
 
 /// Vectors of labels of the whole picture, at the level that needs most.
-std::size_t mostVectors(Size size) {
+std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     const auto pixels = [](Size s) { return static_cast<std::size_t>(s.width) * s.height; };
     const std::size_t finest = pixels(size);
-    const double longest = kLongest * size.width;
+    const double longest = options.longestParallax * size.width;
     int scale = 1;
-    for (int i = levelsFor(size); i > 1; --i) {
+    for (int i = levelsFor(size, options); i > 1; --i) {
         size = {(size.width + 1) / 2, (size.height + 1) / 2};
         scale *= 2;
     }
@@ -137,10 +136,11 @@ void costsAlong(const Segment& way, std::uint32_t own, const std::uint32_t* stil
 
 }  // namespace
 
-EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers)
-    : video_(rig.video), still_(atScaleOf(rig)), workers_(std::move(workers)),
-      matcher_(mostVectors(rig.video.size)) {
-    for (int i = 0; i < levelsFor(video_.size); ++i) {
+EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
+                               const EpipolarOptions& options)
+    : options_(validated(options)), video_(rig.video), still_(atScaleOf(rig)),
+      workers_(std::move(workers)), matcher_(mostVectors(rig.video.size, options)) {
+    for (int i = 0; i < levelsFor(video_.size, options_); ++i) {
         levels_.push_back({EpipolarLens(video_, i), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
         Level& level = levels_.back();
         const Size size = level.lens.size();
@@ -169,7 +169,7 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
     if (!turnStill(R_still_video)) return false;
     measureParallax();
     if (!(pixelsPerUnit_ > 0)) return true;
-    labels_ = static_cast<int>(kLongest * video.size.width);
+    labels_ = static_cast<int>(options_.longestParallax * video.size.width);
     for (int i = static_cast<int>(levels_.size()) - 1; i >= 0; --i) {
         prepare(levels_[i], std::max(videoNoise_, stillNoise_) / (1 << i));
         search(i);
@@ -184,7 +184,7 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
 // The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
 // holds what of it a parallax can reach.
 bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video) {
-    turned_.place(video_, still_, R_still_video, kLongest);
+    turned_.place(video_, still_, R_still_video, options_.longestParallax);
     if (turned_.size().width < kSmallestCanvas || turned_.size().height < kSmallestCanvas)
         return false;
     Level& fine = levels_[0];
@@ -263,7 +263,8 @@ void EpipolarSearch::search(int index) {
         centreWindows(levels_[index + 1], level);
     }
     matcher_.run(
-        level.video, level.base, vectors, smoothnessFor(std::max(videoNoise_, stillNoise_)),
+        level.video, level.base, vectors,
+        smoothnessFor(std::max(videoNoise_, stillNoise_), options_),
         [&](int y, std::uint8_t* out) { costRow(level, index, vectors, y, out); }, *workers_,
         level.labels);
 }
@@ -271,10 +272,9 @@ void EpipolarSearch::search(int index) {
 // The window of a pixel covers what the coarser level found around it, with room on both sides.
 void EpipolarSearch::centreWindows(const Level& coarse, Level& fine) {
     constexpr int kRoom = 2;
-    constexpr int kRadius = 2;
     const Size from = coarse.lens.size(), to = fine.lens.size();
     median3x3(coarse.labels, from, *workers_, scratch_);
-    localRange(scratch_, from, kRadius, range_);
+    localRange(scratch_, from, options_.windowRadius, range_);
     for (std::size_t i = 0; i < coarse.labels.size(); ++i) {
         constexpr float kHalf = SemiGlobal::kLabels / 2.0F - kRoom;
         const float low = 2 * range_.low[i], high = 2 * range_.high[i];

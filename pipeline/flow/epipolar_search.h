@@ -2,6 +2,7 @@
 
 #include "pipeline/flow/epipolar_lens.h"
 #include "pipeline/flow/field_filters.h"
+#include "pipeline/flow/flow_options.h"
 #include "pipeline/flow/semi_global.h"
 #include "pipeline/flow/turned_picture.h"
 
@@ -18,7 +19,9 @@ namespace mfar {
 /// Runs on the host's processor; no GL.
 class EpipolarSearch {
 public:
-    EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers);
+    /// Throws std::invalid_argument for options out of range.
+    EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
+                   const EpipolarOptions& options = {});
 
     /// The still as its sensor took it.
     void setStill(const ImageView& still);
@@ -56,6 +59,7 @@ private:
     void centreWindows(const Level& coarse, Level& fine);
     void costRow(const Level& level, int index, int vectors, int y, std::uint8_t* out) const;
 
+    EpipolarOptions options_;
     CameraModel video_, still_;  // the still's at the scale of the video
     std::shared_ptr<Workers> workers_;
     TurnedPicture turned_;

@@ -1,23 +1,17 @@
 #include "pipeline/flow/flow2d.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace mfar {
 namespace {
 
 constexpr int kGroup = 4;  // cells a workgroup and axis, as in the shaders
-// Radius at the coarsest level: 10 px there are 160 px of a 640x480 frame.
-constexpr int kSearchRadius = 10;
 // With the last frame's field among the candidates only what moved on its own needs a search.
 constexpr int kTrackingRadius = 3;
-constexpr int kCoarserCandidates = 4;
-constexpr int kSearchSteps = 4;
 constexpr int kPropagateSteps = 2;
-// Few cells, and every later level builds on them.
-constexpr int kCoarsestPropagations = 4;
-// At the finest level propagation costs 10 ms a direction on llvmpipe. Forward it gains 0.02 dB on
-// `fountain`; the backward field only confirms.
-constexpr int kForwardPropagations = 1;
+// At the finest level propagation costs 10 ms a direction on llvmpipe; the backward field only
+// confirms.
 constexpr int kBackwardPropagations = 0;
 
 void put(std::int32_t (&out)[4], std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
@@ -31,10 +25,15 @@ Size cellsOf(const LumaLevel& level) {
     return {(level.width + 3) / 4, (level.height + 3) / 4};
 }
 
+int levelsOf(const LumaPyramids& pyramids, const Flow2dOptions& options) {
+    return std::min(static_cast<int>(pyramids.video().size()), options.levels);
+}
+
 }  // namespace
 
-Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan)
-    : searched_(cellsOf(pyramids.video()[0]), static_cast<int>(pyramids.video().size()), plan),
+Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions& options)
+    : options_(validated(options)),
+      searched_(cellsOf(pyramids.video()[0]), levelsOf(pyramids, options), plan),
       search_("flow_search.comp"), searchListed_("flow_search.comp", "#define LISTED\n"),
       propagate_("flow_propagate.comp"), fitPlanes_("flow_filter.comp"),
       median_("flow_filter.comp", "#define MEDIAN_ONLY\n") {
@@ -45,8 +44,8 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan)
         return at;
     };
     for (std::vector<Stage>* stages : {&forwardStages_, &backwardStages_}) {
-        for (const LumaLevel& level : pyramids.video()) {
-            const Size cells = cellsOf(level);
+        for (int i = 0; i < levelsOf(pyramids, options); ++i) {
+            const Size cells = cellsOf(pyramids.video()[i]);
             stages->push_back({cells,
                                {take(cells), take(cells)},
                                plan.add({gpu::groupsFor(cells.width, kGroup),
@@ -64,7 +63,7 @@ void Flow2d::run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePri
     searched_.clear();
     const auto& video = pyramids.video();
     const auto& still = pyramids.still();
-    run({video, still, forwardStages_, kForwardPropagations, usePrior}, pyramids, plan);
+    run({video, still, forwardStages_, options_.propagations, usePrior}, pyramids, plan);
     run({still, video, backwardStages_, kBackwardPropagations, false}, pyramids, plan);
     filter(fitPlanes_, forwardStages_[0], forward_, plan);
     filter(median_, backwardStages_[0], backward_, plan);  // it only confirms
@@ -81,7 +80,7 @@ void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells fo
     p.to = pyramids.still()[0];
     put(p.cells, stage.cells.width, stage.cells.height, 0, 0);
     put(p.offsets, stage.area[0], -1, seed_, 0);
-    put(p.search, 0, 1, kSearchSteps, forward_.cells.width);
+    put(p.search, 0, 1, options_.steps, forward_.cells.width);
     p.prior[0] = p.prior[1] = p.prior[2] = 1.0F;
     plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
              stage.dispatch);
@@ -95,7 +94,8 @@ void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells fo
 void Flow2d::searchListed(const LumaPyramids& pyramids) {
     const Direction way{pyramids.video(), pyramids.still(), forwardStages_, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
-        SearchParams p = searchParams(way, level, 0, kSearchRadius, forwardStages_[0].area[0]);
+        SearchParams p =
+            searchParams(way, level, 0, options_.searchRadius, forwardStages_[0].area[0]);
         put(p.listed, searched_.first(level), level == 0 ? backward_.offset : -1, 0, 0);
         searchListed_.runIndirect(p,
                                   {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_),
@@ -109,7 +109,7 @@ void Flow2d::run(const Direction& way, const LumaPyramids& pyramids, const WorkP
     for (int level = coarsest; level >= 0; --level) {
         int rounds = 1;
         if (level == 0) rounds = way.finestPropagations;
-        if (level == coarsest) rounds = kCoarsestPropagations;
+        if (level == coarsest) rounds = options_.coarsestPropagations;
         search(way, level, rounds % 2, pyramids, plan);  // so that the last round ends in area 0
         for (int round = rounds; round > 0; --round)
             propagate(way, level, (round - 1) % 2, pyramids, plan);
@@ -119,7 +119,7 @@ void Flow2d::run(const Direction& way, const LumaPyramids& pyramids, const WorkP
 void Flow2d::search(const Direction& way, int level, int area, const LumaPyramids& pyramids,
                     const WorkPlan& plan) {
     const SearchParams p =
-        searchParams(way, level, area, way.usePrior ? kTrackingRadius : kSearchRadius,
+        searchParams(way, level, area, way.usePrior ? kTrackingRadius : options_.searchRadius,
                      way.usePrior ? forward_.offset : -1);
     plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
              way.stages[level].dispatch);
@@ -137,8 +137,8 @@ Flow2d::SearchParams Flow2d::searchParams(const Direction& way, int level, int a
     const Size coarser = coarsest ? Size{} : way.stages[level + 1].cells;
     put(p.cells, stage.cells.width, stage.cells.height, coarser.width, coarser.height);
     put(p.offsets, stage.area[area], coarsest ? -1 : way.stages[level + 1].area[0], prior, 0);
-    put(p.search, radius, (prior >= 0 ? 1 : 0) + (coarsest ? side * side : kCoarserCandidates),
-        kSearchSteps, forward_.cells.width);
+    put(p.search, radius, (prior >= 0 ? 1 : 0) + (coarsest ? side * side : options_.candidates),
+        options_.steps, forward_.cells.width);
     p.prior[0] = 1.0F / static_cast<float>(1 << level);
     p.prior[1] = static_cast<float>(forward_.cells.width) / static_cast<float>(stage.cells.width);
     p.prior[2] = static_cast<float>(forward_.cells.height) / static_cast<float>(stage.cells.height);
@@ -161,7 +161,7 @@ void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaPy
 void Flow2d::filter(gpu::ComputePass<FilterParams>& pass, const Stage& stage, const Field& out,
                     const WorkPlan& plan) {
     FilterParams p{};
-    put(p.cells, stage.cells.width, stage.cells.height, 0, 0);
+    put(p.cells, stage.cells.width, stage.cells.height, options_.planeFits, 0);
     put(p.offsets, out.offset, stage.area[0], 0, 0);
     plan.run(pass, p, {gpu::storage(1, patches_)}, stage.dispatch);
 }

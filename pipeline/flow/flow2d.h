@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/flow/flow_options.h"
 #include "pipeline/flow/luma_pyramid.h"
 #include "pipeline/flow/tile_lists.h"
 
@@ -21,7 +22,8 @@ public:
         Size cells;      ///< columns, rows
     };
 
-    Flow2d(const LumaPyramids& pyramids, WorkPlan& plan);
+    /// Throws std::invalid_argument for options out of range.
+    Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions& options = {});
 
     /// Computes both fields, as far as the plan asks for it. `usePrior`: the last frame's field is
     /// a candidate everywhere (not after a new still).
@@ -82,6 +84,7 @@ private:
     void filter(gpu::ComputePass<FilterParams>& pass, const Stage& stage, const Field& out,
                 const WorkPlan& plan);
 
+    Flow2dOptions options_;
     std::vector<Stage> forwardStages_, backwardStages_;
     Field forward_, backward_;
     bool errorsGiven_ = false;

@@ -132,12 +132,13 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
     EXPECT_GT(moved, kArea / 4);
 }
 
-std::vector<Cell> filtered(const std::vector<Cell>& in, const char* defines = "") {
+std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2,
+                           const char* defines = "") {
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(in), kArea * sizeof(Cell));
     gpu::ComputePass<FilterParams> pass("flow_filter.comp", defines);
-    pass.run({{kCells.width, kCells.height, 0, 0}, {0, kArea, 0, 0}}, {gpu::storage(1, patches)},
-             {4, 3, 1});
+    pass.run({{kCells.width, kCells.height, planeFits, 0}, {0, kArea, 0, 0}},
+             {gpu::storage(1, patches)}, {4, 3, 1});
     return patches.read<Cell>(kArea);
 }
 
@@ -152,11 +153,14 @@ TEST_F(FlowPasses, FilterMatchesTwin) {
             in[i][2] = unit(random);
             in[i][3] = 2e4F * unit(random) * unit(random);
         }
-        const auto out = filtered(in);
-        for (int i = 0; i < kArea; ++i) {
-            const Vector2d t = twin::filterCell({in, kCells.width, kCells.height}, i % 16, i / 16);
-            EXPECT_NEAR(out[i][0], t.x(), 2e-3) << "cell " << i << ", reach " << reach;
-            EXPECT_NEAR(out[i][1], t.y(), 2e-3) << "cell " << i << ", reach " << reach;
+        for (const int fits : {0, 1, 2}) {
+            const auto out = filtered(in, fits);
+            for (int i = 0; i < kArea; ++i) {
+                const Vector2d t =
+                    twin::filterCell({in, kCells.width, kCells.height}, i % 16, i / 16, fits);
+                EXPECT_NEAR(out[i][0], t.x(), 2e-3) << "cell " << i << ", reach " << reach;
+                EXPECT_NEAR(out[i][1], t.y(), 2e-3) << "cell " << i << ", reach " << reach;
+            }
         }
     }
 }
@@ -165,7 +169,7 @@ TEST_F(FlowPasses, FilterWithoutPlanesIsTheMedian) {
     auto in = randomField(10, 5);
     for (int i = 0; i < kArea; ++i)
         in[i][2] = in[i][3] = static_cast<float>(i);
-    const auto out = filtered(in, "#define MEDIAN_ONLY\n");
+    const auto out = filtered(in, 0, "#define MEDIAN_ONLY\n");
     for (int i = 0; i < kArea; ++i) {
         const Vector2d t = twin::medianAround({in, kCells.width, kCells.height}, i % 16, i / 16);
         EXPECT_EQ(out[i],

@@ -29,6 +29,33 @@ TEST_F(PipelineInputs, FramesOfAnotherSizeAreRefused) {
     p.run(c.video().view(), {});  // and nothing is broken afterwards
 }
 
+TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
+    const PipelineCase c;
+    PipelineOptions coarse, far;
+    coarse.flow2d.levels = 0;
+    far.epipolar.longestParallax = std::nan("");
+    EXPECT_THROW(Pipeline(c.rig, coarse), std::invalid_argument);
+    EXPECT_THROW(Pipeline(c.rig, far), std::invalid_argument);
+}
+
+// A shift of 9 px is within reach of the coarsest level alone.
+TEST_F(PipelineInputs, FlowHasTheLevelsAskedFor) {
+    const PipelineCase c;
+    const auto errorWith = [&](int levels) {
+        PipelineOptions options;
+        options.flow2d.levels = levels;
+        options.flow2d.searchRadius = 4;
+        Pipeline p(c.rig, options);
+        p.setStill(c.still().view(), {});
+        p.run(c.video({9, 0}).view(), {});
+        const auto flow = p.readFlow();
+        const std::size_t centre = 2UL * (60 * 160 + 80);
+        return std::hypot(flow[centre] - 9, flow[centre + 1]);
+    };
+    EXPECT_GT(errorWith(1), 1);
+    EXPECT_LT(errorWith(3), 0.5);
+}
+
 TEST_F(PipelineInputs, OddSizesWork) {
     for (const Size size : {Size{641, 479}, Size{648, 432}, Size{100, 60}, Size{61, 45}}) {
         const PipelineCase c(size);

@@ -54,11 +54,12 @@ inline Plane fitPlane(const FlowCells& cells, int x, int y, const Plane& about, 
     return about + right * normal.inverse();
 }
 
-inline Eigen::Vector2d filterCell(const FlowCells& cells, int x, int y) {
+inline Eigen::Vector2d filterCell(const FlowCells& cells, int x, int y, int planeFits) {
     Plane plane = Plane::Zero();
     plane.col(0) = medianAround(cells, x, y);
-    plane = fitPlane(cells, x, y, plane, 1.2);
-    return fitPlane(cells, x, y, plane, 0.5).col(0);
+    for (int i = 0; i < planeFits; ++i)
+        plane = fitPlane(cells, x, y, plane, i == 0 ? 1.2 : 0.5);
+    return plane.col(0);
 }
 
 }  // namespace mfar::twin
