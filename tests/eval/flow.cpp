@@ -13,11 +13,29 @@
 namespace mfar::eval {
 namespace {
 
+namespace fs = std::filesystem;
+
+/// The poses of samples, which those of recordings may get from somewhere else.
+void setPoses(std::vector<FlowSample>& samples, const fs::path& folder, PoseSource source) {
+    if (source == PoseSource::Recorded) return;
+    if (!fs::exists(folder / "cam0")) {
+        if (source == PoseSource::Tags)
+            throw EvalError(fmt::format("{}: no recording, so no tags are known", folder.string()));
+        return;  // a pair has none
+    }
+    const Recording recording = loadRecording(folder);
+    const KnownPoses poses(recording, source);
+    for (FlowSample& sample : samples)
+        sample.given = poses.of(sample.videoTime, sample.stillTime);
+}
+
 /// One folder with the methods set up for its rig.
 class FolderRun {
 public:
-    FolderRun(const FlowRequest& request, FlowSet set, std::string label, FlowFactory& factory)
-        : request_(request), set_(std::move(set)), label_(std::move(label)) {
+    FolderRun(const FlowRequest& request, const fs::path& folder, std::string label,
+              FlowFactory& factory)
+        : request_(request), set_(flowSamplesOf(folder)), label_(std::move(label)) {
+        setPoses(set_.samples, folder, request.poses);
         for (const std::string& name : request.methods)
             methods_.push_back(factory.create(name, set_.rig));
         if (request.frames > 0 && set_.samples.size() > static_cast<std::size_t>(request.frames))
@@ -63,7 +81,7 @@ private:
     FlowSet set_;
     std::string label_;
     std::vector<std::unique_ptr<FlowMethod>> methods_;
-    std::filesystem::path still_;
+    fs::path still_;
 };
 
 }  // namespace
@@ -73,7 +91,7 @@ Report evaluateFlow(const FlowRequest& request) {
     FlowFactory factory;
     const auto labels = labelsOf(request.folders);
     for (std::size_t i = 0; i < labels.size(); ++i)
-        FolderRun(request, flowSamplesOf(request.folders[i]), labels[i], factory).measure(report);
+        FolderRun(request, request.folders[i], labels[i], factory).measure(report);
     report.addMeans();
     return report;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/eval/degrade.h"
+#include "tests/eval/pose_source.h"
 #include "tests/eval/report.h"
 #include "tests/eval/shot.h"
 
@@ -14,8 +15,9 @@ struct FlowRequest {
     std::vector<std::filesystem::path> folders;  ///< recordings or two-frame pairs
     std::vector<std::string> methods;            ///< of flowMethodNames()
     Degradation degradation;                     ///< done to every still or second picture
-    PoseNoise poseNoise;                         ///< of every frame
-    int frames = 0;                              ///< per folder, 0 = all that have truth
+    PoseSource poses = PoseSource::Recorded;
+    PoseNoise poseNoise;  ///< of every frame
+    int frames = 0;       ///< per folder, 0 = all that have truth
 };
 
 /// Measures every method on every sample of flowSamplesOf(); columns as in design.md, section 10.

@@ -189,11 +189,13 @@ cv::Mat loadTruth(const FlowSet& set, const FlowSample& sample) {
 }
 
 Shot loadFrame(const FlowSet& set, const FlowSample& sample) {
-    return shotOf(sample.video, sample.videoTime, sample.poses.frame, set.rig.video.size);
+    return shotOf(sample.video, sample.videoTime, sample.given.value_or(sample.poses).frame,
+                  set.rig.video.size);
 }
 
 Shot loadStill(const FlowSet& set, const FlowSample& sample) {
-    return shotOf(sample.still, sample.stillTime, sample.poses.still, set.rig.still.size);
+    return shotOf(sample.still, sample.stillTime, sample.given.value_or(sample.poses).still,
+                  set.rig.still.size);
 }
 
 }  // namespace mfar::eval

@@ -3,6 +3,7 @@
 #include "tests/eval/shot.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ struct FlowSample {
     std::string frame;                          ///< NN of a pair, <ns>_<ns> of a recording
     std::filesystem::path video, still, truth;  ///< truth: .flo, or .pfm with inverse depth
     Timestamp videoTime, stillTime;
-    PosePair poses{};
+    PosePair poses{};                 ///< recorded
+    std::optional<PosePair> given{};  ///< what the shots say instead
 };
 
 /// The samples of a folder in the order of their times, with what their pictures have in common.
@@ -38,8 +40,8 @@ struct FlowSet {
 /// Throws EvalError when the size differs, ImageFileError.
 [[nodiscard]] cv::Mat loadTruth(const FlowSet& set, const FlowSample& sample);
 
-/// The pictures, CV_8UC3, with the recorded poses. Throw EvalError when the size is not the rig's,
-/// ImageFileError.
+/// The pictures, CV_8UC3, with the poses given or else recorded. Throw EvalError when the size is
+/// not the rig's, ImageFileError.
 [[nodiscard]] Shot loadFrame(const FlowSet& set, const FlowSample& sample);
 [[nodiscard]] Shot loadStill(const FlowSet& set, const FlowSample& sample);
 

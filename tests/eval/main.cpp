@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <map>
 
 namespace {
 
@@ -63,6 +64,16 @@ struct Options {
     std::string csv;
 };
 
+void addPoseSource(CLI::App& sub, PoseSource& source) {
+    const std::map<std::string, PoseSource> sources{
+        {"recorded", PoseSource::Recorded}, {"tags", PoseSource::Tags}, {"none", PoseSource::None}};
+    sub.add_option("--poses", source,
+                   "what methods are told: recorded poses (default), tags (the tracker's, from the "
+                   "pictures and tags.toml; that of a still from itself) or none")
+        ->transform(CLI::CheckedTransformer(sources))
+        ->option_text("recorded|tags|none");
+}
+
 /// CLI::Range lets NaN pass.
 std::string isAngle(const std::string& text) {
     double degrees = -1;
@@ -89,6 +100,7 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     sub->add_option("recording", o.superres.recordings, "folders in the EuRoC layout")->required();
     sub->add_option("--methods", o.superres.methods, "of: " + joined(superResMethodNames()))
         ->delimiter(',');
+    addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
     sub->add_option("--alpha", o.superres.alpha,
                     "of the peer `paper`: two-way error at which its confidence is zero [video px]")
@@ -108,6 +120,7 @@ CLI::App* addFlow(CLI::App& app, Options& o) {
     sub->add_option("folder", o.flow.folders, "recordings or two-frame pairs")->required();
     sub->add_option("--methods", o.flow.methods, "of: " + joined(flowMethodNames()))
         ->delimiter(',');
+    addPoseSource(*sub, o.flow.poses);
     addDisturbances(*sub, o);
     sub->add_option("--frames", o.flow.frames, "at most so many frames of each folder")
         ->check(CLI::Range(1, 1000000));

@@ -166,10 +166,31 @@ TEST(MfarEval, FlowOfAStereoPairKnowsItsPoseAndHowFarItIsOff) {
     EXPECT_NE(off[2], other[2]);
 }
 
+// Without poses the epipolar method has to do what the one in two dimensions does.
+TEST(MfarEval, PosesCanBeKeptFromTheMethods) {
+    const TempFolder folder;
+    writeStereo(folder / "wall");
+    const auto epe = [&](const std::string& source) {
+        const Outcome outcome = execute(
+            folder, fmt::format("{0} flow {1}/wall --methods epipolar,flow2d --poses {2} --csv "
+                                "{1}/out.csv",
+                                MFAR_EVAL, folder.path().string(), source));
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        const auto rows = readCsv(folder / "out.csv");
+        return std::pair(rows.at(1).at(4), rows.at(2).at(4));
+    };
+    const auto recorded = epe("recorded"), none = epe("none");
+    EXPECT_NE(recorded.first, recorded.second);
+    EXPECT_EQ(none.first, none.second);
+    EXPECT_EQ(none.second, recorded.second);
+}
+
 TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
     const TempFolder folder;
     const std::string dir = folder.path().string();
     writeRecording(folder / "tiny", false);
+    writeRecording(folder / "truth", true);
+    writePair(folder / "pair");
     const std::pair<std::string, std::string> cases[] = {
         {"superres " + dir + "/absent", "absent"},
         {"superres " + dir + "/tiny", "no truth"},
@@ -182,6 +203,9 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"flow " + dir + "/tiny --degrade noise=-1", "noise=-1"},
         {"flow " + dir + "/tiny --pose-noise-deg 181", "--pose-noise-deg"},
         {"superres " + dir + "/tiny --pose-noise-deg nan", "--pose-noise-deg"},
+        {"superres " + dir + "/tiny --poses guessed", "--poses"},
+        {"superres " + dir + "/truth --poses tags", "tags.toml: no such file"},
+        {"flow " + dir + "/pair --poses tags", "no recording, so no tags"},
         {"depth " + dir, ""},
     };
     for (const auto& [arguments, message] : cases) {

@@ -73,7 +73,8 @@ class RecordingRun {
 public:
     RecordingRun(const SuperResRequest& request, const Recording& recording, std::string label,
                  SuperResFactory& factory)
-        : request_(request), recording_(recording), label_(std::move(label)) {
+        : request_(request), recording_(recording), poses_(recording, request.poses),
+          label_(std::move(label)) {
         for (const std::string& name : request.methods)
             methods_.push_back(factory.create(name, recording.rig));
     }
@@ -102,8 +103,7 @@ public:
 private:
     [[nodiscard]] Shot loadFrame(const Sample& sample) const {
         const Timestamp time = sample.video.time;
-        Shot out{loadPicture(sample.video.file), time,
-                 posesOf(recording_, time, sample.still.time).frame};
+        Shot out{loadPicture(sample.video.file), time, poses_.of(time, sample.still.time).frame};
         if (out.pose) out.pose = turned(*out.pose, request_.poseNoise, label_);
         return out;
     }
@@ -113,7 +113,7 @@ private:
         if (time == stillTime_) return;
         const cv::Mat picture = degrade(loadPicture(sample.still.file), request_.degradation,
                                         static_cast<std::uint64_t>(time.ns));
-        const Shot still{picture, time, posesOf(recording_, sample.video.time, time).still};
+        const Shot still{picture, time, poses_.of(sample.video.time, time).still};
         for (const auto& method : methods_)
             method->setStill(still);
         stillTime_ = time;
@@ -132,6 +132,7 @@ private:
 
     const SuperResRequest& request_;
     const Recording& recording_;
+    KnownPoses poses_;
     std::string label_;
     std::vector<std::unique_ptr<SuperResMethod>> methods_;
     std::optional<Timestamp> stillTime_;

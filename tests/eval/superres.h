@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/eval/degrade.h"
+#include "tests/eval/pose_source.h"
 #include "tests/eval/report.h"
 #include "tests/eval/shot.h"
 
@@ -14,10 +15,11 @@ struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
     std::vector<std::string> methods;  ///< of superResMethodNames()
     Degradation degradation;           ///< done to every still
-    PoseNoise poseNoise;               ///< of every frame
-    double alpha = 2;                  ///< of the paper's confidence [video px]
-    int frames = 0;                    ///< per recording, 0 = all that have truth
-    std::filesystem::path save;        ///< folder for the pictures, empty = none
+    PoseSource poses = PoseSource::Recorded;
+    PoseNoise poseNoise;         ///< of every frame
+    double alpha = 2;            ///< of the paper's confidence [video px]
+    int frames = 0;              ///< per recording, 0 = all that have truth
+    std::filesystem::path save;  ///< folder for the pictures, empty = none
 };
 
 /// Border left out of every measure [output px].
