@@ -19,6 +19,16 @@ constexpr double kRestNoise = 2;  // grey levels
 constexpr std::size_t kWarmUp = 3;
 constexpr std::size_t kSetStillRuns = 5;
 
+std::optional<Pose> poseOf(const std::vector<std::optional<Pose>>& poses, std::size_t i) {
+    return poses.empty() ? std::nullopt : poses[i];
+}
+
+Workload withoutPoses(Workload work) {
+    work.framePoses.clear();
+    work.stillPoses.clear();
+    return work;
+}
+
 /// Our pipeline fed with a workload's frames; brings in the stills outside the measured time.
 class Ours {
 public:
@@ -34,7 +44,9 @@ public:
     double run(std::size_t i) {
         if (still_ != work_.stillOf[i]) setStill(work_.stillOf[i]);
         return eval::wallMs([&] {
-            stats_ = pipeline_.run(eval::viewOf(frames_[i]), nextTime()).stats;
+            stats_ =
+                pipeline_.run(eval::viewOf(frames_[i]), nextTime(), poseOf(work_.framePoses, i))
+                    .stats;
             glFinish();
         });
     }
@@ -42,7 +54,8 @@ public:
         still_ = index;
         glFinish();
         return eval::wallMs([&] {
-            pipeline_.setStill(eval::viewOf(stills_[index]), nextTime());
+            pipeline_.setStill(eval::viewOf(stills_[index]), nextTime(),
+                               poseOf(work_.stillPoses, index));
             glFinish();
         });
     }
@@ -115,9 +128,9 @@ public:
         return eval::wallMs([&] { paper_.run(work_.frames[i]); });
     }
     void measure(std::size_t i) { ms_.push_back(run(i)); }
-    [[nodiscard]] PeerResult result(const Summary& ours) const {
+    [[nodiscard]] PeerResult result(const CaseResult& ours) const {
         const Summary own = summarise(ms_);
-        return {name_, own, ours.median / own.median};
+        return {name_, ours.name, own, ours.frame.median / own.median};
     }
 
 private:
@@ -128,22 +141,22 @@ private:
     std::vector<double> ms_;
 };
 
+using Peers = std::vector<std::unique_ptr<Peer>>;
+
 CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work,
-                       std::vector<std::unique_ptr<Peer>>* peers) {
+                       const Peers& peers) {
     const std::size_t frames = work.frames.size();
     CaseResult result;
     result.name = name;
     result.frame.runs = frames;
     warmUp(ours, frames);
-    if (peers)
-        for (const auto& peer : *peers)
-            peer->run(0);
+    for (const auto& peer : peers)
+        peer->run(0);
     std::vector<double> ms;
     for (std::size_t i = 0; i < frames; ++i) {
         ms.push_back(ours.run(i));
         addTiles(result, ours.stats());
-        if (!peers) continue;
-        for (const auto& peer : *peers)
+        for (const auto& peer : peers)
             peer->measure(i);
     }
     result.frame = summarise(std::move(ms));
@@ -151,12 +164,26 @@ CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work
     return result;
 }
 
+void measureAgainstPeers(const std::string& name, Ours& ours, const Workload& work,
+                         BenchResult& out) {
+    const Size output = ours.pipeline().outputSize();
+    Peers peers;
+    peers.push_back(std::make_unique<Peer>("paper", eval::DisPreset::Medium, work, output));
+    peers.push_back(std::make_unique<Peer>("paper-fast", eval::DisPreset::Fast, work, output));
+    out.cases.push_back(measureCase(name, ours, work, peers));
+    for (const auto& peer : peers)
+        out.peers.push_back(peer->result(out.cases.back()));
+}
+
 }  // namespace
 
-BenchResult runBench(const Workload& moving, SuperResMode mode, const std::string& renderer) {
-    Ours ours(moving, mode);
+BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
+                     const std::string& renderer) {
+    const Workload blind = withoutPoses(moving);
+    Ours ours(blind, mode);
     BenchResult out;
     out.workload = moving.name;
+    out.posed = posed.name;
     out.renderer = renderer;
     out.video = moving.rig.video.size;
     out.still = moving.rig.still.size;
@@ -167,18 +194,15 @@ BenchResult runBench(const Workload& moving, SuperResMode mode, const std::strin
         ms = ours.setStill(0);
     out.setStill = summarise(std::move(setStill));
 
-    std::vector<std::unique_ptr<Peer>> peers;
-    peers.push_back(std::make_unique<Peer>("paper", eval::DisPreset::Medium, moving, out.output));
-    peers.push_back(
-        std::make_unique<Peer>("paper-fast", eval::DisPreset::Fast, moving, out.output));
-    out.cases.push_back(measureCase("moving", ours, moving, &peers));
-    for (const auto& peer : peers)
-        out.peers.push_back(peer->result(out.cases[0].frame));
-
+    measureAgainstPeers("moving", ours, blind, out);
+    if (!posed.frames.empty()) {
+        Ours handheld(posed, mode);
+        measureAgainstPeers("handheld", handheld, posed, out);
+    }
     for (const double noise : {0.0, kRestNoise}) {
-        const Workload rest = atRest(moving, noise);
+        const Workload rest = atRest(blind, noise);
         Ours resting(rest, mode);
-        out.cases.push_back(measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, nullptr));
+        out.cases.push_back(measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, {}));
     }
     return out;
 }

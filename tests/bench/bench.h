@@ -23,15 +23,17 @@ struct CaseResult {
     std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles per TileClass
 };
 
-/// OpenCV's version of the paper on the moving workload, frame by frame in turn with ours.
+/// OpenCV's version of the paper on a moving camera, frame by frame in turn with ours.
 struct PeerResult {
     std::string name;
+    std::string of;  ///< the case of ours
     Summary frame;
     double ratio = 0;  ///< our median over the peer's: below 1 we are faster
 };
 
 struct BenchResult {
-    std::string workload;
+    std::string workload;  ///< what is moving and at rest
+    std::string posed;     ///< what is hand-held
     std::string renderer;
     Size video, still, output;
     Summary setStill;  ///< per-still work of our pipeline
@@ -40,8 +42,8 @@ struct BenchResult {
 };
 
 /// Needs a current GL context, which `renderer` describes. The first frames warm up and do not
-/// count.
-[[nodiscard]] BenchResult runBench(const Workload& moving, SuperResMode mode,
+/// count. Poses of `moving` are not used, those of `posed` are; without frames it is left out.
+[[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                                    const std::string& renderer);
 
 }  // namespace mfar::bench

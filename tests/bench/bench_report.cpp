@@ -52,8 +52,12 @@ nlohmann::json toJson(const BenchResult& result) {
     for (const CaseResult& c : result.cases)
         cases.push_back(json(c));
     for (const PeerResult& peer : result.peers)
-        peers.push_back({{"name", peer.name}, {"frame", json(peer.frame)}, {"ratio", peer.ratio}});
+        peers.push_back({{"name", peer.name},
+                         {"case", peer.of},
+                         {"frame", json(peer.frame)},
+                         {"ratio", peer.ratio}});
     return {{"workload", result.workload},
+            {"posed", result.posed},
             {"renderer", result.renderer},
             {"opencv", CV_VERSION},
             {"opencv_threads", cv::getNumThreads()},
@@ -67,8 +71,9 @@ nlohmann::json toJson(const BenchResult& result) {
 
 std::string toTable(const BenchResult& result) {
     std::string out =
-        fmt::format("{}\nworkload {}, video {}x{}, still {}x{}, output {}x{}\n\n", result.renderer,
-                    result.workload, result.video.width, result.video.height, result.still.width,
+        fmt::format("{}\nworkload {}; with poses {}; video {}x{}, still {}x{}, output {}x{}\n\n",
+                    result.renderer, result.workload, result.posed.empty() ? "none" : result.posed,
+                    result.video.width, result.video.height, result.still.width,
                     result.still.height, result.output.width, result.output.height);
     out += fmt::format("{:<28} {:>9} {:>9} {:>9} {:>6}\n", "[ms]", "median", "p99", "min", "runs");
     out += line("new still", result.setStill) + '\n';
@@ -79,7 +84,7 @@ std::string toTable(const BenchResult& result) {
     }
     for (const PeerResult& peer : result.peers)
         out += line("peer " + peer.name, peer.frame) +
-               fmt::format("  moving / {} = {:.2f}\n", peer.name, peer.ratio);
+               fmt::format("  {} / {} = {:.2f}\n", peer.of, peer.name, peer.ratio);
     return out;
 }
 

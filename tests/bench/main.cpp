@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fstream>
@@ -24,8 +25,9 @@ constexpr int kUsage = 2;
 
 constexpr const char* kHelp =
     "mfar-bench: run time of every stage and of the whole super-resolution frame.\n"
-    "moving: every frame differs from the one before; rest: the same frame again; rest-noise: the "
-    "same view with sensor noise of sigma 2.\n"
+    "moving: every frame differs from the one before, no poses; handheld: the synthetic board's "
+    "office by a hand-held camera with its exact poses, or the recording's frames with its poses; "
+    "rest: the same frame again; rest-noise: the same view with sensor noise of sigma 2.\n"
     "Whole frames run undisturbed up to a final glFinish; stages are timed in a run of their own. "
     "The peers are the paper's method on OpenCV (DIS medium, DIS fast), run in turn with ours.";
 
@@ -35,11 +37,24 @@ struct Options {
     bool quick = false;
 };
 
-Workload workloadFor(const Options& o) {
+/// What moves without and with poses; no frames where there are none.
+struct Workloads {
+    Workload moving, posed;
+};
+
+Workloads workloadsFor(const Options& o) {
     const int frames = o.frames > 0 ? o.frames : (o.quick ? 4 : 40);
-    if (!o.recording.empty()) return recordedWorkload(o.recording, frames);
-    if (o.quick) return syntheticWorkload({160, 120}, {576, 432}, frames);
-    return syntheticWorkload({640, 480}, {2304, 1728}, frames);
+    if (o.recording.empty()) {
+        const Size video = o.quick ? Size{160, 120} : Size{640, 480};
+        const Size still = o.quick ? Size{576, 432} : Size{2304, 1728};
+        return {syntheticWorkload(video, still, frames), handheldWorkload(video, still, frames)};
+    }
+    Workloads out{recordedWorkload(o.recording, frames), {}};
+    const auto known = [](const std::vector<std::optional<Pose>>& poses) {
+        return std::ranges::all_of(poses, [](const auto& pose) { return pose.has_value(); });
+    };
+    if (known(out.moving.framePoses) && known(out.moving.stillPoses)) out.posed = out.moving;
+    return out;
 }
 
 void writeJson(const std::string& file, const nlohmann::json& value) {
@@ -64,10 +79,10 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : kUsage;
     }
-    const Workload work = workloadFor(o);
+    const auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();
     const BenchResult result =
-        runBench(work, o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail,
+        runBench(moving, posed, o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail,
                  context->description());
     fmt::print("{}", toTable(result));
     if (!o.json.empty()) writeJson(o.json, toJson(result));

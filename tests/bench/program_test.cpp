@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -11,18 +12,18 @@ namespace mfar::bench {
 namespace {
 
 TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
-    const test::TempFolder folder;
+    const mfar::test::TempFolder folder;
     const auto file = folder / "bench.json";
     const std::string command =
         fmt::format("{} --quick --json '{}' >/dev/null", MFAR_BENCH, file.string());
     ASSERT_EQ(std::system(command.c_str()), 0);
-    const auto result = nlohmann::json::parse(test::readFile(file));
+    const auto result = nlohmann::json::parse(mfar::test::readFile(file));
     for (const char* key : {"workload", "renderer", "opencv", "opencv_threads", "set_still"})
         EXPECT_TRUE(result.contains(key)) << key;
     EXPECT_EQ(result.at("output"), nlohmann::json({576, 432}));
-    ASSERT_EQ(result.at("cases").size(), 3U);
-    const char* names[] = {"moving", "rest", "rest-noise"};
-    for (std::size_t i = 0; i < 3; ++i) {
+    ASSERT_EQ(result.at("cases").size(), 4U);
+    const char* names[] = {"moving", "handheld", "rest", "rest-noise"};
+    for (std::size_t i = 0; i < 4; ++i) {
         const auto& one = result.at("cases").at(i);
         EXPECT_EQ(one.at("name"), names[i]);
         EXPECT_GT(one.at("frame").at("median_ms").get<double>(), 0);
@@ -30,13 +31,26 @@ TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
         EXPECT_FALSE(one.at("stages").empty());
         EXPECT_EQ(one.at("tile_share").size(), 5U);
     }
-    ASSERT_EQ(result.at("peers").size(), 2U);
-    const auto& peer = result.at("peers").at(0);
-    EXPECT_EQ(peer.at("name"), "paper");
-    EXPECT_NEAR(peer.at("ratio").get<double>(),
-                result.at("cases").at(0).at("frame").at("median_ms").get<double>() /
-                    peer.at("frame").at("median_ms").get<double>(),
-                1e-9);
+    ASSERT_EQ(result.at("peers").size(), 4U);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto& peer = result.at("peers").at(i);
+        const auto& of = result.at("cases").at(i / 2);
+        EXPECT_EQ(peer.at("name"), i % 2 == 0 ? "paper" : "paper-fast");
+        EXPECT_EQ(peer.at("case"), of.at("name"));
+        EXPECT_NEAR(peer.at("ratio").get<double>(),
+                    of.at("frame").at("median_ms").get<double>() /
+                        peer.at("frame").at("median_ms").get<double>(),
+                    1e-9);
+    }
+    const auto hasStage = [&](int i, const char* name) {
+        const auto& stages = result.at("cases").at(i).at("stages");
+        return std::any_of(stages.begin(), stages.end(),
+                           [&](const auto& stage) { return stage.at("stage") == name; });
+    };
+    for (const char* stage :
+         {"upload", "plan", "pyramid", "epipolar", "flow", "assess", "superres"})
+        EXPECT_TRUE(hasStage(1, stage)) << stage;
+    EXPECT_FALSE(hasStage(0, "epipolar"));
 }
 
 TEST(MfarBench, WrongRequestsEndWithStatus2) {

@@ -1,17 +1,21 @@
 #include "tests/bench/workload.h"
 
 #include "hal/virtual/recording.h"
+#include "hal/virtual/synthetic_board.h"
 #include "tests/eval/picture.h"
 #include "tests/eval/report.h"
+#include "tests/eval/shot.h"
 #include "tests/eval/still_choice.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <stdexcept>
 
 namespace mfar::bench {
 namespace {
@@ -61,6 +65,16 @@ cv::Mat withNoise(const cv::Mat& picture, double sigma, std::uint64_t seed) {
     return out;
 }
 
+cv::Mat pictureOf(const Frame& frame, Size size) {
+    const ImageView& view = frame.view();
+    const cv::Mat rgba(view.size.height, view.size.width, CV_8UC4,
+                       const_cast<std::uint8_t*>(view.data), view.stride);
+    cv::Mat out;
+    cv::cvtColor(rgba, out, cv::COLOR_RGBA2BGR);
+    if (!(view.size == size)) cv::resize(out, out, {size.width, size.height}, 0, 0, cv::INTER_AREA);
+    return out;
+}
+
 StereoRig sameLens(Size video, Size still) {
     CameraModel camera;
     camera.size = video;
@@ -75,7 +89,8 @@ StereoRig sameLens(Size video, Size still) {
 Workload syntheticWorkload(Size video, Size still, int frames) {
     const cv::Size stillSize(still.width, still.height), videoSize(video.width, video.height);
     const cv::Mat world = texture({still.width * 11 / 10, still.height * 11 / 10});
-    Workload out{"synthetic", sameLens(video, still), {viewAt(world, stillSize, -2)}, {}, {}};
+    Workload out{"synthetic", sameLens(video, still), {viewAt(world, stillSize, -2)}, {}, {}, {},
+                 {}};
     for (int k = 0; k < frames; ++k) {
         cv::Mat frame;
         cv::resize(viewAt(world, stillSize, k), frame, videoSize, 0, 0, cv::INTER_AREA);
@@ -85,9 +100,45 @@ Workload syntheticWorkload(Size video, Size still, int frames) {
     return out;
 }
 
+Workload handheldWorkload(Size video, Size still, int frames) {
+    SyntheticBoard board({.scene = synthetic::Scene::Office,
+                          .path = synthetic::Path::Handheld,
+                          .pace = Pace::Consumer});
+    Workload out = handheldWorkload(board, video, still, frames);
+    out.name = "office, hand-held";
+    return out;
+}
+
+Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames) {
+    const StereoRig& rig = board.rig();
+    Workload out{"synthetic board",
+                 {rig.video.scaledTo(video), rig.still.scaledTo(still), rig.T_still_video},
+                 {},
+                 {},
+                 {},
+                 {},
+                 {}};
+    board.video().start();
+    board.stills().start();
+    board.trigger().fire();
+    while (out.frames.size() < static_cast<std::size_t>(frames)) {
+        const auto frame = board.video().next(std::chrono::seconds(1));
+        if (!frame) throw std::runtime_error("the synthetic board has stopped");
+        if (!out.stills.empty()) {
+            out.frames.push_back(pictureOf(*frame, video));
+            out.framePoses.emplace_back(board.pose(frame->time()));
+            out.stillOf.push_back(0);
+        } else if (const auto taken = board.stills().next(std::chrono::milliseconds(0))) {
+            out.stills.push_back(pictureOf(*taken, still));
+            out.stillPoses.emplace_back(board.pose(taken->time()));
+        }
+    }
+    return out;
+}
+
 Workload recordedWorkload(const std::filesystem::path& folder, int frames) {
     const Recording recording = loadRecording(folder);
-    Workload out{folder.string(), recording.rig, {}, {}, {}};
+    Workload out{folder.string(), recording.rig, {}, {}, {}, {}, {}};
     std::map<std::size_t, std::size_t> loaded;  // index in the recording -> index here
     const auto distinct =
         std::min<std::size_t>(static_cast<std::size_t>(frames), recording.video.size());
@@ -96,14 +147,20 @@ Workload recordedWorkload(const std::filesystem::path& folder, int frames) {
         if (!still)
             throw eval::EvalError(fmt::format("{}: frame {} has no still as its reference",
                                               folder.string(), recording.video[i].time.ns));
-        if (loaded.emplace(*still, out.stills.size()).second)
-            out.stills.push_back(eval::loadPicture(recording.stills[*still].file));
+        const RecordedImage& reference = recording.stills[*still];
+        const auto poses = eval::posesOf(recording, recording.video[i].time, reference.time);
+        if (loaded.emplace(*still, out.stills.size()).second) {
+            out.stills.push_back(eval::loadPicture(reference.file));
+            out.stillPoses.push_back(poses.still);
+        }
+        out.framePoses.push_back(poses.frame);
         out.frames.push_back(eval::loadPicture(recording.video[i].file));
         out.stillOf.push_back(loaded.at(*still));
     }
     for (std::size_t i = distinct; i < static_cast<std::size_t>(frames); ++i) {
         out.frames.push_back(out.frames[i % distinct]);
         out.stillOf.push_back(out.stillOf[i % distinct]);
+        out.framePoses.push_back(out.framePoses[i % distinct]);
     }
     return out;
 }
@@ -113,6 +170,7 @@ Workload atRest(const Workload& moving, double noise) {
     for (std::size_t i = 0; i < out.frames.size(); ++i) {
         out.frames[i] = noise > 0 ? withNoise(moving.frames[0], noise, i) : moving.frames[0];
         out.stillOf[i] = moving.stillOf[0];
+        if (!out.framePoses.empty()) out.framePoses[i] = moving.framePoses[0];
     }
     return out;
 }

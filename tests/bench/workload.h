@@ -6,8 +6,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
+
+namespace mfar {
+class SyntheticBoard;
+}
 
 namespace mfar::bench {
 
@@ -18,6 +23,8 @@ struct Workload {
     std::vector<cv::Mat> stills;
     std::vector<cv::Mat> frames;
     std::vector<std::size_t> stillOf;  ///< per frame: index of its reference
+    /// Of the video camera, per frame and per still; nothing where not known, empty: of none.
+    std::vector<std::optional<Pose>> framePoses{}, stillPoses{};
 };
 
 /// A textured plane made in code, seen by a hand-held camera: each frame differs from the one
@@ -25,8 +32,15 @@ struct Workload {
 /// Repeatable.
 [[nodiscard]] Workload syntheticWorkload(Size video, Size still, int frames);
 
+/// The synthetic board's office through a hand-held camera, with exact poses: one still, then
+/// frames. The board's pictures are brought to the sizes asked for. Needs no current GL context.
+/// Repeatable.
+[[nodiscard]] Workload handheldWorkload(Size video, Size still, int frames);
+/// The same of any board of Pace::Consumer that has not been started.
+[[nodiscard]] Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames);
+
 /// Frames of a recording, from its start and round again when it is short, with the stills that
-/// mfar-eval would use. Throws EvalError and RecordingError.
+/// mfar-eval would use, and their poses. Throws EvalError and RecordingError.
 [[nodiscard]] Workload recordedWorkload(const std::filesystem::path& folder, int frames);
 
 /// The first frame over and over: a camera at rest. With `noise`, a sensor's noise of that sigma

@@ -29,6 +29,26 @@ TEST(SyntheticWorkload, TheStillHasDetailTheVideoLacks) {
     EXPECT_GT(meanDifference(up, work.stills[0]), 5);
 }
 
+TEST(HandheldWorkload, KnowsWhereEveryFrameAndTheStillWere) {
+    const Workload work = handheldWorkload({160, 120}, {576, 432}, 3);
+    ASSERT_EQ(work.frames.size(), 3U);
+    ASSERT_EQ(work.framePoses.size(), 3U);
+    ASSERT_EQ(work.stillPoses.size(), 1U);
+    EXPECT_EQ(work.rig.video.size, Size(160, 120));
+    EXPECT_EQ(work.frames[0].size(), cv::Size(160, 120));
+    EXPECT_EQ(work.stills[0].size(), cv::Size(576, 432));
+    const Workload rest = atRest(work, 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+        ASSERT_TRUE(work.framePoses[i]);
+        EXPECT_GT(work.framePoses[i]->time, work.stillPoses[0]->time);
+        EXPECT_EQ(rest.framePoses[i]->time, work.framePoses[0]->time);
+        if (i == 0) continue;
+        const Pose &now = *work.framePoses[i], &before = *work.framePoses[i - 1];
+        EXPECT_GT((now.T_world_video.translation - before.T_world_video.translation).norm(), 1e-5);
+        EXPECT_GT(meanDifference(work.frames[i], work.frames[i - 1]), 0.5);
+    }
+}
+
 TEST(AtRest, FramesAreEqualOrDifferByNoiseOnly) {
     const Workload moving = syntheticWorkload({160, 120}, {576, 432}, 3);
     const Workload still = atRest(moving, 0), noisy = atRest(moving, 2);
