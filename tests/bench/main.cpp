@@ -3,6 +3,7 @@
 #include "hal/virtual/recording.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/bench_report.h"
+#include "tests/bench/curve_report.h"
 #include "tests/bench/workload.h"
 #include "tests/eval/report.h"
 
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -35,6 +37,8 @@ struct Options {
     std::string recording, json, mode = "detail";
     int frames = 0;
     bool quick = false;
+    std::filesystem::path curves;
+    std::vector<std::filesystem::path> data;
 };
 
 /// What moves without and with poses; no frames where there are none.
@@ -57,6 +61,25 @@ Workloads workloadsFor(const Options& o) {
     return out;
 }
 
+std::vector<CurveSample> curveSamplesFor(const Options& o) {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> folders = o.data;
+    if (folders.empty() && !o.quick)
+        for (const char* name : {"motorcycle", "books", "dolls", "teddy"})
+            if (const fs::path folder = fs::path(MFAR_SHARED_DATA) / name; fs::exists(folder))
+                folders.push_back(folder);
+    if (folders.empty()) return syntheticCurveSamples(o.quick ? Size{160, 120} : Size{640, 480});
+    return curveSamplesOf(folders, o.frames > 0 ? static_cast<std::size_t>(o.frames) : 2);
+}
+
+void drawCurves(const Options& o) {
+    const std::vector<CurveSample> samples = curveSamplesFor(o);
+    const auto context = createGlContext();
+    const Curves curves = measureCurves(samples);
+    writeCurves(curves, o.curves);
+    fmt::print("{}\n{}", context->description(), curvesCsv(curves));
+}
+
 void writeJson(const std::string& file, const nlohmann::json& value) {
     std::ofstream out(file);
     out << value.dump(2) << '\n';
@@ -74,10 +97,22 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--json", o.json, "file for all results");
     app.add_flag("--quick", o.quick, "few small frames: shows that it runs, not how fast");
+    app.add_option("--curves", o.curves,
+                   "folder for curves.csv and curves.svg: time against error of the flow for each "
+                   "of its knobs, instead of the other measurements");
+    app.add_option("--data", o.data,
+                   "what the curves are measured on: recordings or pairs as for mfar-eval flow, "
+                   "with --frames samples of each (default 2). Default: the stereo pairs of "
+                   "../shared/data or, where they are absent and with --quick, synthetic scenes")
+        ->needs("--curves");
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : kUsage;
+    }
+    if (!o.curves.empty()) {
+        drawCurves(o);
+        return 0;
     }
     const auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();

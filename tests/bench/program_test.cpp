@@ -1,3 +1,4 @@
+#include "tests/bench/xml_check.h"
 #include "tests/unit/temp_folder.h"
 
 #include <fmt/format.h>
@@ -5,8 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <map>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace mfar::bench {
 namespace {
@@ -53,10 +58,59 @@ TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
     EXPECT_FALSE(hasStage(0, "epipolar"));
 }
 
+std::vector<std::string> fields(const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream in(line + ",");
+    for (std::string field; std::getline(in, field, ',');)
+        out.push_back(field);
+    return out;
+}
+
+TEST(MfarBench, CurvesHaveEveryValueOfEveryKnob) {
+    const mfar::test::TempFolder folder;
+    const auto out = folder / "new" / "curves";
+    const std::string command =
+        fmt::format("{} --quick --curves '{}' >/dev/null", MFAR_BENCH, out.string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_TRUE(test::isWellFormed(mfar::test::readFile(out / "curves.svg")));
+    std::istringstream csv(mfar::test::readFile(out / "curves.csv"));
+    std::string line;
+    std::getline(csv, line);
+    EXPECT_EQ(line, "method,knob,value,default,ms,epe_px,bad1");
+    std::map<std::string, int> values, defaults;
+    std::map<std::string, double> last;
+    while (std::getline(csv, line)) {
+        const auto row = fields(line);
+        ASSERT_EQ(row.size(), 7U) << line;
+        const double ms = std::stod(row[4]), epe = std::stod(row[5]), bad1 = std::stod(row[6]);
+        EXPECT_TRUE(ms > 0 && std::isfinite(ms)) << line;
+        EXPECT_TRUE(epe >= 0 && std::isfinite(epe)) << line;
+        EXPECT_TRUE(bad1 >= 0 && bad1 <= 1) << line;
+        const std::string knob = row[0] + "." + row[1];
+        ++values[knob];
+        if (row[1].empty()) continue;
+        if (values[knob] > 1) {
+            EXPECT_GT(std::stod(row[2]), last[knob]) << line;
+        }
+        last[knob] = std::stod(row[2]);
+        defaults[knob] += row[3] == "1" ? 1 : 0;
+    }
+    EXPECT_EQ(values.size(), 7U + 5 + 2);
+    EXPECT_EQ(values["DIS medium."], 1);
+    for (const auto& [knob, count] : defaults) {
+        EXPECT_GE(values[knob], 3) << knob;
+        EXPECT_EQ(count, 1) << knob;
+    }
+}
+
 TEST(MfarBench, WrongRequestsEndWithStatus2) {
     const std::string program = MFAR_BENCH;
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --recording /absent 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --mode magic 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " --data /tmp 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(
+                  std::system((program + " --curves /absent --data /absent 2>/dev/null").c_str())),
+              2);
 }
 
 }  // namespace
