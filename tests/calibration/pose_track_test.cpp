@@ -1,5 +1,5 @@
 #include "daemon/tools/calibrate/pose_track.h"
-#include "pipeline/track/se3.h"
+#include "pipeline/se3.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
+#include "pipeline/se3.h"
 #include "pipeline/track/pose_filter.h"
-#include "pipeline/track/se3.h"
 #include "tests/track/tag_scene.h"
 
 #include <gtest/gtest.h>

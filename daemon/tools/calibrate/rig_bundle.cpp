@@ -2,7 +2,7 @@
 
 #include "daemon/tools/calibrate/camera_fit.h"
 #include "daemon/tools/calibrate/pose_track.h"
-#include "pipeline/track/se3.h"
+#include "pipeline/se3.h"
 
 #include <Eigen/Dense>
 

@@ -1,4 +1,4 @@
-#include "pipeline/track/se3.h"
+#include "pipeline/se3.h"
 
 #include <cmath>
 
