@@ -12,6 +12,20 @@ constexpr float kNearPlane = 0.05F;  // of rays turned into the still's frame
 // Neighbours on one slanted surface that land on the same cell differ by this much [px].
 constexpr float kSlope = 1.0F;
 
+// Of a pose said to be exact: what the calibration, the moments of exposure and its own rounding
+// leave [rad], [share of the translation].
+constexpr double kLeastTurn = 2.6e-3;
+constexpr double kLeastShift = 0.01;
+
+/// Of a small motion x, T_still_video * exp(x).
+Matrix6 relativeCovariance(const Pose& still, const Pose& frame, double distance) {
+    const RigidTransform T_frame_still = frame.T_world_video.inverse() * still.T_world_video;
+    Matrix6 out = frame.covariance + moved(still.covariance, T_frame_still);
+    out.diagonal().head<3>().array() += kLeastTurn * kLeastTurn;
+    out.diagonal().tail<3>().array() += std::pow(kLeastShift * distance, 2);
+    return out;
+}
+
 Size cellsOf(Size video) {
     return {(video.width + kCell - 1) / kCell, (video.height + kCell - 1) / kCell};
 }
@@ -31,15 +45,19 @@ EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> worker
 
 void EpipolarFlow::setStill(const ImageView& still, const Pose& pose) {
     search_.setStill(still);
-    stillPose_ = pose.T_world_video;
+    stillPose_ = pose;
 }
 
 void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
     lumaOf(video, luma_);
-    const RigidTransform T_then_now = stillPose_->inverse() * pose.T_world_video;
+    const RigidTransform T_still_frame =
+        rig_.T_still_video * stillPose_->T_world_video.inverse() * pose.T_world_video;
+    search_.run(luma_, T_still_frame,
+                relativeCovariance(*stillPose_, pose, T_still_frame.translation.norm()));
     // At the video's geometry the still keeps the video's orientation.
-    rotation_ = T_then_now.rotation.toRotationMatrix().cast<float>();
-    search_.run(luma_, rig_.T_still_video * T_then_now);
+    rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
+                    .toRotationMatrix()
+                    .cast<float>();
     fillForward();
     testDepth();
 }

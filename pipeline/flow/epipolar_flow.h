@@ -24,7 +24,8 @@ public:
     void dropStill() { stillPose_.reset(); }
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
-    /// Searches; needs a still. Then forward() and hidden() are of this frame.
+    /// Refines the relative pose and searches; needs a still. Then forward(), hidden() and
+    /// search() are of this frame.
     void run(const ImageView& video, const Pose& pose);
 
     /// Video -> still: flow x, y [video px at the video's geometry], -, -.
@@ -47,7 +48,7 @@ private:
     EpipolarSearch search_;
     EpipolarLens lens_;
     Eigen::Matrix3f rotation_;  // of rays, from the frame to the still at the video's geometry
-    std::optional<RigidTransform> stillPose_;  // T_world_video
+    std::optional<Pose> stillPose_;
     LumaImage luma_;
     Cells forward_, hidden_;
     std::vector<float> nearness_,

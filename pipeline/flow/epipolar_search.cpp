@@ -158,27 +158,72 @@ void EpipolarSearch::setStill(const ImageView& still) {
     stillNoise_ = noiseOf(picture_);
 }
 
-bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_video) {
-    const Eigen::Matrix3d R_still_video = T_still_video.rotation.toRotationMatrix();
-    translation_ = (R_still_video.transpose() * T_still_video.translation).cast<float>();
+bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_video,
+                         const std::optional<Matrix6>& covariance) {
     levels_[0].video = video;
     videoNoise_ = noiseOf(video);
-    labels_ = 0;
-    pixelsPerUnit_ = 0;
+    refinement_ = {};
     std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
-    if (!turnStill(R_still_video)) return false;
-    measureParallax();
-    if (!(pixelsPerUnit_ > 0)) return true;
-    labels_ = static_cast<int>(options_.longestParallax * video.size.width);
-    for (int i = static_cast<int>(levels_.size()) - 1; i >= 0; --i) {
-        prepare(levels_[i], std::max(videoNoise_, stillNoise_) / (1 << i));
-        search(i);
+    if (!place(T_still_video)) return false;
+    const int coarsest = static_cast<int>(levels_.size()) - 1;
+    search(coarsest, coarsest);
+    if (covariance) refine(*covariance);
+    if (refinement_.accepted) {
+        if (!place(T_still_video * refinement_.motion)) return false;
+        search(coarsest, coarsest);
     }
+    if (!(pixelsPerUnit_ > 0)) return true;
+    search(coarsest - 1, 0);
     const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
     median3x3(levels_[0].labels, levels_[0].lens.size(), *workers_, inverseDepth_);
     for (float& s : inverseDepth_)
         s *= perLabel;
     return true;
+}
+
+bool EpipolarSearch::place(const RigidTransform& T_still_video) {
+    pose_ = T_still_video;
+    const Eigen::Matrix3d R_still_video = T_still_video.rotation.toRotationMatrix();
+    translation_ = (R_still_video.transpose() * T_still_video.translation).cast<float>();
+    labels_ = 0;
+    pixelsPerUnit_ = 0;
+    if (!turnStill(R_still_video)) return false;
+    measureParallax();
+    if (pixelsPerUnit_ > 0)
+        labels_ = static_cast<int>(options_.longestParallax * video_.size.width);
+    return true;
+}
+
+// The coarsest level's pixels are so large that the lines of a pose yet to be refined still lead
+// past their matches.
+void EpipolarSearch::refine(const Matrix6& covariance) {
+    const PosePrior prior{translation_.cast<double>(), covariance};
+    const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
+    const double noise = std::max(videoNoise_, stillNoise_);
+    const auto matches =
+        matchPatches(levels_[0].pair(), half.pair(),
+                     {video_, prior, noise, pixelsPerUnit_,
+                      [this](const Eigen::Vector2d& pixel) { return coarseNearness(pixel); }},
+                     *workers_);
+    refinement_ = refineRelativePose(matches, prior, video_.fx);
+}
+
+// s of the coarsest level at a pixel of the finest.
+double EpipolarSearch::coarseNearness(const Eigen::Vector2d& pixel) const {
+    const Level& coarse = levels_.back();
+    const Size size = coarse.lens.size();
+    const double scale = 1 << (levels_.size() - 1);
+    const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);
+    const int y = std::min(static_cast<int>((pixel.y() + 0.5) / scale), size.height - 1);
+    return coarse.labels[static_cast<std::size_t>(y) * size.width + x] * scale / pixelsPerUnit_;
+}
+
+void EpipolarSearch::search(int first, int last) {
+    if (!(pixelsPerUnit_ > 0)) return;
+    for (int i = first; i >= last; --i) {
+        prepare(levels_[i], std::max(videoNoise_, stillNoise_) / (1 << i));
+        search(i);
+    }
 }
 
 // The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas

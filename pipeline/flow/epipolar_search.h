@@ -3,12 +3,15 @@
 #include "pipeline/flow/epipolar_lens.h"
 #include "pipeline/flow/field_filters.h"
 #include "pipeline/flow/flow_options.h"
+#include "pipeline/flow/pose_patches.h"
+#include "pipeline/flow/relative_pose.h"
 #include "pipeline/flow/semi_global.h"
 #include "pipeline/flow/turned_picture.h"
 
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mfar {
@@ -27,9 +30,15 @@ public:
     void setStill(const ImageView& still);
 
     /// `T_still_video`: video camera coordinates at the frame's time to still camera coordinates at
-    /// the still's; its unit of length is free. Returns false, and a field of zeros, where nothing
-    /// of the still is in reach.
-    bool run(const LumaImage& video, const RigidTransform& T_still_video);
+    /// the still's; its unit of length is free. `covariance`: of a small motion x, T_still_video *
+    /// exp(x); with it the pose is refined from the pictures first, without it taken as exact.
+    /// Returns false, and a field of zeros, where nothing of the still is in reach.
+    bool run(const LumaImage& video, const RigidTransform& T_still_video,
+             const std::optional<Matrix6>& covariance = std::nullopt);
+
+    /// The T_still_video whose lines were searched, and what led to it.
+    [[nodiscard]] const RigidTransform& pose() const { return pose_; }
+    [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
 
     /// Per pixel: s [1/unit of length], see EpipolarLens. Less than zero where the best match lies
     /// beyond infinity, as noise and errors of the pose make it.
@@ -50,11 +59,17 @@ private:
         std::vector<std::uint32_t> videoCensus, stillCensus;
         std::vector<std::int16_t> base;
         std::vector<float> labels;
+
+        [[nodiscard]] TurnedPair pair() const { return {lens, origin, video, still, seen}; }
     };
 
+    [[nodiscard]] bool place(const RigidTransform& T_still_video);
     [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video);
     void measureParallax();
+    void refine(const Matrix6& covariance);
+    [[nodiscard]] double coarseNearness(const Eigen::Vector2d& pixel) const;
     void prepare(Level& level, double noise);
+    void search(int first, int last);
     void search(int index);
     void centreWindows(const Level& coarse, Level& fine);
     void costRow(const Level& level, int index, int vectors, int y, std::uint8_t* out) const;
@@ -66,6 +81,8 @@ private:
     std::vector<Level> levels_;
     LumaImage picture_;  // of the still
     SemiGlobal matcher_;
+    RigidTransform pose_;  // T_still_video
+    PoseRefinement refinement_;
     double stillNoise_ = 0, videoNoise_ = 0;
     Eigen::Vector3f translation_ = Eigen::Vector3f::Zero();
     double pixelsPerUnit_ = 0;

@@ -90,7 +90,7 @@ Eigen::Vector2d landing(const EpipolarSearch& search, const View& view, int x, i
     const Eigen::Vector2d r = camera.unproject({x, y});
     const Eigen::Vector3d t = search.translation().cast<double>();
     const Eigen::Vector2d moved = r + s * (t.head<2>() - r * t.z());
-    return camera.project((view.T_still_video.rotation * moved.homogeneous()).hnormalized());
+    return camera.project((search.pose().rotation * moved.homogeneous()).hnormalized());
 }
 
 FlowErrors errorsOf(const EpipolarSearch& search, const View& view) {
