@@ -41,6 +41,11 @@ void Stats::picture(const Picture& picture) {
     }
     if (picture.stats.usedPose) ++counted_.epipolarFrames;
     counted_.tilesSearched2d += static_cast<std::uint64_t>(std::max(picture.stats.searched2d, 0));
+    if (picture.stats.refinedPose) ++counted_.refinedFrames;
+    if (picture.stats.posePatches > 0) {
+        epipolarErrorSum_ += picture.stats.epipolarError;
+        ++epipolarErrorFrames_;
+    }
     counted_.last = picture.stats;
     counted_.lastStages = picture.stages;
     counted_.stillAgeS = picture.stillAgeS;
@@ -98,6 +103,8 @@ Counted Stats::count() {
     }
     if (confidenceFrames_ > 0)
         counted_.meanConfidence = confidenceSum_ / static_cast<double>(confidenceFrames_);
+    if (epipolarErrorFrames_ > 0)
+        counted_.meanEpipolarError = epipolarErrorSum_ / static_cast<double>(epipolarErrorFrames_);
     return counted_;
 }
 

@@ -44,6 +44,8 @@ struct Counted {
     PoseCounts poses;
     std::uint64_t epipolarFrames = 0;   ///< pictures that were matched along epipolar lines
     std::uint64_t tilesSearched2d = 0;  ///< in them, as the lines did not explain them
+    std::uint64_t refinedFrames = 0;    ///< of them, with a pose refined from the pictures
+    double meanEpipolarError = 0;       ///< [video px], over those with patches to tell it
     FrameStats last;
     std::vector<StageTime> lastStages;
     std::optional<double> stillAgeS;  ///< at the last frame
@@ -79,6 +81,8 @@ private:
     Counted counted_;
     double confidenceSum_ = 0;
     std::uint64_t confidenceFrames_ = 0;
+    double epipolarErrorSum_ = 0;
+    std::uint64_t epipolarErrorFrames_ = 0;
     std::optional<Timestamp> firstShown_;
     Timestamp lastShown_;
     std::uint64_t framesBefore_ = 0;  ///< at the previous count()

@@ -70,6 +70,8 @@ nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& fr
         {"tracked_share", poses.trackedShare()},
         {"epipolar_frames", counted.epipolarFrames},
         {"tiles_searched_2d", counted.tilesSearched2d},
+        {"refined_frames", counted.refinedFrames},
+        {"epipolar_px", counted.meanEpipolarError},
         {"tags", poses.meanTags()},
         {"reprojection_px", poses.meanErrorPx()},
         {"full_searches", poses.tracker.fullSearches},
@@ -104,6 +106,8 @@ std::string statusLine(const Counted& counted, const RunDescription& run, double
         line += ", no still";
     }
     line += tracking(counted.poses);
+    if (counted.last.posePatches > 0)
+        fmt::format_to(out, ", lines {:.2f} px", counted.last.epipolarError);
     line += " |";
     for (const StageTime& stage : counted.lastStages)
         fmt::format_to(out, " {} {:.1f}", stage.stage, stage.ms);

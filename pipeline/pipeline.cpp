@@ -16,6 +16,13 @@ void requireSize(const ImageView& view, Size size, const char* what) {
                                 std::to_string(size.width) + "x" + std::to_string(size.height));
 }
 
+void publishPose(const PoseRefinement& refinement, FrameStats& stats) {
+    stats.usedPose = true;
+    stats.refinedPose = refinement.accepted;
+    stats.posePatches = refinement.patches;
+    stats.epipolarError = refinement.normalAfter;
+}
+
 }  // namespace
 
 Size Pipeline::State::outputSize(const StereoRig& rig, Size wanted) {
@@ -96,8 +103,8 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
 
     s.result.stats = s.superres.statsBefore();
     s.result.stats.usedStill = useStill;
-    s.result.stats.usedPose = usePose;
     s.result.stats.searched2d = s.flow.searched().countBefore();
+    if (usePose) publishPose(s.epipolar.search().refinement(), s.result.stats);
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
     return s.result;
 }

@@ -23,9 +23,12 @@ std::size_t tileAt(int x, int y, Size video) {
 }  // namespace
 
 FrameStats Pipeline::readStats() const {
-    FrameStats stats = state_->superres.statsNow();
-    stats.usedStill = state_->result.stats.usedStill;
-    stats.usedPose = state_->result.stats.usedPose;
+    FrameStats stats = state_->result.stats;
+    const FrameStats drawn = state_->superres.statsNow();
+    stats.tiles = drawn.tiles;
+    stats.meanConfidence = drawn.meanConfidence;
+    stats.explained = drawn.explained;
+    stats.changed = drawn.changed;
     stats.searched2d = state_->flow.searched().count();
     return stats;
 }

@@ -34,7 +34,10 @@ struct FrameStats {
     double explained = 0;  ///< share of tiles that are flat or that the still accounts for, [0, 1]
     double changed = 0;    ///< share of tiles whose video differs from when they were last drawn
     bool usedStill = false;
-    bool usedPose = false;  ///< matched along epipolar lines, as the poses of both were known
+    bool usedPose = false;     ///< matched along epipolar lines, as the poses of both were known
+    bool refinedPose = false;  ///< the pictures said more of the relative pose than both poses
+    int posePatches = 0;       ///< patches that were there to tell; below, zero without any
+    double epipolarError = 0;  ///< their median distance from the lines that were searched [px]
     /// Tiles that those lines did not explain (something moves there, or a pose is wrong), which
     /// were searched in both dimensions. Without poses all changed tiles are, and none counted.
     int searched2d = 0;

@@ -124,6 +124,34 @@ TEST(Status, SummaryTellsHowPosesWereFound) {
     EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
 }
 
+/// Two frames along epipolar lines, the first's pose refined; before them one with nothing to tell.
+void showLines(Stats& stats) {
+    FrameStats frame;
+    frame.usedStill = frame.usedPose = true;
+    const auto show = [&] { stats.picture({frame, kStages, {}, {}, 1.5}); };
+    show();
+    frame.posePatches = 200;
+    frame.refinedPose = true;
+    frame.epipolarError = 0.1;
+    show();
+    frame.refinedPose = false;
+    frame.epipolarError = 0.2;
+    show();
+}
+
+TEST(Status, TellsHowWellTheLinesFit) {
+    Stats stats;
+    EXPECT_EQ(summary(stats.count(), {}, "", 0)["pose"]["epipolar_px"], 0);
+    showLines(stats);
+    const auto pose = summary(stats.count(), {}, "", 0)["pose"];
+    EXPECT_EQ(pose["epipolar_frames"], 3);
+    EXPECT_EQ(pose["refined_frames"], 1);
+    EXPECT_NEAR(pose["epipolar_px"].get<double>(), 0.15, 1e-9);
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr(", lines 0.20 px |"));
+    stats.picture({{.usedStill = true, .usedPose = true}, kStages, {}, {}, 1.5});
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("lines")));
+}
+
 TEST(Status, LineTellsHowTheLastPoseWasFound) {
     Stats stats;
     showPictures(stats, 2);
