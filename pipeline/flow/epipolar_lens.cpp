@@ -1,8 +1,5 @@
 #include "pipeline/flow/epipolar_lens.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace mfar {
 namespace {
 
@@ -53,10 +50,6 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
         }
     }
     rim2_ = static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2));
-}
-
-float EpipolarLens::rimScale(float r2) const {
-    return std::sqrt(rim2_ / r2);
 }
 
 }  // namespace mfar

@@ -2,6 +2,8 @@
 
 #include "pipeline/geometry.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace mfar {
@@ -32,11 +34,12 @@ public:
     /// Ray (x / z, y / z) to pixel of this level, with the lens's distortion. Rays beyond what the
     /// lens can show are held at its rim, so that distortion never folds them back.
     [[nodiscard]] Point project(float x, float y) const {
+        // No branch, so that loops over pixels become vectors.
         const float r2 = x * x + y * y;
-        const float c = r2 > rim2_ ? rimScale(r2) : 1.0F;
+        const float c = std::sqrt(rim2_ / std::max(r2, rim2_));
         x *= c;
         y *= c;
-        const float q = r2 > rim2_ ? rim2_ : r2;
+        const float q = std::min(r2, rim2_);
         const float radial = 1 + q * (k1_ + q * (k2_ + q * k3_));
         const float xy = 2 * x * y;
         return {fx_ * (x * radial + p1_ * xy + p2_ * (q + 2 * x * x)) + cx_,
@@ -44,8 +47,6 @@ public:
     }
 
 private:
-    [[nodiscard]] float rimScale(float r2) const;
-
     Size size_;
     float fx_, fy_, cx_, cy_, k1_, k2_, p1_, p2_, k3_, rim2_;
     std::vector<float> rays_;  // x, y per pixel

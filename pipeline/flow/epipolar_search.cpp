@@ -337,25 +337,34 @@ void EpipolarSearch::centreWindows(const Level& coarse, Level& fine) {
 void EpipolarSearch::costRow(const Level& level, int index, int vectors, int y,
                              std::uint8_t* out) const {
     const Size size = level.lens.size();
+    const auto first = static_cast<std::size_t>(y) * size.width;
     const float perLabel = static_cast<float>((1 << index) / pixelsPerUnit_);
-    const Eigen::Vector3f& t = translation_;
+    std::vector<EpipolarLens::Point> from(size.width), to(size.width);
+    for (int v = 0; v < vectors; ++v) {
+        const int label = SemiGlobal::kLabels * v;
+        placeRow(level, first, perLabel, label, from);
+        placeRow(level, first, perLabel, label + SemiGlobal::kLabels - 1, to);
+        for (int x = 0; x < size.width; ++x)
+            costsAlong({from[x], to[x]}, level.videoCensus[first + x], level.stillCensus.data(),
+                       level.still.size,
+                       out + static_cast<std::size_t>(x * vectors + v) * SemiGlobal::kLabels);
+    }
+}
+
+// Where the canvas shows a row's pixels under a label above their base.
+void EpipolarSearch::placeRow(const Level& level, std::size_t first, float perLabel, int label,
+                              std::vector<EpipolarLens::Point>& out) const {
+    const EpipolarLens& lens = level.lens;
+    const float tx = translation_.x(), ty = translation_.y(), tz = translation_.z();
     const auto ox = static_cast<float>(level.origin.x), oy = static_cast<float>(level.origin.y);
-    for (int x = 0; x < size.width; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
-        const float rx = level.lens.rayX(i), ry = level.lens.rayY(i);
-        const float ex = t.x() - rx * t.z(), ey = t.y() - ry * t.z();
-        for (int v = 0; v < vectors; ++v, out += SemiGlobal::kLabels) {
-            const float s0 = perLabel * static_cast<float>(level.base[i] + SemiGlobal::kLabels * v);
-            const float s1 = s0 + perLabel * (SemiGlobal::kLabels - 1);
-            auto from = level.lens.project(rx + s0 * ex, ry + s0 * ey);
-            auto to = level.lens.project(rx + s1 * ex, ry + s1 * ey);
-            from.x -= ox;
-            from.y -= oy;
-            to.x -= ox;
-            to.y -= oy;
-            costsAlong({from, to}, level.videoCensus[i], level.stillCensus.data(), level.still.size,
-                       out);
-        }
+    const std::int16_t* base = level.base.data() + first;
+    const int width = lens.size().width;
+    EpipolarLens::Point* to = out.data();
+    for (int x = 0; x < width; ++x) {
+        const float s = perLabel * static_cast<float>(base[x] + label);
+        const float rx = lens.rayX(first + x), ry = lens.rayY(first + x);
+        const auto p = lens.project(rx + s * (tx - rx * tz), ry + s * (ty - ry * tz));
+        to[x] = {p.x - ox, p.y - oy};
     }
 }
 
