@@ -9,7 +9,12 @@ namespace {
 constexpr int kGroup = 4;  // cells a workgroup and axis, as in the shaders
 // With the last frame's field among the candidates only what moved on its own needs a search.
 constexpr int kTrackingRadius = 3;
+// Of tiles off their epipolar lines: 5 px are 80 px of the frame; what moved farther since the
+// still is not worth four times the search.
+constexpr int kListedRadius = 5;
 constexpr int kPropagateSteps = 2;
+// From a vector that is right but for a fraction of a pixel; four gain nothing.
+constexpr int kRefineSteps = 2;
 // At the finest level propagation costs 10 ms a direction on llvmpipe; the backward field only
 // confirms.
 constexpr int kBackwardPropagations = 0;
@@ -80,7 +85,7 @@ void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells fo
     p.to = pyramids.still()[0];
     put(p.cells, stage.cells.width, stage.cells.height, 0, 0);
     put(p.offsets, stage.area[0], -1, seed_, 0);
-    put(p.search, 0, 1, options_.steps, forward_.cells.width);
+    put(p.search, 0, 1, kRefineSteps, forward_.cells.width);
     p.prior[0] = p.prior[1] = p.prior[2] = 1.0F;
     plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
              stage.dispatch);
@@ -94,8 +99,8 @@ void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells fo
 void Flow2d::searchListed(const LumaPyramids& pyramids) {
     const Direction way{pyramids.video(), pyramids.still(), forwardStages_, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
-        SearchParams p =
-            searchParams(way, level, 0, options_.searchRadius, forwardStages_[0].area[0]);
+        SearchParams p = searchParams(way, level, 0, std::min(kListedRadius, options_.searchRadius),
+                                      forwardStages_[0].area[0]);
         put(p.listed, searched_.first(level), level == 0 ? backward_.offset : -1, 0, 0);
         searchListed_.runIndirect(p,
                                   {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_),
