@@ -134,6 +134,15 @@ void costsAlong(const Segment& way, std::uint32_t own, const std::uint32_t* stil
     }
 }
 
+/// How far along a way of one label the pixel nearest to a point lies [labels]; none where the way
+/// is too short to tell.
+float footOf(EpipolarLens::Point p, EpipolarLens::Point way) {
+    constexpr float kLeast = 0.1F;  // [px^2]
+    const float square = way.x * way.x + way.y * way.y;
+    const float x = std::floor(p.x + 0.5F) - p.x, y = std::floor(p.y + 0.5F) - p.y;
+    return square > kLeast ? (x * way.x + y * way.y) / square : 0.0F;
+}
+
 }  // namespace
 
 EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
@@ -174,6 +183,7 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
     }
     if (!(pixelsPerUnit_ > 0)) return true;
     search(coarsest - 1, 0);
+    undoRounding(levels_[0]);
     const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
     median3x3(levels_[0].labels, levels_[0].lens.size(), *workers_, inverseDepth_);
     for (float& s : inverseDepth_)
@@ -334,16 +344,45 @@ void EpipolarSearch::centreWindows(const Level& coarse, Level& fine) {
                 range_.low[static_cast<std::size_t>(y / 2) * from.width + x / 2]);
 }
 
+// The costs of a label are those of the pixel nearest to its point, up to 0.7 px beside it. So the
+// label that fits is the one whose point is the foot of that pixel on the line.
+void EpipolarSearch::undoRounding(Level& level) {
+    const int width = level.lens.size().width;
+    const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
+    workers_->forRange(level.lens.size().height, 8, [&](int firstRow, int lastRow) {
+        std::vector<float> whole(width);
+        std::vector<EpipolarLens::Point> here(width), next(width);
+        for (int y = firstRow; y < lastRow; ++y) {
+            const auto first = static_cast<std::size_t>(y) * width;
+            float* label = level.labels.data() + first;
+            for (int x = 0; x < width; ++x)
+                whole[x] = std::floor(label[x]);
+            const auto labelAt = [&](int x) { return whole[x]; };
+            placeRow(level, first, perLabel, labelAt, here);
+            placeRow(level, first, perLabel, [&](int x) { return labelAt(x) + 1; }, next);
+            for (int x = 0; x < width; ++x) {
+                const float part = label[x] - whole[x];
+                const EpipolarLens::Point way{next[x].x - here[x].x, next[x].y - here[x].y};
+                label[x] += (1 - part) * footOf(here[x], way) + part * footOf(next[x], way);
+            }
+        }
+    });
+}
+
 void EpipolarSearch::costRow(const Level& level, int index, int vectors, int y,
                              std::uint8_t* out) const {
     const Size size = level.lens.size();
     const auto first = static_cast<std::size_t>(y) * size.width;
     const float perLabel = static_cast<float>((1 << index) / pixelsPerUnit_);
     std::vector<EpipolarLens::Point> from(size.width), to(size.width);
+    const std::int16_t* base = level.base.data() + first;
     for (int v = 0; v < vectors; ++v) {
-        const int label = SemiGlobal::kLabels * v;
-        placeRow(level, first, perLabel, label, from);
-        placeRow(level, first, perLabel, label + SemiGlobal::kLabels - 1, to);
+        const int low = SemiGlobal::kLabels * v, high = low + SemiGlobal::kLabels - 1;
+        const auto labelled = [&](int label) {
+            return [=](int x) { return static_cast<float>(base[x] + label); };
+        };
+        placeRow(level, first, perLabel, labelled(low), from);
+        placeRow(level, first, perLabel, labelled(high), to);
         for (int x = 0; x < size.width; ++x)
             costsAlong({from[x], to[x]}, level.videoCensus[first + x], level.stillCensus.data(),
                        level.still.size,
@@ -351,17 +390,17 @@ void EpipolarSearch::costRow(const Level& level, int index, int vectors, int y,
     }
 }
 
-// Where the canvas shows a row's pixels under a label above their base.
-void EpipolarSearch::placeRow(const Level& level, std::size_t first, float perLabel, int label,
-                              std::vector<EpipolarLens::Point>& out) const {
+// Where the canvas shows a row's pixels under their labels.
+template <class LabelAt>
+void EpipolarSearch::placeRow(const Level& level, std::size_t first, float perLabel,
+                              LabelAt labelAt, std::vector<EpipolarLens::Point>& out) const {
     const EpipolarLens& lens = level.lens;
     const float tx = translation_.x(), ty = translation_.y(), tz = translation_.z();
     const auto ox = static_cast<float>(level.origin.x), oy = static_cast<float>(level.origin.y);
-    const std::int16_t* base = level.base.data() + first;
     const int width = lens.size().width;
     EpipolarLens::Point* to = out.data();
     for (int x = 0; x < width; ++x) {
-        const float s = perLabel * static_cast<float>(base[x] + label);
+        const float s = perLabel * labelAt(x);
         const float rx = lens.rayX(first + x), ry = lens.rayY(first + x);
         const auto p = lens.project(rx + s * (tx - rx * tz), ry + s * (ty - ry * tz));
         to[x] = {p.x - ox, p.y - oy};

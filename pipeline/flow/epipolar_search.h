@@ -73,8 +73,10 @@ private:
     void search(int index);
     void centreWindows(const Level& coarse, Level& fine);
     void costRow(const Level& level, int index, int vectors, int y, std::uint8_t* out) const;
-    void placeRow(const Level& level, std::size_t first, float perLabel, int label,
+    template <class LabelAt>
+    void placeRow(const Level& level, std::size_t first, float perLabel, LabelAt labelAt,
                   std::vector<EpipolarLens::Point>& out) const;
+    void undoRounding(Level& level);
 
     EpipolarOptions options_;
     CameraModel video_, still_;  // the still's at the scale of the video
