@@ -11,7 +11,7 @@ constexpr int kGroup = 8;         // tiles a workgroup and axis, as in the shade
 // Energy of an 8x8 patch [grey levels^2] from which on its cost says something: eight times that of
 // a grey level of noise.
 constexpr double kTexturePerVariance = 8 * 64;
-constexpr float kUnexplained = 0.4F;  // cost: 1 less the correlation
+constexpr float kUnexplained = 0.4F;
 // Two-way error [px] of cells that the still cannot show. What lies behind something else is
 // searched: what moves hides and is hidden, and the z-test believes the lines.
 constexpr float kNotShown = 100;
@@ -72,9 +72,10 @@ int TileLists::count() const {
 }
 
 std::vector<bool> TileLists::read() const {
-    const auto listed = lists_.read<std::uint32_t>(count());
     std::vector<bool> out(static_cast<std::size_t>(tiles_.width) * tiles_.height);
-    for (const std::uint32_t tile : listed)
+    const auto listed = static_cast<std::size_t>(count());
+    if (listed == 0) return out;
+    for (const std::uint32_t tile : lists_.read<std::uint32_t>(listed))
         out[static_cast<std::size_t>(tile >> 16) * tiles_.width + (tile & 0xFFFF)] = true;
     return out;
 }

@@ -222,7 +222,9 @@ TEST_F(TileListsGl, WhatMovedIsFoundAndTheRestStays) {
 
 TEST_F(TileListsGl, WhereNothingMovedNothingIsSearched) {
     const Picture still = Waves(3, 6, 60, 40).shoot(kVideo, {});
-    EXPECT_EQ(Refined(still, still).flow.searched().count(), 0);
+    const Refined r(still, still);
+    EXPECT_EQ(r.flow.searched().count(), 0);
+    EXPECT_EQ(r.flow.searched().read(), std::vector<bool>(kTiles.width * kTiles.height));
 }
 
 TEST_F(TileListsGl, UnrelatedTilesAreSearchedAndNotTrusted) {
