@@ -17,7 +17,7 @@ struct Flow2dOptions {
 /// The same of the epipolar search. Its windows of 16 labels and its four paths are laid out in
 /// vectors of bytes.
 struct EpipolarOptions {
-    int levels = 3;                ///< at most; one has 60 px at least on its short side; [1, 4]
+    int levels = 4;                ///< at most; one has 60 px at least on its short side; [1, 4]
     double longestParallax = 0.8;  ///< longest way sought, as a share of the width; (0, 1]
     int windowRadius = 2;  ///< of the coarser level's labels that a window covers [px]; [0, 8]
     int stepPenalty = 12;  ///< Smoothness::step without noise; [1, 30]
