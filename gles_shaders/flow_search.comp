@@ -36,6 +36,8 @@ layout(std430, binding = 2) readonly buffer Lists {
 const float kGoodCost = 0.1;
 const float kErrorPerCost = 5.0;
 const float kOnLine = 1.0;  // [px]
+// A cell leaves its line only for a cost this much lower: among many vectors one fits noise by chance.
+const float kClearlyLess = 0.5;
 #endif
 
 #include "patch.glsl"
@@ -98,9 +100,12 @@ void main() {
     }
     int at = cell.y * cells.x + cell.x;
 #ifdef LISTED
-    vec2 moved = best - patches[offsets.x + at].xy;
-    if (listed.y >= 0 && dot(moved, moved) > kOnLine * kOnLine)
+    vec4 line = patches[offsets.x + at];
+    vec2 off = best - line.xy;
+    if (listed.y >= 0 && dot(off, off) > kOnLine * kOnLine) {
+        if (found.cost > kClearlyLess * line.z) return;
         patches[listed.y + at].x = max(found.cost - kGoodCost, 0.0) * kErrorPerCost;
+    }
 #endif
     patches[offsets.x + at] = vec4(best, found.cost, t.variance);
 }

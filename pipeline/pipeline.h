@@ -67,9 +67,9 @@ public:
     // Read-backs for tests, evaluation and the preview; they wait for the GPU.
     /// Numbers of the last run; FrameResult::stats is one frame behind, so that nothing waits.
     [[nodiscard]] FrameStats readStats() const;
-    /// Flow at every video pixel (x, y interleaved): with poses that of the inverse depth field
-    /// except in tiles searched in both dimensions, there and without poses bilinear between cells.
-    /// Empty without still.
+    /// Flow at every video pixel (x, y interleaved), bilinear between cells; with poses as each
+    /// pixel's epipolar search found it, where the cells do not confirm that to a pixel, unless
+    /// they left the lines. Empty without still.
     [[nodiscard]] std::vector<float> readFlow() const;
     /// Eq. 2 confidence at every video pixel, [0, 1]. Empty without still.
     [[nodiscard]] std::vector<float> readConfidence() const;

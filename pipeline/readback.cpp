@@ -1,10 +1,13 @@
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
 
-#include <algorithm>
+#include <cmath>
 
 namespace mfar {
 namespace {
+
+constexpr float kOffLine = 3;         // [px]
+constexpr float kSameSurface = 0.5F;  // [px]
 
 /// One channel of a four-channel cell field at every video pixel.
 void channelInto(std::vector<float>& out, int stride, int at, const std::vector<float>& cells,
@@ -42,14 +45,19 @@ std::vector<float> Pipeline::readFlow() const {
     for (int channel = 0; channel < 2; ++channel)
         channelInto(out, 2, channel, cells, s.superres.cellField().size(), channel, video);
     if (!s.flow.errorsGiven()) return out;
+    // The cells' vectors are refined to a fraction of a pixel, the lines' are those of the pixels:
+    // they say on which side of an edge a pixel lies.
     const std::vector<bool> searched = readSearchedTiles();
     const std::vector<float> alongLines = s.epipolar.flow();
     for (int y = 0; y < video.height; ++y)
         for (int x = 0; x < video.width; ++x) {
-            if (searched[tileAt(x, y, video)]) continue;
             const std::size_t i = 2 * (static_cast<std::size_t>(y) * video.width + x);
-            std::copy_n(alongLines.begin() + static_cast<std::ptrdiff_t>(i), 2,
-                        out.begin() + static_cast<std::ptrdiff_t>(i));
+            const float apart = std::hypot(out[i] - alongLines[i], out[i + 1] - alongLines[i + 1]);
+            const bool moves = searched[tileAt(x, y, video)] &&
+                               s.epipolar.offLine(x, y, out[i], out[i + 1]) > kOffLine;
+            if (apart < kSameSurface || moves) continue;
+            out[i] = alongLines[i];
+            out[i + 1] = alongLines[i + 1];
         }
     return out;
 }

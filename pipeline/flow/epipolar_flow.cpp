@@ -9,6 +9,7 @@ namespace {
 constexpr int kCell = 4;
 constexpr float kNowhere = 1e4F;
 constexpr float kNearPlane = 0.05F;  // of rays turned into the still's frame
+constexpr float kLeastWay = 0.05F;   // of a pixel, when the others' longest is one [px]
 // Neighbours on one slanted surface that land on the same cell differ by this much [px].
 constexpr float kSlope = 1.0F;
 
@@ -84,6 +85,21 @@ std::vector<float> EpipolarFlow::flow() const {
         }
     }
     return out;
+}
+
+float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
+    const std::size_t i = static_cast<std::size_t>(y) * rig_.video.size.width + x;
+    const float s = search_.inverseDepth()[i];
+    const auto on = endOf(lens_.rayX(i), lens_.rayY(i), s);
+    const float dx = static_cast<float>(x) + flowX - on.x,
+                dy = static_cast<float>(y) + flowY - on.y;
+    if (!(search_.pixelsPerUnit() > 0)) return std::hypot(dx, dy);
+    const auto pixel = static_cast<float>(1 / search_.pixelsPerUnit());
+    const auto next = endOf(lens_.rayX(i), lens_.rayY(i), s + pixel);
+    const float wayX = next.x - on.x, wayY = next.y - on.y, way = std::hypot(wayX, wayY);
+    // By the epipole no depth moves the pixel.
+    if (!(way > kLeastWay)) return std::hypot(dx, dy);
+    return std::abs(dx * wayY - dy * wayX) / way;
 }
 
 // The middle two of a cell's four central pixels: an edge between them does not pull it off.

@@ -35,6 +35,9 @@ public:
     [[nodiscard]] const Cells& hidden() const { return hidden_; }
     /// Flow at every video pixel, x, y interleaved; far outside where the still cannot see it.
     [[nodiscard]] std::vector<float> flow() const;
+    /// Distance of a flow at a pixel from the pixel's epipolar line; without parallax, where the
+    /// line is a point, from that [px].
+    [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
 
 private:
