@@ -1,12 +1,10 @@
 #include "pipeline/flow/epipolar_search.h"
 
 #include "pipeline/flow/census.h"
-#include "pipeline/flow/field_filters.h"
+#include "pipeline/flow/census_costs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
 namespace mfar {
 namespace {
@@ -17,7 +15,6 @@ constexpr int kCoarsest = 60;
 constexpr int kBeyond = 4;
 constexpr int kSmallestCanvas = 16;
 constexpr int kMostStep = 30;
-constexpr int kUnseenCost = kCensusBits / 2;
 
 Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
     const int step = options.stepPenalty;
@@ -63,75 +60,6 @@ CameraModel atScaleOf(const StereoRig& rig) {
     };
     return rig.still.scaledTo({scaled(rig.still.size.width, rig.video.fx / rig.still.fx),
                                scaled(rig.still.size.height, rig.video.fy / rig.still.fy)});
-}
-
-struct Segment {
-    EpipolarLens::Point from, to;
-};
-
-std::uint8_t difference(std::uint32_t a, std::uint32_t b) {
-    return (b & kNoCensus) != 0 ? kUnseenCost : static_cast<std::uint8_t>(std::popcount(a ^ b));
-}
-
-/// Where label k's census goes, so that the counts of four words interleave to bytes in order.
-constexpr int slotOf(int label) {
-    return label % 4 * 4 + label / 4;
-}
-
-/// The same for a whole vector of labels: bits are counted side by side in words, because a count
-/// of one word is a slow library call on the oldest processors of both families.
-void differences(std::uint32_t own, const std::uint32_t* slots, std::uint8_t* out) {
-    using Words = std::uint32_t __attribute__((vector_size(16)));
-    Words bytes{};
-    for (int i = 3; i >= 0; --i) {
-        Words w;
-        std::memcpy(&w, slots + 4L * i, sizeof w);
-        const Words unseen = Words{} - (w >> 31);
-        w ^= own;
-        w -= (w >> 1) & 0x55555555U;
-        w = (w & 0x33333333U) + ((w >> 2) & 0x33333333U);
-        w = (w + (w >> 4)) & 0x0F0F0FU;
-        w = (w + (w >> 8) + (w >> 16)) & 0x1FU;
-        bytes = (bytes << 8) | (w & ~unseen) | (unseen & kUnseenCost);
-    }
-    std::memcpy(out, &bytes, sizeof bytes);
-}
-
-/// The pixel that holds a coordinate above -0.5.
-int pixelOf(float v) {
-    const float fromEdge = v + 0.5F;
-    return static_cast<int>(fromEdge);
-}
-
-/// Costs of one pixel at evenly spaced points of a segment, ends included, nearest pixels taken.
-/// The segment is short, so the lens may be taken as straight along it.
-void costsAlong(const Segment& way, std::uint32_t own, const std::uint32_t* still, Size size,
-                std::uint8_t* out) {
-    constexpr int kSteps = SemiGlobal::kLabels - 1;
-    constexpr float kOne = 65536.0F;
-    const float w = static_cast<float>(size.width) - 0.51F,
-                h = static_cast<float>(size.height) - 0.51F;
-    const auto inside = [&](EpipolarLens::Point p) {
-        return p.x > -0.49F && p.y > -0.49F && p.x < w && p.y < h;
-    };
-    if (inside(way.from) && inside(way.to)) {
-        int x = static_cast<int>((way.from.x + 0.5F) * kOne),
-            y = static_cast<int>((way.from.y + 0.5F) * kOne);
-        const int dx = static_cast<int>((way.to.x - way.from.x) * (kOne / kSteps));
-        const int dy = static_cast<int>((way.to.y - way.from.y) * (kOne / kSteps));
-        std::uint32_t seen[SemiGlobal::kLabels];
-        for (int k = 0; k <= kSteps; ++k, x += dx, y += dy)
-            seen[slotOf(k)] = still[(y >> 16) * size.width + (x >> 16)];
-        differences(own, seen, out);
-        return;
-    }
-    for (int k = 0; k <= kSteps; ++k) {
-        const float a = static_cast<float>(k) / kSteps;
-        const EpipolarLens::Point p{way.from.x + a * (way.to.x - way.from.x),
-                                    way.from.y + a * (way.to.y - way.from.y)};
-        out[k] = kUnseenCost;
-        if (inside(p)) out[k] = difference(own, still[pixelOf(p.y) * size.width + pixelOf(p.x)]);
-    }
 }
 
 /// How far along a way of one label the pixel nearest to a point lies [labels]; none where the way
@@ -384,7 +312,7 @@ void EpipolarSearch::costRow(const Level& level, int index, int vectors, int y,
         placeRow(level, first, perLabel, labelled(low), from);
         placeRow(level, first, perLabel, labelled(high), to);
         for (int x = 0; x < size.width; ++x)
-            costsAlong({from[x], to[x]}, level.videoCensus[first + x], level.stillCensus.data(),
+            costsAlong(from[x], to[x], level.videoCensus[first + x], level.stillCensus.data(),
                        level.still.size,
                        out + static_cast<std::size_t>(x * vectors + v) * SemiGlobal::kLabels);
     }
