@@ -27,6 +27,8 @@ Matrix6 relativeCovariance(const Pose& still, const Pose& frame, double distance
     return out;
 }
 
+constexpr double kRounding = 1e-12;
+
 Size cellsOf(Size video) {
     return {(video.width + kCell - 1) / kCell, (video.height + kCell - 1) / kCell};
 }
@@ -51,10 +53,21 @@ void EpipolarFlow::setStill(const ImageView& still, const Pose& pose) {
 
 void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
     lumaOf(video, luma_);
-    const RigidTransform T_still_frame =
+    RigidTransform T_still_frame =
         rig_.T_still_video * stillPose_->T_world_video.inverse() * pose.T_world_video;
-    search_.run(luma_, T_still_frame,
-                relativeCovariance(*stillPose_, pose, T_still_frame.translation.norm()));
+    const double distance = T_still_frame.translation.norm();
+    Matrix6 covariance = relativeCovariance(*stillPose_, pose, distance);
+    // The search's unit of length is that distance: in metres and in millimetres it then does the
+    // same. What the positions' own rounding leaves is none.
+    const double least = kRounding * (rig_.T_still_video.translation.norm() +
+                                      stillPose_->T_world_video.translation.norm() +
+                                      pose.T_world_video.translation.norm());
+    const double unit = distance > least ? distance : 1;
+    T_still_frame.translation *= distance > least ? 1 / unit : 0;
+    covariance.topRightCorner<3, 3>() /= unit;
+    covariance.bottomLeftCorner<3, 3>() /= unit;
+    covariance.bottomRightCorner<3, 3>() /= unit * unit;
+    search_.run(luma_, T_still_frame, covariance);
     // At the video's geometry the still keeps the video's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()

@@ -38,6 +38,7 @@ public:
     /// Distance of a flow at a pixel from the pixel's epipolar line; without parallax, where the
     /// line is a point, from that [px].
     [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
+    /// Its unit of length is the distance between the still's camera and the frame's.
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
 
 private:
