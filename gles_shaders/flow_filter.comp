@@ -2,8 +2,6 @@
 // what agrees with it in 5x5. Larger medians measured worse on photographs: they flatten slanted and
 // curved surfaces.
 // In, out: two areas of patches[]. One invocation a cell.
-// Variant: #define MEDIAN_ONLY
-// fits no plane: a sixth of the time.
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
@@ -19,7 +17,6 @@ vec4 cellIn(ivec2 c) {
     return patches[offsets.y + c.y * cells.x + c.x];
 }
 
-#ifndef MEDIAN_ONLY
 const int kRadius = 2;
 // Neighbours that differ by more [px] from the plane lie on another surface; the first round knows no
 // slope yet and has to let it pass.
@@ -67,7 +64,6 @@ Plane planeAt(ivec2 cell, Plane about, float reach) {
     about.dy += inverse[2].x * u0 + inverse[2].y * ux + inverse[2].z * uy;
     return about;
 }
-#endif
 
 void order(inout vec2 a, inout vec2 b) {
     vec2 low = min(a, b);
@@ -93,10 +89,7 @@ void main() {
     order(low, middle);
     order(middle, high);
     order(low, middle);
-#ifndef MEDIAN_ONLY
     Plane plane = Plane(middle, vec2(0.0), vec2(0.0));
     for (int i = 0; i < cells.z; ++i) plane = planeAt(cell, plane, i == 0 ? kFirstReach : kReach);
-    middle = plane.value;
-#endif
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(middle, cellIn(cell).zw);
+    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(plane.value, cellIn(cell).zw);
 }

@@ -1,5 +1,6 @@
 // How the still matches the video at each cell: what superres_weigh.comp weighs.
-// In: forward field (video -> still) and backward field or two-way errors in patches[], both pictures'
+// In: forward field (video -> still) and backward field, which may be of a coarser level, or two-way
+// errors in patches[], both pictures'
 // finest luma.
 // Out: displacement image = flow (x, y) [video px], its end in the still less the scaled cell centre
 // [still px]; statistics image = covariance, variance of the video and of the still in the patch,
@@ -12,8 +13,9 @@ layout(std140, binding = 0) uniform Params {
     Rig rig;
     ivec4 video;     // finest level of the video: offset, pitch, width, height
     ivec4 still;     // finest level of the still at the video's geometry
-    ivec4 cells;     // cells a row, rows, -, -
-    ivec4 offsets;   // in patches[]: forward field, backward field; 1 = that holds two-way errors; -
+    ivec4 cells;     // cells a row, rows; those of the backward field
+    ivec4 offsets;   // in patches[]: forward field, backward field; 1 = that holds two-way errors; pixels a
+                     // pixel of the backward field's level
     vec4 tune;       // alpha [px], -, -, -
     vec4 stillSize;  // still width, height, still px per video px (x, y)
 };
@@ -29,12 +31,12 @@ layout(rgba32f, binding = 1) uniform writeonly highp image2D statistics;
 #include "patch.glsl"
 
 vec2 backward(ivec2 c) {
-    c = clamp(c, ivec2(0), cells.xy - 1);
-    return patches[offsets.y + c.y * cells.x + c.x].xy;
+    c = clamp(c, ivec2(0), cells.zw - 1);
+    return float(offsets.w) * patches[offsets.y + c.y * cells.z + c.x].xy;
 }
 
 vec2 backwardAt(vec2 p) {
-    vec2 g = (p + 0.5) / 4.0 - 0.5;
+    vec2 g = (p + 0.5) / float(4 * offsets.w) - 0.5;
     ivec2 i = ivec2(floor(g));
     vec2 f = g - floor(g);
     vec2 top = mix(backward(i), backward(i + ivec2(1, 0)), f.x);

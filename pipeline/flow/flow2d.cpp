@@ -15,9 +15,9 @@ constexpr int kListedRadius = 5;
 constexpr int kPropagateSteps = 2;
 // From a vector that is right but for a fraction of a pixel; four gain nothing.
 constexpr int kRefineSteps = 2;
-// At the finest level propagation costs 10 ms a direction on llvmpipe; the backward field only
-// confirms.
-constexpr int kBackwardPropagations = 0;
+// The backward field only confirms: a tenth of a coarser level's pixel is a tenth of eq. 2's alpha.
+constexpr int kBackwardFinest = 1;
+constexpr int kBackwardPropagations = 1;
 
 void put(std::int32_t (&out)[4], std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
     out[0] = a;
@@ -40,8 +40,7 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions
     : options_(validated(options)),
       searched_(cellsOf(pyramids.video()[0]), levelsOf(pyramids, options), plan),
       search_("flow_search.comp"), searchListed_("flow_search.comp", "#define LISTED\n"),
-      propagate_("flow_propagate.comp"), fitPlanes_("flow_filter.comp"),
-      median_("flow_filter.comp", "#define MEDIAN_ONLY\n") {
+      propagate_("flow_propagate.comp"), filter_("flow_filter.comp") {
     int next = 0;
     const auto take = [&](Size cells) {
         const int at = next;
@@ -58,7 +57,9 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions
         }
     }
     forward_ = {take(forwardStages_[0].cells), forwardStages_[0].cells};
-    backward_ = {take(backwardStages_[0].cells), backwardStages_[0].cells};
+    const int finest = std::min(kBackwardFinest, static_cast<int>(backwardStages_.size()) - 1);
+    // Room for refine()'s errors, one a cell of the video.
+    backward_ = {take(forward_.cells), backwardStages_[finest].cells, finest};
     seed_ = take(forward_.cells);
     patches_ = gpu::Buffer(static_cast<std::size_t>(next) * 4 * sizeof(float));
 }
@@ -68,10 +69,11 @@ void Flow2d::run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePri
     searched_.clear();
     const auto& video = pyramids.video();
     const auto& still = pyramids.still();
-    run({video, still, forwardStages_, options_.propagations, usePrior}, pyramids, plan);
-    run({still, video, backwardStages_, kBackwardPropagations, false}, pyramids, plan);
-    filter(fitPlanes_, forwardStages_[0], forward_, plan);
-    filter(median_, backwardStages_[0], backward_, plan);  // it only confirms
+    run({video, still, forwardStages_, 0, options_.propagations, usePrior}, pyramids, plan);
+    run({still, video, backwardStages_, backward_.level, kBackwardPropagations, false}, pyramids,
+        plan);
+    filter(forwardStages_[0], forward_, plan);
+    filter(backwardStages_[backward_.level], backward_, plan);
 }
 
 void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells forward,
@@ -91,13 +93,13 @@ void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells fo
              stage.dispatch);
     searched_.find({patches_, stage.area[0], backward_.offset}, plan);
     searchListed(pyramids);
-    filter(fitPlanes_, stage, forward_, plan);
+    filter(stage, forward_, plan);
 }
 
 // No propagation: a listed group's neighbours need not be listed. What the lines found is a
 // candidate at every level, and at the finest it stays where nothing fits better.
 void Flow2d::searchListed(const LumaPyramids& pyramids) {
-    const Direction way{pyramids.video(), pyramids.still(), forwardStages_, 0, false};
+    const Direction way{pyramids.video(), pyramids.still(), forwardStages_, 0, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
         SearchParams p = searchParams(way, level, 0, std::min(kListedRadius, options_.searchRadius),
                                       forwardStages_[0].area[0]);
@@ -111,9 +113,9 @@ void Flow2d::searchListed(const LumaPyramids& pyramids) {
 
 void Flow2d::run(const Direction& way, const LumaPyramids& pyramids, const WorkPlan& plan) {
     const int coarsest = static_cast<int>(way.stages.size()) - 1;
-    for (int level = coarsest; level >= 0; --level) {
+    for (int level = coarsest; level >= way.finest; --level) {
         int rounds = 1;
-        if (level == 0) rounds = way.finestPropagations;
+        if (level == way.finest) rounds = way.finestPropagations;
         if (level == coarsest) rounds = options_.coarsestPropagations;
         search(way, level, rounds % 2, pyramids, plan);  // so that the last round ends in area 0
         for (int round = rounds; round > 0; --round)
@@ -163,12 +165,11 @@ void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaPy
              stage.dispatch);
 }
 
-void Flow2d::filter(gpu::ComputePass<FilterParams>& pass, const Stage& stage, const Field& out,
-                    const WorkPlan& plan) {
+void Flow2d::filter(const Stage& stage, const Field& out, const WorkPlan& plan) {
     FilterParams p{};
     put(p.cells, stage.cells.width, stage.cells.height, options_.planeFits, 0);
     put(p.offsets, out.offset, stage.area[0], 0, 0);
-    plan.run(pass, p, {gpu::storage(1, patches_)}, stage.dispatch);
+    plan.run(filter_, p, {gpu::storage(1, patches_)}, stage.dispatch);
 }
 
 }  // namespace mfar

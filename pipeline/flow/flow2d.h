@@ -18,8 +18,9 @@ class Flow2d {
 public:
     /// A field of flow vectors, one per cell of 4x4 video pixels, in patches().
     struct Field {
-        int offset = 0;  ///< first vec4 (flow x, y [video px], cost, texture)
+        int offset = 0;  ///< first vec4 (flow x, y [px of its level], cost, texture)
         Size cells;      ///< columns, rows
+        int level = 0;   ///< of the pyramid
     };
 
     /// Throws std::invalid_argument for options out of range.
@@ -69,6 +70,7 @@ private:
         const std::vector<LumaLevel>& from;  ///< where the patches are taken
         const std::vector<LumaLevel>& to;    ///< where they are sought
         const std::vector<Stage>& stages;
+        int finest;  // level
         int finestPropagations;
         bool usePrior;
     };
@@ -81,8 +83,7 @@ private:
                                             int prior) const;
     void propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,
                    const WorkPlan& plan);
-    void filter(gpu::ComputePass<FilterParams>& pass, const Stage& stage, const Field& out,
-                const WorkPlan& plan);
+    void filter(const Stage& stage, const Field& out, const WorkPlan& plan);
 
     Flow2dOptions options_;
     std::vector<Stage> forwardStages_, backwardStages_;
@@ -93,7 +94,7 @@ private:
     TileLists searched_;
     gpu::ComputePass<SearchParams> search_, searchListed_;
     gpu::ComputePass<PropagateParams> propagate_;
-    gpu::ComputePass<FilterParams> fitPlanes_, median_;
+    gpu::ComputePass<FilterParams> filter_;
 };
 
 }  // namespace mfar

@@ -63,9 +63,12 @@ void SuperRes::assess(const LumaPyramids& pyramids, const Flow2d& flow, const Wo
     const Flow2d::Field& bw = flow.backward();
     p.cells[0] = fw.cells.width;
     p.cells[1] = fw.cells.height;
+    p.cells[2] = bw.cells.width;
+    p.cells[3] = bw.cells.height;
     p.offsets[0] = fw.offset;
     p.offsets[1] = bw.offset;
     p.offsets[2] = flow.errorsGiven() ? 1 : 0;
+    p.offsets[3] = 1 << bw.level;
     p.tune[0] = kAlpha;
     p.stillSize[0] = static_cast<float>(rig_.still.size.width);
     p.stillSize[1] = static_cast<float>(rig_.still.size.height);

@@ -29,9 +29,14 @@ struct GainParams {
     std::int32_t cells[4], offsets[4];
 };
 
-/// Flow vectors both ways, row-major, in video pixels.
+/// Flow vectors both ways, row-major; backward in pixels of `scale` video pixels.
 struct Fields {
     std::vector<std::array<float, 4>> forward, backward;
+    int scale = 1;
+
+    [[nodiscard]] Size backwardCells() const {
+        return {kCells.width / scale, kCells.height / scale};
+    }
 };
 
 Fields constantFields(const Vector2d& forward, const Vector2d& backward) {
@@ -58,6 +63,9 @@ Assessed assess(const LevelPair& pair, const StereoRig& rig, const Fields& field
     p.cells[0] = kCells.width;
     p.cells[1] = kCells.height;
     p.offsets[1] = kArea;
+    p.cells[2] = fields.backwardCells().width;
+    p.cells[3] = fields.backwardCells().height;
+    p.offsets[3] = fields.scale;
     p.tune[0] = kAlpha;
     p.stillSize[0] = static_cast<float>(rig.still.size.width);
     p.stillSize[1] = static_cast<float>(rig.still.size.height);
@@ -75,33 +83,38 @@ bool insideOf(const Vector2d& p, Size size) {
     return p.x() >= 0 && p.y() >= 0 && p.x() <= size.width - 1 && p.y() <= size.height - 1;
 }
 
-Fields randomFields() {
+Fields randomFields(int scale) {
     std::mt19937 random(3);
     std::uniform_real_distribution<float> near(-0.8F, 0.8F), wide(-12, 12);
     Fields f = constantFields({0, 0}, {0, 0});
+    f.scale = scale;
+    const auto coarse = static_cast<float>(scale);
     for (int i = 0; i < kArea; ++i) {
         const float x = wide(random), y = wide(random);
         f.forward[i] = {x, y, 0, 0};
-        f.backward[i] = {near(random) - 3, near(random) + 2, 0, 0};
+        f.backward[i] = {(near(random) - 3) / coarse, (near(random) + 2) / coarse, 0, 0};
         if (i % 2 == 0) f.forward[i] = {3 + near(random), near(random) - 2, 0, 0};
     }
     return f;
 }
 
-twin::Cells cellsOf(const std::vector<std::array<float, 4>>& field) {
-    twin::Cells out{kCells, {}};
+twin::Cells cellsOf(const std::vector<std::array<float, 4>>& field, Size cells) {
+    twin::Cells out{cells, {}};
     for (const auto& v : field)
         out.values.insert(out.values.end(), v.begin(), v.end());
     return out;
 }
 
-TEST_F(Assess, StatisticsLookUpAndConfidenceMatchTwin) {
+class AssessFields : public GlTest, public testing::WithParamInterface<int> {};
+
+TEST_P(AssessFields, StatisticsLookUpAndConfidenceMatchTwin) {
     const StereoRig rig = bentRig(kVideo, kStill);
     const Waves waves(1, 6, 60, 40);
     const LevelPair pair(waves.shoot(kVideo, {}), waves.shoot(kVideo, {.shift = {-3, 2}}));
     const auto a = pair.first(), b = pair.second();
-    const Fields fields = randomFields();
-    const twin::Cells backward = cellsOf(fields.backward);
+    const Fields fields = randomFields(GetParam());
+    const twin::Cells backward = cellsOf(fields.backward, fields.backwardCells());
+    const double cell = 4. * fields.scale;
     const Assessed got = assess(pair, rig, fields);
     const Eigen::Array2d scale(rig.still.fx / rig.video.fx, rig.still.fy / rig.video.fy);
     int outside = 0, confident = 0;
@@ -120,7 +133,8 @@ TEST_F(Assess, StatisticsLookUpAndConfidenceMatchTwin) {
         EXPECT_LE((d.tail<2>() - (inStill - scaled)).norm(), kPixel) << "cell " << i;
         const bool inside = insideOf(q, kVideo) && insideOf(inStill, kStill);
         const Vector2d back =
-            backward.bilinear((q.x() + 0.5) / 4 - 0.5, (q.y() + 0.5) / 4 - 0.5).head<2>();
+            fields.scale *
+            backward.bilinear((q.x() + 0.5) / cell - 0.5, (q.y() + 0.5) / cell - 0.5).head<2>();
         EXPECT_NEAR(s[3], inside ? twin::confidence(u, back, kAlpha) : 0.0, 1e-4) << "cell " << i;
         outside += inside ? 0 : 1;
         confident += s[3] > 0.5 ? 1 : 0;
@@ -128,6 +142,8 @@ TEST_F(Assess, StatisticsLookUpAndConfidenceMatchTwin) {
     EXPECT_GT(outside, 10);
     EXPECT_GT(confident, 10);
 }
+
+INSTANTIATE_TEST_SUITE_P(BackwardScales, AssessFields, testing::Values(1, 2));
 
 TEST_F(Assess, AgreeingFieldsAreFullyConfident) {
     const StereoRig rig = plainRig(kVideo, kStill);

@@ -132,11 +132,10 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
     EXPECT_GT(moved, kArea / 4);
 }
 
-std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2,
-                           const char* defines = "") {
+std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(in), kArea * sizeof(Cell));
-    gpu::ComputePass<FilterParams> pass("flow_filter.comp", defines);
+    gpu::ComputePass<FilterParams> pass("flow_filter.comp");
     pass.run({{kCells.width, kCells.height, planeFits, 0}, {0, kArea, 0, 0}},
              {gpu::storage(1, patches)}, {4, 3, 1});
     return patches.read<Cell>(kArea);
@@ -162,19 +161,6 @@ TEST_F(FlowPasses, FilterMatchesTwin) {
                 EXPECT_NEAR(out[i][1], t.y(), 2e-3) << "cell " << i << ", reach " << reach;
             }
         }
-    }
-}
-
-TEST_F(FlowPasses, FilterWithoutPlanesIsTheMedian) {
-    auto in = randomField(10, 5);
-    for (int i = 0; i < kArea; ++i)
-        in[i][2] = in[i][3] = static_cast<float>(i);
-    const auto out = filtered(in, 0, "#define MEDIAN_ONLY\n");
-    for (int i = 0; i < kArea; ++i) {
-        const Vector2d t = twin::medianAround({in, kCells.width, kCells.height}, i % 16, i / 16);
-        EXPECT_EQ(out[i],
-                  (Cell{static_cast<float>(t.x()), static_cast<float>(t.y()), in[i][2], in[i][3]}))
-            << "cell " << i;
     }
 }
 
