@@ -35,6 +35,12 @@ std::vector<Cell> randomFields(unsigned seed) {
     return out;
 }
 
+gpu::Buffer stored(const std::vector<Cell>& fields) {
+    gpu::Buffer patches(fields.size() * sizeof(Cell));
+    patches.write(std::span<const Cell>(fields));
+    return patches;
+}
+
 /// The tiles with three cells or more that have texture, match badly and are shown by the still.
 std::vector<bool> twinFlags(const std::vector<Cell>& fields) {
     std::vector<int> cells(kTiles.width * kTiles.height);
@@ -95,8 +101,7 @@ TEST_F(TileListsGl, FlagsAndListsMatchTheTwins) {
     TileLists lists(kCells, kLevels, plan);
     plan.openAll();
     const auto fields = randomFields(1);
-    gpu::Buffer patches(fields.size() * sizeof(Cell));
-    patches.write(std::span<const Cell>(fields));
+    const gpu::Buffer patches = stored(fields);
     lists.find({patches, 0, kCount}, plan);
 
     const auto wanted = twinClosed(twinFlags(fields));
@@ -115,8 +120,7 @@ TEST_F(TileListsGl, CoarserLevelsHaveWhatTheFinerLookAt) {
     for (const int tile : {0, 60, 200})  // far apart
         for (int i = 0; i < 3; ++i)
             fields[4 * (tile / kTiles.width) * kCells.width + 4 * (tile % kTiles.width) + i][2] = 1;
-    gpu::Buffer patches(fields.size() * sizeof(Cell));
-    patches.write(std::span<const Cell>(fields));
+    const gpu::Buffer patches = stored(fields);
     lists.find({patches, 0, kCount}, plan);
 
     auto wanted = listed(lists, 0);
@@ -137,8 +141,7 @@ TEST_F(TileListsGl, AShutPlanListsNothing) {
     TileLists lists(kCells, kLevels, plan);
     plan.openAll();
     const auto fields = randomFields(2);
-    gpu::Buffer patches(fields.size() * sizeof(Cell));
-    patches.write(std::span<const Cell>(fields));
+    const gpu::Buffer patches = stored(fields);
     lists.find({patches, 0, kCount}, plan);
     const int before = lists.count();
     const Picture same(kVideo, PixelFormat::Rgba8, 90);
