@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
     ivec4 tiles;   // tiles a row, rows, -, -
     ivec4 groups;  // groups a row, rows, tiles a group and axis, margin [tiles]
-    ivec4 target;    // index in commands[], first entry in lists[], -, -
+    ivec4 target;  // index in commands[], first entry in lists[], -, -
 };
 layout(std430, binding = 0) readonly buffer Flags {
     uint flags[];

@@ -1,7 +1,6 @@
 // How the still matches the video at each cell: what superres_weigh.comp weighs.
 // In: forward field (video -> still) and backward field, which may be of a coarser level, or two-way
-// errors in patches[], both pictures'
-// finest luma.
+// errors in patches[], both pictures' finest luma.
 // Out: displacement image = flow (x, y) [video px], its end in the still less the scaled cell centre
 // [still px]; statistics image = covariance, variance of the video and of the still in the patch,
 // confidence. Source: paper, eq. 2 with lambda(x) = min(x, 1).

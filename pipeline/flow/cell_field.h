@@ -8,6 +8,11 @@
 
 namespace mfar {
 
+/// Cells of 4x4 pixels that cover a picture.
+[[nodiscard]] constexpr Size cellsOf(Size picture) {
+    return {(picture.width + 3) / 4, (picture.height + 3) / 4};
+}
+
 /// Bilinear look-up in a read-back field of 4x4-pixel cells with four channels, at pixel (x, y).
 /// Beyond the outermost cell centres the nearest cell holds.
 [[nodiscard]] inline float sampleCells(const std::vector<float>& cells, Size count, int channel,

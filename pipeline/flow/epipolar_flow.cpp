@@ -1,5 +1,7 @@
 #include "pipeline/flow/epipolar_flow.h"
 
+#include "pipeline/flow/cell_field.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,10 +30,6 @@ Matrix6 relativeCovariance(const Pose& still, const Pose& frame, double distance
 }
 
 constexpr double kRounding = 1e-12;
-
-Size cellsOf(Size video) {
-    return {(video.width + kCell - 1) / kCell, (video.height + kCell - 1) / kCell};
-}
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "pipeline/flow/flow2d.h"
 
+#include "pipeline/flow/cell_field.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -27,7 +29,7 @@ void put(std::int32_t (&out)[4], std::int32_t a, std::int32_t b, std::int32_t c,
 }
 
 Size cellsOf(const LumaLevel& level) {
-    return {(level.width + 3) / 4, (level.height + 3) / 4};
+    return cellsOf(Size{level.width, level.height});
 }
 
 int levelsOf(const LumaPyramids& pyramids, const Flow2dOptions& options) {

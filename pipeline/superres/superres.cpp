@@ -1,5 +1,7 @@
 #include "pipeline/superres/superres.h"
 
+#include "pipeline/flow/cell_field.h"
+
 #include <algorithm>
 
 namespace mfar {
@@ -13,10 +15,6 @@ constexpr float kPlainFlow = 0.08F;
 constexpr float kPlainWeight = 0.25F;
 constexpr std::uint32_t kQuadVertices = 6;
 constexpr const char* kPlain = "#define PLAIN_TILE\n";
-
-Size cellsOf(Size video) {
-    return {(video.width + 3) / 4, (video.height + 3) / 4};
-}
 
 }  // namespace
 
