@@ -146,15 +146,18 @@ cv::Mat1b printedGrid(const Target& grid, int cell, int turn, int border) {
     return paper;
 }
 
-void expectGridFound(int turn, int border) {
-    const int tagCells = 6 + 2 * border;
-    const Target grid = aprilGrid(5, 4, 0.08, border == 1 ? 0.25 : 0.3, 3);
+Scene photographOfGrid(const Target& grid, int printTurn, int border, double turn) {
     constexpr int kCell = 20;
-    const cv::Mat1b paper = printedGrid(grid, kCell, turn, border);
+    const int tagCells = 6 + 2 * border;
+    const cv::Mat1b paper = printedGrid(grid, kCell, printTurn, border);
     // The first corner: one cell of rim and the lowest row of squares from the lower left.
     const double first = (1 + tagCells * grid.spacing) * kCell;
-    const Scene scene =
-        photograph(paper, kCell * tagCells / 0.08, {first, paper.rows - first}, true, 0.3);
+    return photograph(paper, kCell * tagCells / 0.08, {first, paper.rows - first}, true, turn);
+}
+
+void expectGridFound(int turn, int border) {
+    const Target grid = aprilGrid(5, 4, 0.08, border == 1 ? 0.25 : 0.3, 3);
+    const Scene scene = photographOfGrid(grid, turn, border, 0.3);
     TargetFinder finder(grid, kPicture);
     const auto corners =
         finder.find({scene.picture.ptr(), kPicture, scene.picture.step, PixelFormat::Gray8});
@@ -186,6 +189,22 @@ TEST(TargetFinder, CheckerboardCornersKeepTheirOrderUpsideDown) {
             finder.find({scene.picture.ptr(), kPicture, scene.picture.step, PixelFormat::Gray8});
         expectCorners(board, scene, corners, 54);
     }
+}
+
+TEST(TargetFinder, TagsCutByThePicturesEdgeGiveCornersInside) {
+    const Target grid = aprilGrid(5, 4, 0.08, 0.25);
+    const Scene scene = photographOfGrid(grid, 0, 1, 0.3);
+    TargetFinder finder(grid, kPicture);
+    std::size_t most = 0;
+    for (int left = 100; left <= 220; ++left) {
+        const Size size{kPicture.width - left, kPicture.height};
+        const cv::Mat1b cut = scene.picture(cv::Rect(left, 0, size.width, size.height)).clone();
+        const auto corners = finder.find({cut.ptr(), size, cut.step, PixelFormat::Gray8});
+        most = std::max(most, corners.size());
+        for (const Corner& c : corners)
+            EXPECT_TRUE(c.pixel.x() > 0 && c.pixel.x() < size.width - 1) << left;
+    }
+    EXPECT_GE(most, 32U);
 }
 
 TEST(TargetFinder, NothingIsFoundInNothing) {

@@ -77,11 +77,16 @@ double planeError(const Target& target, const std::vector<Corner>& corners) {
 
 /// Corners whose window lies in the picture and that did not move farther than `reach` [px].
 void keepRefined(const cv::Mat& picture, std::vector<Corner>& corners, int window, double reach) {
+    const cv::Rect inside(window + 2, window + 2, picture.cols - 2 * window - 4,
+                          picture.rows - 2 * window - 4);
+    // A tag at the picture's edge may be found with corners beyond it, which OpenCV 4.10 refuses.
+    std::erase_if(corners, [&](const Corner& c) {
+        return !inside.contains(cv::Point2d(c.pixel.x(), c.pixel.y()));
+    });
+    if (corners.empty()) return;
     std::vector<cv::Point2f> points;
     for (const Corner& c : corners)
         points.emplace_back(static_cast<float>(c.pixel.x()), static_cast<float>(c.pixel.y()));
-    const cv::Rect inside(window + 2, window + 2, picture.cols - 2 * window - 4,
-                          picture.rows - 2 * window - 4);
     refine(picture, points, window);
     std::vector<Corner> kept;
     for (std::size_t i = 0; i < points.size(); ++i) {
