@@ -19,6 +19,13 @@ struct Template {
     vec3 inverseHessian;  // xx, xy, yy
 };
 
+// Over the pixels of the patch: of the other picture, of its squares, of its product with a and with the
+// gradients.
+struct Sums {
+    float b, bb, ab;
+    vec2 gb;
+};
+
 struct Match {
     float cost;  // 0 = alike up to gain and offset, 1 = unrelated, 2 = inverted
     float gain;  // a is about gain * b + offset
@@ -80,6 +87,18 @@ Template loadTemplate(Level l, ivec2 cell) {
     return t;
 }
 
+Match matchOf(Template t, Sums sums) {
+    float mean = sums.b / kPixels;
+    Match m;
+    m.varianceB = max(sums.bb - sums.b * mean, 0.0);
+    m.covariance = sums.ab - t.mean * sums.b;
+    m.gain = sqrt((t.variance + kNoise) / (m.varianceB + kNoise));
+    m.descent = t.sumAG - m.gain * (sums.gb - mean * t.sumG);
+    float energy = t.variance + m.gain * m.gain * m.varianceB;
+    m.cost = max(energy - 2.0 * m.gain * m.covariance, 0.0) / (energy + kNoise);
+    return m;
+}
+
 // The template against level l, displaced by u pixels. Positions outside are held at the border.
 Match compare(Template t, Level l, ivec2 cell, vec2 u) {
     vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
@@ -89,8 +108,7 @@ Match compare(Template t, Level l, ivec2 cell, vec2 u) {
     int wx = (at.x >> 2) + kMarginWords;
     uint shift = uint(at.x & 3) * 8u;
     vec4 above0 = vec4(0.0), above1 = vec4(0.0);
-    float sum = 0.0, sumSquares = 0.0, sumAB = 0.0;
-    vec2 sumGB = vec2(0.0);
+    Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
     for (int r = 0; r < 9; ++r) {
         uvec3 w = fetchRow(l, wx, at.y + r, shift);
         vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y);
@@ -99,24 +117,16 @@ Match compare(Template t, Level l, ivec2 cell, vec2 u) {
         if (r >= 1) {
             int i = 2 * (r - 1);
             vec4 b0 = above0 + (row0 - above0) * f.y, b1 = above1 + (row1 - above1) * f.y;
-            sum += dot(b0 + b1, vec4(1.0));
-            sumSquares += dot(b0, b0) + dot(b1, b1);
-            sumAB += dot(t.a[i], b0) + dot(t.a[i + 1], b1);
-            sumGB += vec2(dot(t.gx[i], b0) + dot(t.gx[i + 1], b1),
-                          dot(t.gy[i], b0) + dot(t.gy[i + 1], b1));
+            sums.b += dot(b0 + b1, vec4(1.0));
+            sums.bb += dot(b0, b0) + dot(b1, b1);
+            sums.ab += dot(t.a[i], b0) + dot(t.a[i + 1], b1);
+            sums.gb += vec2(dot(t.gx[i], b0) + dot(t.gx[i + 1], b1),
+                            dot(t.gy[i], b0) + dot(t.gy[i + 1], b1));
         }
         above0 = row0;
         above1 = row1;
     }
-    float mean = sum / kPixels;
-    Match m;
-    m.varianceB = max(sumSquares - sum * mean, 0.0);
-    m.covariance = sumAB - t.mean * sum;
-    m.gain = sqrt((t.variance + kNoise) / (m.varianceB + kNoise));
-    m.descent = t.sumAG - m.gain * (sumGB - mean * t.sumG);
-    float energy = t.variance + m.gain * m.gain * m.varianceB;
-    m.cost = max(energy - 2.0 * m.gain * m.covariance, 0.0) / (energy + kNoise);
-    return m;
+    return matchOf(t, sums);
 }
 
 // One Gauss-Newton step on the displacement, at most a pixel long.

@@ -16,7 +16,7 @@ constexpr int kTrackingRadius = 3;
 constexpr int kListedRadius = 5;
 constexpr int kPropagateSteps = 2;
 // From a vector that is right but for a fraction of a pixel; four gain nothing.
-constexpr int kRefineSteps = 2;
+constexpr int kAlignSteps = 2;
 // The backward field only confirms: a tenth of a coarser level's pixel is a tenth of eq. 2's alpha.
 constexpr int kBackwardFinest = 1;
 constexpr int kBackwardPropagations = 1;
@@ -42,7 +42,7 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions
     : options_(validated(options)),
       searched_(cellsOf(pyramids.video()[0]), levelsOf(pyramids, options), plan),
       search_("flow_search.comp"), searchListed_("flow_search.comp", "#define LISTED\n"),
-      propagate_("flow_propagate.comp"), filter_("flow_filter.comp") {
+      propagate_("flow_propagate.comp"), align_("flow_align.comp"), filter_("flow_filter.comp") {
     int next = 0;
     const auto take = [&](Size cells) {
         const int at = next;
@@ -84,15 +84,7 @@ void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells fo
     patches_.write(forward, 16UL * seed_);
     patches_.write(errors, 16UL * backward_.offset);
     const Stage& stage = forwardStages_[0];
-    SearchParams p{};
-    p.from = pyramids.video()[0];
-    p.to = pyramids.still()[0];
-    put(p.cells, stage.cells.width, stage.cells.height, 0, 0);
-    put(p.offsets, stage.area[0], -1, seed_, 0);
-    put(p.search, 0, 1, kRefineSteps, forward_.cells.width);
-    p.prior[0] = p.prior[1] = p.prior[2] = 1.0F;
-    plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
-             stage.dispatch);
+    align(seed_, pyramids, plan);
     searched_.find({patches_, stage.area[0], backward_.offset}, plan);
     searchListed(pyramids);
     filter(stage, forward_, plan);
@@ -154,16 +146,31 @@ Flow2d::SearchParams Flow2d::searchParams(const Direction& way, int level, int a
     return p;
 }
 
+Flow2d::LevelParams Flow2d::levelParams(const LumaLevel& from, const LumaLevel& to, Size cells,
+                                        int out, int in, int steps) {
+    LevelParams p{};
+    p.from = from;
+    p.to = to;
+    put(p.cells, cells.width, cells.height, 0, 0);
+    put(p.offsets, out, in, 0, 0);
+    p.search[0] = steps;
+    return p;
+}
+
 void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,
                        const WorkPlan& plan) {
     const Stage& stage = way.stages[level];
-    PropagateParams p{};
-    p.from = way.from[level];
-    p.to = way.to[level];
-    put(p.cells, stage.cells.width, stage.cells.height, 0, 0);
-    put(p.offsets, stage.area[toArea], stage.area[1 - toArea], 0, 0);
-    p.search[0] = kPropagateSteps;
+    const LevelParams p = levelParams(way.from[level], way.to[level], stage.cells,
+                                      stage.area[toArea], stage.area[1 - toArea], kPropagateSteps);
     plan.run(propagate_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
+             stage.dispatch);
+}
+
+void Flow2d::align(int in, const LumaPyramids& pyramids, const WorkPlan& plan) {
+    const Stage& stage = forwardStages_[0];
+    const LevelParams p = levelParams(pyramids.video()[0], pyramids.still()[0], stage.cells,
+                                      stage.area[0], in, kAlignSteps);
+    plan.run(align_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
              stage.dispatch);
 }
 

@@ -52,7 +52,8 @@ private:
         float prior[4];
         std::int32_t listed[4];
     };
-    struct PropagateParams {
+    /// Of what goes once over the cells of one level.
+    struct LevelParams {
         LumaLevel from, to;
         std::int32_t cells[4], offsets[4], search[4];
     };
@@ -81,8 +82,12 @@ private:
     void searchListed(const LumaPyramids& pyramids);
     [[nodiscard]] SearchParams searchParams(const Direction& way, int level, int area, int radius,
                                             int prior) const;
+    [[nodiscard]] static LevelParams levelParams(const LumaLevel& from, const LumaLevel& to,
+                                                 Size cells, int out, int in, int steps);
     void propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,
                    const WorkPlan& plan);
+    /// Lets the vectors from `in` on take Gauss-Newton steps.
+    void align(int in, const LumaPyramids& pyramids, const WorkPlan& plan);
     void filter(const Stage& stage, const Field& out, const WorkPlan& plan);
 
     Flow2dOptions options_;
@@ -93,7 +98,7 @@ private:
     gpu::Buffer patches_;
     TileLists searched_;
     gpu::ComputePass<SearchParams> search_, searchListed_;
-    gpu::ComputePass<PropagateParams> propagate_;
+    gpu::ComputePass<LevelParams> propagate_, align_;
     gpu::ComputePass<FilterParams> filter_;
 };
 

@@ -27,7 +27,7 @@ struct SearchParams {
     float prior[4];
     std::int32_t listed[4];
 };
-struct PropagateParams {
+struct LevelParams {
     LumaLevel from, to;
     std::int32_t cells[4], offsets[4], search[4];
 };
@@ -104,7 +104,7 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
     const auto in = search(pair, randomField(6, 6), 0);
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(in), kArea * sizeof(Cell));
-    gpu::ComputePass<PropagateParams> pass("flow_propagate.comp");
+    gpu::ComputePass<LevelParams> pass("flow_propagate.comp");
     pass.run({pair.pyramids.video()[0],
               pair.pyramids.still()[0],
               {kCells.width, kCells.height, 0, 0},
@@ -130,6 +130,81 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
         moved += out[i][0] != in[i][0] ? 1 : 0;
     }
     EXPECT_GT(moved, kArea / 4);
+}
+
+/// Lets flow_align.comp take `steps` steps from `in`.
+std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int steps) {
+    gpu::Buffer patches(2 * kArea * sizeof(Cell));
+    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::ComputePass<LevelParams> pass("flow_align.comp");
+    pass.run({pair.pyramids.video()[0],
+              pair.pyramids.still()[0],
+              {kCells.width, kCells.height, 0, 0},
+              {0, kArea, 0, 0},
+              {steps, 0, 0, 0}},
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
+    return patches.read<Cell>(kArea);
+}
+
+TEST_F(FlowPasses, BentPatchesMatchTwin) {
+    const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
+    const auto a = pair.first(), b = pair.second();
+    // A plane, and a fold where the slopes disagree in sign.
+    const Vector2d dx(0.1137, -0.0613), dy(0.0419, 0.1931);
+    std::vector<Cell> in(kArea);
+    for (int i = 0; i < kArea; ++i) {
+        const Vector2d u =
+            Vector2d(-7.123, 3.417) + 4 * (i % 16) * dx - 4 * std::abs(i / 16 - 6) * dy;
+        in[i] = {static_cast<float>(u.x()), static_cast<float>(u.y()), 0, 0};
+    }
+    const auto out = align(pair, in, 0);
+    for (int i = 0; i < kArea; ++i) {
+        const int x = i % 16, y = i / 16;
+        // At the border the field is repeated: no slope on one side, thus none.
+        const Vector2d alongX =
+            x < 1 || x > 14 ? Vector2d(0, 0) : dx * (x == 1 || x == 14 ? 0.5 : 1);
+        Vector2d alongY = y < 6 ? dy : Vector2d(-dy);
+        if (y == 0 || y == 6 || y == 11) alongY.setZero();
+        if (y == 1 || y == 5 || y == 7 || y == 10) alongY *= y == 5 || y == 7 ? 0 : 0.5;
+        const auto m = twin::compareBentPatch(a, b, x, y, {in[i][0], in[i][1]}, alongX, alongY);
+        EXPECT_EQ(out[i][0], in[i][0]);
+        EXPECT_NEAR(out[i][2], m.cost, kTolerance) << "cell " << x << ", " << y;
+        EXPECT_NEAR(out[i][3], m.varianceA, kTolerance * (m.varianceA + 1));
+    }
+}
+
+// A surface seen from another side: stretched by 15 % along x.
+TEST_F(FlowPasses, BentPatchesAlignWhereShiftedOnesCannot) {
+    const Waves waves(4, 5, 40, 40);
+    constexpr double kStretch = 1 / 1.15;
+    const LevelPair pair(waves.shoot(kSize, {}),
+                         waves.shoot(kSize, {.step = kStretch, .shift = {4, 3}}));
+    const auto truth = [&](int i) {
+        const int x = i % 16, y = i / 16;
+        const Vector2d p(4 * x + 1.5, 4 * y + 1.5);
+        return Vector2d((p + Vector2d(0.5, 0.5) - Vector2d(4, 3)) / kStretch - Vector2d(0.5, 0.5) -
+                        p);
+    };
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0, 0.15);
+    std::vector<Cell> in(kArea);
+    for (int i = 0; i < kArea; ++i) {
+        const Vector2d u = truth(i) + Vector2d(noise(random), noise(random));
+        in[i] = {static_cast<float>(u.x()), static_cast<float>(u.y()), 0, 0};
+    }
+    const auto rms = [&](const std::vector<Cell>& found) {
+        double sum = 0;
+        int cells = 0;
+        for (int i = 0; i < kArea; ++i) {
+            if (i % 16 < 2 || i % 16 > 12 || i / 16 < 2 || i / 16 > 8) continue;
+            sum += (Vector2d(found[i][0], found[i][1]) - truth(i)).squaredNorm();
+            ++cells;
+        }
+        return std::sqrt(sum / cells);
+    };
+    const double bent = rms(align(pair, in, 2)), shifted = rms(search(pair, in, 2));
+    EXPECT_LT(bent, 0.05);
+    EXPECT_LT(bent, 0.5 * shifted);
 }
 
 std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {

@@ -1,0 +1,97 @@
+// Flow of every cell from a vector that is right but for a fraction of a pixel: Gauss-Newton steps on a
+// patch that bends as the field around the cell does. On a surface that the other camera sees from
+// another side, a patch that only shifts fits beside the right place.
+// In, out: two areas of patches[]. Out: flow (x, y) [px], cost, texture (energy of the patch). One
+// invocation a cell.
+// After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
+#include "luma.glsl"
+
+layout(local_size_x = 4, local_size_y = 4) in;
+layout(std140, binding = 0) uniform Params {
+    ivec4 from;     // level the template is taken from: offset, pitch, width, height
+    ivec4 to;       // level it is sought in
+    ivec4 cells;    // cells a row, rows, -, -
+    ivec4 offsets;  // in patches[]: output, input, -, -
+    ivec4 search;   // steps, -, -, -
+};
+layout(std430, binding = 0) readonly buffer Luma {
+    uint luma[];
+};
+layout(std430, binding = 1) buffer Patches {
+    vec4 patches[];
+};
+
+#include "patch.glsl"
+
+// Of the flow [px per px]; more of it is a depth edge rather than a surface.
+const float kSteepest = 0.25;
+
+vec2 flowAt(ivec2 c) {
+    c = clamp(c, ivec2(0), cells.xy - 1);
+    return patches[offsets.y + c.y * cells.x + c.x].xy;
+}
+
+// Change of the flow per pixel along `step`: the smaller one-sided difference, none where the two do not
+// agree in sign. Two cells wide, because from one to the next the noise is larger than the change.
+vec2 slopeAt(ivec2 cell, ivec2 step) {
+    vec2 here = flowAt(cell);
+    vec2 before = here - flowAt(cell - 2 * step), after = flowAt(cell + 2 * step) - here;
+    vec2 least = sign(after) * min(abs(before), abs(after));
+    return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepest, kSteepest);
+}
+
+// Eight pixels of row y from a word column (margin included) on, less the first shift / 8.
+uvec2 fetchShort(Level l, int wx, int y, uint shift) {
+    int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
+    uvec2 w = uvec2(luma[at], luma[at + 1]);
+    if (shift == 0u) return w;
+    return uvec2((w.x >> shift) | (w.y << (32u - shift)), w.y >> shift);
+}
+
+// compare() with a flow that changes by dx and dy per pixel over the patch. Four pixels a time have their
+// own place; within them, columns stay less than half a pixel off it.
+Match compareBent(Template t, Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
+    const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
+    Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
+    for (int i = 0; i < 16; ++i) {
+        vec2 first = vec2(4 * (i & 1), i >> 1);
+        vec2 middle = first - vec2(2.0, 3.5);
+        vec2 origin = vec2(4 * cell - 2) + first + u + middle.x * dx + middle.y * dy;
+        origin = clamp(origin, vec2(-7.0), vec2(l.width + 2, l.height + 2));
+        vec2 whole = floor(origin);
+        ivec2 at = ivec2(whole);
+        int wx = (at.x >> 2) + kMarginWords;
+        uint shift = uint(at.x & 3) * 8u;
+        uvec2 w0 = fetchShort(l, wx, at.y, shift), w1 = fetchShort(l, wx, at.y + 1, shift);
+        vec4 fx = origin.x - whole.x + dx.x * along, fy = origin.y - whole.y + dx.y * along;
+        vec4 q0 = unpackPixels(w0.x), q1 = unpackPixels(w1.x);
+        vec4 upper = q0 + (vec4(q0.yzw, float(w0.y & 255u)) - q0) * fx;
+        vec4 lower = q1 + (vec4(q1.yzw, float(w1.y & 255u)) - q1) * fx;
+        vec4 b = upper + (lower - upper) * fy;
+        sums.b += dot(b, vec4(1.0));
+        sums.bb += dot(b, b);
+        sums.ab += dot(t.a[i], b);
+        sums.gb += vec2(dot(t.gx[i], b), dot(t.gy[i], b));
+    }
+    return matchOf(t, sums);
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(cell, cells.xy))) return;
+    Level lb = levelOf(to);
+    Template t = loadTemplate(levelOf(from), cell);
+    vec2 dx = slopeAt(cell, ivec2(1, 0)), dy = slopeAt(cell, ivec2(0, 1));
+    vec2 u = flowAt(cell), best = u;
+    float cost = 1e9;
+    for (int k = 0; k <= search.x; ++k) {
+        Match m = compareBent(t, lb, cell, u, dx, dy);
+        if (!(m.cost < cost)) break;
+        cost = m.cost;
+        best = u;
+        vec2 s = stepOf(t, m.descent);
+        if (!(dot(s, s) > 2.5e-5)) break;
+        u += s;
+    }
+    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, cost, t.variance);
+}
