@@ -80,9 +80,10 @@ TEST(CapturedFrame, ADroppedFrameLeavesItsStillToTheNextOne) {
     EXPECT_EQ(stillTime(newer), 0.5);
     EXPECT_EQ(newer.still->pose.value().tags, 3) << "and the still its pose";
     EXPECT_FALSE(newer.pose) << "which is not the frame's";
-    CapturedFrame newest{frame(3), CapturedStill{frame(2.5)}, {}};
+    CapturedFrame newest{frame(3), CapturedStill{frame(2.5), withTags(1)}, {}};
     newest.supersede(std::move(newer));
     EXPECT_EQ(stillTime(newest), 2.5) << "the newer still wins";
+    EXPECT_EQ(newest.still->pose.value().tags, 1) << "with its own pose";
 }
 
 }  // namespace
