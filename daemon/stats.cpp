@@ -41,6 +41,7 @@ void Stats::picture(const Picture& picture) {
     }
     if (picture.stats.usedPose) ++counted_.epipolarFrames;
     counted_.tilesSearched2d += static_cast<std::uint64_t>(std::max(picture.stats.searched2d, 0));
+    if (picture.stats.predicted) ++counted_.predictedFrames;
     if (picture.stats.refinedPose) ++counted_.refinedFrames;
     if (picture.stats.posePatches > 0) {
         epipolarErrorSum_ += picture.stats.epipolarError;

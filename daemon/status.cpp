@@ -70,6 +70,7 @@ nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& fr
         {"tracked_share", poses.trackedShare()},
         {"epipolar_frames", counted.epipolarFrames},
         {"tiles_searched_2d", counted.tilesSearched2d},
+        {"predicted_frames", counted.predictedFrames},
         {"refined_frames", counted.refinedFrames},
         {"epipolar_px", counted.meanEpipolarError},
         {"tags", poses.meanTags()},

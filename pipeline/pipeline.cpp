@@ -16,8 +16,10 @@ void requireSize(const ImageView& view, Size size, const char* what) {
                                 std::to_string(size.width) + "x" + std::to_string(size.height));
 }
 
-void publishPose(const PoseRefinement& refinement, FrameStats& stats) {
+void publishPose(const EpipolarFlow& flow, FrameStats& stats) {
+    const PoseRefinement& refinement = flow.search().refinement();
     stats.usedPose = true;
+    stats.predicted = flow.predicted();
     stats.refinedPose = refinement.accepted;
     stats.posePatches = refinement.patches;
     stats.epipolarError = refinement.normalAfter;
@@ -104,7 +106,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
     s.result.stats = s.superres.statsBefore();
     s.result.stats.usedStill = useStill;
     s.result.stats.searched2d = s.flow.searched().countBefore();
-    if (usePose) publishPose(s.epipolar.search().refinement(), s.result.stats);
+    if (usePose) publishPose(s.epipolar, s.result.stats);
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
     return s.result;
 }

@@ -35,6 +35,7 @@ struct FrameStats {
     double changed = 0;    ///< share of tiles whose video differs from when they were last drawn
     bool usedStill = false;
     bool usedPose = false;     ///< matched along epipolar lines, as the poses of both were known
+    bool predicted = false;    ///< searched around what the frame before showed
     bool refinedPose = false;  ///< the pictures said more of the relative pose than both poses
     int posePatches = 0;       ///< patches that were there to tell; below, zero without any
     double epipolarError = 0;  ///< their median distance from the lines that were searched [px]

@@ -29,6 +29,8 @@ Matrix6 relativeCovariance(const Pose& still, const Pose& frame, double distance
     return out;
 }
 
+// What comes into the picture, or moves by itself, is found by a search from coarse to fine.
+constexpr int kMostPredicted = 7;  // frames
 constexpr double kRounding = 1e-12;
 
 }  // namespace
@@ -36,7 +38,7 @@ constexpr double kRounding = 1e-12;
 EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                            const EpipolarOptions& options)
     : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, std::move(workers), options),
-      lens_(rig.video, 0), rotation_(Eigen::Matrix3f::Identity()) {
+      prediction_(rig.video), lens_(rig.video, 0), rotation_(Eigen::Matrix3f::Identity()) {
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);
     hidden_.resize(count);
@@ -47,6 +49,12 @@ EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> worker
 void EpipolarFlow::setStill(const ImageView& still, const Pose& pose) {
     search_.setStill(still);
     stillPose_ = pose;
+    prediction_.forget();
+}
+
+void EpipolarFlow::dropStill() {
+    stillPose_.reset();
+    prediction_.forget();
 }
 
 void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
@@ -65,13 +73,25 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
     covariance.topRightCorner<3, 3>() /= unit;
     covariance.bottomLeftCorner<3, 3>() /= unit;
     covariance.bottomRightCorner<3, 3>() /= unit * unit;
-    search_.run(luma_, T_still_frame, covariance);
+    search(T_still_frame, covariance, unit);
     // At the video's geometry the still keeps the video's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();
     fillForward();
     testDepth();
+    if (search_.pixelsPerUnit() > 0)
+        prediction_.keep(nearness_, search_.pose(), unit);
+    else
+        prediction_.forget();
+}
+
+void EpipolarFlow::search(const RigidTransform& T_still_frame, const Matrix6& covariance,
+                          double unit) {
+    const auto predicted = predictedFrames_ < kMostPredicted ? prediction_.in(T_still_frame, unit)
+                                                             : std::span<const float>();
+    predictedFrames_ = predicted.empty() ? 0 : predictedFrames_ + 1;
+    search_.run(luma_, T_still_frame, covariance, predicted);
 }
 
 // Where the still, at the video's geometry, shows a ray's point; far outside when it is behind.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/flow/epipolar_search.h"
+#include "pipeline/flow/field_prediction.h"
 
 #include <array>
 #include <memory>
@@ -21,7 +22,7 @@ public:
 
     /// The new reference as its sensor took it, and where the video camera was then.
     void setStill(const ImageView& still, const Pose& pose);
-    void dropStill() { stillPose_.reset(); }
+    void dropStill();
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
     /// Refines the relative pose and searches; needs a still. Then forward(), hidden() and
@@ -40,9 +41,12 @@ public:
     [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
     /// Its unit of length is the distance between the still's camera and the frame's.
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
+    /// Was the last frame searched around what the one before it showed?
+    [[nodiscard]] bool predicted() const { return predictedFrames_ > 0; }
 
 private:
     [[nodiscard]] EpipolarLens::Point endOf(float rayX, float rayY, float s) const;
+    void search(const RigidTransform& T_still_frame, const Matrix6& covariance, double unit);
     void fillForward();
     void testDepth();
     [[nodiscard]] std::optional<std::size_t> landing(int i, int j) const;
@@ -50,6 +54,8 @@ private:
     StereoRig rig_;
     Size cells_;
     EpipolarSearch search_;
+    FieldPrediction prediction_;
+    int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
     EpipolarLens lens_;
     Eigen::Matrix3f rotation_;  // of rays, from the frame to the still at the video's geometry
     std::optional<Pose> stillPose_;

@@ -4,6 +4,7 @@
 #include "pipeline/flow/census_costs.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace mfar {
@@ -15,6 +16,7 @@ constexpr int kCoarsest = 60;
 constexpr int kBeyond = 4;
 constexpr int kSmallestCanvas = 16;
 constexpr int kMostStep = 30;
+constexpr int kPredictedLevel = 2;  // of the pyramid: cells are 4x4 pixels
 
 Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
     const int step = options.stepPenalty;
@@ -38,10 +40,19 @@ int levelsFor(Size size, const EpipolarOptions& options) {
     return levels;
 }
 
+std::size_t pixelsOf(Size size) {
+    return static_cast<std::size_t>(size.width) * size.height;
+}
+
+Size sizeAt(Size size, int level) {
+    for (; level > 0; --level)
+        size = {(size.width + 1) / 2, (size.height + 1) / 2};
+    return size;
+}
+
 /// Vectors of labels of the whole picture, at the level that needs most.
 std::size_t mostVectors(Size size, const EpipolarOptions& options) {
-    const auto pixels = [](Size s) { return static_cast<std::size_t>(s.width) * s.height; };
-    const std::size_t finest = pixels(size);
+    const std::size_t finest = pixelsOf(size);
     const double longest = options.longestParallax * size.width;
     int scale = 1;
     for (int i = levelsFor(size, options); i > 1; --i) {
@@ -50,7 +61,7 @@ std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     }
     const double labels = longest / scale + kBeyond + 1;
     const auto coarsest = static_cast<std::size_t>(std::ceil(labels / SemiGlobal::kLabels));
-    return std::max(finest, coarsest * pixels(size));
+    return std::max(finest, coarsest * pixelsOf(size));
 }
 
 /// The still camera with a sensor of about as many pixels per ray as the video camera's.
@@ -81,7 +92,7 @@ EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> wo
         levels_.push_back({EpipolarLens(video_, i), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
         Level& level = levels_.back();
         const Size size = level.lens.size();
-        const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
+        const std::size_t pixels = pixelsOf(size);
         level.videoCensus.resize(pixels);
         level.base.resize(pixels);
         level.labels.resize(pixels);
@@ -96,21 +107,25 @@ void EpipolarSearch::setStill(const ImageView& still) {
 }
 
 bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_video,
-                         const std::optional<Matrix6>& covariance) {
+                         const std::optional<Matrix6>& covariance,
+                         std::span<const float> predicted) {
+    assert(predicted.empty() || predicted.size() == pixelsOf(sizeAt(video_.size, kPredictedLevel)));
     levels_[0].video = video;
     videoNoise_ = noiseOf(video);
     refinement_ = {};
     std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
     if (!place(T_still_video)) return false;
-    const int coarsest = static_cast<int>(levels_.size()) - 1;
-    search(coarsest, coarsest);
-    if (covariance) refine(*covariance);
+    if (predicted.empty()) searchCoarsest();
+    if (covariance) refine(*covariance, predicted);
     if (refinement_.accepted) {
         if (!place(T_still_video * refinement_.motion)) return false;
-        search(coarsest, coarsest);
+        if (predicted.empty()) searchCoarsest();
     }
     if (!(pixelsPerUnit_ > 0)) return true;
-    search(coarsest - 1, 0);
+    if (predicted.empty())
+        searchFiner();
+    else
+        searchAround(predicted);
     undoRounding(levels_[0]);
     const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
     median3x3(levels_[0].labels, levels_[0].lens.size(), *workers_, inverseDepth_);
@@ -133,35 +148,30 @@ bool EpipolarSearch::place(const RigidTransform& T_still_video) {
 }
 
 // The coarsest level's pixels are so large that the lines of a pose yet to be refined still lead
-// past their matches.
-void EpipolarSearch::refine(const Matrix6& covariance) {
+// past their matches; what is predicted comes from refined ones.
+void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> predicted) {
     const PosePrior prior{translation_.cast<double>(), covariance};
     const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
     const double noise = std::max(videoNoise_, stillNoise_);
-    const auto matches =
-        matchPatches(levels_[0].pair(), half.pair(),
-                     {video_, prior, noise, pixelsPerUnit_,
-                      [this](const Eigen::Vector2d& pixel) { return coarseNearness(pixel); }},
-                     *workers_);
+    const auto nearness = [&](const Eigen::Vector2d& pixel) {
+        if (!predicted.empty())
+            return static_cast<double>(predicted[coarseIndex(pixel, kPredictedLevel)]);
+        const int coarsest = static_cast<int>(levels_.size()) - 1;
+        return levels_.back().labels[coarseIndex(pixel, coarsest)] * (1 << coarsest) /
+               pixelsPerUnit_;
+    };
+    const auto matches = matchPatches(levels_[0].pair(), half.pair(),
+                                      {video_, prior, noise, pixelsPerUnit_, nearness}, *workers_);
     refinement_ = refineRelativePose(matches, prior, video_.fx);
 }
 
-// s of the coarsest level at a pixel of the finest.
-double EpipolarSearch::coarseNearness(const Eigen::Vector2d& pixel) const {
-    const Level& coarse = levels_.back();
-    const Size size = coarse.lens.size();
-    const double scale = 1 << (levels_.size() - 1);
+// The pixel of a level in which a pixel of the finest lies.
+std::size_t EpipolarSearch::coarseIndex(const Eigen::Vector2d& pixel, int level) const {
+    const Size size = sizeAt(video_.size, level);
+    const double scale = 1 << level;
     const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);
     const int y = std::min(static_cast<int>((pixel.y() + 0.5) / scale), size.height - 1);
-    return coarse.labels[static_cast<std::size_t>(y) * size.width + x] * scale / pixelsPerUnit_;
-}
-
-void EpipolarSearch::search(int first, int last) {
-    if (!(pixelsPerUnit_ > 0)) return;
-    for (int i = first; i >= last; --i) {
-        prepare(levels_[i], std::max(videoNoise_, stillNoise_) / (1 << i));
-        search(i);
-    }
+    return static_cast<std::size_t>(y) * size.width + x;
 }
 
 // The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
@@ -211,7 +221,9 @@ void EpipolarSearch::measureParallax() {
     }
 }
 
-void EpipolarSearch::prepare(Level& level, double noise) {
+void EpipolarSearch::prepare(int index) {
+    Level& level = levels_[index];
+    const double noise = std::max(videoNoise_, stillNoise_) / (1 << index);
     const float both = smoothingFor(noise);
     const LumaImage* video = &level.video;
     const LumaImage* still = &level.still;
@@ -234,17 +246,39 @@ void EpipolarSearch::prepare(Level& level, double noise) {
     });
 }
 
-void EpipolarSearch::search(int index) {
+void EpipolarSearch::searchCoarsest() {
+    if (!(pixelsPerUnit_ > 0)) return;
+    const int index = static_cast<int>(levels_.size()) - 1;
     Level& level = levels_[index];
-    const bool coarsest = index + 1 == static_cast<int>(levels_.size());
-    int vectors = 1;
-    if (coarsest) {
-        const int beyond = (kBeyond + (1 << index) - 1) >> index;
-        std::fill(level.base.begin(), level.base.end(), static_cast<std::int16_t>(-beyond));
-        vectors = ((labels_ >> index) + beyond + SemiGlobal::kLabels - 1) / SemiGlobal::kLabels;
-    } else {
-        centreWindows(levels_[index + 1], level);
+    prepare(index);
+    const int beyond = (kBeyond + (1 << index) - 1) >> index;
+    std::fill(level.base.begin(), level.base.end(), static_cast<std::int16_t>(-beyond));
+    match(index, ((labels_ >> index) + beyond + SemiGlobal::kLabels - 1) / SemiGlobal::kLabels);
+}
+
+void EpipolarSearch::searchFiner() {
+    for (int i = static_cast<int>(levels_.size()) - 2; i >= 0; --i) {
+        const Level& coarse = levels_[i + 1];
+        prepare(i);
+        centreWindows({coarse.labels, coarse.lens.size(), 2, 1}, levels_[i]);
+        match(i, 1);
     }
+}
+
+void EpipolarSearch::searchAround(std::span<const float> predicted) {
+    const auto labelsPerUnit = static_cast<float>(pixelsPerUnit_);
+    const auto longest = static_cast<float>(labels_);
+    predicted_.clear();
+    for (const float s : predicted)
+        predicted_.push_back(std::clamp(s * labelsPerUnit, static_cast<float>(-kBeyond), longest));
+    prepare(0);
+    centreWindows({predicted_, sizeAt(video_.size, kPredictedLevel), 1, kPredictedLevel},
+                  levels_[0]);
+    match(0, 1);
+}
+
+void EpipolarSearch::match(int index, int vectors) {
+    Level& level = levels_[index];
     matcher_.run(
         level.video, level.base, vectors,
         smoothnessFor(std::max(videoNoise_, stillNoise_), options_),
@@ -253,23 +287,25 @@ void EpipolarSearch::search(int index) {
 }
 
 // The window of a pixel covers what the coarser level found around it, with room on both sides.
-void EpipolarSearch::centreWindows(const Level& coarse, Level& fine) {
+void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
     constexpr int kRoom = 2;
-    const Size from = coarse.lens.size(), to = fine.lens.size();
+    const Size from = coarse.size, to = fine.lens.size();
+    const float scale = coarse.scale;
     median3x3(coarse.labels, from, *workers_, scratch_);
     localRange(scratch_, from, options_.windowRadius, range_);
     for (std::size_t i = 0; i < coarse.labels.size(); ++i) {
         constexpr float kHalf = SemiGlobal::kLabels / 2.0F - kRoom;
-        const float low = 2 * range_.low[i], high = 2 * range_.high[i];
+        const float low = scale * range_.low[i], high = scale * range_.high[i];
         const float centre = high - low < 2 * kHalf
                                  ? 0.5F * (low + high)
-                                 : std::clamp(2 * scratch_[i], low + kHalf, high - kHalf);
+                                 : std::clamp(scale * scratch_[i], low + kHalf, high - kHalf);
         range_.low[i] = std::round(centre - 0.5F * (SemiGlobal::kLabels - 1));
     }
     for (int y = 0; y < to.height; ++y)
         for (int x = 0; x < to.width; ++x)
             fine.base[static_cast<std::size_t>(y) * to.width + x] = static_cast<std::int16_t>(
-                range_.low[static_cast<std::size_t>(y / 2) * from.width + x / 2]);
+                range_.low[static_cast<std::size_t>(y >> coarse.shift) * from.width +
+                           (x >> coarse.shift)]);
 }
 
 // The costs of a label are those of the pixel nearest to its point, up to 0.7 px beside it. So the

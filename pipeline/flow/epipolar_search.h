@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace mfar {
@@ -32,9 +33,12 @@ public:
     /// `T_still_video`: video camera coordinates at the frame's time to still camera coordinates at
     /// the still's; its unit of length is free. `covariance`: of a small motion x, T_still_video *
     /// exp(x); with it the pose is refined from the pictures first, without it taken as exact.
-    /// Returns false, and a field of zeros, where nothing of the still is in reach.
+    /// `predicted`: about s of every cell of 4x4 pixels, row-major; the coarser levels, which would
+    /// find it, are then left out. Returns false, and a field of zeros, where nothing of the still
+    /// is in reach.
     bool run(const LumaImage& video, const RigidTransform& T_still_video,
-             const std::optional<Matrix6>& covariance = std::nullopt);
+             const std::optional<Matrix6>& covariance = std::nullopt,
+             std::span<const float> predicted = {});
 
     /// The T_still_video whose lines were searched, and what led to it.
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
@@ -66,12 +70,21 @@ private:
     [[nodiscard]] bool place(const RigidTransform& T_still_video);
     [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video);
     void measureParallax();
-    void refine(const Matrix6& covariance);
-    [[nodiscard]] double coarseNearness(const Eigen::Vector2d& pixel) const;
-    void prepare(Level& level, double noise);
-    void search(int first, int last);
-    void search(int index);
-    void centreWindows(const Level& coarse, Level& fine);
+    void searchCoarsest();
+    void searchFiner();
+    void searchAround(std::span<const float> predicted);
+    void refine(const Matrix6& covariance, std::span<const float> predicted);
+    [[nodiscard]] std::size_t coarseIndex(const Eigen::Vector2d& pixel, int level) const;
+    void prepare(int index);
+    /// About the labels of a level at `scale` of its size, each covering 2^shift pixels.
+    struct Coarser {
+        const std::vector<float>& labels;
+        Size size;
+        float scale;
+        int shift;
+    };
+    void centreWindows(const Coarser& coarse, Level& fine);
+    void match(int index, int vectors);
     void costRow(const Level& level, int index, int vectors, int y, std::uint8_t* out) const;
     template <class LabelAt>
     void placeRow(const Level& level, std::size_t first, float perLabel, LabelAt labelAt,
@@ -91,7 +104,7 @@ private:
     Eigen::Vector3f translation_ = Eigen::Vector3f::Zero();
     double pixelsPerUnit_ = 0;
     int labels_ = 0;
-    std::vector<float> inverseDepth_, scratch_;
+    std::vector<float> inverseDepth_, scratch_, predicted_;
     LocalRange range_;
 };
 

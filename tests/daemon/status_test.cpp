@@ -124,7 +124,7 @@ TEST(Status, SummaryTellsHowPosesWereFound) {
     EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
 }
 
-/// Two frames along epipolar lines, the first's pose refined; before them one with nothing to tell.
+/// Two frames along epipolar lines, the first's pose refined, the second predicted; before them one with nothing to tell.
 void showLines(Stats& stats) {
     FrameStats frame;
     frame.usedStill = frame.usedPose = true;
@@ -135,6 +135,7 @@ void showLines(Stats& stats) {
     frame.epipolarError = 0.1;
     show();
     frame.refinedPose = false;
+    frame.predicted = true;
     frame.epipolarError = 0.2;
     show();
 }
@@ -146,6 +147,7 @@ TEST(Status, TellsHowWellTheLinesFit) {
     const auto pose = summary(stats.count(), {}, "", 0)["pose"];
     EXPECT_EQ(pose["epipolar_frames"], 3);
     EXPECT_EQ(pose["refined_frames"], 1);
+    EXPECT_EQ(pose["predicted_frames"], 1);
     EXPECT_NEAR(pose["epipolar_px"].get<double>(), 0.15, 1e-9);
     EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr(", lines 0.20 px |"));
     stats.picture({{.usedStill = true, .usedPose = true}, kStages, {}, {}, 1.5});

@@ -174,6 +174,34 @@ LumaImage developed(LumaImage picture, const std::function<double(double)>& curv
     return picture;
 }
 
+// About s of the cells, as a frame before would have left it, is worth as much as the coarser
+// levels.
+TEST(EpipolarSearch, FindsAroundAPredictionWhatItFindsFromCoarseToFine) {
+    const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
+    const EpipolarSearch whole = searched(view);
+    const EpipolarLens cells(view.camera, 2);
+    std::mt19937 random(6);
+    std::normal_distribution<float> noise(0, static_cast<float>(1.5 / whole.pixelsPerUnit()));
+    std::vector<float> predicted;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(cells.size().width) * cells.size().height;
+         ++i) {
+        const double z = view.scene.depth({}, {cells.rayX(i), cells.rayY(i)});
+        predicted.push_back(static_cast<float>(1 / (z + whole.translation().z())) + noise(random));
+    }
+    EpipolarSearch search = test::searchWith(view.camera, 2);
+    search.setStill(test::viewOf(view.still()));
+    ASSERT_TRUE(search.run(view.video(), view.T_still_video, {}, predicted));
+    const FlowErrors around = errorsOf(search, view), from = errorsOf(whole, view);
+    EXPECT_LT(around.median, 1.05 * from.median);
+    EXPECT_LT(around.bad, from.bad + 0.005);
+    // It is the prediction that is searched around: far from the truth it leads astray.
+    const auto far = static_cast<float>(30 / whole.pixelsPerUnit());
+    for (float& s : predicted)
+        s += far;
+    ASSERT_TRUE(search.run(view.video(), view.T_still_video, {}, predicted));
+    EXPECT_GT(errorsOf(search, view).bad, 0.9);
+}
+
 TEST(EpipolarSearch, GainAndGammaChangeLittle) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const LumaImage video = view.video(), still = view.still();

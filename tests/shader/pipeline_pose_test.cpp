@@ -75,6 +75,23 @@ TEST_F(PipelinePose, TheUnitOfLengthIsFree) {
         ASSERT_NEAR(metres.second[i], millimetres.second[i], 1e-3) << i;
 }
 
+TEST_F(PipelinePose, AFrameIsSearchedAroundWhatTheOneBeforeShowed) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {});
+    p.setStill(c.still().view(), {}, poseAt(Vector3d::Zero()));
+    const auto predicted = [&](int frame) {
+        p.run(c.video({2.0 + frame, 0}).view(), {}, poseAt({0.02 + 0.01 * frame, 0, 0}));
+        return p.readStats().predicted;
+    };
+    EXPECT_FALSE(predicted(0));
+    for (int frame = 1; frame <= 7; ++frame)
+        EXPECT_TRUE(predicted(frame)) << frame;
+    EXPECT_FALSE(predicted(8)) << "what is new is looked for at intervals";
+    EXPECT_TRUE(predicted(9));
+    p.setStill(c.still().view(), {}, poseAt(Vector3d::Zero()));
+    EXPECT_FALSE(predicted(10));
+}
+
 TEST_F(PipelinePose, AnIdenticalFrameIsNotSearched) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
