@@ -124,7 +124,8 @@ TEST(Status, SummaryTellsHowPosesWereFound) {
     EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
 }
 
-/// Two frames along epipolar lines, the first's pose refined, the second predicted; before them one with nothing to tell.
+/// Two frames along epipolar lines, the first's pose refined, the second predicted; before them one
+/// with nothing to tell.
 void showLines(Stats& stats) {
     FrameStats frame;
     frame.usedStill = frame.usedPose = true;
