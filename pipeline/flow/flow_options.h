@@ -9,7 +9,7 @@ struct Flow2dOptions {
     int searchRadius = 10;  ///< at the coarsest level, without the last frame's field [px]; [0, 40]
     int candidates = 4;     ///< vectors of the coarser level each cell tries; [1, 4]
     int steps = 4;          ///< of Gauss-Newton after the best candidate; [0, 16]
-    int propagations = 1;   ///< rounds at the finest level, video to still; [0, 8]
+    int propagations = 0;   ///< rounds at the finest level, video to still; [0, 8]
     int coarsestPropagations = 4;  ///< rounds at the coarsest level; [0, 8]
     int planeFits = 2;             ///< rounds of the clean-up after its median; [0, 2]
 };
