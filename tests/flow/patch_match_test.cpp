@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-LumaImage pictureOf(Size size, const std::function<double(double, double)>& grey) {
+LumaImage drawn(Size size, const std::function<double(double, double)>& grey) {
     LumaImage out(size);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
@@ -35,7 +35,7 @@ std::optional<Eigen::Vector2d> placed(const PatchMatcher& matcher, PatchPlace pl
 
 TEST(TexturedPlaces, LieWhereTheTextureIs) {
     const LumaImage picture =
-        pictureOf({160, 120}, [](double x, double y) { return x < 80 ? waves(x, y) : 90; });
+        drawn({160, 120}, [](double x, double y) { return x < 80 ? waves(x, y) : 90; });
     const auto places = texturedPlaces(picture, 0);
     EXPECT_GT(places.size(), 50U);
     EXPECT_LE(places.size(), 400U);
@@ -49,18 +49,18 @@ TEST(TexturedPlaces, LieWhereTheTextureIs) {
 TEST(TexturedPlaces, NeitherNoiseNorEdgesAreTexture) {
     std::mt19937 random(3);
     std::normal_distribution<double> noise(120, 4);
-    const auto grain = pictureOf({160, 120}, [&](double, double) { return noise(random); });
+    const auto grain = drawn({160, 120}, [&](double, double) { return noise(random); });
     EXPECT_TRUE(texturedPlaces(grain, 4).empty());
     EXPECT_FALSE(texturedPlaces(grain, 0).empty());
     const auto edges =
-        pictureOf({160, 120}, [](double x, double) { return static_cast<int>(x) / 20 % 2 * 200; });
+        drawn({160, 120}, [](double x, double) { return static_cast<int>(x) / 20 % 2 * 200; });
     EXPECT_TRUE(texturedPlaces(edges, 0).empty());
 }
 
 TEST(TexturedPlaces, TinyPicturesHaveNoneOrSomeInside) {
     for (int w = 1; w <= 24; ++w)
         for (int h = 1; h <= 24; ++h)
-            for (const PatchPlace& p : texturedPlaces(pictureOf({w, h}, waves), 0)) {
+            for (const PatchPlace& p : texturedPlaces(drawn({w, h}, waves), 0)) {
                 ASSERT_GE(std::min(p.x, p.y), 1);
                 ASSERT_LT(p.x + kPatch, w);
                 ASSERT_LT(p.y + kPatch, h);
@@ -68,11 +68,11 @@ TEST(TexturedPlaces, TinyPicturesHaveNoneOrSomeInside) {
 }
 
 TEST(PatchMatcher, FindsShiftsBetweenPixelsWhateverTheGain) {
-    const LumaImage from = pictureOf({60, 50}, waves);
+    const LumaImage from = drawn({60, 50}, waves);
     for (const auto& [gain, offset] : {std::pair(1.0, 0.0), {0.5, 60.0}, {0.8, -15.0}}) {
         for (const Eigen::Vector2d& d :
              {Eigen::Vector2d(0, 0), Eigen::Vector2d(2.3, -1.6), Eigen::Vector2d(-3.5, 2.75)}) {
-            const LumaImage to = pictureOf({60, 50}, [&, g = gain, o = offset](double x, double y) {
+            const LumaImage to = drawn({60, 50}, [&, g = gain, o = offset](double x, double y) {
                 return g * waves(x - d.x(), y - d.y()) + o;
             });
             const auto seen = allSeen(to);
@@ -86,7 +86,7 @@ TEST(PatchMatcher, FindsShiftsBetweenPixelsWhateverTheGain) {
 }
 
 TEST(PatchMatcher, RefusesWhatFitsTwice) {
-    const auto grid = pictureOf({60, 50}, [](double x, double y) {
+    const auto grid = drawn({60, 50}, [](double x, double y) {
         return 120 + 60 * std::sin(2 * M_PI * x / 6) + 60 * std::sin(2 * M_PI * y / 6);
     });
     const auto seen = allSeen(grid);
@@ -97,12 +97,12 @@ TEST(PatchMatcher, RefusesWhatFitsTwice) {
 }
 
 TEST(PatchMatcher, RefusesWhatIsNotThere) {
-    const LumaImage from = pictureOf({60, 50}, waves);
+    const LumaImage from = drawn({60, 50}, waves);
     const auto seen = allSeen(from);
     const PatchPlace place{25, 21};
     const PatchWindow window{place.middle(), {1, 0}, 4, 4};
     for (const int grey : {0, 90, 255}) {
-        const LumaImage even = pictureOf({60, 50}, [&](double, double) { return grey; });
+        const LumaImage even = drawn({60, 50}, [&](double, double) { return grey; });
         EXPECT_FALSE(PatchMatcher(from, even, seen).find(place, window));
         EXPECT_FALSE(PatchMatcher(from, even, seen).polish(place, place.middle()));
         EXPECT_FALSE(PatchMatcher(even, from, seen).find(place, window));
@@ -113,7 +113,7 @@ TEST(PatchMatcher, RefusesWhatIsNotThere) {
 }
 
 TEST(PatchMatcher, StaysWithinThePicture) {
-    const LumaImage from = pictureOf({40, 30}, waves), to = pictureOf({24, 20}, waves);
+    const LumaImage from = drawn({40, 30}, waves), to = drawn({24, 20}, waves);
     const auto seen = allSeen(to);
     const PatchMatcher matcher(from, to, seen);
     for (const double x :
