@@ -14,7 +14,7 @@ namespace {
 constexpr double kFocal = 600;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-Matrix6 covarianceOf(double turn, double shift) {
+Matrix6 priorCovariance(double turn, double shift) {
     Vector6 diagonal;
     diagonal << Eigen::Vector3d::Constant(turn * turn), Eigen::Vector3d::Constant(shift * shift);
     return diagonal.asDiagonal();
@@ -53,7 +53,7 @@ Vector6 motionOf(const Eigen::Vector3d& degrees, const Eigen::Vector3d& shift) {
     return out;
 }
 
-const Matrix6 kUsual = covarianceOf(0.3 * kDegree, 0.005);
+const Matrix6 kUsualCovariance = priorCovariance(0.3 * kDegree, 0.005);
 
 TEST(RelativePose, FindsAWrongTurnFromNoisyMatches) {
     for (const Eigen::Vector3d& t : {Eigen::Vector3d(0.2, 0.02, 0.01), Eigen::Vector3d(0, 0, 0.3),
@@ -61,7 +61,7 @@ TEST(RelativePose, FindsAWrongTurnFromNoisyMatches) {
         for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0, 0, -0.3),
                                             Eigen::Vector3d(-0.15, 0.1, 0.2)}) {
             const Case c{.translation = t, .motion = motionOf(turn, {0, 0, 0})};
-            const auto out = refineRelativePose(c.matches(), {t, kUsual}, kFocal);
+            const auto out = refineRelativePose(c.matches(), {t, kUsualCovariance}, kFocal);
             ASSERT_TRUE(out.accepted) << t.transpose() << " / " << turn.transpose();
             EXPECT_GT(out.normalBefore, 0.25);
             EXPECT_LT(out.normalAfter, 0.2);
@@ -74,7 +74,7 @@ TEST(RelativePose, FindsAWrongTurnFromNoisyMatches) {
 TEST(RelativePose, FindsAWrongDirection) {
     const Case c{.motion = motionOf({0, 0, 0}, {0, 0.02, 0.03})};
     const auto out =
-        refineRelativePose(c.matches(), {c.translation, covarianceOf(1e-3, 0.03)}, kFocal);
+        refineRelativePose(c.matches(), {c.translation, priorCovariance(1e-3, 0.03)}, kFocal);
     ASSERT_TRUE(out.accepted);
     EXPECT_LT(out.normalAfter, 0.2);
     const Eigen::Vector3d truth = c.translation + c.motion.tail<3>();
@@ -85,7 +85,7 @@ TEST(RelativePose, FindsAWrongDirection) {
 TEST(RelativePose, StandsWrongMatches) {
     for (const double wrong : {0.2, 0.4}) {
         const Case c{.motion = motionOf({0.2, 0.05, -0.1}, {0, 0, 0}), .wrong = wrong};
-        const auto out = refineRelativePose(c.matches(), {c.translation, kUsual}, kFocal);
+        const auto out = refineRelativePose(c.matches(), {c.translation, kUsualCovariance}, kFocal);
         ASSERT_TRUE(out.accepted);
         const Eigen::Vector3d left =
             logarithm(out.motion.inverse() * exponential(c.motion)).head<3>() / kDegree;
@@ -99,7 +99,7 @@ TEST(RelativePose, LengthOfTheTranslationIsThePriors) {
     const Case c{.motion = motionOf({0.2, 0, 0.1}, {0, 0, 0})};
     for (const double shift : {0.002, 0.02}) {
         const auto out = refineRelativePose(
-            c.matches(), {c.translation, covarianceOf(0.3 * kDegree, shift)}, kFocal);
+            c.matches(), {c.translation, priorCovariance(0.3 * kDegree, shift)}, kFocal);
         ASSERT_TRUE(out.accepted);
         EXPECT_NEAR((c.translation + out.motion.translation).norm(), c.translation.norm(), 0.002);
     }
@@ -108,7 +108,7 @@ TEST(RelativePose, LengthOfTheTranslationIsThePriors) {
 TEST(RelativePose, PureRotationTakesBothComponents) {
     const Case c{.translation = {0, 0, 0}, .motion = motionOf({0.1, -0.2, 0.15}, {0, 0, 0})};
     const auto out =
-        refineRelativePose(c.matches(), {c.translation, covarianceOf(0.3 * kDegree, 0)}, kFocal);
+        refineRelativePose(c.matches(), {c.translation, priorCovariance(0.3 * kDegree, 0)}, kFocal);
     ASSERT_TRUE(out.accepted);
     EXPECT_EQ(out.motion.translation.norm(), 0);
     const Vector6 left = logarithm(out.motion.inverse() * exponential(c.motion));
@@ -118,7 +118,7 @@ TEST(RelativePose, PureRotationTakesBothComponents) {
 TEST(RelativePose, KeepsAPriorThatIsGoodEnough) {
     for (const double noise : {1e-6, 0.3, 0.8}) {
         const Case c{.noise = noise};
-        const auto out = refineRelativePose(c.matches(), {c.translation, kUsual}, kFocal);
+        const auto out = refineRelativePose(c.matches(), {c.translation, kUsualCovariance}, kFocal);
         EXPECT_FALSE(out.accepted) << noise;
         EXPECT_EQ(out.normalAfter, out.normalBefore);
         EXPECT_EQ(out.motion.translation.norm(), 0);
@@ -127,7 +127,7 @@ TEST(RelativePose, KeepsAPriorThatIsGoodEnough) {
 
 TEST(RelativePose, KeepsThePriorWhereMatchesAreFewOrDisagree) {
     Case c{.motion = motionOf({0.2, 0, 0}, {0, 0, 0})};
-    const PosePrior prior{c.translation, kUsual};
+    const PosePrior prior{c.translation, kUsualCovariance};
     for (const int count : {0, 1, 5, 12}) {
         c.count = count;
         const auto out = refineRelativePose(c.matches(), prior, kFocal);
@@ -142,11 +142,11 @@ TEST(RelativePose, KeepsThePriorWhereMatchesAreFewOrDisagree) {
 TEST(RelativePose, UnitOfLengthIsFree) {
     const Case c{.motion = motionOf({0.2, -0.05, 0.1}, {0.001, 0.002, 0})};
     const auto matches = c.matches();
-    const auto metres = refineRelativePose(matches, {c.translation, kUsual}, kFocal);
+    const auto metres = refineRelativePose(matches, {c.translation, kUsualCovariance}, kFocal);
     for (const double unit : {1e-6, 1e3}) {
         Vector6 scale = Vector6::Ones();
         scale.tail<3>().setConstant(unit);
-        const Matrix6 covariance = scale.asDiagonal() * kUsual * scale.asDiagonal();
+        const Matrix6 covariance = scale.asDiagonal() * kUsualCovariance * scale.asDiagonal();
         const auto out = refineRelativePose(matches, {unit * c.translation, covariance}, kFocal);
         ASSERT_TRUE(out.accepted);
         EXPECT_NEAR(out.normalAfter, metres.normalAfter, 1e-9);
@@ -160,20 +160,20 @@ TEST(RelativePose, WhatIsNoNumberIsRefused) {
     const auto matches = c.matches();
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-        EXPECT_FALSE(refineRelativePose(matches, {{bad, 0, 0}, kUsual}, kFocal).accepted);
-        Matrix6 covariance = kUsual;
+        EXPECT_FALSE(refineRelativePose(matches, {{bad, 0, 0}, kUsualCovariance}, kFocal).accepted);
+        Matrix6 covariance = kUsualCovariance;
         covariance(2, 2) = bad;
         EXPECT_FALSE(refineRelativePose(matches, {c.translation, covariance}, kFocal).accepted);
     }
     auto spoilt = matches;
     for (RayMatch& match : spoilt)
         match.still.x() = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(refineRelativePose(spoilt, {c.translation, kUsual}, kFocal).accepted);
-    EXPECT_FALSE(refineRelativePose(matches, {c.translation, -kUsual}, kFocal).accepted);
+    EXPECT_FALSE(refineRelativePose(spoilt, {c.translation, kUsualCovariance}, kFocal).accepted);
+    EXPECT_FALSE(refineRelativePose(matches, {c.translation, -kUsualCovariance}, kFocal).accepted);
 }
 
 TEST(RelativePose, SpreadIsThatOfTheTurnAndTheParallax) {
-    const Matrix6 turn = covarianceOf(0.01, 0), shift = covarianceOf(0, 0.02);
+    const Matrix6 turn = priorCovariance(0.01, 0), shift = priorCovariance(0, 0.02);
     const RayMatch far{{0, 0}, {0, 0}}, near{{0, 0}, {0.1, 0}};
     const Eigen::Vector3d t(0.2, 0, 0);
     EXPECT_NEAR(spreadOf(far, {t, turn})(1, 1), 1e-4, 1e-12);
