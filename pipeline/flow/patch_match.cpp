@@ -18,7 +18,7 @@ constexpr double kLeastScore = 0.75;
 constexpr double kRival = 0.06;
 constexpr double kRivalDistance = 2.5;  // [px]
 // Inverse-compositional steps, and how far they may lead [px].
-constexpr int kIterations = 6;
+constexpr int kMatchSteps = 6;
 constexpr float kLongestWay = 1.5F, kShortStep = 0.01F;
 constexpr double kFar = 1e6;  // beyond any picture [px]
 
@@ -242,7 +242,7 @@ std::optional<Eigen::Vector2d> PatchMatcher::polish(PatchPlace place,
     const Eigen::Vector2f start = (near - kHalf).cast<float>();
     Eigen::Vector2f first = start;
     Grey seen;
-    for (int k = 0; k < kIterations; ++k) {
+    for (int k = 0; k < kMatchSteps; ++k) {
         if (!((first - start).cwiseAbs().maxCoeff() < kLongestWay)) return std::nullopt;
         const Eigen::Vector2f corner = first.array().floor();
         if (!(corner.cwiseAbs().maxCoeff() < static_cast<float>(kFar)) ||

@@ -13,7 +13,7 @@ namespace {
 using Matrix26 = Eigen::Matrix<double, 2, 6>;
 using Matrix23 = Eigen::Matrix<double, 2, 3>;
 
-constexpr int kIterations = 15;
+constexpr int kMostSolves = 15;
 constexpr double kSettled = 0.01;  // [px]
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
@@ -167,7 +167,7 @@ PoseRefinement refineRelativePose(std::span<const RayMatch> matches, const PoseP
     if (!solver.usable()) return out;
     solver.measure();
     out.normalBefore = out.normalAfter = solver.median();
-    for (int i = 0; i < kIterations && !solver.settled(); ++i)
+    for (int i = 0; i < kMostSolves && !solver.settled(); ++i)
         if (!solver.step()) return out;
     out.inliers = solver.inliers();
     const double after = solver.median();

@@ -7,7 +7,7 @@ namespace mfar {
 namespace {
 
 constexpr int kCellsPerTile = 4;  // each way
-constexpr int kGroup = 8;         // tiles a workgroup and axis, as in the shaders
+constexpr int kTileGroup = 8;     // tiles a workgroup and axis, as in the shaders
 // Energy of an 8x8 patch [grey levels^2] from which on its cost says something: eight times that of
 // a grey level of noise.
 constexpr double kTexturePerVariance = 8 * 64;
@@ -22,7 +22,8 @@ int divideUp(int a, int b) {
 }
 
 WorkPlan::Dispatch addGroups(WorkPlan& plan, Size size) {
-    return plan.add({gpu::groupsFor(size.width, kGroup), gpu::groupsFor(size.height, kGroup), 1});
+    return plan.add(
+        {gpu::groupsFor(size.width, kTileGroup), gpu::groupsFor(size.height, kTileGroup), 1});
 }
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace {
 /// apriltag_ros: x right, y up, z out of the surface. Half a turn about x.
 const Eigen::Quaterniond kRosTagOfTag(0, 1, 0, 0);
 
-class Reader {
+class BundleReader {
 public:
-    Reader(std::string_view text, const std::string& file, TagFamily family)
+    BundleReader(std::string_view text, const std::string& file, TagFamily family)
         : file_(file), family_(family) {
         try {
             root_ = YAML::Load(std::string(text));
@@ -130,7 +130,7 @@ private:
 }  // namespace
 
 TagMap tagMapFromRosYaml(std::string_view text, const std::string& file, TagFamily family) {
-    return Reader(text, file, family).read();
+    return BundleReader(text, file, family).read();
 }
 
 }  // namespace mfar

@@ -10,7 +10,7 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr std::size_t kLeastCorners = 12;  // less says too little about the pose
+constexpr std::size_t kEnoughCorners = 12;  // less says too little about the pose
 
 }  // namespace
 
@@ -28,7 +28,7 @@ SensorViews collect(const std::vector<RecordedImage>& pictures, Size picture, co
         std::vector<Corner> corners =
             finder.find({luma.ptr(), picture, luma.step, PixelFormat::Gray8});
         ++now.done;
-        if (corners.size() >= kLeastCorners) {
+        if (corners.size() >= kEnoughCorners) {
             coverage.add(corners);
             ++now.found;
             out.views.push_back({file.time, std::move(corners)});
