@@ -1,5 +1,6 @@
 #include "pipeline/flow/epipolar_search.h"
 
+#include "pipeline/flow/cell_field.h"
 #include "pipeline/flow/census.h"
 #include "pipeline/flow/census_costs.h"
 
@@ -44,12 +45,6 @@ std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-Size sizeAt(Size size, int level) {
-    for (; level > 0; --level)
-        size = {(size.width + 1) / 2, (size.height + 1) / 2};
-    return size;
-}
-
 /// Vectors of labels of the whole picture, at the level that needs most.
 std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     const std::size_t finest = pixelsOf(size);
@@ -82,6 +77,14 @@ float footOf(EpipolarLens::Point p, EpipolarLens::Point way) {
     return square > kLeast ? (x * way.x + y * way.y) / square : 0.0F;
 }
 
+// The pixel of a level in which a pixel of the finest lies.
+std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
+    const double scale = 1 << level;
+    const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);
+    const int y = std::min(static_cast<int>((pixel.y() + 0.5) / scale), size.height - 1);
+    return static_cast<std::size_t>(y) * size.width + x;
+}
+
 }  // namespace
 
 EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
@@ -109,7 +112,7 @@ void EpipolarSearch::setStill(const ImageView& still) {
 bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_video,
                          const std::optional<Matrix6>& covariance,
                          std::span<const float> predicted) {
-    assert(predicted.empty() || predicted.size() == pixelsOf(sizeAt(video_.size, kPredictedLevel)));
+    assert(predicted.empty() || predicted.size() == pixelsOf(cellsOf(video_.size)));
     levels_[0].video = video;
     videoNoise_ = noiseOf(video);
     refinement_ = {};
@@ -155,23 +158,15 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
     const double noise = std::max(videoNoise_, stillNoise_);
     const auto nearness = [&](const Eigen::Vector2d& pixel) {
         if (!predicted.empty())
-            return static_cast<double>(predicted[coarseIndex(pixel, kPredictedLevel)]);
+            return static_cast<double>(
+                predicted[coarseIndex(pixel, cellsOf(video_.size), kPredictedLevel)]);
         const int coarsest = static_cast<int>(levels_.size()) - 1;
-        return levels_.back().labels[coarseIndex(pixel, coarsest)] * (1 << coarsest) /
-               pixelsPerUnit_;
+        return levels_.back().labels[coarseIndex(pixel, levels_.back().lens.size(), coarsest)] *
+               (1 << coarsest) / pixelsPerUnit_;
     };
     const auto matches = matchPatches(levels_[0].pair(), half.pair(),
                                       {video_, prior, noise, pixelsPerUnit_, nearness}, *workers_);
     refinement_ = refineRelativePose(matches, prior, video_.fx);
-}
-
-// The pixel of a level in which a pixel of the finest lies.
-std::size_t EpipolarSearch::coarseIndex(const Eigen::Vector2d& pixel, int level) const {
-    const Size size = sizeAt(video_.size, level);
-    const double scale = 1 << level;
-    const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);
-    const int y = std::min(static_cast<int>((pixel.y() + 0.5) / scale), size.height - 1);
-    return static_cast<std::size_t>(y) * size.width + x;
 }
 
 // The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
@@ -272,8 +267,7 @@ void EpipolarSearch::searchAround(std::span<const float> predicted) {
     for (const float s : predicted)
         predicted_.push_back(std::clamp(s * labelsPerUnit, static_cast<float>(-kBeyond), longest));
     prepare(0);
-    centreWindows({predicted_, sizeAt(video_.size, kPredictedLevel), 1, kPredictedLevel},
-                  levels_[0]);
+    centreWindows({predicted_, cellsOf(video_.size), 1, kPredictedLevel}, levels_[0]);
     match(0, 1);
 }
 

@@ -74,7 +74,6 @@ private:
     void searchFiner();
     void searchAround(std::span<const float> predicted);
     void refine(const Matrix6& covariance, std::span<const float> predicted);
-    [[nodiscard]] std::size_t coarseIndex(const Eigen::Vector2d& pixel, int level) const;
     void prepare(int index);
     /// About the labels of a level at `scale` of its size, each covering 2^shift pixels.
     struct Coarser {
