@@ -34,6 +34,14 @@ sleep 1
 kill -TERM "$pid"
 ends_with 0 $limit
 
+# All of mfard's threads wait, in each of five looks. One that others keep from the processor does not.
+at_rest() {
+    for _ in 1 2 3 4 5; do
+        if cat /proc/"$pid"/task/*/stat | grep -q ') [RD] '; then return 1; fi
+        sleep 0.1
+    done
+}
+
 # The reader takes the first bytes of a picture. The pipe holds a hundredth of the others, so that
 # mfard soon waits.
 start_blocked() {
@@ -41,7 +49,7 @@ start_blocked() {
     exec 3<>pipe
     start --recording run --display y4m:pipe --summary summary.json
     timeout $((30 * patience)) head -c 5000 <&3 >/dev/null || fail "no picture comes"
-    sleep 1
+    until_true at_rest
 }
 
 echo "while the reader of the display pipe takes nothing more"
