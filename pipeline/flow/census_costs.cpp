@@ -1,9 +1,11 @@
 #include "pipeline/flow/census_costs.h"
 
+#include "pipeline/flow/byte_lanes.h"
 #include "pipeline/flow/census.h"
 #include "pipeline/flow/semi_global.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 namespace mfar {
@@ -72,6 +74,18 @@ void costsAlong(EpipolarLens::Point from, EpipolarLens::Point to, std::uint32_t 
         const EpipolarLens::Point p{from.x + a * (to.x - from.x), from.y + a * (to.y - from.y)};
         out[k] = kUnseenCost;
         if (inside(p)) out[k] = difference(own, still[pixelOf(p.y) * size.width + pixelOf(p.x)]);
+    }
+}
+
+void takeLesserBeside(EpipolarLens::Point from, EpipolarLens::Point to, std::uint32_t own,
+                      const std::uint32_t* still, Size size, std::uint8_t* costs) {
+    const float wayX = to.x - from.x, wayY = to.y - from.y, way = std::hypot(wayX, wayY);
+    if (!(way > 0)) return;
+    for (const float side : {-1 / way, 1 / way}) {
+        const float x = -side * wayY, y = side * wayX;
+        std::uint8_t beside[SemiGlobal::kLabels];
+        costsAlong({from.x + x, from.y + y}, {to.x + x, to.y + y}, own, still, size, beside);
+        storeBytes(costs, lesser(loadBytes(costs), loadBytes(beside)));
     }
 }
 

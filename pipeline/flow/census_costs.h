@@ -13,4 +13,8 @@ namespace mfar {
 void costsAlong(EpipolarLens::Point from, EpipolarLens::Point to, std::uint32_t own,
                 const std::uint32_t* still, Size size, std::uint8_t* out);
 
+/// Takes what the segments one pixel to either side of the same one cost, where that is less.
+void takeLesserBeside(EpipolarLens::Point from, EpipolarLens::Point to, std::uint32_t own,
+                      const std::uint32_t* still, Size size, std::uint8_t* costs);
+
 }  // namespace mfar

@@ -77,6 +77,16 @@ float footOf(EpipolarLens::Point p, EpipolarLens::Point way) {
     return square > kLeast ? (x * way.x + y * way.y) / square : 0.0F;
 }
 
+// From as many patches the median of their distances is the better guess than the pose's
+// covariance.
+constexpr int kEnoughPatches = 16;
+constexpr double kNoSlack = 0.5;  // [px of a level]
+
+/// What a pose's doubt moves the lines by [px]: its rotation, as what is far shows it.
+double normalErrorOf(const Matrix6& covariance, double focal) {
+    return focal * std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3);
+}
+
 // The pixel of a level in which a pixel of the finest lies.
 std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     const double scale = 1 << level;
@@ -116,14 +126,14 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
     levels_[0].video = video;
     videoNoise_ = noiseOf(video);
     refinement_ = {};
+    normalError_ = 0;
     std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
     if (!place(T_still_video)) return false;
     if (predicted.empty()) searchCoarsest();
     if (covariance) refine(*covariance, predicted);
-    if (refinement_.accepted) {
-        if (!place(T_still_video * refinement_.motion)) return false;
-        if (predicted.empty()) searchCoarsest();
-    }
+    if (refinement_.accepted && !place(T_still_video * refinement_.motion)) return false;
+    const bool again = refinement_.accepted || hasSlack(static_cast<int>(levels_.size()) - 1);
+    if (again && predicted.empty()) searchCoarsest();
     if (!(pixelsPerUnit_ > 0)) return true;
     if (predicted.empty())
         searchFiner();
@@ -167,6 +177,8 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
     const auto matches = matchPatches(levels_[0].pair(), half.pair(),
                                       {video_, prior, noise, pixelsPerUnit_, nearness}, *workers_);
     refinement_ = refineRelativePose(matches, prior, video_.fx);
+    normalError_ = refinement_.patches < kEnoughPatches ? normalErrorOf(covariance, video_.fx)
+                                                        : refinement_.normalAfter;
 }
 
 // The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
@@ -334,6 +346,7 @@ void EpipolarSearch::costRow(const Level& level, int index, int vectors, int y,
     const float perLabel = static_cast<float>((1 << index) / pixelsPerUnit_);
     std::vector<EpipolarLens::Point> from(size.width), to(size.width);
     const std::int16_t* base = level.base.data() + first;
+    const bool slack = hasSlack(index);
     for (int v = 0; v < vectors; ++v) {
         const int low = SemiGlobal::kLabels * v, high = low + SemiGlobal::kLabels - 1;
         const auto labelled = [&](int label) {
@@ -341,11 +354,19 @@ void EpipolarSearch::costRow(const Level& level, int index, int vectors, int y,
         };
         placeRow(level, first, perLabel, labelled(low), from);
         placeRow(level, first, perLabel, labelled(high), to);
-        for (int x = 0; x < size.width; ++x)
-            costsAlong(from[x], to[x], level.videoCensus[first + x], level.stillCensus.data(),
-                       level.still.size,
-                       out + static_cast<std::size_t>(x * vectors + v) * SemiGlobal::kLabels);
+        for (int x = 0; x < size.width; ++x) {
+            std::uint8_t* costs =
+                out + static_cast<std::size_t>(x * vectors + v) * SemiGlobal::kLabels;
+            const std::uint32_t own = level.videoCensus[first + x];
+            const std::uint32_t* still = level.stillCensus.data();
+            costsAlong(from[x], to[x], own, still, level.still.size, costs);
+            if (slack) takeLesserBeside(from[x], to[x], own, still, level.still.size, costs);
+        }
     }
+}
+
+bool EpipolarSearch::hasSlack(int index) const {
+    return normalError_ > kNoSlack * (1 << index);
 }
 
 // Where the canvas shows a row's pixels under their labels.

@@ -43,6 +43,9 @@ public:
     /// The T_still_video whose lines were searched, and what led to it.
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
+    /// How far matches are to be expected beside the lines [px]; levels where that is more than
+    /// half a pixel are searched a pixel to both sides of each line as well.
+    [[nodiscard]] double normalError() const { return normalError_; }
 
     /// Per pixel: s [1/unit of length], see EpipolarLens. Less than zero where the best match lies
     /// beyond infinity, as noise and errors of the pose make it.
@@ -85,6 +88,7 @@ private:
     void centreWindows(const Coarser& coarse, Level& fine);
     void match(int index, int vectors);
     void costRow(const Level& level, int index, int vectors, int y, std::uint8_t* out) const;
+    [[nodiscard]] bool hasSlack(int index) const;
     template <class LabelAt>
     void placeRow(const Level& level, std::size_t first, float perLabel, LabelAt labelAt,
                   std::vector<EpipolarLens::Point>& out) const;
@@ -99,7 +103,7 @@ private:
     SemiGlobal matcher_;
     RigidTransform pose_;  // T_still_video
     PoseRefinement refinement_;
-    double stillNoise_ = 0, videoNoise_ = 0;
+    double stillNoise_ = 0, videoNoise_ = 0, normalError_ = 0;
     Eigen::Vector3f translation_ = Eigen::Vector3f::Zero();
     double pixelsPerUnit_ = 0;
     int labels_ = 0;

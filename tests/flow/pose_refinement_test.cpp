@@ -77,6 +77,22 @@ EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
     return search;
 }
 
+/// Share of the pixels whose inverse depth is off by more than a pixel's way.
+double depthErrorOf(const EpipolarSearch& search, const View& view) {
+    const Size size = view.camera.size;
+    int bad = 0, all = 0;
+    for (int y = 0; y < size.height; ++y) {
+        for (int x = 0; x < size.width; ++x) {
+            const double z = view.scene.depth({}, view.camera.unproject({x, y}));
+            if (!(z > 0)) continue;
+            const double s = search.inverseDepth()[static_cast<std::size_t>(y) * size.width + x];
+            ++all;
+            if (std::abs(s - 1 / z) * search.pixelsPerUnit() > 1) ++bad;
+        }
+    }
+    return static_cast<double>(bad) / all;
+}
+
 const Matrix6 kUsual = covarianceOf(0.4, 0.002);
 
 std::vector<View> views() {
@@ -229,6 +245,26 @@ TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
             ASSERT_EQ(search.inverseDepth(), one) << threads << " threads";
         }
     }
+}
+
+// Too few patches to refine by: the search itself looks beside its lines.
+TEST(PoseRefinement, WithoutPatchesTheSearchHasRoomBesideItsLines) {
+    // A small panel before nothing.
+    const Shots shots({plain(),
+                       {{{{0.3, 0, 1}, 2, {-0.1, -0.1}, {0.15, 0.1}}}, 60, 100},
+                       motion({0, 0, 0}, {0.2, 0, 0})});
+    const RigidTransform error = motion({0.4, 0, 0}, {0, 0, 0});
+    const EpipolarSearch roomy = searched(shots, error, covarianceOf(0.4, 0.002));
+    EXPECT_FALSE(roomy.refinement().accepted);
+    EXPECT_LT(roomy.refinement().patches, 16);
+    EXPECT_NEAR(roomy.normalError(), 1.6, 0.1);
+    EpipolarSearch strict = test::searchWith(plain(), 2);
+    strict.setStill(test::viewOf(shots.still));
+    ASSERT_TRUE(strict.run(shots.video, shots.view.T_still_video * error));
+    EXPECT_EQ(strict.normalError(), 0);
+    const double without = depthErrorOf(strict, shots.view);
+    EXPECT_LT(depthErrorOf(roomy, shots.view), 0.5 * without);
+    EXPECT_GT(without, 0.1);
 }
 
 }  // namespace
