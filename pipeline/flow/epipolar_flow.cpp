@@ -37,8 +37,9 @@ constexpr double kRounding = 1e-12;
 
 EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                            const EpipolarOptions& options)
-    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, std::move(workers), options),
+    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, workers, options),
       prediction_(rig.video), lens_(rig.video, 0), rotation_(Eigen::Matrix3f::Identity()) {
+    if (options.bothWays) twoWay_.emplace(rig, std::move(workers), options);
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);
     hidden_.resize(count);
@@ -79,7 +80,10 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
                     .toRotationMatrix()
                     .cast<float>();
     fillForward();
-    testDepth();
+    if (twoWay_)
+        testBothWays(video);
+    else
+        testDepth();
     if (search_.pixelsPerUnit() > 0)
         prediction_.keep(nearness_, search_.pose(), unit);
     else
@@ -181,6 +185,18 @@ void EpipolarFlow::testDepth() {
             const auto to = landing(i, j);
             const float error = to ? (nearest_[*to] - nearness_[cell]) * pixels - kSlope : kNowhere;
             hidden_[cell] = {std::max(error, 0.0F), 0, 0, 0};
+        }
+    }
+}
+
+void EpipolarFlow::testBothWays(const ImageView& video) {
+    twoWay_->run(search_, video);
+    for (int j = 0; j < cells_.height; ++j) {
+        for (int i = 0; i < cells_.width; ++i) {
+            const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
+            const Eigen::Vector2d centre = Eigen::Vector2d(i, j) * kCell;
+            const Eigen::Vector2d ray = rig_.video.unproject(centre.array() + 0.5 * (kCell - 1));
+            hidden_[cell] = {twoWay_->error(ray, nearness_[cell]).value_or(kNowhere), 0, 0, 0};
         }
     }
 }

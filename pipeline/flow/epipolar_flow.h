@@ -2,6 +2,7 @@
 
 #include "pipeline/flow/epipolar_search.h"
 #include "pipeline/flow/field_prediction.h"
+#include "pipeline/flow/two_way.h"
 
 #include <array>
 #include <memory>
@@ -31,8 +32,9 @@ public:
 
     /// Video -> still: flow x, y [video px at the video's geometry], -, -.
     [[nodiscard]] const Cells& forward() const { return forward_; }
-    /// What eq. 2 calls the two-way error, from a z-test: how much less parallax a cell has than
-    /// the nearest surface that lands on the same place of the still [px], -, -, -.
+    /// What eq. 2 calls the two-way error [px], -, -, -. From a z-test: how much less parallax a
+    /// cell has than the nearest surface that lands on the same place of the still; with
+    /// EpipolarOptions::bothWays from a search back instead.
     [[nodiscard]] const Cells& hidden() const { return hidden_; }
     /// Flow at every video pixel, x, y interleaved; far outside where the still cannot see it.
     [[nodiscard]] std::vector<float> flow() const;
@@ -49,11 +51,13 @@ private:
     void search(const RigidTransform& T_still_frame, const Matrix6& covariance, double unit);
     void fillForward();
     void testDepth();
+    void testBothWays(const ImageView& video);
     [[nodiscard]] std::optional<std::size_t> landing(int i, int j) const;
 
     StereoRig rig_;
     Size cells_;
     EpipolarSearch search_;
+    std::optional<TwoWayTest> twoWay_;
     FieldPrediction prediction_;
     int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
     EpipolarLens lens_;

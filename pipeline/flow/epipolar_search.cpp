@@ -59,15 +59,6 @@ std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     return std::max(finest, coarsest * pixelsOf(size));
 }
 
-/// The still camera with a sensor of about as many pixels per ray as the video camera's.
-CameraModel atScaleOf(const StereoRig& rig) {
-    const auto scaled = [](int pixels, double ratio) {
-        return std::max(2, static_cast<int>(std::lround(pixels * std::min(ratio, 1.0))));
-    };
-    return rig.still.scaledTo({scaled(rig.still.size.width, rig.video.fx / rig.still.fx),
-                               scaled(rig.still.size.height, rig.video.fy / rig.still.fy)});
-}
-
 /// How far along a way of one label the pixel nearest to a point lies [labels]; none where the way
 /// is too short to tell.
 float footOf(EpipolarLens::Point p, EpipolarLens::Point way) {
@@ -96,6 +87,14 @@ std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
 }
 
 }  // namespace
+
+CameraModel atScaleOf(const StereoRig& rig) {
+    const auto scaled = [](int pixels, double ratio) {
+        return std::max(2, static_cast<int>(std::lround(pixels * std::min(ratio, 1.0))));
+    };
+    return rig.still.scaledTo({scaled(rig.still.size.width, rig.video.fx / rig.still.fx),
+                               scaled(rig.still.size.height, rig.video.fy / rig.still.fy)});
+}
 
 EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
                                const EpipolarOptions& options)

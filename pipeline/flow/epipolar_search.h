@@ -17,6 +17,9 @@
 
 namespace mfar {
 
+/// The still camera with a sensor of about as many pixels per ray as the video camera's.
+[[nodiscard]] CameraModel atScaleOf(const StereoRig& rig);
+
 /// Dense matching of a video frame with a still whose relative pose is known: a search along each
 /// pixel's epipolar line, coarse to fine, with a census cost and semi-global smoothness.
 ///
@@ -40,6 +43,8 @@ public:
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
+    /// Luma of the still at that scale.
+    [[nodiscard]] const LumaImage& stillPicture() const { return picture_; }
     /// The T_still_video whose lines were searched, and what led to it.
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
@@ -95,7 +100,7 @@ private:
     void undoRounding(Level& level);
 
     EpipolarOptions options_;
-    CameraModel video_, still_;  // the still's at the scale of the video
+    CameraModel video_, still_;  // the still's: atScaleOf()
     std::shared_ptr<Workers> workers_;
     TurnedPicture turned_;
     std::vector<Level> levels_;

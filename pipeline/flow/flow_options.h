@@ -19,9 +19,10 @@ struct Flow2dOptions {
 struct EpipolarOptions {
     int levels = 4;                ///< at most; one has 60 px at least on its short side; [1, 4]
     double longestParallax = 0.8;  ///< longest way sought, as a share of the width; (0, 1]
-    int windowRadius = 2;  ///< of the coarser level's labels that a window covers [px]; [0, 8]
-    int stepPenalty = 12;  ///< Smoothness::step without noise; [1, 30]
-    int jumpPenalty = 60;  ///< Smoothness::jump; [1, 60]
+    int windowRadius = 2;   ///< of the coarser level's labels that a window covers [px]; [0, 8]
+    int stepPenalty = 12;   ///< Smoothness::step without noise; [1, 30]
+    int jumpPenalty = 60;   ///< Smoothness::jump; [1, 60]
+    bool bothWays = false;  ///< eq. 2's error from a search back, not from the z-test
 };
 
 /// Throw std::invalid_argument that names the first option out of its range.

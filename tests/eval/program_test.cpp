@@ -195,7 +195,8 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/absent", "absent"},
         {"superres " + dir + "/tiny", "no truth"},
         {"superres " + dir + "/tiny --methods detail,wonder",
-         "unknown method 'wonder' (valid: detail, detail2d, blend, bicubic, paper)"},
+         "unknown method 'wonder' (valid: detail, detail2d, detail-two-way, blend, "
+         "blend-two-way, bicubic, paper)"},
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},

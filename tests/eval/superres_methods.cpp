@@ -17,9 +17,11 @@ namespace {
 
 class PipelineMethod final : public SuperResMethod {
 public:
-    PipelineMethod(const StereoRig& rig, SuperResMode mode, bool usePoses)
-        : usePoses_(usePoses),
-          pipeline_(rig, {.mode = mode, .output = {}, .skipUnchanged = false}) {}
+    PipelineMethod(const StereoRig& rig, SuperResMode mode, bool usePoses, bool bothWays)
+        : usePoses_(usePoses), pipeline_(rig, {.mode = mode,
+                                               .output = {},
+                                               .skipUnchanged = false,
+                                               .epipolar = {.bothWays = bothWays}}) {}
 
     void setStill(const Shot& still) override {
         const cv::Mat rgba = toRgba(still.picture);
@@ -85,7 +87,8 @@ private:
 }  // namespace
 
 const std::vector<std::string>& superResMethodNames() {
-    static const std::vector<std::string> names{"detail", "detail2d", "blend", "bicubic", "paper"};
+    static const std::vector<std::string> names{
+        "detail", "detail2d", "detail-two-way", "blend", "blend-two-way", "bicubic", "paper"};
     return names;
 }
 
@@ -93,11 +96,11 @@ std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
                                                         const StereoRig& rig) {
     if (name == "bicubic") return std::make_unique<BicubicMethod>(outputSize(rig));
     if (name == "paper") return std::make_unique<PaperMethod>(rig, alpha_);
-    if (name != "detail" && name != "detail2d" && name != "blend")
-        throw std::invalid_argument(fmt::format("unknown method '{}'", name));
+    const bool detail = name.starts_with("detail"), blend = name.starts_with("blend");
+    if (!detail && !blend) throw std::invalid_argument(fmt::format("unknown method '{}'", name));
     if (!context_) context_ = createGlContext();
-    return std::make_unique<PipelineMethod>(
-        rig, name == "blend" ? SuperResMode::Blend : SuperResMode::Detail, name != "detail2d");
+    return std::make_unique<PipelineMethod>(rig, blend ? SuperResMode::Blend : SuperResMode::Detail,
+                                            name != "detail2d", name.ends_with("-two-way"));
 }
 
 }  // namespace mfar::eval
