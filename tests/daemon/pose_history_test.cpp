@@ -11,14 +11,14 @@ constexpr double kFrame = 1. / 30;
 /// The camera's own rate [rad/s, m/s].
 const Vector6 kTwist{{0.3, -0.2, 0.5, 0.4, 0.1, -0.3}};
 
-Timestamp frameTime(double frame) {
+Timestamp timeOf(double frame) {
     return Timestamp::fromSeconds(100 + frame * kFrame);
 }
 
 /// A camera that keeps its rate.
 Pose steady(double frame) {
     Pose pose;
-    pose.time = frameTime(frame);
+    pose.time = timeOf(frame);
     const RigidTransform start{Eigen::Quaterniond(0.8, 0.6, 0, 0), {1, 2, 3}};
     pose.T_world_video = start * exponential(frame * kFrame * kTwist);
     pose.covariance.diagonal().setConstant(1e-6);
@@ -35,10 +35,10 @@ TEST(PoseHistory, ASteadyMotionIsMetExactly) {
     for (int i = 0; i < 5; ++i)
         history.add(steady(i));
     for (const double frame : {0.25, 1.5, 3.9}) {
-        const std::optional<Pose> found = history.at(frameTime(frame));
+        const std::optional<Pose> found = history.at(timeOf(frame));
         ASSERT_TRUE(found) << frame;
         EXPECT_LT(distance(*found, steady(frame)), 1e-6) << frame;
-        EXPECT_EQ(found->time, frameTime(frame));
+        EXPECT_EQ(found->time, timeOf(frame));
         EXPECT_EQ(found->tags, 0);
         EXPECT_LT((found->covariance - steady(0).covariance).norm(), 1e-9);
     }
@@ -57,37 +57,37 @@ TEST(PoseHistory, AFramesOwnTimeGivesItsPose) {
 
 TEST(PoseHistory, OutsideOfWhatIsKnownThereIsNothing) {
     PoseHistory history;
-    EXPECT_FALSE(history.at(frameTime(0)));
+    EXPECT_FALSE(history.at(timeOf(0)));
     history.add(steady(0));
     history.add(steady(1));
-    EXPECT_FALSE(history.at(frameTime(0.5))) << "two poses do not tell how steady the motion is";
+    EXPECT_FALSE(history.at(timeOf(0.5))) << "two poses do not tell how steady the motion is";
     history.add(steady(2));
-    EXPECT_TRUE(history.at(frameTime(0.5)));
-    EXPECT_FALSE(history.at(frameTime(-0.1)));
-    EXPECT_FALSE(history.at(frameTime(2.1))) << "that would be a prediction";
+    EXPECT_TRUE(history.at(timeOf(0.5)));
+    EXPECT_FALSE(history.at(timeOf(-0.1)));
+    EXPECT_FALSE(history.at(timeOf(2.1))) << "that would be a prediction";
 }
 
 TEST(PoseHistory, ALongGapIsNotBridged) {
     PoseHistory history;
     for (const int i : {0, 1, 2, 6, 7, 8})
         history.add(steady(i));
-    EXPECT_TRUE(history.at(frameTime(1.5)));
-    EXPECT_FALSE(history.at(frameTime(4)));
-    EXPECT_TRUE(history.at(frameTime(6.5)));
+    EXPECT_TRUE(history.at(timeOf(1.5)));
+    EXPECT_FALSE(history.at(timeOf(4)));
+    EXPECT_TRUE(history.at(timeOf(6.5)));
 }
 
 TEST(PoseHistory, AChangeOfRateIsInTheCovariance) {
     // Constant acceleration along x: 4 m/s^2.
     const auto accelerated = [](double frame) {
         Pose pose;
-        pose.time = frameTime(frame);
+        pose.time = timeOf(frame);
         pose.T_world_video.translation.x() = 2 * frame * kFrame * frame * kFrame;
         return pose;
     };
     PoseHistory history;
     for (int i = 0; i < 4; ++i)
         history.add(accelerated(i));
-    const Pose found = history.at(frameTime(1.5)).value();
+    const Pose found = history.at(timeOf(1.5)).value();
     const double error = std::abs(found.T_world_video.translation.x() -
                                   accelerated(1.5).T_world_video.translation.x());
     EXPECT_GT(error, 1e-4);
@@ -100,14 +100,14 @@ TEST(PoseHistory, OldPosesAreForgottenAndAStepBackForgetsAll) {
     const int many = 3 * PoseHistory::kLength;
     for (int i = 0; i < many; ++i)
         history.add(steady(i));
-    EXPECT_FALSE(history.at(frameTime(many - PoseHistory::kLength - 1.5)));
-    EXPECT_TRUE(history.at(frameTime(many - PoseHistory::kLength + 0.5)));
-    EXPECT_TRUE(history.at(frameTime(many - 1.5)));
+    EXPECT_FALSE(history.at(timeOf(many - PoseHistory::kLength - 1.5)));
+    EXPECT_TRUE(history.at(timeOf(many - PoseHistory::kLength + 0.5)));
+    EXPECT_TRUE(history.at(timeOf(many - 1.5)));
     history.add(steady(10));
-    EXPECT_FALSE(history.at(frameTime(many - 1.5)));
+    EXPECT_FALSE(history.at(timeOf(many - 1.5)));
     history.add(steady(11));
     history.add(steady(12));
-    EXPECT_TRUE(history.at(frameTime(10.5)));
+    EXPECT_TRUE(history.at(timeOf(10.5)));
 }
 
 }  // namespace

@@ -9,12 +9,12 @@ namespace {
 using test::motion;
 using test::Scene;
 
-CameraModel barrel() {
+CameraModel barrelCamera() {
     return {{322, 241}, 250, 252, 163, 119, {-0.2, 0.05, 0.001, -0.001, 0}};
 }
 
 /// A panel before a slanted wall.
-Scene stepScene() {
+Scene slantedStep() {
     const Eigen::Vector3d normal = Eigen::Vector3d(0.5, 0.2, 1).normalized();
     return {{{normal, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
@@ -52,41 +52,41 @@ double missed(std::span<const float> predicted, const std::vector<float>& expect
 }
 
 TEST(FieldPrediction, CarriesSurfacesOverByThePoses) {
-    const EpipolarLens cells(barrel(), 2);
+    const EpipolarLens cells(barrelCamera(), 2);
     const RigidTransform before = motion({1, -2, 3}, {-0.2, 0.05, 0.1});
     const RigidTransform after = motion({1.5, -2.6, 1.5}, {-0.26, 0.07, 0.16});
-    FieldPrediction prediction(barrel());
-    prediction.keep(truth(cells, before, stepScene()), before.inverse(), 1);
+    FieldPrediction prediction(barrelCamera());
+    prediction.keep(truth(cells, before, slantedStep()), before.inverse(), 1);
     const auto predicted = prediction.in(after.inverse(), 1);
-    const auto expected = truth(cells, after, stepScene());
+    const auto expected = truth(cells, after, slantedStep());
     ASSERT_EQ(predicted.size(), expected.size());
     // All but the panel's edges.
     EXPECT_LT(missed(predicted, expected, cells.size()), 0.03);
-    EXPECT_GT(missed(truth(cells, before, stepScene()), expected, cells.size()), 0.2)
+    EXPECT_GT(missed(truth(cells, before, slantedStep()), expected, cells.size()), 0.2)
         << "what to beat";
 }
 
 TEST(FieldPrediction, EveryFrameHasItsOwnUnit) {
-    const EpipolarLens cells(barrel(), 2);
+    const EpipolarLens cells(barrelCamera(), 2);
     const RigidTransform before = motion({1, -2, 3}, {-0.2, 0.05, 0.1});
     const RigidTransform after = motion({1.5, -2.6, 1.5}, {-0.26, 0.07, 0.16});
-    std::vector<float> kept = truth(cells, before, stepScene());
+    std::vector<float> kept = truth(cells, before, slantedStep());
     for (float& s : kept)
         s *= 0.2F;
-    FieldPrediction prediction(barrel());
+    FieldPrediction prediction(barrelCamera());
     prediction.keep(kept, scaled(before.inverse(), 1 / 0.2), 0.2);
     const auto predicted = prediction.in(scaled(after.inverse(), 1 / 700.0), 700);
     ASSERT_FALSE(predicted.empty());
-    EXPECT_LT(missed(predicted, truth(cells, after, stepScene()), cells.size(), 700), 0.03);
+    EXPECT_LT(missed(predicted, truth(cells, after, slantedStep()), cells.size(), 700), 0.03);
 }
 
 TEST(FieldPrediction, TheNearestOfWhatMeetsIsSeen) {
     // Everything at infinity, but one cell: that lands beside a far one, and is kept.
-    const EpipolarLens cells(barrel(), 2);
+    const EpipolarLens cells(barrelCamera(), 2);
     const int width = cells.size().width, middle = 30 * width + 40;
     std::vector<float> kept(static_cast<std::size_t>(width) * cells.size().height, 0.0F);
     kept[middle] = 0.5F;
-    FieldPrediction prediction(barrel());
+    FieldPrediction prediction(barrelCamera());
     prediction.keep(kept, {}, 1);
     // Two cells to the right: f = 62 cells, at a depth of two units.
     const auto predicted = prediction.in(motion({0, 0, 0}, {-2 * 2 / 62.0, 0, 0}), 1);
@@ -96,10 +96,10 @@ TEST(FieldPrediction, TheNearestOfWhatMeetsIsSeen) {
 }
 
 TEST(FieldPrediction, NothingIsSaidOfWhatWasNotSeen) {
-    const EpipolarLens cells(barrel(), 2);
-    FieldPrediction prediction(barrel());
+    const EpipolarLens cells(barrelCamera(), 2);
+    FieldPrediction prediction(barrelCamera());
     EXPECT_TRUE(prediction.in({}, 1).empty());
-    prediction.keep(truth(cells, {}, stepScene()), {}, 1);
+    prediction.keep(truth(cells, {}, slantedStep()), {}, 1);
     EXPECT_FALSE(prediction.in({}, 1).empty());
     EXPECT_FALSE(prediction.in(motion({0, 2, 0}, {0, 0, 0}), 1).empty());
     EXPECT_TRUE(prediction.in(motion({0, 8, 0}, {0, 0, 0}), 1).empty());

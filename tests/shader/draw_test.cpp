@@ -12,9 +12,9 @@ using Draw = GlTest;
 using gpu::Filter;
 using gpu::TexelFormat;
 
-constexpr Size kVideo{53, 37};  // 4x3 tiles, 14x10 cells
+constexpr Size kSmallVideo{53, 37};  // 4x3 tiles, 14x10 cells
 constexpr Size kOutput{191, 133};
-constexpr Size kStill{200, 140};
+constexpr Size kSmallStill{200, 140};
 // A result rounded the other way, and the same once more where an 8-bit picture lies between.
 constexpr double kOnce = 0.51, kTwice = 1.5;
 // A bilinear look-up with 8-bit weights and half-precision positions on top.
@@ -46,15 +46,15 @@ gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
 }
 
 TEST_F(Draw, CopyIsExact) {
-    const Picture p = randomPicture(kVideo, 1);
-    const TileParams params = tileParams(kVideo, kStill, kOutput);
-    EXPECT_EQ(drawn("copy.frag", params, {gpu::sampler(0, uploaded(p))}, kVideo).readRgba8(),
+    const Picture p = randomPicture(kSmallVideo, 1);
+    const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
+    EXPECT_EQ(drawn("copy.frag", params, {gpu::sampler(0, uploaded(p))}, kSmallVideo).readRgba8(),
               p.bytes);
 }
 
 TEST_F(Draw, SharpeningMatchesTwin) {
-    const Picture p = Waves(1, 4, 40, 30).shoot(kVideo, {});
-    TileParams params = tileParams(kVideo, kStill, kOutput);
+    const Picture p = Waves(1, 4, 40, 30).shoot(kSmallVideo, {});
+    TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     params.tune[0] = 1;
     struct Case {
         std::uint8_t half, signal;
@@ -63,21 +63,22 @@ TEST_F(Draw, SharpeningMatchesTwin) {
     for (const Case& c : {Case{0, 255, 1}, Case{51, 255, 0.6}, Case{0, 102, 0.4}, Case{128, 255, 0},
                           Case{0, 0, 0}}) {
         const gpu::Texture w = weights(c.half, c.signal);
-        const gpu::Texture out = drawn("superres_sharpen.frag", params,
-                                       {gpu::sampler(0, uploaded(p)), gpu::sampler(1, w)}, kVideo);
+        const gpu::Texture out =
+            drawn("superres_sharpen.frag", params,
+                  {gpu::sampler(0, uploaded(p)), gpu::sampler(1, w)}, kSmallVideo);
         EXPECT_LE(worst(channelOf(out, 1), twin::sharpened(twin::luma(p.view()), c.strength)),
                   kOnce + 0.01);
     }
 }
 
 TEST_F(Draw, SharpeningKeepsAConstantPicture) {
-    TileParams params = tileParams(kVideo, kStill, kOutput);
+    TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     params.tune[0] = 1;
     for (const std::uint8_t level : {0, 1, 100, 254, 255}) {
-        const Picture p(kVideo, PixelFormat::Rgba8, level);
+        const Picture p(kSmallVideo, PixelFormat::Rgba8, level);
         const gpu::Texture out =
             drawn("superres_sharpen.frag", params,
-                  {gpu::sampler(0, uploaded(p)), gpu::sampler(1, weights(0, 255))}, kVideo);
+                  {gpu::sampler(0, uploaded(p)), gpu::sampler(1, weights(0, 255))}, kSmallVideo);
         for (const double v : channelOf(out, 0).values)
             ASSERT_EQ(v, level);
     }
@@ -85,19 +86,19 @@ TEST_F(Draw, SharpeningKeepsAConstantPicture) {
 
 gpu::Texture columnsOf(const Picture& p, const TileParams& params) {
     return drawn("superres_vertical.frag", params, {gpu::sampler(0, uploaded(p))},
-                 {kVideo.width, kOutput.height});
+                 {kSmallVideo.width, kOutput.height});
 }
 
 TEST_F(Draw, UpscalingMatchesTwin) {
-    const TileParams params = tileParams(kVideo, kStill, kOutput);
-    for (const Picture& p :
-         {randomPicture(kVideo, 2), checkerboard(kVideo), Waves(1, 5, 40, 40).shoot(kVideo, {})}) {
+    const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
+    for (const Picture& p : {randomPicture(kSmallVideo, 2), checkerboard(kSmallVideo),
+                             Waves(1, 5, 40, 40).shoot(kSmallVideo, {})}) {
         const gpu::Texture columns = columnsOf(p, params);
         const gpu::Texture out =
             drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput);
         for (int channel = 0; channel < 3; ++channel) {
-            const twin::Grey in = twin::greyOf(kVideo, [&](int x, int y) {
-                return double(p.bytes[4UL * (1UL * y * kVideo.width + x) + channel]);
+            const twin::Grey in = twin::greyOf(kSmallVideo, [&](int x, int y) {
+                return double(p.bytes[4UL * (1UL * y * kSmallVideo.width + x) + channel]);
             });
             EXPECT_LE(worst(channelOf(columns, channel), twin::upscaledColumns(in, kOutput.height)),
                       1);
@@ -107,12 +108,12 @@ TEST_F(Draw, UpscalingMatchesTwin) {
 }
 
 TEST_F(Draw, UpscalingIsOpenCvsBicubic) {
-    const TileParams params = tileParams(kVideo, kStill, kOutput);
-    Picture p = Waves(1, 6, 40, 30).shoot(kVideo, {});
+    const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
+    Picture p = Waves(1, 6, 40, 30).shoot(kSmallVideo, {});
     const gpu::Texture out =
         drawn("composite_upscale.frag", params, {gpu::sampler(0, columnsOf(p, params))}, kOutput);
     cv::Mat peer;
-    cv::resize(cv::Mat(kVideo.height, kVideo.width, CV_8UC4, p.bytes.data()), peer,
+    cv::resize(cv::Mat(kSmallVideo.height, kSmallVideo.width, CV_8UC4, p.bytes.data()), peer,
                {kOutput.width, kOutput.height}, 0, 0, cv::INTER_CUBIC);
     cv::Mat mine(kOutput.height, kOutput.width, CV_8UC4);
     const auto bytes = out.readRgba8();
@@ -127,14 +128,14 @@ struct LookUp {
 };
 
 double stillAt(const twin::Grey& still, int x, int y, const LookUp& l) {
-    return still.bilinear((x + 0.5) * kStill.width / kOutput.width + l.x - 0.5,
-                          (y + 0.5) * kStill.height / kOutput.height + l.y - 0.5);
+    return still.bilinear((x + 0.5) * kSmallStill.width / kOutput.width + l.x - 0.5,
+                          (y + 0.5) * kSmallStill.height / kOutput.height + l.y - 0.5);
 }
 
 TEST_F(Draw, DetailIsAddedByItsWeight) {
-    const Picture p = Waves(2, 6, 40, 20).shoot(kVideo, {});
-    const Picture detail = Waves(3, 8, 40, 20).shoot(kStill, {.format = PixelFormat::Gray8});
-    const TileParams params = tileParams(kVideo, kStill, kOutput);
+    const Picture p = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
+    const Picture detail = Waves(3, 8, 40, 20).shoot(kSmallStill, {.format = PixelFormat::Gray8});
+    const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(p, params);
     const twin::Grey up = twin::upscaled(twin::luma(p.view()), kOutput);
     const twin::Grey d = twin::luma(detail.view());
@@ -157,9 +158,9 @@ TEST_F(Draw, DetailIsAddedByItsWeight) {
 }
 
 TEST_F(Draw, BlendMixesByConfidence) {
-    const Picture p = Waves(2, 6, 40, 20).shoot(kVideo, {});
-    const Picture still = Waves(3, 8, 40, 30).shoot(kStill, {});
-    const TileParams params = tileParams(kVideo, kStill, kOutput);
+    const Picture p = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
+    const Picture still = Waves(3, 8, 40, 30).shoot(kSmallStill, {});
+    const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(p, params);
     const twin::Grey up = twin::upscaled(twin::luma(p.view()), kOutput);
     const twin::Grey s = twin::luma(still.view());
@@ -199,17 +200,18 @@ gpu::Texture drawnByTiles(const char* shader, const char* defines, const TilePar
 }
 
 TEST_F(Draw, TilesCoverThePictureWithoutSeams) {
-    const TileParams params = tileParams(kVideo, kStill, kOutput);
-    const gpu::Texture columns = columnsOf(randomPicture(kVideo, 3), params);
+    const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
+    const gpu::Texture columns = columnsOf(randomPicture(kSmallVideo, 3), params);
     EXPECT_EQ(
         drawnByTiles("composite_upscale.frag", "", params, {gpu::sampler(0, columns)}).readRgba8(),
         drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput).readRgba8());
 }
 
 TEST_F(Draw, PlainTilesEqualTheField) {
-    const TileParams params = tileParams(kVideo, kStill, kOutput);
-    const gpu::Texture columns = columnsOf(Waves(2, 6, 40, 20).shoot(kVideo, {}), params);
-    const gpu::Texture still = uploaded(Waves(3, 10, 60, 30).shoot(kStill, {}), Filter::Linear);
+    const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
+    const gpu::Texture columns = columnsOf(Waves(2, 6, 40, 20).shoot(kSmallVideo, {}), params);
+    const gpu::Texture still =
+        uploaded(Waves(3, 10, 60, 30).shoot(kSmallStill, {}), Filter::Linear);
     const gpu::Texture look = cellTexture({2.5F, -3.25F, 0.75F, 0.5F}, TexelFormat::Rgba16F);
     for (const char* shader : {"composite_detail.frag", "composite_blend.frag"}) {
         const gpu::Bindings from{gpu::sampler(0, columns), gpu::sampler(1, still),
@@ -221,7 +223,7 @@ TEST_F(Draw, PlainTilesEqualTheField) {
 }
 
 TEST_F(Draw, StillLowMatchesTwin) {
-    const Picture still = Waves(4, 8, 60, 35).shoot(kStill, {});
+    const Picture still = Waves(4, 8, 60, 35).shoot(kSmallStill, {});
     const Size low{57, 40};
     struct Params {
         float step[4];
@@ -236,23 +238,23 @@ TEST_F(Draw, StillLowMatchesTwin) {
 }
 
 TEST_F(Draw, StillDetailIsWhatTheVideoCannotShow) {
-    const StereoRig rig = plainRig({50, 35}, kStill);
+    const StereoRig rig = plainRig({50, 35}, kSmallStill);
     StillReference reference(rig);
     for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
-        const Picture still = Waves(5, 4, 60, 30).shoot(kStill, {.format = format});
+        const Picture still = Waves(5, 4, 60, 30).shoot(kSmallStill, {.format = format});
         reference.set(still.view());
         const twin::Grey luma = twin::luma(still.view());
-        const twin::Grey up = twin::upscaled(twin::stillLow(luma, rig.video.size), kStill);
-        const twin::Grey wanted =
-            twin::greyOf(kStill, [&](int x, int y) { return luma.at(x, y) - up.at(x, y) + 128; });
+        const twin::Grey up = twin::upscaled(twin::stillLow(luma, rig.video.size), kSmallStill);
+        const twin::Grey wanted = twin::greyOf(
+            kSmallStill, [&](int x, int y) { return luma.at(x, y) - up.at(x, y) + 128; });
         EXPECT_LE(worst(channelOf(reference.detail(), 0), wanted), kLookUp);
     }
 }
 
 TEST_F(Draw, AConstantStillHasNoDetail) {
-    StillReference reference(plainRig({50, 35}, kStill));
+    StillReference reference(plainRig({50, 35}, kSmallStill));
     for (const std::uint8_t level : {0, 90, 255}) {
-        reference.set(Picture(kStill, PixelFormat::Rgba8, level).view());
+        reference.set(Picture(kSmallStill, PixelFormat::Rgba8, level).view());
         for (const double v : channelOf(reference.detail(), 0).values)
             ASSERT_EQ(v, 128);
     }

@@ -11,7 +11,7 @@ namespace {
 using Weigh = GlTest;
 using Classify = GlTest;
 
-constexpr Size kCells{25, 15};
+constexpr Size kWhole{25, 15};
 constexpr Size kHalf{13, 8};
 constexpr double kSigma = 1.5;
 
@@ -48,34 +48,34 @@ struct Weighed {
 Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
               const twin::Cells& half, double sigma) {
     using gpu::TexelFormat;
-    const gpu::Texture d = floatTexture(kCells, TexelFormat::Rgba32F, displacement.values);
-    const gpu::Texture s = floatTexture(kCells, TexelFormat::Rgba32F, statistics.values);
+    const gpu::Texture d = floatTexture(kWhole, TexelFormat::Rgba32F, displacement.values);
+    const gpu::Texture s = floatTexture(kWhole, TexelFormat::Rgba32F, statistics.values);
     const gpu::Texture h = floatTexture(kHalf, TexelFormat::Rgba32F, half.values);
-    const gpu::Texture field(kCells, TexelFormat::Rgba32F), weights(kCells, TexelFormat::Rgba8);
-    const gpu::Texture look(kCells, TexelFormat::Rgba16F);
+    const gpu::Texture field(kWhole, TexelFormat::Rgba32F), weights(kWhole, TexelFormat::Rgba8);
+    const gpu::Texture look(kWhole, TexelFormat::Rgba16F);
     gpu::ComputePass<WeighParams> pass("superres_weigh.comp");
-    pass.run({{kCells.width, kCells.height, kHalf.width, kHalf.height},
+    pass.run({{kWhole.width, kWhole.height, kHalf.width, kHalf.height},
               {static_cast<float>(sigma), 0, 0, 0}},
              {gpu::sampler(0, d), gpu::sampler(1, s), gpu::sampler(2, h), gpu::imageWrite(0, field),
               gpu::imageWrite(1, weights), gpu::imageWrite(2, look)},
-             {gpu::groupsFor(kCells.width, 8), gpu::groupsFor(kCells.height, 8), 1});
-    return {{kCells, field.readRgba32F()}, {kCells, look.readRgba32F()}, weights.readRgba8()};
+             {gpu::groupsFor(kWhole.width, 8), gpu::groupsFor(kWhole.height, 8), 1});
+    return {{kWhole, field.readRgba32F()}, {kWhole, look.readRgba32F()}, weights.readRgba8()};
 }
 
 TEST_F(Weigh, WeightsMatchTwin) {
     // From an even flow on the left to one that bends on the right.
-    twin::Cells displacement{kCells, {}};
-    for (int y = 0; y < kCells.height; ++y)
-        for (int x = 0; x < kCells.width; ++x)
+    twin::Cells displacement{kWhole, {}};
+    for (int y = 0; y < kWhole.height; ++y)
+        for (int x = 0; x < kWhole.width; ++x)
             for (const float v :
                  {0.012F * static_cast<float>(x * x), 0.3F * static_cast<float>(y % 2),
                   10.0F + static_cast<float>(x), 20.0F})
                 displacement.values.push_back(v);
-    const twin::Cells statistics = randomStatistics(kCells, 1), half = randomStatistics(kHalf, 2);
+    const twin::Cells statistics = randomStatistics(kWhole, 1), half = randomStatistics(kHalf, 2);
     const Weighed got = weigh(displacement, statistics, half, kSigma);
     int zero = 0, strong = 0, unexplained = 0;
-    for (int y = 0; y < kCells.height; ++y)
-        for (int x = 0; x < kCells.width; ++x) {
+    for (int y = 0; y < kWhole.height; ++y)
+        for (int x = 0; x < kWhole.width; ++x) {
             const twin::Weight t = twin::weigh(displacement, statistics, half, x, y, kSigma);
             const Eigen::Vector4d f = got.field.at(x, y), d = displacement.at(x, y);
             EXPECT_NEAR(f[2], t.weight, 1e-3 * t.weight + 1e-6) << x << ", " << y;
@@ -84,7 +84,7 @@ TEST_F(Weigh, WeightsMatchTwin) {
             const Eigen::Vector4d l = got.look.at(x, y);  // half precision
             EXPECT_NEAR(l[0], std::min(d[2], 65504.0), 1e-3 * d[2]);
             EXPECT_NEAR(l[2], t.weight, 1e-3 * t.weight + 1e-4);
-            const std::uint8_t* w = &got.weights[4UL * (1UL * y * kCells.width + x)];
+            const std::uint8_t* w = &got.weights[4UL * (1UL * y * kWhole.width + x)];
             EXPECT_NEAR(w[0], std::min(127.5 * t.weight, 255.0), 1);
             EXPECT_NEAR(w[1], 255 * t.confidence, 1);
             EXPECT_NEAR(w[2], 255 * t.signal, 1);
@@ -109,10 +109,10 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
 // the weight where they do not.
 TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
-    const twin::Cells matched = constantCells(kCells, {7.07e4F, 1e5F, 1e5F, 1});
-    twin::Cells bent{kCells, {}};
-    for (int i = 0; i < kCells.width * kCells.height; ++i)
-        for (const float v : {0.5F * static_cast<float>(i % kCells.width), 0.0F, 0.0F, 0.0F})
+    const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
+    twin::Cells bent{kWhole, {}};
+    for (int i = 0; i < kWhole.width * kWhole.height; ++i)
+        for (const float v : {0.5F * static_cast<float>(i % kWhole.width), 0.0F, 0.0F, 0.0F})
             bent.values.push_back(v);
     const double even = weigh(matched, matched, half, 0.3).field.at(5, 5)[2];
     EXPECT_LT(weigh(bent, matched, half, 0.3).field.at(5, 5)[2], 0.4 * even);
@@ -120,16 +120,16 @@ TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
 
 TEST_F(Weigh, AlikeTextureCountsFullyAndUnrelatedNotAtAll) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
-    const twin::Cells alike = constantCells(kCells, {1e5F, 1e5F, 1e5F, 1});
+    const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     for (const float v : {weigh(alike, alike, half, 0.3).field.at(5, 5)[2]})
         EXPECT_NEAR(v, twin::kLookUpLoss, 0.01);
     for (const std::array<float, 4>& s :
          {std::array<float, 4>{0, 1e5F, 1e5F, 1}, std::array<float, 4>{-1e5F, 1e5F, 1e5F, 1},
           std::array<float, 4>{1e5F, 1e5F, 1e5F, 0}, std::array<float, 4>{0, 0, 0, 1}})
-        EXPECT_EQ(weigh(alike, constantCells(kCells, s), half, 0.3).field.at(5, 5)[2], 0);
+        EXPECT_EQ(weigh(alike, constantCells(kWhole, s), half, 0.3).field.at(5, 5)[2], 0);
 }
 
-constexpr Size kTiles{7, 4};
+constexpr Size kClassified{7, 4};
 constexpr unsigned kTileCount = 28;
 
 struct Draws {
@@ -144,14 +144,14 @@ struct Classified {
 
 Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& changed,
                     bool hasStill) {
-    const gpu::Texture cells = floatTexture(kCells, gpu::TexelFormat::Rgba32F, field.values);
-    const gpu::Texture weights = uploaded(Picture(kCells));
+    const gpu::Texture cells = floatTexture(kWhole, gpu::TexelFormat::Rgba32F, field.values);
+    const gpu::Texture weights = uploaded(Picture(kWhole));
     gpu::Buffer changedBuffer(changed.size() * 4), classes(8 * kTileCount);
     gpu::Buffer draws(sizeof(Draws)), lists(16 * kTileCount);
     changedBuffer.write(std::span(changed));
     const twin::ClassLimits limits;
     gpu::ComputePass<ClassifyParams> pass("superres_classify.comp");
-    pass.run({{kTiles.width, kTiles.height, kCells.width, kCells.height},
+    pass.run({{kClassified.width, kClassified.height, kWhole.width, kWhole.height},
               {static_cast<float>(limits.leastWeight), static_cast<float>(limits.plainFlow),
                static_cast<float>(limits.plainWeight), hasStill ? 0.0F : 1.0F}},
              {gpu::storage(0, changedBuffer), gpu::storage(1, classes), gpu::storage(2, draws),
@@ -163,11 +163,11 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
 
 /// Affine, broken and weightless tiles side by side.
 twin::Cells mixedField() {
-    twin::Cells out{kCells, {}};
+    twin::Cells out{kWhole, {}};
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0, 1);
-    for (int y = 0; y < kCells.height; ++y)
-        for (int x = 0; x < kCells.width; ++x) {
+    for (int y = 0; y < kWhole.height; ++y)
+        for (int x = 0; x < kWhole.width; ++x) {
             const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
             const float bump = y > 10 ? unit(random) : 0.0F;
             const float weight = x < 9 ? 0.01F : x > 20 ? 0.4F + 0.6F * unit(random) : 0.8F;
@@ -191,7 +191,7 @@ TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
     std::array<std::set<std::uint32_t>, 4> wanted;  // all, upscaled, trusted, blended
     std::array<unsigned, 4> counts{};
     for (int i = 0; i < static_cast<int>(kTileCount); ++i) {
-        const int x = i % kTiles.width, y = i / kTiles.width;
+        const int x = i % kClassified.width, y = i / kClassified.width;
         const unsigned kind = i % 3 == 0 ? 0 : twin::tileClass(field, x, y, {});
         EXPECT_EQ(got.classes[i][0], kind) << "tile " << i;
         ++counts[kind];

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 namespace mfar {
@@ -12,10 +11,9 @@ namespace {
 
 using namespace test;
 
-constexpr double kDegree = std::numbers::pi / 180;
 const PlacedTag kTag{{TagFamily::Tag36h11, 0}, 0.08, {}};
 
-Timestamp frameTime(int i) {
+Timestamp momentOf(int i) {
     return Timestamp::fromSeconds(1 + i / 30.);
 }
 
@@ -65,7 +63,7 @@ Followed follow(double tiltDeg, double offsetDeg, double sigma, int frames) {
     for (int i = 0; i < frames; ++i) {
         const RigidTransform truth = hand(i, tiltDeg, offsetDeg);
         const TagObservation tag = corners.of(camera, truth);
-        const auto pose = estimator.update({&tag, 1}, camera, frameTime(i));
+        const auto pose = estimator.update({&tag, 1}, camera, momentOf(i));
         out.lost += pose ? 0 : 1;
         if (!pose) continue;
         const RigidTransform error = truth.inverse() * pose->T_world_video;
@@ -135,8 +133,8 @@ TEST(PoseEstimator, MillimetresAndMetresGiveTheSameMotion) {
         const RigidTransform truth = hand(i, 6, 4);
         const TagObservation tagA = a.of(camera, truth), tagB = b.of(camera, truth);
         const bool seen = i % 17 != 0;
-        const auto poseA = metres.update({&tagA, seen ? 1U : 0U}, camera, frameTime(i));
-        const auto poseB = millimetres.update({&tagB, seen ? 1U : 0U}, camera, frameTime(i));
+        const auto poseA = metres.update({&tagA, seen ? 1U : 0U}, camera, momentOf(i));
+        const auto poseB = millimetres.update({&tagB, seen ? 1U : 0U}, camera, momentOf(i));
         ASSERT_EQ(poseA.has_value(), poseB.has_value()) << i;
         if (!poseA) continue;
         ASSERT_LT(angleBetween(poseA->T_world_video, poseB->T_world_video), 1e-6) << i;
@@ -153,17 +151,17 @@ TEST(PoseEstimator, GapsAreBridgedAndThenTheresNoPose) {
     Corners corners(0.05);
     for (int i = 0; i < 30; ++i) {
         const TagObservation tag = corners.of(camera, hand(i, 3, 30));
-        ASSERT_TRUE(estimator.update({&tag, 1}, camera, frameTime(i)));
+        ASSERT_TRUE(estimator.update({&tag, 1}, camera, momentOf(i)));
         ASSERT_TRUE(estimator.raw());
     }
     for (int i = 30; i < 34; ++i) {
-        const auto pose = estimator.update({}, camera, frameTime(i));
+        const auto pose = estimator.update({}, camera, momentOf(i));
         ASSERT_TRUE(pose);
         EXPECT_FALSE(estimator.raw());
         EXPECT_EQ(pose->tags, 0);
         EXPECT_LT(angleBetween(pose->T_world_video, hand(i, 3, 30)), 2 * kDegree);
     }
-    EXPECT_FALSE(estimator.update({}, camera, frameTime(60)));
+    EXPECT_FALSE(estimator.update({}, camera, momentOf(60)));
 }
 
 TEST(PoseEstimator, AStillGivesTheVideoCamerasPose) {
@@ -174,7 +172,7 @@ TEST(PoseEstimator, AStillGivesTheVideoCamerasPose) {
     Corners corners(0.05);
     const TagObservation tag = corners.of(still, T_world_video * T_still_video.inverse());
     const PoseEstimator estimator;
-    const auto pose = estimator.measure({&tag, 1}, still, T_still_video, frameTime(0));
+    const auto pose = estimator.measure({&tag, 1}, still, T_still_video, momentOf(0));
     ASSERT_TRUE(pose);
     const Vector6 error = logarithm(T_world_video.inverse() * pose->T_world_video);
     EXPECT_LT(error.norm(), 0.01);

@@ -17,7 +17,7 @@ using Outcome = PoseFilter::Outcome;
 
 constexpr double kRate = 30;
 
-Timestamp frameTime(int i) {
+Timestamp timeOf(int i) {
     return Timestamp::fromSeconds(5 + i / kRate);
 }
 
@@ -84,10 +84,10 @@ TEST(Se3, AdjointMovesATwistThroughAPose) {
 TEST(PoseFilter, FollowsAConstantTwistExactlyAndPredictsIt) {
     PoseFilter filter;
     for (int i = 0; i < 90; ++i)
-        filter.update(measured(helix(i / kRate), frameTime(i)), 0.7);
+        filter.update(measured(helix(i / kRate), timeOf(i)), 0.7);
     for (const double ahead : {-0.05, 0., 0.033, 0.1, 0.3}) {
-        const auto pose = filter.predict(frameTime(89) +
-                                         std::chrono::nanoseconds(static_cast<long>(ahead * 1e9)));
+        const auto pose =
+            filter.predict(timeOf(89) + std::chrono::nanoseconds(static_cast<long>(ahead * 1e9)));
         ASSERT_TRUE(pose);
         const Vector6 error = logarithm(helix(89 / kRate + ahead).inverse() * pose->T_world_video);
         EXPECT_LT(error.norm(), 1e-4) << ahead;
@@ -102,10 +102,10 @@ TEST(PoseFilter, SmoothsNoiseAndKnowsHowSureItIs) {
     int count = 0;
     for (int i = 0; i < 600; ++i) {
         const RigidTransform truth = helix(i / kRate);
-        const Pose pose = measured(noisy(truth, random, 0.01, 0.007), frameTime(i), 0.01, 0.007);
+        const Pose pose = measured(noisy(truth, random, 0.01, 0.007), timeOf(i), 0.01, 0.007);
         ASSERT_NE(filter.update(pose, 0.7), Outcome::Rejected);
         if (i < 30) continue;
-        const auto now = filter.predict(frameTime(i));
+        const auto now = filter.predict(timeOf(i));
         ASSERT_TRUE(now);
         const Vector6 error = logarithm(truth.inverse() * now->T_world_video);
         raw += logarithm(truth.inverse() * pose.T_world_video).squaredNorm();
@@ -122,41 +122,41 @@ TEST(PoseFilter, SmoothsNoiseAndKnowsHowSureItIs) {
 TEST(PoseFilter, AnOutlierChangesNothing) {
     PoseFilter filter;
     for (int i = 0; i < 30; ++i)
-        filter.update(measured(helix(i / kRate), frameTime(i)), 0.7);
+        filter.update(measured(helix(i / kRate), timeOf(i)), 0.7);
     RigidTransform wrong = helix(1);
     wrong.translation.x() += 0.2;
-    EXPECT_EQ(filter.update(measured(wrong, frameTime(30)), 0.7), Outcome::Rejected);
-    const auto pose = filter.predict(frameTime(30));
+    EXPECT_EQ(filter.update(measured(wrong, timeOf(30)), 0.7), Outcome::Rejected);
+    const auto pose = filter.predict(timeOf(30));
     ASSERT_TRUE(pose);
     EXPECT_LT((pose->T_world_video.translation - helix(1).translation).norm(), 1e-3);
-    EXPECT_EQ(filter.update(measured(helix(31 / kRate), frameTime(31)), 0.7), Outcome::Accepted);
+    EXPECT_EQ(filter.update(measured(helix(31 / kRate), timeOf(31)), 0.7), Outcome::Accepted);
 }
 
 TEST(PoseFilter, OutliersThatContradictEachOtherNeverWin) {
     PoseFilter filter;
     for (int i = 0; i < 30; ++i)
-        filter.update(measured(helix(i / kRate), frameTime(i)), 0.7);
+        filter.update(measured(helix(i / kRate), timeOf(i)), 0.7);
     for (int i = 30; i < 40; ++i) {
         RigidTransform wrong = helix(i / kRate);
         wrong.translation[i % 3] += i % 2 == 0 ? 0.3 : -0.3;
-        EXPECT_EQ(filter.update(measured(wrong, frameTime(i)), 0.7), Outcome::Rejected);
+        EXPECT_EQ(filter.update(measured(wrong, timeOf(i)), 0.7), Outcome::Rejected);
     }
-    EXPECT_EQ(filter.update(measured(helix(40 / kRate), frameTime(40)), 0.7), Outcome::Accepted);
+    EXPECT_EQ(filter.update(measured(helix(40 / kRate), timeOf(40)), 0.7), Outcome::Accepted);
 }
 
 TEST(PoseFilter, ARealJumpIsFollowedAfterThreeFrames) {
     PoseFilter filter;
     for (int i = 0; i < 30; ++i)
-        filter.update(measured(helix(i / kRate), frameTime(i)), 0.7);
+        filter.update(measured(helix(i / kRate), timeOf(i)), 0.7);
     const auto jumped = [](int i) {
         RigidTransform T = helix(i / kRate);
         T.translation.x() += 0.5;
         return T;
     };
-    EXPECT_EQ(filter.update(measured(jumped(30), frameTime(30)), 0.7), Outcome::Rejected);
-    EXPECT_EQ(filter.update(measured(jumped(31), frameTime(31)), 0.7), Outcome::Rejected);
-    EXPECT_EQ(filter.update(measured(jumped(32), frameTime(32)), 0.7), Outcome::Jumped);
-    const auto pose = filter.predict(frameTime(32));
+    EXPECT_EQ(filter.update(measured(jumped(30), timeOf(30)), 0.7), Outcome::Rejected);
+    EXPECT_EQ(filter.update(measured(jumped(31), timeOf(31)), 0.7), Outcome::Rejected);
+    EXPECT_EQ(filter.update(measured(jumped(32), timeOf(32)), 0.7), Outcome::Jumped);
+    const auto pose = filter.predict(timeOf(32));
     ASSERT_TRUE(pose);
     EXPECT_LT((pose->T_world_video.translation - jumped(32).translation).norm(), 5e-3);
 }
@@ -166,49 +166,49 @@ TEST(PoseFilter, BridgesSoManyFramesAndThenHasNoPose) {
     options.bridgeFrames = 5;
     options.bridge = 10s;
     PoseFilter filter(options);
-    EXPECT_FALSE(filter.predict(frameTime(0)));
+    EXPECT_FALSE(filter.predict(timeOf(0)));
     for (int i = 0; i < 30; ++i)
-        filter.update(measured(helix(i / kRate), frameTime(i)), 0.7);
+        filter.update(measured(helix(i / kRate), timeOf(i)), 0.7);
     double before = 0;
     for (int i = 30; i < 35; ++i) {
         filter.missed();
-        const auto pose = filter.predict(frameTime(i));
+        const auto pose = filter.predict(timeOf(i));
         ASSERT_TRUE(pose) << i;
         EXPECT_GT(pose->covariance.trace(), before);
         before = pose->covariance.trace();
     }
     filter.missed();
-    EXPECT_FALSE(filter.predict(frameTime(35)));
-    EXPECT_EQ(filter.update(measured(helix(2), frameTime(60)), 0.7), Outcome::Started);
-    EXPECT_TRUE(filter.predict(frameTime(60)));
+    EXPECT_FALSE(filter.predict(timeOf(35)));
+    EXPECT_EQ(filter.update(measured(helix(2), timeOf(60)), 0.7), Outcome::Started);
+    EXPECT_TRUE(filter.predict(timeOf(60)));
 }
 
 TEST(PoseFilter, BridgesSoMuchTimeAndThenHasNoPose) {
     PoseFilter filter;
-    filter.update(measured(helix(0), frameTime(0)), 0.7);
-    EXPECT_TRUE(filter.predict(frameTime(0) + 399ms));
-    EXPECT_FALSE(filter.predict(frameTime(0) + 401ms));
-    EXPECT_FALSE(filter.predict(frameTime(0) - 401ms));
-    EXPECT_EQ(filter.update(measured(helix(9), frameTime(0) + 2s), 0.7), Outcome::Started);
+    filter.update(measured(helix(0), timeOf(0)), 0.7);
+    EXPECT_TRUE(filter.predict(timeOf(0) + 399ms));
+    EXPECT_FALSE(filter.predict(timeOf(0) + 401ms));
+    EXPECT_FALSE(filter.predict(timeOf(0) - 401ms));
+    EXPECT_EQ(filter.update(measured(helix(9), timeOf(0) + 2s), 0.7), Outcome::Started);
 }
 
 TEST(PoseFilter, AStepBackInTimeStartsAnew) {
     PoseFilter filter;
-    filter.update(measured(helix(1), frameTime(30)), 0.7);
-    EXPECT_EQ(filter.update(measured(helix(0), frameTime(30)), 0.7), Outcome::Started);
-    EXPECT_EQ(filter.update(measured(helix(0), frameTime(29)), 0.7), Outcome::Started);
+    filter.update(measured(helix(1), timeOf(30)), 0.7);
+    EXPECT_EQ(filter.update(measured(helix(0), timeOf(30)), 0.7), Outcome::Started);
+    EXPECT_EQ(filter.update(measured(helix(0), timeOf(29)), 0.7), Outcome::Started);
 }
 
 TEST(PoseFilter, BrokenPosesAndOptionsAreRefused) {
     PoseFilter filter;
-    Pose pose = measured(helix(0), frameTime(0));
+    Pose pose = measured(helix(0), timeOf(0));
     pose.T_world_video.translation.x() = std::nan("");
     EXPECT_EQ(filter.update(pose, 0.7), Outcome::Rejected);
-    pose = measured(helix(0), frameTime(0));
+    pose = measured(helix(0), timeOf(0));
     pose.covariance(0, 0) = std::numeric_limits<double>::infinity();
     EXPECT_EQ(filter.update(pose, 0.7), Outcome::Rejected);
-    EXPECT_EQ(filter.update(measured(helix(0), frameTime(0)), 0), Outcome::Rejected);
-    EXPECT_FALSE(filter.predict(frameTime(0)));
+    EXPECT_EQ(filter.update(measured(helix(0), timeOf(0)), 0), Outcome::Rejected);
+    EXPECT_FALSE(filter.predict(timeOf(0)));
     PoseFilterOptions options;
     options.gate = std::nan("");
     EXPECT_THROW(PoseFilter{options}, std::invalid_argument);

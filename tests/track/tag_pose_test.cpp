@@ -6,15 +6,12 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <random>
 
 namespace mfar {
 namespace {
 
 using namespace test;
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 TagObservation observe(const CameraModel& camera, const RigidTransform& T_world_camera,
                        const PlacedTag& tag) {

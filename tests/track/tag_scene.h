@@ -8,9 +8,12 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 namespace mfar::test {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct PlacedTag {
     TagKey tag;

@@ -13,8 +13,6 @@ namespace {
 
 using namespace test;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 const StereoRig kRig{
     testCamera(),
     testCamera().scaledTo({1152, 864}),
