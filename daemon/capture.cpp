@@ -82,6 +82,9 @@ bool CaptureThread::captureOne(FramePairer& pairer) {
     CapturedFrame captured = pairer.pair(std::move(*video), arrived);
     captured.pose = poses_.ofVideo(captured.video);
     if (captured.still) captured.still->pose = poses_.ofStill(captured.still->frame);
+    // What is only predicted, a replay predicts as well; a still's lies between those of the
+    // frames.
+    if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());
     return put != Mailbox<CapturedFrame>::Put::Closed;

@@ -22,11 +22,11 @@ std::string describe(const PoseConfig& config, const TagMap& map) {
 
 }  // namespace
 
-PoseFinder::PoseFinder(const PoseConfig& config, PoseInputs inputs, Stats& stats) : stats_(stats) {
-    TagMap map = config.tags.empty() ? std::move(inputs.tags) : configuredTags(config);
-    description_ = describe(config, map);
+PoseFinder::PoseFinder(const PoseConfig& config, PoseInputs inputs, Stats& stats)
+    : stats_(stats), tags_(config.tags.empty() ? std::move(inputs.tags) : configuredTags(config)),
+      description_(describe(config, tags_)) {
     if (config.source == PoseOrigin::Tags)
-        tracker_.emplace(inputs.rig, trackerOptions(config, std::move(map), inputs.rateHz));
+        tracker_.emplace(inputs.rig, trackerOptions(config, tags_, inputs.rateHz));
     if (config.source == PoseOrigin::Recorded) {
         if (!inputs.recorded)
             throw Failure(ExitCode::BadData,

@@ -35,11 +35,16 @@ public:
     /// pose between those of the frames around it, where PoseHistory has one.
     [[nodiscard]] std::optional<Pose> ofStill(const Frame& still);
 
+    /// Not only predicted.
+    [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }
+    /// Where the tags are; empty: unknown.
+    [[nodiscard]] const TagMap& tags() const { return tags_; }
     /// "poses from 12 tags"
     [[nodiscard]] const std::string& description() const { return description_; }
 
 private:
     Stats& stats_;
+    TagMap tags_;
     std::string description_;
     std::function<std::optional<Pose>(Timestamp)> recorded_;
     std::optional<Tracker> tracker_;

@@ -221,6 +221,19 @@ void Rig::recordStill(const Frame& frame) {
     if (recorder_) recorder_->still(frame.view(), frame.time());
 }
 
+void Rig::recordPose(const Pose& pose) {
+    if (recorder_) recorder_->pose(pose);
+}
+
+void Rig::recordTags(const TagMap& tags) {
+    if (!recorder_ || tags.empty()) return;
+    try {
+        recorder_->addFile("tags.toml", tomlOf(tags));
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::OutputFailed, error.what());
+    }
+}
+
 std::uint64_t Rig::notRecorded() const {
     return recorder_ ? recorder_->videoCounts().dropped + recorder_->stillCounts().dropped : 0;
 }

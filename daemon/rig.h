@@ -47,6 +47,10 @@ public:
     /// capture thread.
     void recordVideo(const Frame& frame);
     void recordStill(const Frame& frame);
+    /// The same with the pose of a frame.
+    void recordPose(const Pose& pose);
+    /// Before the first frame. Throws Failure.
+    void recordTags(const TagMap& tags);
     /// Frames and stills that the recording misses. Any thread.
     [[nodiscard]] std::uint64_t notRecorded() const;
     /// Throws Failure when the recording can no longer be written. Any thread, never waits.

@@ -28,6 +28,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       pipeline_(rig_.geometry(), {config.superres.mode, {}, config.superres.skipUnchanged}),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
       policy_(config.trigger) {
+    rig_.recordTags(poses_.tags());
     pipeline_.setMeasure(config.status.measure);
     description_ = {gl_->description(),  rig_.description(),
                     display_->name(),    std::string(name(config.superres.mode)),

@@ -1,10 +1,8 @@
 #include "daemon/tools/sim_writer.h"
 
-#include <fmt/format.h>
-#include <fmt/ostream.h>
+#include "pipeline/track/tag_map.h"
 
-#include <fstream>
-#include <stdexcept>
+#include <fmt/format.h>
 
 namespace mfar {
 namespace {
@@ -13,22 +11,12 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using View = SyntheticBoard::View;
 
-void writeTags(const fs::path& file, const std::vector<synthetic::Tag>& tags) {
-    std::ofstream out(file);
-    fmt::print(
-        out, "# Tags of the world. position, orientation (w x y z): tag in the world; tag frame:\n"
-             "# origin in the middle, x right, y down, z into the surface. size: edge of the\n"
-             "# black square. Metres.\nfamily = \"tag36h11\"\n");
-    for (const synthetic::Tag& tag : tags) {
-        const Eigen::Vector3d& p = tag.T_world_tag.translation;
-        const Eigen::Quaterniond& q = tag.T_world_tag.rotation;
-        fmt::print(out,
-                   "\n[[tags]]\nid = {}\nsize = {}\nposition = [{:.9f}, {:.9f}, {:.9f}]\n"
-                   "orientation = [{:.9f}, {:.9f}, {:.9f}, {:.9f}]\n",
-                   tag.id, tag.size, p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
-    }
-    out.flush();
-    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", file.string()));
+/// Also those that move, where they are at the beginning.
+TagMap mapOf(const std::vector<synthetic::Tag>& tags) {
+    std::vector<MappedTag> out;
+    for (const synthetic::Tag& tag : tags)
+        out.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
+    return TagMap(out);
 }
 
 class Writer {
@@ -38,7 +26,7 @@ public:
           recorder_(options.out, board.rig(), board.video().info().rateHz) {
         for (const char* part : {"highres", "inverse_depth", "flow"})
             fs::create_directories(truth_ / part);
-        writeTags(options.out / "tags.toml", board.world().tags);
+        recorder_.addFile("tags.toml", tomlOf(mapOf(board.world().tags)));
     }
 
     SimCounts run(const std::function<void(int)>& progress) {

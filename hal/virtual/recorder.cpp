@@ -46,7 +46,7 @@ ImageView copied(const ImageView& image, const FramePool::Slot& slot) {
 
 Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateHz,
                    const RecorderOptions& options)
-    : video_(emptyFolder(root) / "cam0", rig.video.size, options.videoBuffers),
+    : root_(emptyFolder(root)), video_(root / "cam0", rig.video.size, options.videoBuffers),
       still_(root / "cam1", rig.still.size, options.stillBuffers),
       poses_{root / "state_groundtruth_estimate0"}, maxPoses_(options.poses) {
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
@@ -95,6 +95,10 @@ bool Recorder::pose(const Pose& pose) {
         ++poses_.written;
     });
     return true;
+}
+
+void Recorder::addFile(std::string_view name, std::string_view text) const {
+    appendToFile(root_ / name, text);
 }
 
 void Recorder::writePose(const Pose& pose) {

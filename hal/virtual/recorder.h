@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace mfar {
@@ -44,6 +45,8 @@ public:
     bool video(const ImageView& image, Timestamp time) { return picture(video_, image, time); }
     bool still(const ImageView& image, Timestamp time) { return picture(still_, image, time); }
     bool pose(const Pose& pose);
+    /// A further file of the recording, written at once. Throws std::runtime_error.
+    void addFile(std::string_view name, std::string_view text) const;
 
     /// Waits until all that was taken is written. Throws std::runtime_error with the first write
     /// error of the recording (disk full, folder gone). May be called more than once.
@@ -74,6 +77,7 @@ private:
     bool picture(PictureStream& stream, const ImageView& image, Timestamp time);
     void writePose(const Pose& pose);
 
+    std::filesystem::path root_;
     PictureStream video_;
     PictureStream still_;
     Stream poses_;

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::int64_t kLongestPoseGap =
+    250'000'000;                         // [ns]: a hand-held camera has turned by then
 constexpr double kUnitTolerance = 1e-3;  // ground truth is printed with as few as four digits
 
 void checkIncreasing(const CsvRow& row, Timestamp previous, Timestamp t) {
@@ -123,6 +125,7 @@ std::optional<Pose> Recording::poseAt(Timestamp t) const {
     const RigidTransform& a = std::prev(next)->T_world_video;
     const RigidTransform& b = next->T_world_video;
     const Timestamp from = std::prev(next)->time;
+    if (next->time.ns - from.ns > kLongestPoseGap) return std::nullopt;
     const double s =
         static_cast<double>(t.ns - from.ns) / static_cast<double>(next->time.ns - from.ns);
     return Pose{t,

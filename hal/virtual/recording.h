@@ -32,7 +32,8 @@ struct Recording {
     std::vector<RecordedImage> stills;  ///< strictly increasing in time, may be empty
     std::vector<Pose> poses;            ///< strictly increasing in time, may be empty
 
-    /// Pose at exactly t or interpolated between its neighbours; nothing outside the covered span.
+    /// Pose at exactly t or interpolated between its neighbours; nothing outside the covered span
+    /// and in gaps of more than a quarter of a second.
     [[nodiscard]] std::optional<Pose> poseAt(Timestamp t) const;
     /// Files of truth/, nothing when absent.
     [[nodiscard]] std::optional<std::filesystem::path> truthHighRes(Timestamp t) const;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -50,6 +51,9 @@ private:
 
 /// `file` is for messages. Throws TagMapError.
 [[nodiscard]] TagMap tagMapFromToml(std::string_view text, const std::string& file);
+
+/// The map as tags.toml.
+[[nodiscard]] std::string tomlOf(const TagMap& map);
 
 /// The tags.yaml of apriltag_ros (ROS 1): the one `tag_bundles` entry's `layout` with `id`, `size`
 /// and x, y, z, qw, qx, qy, qz (identity when left out), whose frame becomes the world; tags in

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <initializer_list>
+#include <iterator>
 
 namespace mfar {
 namespace {
@@ -110,6 +111,24 @@ private:
 
 TagMap tagMapFromToml(std::string_view text, const std::string& file) {
     return Reader(text, file).read();
+}
+
+std::string tomlOf(const TagMap& map) {
+    std::string out = "# Tags of the world. position, orientation (w x y z): tag in the world; tag "
+                      "frame: origin in\n"
+                      "# the middle, x right, y down, z into the surface. size: edge of the black "
+                      "square. Metres.\n";
+    for (const auto& [key, tag] : map.tags()) {
+        const Eigen::Vector3d& p = tag.T_world_tag.translation;
+        const Eigen::Quaterniond& q = tag.T_world_tag.rotation;
+        fmt::format_to(std::back_inserter(out),
+                       "\n[[tags]]\nfamily = \"{}\"\nid = {}\nsize = {}\n"
+                       "position = [{:.9f}, {:.9f}, {:.9f}]\n"
+                       "orientation = [{:.9f}, {:.9f}, {:.9f}, {:.9f}]\n",
+                       info(key.family).name, key.id, tag.size, p.x(), p.y(), p.z(), q.w(), q.x(),
+                       q.y(), q.z());
+    }
+    return out;
 }
 
 }  // namespace mfar

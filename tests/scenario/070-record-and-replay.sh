@@ -15,5 +15,17 @@ summary_has frames 8
 first=$(ls live | sort -n | head -n 1)
 cmp "live/$first" "again/$first" || fail "the first picture differs"
 
+# The live run may not have shown every frame, the recording has them all with their poses.
+echo "its tags and the poses they gave are recorded, too"
+[ "$(grep -c '^id = ' run/tags.toml)" -ge 3 ] || fail "tags are missing"
+poses=run/state_groundtruth_estimate0/data.csv
+[ "$(grep -vc '^#' $poses)" -ge 8 ] || fail "poses are missing"
+run 0 --recording run --summary summary.json
+says err 'poses from [0-9]+ tags; '
+run 0 --recording run --pose recorded --record copy --summary summary.json
+summary_has tracked 8
+summary_has stills_tracked 1
+cmp $poses copy/${poses#run/} || fail "the poses of a replay differ"
+
 run 74 --recording run --record run
 says err 'not empty'

@@ -228,16 +228,28 @@ TEST(Recording, PosesAreThoseOfTheVideoCameraNotOfTheBody) {
 TEST(Recording, PoseBetweenTwoIsInterpolatedAndOutsideThereIsNone) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
+    writeFile(folder / kPoses, "1000000000,1,0,0,1,0,0,0\n1200000000,2,0,0,0,0,0,1\n");
     const Recording r = loadRecording(folder.path());
     EXPECT_FALSE(r.poseAt({999'999'999}).has_value());
-    EXPECT_FALSE(r.poseAt({2'000'000'001}).has_value());
-    ASSERT_TRUE(r.poseAt({2'000'000'000}).has_value());
-    EXPECT_EQ(r.poseAt({2'000'000'000})->T_world_video.translation.x(), 2);
-    const std::optional<Pose> middle = r.poseAt({1'500'000'000});
+    EXPECT_FALSE(r.poseAt({1'200'000'001}).has_value());
+    ASSERT_TRUE(r.poseAt({1'200'000'000}).has_value());
+    EXPECT_EQ(r.poseAt({1'200'000'000})->T_world_video.translation.x(), 2);
+    const std::optional<Pose> middle = r.poseAt({1'100'000'000});
     ASSERT_TRUE(middle.has_value());
-    EXPECT_EQ(middle->time.ns, 1'500'000'000);
+    EXPECT_EQ(middle->time.ns, 1'100'000'000);
     EXPECT_NEAR(middle->T_world_video.translation.x(), 1.5, 1e-12);
-    EXPECT_NEAR(Eigen::AngleAxisd(middle->T_world_video.rotation).angle(), M_PI / 4, 1e-6);
+    EXPECT_NEAR(Eigen::AngleAxisd(middle->T_world_video.rotation).angle(), M_PI / 2, 1e-6);
+}
+
+TEST(Recording, NoPoseIsGuessedInAGap) {
+    const TempFolder folder;
+    test::writeSmallRecording(folder.path());
+    writeFile(folder / kPoses, "1000000000,1,0,0,1,0,0,0\n1250000000,2,0,0,1,0,0,0\n"
+                               "1500000001,3,0,0,1,0,0,0\n");
+    const Recording r = loadRecording(folder.path());
+    EXPECT_TRUE(r.poseAt({1'100'000'000}).has_value());
+    EXPECT_FALSE(r.poseAt({1'300'000'000}).has_value());
+    EXPECT_TRUE(r.poseAt({1'500'000'001}).has_value());
 }
 
 TEST(Recording, WindowsLineEndsCommentsSpacesAndExtraPoseColumnsAreRead) {
