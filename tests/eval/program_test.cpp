@@ -81,7 +81,7 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
                                     MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 2 * 5 + 5) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 2 * 7 + 7) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate"));
     for (std::size_t i = 1; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].size(), rows[0].size());
@@ -195,8 +195,8 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/absent", "absent"},
         {"superres " + dir + "/tiny", "no truth"},
         {"superres " + dir + "/tiny --methods detail,wonder",
-         "unknown method 'wonder' (valid: detail, detail2d, detail-two-way, blend, "
-         "blend-two-way, bicubic, paper)"},
+         "unknown method 'wonder' (valid: detail, detail2d, blend, bicubic, "
+         "paper, detail-two-way, blend-two-way)"},
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},

@@ -88,7 +88,7 @@ private:
 
 const std::vector<std::string>& superResMethodNames() {
     static const std::vector<std::string> names{
-        "detail", "detail2d", "detail-two-way", "blend", "blend-two-way", "bicubic", "paper"};
+        "detail", "detail2d", "blend", "bicubic", "paper", "detail-two-way", "blend-two-way"};
     return names;
 }
 
