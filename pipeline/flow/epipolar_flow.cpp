@@ -15,23 +15,8 @@ constexpr float kLeastWay = 0.05F;   // of a pixel, when the others' longest is 
 // Neighbours on one slanted surface that land on the same cell differ by this much [px].
 constexpr float kSlope = 1.0F;
 
-// Of a pose said to be exact: what the calibration, the moments of exposure and its own rounding
-// leave [rad], [share of the translation].
-constexpr double kLeastTurn = 2.6e-3;
-constexpr double kLeastShift = 0.01;
-
-/// Of a small motion x, T_still_video * exp(x).
-Matrix6 relativeCovariance(const Pose& still, const Pose& frame, double distance) {
-    const RigidTransform T_frame_still = frame.T_world_video.inverse() * still.T_world_video;
-    Matrix6 out = frame.covariance + moved(still.covariance, T_frame_still);
-    out.diagonal().head<3>().array() += kLeastTurn * kLeastTurn;
-    out.diagonal().tail<3>().array() += std::pow(kLeastShift * distance, 2);
-    return out;
-}
-
 // What comes into the picture, or moves by itself, is found by a search from coarse to fine.
 constexpr int kMostPredicted = 7;  // frames
-constexpr double kRounding = 1e-12;
 
 }  // namespace
 
@@ -60,21 +45,9 @@ void EpipolarFlow::dropStill() {
 
 void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
     lumaOf(video, luma_);
-    RigidTransform T_still_frame =
-        rig_.T_still_video * stillPose_->T_world_video.inverse() * pose.T_world_video;
-    const double distance = T_still_frame.translation.norm();
-    Matrix6 covariance = relativeCovariance(*stillPose_, pose, distance);
-    // The search's unit of length is that distance: in metres and in millimetres it then does the
-    // same. What the positions' own rounding leaves is none.
-    const double least = kRounding * (rig_.T_still_video.translation.norm() +
-                                      stillPose_->T_world_video.translation.norm() +
-                                      pose.T_world_video.translation.norm());
-    const double unit = distance > least ? distance : 1;
-    T_still_frame.translation *= distance > least ? 1 / unit : 0;
-    covariance.topRightCorner<3, 3>() /= unit;
-    covariance.bottomLeftCorner<3, 3>() /= unit;
-    covariance.bottomRightCorner<3, 3>() /= unit * unit;
-    search(T_still_frame, covariance, unit);
+    const UnitPose relative = unitPose(rig_.T_still_video, *stillPose_, pose);
+    unit_ = relative.unit;
+    search(relative);
     // At the video's geometry the still keeps the video's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
@@ -85,17 +58,17 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
     else
         testDepth();
     if (search_.pixelsPerUnit() > 0)
-        prediction_.keep(nearness_, search_.pose(), unit);
+        prediction_.keep(nearness_, search_.pose(), unit_);
     else
         prediction_.forget();
 }
 
-void EpipolarFlow::search(const RigidTransform& T_still_frame, const Matrix6& covariance,
-                          double unit) {
-    const auto predicted = predictedFrames_ < kMostPredicted ? prediction_.in(T_still_frame, unit)
-                                                             : std::span<const float>();
+void EpipolarFlow::search(const UnitPose& relative) {
+    const auto predicted = predictedFrames_ < kMostPredicted
+                               ? prediction_.in(relative.T_other_frame, relative.unit)
+                               : std::span<const float>();
     predictedFrames_ = predicted.empty() ? 0 : predictedFrames_ + 1;
-    search_.run(luma_, T_still_frame, covariance, predicted);
+    search_.run(luma_, relative.T_other_frame, relative.covariance, predicted);
 }
 
 // Where the still, at the video's geometry, shows a ray's point; far outside when it is behind.

@@ -3,6 +3,7 @@
 #include "pipeline/flow/epipolar_search.h"
 #include "pipeline/flow/field_prediction.h"
 #include "pipeline/flow/two_way.h"
+#include "pipeline/flow/unit_pose.h"
 
 #include <array>
 #include <memory>
@@ -43,12 +44,18 @@ public:
     [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
     /// Its unit of length is the distance between the still's camera and the frame's.
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
+    /// That unit [unit of length of the poses].
+    [[nodiscard]] double unit() const { return unit_; }
+    /// Turns the frame's rays into the still at the video's geometry.
+    [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
+    /// Luma of the frame.
+    [[nodiscard]] const LumaImage& luma() const { return luma_; }
     /// Was the last frame searched around what the one before it showed?
     [[nodiscard]] bool predicted() const { return predictedFrames_ > 0; }
 
 private:
     [[nodiscard]] EpipolarLens::Point endOf(float rayX, float rayY, float s) const;
-    void search(const RigidTransform& T_still_frame, const Matrix6& covariance, double unit);
+    void search(const UnitPose& relative);
     void fillForward();
     void testDepth();
     void testBothWays(const ImageView& video);
@@ -61,7 +68,8 @@ private:
     FieldPrediction prediction_;
     int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
     EpipolarLens lens_;
-    Eigen::Matrix3f rotation_;  // of rays, from the frame to the still at the video's geometry
+    Eigen::Matrix3f rotation_;
+    double unit_ = 1;
     std::optional<Pose> stillPose_;
     LumaImage luma_;
     Cells forward_, hidden_;

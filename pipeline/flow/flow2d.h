@@ -41,6 +41,12 @@ public:
 
     [[nodiscard]] const gpu::Buffer& patches() const { return patches_; }
     [[nodiscard]] const Field& forward() const { return forward_; }  ///< video -> still
+    /// Its vectors, x, y [px], -, -. Waits for the GPU.
+    [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
+        return patches_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
+                                                       forward_.cells.height,
+                                                   16UL * forward_.offset);
+    }
     /// After refine(): backward() holds the two-way errors of the video's cells instead.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }  ///< still -> video
