@@ -10,6 +10,14 @@
 
 namespace mfar {
 
+/// Pixels x0 <= x < x1, y0 <= y < y1.
+struct PixelRect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
+    bool operator==(const PixelRect&) const = default;
+};
+
 /// Pinhole camera with radial-tangential distortion (Brown-Conrady, OpenCV's order k1 k2 p1 p2 k3).
 /// Pixel centres at integers. Camera frame: x right, y down, z forward.
 struct CameraModel {

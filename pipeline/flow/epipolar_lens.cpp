@@ -8,6 +8,14 @@ constexpr double kBeyondPicture = 2;
 
 }  // namespace
 
+double cornerRadius(const CameraModel& camera) {
+    double radius = 0;
+    for (const double x : {0.0, camera.size.width - 1.0})
+        for (const double y : {0.0, camera.size.height - 1.0})
+            radius = std::max(radius, camera.unproject({x, y}).norm());
+    return radius;
+}
+
 double rimOf(const CameraModel& camera, double picture, double beyond) {
     const auto& k = camera.distortion;
     const auto distorted = [&](double r) {

@@ -8,6 +8,9 @@
 
 namespace mfar {
 
+/// Largest radius of the rays (x/z, y/z) through the picture's corners.
+[[nodiscard]] double cornerRadius(const CameraModel& camera);
+
 /// Largest radius of a ray that the lens's radial distortion does not fold back, from `picture`,
 /// that of the picture's corners, to `beyond` times as much.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);

@@ -21,11 +21,7 @@ constexpr int kSidePoints = 16;
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {
-    double picture = 0;
-    for (const double x : {0.0, camera.size.width - 1.0})
-        for (const double y : {0.0, camera.size.height - 1.0})
-            picture = std::max(picture, camera.unproject({x, y}).norm());
-    return rimOf(camera, picture, kFarthestRay);
+    return rimOf(camera, cornerRadius(camera), kFarthestRay);
 }
 
 int alignDown(double v) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/frame.h"
+#include "pipeline/geometry.h"
 #include "pipeline/track/tag_family.h"
 
 #include <Eigen/Core>
@@ -11,12 +11,6 @@
 #include <vector>
 
 namespace mfar {
-
-/// Pixels x0 <= x < x1, y0 <= y < y1.
-struct PixelRect {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    bool operator==(const PixelRect&) const = default;
-};
 
 struct TagDetection {
     TagKey tag;
