@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cassert>
+#include <cstddef>
 #include <utility>
 
 namespace mfar::gpu {
@@ -133,6 +134,25 @@ void drawTiles(const InstanceList& tiles) {
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, tiles.commands.id());
     glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(tiles.commandOffset));
     glDisableVertexAttribArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+void drawMesh(const Mesh& mesh) {
+    constexpr std::array<GLint, 3> kComponents{3, 3, 2};
+    constexpr std::array<std::size_t, 3> kOffsets{
+        offsetof(MeshVertex, position), offsetof(MeshVertex, normal), offsetof(MeshVertex, uv)};
+    glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.id());
+    for (GLuint i = 0; i < kComponents.size(); ++i) {
+        glEnableVertexAttribArray(i);
+        glVertexAttribPointer(i, kComponents[i], GL_FLOAT, GL_FALSE, sizeof(MeshVertex),
+                              reinterpret_cast<const void*>(kOffsets[i]));
+        glVertexAttribDivisor(i, 0);
+    }
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.id());
+    glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
+    for (GLuint i = 0; i < kComponents.size(); ++i)
+        glDisableVertexAttribArray(i);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
     glBindBuffer(GL_ARRAY_BUFFER, 0);
 }
 

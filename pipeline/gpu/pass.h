@@ -83,7 +83,18 @@ struct InstanceList {
     std::size_t instanceOffset = 0;
 };
 
+/// Indexed triangles.
+struct Mesh {
+    const Buffer& vertices;  ///< MeshVertex, attribute locations 0 (position), 1 (normal), 2 (uv)
+    const Buffer& indices;   ///< uint, three a triangle
+    int indexCount;
+};
+struct MeshVertex {
+    float position[3], normal[3], uv[2];
+};
+
 namespace detail {
+void drawMesh(const Mesh& mesh);
 void drawFullScreen();
 void drawFullScreen(const IndirectDraw& command);
 void drawTiles(const InstanceList& tiles);
@@ -121,7 +132,7 @@ private:
     Program program_;
 };
 
-/// A fragment shader over the whole target, or over a list of tiles.
+/// A fragment shader over the whole target, over a list of tiles, or over a mesh.
 template <class P>
 class DrawPass {
     static_assert(std::is_trivially_copyable_v<P> && sizeof(P) % 16 == 0, "std140 block");
@@ -151,6 +162,12 @@ public:
         target.bind();
         program_.use(&params, sizeof(P), bindings);
         detail::drawTiles(tiles);
+    }
+    /// Draws triangles; the vertex shader places them.
+    void runMesh(const P& params, Bindings bindings, const Framebuffer& target, const Mesh& mesh) {
+        target.bind();
+        program_.use(&params, sizeof(P), bindings);
+        detail::drawMesh(mesh);
     }
 
 private:

@@ -58,6 +58,16 @@ void Texture::upload(const ImageView& view) {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
+void Texture::upload(std::span<const float> values) {
+    assert(format_ == TexelFormat::R32F || format_ == TexelFormat::Rg32F);
+    const bool two = format_ == TexelFormat::Rg32F;
+    assert(values.size() == static_cast<std::size_t>(size_.width) * size_.height * (two ? 2 : 1));
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, two ? GL_RG : GL_RED,
+                    GL_FLOAT, values.data());
+}
+
 std::vector<std::uint8_t> Texture::readRgba8() const {
     std::vector<std::uint8_t> out(static_cast<std::size_t>(size_.width) * size_.height * 4);
     Framebuffer target(*this);

@@ -8,7 +8,8 @@
 
 namespace mfar::gpu {
 
-/// Storage formats in use, each allowed as an image or a texture by the portable floor.
+/// Storage formats in use, each allowed as an image or a texture by the portable floor. Drawing
+/// into a float format needs EXT_color_buffer_float or OpenGL ES 3.2: Framebuffer throws without.
 enum class TexelFormat : GLenum {
     R8 = GL_R8,
     Rg8 = GL_RG8,
@@ -17,6 +18,7 @@ enum class TexelFormat : GLenum {
     Rg16F = GL_RG16F,
     Rgba16F = GL_RGBA16F,
     R32F = GL_R32F,
+    Rg32F = GL_RG32F,
     Rgba32F = GL_RGBA32F,
     R32Ui = GL_R32UI,
     Rgba32Ui = GL_RGBA32UI,
@@ -48,6 +50,9 @@ public:
     }
     /// Replaces level 0. Asserts takes(view).
     void upload(const ImageView& view);
+    /// Replaces level 0 of an R32F or Rg32F texture: one or two floats a texel, rows without
+    /// padding. Asserts format and count.
+    void upload(std::span<const float> values);
     /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
     /// Reads level 0 back as four floats a texel. Waits for the GPU: not for the frame path.

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "pipeline/geometry.h"
+#include "pipeline/gpu/gl.h"
+
+namespace mfar::gpu {
+
+/// A capability of the context that is on for the life of the object and off outside of it.
+template <GLenum kCapability>
+class Enabled {
+public:
+    Enabled() { glEnable(kCapability); }
+    Enabled(const Enabled&) = delete;
+    Enabled& operator=(const Enabled&) = delete;
+    ~Enabled() { glDisable(kCapability); }
+};
+
+/// Draws and clears touch these pixels of the target alone. The rectangle must not be empty.
+class Scissor {
+public:
+    explicit Scissor(const PixelRect& r) { glScissor(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0); }
+
+private:
+    Enabled<GL_SCISSOR_TEST> test_;
+};
+
+/// Nearest surface wins; the depth of window coordinates.
+class DepthTest {
+public:
+    DepthTest() { glDepthFunc(GL_LESS); }
+
+private:
+    Enabled<GL_DEPTH_TEST> test_;
+};
+
+/// target = drawn + (1 - drawn alpha) * target.
+class PremultipliedBlend {
+public:
+    PremultipliedBlend() { glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); }
+
+private:
+    Enabled<GL_BLEND> blend_;
+};
+
+}  // namespace mfar::gpu
