@@ -68,7 +68,48 @@ void Pipeline::setSkipUnchanged(bool skip) {
     state_->options.skipUnchanged = skip;
 }
 
-const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
+void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose, bool searched) {
+    const PixelRect whole{0, 0, rig.video.size.width, rig.video.size.height};
+    if (!searched) {
+        lumaOf(frame, luma);
+        return depth.run(luma, pose, {}, whole);
+    }
+    const EpipolarFlow::Cells vectors = flow.readForward();
+    depth.run(epipolar.luma(), pose,
+              DepthStage::StillSearch{epipolar.search(), epipolar.rotation(), epipolar.unit(),
+                                      epipolar.inverseDepthOf(vectors)},
+              whole);
+    forgetMoving(vectors);
+}
+
+// Where the flow leaves the epipolar lines, the scene is not at rest.
+void Pipeline::State::forgetMoving(const EpipolarFlow::Cells& vectors) {
+    const Size tiles = plan.tileCount(), frame = rig.video.size;
+    const std::vector<bool> listed = flow.searched().read();
+    for (int t = 0; t < tiles.width * tiles.height; ++t) {
+        if (!listed[static_cast<std::size_t>(t)]) continue;
+        const int x = t % tiles.width * kTileSize, y = t / tiles.width * kTileSize;
+        const PixelRect tile{x, y, std::min(x + kTileSize, frame.width),
+                             std::min(y + kTileSize, frame.height)};
+        if (leavesLines(tile, vectors)) depth.forget(tile);
+    }
+}
+
+// Of the tile's cells a quarter at least.
+bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const {
+    constexpr int kCell = 4;
+    const int columns = flow.forward().cells.width;
+    int off = 0, all = 0;
+    for (int y = tile.y0 + 1; y < tile.y1; y += kCell) {
+        for (int x = tile.x0 + 1; x < tile.x1; x += kCell, ++all) {
+            const auto& u = vectors[static_cast<std::size_t>(y / kCell) * columns + x / kCell];
+            if (epipolar.offLine(x, y, u[0], u[1]) > kOffLine) ++off;
+        }
+    }
+    return 4 * off >= all;
+}
+
+const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
                                  const std::optional<Pose>& pose) {
     State& s = *state_;
     requireSize(video, s.rig.video.size, "video frame");
@@ -100,6 +141,10 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
     s.superres.draw(s.video, useStill ? &s.still : nullptr, s.plan);
     glFlush();
     s.lap("superres");
+    if (pose && s.options.depthEverywhere && s.plan.changedTiles() > 0) {
+        s.measureDepth(video, {time, pose->T_world_video, pose->covariance}, usePose);
+        s.lap("depth");
+    }
     s.redraw = false;
     s.hasPrior = useStill;
 
@@ -109,6 +154,10 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp,
     if (usePose) publishPose(s.epipolar, s.result.stats);
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
     return s.result;
+}
+
+const InverseDepthField& Pipeline::inverseDepth() const {
+    return state_->depth.field();
 }
 
 Size Pipeline::outputSize() const {

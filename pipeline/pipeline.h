@@ -1,6 +1,8 @@
 #pragma once
 
 #include "hal/frame.h"
+#include "pipeline/depth/depth_options.h"
+#include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/flow/flow_options.h"
 #include "pipeline/geometry.h"
 #include "pipeline/results.h"
@@ -25,6 +27,10 @@ struct PipelineOptions {
     bool skipUnchanged = true;
     Flow2dOptions flow2d{};
     EpipolarOptions epipolar{};
+    DepthOptions depth{};
+    /// Measures the real scene's depth in the whole picture, not only where a virtual object may be
+    /// hidden: for evaluation and for the preview.
+    bool depthEverywhere = false;
 };
 
 /// Time of one stage of the last frame.
@@ -63,6 +69,9 @@ public:
     /// the times are those of the work; off (default), the frame path is not disturbed.
     [[nodiscard]] const std::vector<StageTime>& stageTimes() const;
     void setMeasure(bool measure);
+
+    /// The real scene's depth as of the last run, where that measured it.
+    [[nodiscard]] const InverseDepthField& inverseDepth() const;
 
     // Read-backs for tests, evaluation and the preview; they wait for the GPU.
     /// Numbers of the last run; FrameResult::stats is one frame behind, so that nothing waits.

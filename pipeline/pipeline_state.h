@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/depth/depth_stage.h"
 #include "pipeline/flow/epipolar_flow.h"
 #include "pipeline/flow/flow2d.h"
 #include "pipeline/pipeline.h"
@@ -9,12 +10,16 @@
 
 namespace mfar {
 
+/// A flow vector so far from its pixel's epipolar line is not that of a point at rest [px].
+inline constexpr float kOffLine = 3;
+
 /// What Pipeline keeps; shared by pipeline.cpp (the frame path) and readback.cpp.
 struct Pipeline::State {
     State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
         : rig(rigIn), options(optionsIn), plan(rig.video.size), pyramids(rig.video.size, plan),
           flow(pyramids, plan, options.flow2d), workers(std::make_shared<Workers>()),
           epipolar(rig, workers, options.epipolar), still(rig),
+          depth(rig.video, workers, options.depth),
           superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
         stageTimes.reserve(8);
         result.image = {superres.output().id(), superres.output().size()};
@@ -29,6 +34,10 @@ struct Pipeline::State {
         lastLap = now;
     }
 
+    void measureDepth(const ImageView& frame, const Pose& pose, bool searched);
+    void forgetMoving(const EpipolarFlow::Cells& vectors);
+    [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
+
     /// The size asked for, or the still's width at the video's aspect ratio.
     static Size outputSize(const StereoRig& rig, Size wanted);
 
@@ -41,6 +50,8 @@ struct Pipeline::State {
     std::shared_ptr<Workers> workers;
     EpipolarFlow epipolar;
     StillReference still;
+    DepthStage depth;
+    LumaImage luma;  // of the frame, where the search along lines did not run
     SuperRes superres;
     bool hasStill = false;
     bool redraw = true;     // nothing of the last output may stay

@@ -6,7 +6,6 @@
 namespace mfar {
 namespace {
 
-constexpr float kOffLine = 3;         // [px]
 constexpr float kSameSurface = 0.5F;  // [px]
 
 /// One channel of a four-channel cell field at every video pixel.

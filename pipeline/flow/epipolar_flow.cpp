@@ -23,7 +23,8 @@ constexpr int kMostPredicted = 7;  // frames
 EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                            const EpipolarOptions& options)
     : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, workers, options),
-      prediction_(rig.video), lens_(rig.video, 0), rotation_(Eigen::Matrix3f::Identity()) {
+      prediction_(rig.video), lens_(rig.video, 0), cellRays_(rig.video, 2),
+      rotation_(Eigen::Matrix3f::Identity()) {
     if (options.bothWays) twoWay_.emplace(rig, std::move(workers), options);
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);
@@ -93,6 +94,24 @@ std::vector<float> EpipolarFlow::flow() const {
         }
     }
     return out;
+}
+
+const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
+    aligned_ = nearness_;
+    if (!(search_.pixelsPerUnit() > 0)) return aligned_;
+    const auto pixel = static_cast<float>(1 / search_.pixelsPerUnit());
+    for (std::size_t cell = 0; cell < aligned_.size(); ++cell) {
+        const float rx = cellRays_.rayX(cell), ry = cellRays_.rayY(cell), s = aligned_[cell];
+        const auto next = endOf(rx, ry, s + pixel), on = endOf(rx, ry, s);
+        const float wayX = next.x - on.x, wayY = next.y - on.y;
+        const float square = wayX * wayX + wayY * wayY;
+        if (!(square > kLeastWay * kLeastWay)) continue;
+        // Both start in the middle of the cell.
+        const float offX = flow[cell][0] - forward_[cell][0],
+                    offY = flow[cell][1] - forward_[cell][1];
+        aligned_[cell] += pixel * (offX * wayX + offY * wayY) / square;
+    }
+    return aligned_;
 }
 
 float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {

@@ -37,6 +37,9 @@ public:
     /// cell has than the nearest surface that lands on the same place of the still; with
     /// EpipolarOptions::bothWays from a search back instead.
     [[nodiscard]] const Cells& hidden() const { return hidden_; }
+    /// s of every cell, as close as its line comes to where a flow field ends, such as forward()
+    /// once it was refined in both dimensions.
+    [[nodiscard]] const std::vector<float>& inverseDepthOf(const Cells& flow);
     /// Flow at every video pixel, x, y interleaved; far outside where the still cannot see it.
     [[nodiscard]] std::vector<float> flow() const;
     /// Distance of a flow at a pixel from the pixel's epipolar line; without parallax, where the
@@ -67,13 +70,13 @@ private:
     std::optional<TwoWayTest> twoWay_;
     FieldPrediction prediction_;
     int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
-    EpipolarLens lens_;
+    EpipolarLens lens_, cellRays_;
     Eigen::Matrix3f rotation_;
     double unit_ = 1;
     std::optional<Pose> stillPose_;
     LumaImage luma_;
     Cells forward_, hidden_;
-    std::vector<float> nearness_,
+    std::vector<float> nearness_, aligned_,
         nearest_;  // s per cell of the video, and landed per cell of the still
 };
 

@@ -49,6 +49,15 @@ public:
                 fy_ * (y * radial + p2_ * xy + p1_ * (q + 2 * y * y)) + cy_};
     }
 
+    /// The pixel that holds a point, row-major; -1 outside of the picture.
+    [[nodiscard]] int pixelAt(Point p) const {
+        // Truncation, as there is no rounding instruction on the oldest x86.
+        const float u = p.x + 0.5F, v = p.y + 0.5F;
+        const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(size_.width) &&
+                            v < static_cast<float>(size_.height);
+        return inside ? static_cast<int>(v) * size_.width + static_cast<int>(u) : -1;
+    }
+
 private:
     Size size_;
     float fx_, fy_, cx_, cy_, k1_, k2_, p1_, p2_, k3_, rim2_;

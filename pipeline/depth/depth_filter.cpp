@@ -1,0 +1,149 @@
+#include "pipeline/depth/depth_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+constexpr float kNearPlane = 0.05F;  // [share of the depth before]
+// Of inverse depth, in a second without a measurement.
+constexpr double kDrift = 0.02;
+// Motions of the picture below this are added up: each time it is carried, points are rounded to
+// pixels [px].
+constexpr float kLeastMotion = 0.25F;
+// Measurements of one still share its errors: the filter cannot know better than this part of one.
+constexpr float kLeastShare = 0.09F;
+constexpr float kGate = 9;  // of squared deviations
+constexpr std::uint8_t kMostOutliers = 2;
+
+}  // namespace
+
+DepthFilter::DepthFilter(const CameraModel& video, std::shared_ptr<Workers> workers)
+    : lens_(video, 0), focal_(static_cast<float>(std::max(video.fx, video.fy))),
+      pixelX_(static_cast<float>(1 / video.fx)), pixelY_(static_cast<float>(1 / video.fy)),
+      workers_(std::move(workers)), field_(video.size), carried_(video.size),
+      points_(field_.rho.size()), carriedPoints_(field_.rho.size()) {}
+
+void DepthFilter::forget() {
+    if (!T_world_field_) return;
+    field_ = InverseDepthField(field_.size);
+    std::fill(points_.begin(), points_.end(), Point());
+    T_world_field_.reset();
+}
+
+void DepthFilter::predict(const RigidTransform& T_world_video, double seconds) {
+    if (!T_world_field_) {
+        T_world_field_ = T_world_video;
+        return;
+    }
+    const auto growth = static_cast<float>(kDrift * kDrift * std::max(seconds, 0.0));
+    for (std::size_t i = 0; i < field_.rho.size(); ++i)
+        field_.variance[i] += growth * field_.rho[i] * field_.rho[i];
+    const RigidTransform T_now_before = T_world_video.inverse() * *T_world_field_;
+    if (!moves(T_now_before)) return;
+    carry(T_now_before);
+    T_world_field_ = T_world_video;
+}
+
+bool DepthFilter::moves(const RigidTransform& T) const {
+    const float turn = static_cast<float>(2 * T.rotation.vec().norm());
+    const float nearest = *std::max_element(field_.rho.begin(), field_.rho.end());
+    return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
+}
+
+// Points are homogeneous, (x, y, 1, rho): what is infinitely far only turns.
+void DepthFilter::carry(const RigidTransform& T_now_before) {
+    const Eigen::Matrix3f R = T_now_before.rotation.toRotationMatrix().cast<float>();
+    const Eigen::Vector3f t = T_now_before.translation.cast<float>();
+    const int width = field_.size.width;
+    std::fill(carried_.rho.begin(), carried_.rho.end(), 0.0F);
+    std::fill(carried_.variance.begin(), carried_.variance.end(), InverseDepthField::kUnknown);
+    std::fill(carried_.filled.begin(), carried_.filled.end(), std::uint8_t{0});
+    for (std::size_t i = 0; i < field_.rho.size(); ++i) {
+        if (!field_.isKnown(i)) continue;
+        const float rho = field_.rho[i];
+        const Point& point = points_[i];
+        const Eigen::Vector3f turned = R * Eigen::Vector3f(lens_.rayX(i) + pixelX_ * point.x,
+                                                           lens_.rayY(i) + pixelY_ * point.y, 1);
+        const Eigen::Vector3f p = turned + rho * t;
+        if (!(p.z() > kNearPlane)) continue;
+        const auto q = lens_.project(p.x() / p.z(), p.y() / p.z());
+        const int landed = lens_.pixelAt(q);
+        if (landed < 0) continue;
+        const auto to = static_cast<std::size_t>(landed);
+        const float moved = rho / p.z();
+        if (carried_.isKnown(to) && carried_.rho[to] >= moved) continue;
+        const float slope = turned.z() / (p.z() * p.z());  // of moved by rho
+        carried_.rho[to] = moved;
+        carried_.variance[to] = field_.variance[i] * slope * slope;
+        carried_.filled[to] = field_.filled[i];
+        carriedPoints_[to] = {q.x - static_cast<float>(landed % width),
+                              q.y - static_cast<float>(landed / width), point.outliers};
+    }
+    std::swap(field_, carried_);
+    std::swap(points_, carriedPoints_);
+    closeCracks();
+}
+
+// A surface that comes nearer spreads its points; between them it goes on.
+void DepthFilter::closeCracks() {
+    const int width = field_.size.width, height = field_.size.height;
+    for (int y = 0; y < height; ++y)
+        for (int x = 1; x + 1 < width; ++x) {
+            const auto i = static_cast<std::size_t>(y) * width + x;
+            closeCrack(i, i - 1, i + 1);
+        }
+    for (int y = 1; y + 1 < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto i = static_cast<std::size_t>(y) * width + x;
+            closeCrack(i, i - width, i + width);
+        }
+}
+
+void DepthFilter::closeCrack(std::size_t i, std::size_t before, std::size_t after) {
+    if (field_.isKnown(i) || !field_.isKnown(before) || !field_.isKnown(after)) return;
+    const float apart = field_.rho[after] - field_.rho[before];
+    const float sum = field_.variance[before] + field_.variance[after];
+    if (apart * apart > kGate * sum) return;
+    field_.rho[i] = 0.5F * (field_.rho[before] + field_.rho[after]);
+    field_.variance[i] = 0.5F * sum + apart * apart;
+    field_.filled[i] = 1;
+    points_[i] = {};
+}
+
+void DepthFilter::fuse(const InverseDepthField& measured, const PixelRect& where) {
+    workers_->forRange(where.y1 - where.y0, 16, [&](int first, int last) {
+        for (int y = where.y0 + first; y < where.y0 + last; ++y) {
+            const auto row = static_cast<std::size_t>(y) * field_.size.width;
+            for (std::size_t i = row + where.x0; i < row + where.x1; ++i)
+                if (measured.isKnown(i)) fusePixel(i, measured.rho[i], measured.variance[i]);
+        }
+    });
+}
+
+void DepthFilter::fusePixel(std::size_t i, float rho, float variance) {
+    const bool known = field_.isKnown(i);
+    const float sum = field_.variance[i] + variance, apart = rho - field_.rho[i];
+    if (known && apart * apart <= kGate * sum) {
+        const float gain = field_.variance[i] / sum;
+        field_.rho[i] += gain * apart;
+        field_.variance[i] = std::max((1 - gain) * field_.variance[i], kLeastShare * variance);
+        field_.filled[i] = 0;
+        points_[i] = {(1 - gain) * points_[i].x, (1 - gain) * points_[i].y, 0};
+        return;
+    }
+    if (known && ++points_[i].outliers < kMostOutliers) return;
+    field_.rho[i] = rho;
+    field_.variance[i] = variance;
+    field_.filled[i] = 0;
+    points_[i] = {};
+}
+
+void DepthFilter::forget(const PixelRect& where) {
+    for (int y = where.y0; y < where.y1; ++y)
+        for (int x = where.x0; x < where.x1; ++x)
+            field_.forget(static_cast<std::size_t>(y) * field_.size.width + x);
+}
+
+}  // namespace mfar

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/flow/epipolar_lens.h"
+#include "pipeline/flow/luma_image.h"
+#include "pipeline/workers.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// The scene's inverse depth over time: a Kalman filter in (rho, variance) for every pixel, which
+/// the camera's motion carries from frame to frame. The scene is static where it is known. Source:
+/// Engel et al., Semi-dense visual odometry, ICCV 2013 (filter in inverse depth); Vogiatzis and
+/// Hernandez, Video-based real-time multi-view stereo, 2011 (outliers).
+class DepthFilter {
+public:
+    DepthFilter(const CameraModel& video, std::shared_ptr<Workers> workers);
+
+    /// Nothing is known any more.
+    void forget();
+    /// Carries what is known to a camera at this pose, the nearest where several surfaces meet
+    /// (z-test); its variance grows with the time since the last call. Camera motions too small to
+    /// show are added up first.
+    void predict(const RigidTransform& T_world_video, double seconds);
+    /// Takes the measurement of a frame at the pose of the last predict(), within `where`: fused
+    /// where it agrees with what is known, and instead of that where it keeps disagreeing.
+    void fuse(const InverseDepthField& measured, const PixelRect& where);
+    /// Something moves in these pixels.
+    void forget(const PixelRect& where);
+
+    [[nodiscard]] const InverseDepthField& field() const { return field_; }
+
+private:
+    /// Of a pixel: where in it its point lies, from the middle [px], and how many measurements in a
+    /// row disagreed with it.
+    struct Point {
+        float x = 0, y = 0;
+        std::uint8_t outliers = 0;
+    };
+    [[nodiscard]] bool moves(const RigidTransform& T_now_before) const;
+    void carry(const RigidTransform& T_now_before);
+    void closeCracks();
+    void closeCrack(std::size_t i, std::size_t before, std::size_t after);
+    void fusePixel(std::size_t i, float rho, float variance);
+
+    EpipolarLens lens_;
+    float focal_, pixelX_, pixelY_;  // [px], and rays a pixel
+    std::shared_ptr<Workers> workers_;
+    std::optional<RigidTransform> T_world_field_;
+    InverseDepthField field_, carried_;
+    std::vector<Point> points_, carriedPoints_;
+};
+
+}  // namespace mfar

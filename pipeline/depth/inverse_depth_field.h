@@ -1,0 +1,34 @@
+#pragma once
+
+#include "hal/frame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace mfar {
+
+/// How near the real scene is at every video pixel, row-major.
+struct InverseDepthField {
+    static constexpr float kUnknown = std::numeric_limits<float>::infinity();
+
+    Size size;
+    std::vector<float> rho;       ///< 1 / z along the video camera's axis [1/m]; 0: infinitely far
+    std::vector<float> variance;  ///< of rho [1/m^2]; kUnknown where rho says nothing
+    std::vector<std::uint8_t> filled;  ///< 1: not measured, but what its neighbours agree on
+
+    InverseDepthField() = default;
+    explicit InverseDepthField(Size s)
+        : size(s), rho(static_cast<std::size_t>(s.width) * s.height),
+          variance(rho.size(), kUnknown), filled(rho.size()) {}
+
+    [[nodiscard]] bool isKnown(std::size_t pixel) const { return variance[pixel] < kUnknown; }
+    void forget(std::size_t pixel) {
+        rho[pixel] = 0;
+        variance[pixel] = kUnknown;
+        filled[pixel] = 0;
+    }
+};
+
+}  // namespace mfar

@@ -1,0 +1,112 @@
+#include "pipeline/depth/depth_filter.h"
+#include "tests/flow/flow_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace mfar {
+namespace {
+
+using test::motion;
+
+const CameraModel kCamera{{120, 90}, 110, 110, 59.5, 44.5, {}};
+constexpr PixelRect kWhole{0, 0, 120, 90};
+
+DepthFilter filterOf() {
+    return {kCamera, std::make_shared<Workers>(2)};
+}
+
+InverseDepthField evenField(float rho, float sigma) {
+    InverseDepthField out(kCamera.size);
+    std::fill(out.rho.begin(), out.rho.end(), rho);
+    std::fill(out.variance.begin(), out.variance.end(), sigma * sigma);
+    return out;
+}
+
+std::size_t middle() {
+    return 45UL * 120 + 60;
+}
+
+TEST(DepthFilter, NoiseAveragesOut) {
+    DepthFilter filter = filterOf();
+    std::mt19937 random(1);
+    std::normal_distribution<float> noise(0, 0.05F);
+    double before = 0, after = 0;
+    for (int frame = 0; frame < 12; ++frame) {
+        InverseDepthField measured = evenField(1, 0.05F);
+        for (float& rho : measured.rho)
+            rho += noise(random);
+        filter.predict({}, 1.0 / 30);
+        filter.fuse(measured, kWhole);
+        after = 0;
+        for (const float rho : filter.field().rho)
+            after += std::abs(rho - 1);
+        if (frame == 0) before = after;
+    }
+    EXPECT_LT(after, 0.45 * before);
+    EXPECT_LT(filter.field().variance[middle()], 0.05F * 0.05F);
+}
+
+TEST(DepthFilter, OneOutlierIsIgnoredAndAChangeIsFollowed) {
+    DepthFilter filter = filterOf();
+    filter.predict({}, 0);
+    filter.fuse(evenField(1, 0.02F), kWhole);
+    filter.fuse(evenField(3, 0.02F), kWhole);
+    EXPECT_NEAR(filter.field().rho[middle()], 1, 1e-5);
+    filter.fuse(evenField(1, 0.02F), kWhole);
+    filter.fuse(evenField(3, 0.02F), kWhole);
+    EXPECT_NEAR(filter.field().rho[middle()], 1, 1e-5);
+    filter.fuse(evenField(3, 0.02F), kWhole);
+    EXPECT_NEAR(filter.field().rho[middle()], 3, 1e-5);
+}
+
+TEST(DepthFilter, TheNearerSurfaceHidesTheOther) {
+    DepthFilter filter = filterOf();
+    filter.predict({}, 0);
+    InverseDepthField measured = evenField(0.5F, 0.01F);
+    for (int y = 30; y < 60; ++y)
+        for (int x = 40; x < 60; ++x)
+            measured.rho[static_cast<std::size_t>(y) * 120 + x] = 2;
+    filter.fuse(measured, kWhole);
+    // 0.1 m to the right: the near square moves 22 px to the left, what is behind it 5.5.
+    filter.predict(motion({0, 0, 0}, {0.1, 0, 0}), 0);
+    const auto at = [&](int x) { return filter.field().rho[45UL * 120 + x]; };
+    EXPECT_NEAR(at(28), 2, 1e-4);
+    EXPECT_NEAR(at(12), 0.5, 1e-4);
+    EXPECT_NEAR(at(70), 0.5, 1e-4);
+    EXPECT_FALSE(filter.field().isKnown(45UL * 120 + 45)) << "came to light";
+}
+
+TEST(DepthFilter, MovesAndGrowsWithTheCamera) {
+    DepthFilter filter = filterOf();
+    filter.predict({}, 0);
+    filter.fuse(evenField(1, 0.02F), kWhole);
+    const float variance = filter.field().variance[middle()];
+    filter.predict({}, 1);
+    EXPECT_GT(filter.field().variance[middle()], variance);
+    // Half a metre ahead of a wall at one metre.
+    filter.predict(motion({0, 0, 0}, {0, 0, 0.5}), 0);
+    ASSERT_TRUE(filter.field().isKnown(middle()));
+    EXPECT_NEAR(filter.field().rho[middle()], 2, 1e-4);
+    EXPECT_GT(filter.field().variance[middle()], 10 * variance);
+    // Through it.
+    filter.predict(motion({0, 0, 0}, {0, 0, 1.2}), 0);
+    EXPECT_FALSE(filter.field().isKnown(middle()));
+}
+
+TEST(DepthFilter, SmallMotionsAddUpWithoutBlur) {
+    DepthFilter filter = filterOf();
+    filter.predict({}, 0);
+    InverseDepthField measured = evenField(1, 0.01F);
+    measured.rho[middle()] = 2;
+    filter.fuse(measured, kWhole);
+    for (int i = 1; i <= 1000; ++i)
+        filter.predict(motion({0, 0, 0}, {2e-5 * i, 0, 0}), 0);
+    // 2 cm at half a metre: 4.4 px.
+    EXPECT_NEAR(filter.field().rho[middle() - 4], 2, 1e-3);
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,143 @@
+#include "pipeline/depth/depth_stage.h"
+#include "tests/flow/flow_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+using test::motion;
+using test::Scene;
+
+constexpr double kFrame = 1.0 / 30;
+
+CameraModel barrelCamera() {
+    return {{240, 180}, 200, 201, 122, 88, {-0.25, 0.06, 0.001, -0.0012, 0.002}};
+}
+
+/// A panel before a slanted wall, metres.
+Scene panelScene() {
+    return {{{Eigen::Vector3d(0.2, 0.1, 1).normalized(), 1.6},
+             {{0, 0, 1}, 1, {-0.2, -0.15}, {0.25, 0.2}}},
+            50,
+            100};
+}
+
+/// The depth stage as a camera moves in that scene; the world is the scene's frame.
+class Walk {
+public:
+    explicit Walk(const DepthOptions& options = {})
+        : stage_(barrelCamera(), std::make_shared<Workers>(2), options) {}
+
+    /// A frame of a camera there.
+    void go(const RigidTransform& T_world_video) {
+        T_world_video_ = T_world_video;
+        Pose pose{Timestamp::fromSeconds(1 + kFrame * frames_++), T_world_video};
+        stage_.run(panelScene().render(barrelCamera(), T_world_video.inverse()), pose, {}, kAll);
+    }
+    void goSideways(int frames, double step) {
+        for (int i = 0; i < frames; ++i)
+            go(at(x_ += step));
+    }
+    static RigidTransform at(double x) { return motion({0, 0, 0}, {x, 0.3 * x, 0}); }
+
+    struct Errors {
+        double median = 0;    ///< of |z - truth| / truth where depth is known
+        double bad = 0;       ///< share of known pixels off by more than a tenth
+        double complete = 0;  ///< share of pixels with known depth
+    };
+    [[nodiscard]] Errors errors() const {
+        std::vector<double> all;
+        std::size_t pixels = 0;
+        const Size size = barrelCamera().size;
+        for (int y = 8; y < size.height - 8; ++y) {
+            for (int x = 8; x < size.width - 8; ++x, ++pixels) {
+                const auto i = static_cast<std::size_t>(y) * size.width + x;
+                const double z =
+                    panelScene().depth(T_world_video_.inverse(), barrelCamera().unproject({x, y}));
+                if (stage_.field().isKnown(i))
+                    all.push_back(std::abs(1 / std::max(stage_.field().rho[i], 1e-6F) - z) / z);
+            }
+        }
+        if (all.empty()) return {};
+        std::sort(all.begin(), all.end());
+        const auto bad = all.end() - std::lower_bound(all.begin(), all.end(), 0.1);
+        return {all[all.size() / 2], static_cast<double>(bad) / static_cast<double>(all.size()),
+                static_cast<double>(all.size()) / static_cast<double>(pixels)};
+    }
+    [[nodiscard]] const DepthStage& stage() const { return stage_; }
+    [[nodiscard]] DepthStage& stage() { return stage_; }
+
+    static constexpr PixelRect kAll{0, 0, 240, 180};
+
+private:
+    DepthStage stage_;
+    RigidTransform T_world_video_;
+    double x_ = 0;
+    int frames_ = 0;
+};
+
+void expectGood(const Walk::Errors& errors) {
+    EXPECT_LT(errors.median, 0.015);
+    EXPECT_LT(errors.bad, 0.06);
+    EXPECT_GT(errors.complete, 0.85);
+    testing::Test::RecordProperty("median", std::to_string(errors.median));
+    testing::Test::RecordProperty("bad", std::to_string(errors.bad));
+    testing::Test::RecordProperty("complete", std::to_string(errors.complete));
+}
+
+TEST(DepthStage, KnowsNothingWithoutParallax) {
+    Walk walk;
+    for (int i = 0; i < 5; ++i)
+        walk.go(motion({0.3 * i, -0.4 * i, 0}, {0, 0, 0}));
+    EXPECT_EQ(walk.errors().complete, 0);
+    EXPECT_EQ(walk.stage().source(), DepthSource::None);
+}
+
+TEST(DepthStage, MeasuresAgainstKeyframesWhileTheCameraMoves) {
+    Walk walk;
+    walk.goSideways(10, 0.01);
+    expectGood(walk.errors());
+}
+
+TEST(DepthStage, AStopAndATurnKeepTheDepth) {
+    Walk walk;
+    walk.goSideways(8, 0.012);
+    const Walk::Errors before = walk.errors();
+    const RigidTransform stop = Walk::at(8 * 0.012);
+    for (int i = 0; i < 30; ++i)
+        walk.go(stop);
+    EXPECT_LT(walk.errors().median, before.median + 0.002);
+    EXPECT_GT(walk.errors().complete, 0.95 * before.complete);
+    for (int i = 1; i <= 10; ++i)
+        walk.go(stop * motion({0.2 * i, 0, 0.5 * i}, {0, 0, 0}));
+    EXPECT_LT(walk.errors().median, before.median + 0.005);
+    EXPECT_GT(walk.errors().complete, 0.85);
+}
+
+TEST(DepthStage, MeasuresOnTheWayToTheScene) {
+    Walk walk;
+    for (int i = 0; i < 14; ++i)
+        walk.go(motion({0, 0, 0}, {0.002 * i, 0, 0.03 * i}));
+    const Walk::Errors errors = walk.errors();
+    EXPECT_LT(errors.median, 0.03);
+    EXPECT_GT(errors.complete, 0.8);
+}
+
+TEST(DepthStage, ForgetsWhatItIsToldTo) {
+    Walk walk;
+    walk.goSideways(6, 0.012);
+    walk.stage().forget(PixelRect{100, 80, 120, 90});
+    for (int y = 80; y < 90; ++y)
+        for (int x = 100; x < 120; ++x)
+            EXPECT_FALSE(walk.stage().field().isKnown(static_cast<std::size_t>(y) * 240 + x));
+    walk.stage().forget();
+    EXPECT_EQ(walk.errors().complete, 0);
+}
+
+}  // namespace
+}  // namespace mfar

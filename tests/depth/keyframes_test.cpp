@@ -1,0 +1,95 @@
+#include "pipeline/depth/keyframes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+const CameraModel kCamera{{160, 120}, 150, 150, 79.5, 59.5, {}};
+
+Pose poseAt(double x, double z = 0) {
+    Pose pose;
+    pose.T_world_video.translation = {x, 0, z};
+    return pose;
+}
+
+LumaImage grey(int value) {
+    LumaImage out(kCamera.size);
+    std::fill(out.pixels.begin(), out.pixels.end(), static_cast<std::uint8_t>(value));
+    return out;
+}
+
+/// Frames 1 cm apart, the last at 9 cm.
+Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
+    Keyframes out(kCamera, options);
+    for (int i = 0; i < 10; ++i)
+        out.add(grey(brightness), poseAt(0.01 * i), 1);
+    return out;
+}
+
+TEST(Keyframes, FixedIsSoManyFramesAgo) {
+    const Keyframes frames = walked({.rule = KeyframeRule::Fixed, .distance = 4});
+    const auto choice = frames.choose(poseAt(0.1), 100, 1);
+    ASSERT_TRUE(choice);
+    EXPECT_NEAR(choice->frame->pose.T_world_video.translation.x(), 0.06, 1e-12);
+}
+
+TEST(Keyframes, AngleIsTheNewestFarEnoughAway) {
+    const Keyframes frames = walked({.rule = KeyframeRule::Angle, .angle = 0.035});
+    const auto choice = frames.choose(poseAt(0.1), 100, 1);
+    ASSERT_TRUE(choice);
+    EXPECT_NEAR(choice->frame->pose.T_world_video.translation.x(), 0.06, 1e-12);
+    EXPECT_GT(choice->angle, 0.035);
+}
+
+TEST(Keyframes, ScoreTakesTheMostParallaxThatOverlaps) {
+    const Keyframes frames = walked({});
+    EXPECT_EQ(frames.choose(poseAt(0.1), 100, 1)->frame->pose.T_world_video.translation.x(), 0);
+    // So near that frames from farther away see other parts of the scene.
+    const auto near = frames.choose(poseAt(0.1), 100, 8);
+    ASSERT_TRUE(near);
+    EXPECT_NEAR(near->frame->pose.T_world_video.translation.x(), 0.06, 0.011);
+}
+
+TEST(Keyframes, AnotherExposureCounts) {
+    Keyframes frames(kCamera, {});
+    frames.add(grey(30), poseAt(0), 1);
+    frames.add(grey(100), poseAt(0.04), 1);
+    EXPECT_NEAR(frames.choose(poseAt(0.1), 100, 1)->frame->brightness, 100, 1e-9);
+    EXPECT_NEAR(frames.choose(poseAt(0.1), 30, 1)->frame->brightness, 30, 1e-9);
+}
+
+TEST(Keyframes, ARestingOrTurningCameraKeepsThoseItHas) {
+    Keyframes frames = walked({});
+    for (int i = 0; i < 300; ++i)
+        frames.add(grey(100), poseAt(0.09), 1);
+    ASSERT_TRUE(frames.choose(poseAt(0.09), 100, 1));
+    EXPECT_LT(frames.choose(poseAt(0.09), 100, 1)->frame->pose.T_world_video.translation.x(), 0.05);
+}
+
+TEST(Keyframes, WithoutParallaxThereIsNone) {
+    Keyframes frames(kCamera, {});
+    EXPECT_FALSE(frames.choose(poseAt(0), 100, 1));
+    frames.add(grey(100), poseAt(0), 1);
+    EXPECT_FALSE(frames.choose(poseAt(0), 100, 1));
+    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, 0));
+    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, std::numeric_limits<double>::quiet_NaN()));
+    EXPECT_TRUE(frames.choose(poseAt(0.1), 100, 1));
+    EXPECT_TRUE(frames.choose(poseAt(0, 0.2), 100, 1)) << "ahead";
+    frames.forget();
+    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, 1));
+}
+
+TEST(Keyframes, OptionsOutOfRangeAreRefused) {
+    EXPECT_THROW(Keyframes(kCamera, {.frames = 1}), std::invalid_argument);
+    EXPECT_THROW(Keyframes(kCamera, {.frames = 5, .distance = 5}), std::invalid_argument);
+    EXPECT_THROW(Keyframes(kCamera, {.angle = 0}), std::invalid_argument);
+    EXPECT_THROW(Keyframes(kCamera, {.leastOverlap = std::numeric_limits<double>::quiet_NaN()}),
+                 std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mfar
