@@ -1,11 +1,14 @@
 // Turns the change flags into work: counts the changed tiles and opens or shuts every registered
-// dispatch of the frame. In: tiles[]. Out: header = whole frame drawn at once (1 or 0), changed tiles;
+// dispatch of the frame. Tiles that something was drawn over count as changed, too, once any has or
+// when they are told to. In: tiles[]. Out: header = whole frame drawn at once (1 or 0), changed tiles;
 // dispatches[] = group counts, 0 when nothing changed; summary = changed tiles, quietest decile of the
 // noise [1/256 grey level], whole; wholeDraw = command of the full-screen draws.
 
 layout(local_size_x = 1) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 counts;  // tiles, dispatches, changed tiles from which on the whole frame is drawn, -
+    ivec4 counts;    // tiles, dispatches, changed tiles from which on the whole frame is drawn, tiles a row
+    ivec4 drawnOver; // columns and rows of tiles: x0 <= x < x1, y0 <= y < y1
+    ivec4 redraw;    // x != 0: they count whatever happens
 };
 layout(std430, binding = 0) buffer Tiles {
     uvec2 header;
@@ -30,6 +33,15 @@ void main() {
         uvec2 t = tiles[i];
         changed += t.x;
         histogram[min(t.y / 16u, uint(kBins - 1))]++;
+    }
+    if (changed > 0u || redraw.x != 0) {
+        for (int y = drawnOver.y; y < drawnOver.w; ++y) {
+            for (int x = drawnOver.x; x < drawnOver.z; ++x) {
+                int i = y * counts.w + x;
+                changed += 1u - tiles[i].x;
+                tiles[i].x = 1u;
+            }
+        }
     }
     uint below = 0u;
     int bin = 0;

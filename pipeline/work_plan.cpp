@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -40,6 +41,12 @@ void WorkPlan::openAll() {
     plan_.write(std::span<const std::array<std::uint32_t, 4>>(wanted_), kPlanHeader);
 }
 
+void WorkPlan::drawnOver(const PixelRect& tiles, bool redraw) {
+    drawnOver_ = {std::max(tiles.x0, 0), std::max(tiles.y0, 0),
+                  std::min(tiles.x1, tileCount_.width), std::min(tiles.y1, tileCount_.height)};
+    redraw_ = redraw;
+}
+
 int WorkPlan::changedTiles() const {
     return static_cast<int>(plan_.read<std::uint32_t>(1)[0]);
 }
@@ -67,6 +74,12 @@ void WorkPlan::update(const gpu::Texture& now, const gpu::Texture& drawn, bool f
     counts.counts[0] = tileCount_.width * tileCount_.height;
     counts.counts[1] = static_cast<std::int32_t>(wanted_.size());
     counts.counts[2] = static_cast<std::int32_t>(std::ceil(kWholeShare * counts.counts[0]));
+    counts.counts[3] = tileCount_.width;
+    counts.drawnOver[0] = drawnOver_.x0;
+    counts.drawnOver[1] = drawnOver_.y0;
+    counts.drawnOver[2] = drawnOver_.x1;
+    counts.drawnOver[3] = drawnOver_.y1;
+    counts.redraw[0] = std::exchange(redraw_, false) ? 1 : 0;
     dispatch_.run(counts,
                   {gpu::storage(0, tiles_), gpu::storage(1, wantedBuffer_), gpu::storage(2, plan_)},
                   {});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/geometry.h"
 #include "pipeline/gpu/pass.h"
 
 #include <array>
@@ -25,6 +26,10 @@ public:
 
     /// Compares `now` with `drawn` (RGBA8, video size). `force` counts every tile as changed.
     void update(const gpu::Texture& now, const gpu::Texture& drawn, bool force);
+    /// Something was drawn over these tiles of the output after they were drawn: from the next
+    /// update() on they count as changed with any other tile, so that it can be drawn anew.
+    /// `redraw`: also when no other tile has changed, once.
+    void drawnOver(const PixelRect& tiles, bool redraw);
     /// Opens every dispatch without comparing anything.
     void openAll();
 
@@ -59,12 +64,14 @@ private:
         std::int32_t force[4];
     };
     struct DispatchParams {
-        std::int32_t counts[4];
+        std::int32_t counts[4], drawnOver[4], redraw[4];
     };
 
     Size video_;
     Size tileCount_;
     double noise_;
+    PixelRect drawnOver_;  // tiles
+    bool redraw_ = false;
     bool measured_ = false;  // plan_ holds the summary of an earlier frame
     std::vector<std::array<std::uint32_t, 4>> wanted_;
     gpu::Buffer tiles_, wantedBuffer_, plan_;

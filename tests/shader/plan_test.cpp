@@ -68,6 +68,32 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
     EXPECT_LE(changed, 23);
 }
 
+TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
+    const Picture base = Waves(1, 6, 60, 30).shoot(kSize, {});
+    const Picture oneTile = changedIn(base, 1, 64);
+    WorkPlan plan(kSize);
+    const WorkPlan::Dispatch dispatch = plan.add({5, 2, 1});
+    plan.drawnOver({2, 1, 4, 9}, false);
+    plan.update(uploaded(base), uploaded(base), false);
+    EXPECT_EQ(plan.changedTiles(), 0);
+    EXPECT_EQ(fourAt(plan, 32 + 16UL * dispatch.index)[0], 0U);
+    plan.update(uploaded(oneTile), uploaded(base), false);
+    EXPECT_EQ(plan.changedTiles(), 1 + 2 * 3);
+    const auto tiles = tilesOf(plan);
+    for (int i = 0; i < 28; ++i) {
+        const bool over = i % 7 >= 2 && i % 7 < 4 && i / 7 >= 1;
+        EXPECT_EQ(tiles[i].changed, i == 0 || over ? 1U : 0U) << "tile " << i;
+    }
+    plan.drawnOver({2, 1, 4, 9}, true);
+    plan.update(uploaded(base), uploaded(base), false);
+    EXPECT_EQ(plan.changedTiles(), 6);
+    EXPECT_EQ(fourAt(plan, 32 + 16UL * dispatch.index)[0], 5U);
+    plan.update(uploaded(base), uploaded(base), false);
+    EXPECT_EQ(plan.changedTiles(), 0) << "redrawn once";
+    plan.update(uploaded(base), uploaded(base), true);
+    EXPECT_EQ(plan.changedTiles(), 28) << "none counts twice";
+}
+
 TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
     for (const double sigma : {1.0, 2.0, 3.0}) {
         WorkPlan plan({320, 240});
