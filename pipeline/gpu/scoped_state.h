@@ -6,13 +6,13 @@
 namespace mfar::gpu {
 
 /// A capability of the context that is on for the life of the object and off outside of it.
-template <GLenum kCapability>
+template <GLenum Capability>
 class Enabled {
 public:
-    Enabled() { glEnable(kCapability); }
+    Enabled() { glEnable(Capability); }
     Enabled(const Enabled&) = delete;
     Enabled& operator=(const Enabled&) = delete;
-    ~Enabled() { glDisable(kCapability); }
+    ~Enabled() { glDisable(Capability); }
 };
 
 /// Draws and clears touch these pixels of the target alone. The rectangle must not be empty.
@@ -31,6 +31,20 @@ public:
 
 private:
     Enabled<GL_DEPTH_TEST> test_;
+};
+
+/// Triangles whose corners run counter-clockwise in a picture with row 0 on top, as those of a
+/// solid do where its inside is seen, are not drawn.
+class InsidesCulled {
+public:
+    InsidesCulled() {
+        glCullFace(GL_BACK);
+        glFrontFace(GL_CW);
+    }
+    ~InsidesCulled() { glFrontFace(GL_CCW); }
+
+private:
+    Enabled<GL_CULL_FACE> cull_;
 };
 
 /// target = drawn + (1 - drawn alpha) * target.
