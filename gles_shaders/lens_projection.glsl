@@ -1,0 +1,13 @@
+// A camera's projection continued beyond the rim of its lens and behind it; twin of
+// pipeline/composite/lens_projection.h.
+#include "camera.glsl"
+
+// Camera coordinates [m] to (w u, w v, w). rim: radius of the outermost ray that the model describes,
+// radial factor of the distortion there.
+vec3 projectPoint(Camera c, vec2 rim, vec3 p) {
+    float r = length(p.xy);
+    bool within = p.z * rim.x > r;
+    vec2 held = within ? p.xy / p.z : p.xy * (rim.x / max(r, 1e-12));
+    vec2 beyond = within ? vec2(0.0) : p.xy - p.z * held;
+    return vec3(p.z * projectRay(c, held) + rim.y * c.pinhole.xy * beyond, p.z);
+}

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "pipeline/composite/lens_projection.h"
+#include "pipeline/composite/virtual_object.h"
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <vector>
+
+namespace mfar {
+
+/// What a triangle covers of the picture, and of the space before the camera.
+struct TriangleExtent {
+    Eigen::AlignedBox2d pixels;
+    double nearest, farthest;  ///< z [m], from LensProjection::kNear on
+};
+
+/// The triangles of virtual objects as a camera sees them, on the host: where they are, not what
+/// they look like. Allocates in its constructor alone.
+class ObjectProjection {
+public:
+    explicit ObjectProjection(const CameraModel& camera);
+
+    /// Of every triangle that reaches before the near plane, within the picture or not. Nothing
+    /// for an object with a pose or size that is not finite or above 100 km, or a negative size.
+    /// Valid until the next call.
+    const std::vector<TriangleExtent>& operator()(const VirtualObject& object,
+                                                  const RigidTransform& T_world_video);
+
+    [[nodiscard]] const LensProjection& lens() const { return lens_; }
+    [[nodiscard]] const ShapeMesh& mesh(VirtualShape shape) const {
+        return meshes_[static_cast<std::size_t>(shape)];
+    }
+
+private:
+    LensProjection lens_;
+    std::array<ShapeMesh, kVirtualShapes> meshes_;
+    std::vector<Eigen::Vector3d> projected_;  // (w u, w v, w)
+    std::vector<TriangleExtent> extents_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "pipeline/composite/object_projection.h"
+#include "pipeline/composite/virtual_layer.h"
+#include "pipeline/composite/virtual_object.h"
+#include "pipeline/gpu/pass.h"
+
+#include <array>
+#include <span>
+
+namespace mfar {
+
+/// Light on the preview, in display values.
+struct PreviewLight {
+    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< direction to it in the world, z up; any length
+    double ambient = 0.35;                     ///< share of it that comes from everywhere, [0, 1]
+};
+
+/// Rasterises virtual objects as the video camera would see them: the fast preview. The lens's
+/// distortion acts on the vertices. Work is limited to the pixels where an object is or was.
+/// Needs a GL that draws into R32F, else the constructor throws GlError.
+class PreviewRenderer {
+public:
+    /// `video`: any resolution of the camera; the layer has size `output`.
+    PreviewRenderer(const CameraModel& video, Size output, const PreviewLight& light = {});
+
+    /// Solids show their outside alone: nothing to a camera within. Objects behind the camera,
+    /// outside of the picture or without a finite pose cost no drawing.
+    const VirtualLayer& render(std::span<const VirtualObject> objects,
+                               const RigidTransform& T_world_video);
+
+private:
+    struct Params {  // preview_params.glsl
+        float object[3][4], size[4], pinhole[4], distortion[4], lens[4], colour[2][4], light[4],
+            target[4];
+    };
+    struct ShapeBuffers {
+        gpu::Buffer vertices, indices;
+        int indexCount;
+    };
+
+    static ShapeBuffers buffersOf(const ShapeMesh& mesh);
+    [[nodiscard]] Params params(const VirtualObject& object,
+                                const RigidTransform& T_world_video) const;
+    /// Pixels the object covers.
+    [[nodiscard]] PixelRect boundsOf(const VirtualObject& object,
+                                     const RigidTransform& T_world_video);
+    void clear(const PixelRect& pixels) const;
+
+    ObjectProjection projection_;
+    PreviewLight light_;
+    std::array<ShapeBuffers, kVirtualShapes> shapes_;
+    gpu::Texture colour_, depth_, window_;
+    gpu::Framebuffer target_;
+    gpu::DrawPass<Params> pass_;
+    VirtualLayer layer_;
+};
+
+}  // namespace mfar
