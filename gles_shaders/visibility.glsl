@@ -1,0 +1,12 @@
+// Parameters of the composite's passes (mirrors Composite::Params), and what counts as known.
+layout(std140, binding = 0) uniform Params {
+    ivec4 video;  // width, height; width, height of the output
+    vec4 scale;   // video pixels per output pixel (x, y)
+    vec4 tune;    // bias [sigmas], softness [sigmas], virtual sigma [share of depth],
+                  // likeness [1 / colour distance^2]
+};
+
+// Of a real sample: inverse depth [1/m], sigma [1/m]. False for NaN, infinity, zero and below.
+bool known(vec2 real) {
+    return real.x > 1e-6 && real.x < 1e6 && real.y > 0.0 && real.y < 1e6;
+}

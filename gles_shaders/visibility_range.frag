@@ -1,0 +1,18 @@
+// For the 4x4 samples that visibility_sample.frag weighs around a position whose lower sample this is:
+// which virtual inverse depths need no weighing. In: Rg32F real inverse depth, sigma [1/m].
+// Out: all at or above x are in front of every sample; y: bound of those hidden by every sample, 0 = none.
+#include "visibility.glsl"
+
+layout(binding = 0) uniform sampler2D realDepth;
+layout(location = 0) out vec2 range;
+
+void main() {
+    range = vec2(0.0, 1e6);
+    for (int i = 0; i < 16; ++i) {
+        ivec2 q = ivec2(gl_FragCoord.xy) + ivec2(i & 3, i >> 2) - 1;
+        vec2 real = texelFetch(realDepth, clamp(q, ivec2(0), video.xy - 1), 0).rg;
+        bool is = known(real);
+        range.x = max(range.x, is ? real.x - tune.x * real.y : 0.0);
+        range.y = min(range.y, is ? max(real.x - (tune.x + tune.y) * real.y, 0.0) : 0.0);
+    }
+}

@@ -1,0 +1,48 @@
+// How much of a virtual pixel is in front of the real scene, [0, 1]: the mean over the 4x4 nearest depth
+// samples of each one's answer, weighed by distance and by likeness of the picture here to the video
+// there, so that depth edges follow image edges (joint bilateral upsampling, Kopf et al. 2007).
+// In: virtual z [m], range (visibility_range.frag), real depth, video, picture. Out: R8.
+#include "visibility.glsl"
+
+layout(binding = 0) uniform sampler2D virtualDepth;
+layout(binding = 1) uniform sampler2D rangeField;
+layout(binding = 2) uniform sampler2D realDepth;
+layout(binding = 3) uniform sampler2D videoPicture;
+layout(binding = 4) uniform sampler2D picture;
+layout(location = 0) out float visibility;
+
+// Unknown depth hides nothing.
+float visibleOver(vec2 real, float inverse) {
+    if (!known(real)) return 1.0;
+    float sigma = max(length(vec2(real.y, tune.z * inverse)), 1e-9);
+    return 1.0 - smoothstep(tune.x, tune.x + tune.y, (real.x - inverse) / sigma);
+}
+
+void main() {
+    float z = texelFetch(virtualDepth, ivec2(gl_FragCoord.xy), 0).r;
+    visibility = 0.0;
+    if (!(z > 1e-4 && z < 1e6)) return;
+    float inverse = 1.0 / z;
+    vec2 at = gl_FragCoord.xy * scale.xy - 0.5;
+    ivec2 base = ivec2(floor(at));
+    vec2 range = texelFetch(rangeField, clamp(base, ivec2(0), video.xy - 1), 0).rg;
+    visibility = 1.0;
+    if (inverse >= range.x) return;
+    visibility = 0.0;
+    if (inverse * (1.0 + (tune.x + tune.y) * tune.z) <= range.y) return;
+
+    vec3 here = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb;
+    float sum = 0.0, weights = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        ivec2 q = base + ivec2(i & 3, i >> 2) - 1;
+        vec2 tent = 2.0 - abs(vec2(q) - at);
+        q = clamp(q, ivec2(0), video.xy - 1);
+        vec3 unlike = texelFetch(videoPicture, q, 0).rgb - here;
+        // Where nothing is alike, distance decides.
+        float w = tent.x * tent.x * tent.y * tent.y *
+                  (exp(-tune.w * dot(unlike, unlike)) + 1e-3);
+        sum += w * visibleOver(texelFetch(realDepth, q, 0).rg, inverse);
+        weights += w;
+    }
+    visibility = sum / weights;
+}

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "pipeline/composite/virtual_layer.h"
+#include "pipeline/gpu/pass.h"
+
+#include <cstdint>
+
+namespace mfar {
+
+/// When a real thing hides a virtual one. A sample's sigma here is that of the difference of both
+/// inverse depths: of the real one as given, of the virtual one by `virtualSigma`.
+struct CompositeOptions {
+    /// How much nearer than the virtual surface the real one must be to hide any of it [sigmas]:
+    /// what stands on a table is not eaten by it.
+    double bias = 2;
+    /// From there on, how much nearer until all of it is hidden [sigmas], at least 0.01.
+    double softness = 2;
+    /// Standard deviation of virtual depth, by the pose it is drawn for [share of the depth].
+    double virtualSigma = 0.003;
+    /// Distance of two colours (RGB, Euclidean) at which a depth sample counts for
+    /// exp(-1/2) of its weight [grey levels], above 0.
+    double likeness = 12;
+};
+
+/// Puts a virtual layer over the picture of the real scene, behind what is nearer there. Real depth
+/// comes at video resolution and is brought to the output's along the picture's edges. Only the
+/// layer's bounds are worked on.
+class Composite {
+public:
+    /// Throws std::invalid_argument for an option that is not finite or out of its range, and
+    /// GlError where the GL does not draw into Rg32F.
+    Composite(Size video, Size output, const CompositeOptions& options = {});
+
+    /// `realDepth`: Rg32F, video size: inverse depth, its sigma [1/m]; a pixel whose values are not
+    /// both finite and positive is unknown and hides nothing. `video`: the frame the depth belongs
+    /// to, RGBA8 or R8. `picture`: that frame at output size, RGBA8; `target` draws into it (or
+    /// into a copy). A layer pixel whose depth is not finite and positive is not drawn.
+    void run(const VirtualLayer& layer, const gpu::Texture& realDepth, const gpu::Texture& video,
+             const gpu::Texture& picture, const gpu::Framebuffer& target);
+
+    /// Share of each pixel of the layer that was drawn, R8, output size, within the last bounds.
+    [[nodiscard]] const gpu::Texture& visibility() const { return visibility_; }
+
+private:
+    struct Params {  // visibility.glsl
+        std::int32_t video[4];
+        float scale[4], tune[4];
+    };
+
+    [[nodiscard]] Params params() const;
+    /// The video pixels whose range the output pixels of `bounds` look up.
+    [[nodiscard]] PixelRect videoPixels(const PixelRect& bounds) const;
+
+    Size video_;
+    CompositeOptions options_;
+    gpu::Texture range_, visibility_;
+    gpu::Framebuffer rangeTarget_, visibilityTarget_;
+    gpu::DrawPass<Params> rangePass_, samplePass_, blendPass_;
+};
+
+}  // namespace mfar
