@@ -133,6 +133,7 @@ void App::reload() {
         config_.superres = wanted.superres;
         config_.trigger = wanted.trigger;
         config_.status = wanted.status;
+        config_.objects = wanted.objects;
         changes_.put(tunables(config_));
         if (log_.style() == Log::Style::Terminal)
             events_.tickEvery(Seconds(config_.status.intervalS));

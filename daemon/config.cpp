@@ -64,6 +64,7 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     config.recordTo = recordTo;
     file.number("status.interval_s", config.status.intervalS, 0.1, 3600);
     file.boolean("status.measure", config.status.measure);
+    readObjects(file, config.objects);
     file.finish();
     return config;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "daemon/exit_code.h"
+#include "daemon/objects_config.h"
 #include "daemon/pose_config.h"
 #include "daemon/still_policy.h"
 #include "pipeline/pipeline.h"
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mfar {
 
@@ -45,6 +47,7 @@ struct Config {
     TriggerConfig trigger;
     PoseConfig pose;
     StatusConfig status;
+    std::vector<VirtualObject> objects;
 };
 
 /// The configuration file is wrong. The message has one line per fault, each

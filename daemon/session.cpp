@@ -30,6 +30,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       policy_(config.trigger) {
     rig_.recordTags(poses_.tags());
     pipeline_.setMeasure(config.status.measure);
+    pipeline_.setObjects(config.objects);
     description_ = {gl_->description(),  rig_.description(),
                     display_->name(),    std::string(name(config.superres.mode)),
                     rig_.videoFrames(),  std::nullopt,
@@ -74,6 +75,7 @@ void Session::apply(const Tunables& wanted) {
     pipeline_.setMode(wanted.superres.mode);
     pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
     pipeline_.setMeasure(wanted.measure);
+    pipeline_.setObjects(wanted.objects);
     policy_.configure(wanted.trigger);
 }
 

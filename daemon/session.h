@@ -25,10 +25,11 @@ struct Tunables {
     SuperResConfig superres;
     TriggerConfig trigger;
     bool measure = false;
+    std::vector<VirtualObject> objects{};
 };
 
 [[nodiscard]] inline Tunables tunables(const Config& config) {
-    return {config.superres, config.trigger, config.status.measure};
+    return {config.superres, config.trigger, config.status.measure, config.objects};
 }
 
 /// Two ways to end a session from outside.

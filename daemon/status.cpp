@@ -70,6 +70,8 @@ nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& fr
         {"tracked_share", poses.trackedShare()},
         {"epipolar_frames", counted.epipolarFrames},
         {"tiles_searched_2d", counted.tilesSearched2d},
+        {"depth_tiles", counted.depthTiles},
+        {"keyframe_searches", counted.keyframeSearches},
         {"predicted_frames", counted.predictedFrames},
         {"refined_frames", counted.refinedFrames},
         {"epipolar_px", counted.meanEpipolarError},

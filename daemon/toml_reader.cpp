@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace mfar {
@@ -127,6 +128,45 @@ void TomlReader::texts(std::string_view key, std::vector<std::string>& out, cons
     out = std::move(values);
 }
 
+void TomlReader::numbers(std::string_view key, std::span<double> out, double least, double most,
+                         const NumbersCheck& check) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return;
+    const toml::array* list = node->as_array();
+    if (list == nullptr || list->size() != out.size())
+        return fault(node->source(),
+                     fmt::format("{} must be a list of {} numbers", key, out.size()));
+    std::vector<double> values;
+    for (const toml::node& element : *list) {
+        const double value = element.is_number() ? element.value<double>().value() : NAN;
+        if (!(value >= least && value <= most))
+            return fault(element.source(),
+                         fmt::format("{} must hold numbers from {} to {}", key, least, most));
+        values.push_back(value);
+    }
+    if (const std::optional<std::string> wrong = check ? check(values) : std::nullopt)
+        return fault(node->source(), fmt::format("{}: {}", key, *wrong));
+    std::copy(values.begin(), values.end(), out.begin());
+}
+
+std::vector<std::string> TomlReader::sections(std::string_view key, std::size_t most) {
+    std::vector<std::string> out;
+    const toml::node* node = find(key);
+    if (node == nullptr) return out;
+    const toml::array* list = node->as_array();
+    if (list == nullptr || !list->is_homogeneous(toml::node_type::table)) {
+        fault(node->source(), fmt::format("{} must be sections [[{}]]", key, key));
+        return out;
+    }
+    if (list->size() > most) {
+        fault(node->source(), fmt::format("{} [[{}]], at most {} are", list->size(), key, most));
+        return out;
+    }
+    for (std::size_t i = 0; i < list->size(); ++i)
+        out.push_back(fmt::format("{}[{}].", key, i));
+    return out;
+}
+
 void TomlReader::finish() {
     refuseUnknown(root_, "");
     if (faults_.empty()) return;
@@ -156,28 +196,32 @@ void TomlReader::fault(const toml::source_region& at, std::string message) {
 }
 
 void TomlReader::refuseUnknown(const toml::table& table, const std::string& prefix) {
-    for (const auto& [key, value] : table) {
-        const std::string name = prefix + std::string(key.str());
-        if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-        const bool isSection =
-            std::any_of(known_.begin(), known_.end(),
-                        [&](const std::string& known) { return known.starts_with(name + "."); });
-        if (isSection && value.is_table()) {
-            refuseUnknown(*value.as_table(), name + ".");
-            continue;
-        }
-        if (isSection) {
-            fault(key.source(),
-                  fmt::format("{} must be a section [{}], not {}", name, name, kind(value)));
-            continue;
-        }
-        const auto nearest = std::min_element(known_.begin(), known_.end(),
-                                              [&](const std::string& a, const std::string& b) {
-                                                  return distance(name, a) < distance(name, b);
-                                              });
-        fault(key.source(),
-              fmt::format("unknown key {}; the nearest known one is {}", name, *nearest));
+    for (const auto& [key, value] : table)
+        refuseUnknown(key, value, prefix + std::string(key.str()));
+}
+
+void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
+                               const std::string& name) {
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) {
+        // Of a list of sections each is looked through.
+        if (const toml::array* list = value.as_array())
+            for (std::size_t i = 0; i < list->size(); ++i)
+                if (const toml::table* section = (*list)[i].as_table())
+                    refuseUnknown(*section, fmt::format("{}[{}].", name, i));
+        return;
     }
+    const bool isSection = std::any_of(known_.begin(), known_.end(), [&](const std::string& known) {
+        return known.starts_with(name + ".");
+    });
+    if (isSection && value.is_table()) return refuseUnknown(*value.as_table(), name + ".");
+    if (isSection)
+        return fault(key.source(),
+                     fmt::format("{} must be a section [{}], not {}", name, name, kind(value)));
+    const auto nearest = std::min_element(known_.begin(), known_.end(),
+                                          [&](const std::string& x, const std::string& y) {
+                                              return distance(name, x) < distance(name, y);
+                                          });
+    fault(key.source(), fmt::format("unknown key {}; the nearest known one is {}", name, *nearest));
 }
 
 }  // namespace mfar

@@ -23,6 +23,8 @@ public:
     /// The same for a number that is in its range.
     using NumberCheck = std::function<std::optional<std::string>(double)>;
 
+    using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;
+
     /// `file` is for messages. Throws ConfigError on broken syntax.
     TomlReader(std::string_view text, std::string file);
 
@@ -36,9 +38,14 @@ public:
     void text(std::string_view key, std::string& out, const Check& check = nullptr);
     /// A list of texts, at least one, each good for `check`.
     void texts(std::string_view key, std::vector<std::string>& out, const Check& check = nullptr);
+    /// A list of exactly so many numbers as `out` holds.
+    void numbers(std::string_view key, std::span<double> out, double least, double most,
+                 const NumbersCheck& check = nullptr);
     template <class E>
     void choice(std::string_view key, E& out,
                 std::span<const std::pair<std::string_view, E>> words);
+    /// What stands before the keys of each section [[key]], at most `most` of them: "key[0].".
+    [[nodiscard]] std::vector<std::string> sections(std::string_view key, std::size_t most);
 
     /// Call when all keys have been read. Throws ConfigError with every fault, in file order.
     void finish();
@@ -55,6 +62,7 @@ private:
                            bool (toml::node::*is)() const);
     void fault(const toml::source_region& at, std::string message);
     void refuseUnknown(const toml::table& table, const std::string& prefix);
+    void refuseUnknown(const toml::key& key, const toml::node& value, const std::string& name);
 
     std::string file_;
     toml::table root_;

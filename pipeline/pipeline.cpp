@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -23,6 +24,13 @@ void publishPose(const EpipolarFlow& flow, FrameStats& stats) {
     stats.refinedPose = refinement.accepted;
     stats.posePatches = refinement.patches;
     stats.epipolarError = refinement.normalAfter;
+}
+
+int tilesIn(const PixelRect& pixels) {
+    const auto count = [](int from, int to) {
+        return (to + kTileSize - 1) / kTileSize - from / kTileSize;
+    };
+    return count(pixels.x0, pixels.x1) * count(pixels.y0, pixels.y1);
 }
 
 }  // namespace
@@ -64,21 +72,37 @@ void Pipeline::setMode(SuperResMode mode) {
     state_->redraw = true;
 }
 
+void Pipeline::setObjects(std::vector<VirtualObject> objects) {
+    if (!state_->objects && objects.empty()) return;
+    if (!state_->objects) state_->objects.emplace(state_->rig.video, outputSize());
+    state_->objects->setObjects(std::move(objects));
+}
+
 void Pipeline::setSkipUnchanged(bool skip) {
     state_->options.skipUnchanged = skip;
 }
 
-void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose, bool searched) {
-    const PixelRect whole{0, 0, rig.video.size.width, rig.video.size.height};
+PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose) {
+    PixelRect where;
+    if (objects) {
+        where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt);
+        plan.drawnOver(objects->staleTiles(), objects->mustRedraw());
+    }
+    if (options.depthEverywhere) where = {0, 0, rig.video.size.width, rig.video.size.height};
+    return where;
+}
+
+void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose, bool searched,
+                                   const PixelRect& where) {
     if (!searched) {
         lumaOf(frame, luma);
-        return depth.run(luma, pose, {}, whole);
+        return depth.run(luma, pose, {}, where);
     }
     const EpipolarFlow::Cells vectors = flow.readForward();
     depth.run(epipolar.luma(), pose,
               DepthStage::StillSearch{epipolar.search(), epipolar.rotation(), epipolar.unit(),
                                       epipolar.inverseDepthOf(vectors)},
-              whole);
+              where);
     forgetMoving(vectors);
 }
 
@@ -119,6 +143,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     if (!s.video.takes(video)) s.video = gpu::pictureTexture(video);
     s.video.upload(video);
     s.lap("upload");
+    const PixelRect where = s.placeObjects(pose);
     s.plan.update(s.video, s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
@@ -141,15 +166,23 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.superres.draw(s.video, useStill ? &s.still : nullptr, s.plan);
     glFlush();
     s.lap("superres");
-    if (pose && s.options.depthEverywhere && s.plan.changedTiles() > 0) {
-        s.measureDepth(video, {time, pose->T_world_video, pose->covariance}, usePose);
+    int depthTiles = 0;
+    if (pose && !where.empty() && s.plan.changedTiles() > 0) {
+        depthTiles = tilesIn(where);
+        s.measureDepth(video, {time, pose->T_world_video, pose->covariance}, usePose, where);
         s.lap("depth");
+    }
+    if (s.objects && s.plan.changedTiles() > 0) {
+        s.objects->draw(s.depth.field(), s.video, s.superres.output(), s.superres.target());
+        s.lap("composite");
     }
     s.redraw = false;
     s.hasPrior = useStill;
 
     s.result.stats = s.superres.statsBefore();
     s.result.stats.usedStill = useStill;
+    s.result.stats.depthTiles = depthTiles;
+    s.result.stats.depth = depthTiles > 0 ? s.depth.source() : DepthSource::None;
     s.result.stats.searched2d = s.flow.searched().countBefore();
     if (usePose) publishPose(s.epipolar, s.result.stats);
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/frame.h"
+#include "pipeline/composite/virtual_object.h"
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/flow/flow_options.h"
@@ -63,6 +64,9 @@ public:
     /// Both take effect with the next run.
     void setMode(SuperResMode mode);
     void setSkipUnchanged(bool skip);
+    /// Shown in frames with a pose, as seen from there and hidden behind what is nearer. The first
+    /// call with any allocates what they need.
+    void setObjects(std::vector<VirtualObject> objects);
 
     [[nodiscard]] Size outputSize() const;
     /// CPU-side stage times of the last run. With `measure` on, each stage ends with glFinish and

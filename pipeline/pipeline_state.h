@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/composite/virtual_view.h"
 #include "pipeline/depth/depth_stage.h"
 #include "pipeline/flow/epipolar_flow.h"
 #include "pipeline/flow/flow2d.h"
@@ -34,7 +35,10 @@ struct Pipeline::State {
         lastLap = now;
     }
 
-    void measureDepth(const ImageView& frame, const Pose& pose, bool searched);
+    /// Says where real depth is needed in this frame [video px].
+    PixelRect placeObjects(const std::optional<Pose>& pose);
+    void measureDepth(const ImageView& frame, const Pose& pose, bool searched,
+                      const PixelRect& where);
     void forgetMoving(const EpipolarFlow::Cells& vectors);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
 
@@ -53,6 +57,7 @@ struct Pipeline::State {
     DepthStage depth;
     LumaImage luma;  // of the frame, where the search along lines did not run
     SuperRes superres;
+    std::optional<VirtualView> objects;
     bool hasStill = false;
     bool redraw = true;     // nothing of the last output may stay
     bool hasPrior = false;  // the flow field of the last frame belongs to this still

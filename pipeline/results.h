@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/display.h"
+#include "pipeline/depth/depth_options.h"
 #include "pipeline/gpu/buffer.h"
 
 #include <array>
@@ -42,6 +43,9 @@ struct FrameStats {
     /// Tiles that those lines did not explain (something moves there, or a pose is wrong), which
     /// were searched in both dimensions. Without poses all changed tiles are, and none counted.
     int searched2d = 0;
+    /// Tiles in which real depth was measured, as a virtual object may be hidden there.
+    int depthTiles = 0;
+    DepthSource depth = DepthSource::None;
 };
 
 /// What Pipeline::run gives back. Valid until the next run.

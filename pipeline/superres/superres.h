@@ -24,6 +24,8 @@ public:
 
     void setMode(SuperResMode mode) { mode_ = mode; }
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
+    /// Draws into output(), for what comes over it.
+    [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
     /// The video each tile was last drawn from.
     [[nodiscard]] const gpu::Texture& drawn() const { return drawn_; }
     /// Per cell: flow (x, y) [video px], weight of the detail, eq. 2 confidence. Rgba32F.
