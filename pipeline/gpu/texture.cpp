@@ -59,13 +59,15 @@ void Texture::upload(const ImageView& view) {
 }
 
 void Texture::upload(std::span<const float> values) {
-    assert(format_ == TexelFormat::R32F || format_ == TexelFormat::Rg32F);
-    const bool two = format_ == TexelFormat::Rg32F;
-    assert(values.size() == static_cast<std::size_t>(size_.width) * size_.height * (two ? 2 : 1));
+    assert(format_ == TexelFormat::R32F || format_ == TexelFormat::Rg32F ||
+           format_ == TexelFormat::Rgba32F);
+    GLenum layout = GL_RED;
+    if (format_ == TexelFormat::Rg32F) layout = GL_RG;
+    if (format_ == TexelFormat::Rgba32F) layout = GL_RGBA;
     glBindTexture(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, two ? GL_RG : GL_RED,
-                    GL_FLOAT, values.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, layout, GL_FLOAT,
+                    values.data());
 }
 
 std::vector<std::uint8_t> Texture::readRgba8() const {

@@ -50,8 +50,8 @@ public:
     }
     /// Replaces level 0. Asserts takes(view).
     void upload(const ImageView& view);
-    /// Replaces level 0 of an R32F or Rg32F texture: one or two floats a texel, rows without
-    /// padding. Asserts format and count.
+    /// Replaces level 0 of an R32F, Rg32F or Rgba32F texture: one, two or four floats a texel, rows
+    /// without padding. Asserts format and count.
     void upload(std::span<const float> values);
     /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;

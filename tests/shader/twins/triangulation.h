@@ -1,0 +1,79 @@
+#pragma once
+
+#include "pipeline/geometry.h"
+
+#include <Eigen/Dense>
+
+#include <optional>
+
+/// Double-precision twins of the triangulation.
+namespace mfar::twin {
+
+inline double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Two views of a scene at rest.
+struct TwoViews {
+    CameraModel a, b;
+    RigidTransform T_b_a;
+
+    [[nodiscard]] Eigen::Vector2d rayA(const Eigen::Vector2d& pixel) const {
+        return a.unproject(pixel);
+    }
+    /// Q^-1 m of a pixel of b, in the frame of a; z = 1.
+    [[nodiscard]] Eigen::Vector3d rayB(const Eigen::Vector2d& pixel) const {
+        const Eigen::Vector3d ray =
+            T_b_a.rotation.conjugate() * b.unproject(pixel).homogeneous().eval();
+        return ray / ray.z();
+    }
+    /// Where b shows the point that a shows at `pixel` with inverse depth `rho`, less the pixel.
+    [[nodiscard]] Eigen::Vector2d flow(const Eigen::Vector2d& pixel, double rho) const {
+        const Eigen::Vector3d point =
+            T_b_a.rotation * rayA(pixel).homogeneous().eval() + rho * T_b_a.translation;
+        return b.project(point.hnormalized()) - pixel;
+    }
+    /// The translation after the rotation is removed.
+    [[nodiscard]] Eigen::Vector3d baseline() const {
+        return T_b_a.rotation.conjugate() * T_b_a.translation;
+    }
+    /// The direction of the epipolar line, towards nearer points; as long as the baseline across
+    /// the ray.
+    [[nodiscard]] Eigen::Vector2d line(const Eigen::Vector2d& pixel) const {
+        const Eigen::Vector3d t = baseline();
+        return t.head<2>() - rayA(pixel) * t.z();
+    }
+};
+
+struct FlowDepth {
+    double inverseDepth, sigma, residual;
+};
+
+/// rho = (u . e) / (|e|^2 - b_z (u . e)), its change with the flow along e, the flow normal to it.
+inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pixel,
+                               const Eigen::Vector2d& flow, double flowSigma) {
+    const double focal = std::sqrt(views.b.fx * views.b.fy);
+    const Eigen::Vector2d u = views.rayB(pixel + flow).head<2>() - views.rayA(pixel);
+    const Eigen::Vector2d e = views.line(pixel);
+    const double d = e.squaredNorm() - views.baseline().z() * u.dot(e);
+    return {u.dot(e) / d, flowSigma / focal * std::pow(e.norm(), 3) / (d * d),
+            focal * cross2(e.normalized(), u)};
+}
+
+struct Midpoint {
+    double inverseDepth, rayDistance;
+    bool ahead;  ///< of both cameras
+};
+
+/// The paper's: the shortest line between lambda Q_a^-1 m_a and c + lambda Q_b^-1 m_b.
+inline Midpoint midpoint(const TwoViews& views, const Eigen::Vector2d& pixel,
+                         const Eigen::Vector2d& flow) {
+    const Eigen::Vector3d c = views.T_b_a.inverse().translation;
+    Eigen::Matrix<double, 3, 2> rays;
+    rays << views.rayA(pixel).homogeneous(), -views.rayB(pixel + flow);
+    const Eigen::Vector2d lambda = rays.colPivHouseholderQr().solve(c);
+    const Eigen::Vector3d onA = lambda[0] * rays.col(0), onB = c - lambda[1] * rays.col(1);
+    return {2 / (onA + onB).z(), (onA - onB).norm(), lambda[0] > 0 && lambda[1] > 0};
+}
+
+}  // namespace mfar::twin
