@@ -2,6 +2,7 @@
 
 #include "pipeline/pipeline.h"
 #include "tests/bench/summary.h"
+#include "tests/bench/triangulation_bench.h"
 #include "tests/bench/workload.h"
 
 #include <array>
@@ -39,6 +40,7 @@ struct BenchResult {
     Summary setStill;  ///< per-still work of our pipeline
     std::vector<CaseResult> cases;
     std::vector<PeerResult> peers;
+    TriangulationTimes triangulation;
 };
 
 /// Needs a current GL context, which `renderer` describes. The first frames warm up and do not

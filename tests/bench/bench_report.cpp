@@ -66,7 +66,11 @@ nlohmann::json toJson(const BenchResult& result) {
             {"output", json(result.output)},
             {"set_still", json(result.setStill)},
             {"cases", cases},
-            {"peers", peers}};
+            {"peers", peers},
+            {"triangulation_ns_per_point",
+             {{"flow", result.triangulation.flow},
+              {"midpoint", result.triangulation.midpoint},
+              {"opencv", result.triangulation.opencv}}}};
 }
 
 std::string toTable(const BenchResult& result) {
@@ -85,6 +89,10 @@ std::string toTable(const BenchResult& result) {
     for (const PeerResult& peer : result.peers)
         out += line("peer " + peer.name, peer.frame) +
                fmt::format("  {} / {} = {:.2f}\n", peer.of, peer.name, peer.ratio);
+    const TriangulationTimes& t = result.triangulation;
+    out += fmt::format("triangulation [ns a point]: flow {:.1f}, midpoint {:.1f}, "
+                       "cv::triangulatePoints {:.0f} = {:.0f} times flow\n",
+                       t.flow, t.midpoint, t.opencv, t.opencv / t.flow);
     return out;
 }
 

@@ -47,6 +47,8 @@ TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
                         peer.at("frame").at("median_ms").get<double>(),
                     1e-9);
     }
+    for (const char* key : {"flow", "midpoint", "opencv"})
+        EXPECT_GT(result.at("triangulation_ns_per_point").at(key).get<double>(), 0) << key;
     const auto hasStage = [&](int i, const char* name) {
         const auto& stages = result.at("cases").at(i).at("stages");
         return std::any_of(stages.begin(), stages.end(),
