@@ -4,7 +4,7 @@
 #include "tests/eval/paper_pipeline.h"
 #include "tests/eval/picture.h"
 #include "tests/eval/rig_resample.h"
-#include "tests/eval/sgbm_peer.h"
+#include "tests/eval/stereo_peer.h"
 #include "tests/eval/stopwatch.h"
 
 #include <fmt/format.h>
@@ -75,9 +75,10 @@ PlainFlow plainFlow(const std::string& name) {
     return {};
 }
 
-class SgbmMethod final : public FlowMethod {
+class StereoMethod final : public FlowMethod {
 public:
-    explicit SgbmMethod(const StereoRig& rig) : rig_(rig), peer_(rig) {}
+    StereoMethod(const StereoRig& rig, StereoPeer::Matcher matcher)
+        : rig_(rig), peer_(rig, matcher) {}
 
     void setStill(const Shot& still) override {
         peer_.setStill(still.picture);
@@ -88,14 +89,14 @@ public:
         constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
         if (!frame.pose || !stillPose_)
             return {cv::Mat(frame.picture.size(), CV_32FC2, cv::Scalar(kNan, kNan)), 0};
-        SgbmPeer::Result out =
+        StereoPeer::Result out =
             peer_.run(frame.picture, stillFromFrame(rig_, *frame.pose, *stillPose_));
         return {out.flow, out.ms};
     }
 
 private:
     StereoRig rig_;
-    SgbmPeer peer_;
+    StereoPeer peer_;
     std::optional<Pose> stillPose_;
 };
 
@@ -149,18 +150,24 @@ private:
 
 const std::vector<std::string>& flowMethodNames() {
     static const std::vector<std::string> names{
-        "epipolar",        "flow2d",          "dis-fast",  "dis-medium",
-        "dis-medium-both", "dis-medium-full", "farneback", "sgbm"};
+        "epipolar",        "flow2d",    "dis-fast", "dis-medium", "dis-medium-both",
+        "dis-medium-full", "farneback", "sgbm",     "stereobm"};
     return names;
+}
+
+GlContext& FlowFactory::context() {
+    if (!context_) context_ = createGlContext();
+    return *context_;
 }
 
 std::unique_ptr<FlowMethod> FlowFactory::create(const std::string& name, const StereoRig& rig) {
     if (PlainFlow plain = plainFlow(name))
         return std::make_unique<PlainMethod>(rig, std::move(plain));
-    if (name == "sgbm") return std::make_unique<SgbmMethod>(rig);
+    if (name == "sgbm") return std::make_unique<StereoMethod>(rig, StereoPeer::Matcher::SemiGlobal);
+    if (name == "stereobm") return std::make_unique<StereoMethod>(rig, StereoPeer::Matcher::Block);
     if (name != "epipolar" && name != "flow2d")
         throw std::invalid_argument(fmt::format("unknown method '{}'", name));
-    if (!context_) context_ = createGlContext();
+    (void)context();
     return std::make_unique<ProductMethod>(rig, name == "epipolar");
 }
 

@@ -33,6 +33,7 @@ public:
 class FlowFactory {
 public:
     [[nodiscard]] std::unique_ptr<FlowMethod> create(const std::string& name, const StereoRig& rig);
+    [[nodiscard]] GlContext& context();
 
 private:
     std::unique_ptr<GlContext> context_;

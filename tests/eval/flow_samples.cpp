@@ -155,6 +155,11 @@ FlowSet samplesOfRecording(const fs::path& folder) {
     return out;
 }
 
+void requireFolder(const fs::path& folder) {
+    if (!fs::is_directory(folder))
+        throw EvalError(fmt::format("{}: no such folder", folder.string()));
+}
+
 void requireSize(const fs::path& file, Size got, Size wanted) {
     if (got != wanted)
         throw EvalError(fmt::format("{}: has {}x{} pixels, not {}x{}", file.string(), got.width,
@@ -170,9 +175,19 @@ Shot shotOf(const fs::path& file, Timestamp time, const std::optional<Pose>& pos
 }  // namespace
 
 FlowSet flowSamplesOf(const fs::path& folder) {
-    if (!fs::is_directory(folder))
-        throw EvalError(fmt::format("{}: no such folder", folder.string()));
+    requireFolder(folder);
     return fs::exists(folder / "cam0") ? samplesOfRecording(folder) : pairsOf(folder);
+}
+
+FlowSet depthSamplesOf(const fs::path& folder) {
+    requireFolder(folder);
+    const Recording recording = loadRecording(folder);
+    FlowSet out{recording.rig, samplesByDepth(recording)};
+    if (out.samples.empty())
+        throw EvalError(fmt::format("{}: no truth: truth/inverse_depth of no frame, or no still "
+                                    "with a known pose",
+                                    folder.string()));
+    return out;
 }
 
 cv::Mat loadTruth(const FlowSet& set, const FlowSample& sample) {

@@ -36,6 +36,10 @@ struct FlowSet {
 /// for both pictures. Throws EvalError and RecordingError.
 [[nodiscard]] FlowSet flowSamplesOf(const std::filesystem::path& folder);
 
+/// Of a recording, 2. alone: every sample's truth is inverse depth and its poses are known.
+/// Throws EvalError and RecordingError.
+[[nodiscard]] FlowSet depthSamplesOf(const std::filesystem::path& folder);
+
 /// CV_32FC2 [video px] of the video's size, NaN or above 1e9 = unknown.
 /// Throws EvalError when the size differs, ImageFileError.
 [[nodiscard]] cv::Mat loadTruth(const FlowSet& set, const FlowSample& sample);

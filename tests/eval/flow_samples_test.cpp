@@ -129,6 +129,11 @@ TEST(FlowSamples, FlowToAStillGoesBeforeDepthAndFlowToVideo) {
     const Shot still = loadStill(toStill, toStill.samples[1]);
     EXPECT_EQ(still.picture.size(), cv::Size(72, 48));
     EXPECT_NEAR(still.pose.value().T_world_video.translation.x(), 0.15, 1e-12);
+
+    const FlowSet depth = depthSamplesOf(folder / "r");
+    ASSERT_EQ(depth.samples.size(), 1U);
+    EXPECT_EQ(depth.samples[0].frame, "200_150");
+    EXPECT_EQ(depth.samples[0].truth.extension(), ".pfm");
 }
 
 TEST(FlowSamples, DepthGivesTheParallaxOfRigAndMotion) {

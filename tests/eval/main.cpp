@@ -1,5 +1,7 @@
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recording.h"
+#include "tests/eval/depth.h"
+#include "tests/eval/depth_methods.h"
 #include "tests/eval/flow.h"
 #include "tests/eval/flow_methods.h"
 #include "tests/eval/pose_command.h"
@@ -41,9 +43,20 @@ constexpr const char* kFlowHelp =
     "epe_px: mean end-point error where truth and answer are known; bad1, bad2: share of the\n"
     "pixels with known truth off by more than 1, 2 px, no answer is off; ms: median of 3 runs\n"
     "after one to warm up, without work per still. flow2d and dis-medium-both compute both\n"
-    "directions; sgbm's time is that of rectifying and matching.\n"
-    "sgbm needs poses; it has no answer where the camera moves into the picture or not at all,\n"
-    "and fills what it leaves open with the farther neighbour.";
+    "directions; that of sgbm and stereobm is that of rectifying and matching.\n"
+    "sgbm and stereobm need poses; they have no answer where the camera moves into the picture or\n"
+    "not at all, and fill what they leave open with the farther neighbour.";
+
+constexpr const char* kDepthHelp =
+    "Takes recordings with truth/inverse_depth and known poses (a scene at rest); frames, their\n"
+    "references, what is hidden, and time as for flow. Every method's flow is triangulated:\n"
+    "flow: the product's, along epipolar lines, in closed form; midpoint: the same by the paper's\n"
+    "shortest line between both rays; sgbm, stereobm: as for flow.\n"
+    "absrel: median of |z - true z| / true z where depth and truth are known; bad1: share of the\n"
+    "pixels with known truth that are off by more than 1 px of disparity (focal length times\n"
+    "baseline times inverse depth), no depth is off; completeness: share of them with a depth;\n"
+    "edge_, inner_: within 4 px of an edge, where true depths side by side differ by a tenth, and\n"
+    "elsewhere.";
 
 std::string joined(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ", "));
@@ -57,7 +70,7 @@ void checkMethods(const std::vector<std::string>& asked, const std::vector<std::
 
 struct Options {
     SuperResRequest superres;
-    FlowRequest flow;
+    SampleRequest flow, depth;
     PoseRequest pose;
     std::string degrade;
     PoseNoise poseNoise;
@@ -115,19 +128,28 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     return sub;
 }
 
-CLI::App* addFlow(CLI::App& app, Options& o) {
-    CLI::App* sub = app.add_subcommand("flow", "dense flow against the true one");
-    sub->footer(kFlowHelp);
-    o.flow.methods = flowMethodNames();
-    sub->add_option("folder", o.flow.folders, "recordings or two-frame pairs")->required();
-    sub->add_option("--methods", o.flow.methods, "of: " + joined(flowMethodNames()))
-        ->delimiter(',');
-    addPoseSource(*sub, o.flow.poses);
+CLI::App* addSamples(CLI::App& app, const char* name, const char* what, const char* help,
+                     const std::vector<std::string>& methods, SampleRequest& request, Options& o) {
+    CLI::App* sub = app.add_subcommand(name, what);
+    sub->footer(help);
+    request.methods = methods;
+    sub->add_option("folder", request.folders, "recordings or two-frame pairs")->required();
+    sub->add_option("--methods", request.methods, "of: " + joined(methods))->delimiter(',');
+    addPoseSource(*sub, request.poses);
     addDisturbances(*sub, o);
-    sub->add_option("--frames", o.flow.frames, "at most so many frames of each folder")
+    sub->add_option("--frames", request.frames, "at most so many frames of each folder")
         ->check(CLI::Range(1, 1000000));
     sub->add_option("--csv", o.csv, "file for the table");
     return sub;
+}
+
+/// The request with what the options say of every task.
+const SampleRequest& completed(SampleRequest& request, const std::vector<std::string>& methods,
+                               const Options& o) {
+    checkMethods(request.methods, methods);
+    request.degradation = parseDegradation(o.degrade);
+    request.poseNoise = o.poseNoise;
+    return request;
 }
 
 int run(int argc, char** argv) {
@@ -136,7 +158,10 @@ int run(int argc, char** argv) {
     Options o;
     CLI::App* superres = addSuperRes(app, o);
     CLI::App* pose = addPoseCommand(app, o.pose, o.csv);
-    addFlow(app, o);
+    const CLI::App* depth = addSamples(app, "depth", "depth against the true one", kDepthHelp,
+                                       depthMethodNames(), o.depth, o);
+    addSamples(app, "flow", "dense flow against the true one", kFlowHelp, flowMethodNames(), o.flow,
+               o);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -151,11 +176,10 @@ int run(int argc, char** argv) {
     } else if (pose->parsed()) {
         checkMethods(o.pose.methods, poseMethodNames());
         report = evaluatePose(o.pose);
+    } else if (depth->parsed()) {
+        report = evaluateDepth(completed(o.depth, depthMethodNames(), o));
     } else {
-        checkMethods(o.flow.methods, flowMethodNames());
-        o.flow.degradation = parseDegradation(o.degrade);
-        o.flow.poseNoise = o.poseNoise;
-        report = evaluateFlow(o.flow);
+        report = evaluateFlow(completed(o.flow, flowMethodNames(), o));
     }
     fmt::print("{}", report.table());
     if (!o.csv.empty()) report.writeCsv(o.csv);

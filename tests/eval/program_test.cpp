@@ -107,7 +107,7 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
                                                         MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 8 + 8) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 9 + 9) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage"));
     EXPECT_EQ(rows[1][2], "epipolar");
     EXPECT_EQ(rows[2][2], "flow2d");
@@ -166,6 +166,32 @@ TEST(MfarEval, FlowOfAStereoPairKnowsItsPoseAndHowFarItIsOff) {
     EXPECT_NE(off[2], other[2]);
 }
 
+TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
+    const TempFolder folder;
+    writeStereo(folder / "wall");
+    const Outcome outcome = execute(folder, fmt::format("{0} depth {1}/wall --csv {1}/out.csv",
+                                                        MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    ASSERT_EQ(rows.size(), 1U + 4 + 4) << outcome.text;
+    EXPECT_EQ(rows[0], split("recording,frame,method,ms,absrel,bad1,completeness,edge_absrel,"
+                             "edge_bad1,inner_absrel,inner_bad1"));
+    const char* names[] = {"flow", "midpoint", "sgbm", "stereobm"};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(rows[i + 1][2], names[i]);
+        EXPECT_GT(std::stod(rows[i + 1][3]), 0);
+        EXPECT_LT(std::stod(rows[i + 1][4]), 0.05) << names[i];
+        EXPECT_LT(std::stod(rows[i + 1][5]), 0.2) << names[i];
+        EXPECT_GT(std::stod(rows[i + 1][6]), 0.8) << names[i];
+        EXPECT_TRUE(rows[i + 1][7].empty());  // a wall has no edges
+    }
+    const Outcome blind = execute(
+        folder, fmt::format("{0} depth {1}/wall --methods flow --poses none --csv {1}/out.csv",
+                            MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(blind.status, 0) << blind.text;
+    EXPECT_EQ(std::stod(readCsv(folder / "out.csv").at(1).at(6)), 0);  // no pose, no depth
+}
+
 // Without poses the epipolar method has to do what the one in two dimensions does.
 TEST(MfarEval, PosesCanBeKeptFromTheMethods) {
     const TempFolder folder;
@@ -207,7 +233,11 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/tiny --poses guessed", "--poses"},
         {"superres " + dir + "/truth --poses tags", "tags.toml: no such file"},
         {"flow " + dir + "/pair --poses tags", "no recording, so no tags"},
-        {"depth " + dir, ""},
+        {"depth " + dir + "/absent", "no such folder"},
+        {"depth " + dir + "/tiny", "no truth"},
+        {"depth " + dir + "/pair", "pair"},
+        {"depth " + dir + "/tiny --methods depths", "unknown method 'depths'"},
+        {"warp " + dir, ""},
     };
     for (const auto& [arguments, message] : cases) {
         const Outcome outcome = execute(folder, std::string(MFAR_EVAL) + ' ' + arguments);

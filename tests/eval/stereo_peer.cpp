@@ -1,4 +1,4 @@
-#include "tests/eval/sgbm_peer.h"
+#include "tests/eval/stereo_peer.h"
 
 #include "tests/eval/rectification.h"
 #include "tests/eval/rig_resample.h"
@@ -16,7 +16,8 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 /// The usual settings for grey pictures; the penalties are those of OpenCV's documentation.
-cv::Ptr<cv::StereoSGBM> createMatcher(int disparities) {
+cv::Ptr<cv::StereoMatcher> createMatcher(int disparities, StereoPeer::Matcher matcher) {
+    if (matcher == StereoPeer::Matcher::Block) return cv::StereoBM::create(disparities, 21);
     constexpr int kBlock = 5, kArea = kBlock * kBlock;
     return cv::StereoSGBM::create(0, disparities, kBlock, 8 * kArea, 32 * kArea, 1, 31, 10, 0, 0,
                                   cv::StereoSGBM::MODE_SGBM_3WAY);
@@ -69,15 +70,15 @@ cv::Mat flowOf(const cv::Mat& disparity, const Rectification& views, const Size&
 
 }  // namespace
 
-SgbmPeer::SgbmPeer(const StereoRig& rig)
+StereoPeer::StereoPeer(const StereoRig& rig, Matcher matcher)
     : rig_(rig), disparities_((rig.video.size.width / 6 + 15) / 16 * 16),
-      matcher_(createMatcher(disparities_)) {}
+      matcher_(createMatcher(disparities_, matcher)) {}
 
-void SgbmPeer::setStill(const cv::Mat& still) {
+void StereoPeer::setStill(const cv::Mat& still) {
     cv::cvtColor(resampleStill(still, rig_), still_, cv::COLOR_BGR2GRAY);
 }
 
-SgbmPeer::Result SgbmPeer::run(const cv::Mat& video, const RigidTransform& T_still_frame) {
+StereoPeer::Result StereoPeer::run(const cv::Mat& video, const RigidTransform& T_still_frame) {
     // The still has the video's lens and orientation already.
     const RigidTransform turn{rig_.T_still_video.rotation.conjugate(), {0, 0, 0}};
     const auto views = Rectification::of(rig_.video, turn * T_still_frame, disparities_);

@@ -1,7 +1,7 @@
 #include "tests/eval/flow_truth.h"
 #include "tests/eval/metrics/flow_error.h"
 #include "tests/eval/rectification.h"
-#include "tests/eval/sgbm_peer.h"
+#include "tests/eval/stereo_peer.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
@@ -51,17 +51,18 @@ cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_
 }
 
 /// What the peer answers when the still was taken after `motion`.
-FlowError errorAfter(const RigidTransform& motion) {
+FlowError errorAfter(const RigidTransform& motion,
+                     StereoPeer::Matcher matcher = StereoPeer::Matcher::SemiGlobal) {
     const StereoRig rig = crookedRig();
     const RigidTransform T_still_frame = rig.T_still_video * motion;
-    SgbmPeer peer(rig);
+    StereoPeer peer(rig, matcher);
     peer.setStill(pictureOfWall(rig.still, T_still_frame));
     const auto result = peer.run(pictureOfWall(rig.video, {}), T_still_frame);
     const FloatImage depth{rig.video.size, std::vector<float>(160 * 120, 1 / kDistance)};
     return flowError(result.flow, flowOfInverseDepth(depth, rig, T_still_frame));
 }
 
-TEST(SgbmPeer, FollowsAnyMotionAcrossTheView) {
+TEST(StereoPeer, FollowsAnyMotionAcrossTheView) {
     for (const Vector3d& step : {Vector3d(-0.1, 0, 0), Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0),
                                  Vector3d(0.07, -0.06, 0.02)}) {
         const FlowError error = errorAfter(moved(3, {1, 2, 1}, step));
@@ -71,7 +72,14 @@ TEST(SgbmPeer, FollowsAnyMotionAcrossTheView) {
     }
 }
 
-TEST(SgbmPeer, HasNoAnswerWithoutABaselineAcrossTheView) {
+TEST(StereoPeer, BlocksAreMatchedAsWell) {
+    const FlowError error =
+        errorAfter(moved(3, {1, 2, 1}, {-0.1, 0, 0}), StereoPeer::Matcher::Block);
+    EXPECT_GT(error.coverage, 0.9);  // half a block is missing at the top and the bottom
+    EXPECT_LT(error.epe, 0.3);
+}
+
+TEST(StereoPeer, HasNoAnswerWithoutABaselineAcrossTheView) {
     EXPECT_EQ(errorAfter(moved(3, {1, 2, 1}, {0, 0, 0})).coverage, 0);
     EXPECT_EQ(errorAfter(moved(0, {1, 0, 0}, {0, 0, -0.2})).coverage, 0);
     EXPECT_EQ(errorAfter(moved(0, {1, 0, 0}, {0.05, 0, 0.2})).coverage, 0);

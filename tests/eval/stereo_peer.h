@@ -7,12 +7,13 @@
 
 namespace mfar::eval {
 
-/// Peer for flow with a known pose: OpenCV's StereoSGBM, 3-way, on the rectified pictures. Its
-/// range of disparities is [0, width / 6). What it leaves open (hidden in the still by its own
-/// check, or ambiguous) is filled along the row with the farther of the two neighbours.
-class SgbmPeer {
+/// Peer for flow with a known pose: OpenCV's StereoSGBM, 3-way, or StereoBM on the rectified
+/// pictures. Its range of disparities is [0, width / 6). What it leaves open (hidden in the still
+/// by its own check, or ambiguous) is filled along the row with the farther of the two neighbours.
+class StereoPeer {
 public:
-    explicit SgbmPeer(const StereoRig& rig);
+    enum class Matcher { SemiGlobal, Block };
+    explicit StereoPeer(const StereoRig& rig, Matcher matcher = Matcher::SemiGlobal);
 
     /// The reference of the following frames: CV_8UC3 of the rig's still size. Per-still work.
     void setStill(const cv::Mat& still);
@@ -28,7 +29,7 @@ public:
 private:
     StereoRig rig_;
     int disparities_;
-    cv::Ptr<cv::StereoSGBM> matcher_;
+    cv::Ptr<cv::StereoMatcher> matcher_;
     cv::Mat still_;  ///< grey, at the video's geometry
 };
 
