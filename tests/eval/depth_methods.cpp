@@ -1,6 +1,8 @@
 #include "tests/eval/depth_methods.h"
 
 #include "pipeline/depth/triangulation.h"
+#include "pipeline/pipeline.h"
+#include "tests/eval/picture.h"
 #include "tests/eval/stopwatch.h"
 
 #include <GLES3/gl31.h>
@@ -9,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 namespace mfar::eval {
@@ -54,14 +57,52 @@ private:
     std::optional<Pose> stillPose_;
 };
 
+/// The product: measured along epipolar lines, filtered over the frames. Its time is that of all
+/// that depth needs.
+class FilteredDepth final : public DepthMethod {
+public:
+    explicit FilteredDepth(const StereoRig& rig)
+        : pipeline_(rig,
+                    {.output = rig.video.size, .skipUnchanged = false, .depthEverywhere = true}) {
+        pipeline_.setMeasure(true);
+    }
+
+    void setStill(const Shot& still) override {
+        const cv::Mat rgba = toRgba(still.picture);
+        pipeline_.setStill(viewOf(rgba), still.time, still.pose);
+    }
+
+    Result run(const Shot& frame) override {
+        const cv::Mat rgba = toRgba(frame.picture);
+        pipeline_.run(viewOf(rgba), frame.time, frame.pose);
+        const InverseDepthField& field = pipeline_.inverseDepth();
+        Result out{cv::Mat(frame.picture.size(), CV_32F, cv::Scalar(0)), 0};
+        for (std::size_t i = 0; i < field.rho.size(); ++i)
+            if (field.isKnown(i)) out.inverseDepth.ptr<float>()[i] = field.rho[i];
+        for (const StageTime& stage : pipeline_.stageTimes()) {
+            const std::string_view name = stage.stage;
+            if (name == "pyramid" || name == "epipolar" || name == "flow" || name == "depth")
+                out.ms += stage.ms;
+        }
+        return out;
+    }
+
+private:
+    Pipeline pipeline_;
+};
+
 }  // namespace
 
 const std::vector<std::string>& depthMethodNames() {
-    static const std::vector<std::string> names{"flow", "midpoint", "sgbm", "stereobm"};
+    static const std::vector<std::string> names{"depth", "flow", "midpoint", "sgbm", "stereobm"};
     return names;
 }
 
 std::unique_ptr<DepthMethod> DepthFactory::create(const std::string& name, const StereoRig& rig) {
+    if (name == "depth") {
+        flows_.context().makeCurrent();
+        return std::make_unique<FilteredDepth>(rig);
+    }
     const bool peer = name == "sgbm" || name == "stereobm";
     if (!peer && name != "flow" && name != "midpoint")
         throw std::invalid_argument(fmt::format("unknown method '{}'", name));

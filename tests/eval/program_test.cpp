@@ -173,11 +173,11 @@ TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
                                                         MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 4 + 4) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 5 + 5) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,absrel,bad1,completeness,edge_absrel,"
                              "edge_bad1,inner_absrel,inner_bad1"));
-    const char* names[] = {"flow", "midpoint", "sgbm", "stereobm"};
-    for (std::size_t i = 0; i < 4; ++i) {
+    const char* names[] = {"depth", "flow", "midpoint", "sgbm", "stereobm"};
+    for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_EQ(rows[i + 1][2], names[i]);
         EXPECT_GT(std::stod(rows[i + 1][3]), 0);
         EXPECT_LT(std::stod(rows[i + 1][4]), 0.05) << names[i];
