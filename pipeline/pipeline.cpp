@@ -170,10 +170,11 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     if (pose && !where.empty() && s.plan.changedTiles() > 0) {
         depthTiles = tilesIn(where);
         s.measureDepth(video, {time, pose->T_world_video, pose->covariance}, usePose, where);
+        s.snap.run(s.depth.field(), video, where, s.snapped);
         s.lap("depth");
     }
     if (s.objects && s.plan.changedTiles() > 0) {
-        s.objects->draw(s.depth.field(), s.video, s.superres.output(), s.superres.target());
+        s.objects->draw(s.snapped, s.video, s.superres.output(), s.superres.target());
         s.lap("composite");
     }
     s.redraw = false;
@@ -190,7 +191,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 }
 
 const InverseDepthField& Pipeline::inverseDepth() const {
-    return state_->depth.field();
+    return state_->snapped;
 }
 
 Size Pipeline::outputSize() const {

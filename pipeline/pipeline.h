@@ -90,6 +90,8 @@ public:
     [[nodiscard]] std::vector<TileClass> readTileClasses() const;
     /// Of every tile: FrameStats::searched2d counts it.
     [[nodiscard]] std::vector<bool> readSearchedTiles() const;
+    /// Share of every output pixel that shows a virtual object; empty where there are none.
+    [[nodiscard]] std::vector<float> readShownObjects() const;
     /// Output picture, RGBA8, row 0 first.
     [[nodiscard]] std::vector<std::uint8_t> readImage() const;
 

@@ -2,6 +2,7 @@
 
 #include "pipeline/composite/virtual_view.h"
 #include "pipeline/depth/depth_stage.h"
+#include "pipeline/depth/edge_snap.h"
 #include "pipeline/flow/epipolar_flow.h"
 #include "pipeline/flow/flow2d.h"
 #include "pipeline/pipeline.h"
@@ -20,7 +21,8 @@ struct Pipeline::State {
         : rig(rigIn), options(optionsIn), plan(rig.video.size), pyramids(rig.video.size, plan),
           flow(pyramids, plan, options.flow2d), workers(std::make_shared<Workers>()),
           epipolar(rig, workers, options.epipolar), still(rig),
-          depth(rig.video, workers, options.depth),
+          depth(rig.video, workers, options.depth), snap(rig.video.size, workers),
+          snapped(rig.video.size),
           superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
         stageTimes.reserve(8);
         result.image = {superres.output().id(), superres.output().size()};
@@ -55,7 +57,9 @@ struct Pipeline::State {
     EpipolarFlow epipolar;
     StillReference still;
     DepthStage depth;
-    LumaImage luma;  // of the frame, where the search along lines did not run
+    EdgeSnap snap;
+    InverseDepthField snapped;  // what is shown: the stage's field at the picture's edges
+    LumaImage luma;             // of the frame, where the search along lines did not run
     SuperRes superres;
     std::optional<VirtualView> objects;
     bool hasStill = false;

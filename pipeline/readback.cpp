@@ -78,6 +78,10 @@ std::vector<bool> Pipeline::readSearchedTiles() const {
     return state_->flow.searched().read();
 }
 
+std::vector<float> Pipeline::readShownObjects() const {
+    return state_->objects ? state_->objects->readShown() : std::vector<float>();
+}
+
 std::vector<std::uint8_t> Pipeline::readImage() const {
     return state_->superres.output().readRgba8();
 }

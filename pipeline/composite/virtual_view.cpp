@@ -75,11 +75,25 @@ void VirtualView::draw(const InverseDepthField& real, const gpu::Texture& video,
     placed_ = !region_.empty();
     drawn_ = {};
     if (region_.empty()) return;
-    const VirtualLayer& layer = renderer_.render(objects_, *T_world_video_);
-    if (layer.bounds.empty()) return;
+    layer_ = renderer_.render(objects_, *T_world_video_);
+    if (layer_.bounds.empty()) return;
     upload(real);
-    composite_.run(layer, depth_, video, picture, target);
-    drawn_ = tilesOf(layer.bounds, picture.size(), video_);
+    composite_.run(layer_, depth_, video, picture, target);
+    drawn_ = tilesOf(layer_.bounds, picture.size(), video_);
+}
+
+std::vector<float> VirtualView::readShown() const {
+    const Size size = composite_.visibility().size();
+    std::vector<float> out(static_cast<std::size_t>(size.width) * size.height);
+    if (drawn_.empty()) return out;
+    const auto visible = composite_.visibility().readRgba8(), colour = layer_.colour->readRgba8();
+    for (int y = layer_.bounds.y0; y < layer_.bounds.y1; ++y) {
+        for (int x = layer_.bounds.x0; x < layer_.bounds.x1; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
+            out[i] = static_cast<float>(visible[4 * i] * colour[4 * i + 3]) / (255.0F * 255.0F);
+        }
+    }
+    return out;
 }
 
 void VirtualView::upload(const InverseDepthField& real) {

@@ -33,6 +33,9 @@ public:
     void draw(const InverseDepthField& real, const gpu::Texture& video, const gpu::Texture& picture,
               const gpu::Framebuffer& target);
 
+    /// Share of every output pixel that shows a virtual object, as last drawn. Waits for the GPU.
+    [[nodiscard]] std::vector<float> readShown() const;
+
 private:
     void upload(const InverseDepthField& real);
 
@@ -45,6 +48,7 @@ private:
     std::vector<float> values_;
     std::optional<RigidTransform> T_world_video_;
     PixelRect region_, drawn_;  // video pixels, tiles
+    VirtualLayer layer_;        // as last drawn
     bool changed_ = false, placed_ = false;
 };
 

@@ -1,0 +1,144 @@
+#include "pipeline/depth/edge_snap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace mfar {
+namespace {
+
+constexpr int kBand = 4;     // undecided on both sides of a depth edge [px]
+constexpr int kRadius = 10;  // from where surfaces are taken [px]
+// An edge, no slope: so much of the nearer inverse depth within 2 kBand + 1 pixels, and more than
+// noise makes.
+constexpr float kJump = 0.08F, kSigmas = 3;
+constexpr float kLikeness = 12;    // colours so far apart are alike by half [grey levels]
+constexpr float kLeastWeight = 3;  // of all voters, each at most one
+constexpr float kNothing = std::numeric_limits<float>::max();
+
+using Colour = std::array<int, 3>;
+
+Colour colourAt(const ImageView& picture, int x, int y) {
+    const std::uint8_t* p = picture.data + static_cast<std::size_t>(y) * picture.stride +
+                            static_cast<std::size_t>(x) * bytesPerPixel(picture.format);
+    if (picture.format == PixelFormat::Gray8) return {p[0], p[0], p[0]};
+    return {p[0], p[1], p[2]};
+}
+
+float likeness(const Colour& a, const Colour& b) {
+    const int r = a[0] - b[0], g = a[1] - b[1], u = a[2] - b[2];
+    const float square = static_cast<float>(r * r + g * g + u * u) / (kLikeness * kLikeness);
+    return 1 / (1 + square * square);
+}
+
+/// Those that vote for one of two surfaces.
+struct Side {
+    float weight = 0, rho = 0, variance = 0;
+    void add(float w, float r, float v) {
+        weight += w;
+        rho += w * r;
+        variance += w * v;
+    }
+};
+
+}  // namespace
+
+EdgeSnap::EdgeSnap(Size video, std::shared_ptr<Workers> workers)
+    : size_(video), workers_(std::move(workers)) {
+    const auto pixels = static_cast<std::size_t>(video.width) * video.height;
+    open_.resize(pixels);
+    low_.resize(pixels);
+    high_.resize(pixels);
+}
+
+void EdgeSnap::run(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
+                   InverseDepthField& out) {
+    if (!(out.size == size_)) out = InverseDepthField(size_);
+    std::fill(out.rho.begin(), out.rho.end(), 0.0F);
+    std::fill(out.variance.begin(), out.variance.end(), InverseDepthField::kUnknown);
+    std::fill(out.filled.begin(), out.filled.end(), std::uint8_t{0});
+    findEdges(in, where);
+    workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
+        for (int y = where.y0 + first; y < where.y0 + last; ++y)
+            snapRow(in, frame, where, y, out);
+    });
+}
+
+// Ranges along rows, then along columns.
+void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
+    const int width = size_.width;
+    workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
+        for (int y = where.y0 + first; y < where.y0 + last; ++y) {
+            const auto row = static_cast<std::size_t>(y) * width;
+            for (int x = where.x0; x < where.x1; ++x) {
+                float low = kNothing, high = -kNothing;
+                for (int u = std::max(x - kBand, where.x0); u < std::min(x + kBand + 1, where.x1);
+                     ++u) {
+                    const bool known = in.isKnown(row + u);
+                    low = std::min(low, known ? in.rho[row + u] : kNothing);
+                    high = std::max(high, known ? in.rho[row + u] : -kNothing);
+                }
+                low_[row + x] = low;
+                high_[row + x] = high;
+            }
+        }
+    });
+    workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
+        for (int y = where.y0 + first; y < where.y0 + last; ++y) {
+            for (int x = where.x0; x < where.x1; ++x) {
+                float low = kNothing, high = -kNothing;
+                for (int v = std::max(y - kBand, where.y0); v < std::min(y + kBand + 1, where.y1);
+                     ++v) {
+                    const auto j = static_cast<std::size_t>(v) * width + x;
+                    low = std::min(low, low_[j]);
+                    high = std::max(high, high_[j]);
+                }
+                const auto i = static_cast<std::size_t>(y) * width + x;
+                const float noise = in.isKnown(i) ? kSigmas * std::sqrt(in.variance[i]) : 0.0F;
+                const bool edge = high - low > kJump * high + noise;
+                open_[i] = edge || !in.isKnown(i) ? 1 : 0;
+            }
+        }
+    });
+}
+
+void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
+                       int y, InverseDepthField& out) const {
+    const int width = size_.width;
+    for (int x = where.x0; x < where.x1; ++x) {
+        const auto i = static_cast<std::size_t>(y) * width + x;
+        out.rho[i] = in.rho[i];
+        out.variance[i] = in.variance[i];
+        out.filled[i] = in.filled[i];
+        if (open_[i] == 0) continue;
+        const int x0 = std::max(x - kRadius, where.x0), x1 = std::min(x + kRadius + 1, where.x1);
+        const int y0 = std::max(y - kRadius, where.y0), y1 = std::min(y + kRadius + 1, where.y1);
+        float low = kNothing, high = -kNothing;
+        for (int v = y0; v < y1; ++v)
+            for (int u = x0; u < x1; ++u) {
+                const auto j = static_cast<std::size_t>(v) * width + u;
+                if (open_[j] != 0) continue;
+                low = std::min(low, in.rho[j]);
+                high = std::max(high, in.rho[j]);
+            }
+        if (low > high) continue;
+        const float middle = 0.5F * (low + high);
+        const Colour own = colourAt(frame, x, y);
+        std::array<Side, 2> sides;
+        for (int v = y0; v < y1; ++v)
+            for (int u = x0; u < x1; ++u) {
+                const auto j = static_cast<std::size_t>(v) * width + u;
+                if (open_[j] != 0) continue;
+                sides[in.rho[j] > middle ? 1 : 0].add(likeness(own, colourAt(frame, u, v)),
+                                                      in.rho[j], in.variance[j]);
+            }
+        const Side& side = sides[sides[1].weight > sides[0].weight ? 1 : 0];
+        if (side.weight < kLeastWeight) continue;
+        out.rho[i] = side.rho / side.weight;
+        out.variance[i] = side.variance / side.weight;
+        out.filled[i] = 1;
+    }
+}
+
+}  // namespace mfar

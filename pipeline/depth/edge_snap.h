@@ -1,0 +1,39 @@
+#pragma once
+
+#include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/geometry.h"
+#include "pipeline/workers.h"
+
+#include <memory>
+#include <vector>
+
+namespace mfar {
+
+/// Puts the edges of a depth field onto those of the picture. Matching cannot tell on which side of
+/// a depth edge the pixels beside it lie: its windows reach across, and one side is hidden in the
+/// other picture. Pixels near an edge, and unknown ones, are given the surface of those farther
+/// away from it that look like them. Source: Tomasi and Manduchi 1998 (weights); Ma et al.,
+/// Constant time weighted median filtering for stereo matching, ICCV 2013 (depth by the likeness of
+/// colours).
+class EdgeSnap {
+public:
+    EdgeSnap(Size video, std::shared_ptr<Workers> workers);
+
+    /// `frame`: the picture that `in` belongs to. Works on the pixels of `where` alone; of them
+    /// `out` holds the result afterwards, nothing is known elsewhere. What was given by likeness is
+    /// marked as filled.
+    void run(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
+             InverseDepthField& out);
+
+private:
+    void findEdges(const InverseDepthField& in, const PixelRect& where);
+    void snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where, int y,
+                 InverseDepthField& out) const;
+
+    Size size_;
+    std::shared_ptr<Workers> workers_;
+    std::vector<std::uint8_t> open_;  // 1: to be decided by likeness
+    std::vector<float> low_, high_;   // rho along a row
+};
+
+}  // namespace mfar
