@@ -82,6 +82,23 @@ void Pipeline::setSkipUnchanged(bool skip) {
     state_->options.skipUnchanged = skip;
 }
 
+// Along epipolar lines where the frame's pose is known, and the still's.
+void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pose>& pose) {
+    pyramids.buildVideo(video, plan);
+    lap("pyramid");
+    if (pose) {
+        // The search runs on the processor, so that has to know whether it is needed.
+        if (plan.changedTiles() > 0) epipolar.run(frame, *pose);
+        lap("epipolar");
+        flow.refine(pyramids, plan, epipolar.forward(), epipolar.hidden());
+    } else {
+        flow.run(pyramids, plan, hasPrior);
+    }
+    lap("flow");
+    superres.assess(pyramids, flow, plan);
+    lap("assess");
+}
+
 PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose) {
     PixelRect where;
     if (objects) {
@@ -94,10 +111,16 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose) {
 
 void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose, bool searched,
                                    const PixelRect& where) {
-    if (!searched) {
+    if (searched) {
+        measureAlongLines(pose, where);
+    } else {
         lumaOf(frame, luma);
-        return depth.run(luma, pose, {}, where);
+        depth.run(luma, pose, {}, where);
     }
+    snap.run(depth.field(), frame, where, snapped);
+}
+
+void Pipeline::State::measureAlongLines(const Pose& pose, const PixelRect& where) {
     const EpipolarFlow::Cells vectors = flow.readForward();
     depth.run(epipolar.luma(), pose,
               DepthStage::StillSearch{epipolar.search(), epipolar.rotation(), epipolar.unit(),
@@ -148,29 +171,13 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
     const bool usePose = useStill && pose && s.epipolar.hasStill();
-    if (useStill) {
-        s.pyramids.buildVideo(s.video, s.plan);
-        s.lap("pyramid");
-        if (usePose) {
-            // The search runs on the processor, so that has to know whether it is needed.
-            if (s.plan.changedTiles() > 0) s.epipolar.run(video, *pose);
-            s.lap("epipolar");
-            s.flow.refine(s.pyramids, s.plan, s.epipolar.forward(), s.epipolar.hidden());
-        } else {
-            s.flow.run(s.pyramids, s.plan, s.hasPrior);
-        }
-        s.lap("flow");
-        s.superres.assess(s.pyramids, s.flow, s.plan);
-        s.lap("assess");
-    }
+    if (useStill) s.matchStill(video, usePose ? pose : std::nullopt);
     s.superres.draw(s.video, useStill ? &s.still : nullptr, s.plan);
     glFlush();
     s.lap("superres");
-    int depthTiles = 0;
-    if (pose && !where.empty() && s.plan.changedTiles() > 0) {
-        depthTiles = tilesIn(where);
+    const bool measure = pose && !where.empty() && s.plan.changedTiles() > 0;
+    if (measure) {
         s.measureDepth(video, {time, pose->T_world_video, pose->covariance}, usePose, where);
-        s.snap.run(s.depth.field(), video, where, s.snapped);
         s.lap("depth");
     }
     if (s.objects && s.plan.changedTiles() > 0) {
@@ -182,8 +189,8 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 
     s.result.stats = s.superres.statsBefore();
     s.result.stats.usedStill = useStill;
-    s.result.stats.depthTiles = depthTiles;
-    s.result.stats.depth = depthTiles > 0 ? s.depth.source() : DepthSource::None;
+    s.result.stats.depthTiles = measure ? tilesIn(where) : 0;
+    s.result.stats.depth = measure ? s.depth.source() : DepthSource::None;
     s.result.stats.searched2d = s.flow.searched().countBefore();
     if (usePose) publishPose(s.epipolar, s.result.stats);
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};

@@ -37,10 +37,12 @@ struct Pipeline::State {
         lastLap = now;
     }
 
+    void matchStill(const ImageView& frame, const std::optional<Pose>& pose);
     /// Says where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose);
     void measureDepth(const ImageView& frame, const Pose& pose, bool searched,
                       const PixelRect& where);
+    void measureAlongLines(const Pose& pose, const PixelRect& where);
     void forgetMoving(const EpipolarFlow::Cells& vectors);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
 

@@ -36,7 +36,7 @@ void VirtualView::setObjects(std::vector<VirtualObject> objects) {
 }
 
 const PixelRect& VirtualView::place(const std::optional<RigidTransform>& T_world_video) {
-    T_world_video_ = T_world_video;
+    placedPose_ = T_world_video;
     region_ = {};
     if (!T_world_video || objects_.empty()) return region_;
     const auto& tiles = silhouette_.run(objects_, *T_world_video);
@@ -75,7 +75,7 @@ void VirtualView::draw(const InverseDepthField& real, const gpu::Texture& video,
     placed_ = !region_.empty();
     drawn_ = {};
     if (region_.empty()) return;
-    layer_ = renderer_.render(objects_, *T_world_video_);
+    layer_ = renderer_.render(objects_, *placedPose_);
     if (layer_.bounds.empty()) return;
     upload(real);
     composite_.run(layer_, depth_, video, picture, target);

@@ -46,7 +46,7 @@ private:
     Composite composite_;
     gpu::Texture depth_;
     std::vector<float> values_;
-    std::optional<RigidTransform> T_world_video_;
+    std::optional<RigidTransform> placedPose_;
     PixelRect region_, drawn_;  // video pixels, tiles
     VirtualLayer layer_;        // as last drawn
     bool changed_ = false, placed_ = false;

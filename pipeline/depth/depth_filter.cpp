@@ -26,24 +26,24 @@ DepthFilter::DepthFilter(const CameraModel& video, std::shared_ptr<Workers> work
       points_(field_.rho.size()), carriedPoints_(field_.rho.size()) {}
 
 void DepthFilter::forget() {
-    if (!T_world_field_) return;
+    if (!fieldPose_) return;
     field_ = InverseDepthField(field_.size);
     std::fill(points_.begin(), points_.end(), Point());
-    T_world_field_.reset();
+    fieldPose_.reset();
 }
 
 void DepthFilter::predict(const RigidTransform& T_world_video, double seconds) {
-    if (!T_world_field_) {
-        T_world_field_ = T_world_video;
+    if (!fieldPose_) {
+        fieldPose_ = T_world_video;
         return;
     }
     const auto growth = static_cast<float>(kDrift * kDrift * std::max(seconds, 0.0));
     for (std::size_t i = 0; i < field_.rho.size(); ++i)
         field_.variance[i] += growth * field_.rho[i] * field_.rho[i];
-    const RigidTransform T_now_before = T_world_video.inverse() * *T_world_field_;
+    const RigidTransform T_now_before = T_world_video.inverse() * *fieldPose_;
     if (!moves(T_now_before)) return;
     carry(T_now_before);
-    T_world_field_ = T_world_video;
+    fieldPose_ = T_world_video;
 }
 
 bool DepthFilter::moves(const RigidTransform& T) const {
@@ -78,8 +78,9 @@ void DepthFilter::carry(const RigidTransform& T_now_before) {
         carried_.rho[to] = moved;
         carried_.variance[to] = field_.variance[i] * slope * slope;
         carried_.filled[to] = field_.filled[i];
-        carriedPoints_[to] = {q.x - static_cast<float>(landed % width),
-                              q.y - static_cast<float>(landed / width), point.outliers};
+        const int column = landed % width, row = landed / width;
+        carriedPoints_[to] = {q.x - static_cast<float>(column), q.y - static_cast<float>(row),
+                              point.outliers};
     }
     std::swap(field_, carried_);
     std::swap(points_, carriedPoints_);

@@ -50,7 +50,7 @@ private:
     EpipolarLens lens_;
     float focal_, pixelX_, pixelY_;  // [px], and rays a pixel
     std::shared_ptr<Workers> workers_;
-    std::optional<RigidTransform> T_world_field_;
+    std::optional<RigidTransform> fieldPose_;
     InverseDepthField field_, carried_;
     std::vector<Point> points_, carriedPoints_;
 };

@@ -66,7 +66,7 @@ void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const f
 
 void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f& R,
                             const PixelRect& where) {
-    const Eigen::Vector3f t = search.translation();
+    const Eigen::Vector3f& t = search.translation();
     const int width = lens_.size().width;
     workers_->forRange(where.y1 - where.y0, 16, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
@@ -99,7 +99,7 @@ void DepthMeasurement::run(const EpipolarSearch& search, const Eigen::Matrix3f& 
     const bool parallax = search.pixelsPerUnit() > 0 && unit > 0;
     if (parallax) takeField(search, cells, where);
     if (parallax) land(search, R_other_video, where);
-    const Eigen::Vector3f t = search.translation();
+    const Eigen::Vector3f& t = search.translation();
     const auto perUnit = static_cast<float>(parallax ? 1 / unit : 0);
     const auto slack = static_cast<float>(parallax ? kSlope / search.pixelsPerUnit() : 0);
     workers_->forRange(where.y1 - where.y0, 16, [&](int first, int last) {

@@ -41,7 +41,7 @@ void DepthStage::forget() {
     keyframes_.forget();
     searchedKey_ = -1;
     last_.reset();
-    T_world_measured_.reset();
+    measuredPose_.reset();
     source_ = DepthSource::None;
 }
 
@@ -69,12 +69,12 @@ void DepthStage::run(const LumaImage& luma, const Pose& pose,
 
 // The same view measured again would only make its errors look smaller.
 bool DepthStage::seesMore(const Pose& pose, double rho) {
-    if (T_world_measured_) {
-        const RigidTransform T = T_world_measured_->inverse() * pose.T_world_video;
+    if (measuredPose_) {
+        const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
         const double turn = 2 * T.rotation.vec().norm();
         if (focal_ * (turn + rho * T.translation.norm()) < kSameView) return false;
     }
-    T_world_measured_ = pose.T_world_video;
+    measuredPose_ = pose.T_world_video;
     return true;
 }
 

@@ -58,7 +58,7 @@ private:
     InverseDepthField measured_;
     DepthSource source_ = DepthSource::None;
     long searchedKey_ = -1;
-    std::optional<RigidTransform> T_world_measured_;
+    std::optional<RigidTransform> measuredPose_;
     std::optional<Timestamp> last_;
     std::vector<float> predicted_, samples_;
 };

@@ -27,20 +27,20 @@ TwoWayTest::TwoWayTest(const StereoRig& rig, std::shared_ptr<Workers> workers,
       backward_({still_, video_, rig.T_still_video.inverse()}, std::move(workers), options) {}
 
 void TwoWayTest::run(const EpipolarSearch& forward, const ImageView& frame) {
-    T_still_video_ = forward.pose();
+    pose_ = forward.pose();
     backward_.setStill(frame);
-    backward_.run(forward.stillPicture(), T_still_video_.inverse());
+    backward_.run(forward.stillPicture(), pose_.inverse());
 }
 
 std::optional<float> TwoWayTest::error(const Eigen::Vector2d& ray, double s) const {
-    const auto there = seenFrom(ray, s, T_still_video_, still_);
+    const auto there = seenFrom(ray, s, pose_, still_);
     if (!there) return std::nullopt;
     const double x = std::round(there->x()), y = std::round(there->y());
     if (!(x >= 0 && y >= 0 && x < still_.size.width && y < still_.size.height)) return std::nullopt;
     const auto pixel =
         static_cast<std::size_t>(y) * still_.size.width + static_cast<std::size_t>(x);
     const auto back = seenFrom(still_.unproject(*there), backward_.inverseDepth()[pixel],
-                               T_still_video_.inverse(), video_);
+                               pose_.inverse(), video_);
     if (!back) return std::nullopt;
     return static_cast<float>((*back - video_.project(ray)).norm());
 }

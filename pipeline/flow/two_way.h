@@ -25,7 +25,7 @@ public:
 private:
     CameraModel video_, still_;
     EpipolarSearch backward_;
-    RigidTransform T_still_video_;
+    RigidTransform pose_;
 };
 
 }  // namespace mfar

@@ -35,7 +35,7 @@ public:
 
     /// A frame of a camera there.
     void go(const RigidTransform& T_world_video) {
-        T_world_video_ = T_world_video;
+        pose_ = T_world_video;
         Pose pose{Timestamp::fromSeconds(1 + kFrame * frames_++), T_world_video};
         stage_.run(panelScene().render(barrelCamera(), T_world_video.inverse()), pose, {}, kAll);
     }
@@ -58,7 +58,7 @@ public:
             for (int x = 8; x < size.width - 8; ++x, ++pixels) {
                 const auto i = static_cast<std::size_t>(y) * size.width + x;
                 const double z =
-                    panelScene().depth(T_world_video_.inverse(), barrelCamera().unproject({x, y}));
+                    panelScene().depth(pose_.inverse(), barrelCamera().unproject({x, y}));
                 if (stage_.field().isKnown(i))
                     all.push_back(std::abs(1 / std::max(stage_.field().rho[i], 1e-6F) - z) / z);
             }
@@ -76,7 +76,7 @@ public:
 
 private:
     DepthStage stage_;
-    RigidTransform T_world_video_;
+    RigidTransform pose_;
     double x_ = 0;
     int frames_ = 0;
 };
