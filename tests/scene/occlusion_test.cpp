@@ -14,6 +14,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// On the shelf the windows of the matching reach farther beside thin things than the picture's
+/// edges put right.
 struct Case {
     synthetic::Scene scene;
     Eigen::Vector3d centre;
