@@ -175,12 +175,13 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.superres.draw(s.video, useStill ? &s.still : nullptr, s.plan);
     glFlush();
     s.lap("superres");
-    const bool measure = pose && !where.empty() && s.plan.changedTiles() > 0;
-    if (measure) {
+    const bool measures = pose && !where.empty();
+    const bool changed = (measures || s.objects) && s.plan.changedTiles() > 0;
+    if (measures && changed) {
         s.measureDepth(video, {time, pose->T_world_video, pose->covariance}, usePose, where);
         s.lap("depth");
     }
-    if (s.objects && s.plan.changedTiles() > 0) {
+    if (s.objects && changed) {
         s.objects->draw(s.snapped, s.video, s.superres.output(), s.superres.target());
         s.lap("composite");
     }
@@ -189,8 +190,8 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 
     s.result.stats = s.superres.statsBefore();
     s.result.stats.usedStill = useStill;
-    s.result.stats.depthTiles = measure ? tilesIn(where) : 0;
-    s.result.stats.depth = measure ? s.depth.source() : DepthSource::None;
+    s.result.stats.depthTiles = measures && changed ? tilesIn(where) : 0;
+    s.result.stats.depth = measures && changed ? s.depth.source() : DepthSource::None;
     s.result.stats.searched2d = s.flow.searched().countBefore();
     if (usePose) publishPose(s.epipolar, s.result.stats);
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};

@@ -60,11 +60,12 @@ void DepthStage::run(const LumaImage& luma, const Pose& pose,
         source_ = DepthSource::Still;
     }
     const Summary now = summaryOf(where, pose);
-    const auto choice = keyframes_.choose(pose, brightnessOf(luma), now.rho);
+    const double brightness = brightnessOf(luma);
+    const auto choice = keyframes_.choose(pose, brightness, now.rho);
     const double stillAngle = still ? still->unit * now.rho : 0;
     if (choice && now.share > options_.enough && choice->angle > kWorth * stillAngle)
         searchKeyframe(luma, pose, *choice, where);
-    keyframes_.add(luma, pose, now.rho);
+    keyframes_.add(luma, pose, brightness, now.rho);
 }
 
 // The same view measured again would only make its errors look smaller.

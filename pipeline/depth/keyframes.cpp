@@ -30,7 +30,7 @@ void Keyframes::forget() {
     frames_.clear();
 }
 
-void Keyframes::add(const LumaImage& luma, const Pose& pose, double rho) {
+void Keyframes::add(const LumaImage& luma, const Pose& pose, double brightness, double rho) {
     ++count_;
     if (!frames_.empty()) {
         const RigidTransform T = frames_.front().pose.T_world_video.inverse() * pose.T_world_video;
@@ -44,7 +44,7 @@ void Keyframes::add(const LumaImage& luma, const Pose& pose, double rho) {
     }
     frame.luma = luma;
     frame.pose = pose;
-    frame.brightness = brightnessOf(luma);
+    frame.brightness = brightness;
     frame.number = count_;
     frames_.push_front(std::move(frame));
 }

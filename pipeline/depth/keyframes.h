@@ -26,8 +26,8 @@ public:
 
     void forget();
     /// Takes a frame, if the camera has moved by more than rounding since the newest. `rho`: of the
-    /// scene [1/m], what a typical point of it has.
-    void add(const LumaImage& luma, const Pose& pose, double rho);
+    /// scene [1/m], what a typical point of it has. `brightness`: of the luma.
+    void add(const LumaImage& luma, const Pose& pose, double brightness, double rho);
 
     struct Choice {
         const Keyframe* frame;

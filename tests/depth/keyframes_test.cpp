@@ -26,7 +26,7 @@ LumaImage grey(int value) {
 Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
     Keyframes out(kCamera, options);
     for (int i = 0; i < 10; ++i)
-        out.add(grey(brightness), poseAt(0.01 * i), 1);
+        out.add(grey(brightness), poseAt(0.01 * i), brightness, 1);
     return out;
 }
 
@@ -56,8 +56,8 @@ TEST(Keyframes, ScoreTakesTheMostParallaxThatOverlaps) {
 
 TEST(Keyframes, AnotherExposureCounts) {
     Keyframes frames(kCamera, {});
-    frames.add(grey(30), poseAt(0), 1);
-    frames.add(grey(100), poseAt(0.04), 1);
+    frames.add(grey(30), poseAt(0), 30, 1);
+    frames.add(grey(100), poseAt(0.04), 100, 1);
     EXPECT_NEAR(frames.choose(poseAt(0.1), 100, 1)->frame->brightness, 100, 1e-9);
     EXPECT_NEAR(frames.choose(poseAt(0.1), 30, 1)->frame->brightness, 30, 1e-9);
 }
@@ -65,7 +65,7 @@ TEST(Keyframes, AnotherExposureCounts) {
 TEST(Keyframes, ARestingOrTurningCameraKeepsThoseItHas) {
     Keyframes frames = walked({});
     for (int i = 0; i < 300; ++i)
-        frames.add(grey(100), poseAt(0.09), 1);
+        frames.add(grey(100), poseAt(0.09), 100, 1);
     ASSERT_TRUE(frames.choose(poseAt(0.09), 100, 1));
     EXPECT_LT(frames.choose(poseAt(0.09), 100, 1)->frame->pose.T_world_video.translation.x(), 0.05);
 }
@@ -73,7 +73,7 @@ TEST(Keyframes, ARestingOrTurningCameraKeepsThoseItHas) {
 TEST(Keyframes, WithoutParallaxThereIsNone) {
     Keyframes frames(kCamera, {});
     EXPECT_FALSE(frames.choose(poseAt(0), 100, 1));
-    frames.add(grey(100), poseAt(0), 1);
+    frames.add(grey(100), poseAt(0), 100, 1);
     EXPECT_FALSE(frames.choose(poseAt(0), 100, 1));
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, 0));
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, std::numeric_limits<double>::quiet_NaN()));
