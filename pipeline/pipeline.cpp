@@ -26,11 +26,9 @@ void publishPose(const EpipolarFlow& flow, FrameStats& stats) {
     stats.epipolarError = refinement.normalAfter;
 }
 
-int tilesIn(const PixelRect& pixels) {
-    const auto count = [](int from, int to) {
-        return (to + kTileSize - 1) / kTileSize - from / kTileSize;
-    };
-    return count(pixels.x0, pixels.x1) * count(pixels.y0, pixels.y1);
+int tilesIn(const PixelRect& videoPixels) {
+    const PixelRect tiles = tilesAround(videoPixels);
+    return (tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
 }
 
 }  // namespace

@@ -17,6 +17,12 @@ constexpr double kWholeShare = 0.45;
 
 }  // namespace
 
+PixelRect tilesAround(const PixelRect& videoPixels) {
+    const auto upwards = [](int pixel) { return (pixel + kTileSize - 1) / kTileSize; };
+    return {videoPixels.x0 / kTileSize, videoPixels.y0 / kTileSize, upwards(videoPixels.x1),
+            upwards(videoPixels.y1)};
+}
+
 WorkPlan::WorkPlan(Size video)
     : video_(video), tileCount_{(video.width + kTileSize - 1) / kTileSize,
                                 (video.height + kTileSize - 1) / kTileSize},

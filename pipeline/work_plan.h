@@ -9,6 +9,9 @@
 
 namespace mfar {
 
+/// The tiles that video pixels lie in.
+[[nodiscard]] PixelRect tilesAround(const PixelRect& videoPixels);
+
 /// Decides on the GPU what a frame has to compute: compares the video with what was last drawn,
 /// tile by tile, and opens or shuts the frame's dispatches. A frame without any changed tile costs
 /// one comparison; the CPU never waits to know.

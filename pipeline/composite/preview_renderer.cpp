@@ -13,12 +13,6 @@ using gpu::TexelFormat;
 
 static_assert(sizeof(ShapeMesh::Vertex) == sizeof(gpu::MeshVertex));
 
-PixelRect around(const PixelRect& a, const PixelRect& b) {
-    if (a.empty()) return b;
-    if (b.empty()) return a;
-    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
 void store(float* to, const Eigen::Vector3d& xyz, double w) {
     const Eigen::Vector3f f = xyz.cast<float>();
     std::copy_n(f.data(), 3, to);

@@ -1,6 +1,7 @@
 #include "pipeline/composite/virtual_view.h"
 
 #include "pipeline/results.h"
+#include "pipeline/work_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,12 +62,7 @@ bool VirtualView::mustRedraw() const {
 
 PixelRect VirtualView::staleTiles() const {
     if (!mustRedraw() || region_.empty()) return drawn_;
-    const PixelRect now{region_.x0 / kTileSize, region_.y0 / kTileSize,
-                        (region_.x1 + kTileSize - 1) / kTileSize,
-                        (region_.y1 + kTileSize - 1) / kTileSize};
-    if (drawn_.empty()) return now;
-    return {std::min(now.x0, drawn_.x0), std::min(now.y0, drawn_.y0), std::max(now.x1, drawn_.x1),
-            std::max(now.y1, drawn_.y1)};
+    return around(drawn_, tilesAround(region_));
 }
 
 void VirtualView::draw(const InverseDepthField& real, const gpu::Texture& video,

@@ -17,11 +17,6 @@ constexpr double kWorth = 2;
 // A search starts from what is known when so much of the picture is.
 constexpr double kMostlyKnown = 0.97;
 
-ImageView viewOf(const LumaImage& luma) {
-    return {luma.pixels.data(), luma.size, static_cast<std::size_t>(luma.size.width),
-            PixelFormat::Gray8};
-}
-
 double medianOf(std::vector<float>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());

@@ -52,6 +52,11 @@ std::vector<Span> spansOf(int from, int to) {
 
 }  // namespace
 
+ImageView viewOf(const LumaImage& picture) {
+    return {picture.pixels.data(), picture.size, static_cast<std::size_t>(picture.size.width),
+            PixelFormat::Gray8};
+}
+
 void lumaOf(const ImageView& picture, LumaImage& out) {
     if (!(out.size == picture.size)) out = LumaImage(picture.size);
     for (int y = 0; y < picture.size.height; ++y)

@@ -23,6 +23,8 @@ struct LumaImage {
     }
 };
 
+[[nodiscard]] ImageView viewOf(const LumaImage& picture);
+
 /// Luma (Rec. 601) of a grey or RGBA picture, as luma.glsl computes it. `out` has its size.
 void lumaOf(const ImageView& picture, LumaImage& out);
 

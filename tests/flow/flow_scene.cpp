@@ -75,11 +75,6 @@ LumaImage Scene::render(const CameraModel& camera, const RigidTransform& T_camer
     return out;
 }
 
-ImageView viewOf(const LumaImage& picture) {
-    return {picture.pixels.data(), picture.size, static_cast<std::size_t>(picture.size.width),
-            PixelFormat::Gray8};
-}
-
 EpipolarSearch searchWith(const CameraModel& camera, int threads) {
     return {{camera, camera, {}}, std::make_shared<Workers>(threads)};
 }

@@ -41,7 +41,7 @@ struct View {
     [[nodiscard]] LumaImage still() const { return scene.render(camera, T_still_video); }
 };
 
-[[nodiscard]] ImageView viewOf(const LumaImage& picture);
+using mfar::viewOf;
 
 /// A search whose two cameras are the same.
 [[nodiscard]] EpipolarSearch searchWith(const CameraModel& camera, int threads);
