@@ -41,6 +41,8 @@ void Stats::picture(const Picture& picture) {
     }
     if (picture.stats.usedPose) ++counted_.epipolarFrames;
     counted_.depthTiles += static_cast<std::uint64_t>(std::max(picture.stats.depthTiles, 0));
+    counted_.depthTilesSkipped +=
+        static_cast<std::uint64_t>(std::max(picture.stats.depthTilesSkipped, 0));
     const DepthSource depth = picture.stats.depth;
     if (depth == DepthSource::Keyframe || depth == DepthSource::Both) ++counted_.keyframeSearches;
     counted_.tilesSearched2d += static_cast<std::uint64_t>(std::max(picture.stats.searched2d, 0));

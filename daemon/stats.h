@@ -42,13 +42,14 @@ struct Counted {
     Drops drops;
     StillCounts stills;
     PoseCounts poses;
-    std::uint64_t epipolarFrames = 0;    ///< pictures that were matched along epipolar lines
-    std::uint64_t predictedFrames = 0;   ///< of them, around what the frame before showed
-    std::uint64_t refinedFrames = 0;     ///< of them, with a pose refined from the pictures
-    double meanEpipolarError = 0;        ///< [video px], over those with patches to tell it
-    std::uint64_t depthTiles = 0;        ///< of all frames, where real depth was measured
-    std::uint64_t keyframeSearches = 0;  ///< frames whose depth was measured against a keyframe
-    std::uint64_t tilesSearched2d = 0;   ///< as the lines did not explain them
+    std::uint64_t epipolarFrames = 0;     ///< pictures that were matched along epipolar lines
+    std::uint64_t predictedFrames = 0;    ///< of them, around what the frame before showed
+    std::uint64_t refinedFrames = 0;      ///< of them, with a pose refined from the pictures
+    double meanEpipolarError = 0;         ///< [video px], over those with patches to tell it
+    std::uint64_t depthTiles = 0;         ///< of all frames, where real depth was measured
+    std::uint64_t depthTilesSkipped = 0;  ///< under virtual objects, known to lie behind them
+    std::uint64_t keyframeSearches = 0;   ///< frames whose depth was measured against a keyframe
+    std::uint64_t tilesSearched2d = 0;    ///< as the lines did not explain them
     FrameStats last;
     std::vector<StageTime> lastStages;
     std::optional<double> stillAgeS;  ///< at the last frame

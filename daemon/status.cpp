@@ -71,6 +71,7 @@ nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& fr
         {"epipolar_frames", counted.epipolarFrames},
         {"tiles_searched_2d", counted.tilesSearched2d},
         {"depth_tiles", counted.depthTiles},
+        {"depth_tiles_skipped", counted.depthTilesSkipped},
         {"keyframe_searches", counted.keyframeSearches},
         {"predicted_frames", counted.predictedFrames},
         {"refined_frames", counted.refinedFrames},

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -17,6 +18,24 @@ struct PixelRect {
     [[nodiscard]] bool empty() const { return x0 >= x1 || y0 >= y1; }
     bool operator==(const PixelRect&) const = default;
 };
+
+/// The least rectangle with both in it; an empty one adds nothing.
+[[nodiscard]] inline PixelRect around(const PixelRect& a, const PixelRect& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+/// What both hold, which may be nothing.
+[[nodiscard]] inline PixelRect common(const PixelRect& a, const PixelRect& b) {
+    return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+/// The same rectangle with `margin` more on each side, as far as there are pixels.
+[[nodiscard]] inline PixelRect widened(const PixelRect& r, int margin, Size picture) {
+    return common({r.x0 - margin, r.y0 - margin, r.x1 + margin, r.y1 + margin},
+                  {0, 0, picture.width, picture.height});
+}
 
 /// Pinhole camera with radial-tangential distortion (Brown-Conrady, OpenCV's order k1 k2 p1 p2 k3).
 /// Pixel centres at integers. Camera frame: x right, y down, z forward.

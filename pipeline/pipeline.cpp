@@ -1,7 +1,9 @@
 #include "pipeline/pipeline.h"
 
+#include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -100,7 +102,8 @@ void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pos
 PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose) {
     PixelRect where;
     if (objects) {
-        where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt);
+        where =
+            objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, depth.field());
         plan.drawnOver(objects->staleTiles(), objects->mustRedraw());
     }
     if (options.depthEverywhere) where = {0, 0, rig.video.size.width, rig.video.size.height};
@@ -109,13 +112,13 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose) {
 
 void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose, bool searched,
                                    const PixelRect& where) {
-    if (searched) {
+    if (searched && !where.empty()) {
         measureAlongLines(pose, where);
     } else {
         lumaOf(frame, luma);
         depth.run(luma, pose, {}, where);
     }
-    snap.run(depth.field(), frame, where, snapped);
+    snap.run(depth.field(), frame, where);
 }
 
 void Pipeline::State::measureAlongLines(const Pose& pose, const PixelRect& where) {
@@ -142,7 +145,6 @@ void Pipeline::State::forgetMoving(const EpipolarFlow::Cells& vectors) {
 
 // Of the tile's cells a quarter at least.
 bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const {
-    constexpr int kCell = 4;
     const int columns = flow.forward().cells.width;
     int off = 0, all = 0;
     for (int y = tile.y0 + 1; y < tile.y1; y += kCell) {
@@ -152,6 +154,28 @@ bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cel
         }
     }
     return 4 * off >= all;
+}
+
+// Depth and what it decides about. Where nothing is measured, what is known goes on with the
+// camera.
+void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
+                                  const std::optional<Pose>& pose, bool searched,
+                                  const PixelRect& where) {
+    const bool inView = objects && !objects->region().empty();
+    const bool measures = pose && (!where.empty() || inView);
+    if (!(measures || objects) || plan.changedTiles() == 0) return;
+    if (measures) {
+        measureDepth(frame, {time, pose->T_world_video, pose->covariance}, searched, where);
+        result.stats.depthTiles = tilesIn(where);
+        if (inView)
+            result.stats.depthTilesSkipped =
+                std::max(tilesIn(objects->region()) - tilesIn(where), 0);
+        if (!where.empty()) result.stats.depth = depth.source();
+        lap("depth");
+    }
+    if (!objects) return;
+    objects->draw(snap.field(), snap.where(), video, superres.output(), superres.target());
+    lap("composite");
 }
 
 const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
@@ -173,23 +197,12 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.superres.draw(s.video, useStill ? &s.still : nullptr, s.plan);
     glFlush();
     s.lap("superres");
-    const bool measures = pose && !where.empty();
-    const bool changed = (measures || s.objects) && s.plan.changedTiles() > 0;
-    if (measures && changed) {
-        s.measureDepth(video, {time, pose->T_world_video, pose->covariance}, usePose, where);
-        s.lap("depth");
-    }
-    if (s.objects && changed) {
-        s.objects->draw(s.snapped, s.video, s.superres.output(), s.superres.target());
-        s.lap("composite");
-    }
+    s.result.stats = s.superres.statsBefore();
+    s.showObjects(video, time, pose, usePose, where);
     s.redraw = false;
     s.hasPrior = useStill;
 
-    s.result.stats = s.superres.statsBefore();
     s.result.stats.usedStill = useStill;
-    s.result.stats.depthTiles = measures && changed ? tilesIn(where) : 0;
-    s.result.stats.depth = measures && changed ? s.depth.source() : DepthSource::None;
     s.result.stats.searched2d = s.flow.searched().countBefore();
     if (usePose) publishPose(s.epipolar, s.result.stats);
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
@@ -197,7 +210,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 }
 
 const InverseDepthField& Pipeline::inverseDepth() const {
-    return state_->snapped;
+    return state_->snap.field();
 }
 
 Size Pipeline::outputSize() const {

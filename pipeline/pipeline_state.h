@@ -22,7 +22,6 @@ struct Pipeline::State {
           flow(pyramids, plan, options.flow2d), workers(std::make_shared<Workers>()),
           epipolar(rig, workers, options.epipolar), still(rig),
           depth(rig.video, workers, options.depth), snap(rig.video.size, workers),
-          snapped(rig.video.size),
           superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
         stageTimes.reserve(8);
         result.image = {superres.output().id(), superres.output().size()};
@@ -42,6 +41,8 @@ struct Pipeline::State {
     PixelRect placeObjects(const std::optional<Pose>& pose);
     void measureDepth(const ImageView& frame, const Pose& pose, bool searched,
                       const PixelRect& where);
+    void showObjects(const ImageView& frame, Timestamp time, const std::optional<Pose>& pose,
+                     bool searched, const PixelRect& where);
     void measureAlongLines(const Pose& pose, const PixelRect& where);
     void forgetMoving(const EpipolarFlow::Cells& vectors);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
@@ -60,8 +61,7 @@ struct Pipeline::State {
     StillReference still;
     DepthStage depth;
     EdgeSnap snap;
-    InverseDepthField snapped;  // what is shown: the stage's field at the picture's edges
-    LumaImage luma;             // of the frame, where the search along lines did not run
+    LumaImage luma;  // of the frame, where the search along lines did not run
     SuperRes superres;
     std::optional<VirtualView> objects;
     bool hasStill = false;

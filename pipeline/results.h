@@ -45,6 +45,9 @@ struct FrameStats {
     int searched2d = 0;
     /// Tiles in which real depth was measured, as a virtual object may be hidden there.
     int depthTiles = 0;
+    /// Tiles under a virtual object in which real depth was not measured, as it is known to lie
+    /// behind that.
+    int depthTilesSkipped = 0;
     DepthSource depth = DepthSource::None;
 };
 

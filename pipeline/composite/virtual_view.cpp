@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace mfar {
@@ -13,6 +14,10 @@ namespace {
 // Real depth is needed where it is looked up for a pixel at the silhouette, with what snaps it to
 // the picture's edges [video px].
 constexpr int kMargin = 8;
+// What is known to lie behind an object is measured again after so many frames at most: something
+// may have come before it.
+constexpr int kMostRelied = 8;
+constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // pixels of a tile
 
 PixelRect tilesOf(const PixelRect& pixels, Size output, Size video) {
     const auto tile = [](int pixel, int from, int to) {
@@ -29,31 +34,51 @@ PixelRect tilesOf(const PixelRect& pixels, Size output, Size video) {
 VirtualView::VirtualView(const CameraModel& video, Size output)
     : video_(video.size), silhouette_(video, kMargin), renderer_(video, output),
       composite_(video.size, output), depth_(video.size, gpu::TexelFormat::Rg32F),
-      values_(2UL * video.size.width * video.size.height) {}
+      values_(2UL * video.size.width * video.size.height),
+      uploaded_{0, 0, video.size.width, video.size.height} {}
 
 void VirtualView::setObjects(std::vector<VirtualObject> objects) {
     objects_ = std::move(objects);
     changed_ = true;
 }
 
-const PixelRect& VirtualView::place(const std::optional<RigidTransform>& T_world_video) {
+PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
+                             const InverseDepthField& known) {
     placedPose_ = T_world_video;
     region_ = {};
-    if (!T_world_video || objects_.empty()) return region_;
+    if (!T_world_video || objects_.empty()) return {};
     const auto& tiles = silhouette_.run(objects_, *T_world_video);
-    const Size count = silhouette_.tileCount();
-    PixelRect covered{count.width, count.height, 0, 0};
-    for (int i = 0; i < count.width * count.height; ++i) {
-        if (!(tiles[static_cast<std::size_t>(i)].farthest > 0)) continue;
-        const int x = i % count.width, y = i / count.width;
-        covered = {std::min(covered.x0, x), std::min(covered.y0, y), std::max(covered.x1, x + 1),
-                   std::max(covered.y1, y + 1)};
+    const int columns = silhouette_.tileCount().width;
+    const bool relies = relied_ < kMostRelied;
+    PixelRect decides;
+    for (int i = 0; i < static_cast<int>(tiles.size()); ++i) {
+        const float farthest = tiles[static_cast<std::size_t>(i)].farthest;
+        if (!(farthest > 0)) continue;
+        const int x = i % columns * kTileSize, y = i / columns * kTileSize;
+        const PixelRect tile{x, y, x + kTileSize, y + kTileSize};
+        region_ = around(region_, widened(tile, 0, video_));
+        if (!relies || mayHide(tile, farthest, known))
+            decides = around(decides, widened(tile, kTileSize, video_));
     }
-    if (!covered.empty())
-        region_ = {covered.x0 * kTileSize, covered.y0 * kTileSize,
-                   std::min(covered.x1 * kTileSize, video_.width),
-                   std::min(covered.y1 * kTileSize, video_.height)};
-    return region_;
+    relied_ = relies ? relied_ + 1 : 0;
+    return decides.empty() ? decides : common(decides, region_);
+}
+
+// By three standard deviations; of what is not known it may be.
+bool VirtualView::mayHide(const PixelRect& tile, float farthest,
+                          const InverseDepthField& known) const {
+    const float behind = 1 / farthest;
+    int unknown = 0;
+    for (int y = tile.y0; y < std::min(tile.y1, video_.height); ++y) {
+        for (int x = tile.x0; x < std::min(tile.x1, video_.width); ++x) {
+            const auto i = static_cast<std::size_t>(y) * video_.width + x;
+            if (!known.isKnown(i))
+                ++unknown;
+            else if (known.rho[i] + 3 * std::sqrt(known.variance[i]) >= behind)
+                return true;
+        }
+    }
+    return unknown > kMostUnknown;
 }
 
 bool VirtualView::mustRedraw() const {
@@ -65,15 +90,16 @@ PixelRect VirtualView::staleTiles() const {
     return around(drawn_, tilesAround(region_));
 }
 
-void VirtualView::draw(const InverseDepthField& real, const gpu::Texture& video,
-                       const gpu::Texture& picture, const gpu::Framebuffer& target) {
+void VirtualView::draw(const InverseDepthField& real, const PixelRect& where,
+                       const gpu::Texture& video, const gpu::Texture& picture,
+                       const gpu::Framebuffer& target) {
     changed_ = false;
     placed_ = !region_.empty();
     drawn_ = {};
     if (region_.empty()) return;
     layer_ = renderer_.render(objects_, *placedPose_);
     if (layer_.bounds.empty()) return;
-    upload(real);
+    upload(real, where);
     composite_.run(layer_, depth_, video, picture, target);
     drawn_ = tilesOf(layer_.bounds, picture.size(), video_);
 }
@@ -92,13 +118,19 @@ std::vector<float> VirtualView::readShown() const {
     return out;
 }
 
-void VirtualView::upload(const InverseDepthField& real) {
-    for (std::size_t i = 0; i < real.rho.size(); ++i) {
+// Rows in which something is known, or was.
+void VirtualView::upload(const InverseDepthField& real, const PixelRect& where) {
+    const PixelRect rows = around(uploaded_, where);
+    uploaded_ = where;
+    if (rows.empty()) return;
+    const std::size_t first = static_cast<std::size_t>(rows.y0) * video_.width;
+    const std::size_t last = static_cast<std::size_t>(rows.y1) * video_.width;
+    for (std::size_t i = first; i < last; ++i) {
         const bool known = real.isKnown(i);
         values_[2 * i] = known ? real.rho[i] : 0.0F;
         values_[2 * i + 1] = known ? std::sqrt(real.variance[i]) : -1.0F;
     }
-    depth_.upload(values_);
+    depth_.upload(std::span(values_).subspan(2 * first, 2 * (last - first)), rows.y0);
 }
 
 }  // namespace mfar

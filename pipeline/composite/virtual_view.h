@@ -20,24 +20,31 @@ public:
     void setObjects(std::vector<VirtualObject> objects);
 
     /// Where the objects are for a camera at this pose; nothing: they are not shown. Gives the
-    /// video pixels whose real depth decides what of them is seen, empty where none is in the
-    /// picture.
-    const PixelRect& place(const std::optional<RigidTransform>& T_world_video);
+    /// video pixels whose real depth decides what of them is seen: empty where none is in the
+    /// picture, or where all that is `known`, the real scene about as the camera sees it, surely
+    /// lies behind them. From time to time that is not relied on.
+    PixelRect place(const std::optional<RigidTransform>& T_world_video,
+                    const InverseDepthField& known);
+    /// Video pixels around all objects, as placed.
+    [[nodiscard]] const PixelRect& region() const { return region_; }
     /// The last picture shows what this one must not, although nothing else may have changed: other
     /// objects, or any after none and the other way round.
     [[nodiscard]] bool mustRedraw() const;
     /// Tiles of the picture to draw anew before the next draw().
     [[nodiscard]] PixelRect staleTiles() const;
 
-    /// Draws them, as placed, over `picture`, which `target` draws into.
-    void draw(const InverseDepthField& real, const gpu::Texture& video, const gpu::Texture& picture,
-              const gpu::Framebuffer& target);
+    /// Draws them, as placed, over `picture`, which `target` draws into. Of `real` nothing is known
+    /// outside of `where`.
+    void draw(const InverseDepthField& real, const PixelRect& where, const gpu::Texture& video,
+              const gpu::Texture& picture, const gpu::Framebuffer& target);
 
     /// Share of every output pixel that shows a virtual object, as last drawn. Waits for the GPU.
     [[nodiscard]] std::vector<float> readShown() const;
 
 private:
-    void upload(const InverseDepthField& real);
+    [[nodiscard]] bool mayHide(const PixelRect& tile, float farthest,
+                               const InverseDepthField& known) const;
+    void upload(const InverseDepthField& real, const PixelRect& where);
 
     Size video_;
     std::vector<VirtualObject> objects_;
@@ -47,8 +54,9 @@ private:
     gpu::Texture depth_;
     std::vector<float> values_;
     std::optional<RigidTransform> placedPose_;
-    PixelRect region_, drawn_;  // video pixels, tiles
-    VirtualLayer layer_;        // as last drawn
+    PixelRect region_, drawn_, uploaded_;  // video pixels, tiles, video pixels
+    VirtualLayer layer_;                   // as last drawn
+    int relied_ = 0;                       // frames in a row on what was known before
     bool changed_ = false, placed_ = false;
 };
 

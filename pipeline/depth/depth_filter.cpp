@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -29,6 +30,7 @@ void DepthFilter::forget() {
     if (!fieldPose_) return;
     field_ = InverseDepthField(field_.size);
     std::fill(points_.begin(), points_.end(), Point());
+    known_ = {};
     fieldPose_.reset();
 }
 
@@ -38,8 +40,11 @@ void DepthFilter::predict(const RigidTransform& T_world_video, double seconds) {
         return;
     }
     const auto growth = static_cast<float>(kDrift * kDrift * std::max(seconds, 0.0));
-    for (std::size_t i = 0; i < field_.rho.size(); ++i)
-        field_.variance[i] += growth * field_.rho[i] * field_.rho[i];
+    for (int y = known_.y0; y < known_.y1; ++y) {
+        const auto row = static_cast<std::size_t>(y) * field_.size.width;
+        for (std::size_t i = row + known_.x0; i < row + known_.x1; ++i)
+            field_.variance[i] += growth * field_.rho[i] * field_.rho[i];
+    }
     const RigidTransform T_now_before = T_world_video.inverse() * *fieldPose_;
     if (!moves(T_now_before)) return;
     carry(T_now_before);
@@ -48,19 +53,33 @@ void DepthFilter::predict(const RigidTransform& T_world_video, double seconds) {
 
 bool DepthFilter::moves(const RigidTransform& T) const {
     const float turn = static_cast<float>(2 * T.rotation.vec().norm());
-    const float nearest = *std::max_element(field_.rho.begin(), field_.rho.end());
+    float nearest = 0;
+    for (int y = known_.y0; y < known_.y1; ++y) {
+        const float* row = field_.rho.data() + static_cast<std::size_t>(y) * field_.size.width;
+        nearest = std::max(nearest, *std::max_element(row + known_.x0, row + known_.x1));
+    }
     return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
 }
 
-// Points are homogeneous, (x, y, 1, rho): what is infinitely far only turns.
 void DepthFilter::carry(const RigidTransform& T_now_before) {
     const Eigen::Matrix3f R = T_now_before.rotation.toRotationMatrix().cast<float>();
     const Eigen::Vector3f t = T_now_before.translation.cast<float>();
+    carriedTo_ = {};
+    for (int y = known_.y0; y < known_.y1; ++y)
+        carryRow(R, t, y);
+    std::swap(field_, carried_);
+    std::swap(points_, carriedPoints_);
+    const PixelRect before = std::exchange(known_, carriedTo_);
+    for (int y = before.y0; y < before.y1; ++y)
+        carried_.forgetRow(y, before.x0, before.x1);
+    closeCracks();
+}
+
+// Points are homogeneous, (x, y, 1, rho): what is infinitely far only turns.
+void DepthFilter::carryRow(const Eigen::Matrix3f& R, const Eigen::Vector3f& t, int y) {
     const int width = field_.size.width;
-    std::fill(carried_.rho.begin(), carried_.rho.end(), 0.0F);
-    std::fill(carried_.variance.begin(), carried_.variance.end(), InverseDepthField::kUnknown);
-    std::fill(carried_.filled.begin(), carried_.filled.end(), std::uint8_t{0});
-    for (std::size_t i = 0; i < field_.rho.size(); ++i) {
+    const auto first = static_cast<std::size_t>(y) * width;
+    for (std::size_t i = first + known_.x0; i < first + known_.x1; ++i) {
         if (!field_.isKnown(i)) continue;
         const float rho = field_.rho[i];
         const Point& point = points_[i];
@@ -79,24 +98,22 @@ void DepthFilter::carry(const RigidTransform& T_now_before) {
         carried_.variance[to] = field_.variance[i] * slope * slope;
         carried_.filled[to] = field_.filled[i];
         const int column = landed % width, row = landed / width;
+        carriedTo_ = around(carriedTo_, {column, row, column + 1, row + 1});
         carriedPoints_[to] = {q.x - static_cast<float>(column), q.y - static_cast<float>(row),
                               point.outliers};
     }
-    std::swap(field_, carried_);
-    std::swap(points_, carriedPoints_);
-    closeCracks();
 }
 
 // A surface that comes nearer spreads its points; between them it goes on.
 void DepthFilter::closeCracks() {
-    const int width = field_.size.width, height = field_.size.height;
-    for (int y = 0; y < height; ++y)
-        for (int x = 1; x + 1 < width; ++x) {
+    const int width = field_.size.width;
+    for (int y = known_.y0; y < known_.y1; ++y)
+        for (int x = known_.x0 + 1; x + 1 < known_.x1; ++x) {
             const auto i = static_cast<std::size_t>(y) * width + x;
             closeCrack(i, i - 1, i + 1);
         }
-    for (int y = 1; y + 1 < height; ++y)
-        for (int x = 0; x < width; ++x) {
+    for (int y = known_.y0 + 1; y + 1 < known_.y1; ++y)
+        for (int x = known_.x0; x < known_.x1; ++x) {
             const auto i = static_cast<std::size_t>(y) * width + x;
             closeCrack(i, i - width, i + width);
         }
@@ -114,6 +131,7 @@ void DepthFilter::closeCrack(std::size_t i, std::size_t before, std::size_t afte
 }
 
 void DepthFilter::fuse(const InverseDepthField& measured, const PixelRect& where) {
+    known_ = around(known_, where);
     workers_->forRange(where.y1 - where.y0, 16, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             const auto row = static_cast<std::size_t>(y) * field_.size.width;
@@ -143,8 +161,7 @@ void DepthFilter::fusePixel(std::size_t i, float rho, float variance) {
 
 void DepthFilter::forget(const PixelRect& where) {
     for (int y = where.y0; y < where.y1; ++y)
-        for (int x = where.x0; x < where.x1; ++x)
-            field_.forget(static_cast<std::size_t>(y) * field_.size.width + x);
+        field_.forgetRow(y, where.x0, where.x1);
 }
 
 }  // namespace mfar

@@ -33,6 +33,8 @@ public:
     void forget(const PixelRect& where);
 
     [[nodiscard]] const InverseDepthField& field() const { return field_; }
+    /// Holds every pixel of which something is known.
+    [[nodiscard]] const PixelRect& known() const { return known_; }
 
 private:
     /// Of a pixel: where in it its point lies, from the middle [px], and how many measurements in a
@@ -43,6 +45,7 @@ private:
     };
     [[nodiscard]] bool moves(const RigidTransform& T_now_before) const;
     void carry(const RigidTransform& T_now_before);
+    void carryRow(const Eigen::Matrix3f& R, const Eigen::Vector3f& t, int y);
     void closeCracks();
     void closeCrack(std::size_t i, std::size_t before, std::size_t after);
     void fusePixel(std::size_t i, float rho, float variance);
@@ -51,7 +54,8 @@ private:
     float focal_, pixelX_, pixelY_;  // [px], and rays a pixel
     std::shared_ptr<Workers> workers_;
     std::optional<RigidTransform> fieldPose_;
-    InverseDepthField field_, carried_;
+    InverseDepthField field_, carried_;  // nothing is known in carried_ between two motions
+    PixelRect known_, carriedTo_;
     std::vector<Point> points_, carriedPoints_;
 };
 

@@ -33,14 +33,18 @@ DepthMeasurement::DepthMeasurement(const CameraModel& video, std::shared_ptr<Wor
 void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const float> cells,
                                  const PixelRect& where) {
     const int width = lens_.size().width;
+    const PixelRect& area = search.area();
+    const std::vector<float>& searched = search.inverseDepth();
     const Size count = cellsOf(lens_.size());
     const auto same = static_cast<float>(kSameSurface / search.pixelsPerUnit());
     workers_->forRange(where.y1 - where.y0, 16, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             const auto row = static_cast<std::size_t>(y) * width;
-            const float* pixels = search.inverseDepth().data() + row;
+            const float* pixels =
+                searched.data() + static_cast<std::ptrdiff_t>(y - area.y0) * (area.x1 - area.x0);
             if (cells.empty()) {
-                std::copy(pixels + where.x0, pixels + where.x1, s_.data() + row + where.x0);
+                std::copy(pixels + where.x0 - area.x0, pixels + where.x1 - area.x0,
+                          s_.data() + row + where.x0);
                 continue;
             }
             const float v = std::clamp((static_cast<float>(y) - 1.5F) / 4, 0.0F,
@@ -58,7 +62,8 @@ void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const f
                 const float top = above[i] + fx * (above[next] - above[i]);
                 const float low = below[i] + fx * (below[next] - below[i]);
                 const float s = top + fy * (low - top);
-                s_[row + x] = std::abs(s - pixels[x]) < same ? s : pixels[x];
+                const float own = pixels[x - area.x0];
+                s_[row + x] = std::abs(s - own) < same ? s : own;
             }
         }
     });

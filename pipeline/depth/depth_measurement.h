@@ -18,10 +18,10 @@ public:
     DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers);
 
     /// Into the pixels of `where`; unknown for what the other picture does not show: outside of it,
-    /// or behind what lands on the same place there (z-test). `R_other_video` turns rays into the
-    /// other picture at the video's geometry; `unit`: the search's unit of length [m].
-    /// `cells`: s of every cell of 4x4 pixels from a finer alignment, taken where it agrees with
-    /// the pixel's own; empty: none.
+    /// or behind what lands on the same place there (z-test). `where` lies in the search's area.
+    /// `R_other_video` turns rays into the other picture at the video's geometry; `unit`: the
+    /// search's unit of length [m]. `cells`: s of every cell of 4x4 pixels from a finer alignment,
+    /// taken where it agrees with the pixel's own; empty: none.
     void run(const EpipolarSearch& search, const Eigen::Matrix3f& R_other_video, double unit,
              std::span<const float> cells, const PixelRect& where, InverseDepthField& out);
 

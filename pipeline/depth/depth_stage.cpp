@@ -8,8 +8,9 @@
 namespace mfar {
 namespace {
 
-constexpr int kCell = 4;
 constexpr int kSampleStep = 5;     // [px]
+constexpr int kPart = 160;         // side of the parts that choose their keyframes, at most [px]
+constexpr int kSupport = 24;       // searched around what is asked for, as neighbours decide [px]
 constexpr double kSameView = 0.3;  // [px]
 constexpr double kNearest = 0.01;  // [m]
 // A keyframe is worth a search when it sees so many times the still's parallax.
@@ -47,20 +48,18 @@ void DepthStage::run(const LumaImage& luma, const Pose& pose,
     filter_.predict(pose.T_world_video, seconds);
     const Summary before = summaryOf(where, pose);
     source_ = before.share < 1 ? DepthSource::Carried : DepthSource::None;
-    if (!seesMore(pose, before.rho)) return;
-    if (still && still->search.pixelsPerUnit() > 0) {
-        measurement_.run(still->search, still->R_still_video, still->unit, still->cells, where,
-                         measured_);
-        filter_.fuse(measured_, where);
-        source_ = DepthSource::Still;
-    }
-    const Summary now = summaryOf(where, pose);
     const double brightness = brightnessOf(luma);
-    const auto choice = keyframes_.choose(pose, brightness, now.rho);
-    const double stillAngle = still ? still->unit * now.rho : 0;
-    if (choice && now.share > options_.enough && choice->angle > kWorth * stillAngle)
-        searchKeyframe(luma, pose, *choice, where);
-    keyframes_.add(luma, pose, brightness, now.rho);
+    if (!where.empty() && seesMore(pose, before.rho)) {
+        if (still && still->search.pixelsPerUnit() > 0) {
+            measurement_.run(still->search, still->R_still_video, still->unit, still->cells, where,
+                             measured_);
+            filter_.fuse(measured_, where);
+            source_ = DepthSource::Still;
+        }
+        findNeeds(pose, brightness, still ? still->unit : 0, where);
+        searchKeyframe(luma, pose);
+    }
+    keyframes_.add(luma, pose, brightness, before.rho);
 }
 
 // The same view measured again would only make its errors look smaller.
@@ -74,14 +73,47 @@ bool DepthStage::seesMore(const Pose& pose, double rho) {
     return true;
 }
 
-void DepthStage::searchKeyframe(const LumaImage& luma, const Pose& pose,
-                                const Keyframes::Choice& choice, const PixelRect& where) {
-    if (choice.frame->number != searchedKey_) {
-        search_.setStill(viewOf(choice.frame->luma));
-        searchedKey_ = choice.frame->number;
+// Where a camera moves towards the scene, what lies ahead has no parallax against a frame that
+// shows the rest with much of it: each part of the picture chooses for itself.
+void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBaseline,
+                           const PixelRect& where) {
+    const int columns = (where.x1 - where.x0 + kPart - 1) / kPart;
+    const int rows = (where.y1 - where.y0 + kPart - 1) / kPart;
+    const auto edge = [](int from, int to, int i, int count) {
+        return from + (to - from) * i / count;
+    };
+    needs_.clear();
+    for (int j = 0; j < rows; ++j) {
+        for (int i = 0; i < columns; ++i) {
+            const PixelRect part{
+                edge(where.x0, where.x1, i, columns), edge(where.y0, where.y1, j, rows),
+                edge(where.x0, where.x1, i + 1, columns), edge(where.y0, where.y1, j + 1, rows)};
+            const Summary summary = summaryOf(part, pose);
+            if (summary.share <= options_.enough) continue;
+            const auto choice = keyframes_.choose(pose, brightness, part, summary.rho);
+            if (choice && choice->angle > kWorth * stillBaseline * summary.rho)
+                needs_.push_back({part, summary.share, *choice});
+        }
     }
-    const UnitPose relative = unitPose({}, choice.frame->pose, pose);
-    if (!search_.run(luma, relative.T_other_frame, relative.covariance, predicted(relative)))
+}
+
+// One search a frame: against the keyframe of the part that knows least, for all parts that chose
+// it.
+void DepthStage::searchKeyframe(const LumaImage& luma, const Pose& pose) {
+    if (needs_.empty()) return;
+    const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };
+    const Keyframe& frame =
+        *std::max_element(needs_.begin(), needs_.end(), knowsMore)->choice.frame;
+    PixelRect where;
+    for (const Need& need : needs_)
+        if (need.choice.frame == &frame) where = around(where, need.part);
+    if (frame.number != searchedKey_) {
+        search_.setStill(viewOf(frame.luma));
+        searchedKey_ = frame.number;
+    }
+    search_.setArea(widened(where, kSupport, luma.size));
+    const UnitPose relative = unitPose({}, frame.pose, pose);
+    if (!search_.run(luma, relative.T_other_frame, relative.covariance, predicted(relative, where)))
         return;
     const Eigen::Matrix3f R = search_.pose().rotation.toRotationMatrix().cast<float>();
     measurement_.run(search_, R, relative.unit, {}, where, measured_);
@@ -89,29 +121,32 @@ void DepthStage::searchKeyframe(const LumaImage& luma, const Pose& pose,
     source_ = source_ == DepthSource::Still ? DepthSource::Both : DepthSource::Keyframe;
 }
 
-// s of every cell as the search counts it; empty when too little is known to start from.
-std::span<const float> DepthStage::predicted(const UnitPose& relative) {
+// s of every cell of the search's area as it counts it; empty when too little of `where` is known
+// to start from.
+std::span<const float> DepthStage::predicted(const UnitPose& relative, const PixelRect& where) {
     const InverseDepthField& field = filter_.field();
-    const Size cells = cellsOf(field.size);
+    const PixelRect& area = search_.area();
     const double z =
         (relative.T_other_frame.rotation.conjugate() * relative.T_other_frame.translation).z();
     predicted_.clear();
-    int known = 0;
+    int inside = 0, known = 0;
     float last = 0;  // beside what is not known
-    for (int j = 0; j < cells.height; ++j) {
-        for (int i = 0; i < cells.width; ++i) {
-            const int x = std::min(kCell * i + 2, field.size.width - 1);
-            const int y = std::min(kCell * j + 2, field.size.height - 1);
-            const auto p = static_cast<std::size_t>(y) * field.size.width + x;
+    for (int y = area.y0 + kCell / 2; y < area.y1 + kCell / 2; y += kCell) {
+        for (int x = area.x0 + kCell / 2; x < area.x1 + kCell / 2; x += kCell) {
+            const int row = std::min(y, area.y1 - 1), column = std::min(x, area.x1 - 1);
+            const auto p = static_cast<std::size_t>(row) * field.size.width + column;
+            const bool counts =
+                column >= where.x0 && column < where.x1 && row >= where.y0 && row < where.y1;
+            if (counts) ++inside;
             if (field.isKnown(p)) {
                 const double rho = field.rho[p] * relative.unit;
                 last = static_cast<float>(rho / (1 + rho * z));
-                ++known;
+                if (counts) ++known;
             }
             predicted_.push_back(last);
         }
     }
-    if (known < kMostlyKnown * static_cast<double>(predicted_.size())) return {};
+    if (known < kMostlyKnown * inside) return {};
     return predicted_;
 }
 
@@ -119,20 +154,20 @@ DepthStage::Summary DepthStage::summaryOf(const PixelRect& where, const Pose& po
     const InverseDepthField& field = filter_.field();
     Summary out;
     samples_.clear();
-    std::vector<float> shares;
+    shares_.clear();
     for (int y = where.y0; y < where.y1; y += kSampleStep) {
         for (int x = where.x0; x < where.x1; x += kSampleStep) {
             const auto i = static_cast<std::size_t>(y) * field.size.width + x;
             if (!field.isKnown(i) || !(field.rho[i] > 0)) continue;
             samples_.push_back(field.rho[i]);
-            shares.push_back(std::sqrt(field.variance[i]) / field.rho[i]);
+            shares_.push_back(std::sqrt(field.variance[i]) / field.rho[i]);
         }
     }
     // The world's origin, where a tag is, as long as nothing is known.
     out.rho = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
     if (samples_.empty()) return out;
     out.rho = medianOf(samples_);
-    out.share = std::min(medianOf(shares), 1.0);
+    out.share = std::min(medianOf(shares_), 1.0);
     return out;
 }
 

@@ -29,7 +29,7 @@ public:
     };
 
     void forget();
-    /// A frame that changed. Measures inside of `where`.
+    /// A frame that changed. Measures inside of `where`, which may be empty.
     void run(const LumaImage& luma, const Pose& pose, const std::optional<StillSearch>& still,
              const PixelRect& where);
     /// Something moves in these pixels: nothing is known of them.
@@ -43,11 +43,19 @@ private:
         double rho = 0;    ///< median of what is known [1/m]
         double share = 1;  ///< median of its standard deviation, as a share of it
     };
+    /// A part of the picture that knows too little, and the keyframe that would help it.
+    struct Need {
+        PixelRect part;
+        double share;
+        Keyframes::Choice choice;
+    };
     [[nodiscard]] Summary summaryOf(const PixelRect& where, const Pose& pose);
     [[nodiscard]] bool seesMore(const Pose& pose, double rho);
-    void searchKeyframe(const LumaImage& luma, const Pose& pose, const Keyframes::Choice& choice,
-                        const PixelRect& where);
-    [[nodiscard]] std::span<const float> predicted(const UnitPose& relative);
+    void findNeeds(const Pose& pose, double brightness, double stillBaseline,
+                   const PixelRect& where);
+    void searchKeyframe(const LumaImage& luma, const Pose& pose);
+    [[nodiscard]] std::span<const float> predicted(const UnitPose& relative,
+                                                   const PixelRect& where);
 
     DepthOptions options_;
     double focal_;
@@ -60,7 +68,8 @@ private:
     long searchedKey_ = -1;
     std::optional<RigidTransform> measuredPose_;
     std::optional<Timestamp> last_;
-    std::vector<float> predicted_, samples_;
+    std::vector<Need> needs_;
+    std::vector<float> predicted_, samples_, shares_;
 };
 
 }  // namespace mfar

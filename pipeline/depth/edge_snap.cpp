@@ -45,24 +45,24 @@ struct Side {
 }  // namespace
 
 EdgeSnap::EdgeSnap(Size video, std::shared_ptr<Workers> workers)
-    : size_(video), workers_(std::move(workers)) {
+    : size_(video), workers_(std::move(workers)), out_(video) {
     const auto pixels = static_cast<std::size_t>(video.width) * video.height;
     open_.resize(pixels);
     low_.resize(pixels);
     high_.resize(pixels);
 }
 
-void EdgeSnap::run(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
-                   InverseDepthField& out) {
-    if (!(out.size == size_)) out = InverseDepthField(size_);
-    std::fill(out.rho.begin(), out.rho.end(), 0.0F);
-    std::fill(out.variance.begin(), out.variance.end(), InverseDepthField::kUnknown);
-    std::fill(out.filled.begin(), out.filled.end(), std::uint8_t{0});
+const InverseDepthField& EdgeSnap::run(const InverseDepthField& in, const ImageView& frame,
+                                       const PixelRect& where) {
+    for (int y = where_.y0; y < where_.y1; ++y)
+        out_.forgetRow(y, where_.x0, where_.x1);
+    where_ = where;
     findEdges(in, where);
     workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y)
-            snapRow(in, frame, where, y, out);
+            snapRow(in, frame, where, y);
     });
+    return out_;
 }
 
 // Ranges along rows, then along columns.
@@ -104,13 +104,13 @@ void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
 }
 
 void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
-                       int y, InverseDepthField& out) const {
+                       int y) {
     const int width = size_.width;
     for (int x = where.x0; x < where.x1; ++x) {
         const auto i = static_cast<std::size_t>(y) * width + x;
-        out.rho[i] = in.rho[i];
-        out.variance[i] = in.variance[i];
-        out.filled[i] = in.filled[i];
+        out_.rho[i] = in.rho[i];
+        out_.variance[i] = in.variance[i];
+        out_.filled[i] = in.filled[i];
         if (open_[i] == 0) continue;
         const int x0 = std::max(x - kRadius, where.x0), x1 = std::min(x + kRadius + 1, where.x1);
         const int y0 = std::max(y - kRadius, where.y0), y1 = std::min(y + kRadius + 1, where.y1);
@@ -135,9 +135,9 @@ void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, cons
             }
         const Side& side = sides[sides[1].weight > sides[0].weight ? 1 : 0];
         if (side.weight < kLeastWeight) continue;
-        out.rho[i] = side.rho / side.weight;
-        out.variance[i] = side.variance / side.weight;
-        out.filled[i] = 1;
+        out_.rho[i] = side.rho / side.weight;
+        out_.variance[i] = side.variance / side.weight;
+        out_.filled[i] = 1;
     }
 }
 

@@ -19,19 +19,24 @@ class EdgeSnap {
 public:
     EdgeSnap(Size video, std::shared_ptr<Workers> workers);
 
-    /// `frame`: the picture that `in` belongs to. Works on the pixels of `where` alone; of them
-    /// `out` holds the result afterwards, nothing is known elsewhere. What was given by likeness is
-    /// marked as filled.
-    void run(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
-             InverseDepthField& out);
+    /// `frame`: the picture that `in` belongs to. Works on the pixels of `where` alone; nothing is
+    /// known elsewhere afterwards. What was given by likeness is marked as filled.
+    const InverseDepthField& run(const InverseDepthField& in, const ImageView& frame,
+                                 const PixelRect& where);
+    /// Of the last run.
+    [[nodiscard]] const InverseDepthField& field() const { return out_; }
+    /// Where it worked.
+    [[nodiscard]] const PixelRect& where() const { return where_; }
 
 private:
     void findEdges(const InverseDepthField& in, const PixelRect& where);
-    void snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where, int y,
-                 InverseDepthField& out) const;
+    void snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
+                 int y);
 
     Size size_;
     std::shared_ptr<Workers> workers_;
+    InverseDepthField out_;
+    PixelRect where_;
     std::vector<std::uint8_t> open_;  // 1: to be decided by likeness
     std::vector<float> low_, high_;   // rho along a row
 };

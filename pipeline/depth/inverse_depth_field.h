@@ -29,6 +29,12 @@ struct InverseDepthField {
         variance[pixel] = kUnknown;
         filled[pixel] = 0;
     }
+    /// Columns [x0, x1) of row y.
+    void forgetRow(int y, int x0, int x1) {
+        const auto row = static_cast<std::size_t>(y) * size.width;
+        for (std::size_t i = row + x0; i < row + x1; ++i)
+            forget(i);
+    }
 };
 
 }  // namespace mfar

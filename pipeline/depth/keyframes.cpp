@@ -14,7 +14,7 @@ constexpr double kLeastStep = 0.002;
 // times.
 constexpr double kAge = 60;
 constexpr double kExposure = 2;
-constexpr int kGrid = 4;  // points a side, spread over the picture
+constexpr int kGrid = 4;  // points a side, spread over a part
 
 }  // namespace
 
@@ -49,12 +49,14 @@ void Keyframes::add(const LumaImage& luma, const Pose& pose, double brightness, 
     frames_.push_front(std::move(frame));
 }
 
-Keyframes::Relation Keyframes::relationOf(const RigidTransform& T_key_now, double rho) const {
+Keyframes::Relation Keyframes::relationOf(const RigidTransform& T_key_now, const PixelRect& part,
+                                          double rho) const {
     Relation out;
     for (int j = 0; j < kGrid; ++j) {
         for (int i = 0; i < kGrid; ++i) {
-            const Eigen::Vector2d ray = video_.unproject(
-                {(i + 0.5) / kGrid * video_.size.width, (j + 0.5) / kGrid * video_.size.height});
+            const Eigen::Vector2d ray =
+                video_.unproject({std::lerp(part.x0, part.x1, (i + 0.5) / kGrid) - 0.5,
+                                  std::lerp(part.y0, part.y1, (j + 0.5) / kGrid) - 0.5});
             const Eigen::Vector3d turned = T_key_now.rotation * ray.homogeneous();
             const Eigen::Vector3d p = turned + rho * T_key_now.translation;
             out.angle += std::atan2(turned.cross(p).norm(), turned.dot(p)) / (kGrid * kGrid);
@@ -68,14 +70,14 @@ Keyframes::Relation Keyframes::relationOf(const RigidTransform& T_key_now, doubl
 }
 
 std::optional<Keyframes::Choice> Keyframes::choose(const Pose& pose, double brightness,
-                                                   double rho) const {
+                                                   const PixelRect& part, double rho) const {
     std::optional<Choice> best;
     double least = 0;
     for (const Keyframe& frame : frames_) {
         const long age = count_ + 1 - frame.number;
         if (options_.rule == KeyframeRule::Fixed && age < options_.distance) continue;
         const RigidTransform T_key_now = frame.pose.T_world_video.inverse() * pose.T_world_video;
-        const auto [angle, overlap] = relationOf(T_key_now, rho);
+        const auto [angle, overlap] = relationOf(T_key_now, part, rho);
         if (!(angle >= options_.leastAngle && overlap >= options_.leastOverlap)) continue;
         if (options_.rule == KeyframeRule::Angle && angle < options_.angle) continue;
         const double exposure = std::abs(std::log((brightness + 1) / (frame.brightness + 1)));

@@ -33,19 +33,20 @@ public:
         const Keyframe* frame;
         double angle;  ///< mean parallax [rad]
     };
-    /// For a frame at this pose; nothing when none shows it with parallax. The score is the error
-    /// of inverse depth to be expected, sigma / (f sin(parallax)), raised with age and difference
-    /// in exposure (design, section 6). Valid until the next add().
+    /// For these pixels of a frame at this pose; nothing when none shows them with parallax. The
+    /// score is the error of inverse depth to be expected, sigma / (f sin(parallax)), raised with
+    /// age and difference in exposure (design, section 6). Valid until the next add().
     [[nodiscard]] std::optional<Choice> choose(const Pose& pose, double brightness,
-                                               double rho) const;
+                                               const PixelRect& part, double rho) const;
 
 private:
-    /// How the picture's points of that inverse depth are seen from there.
+    /// How a part's points of that inverse depth are seen from there.
     struct Relation {
         double angle = 0;    ///< mean parallax [rad]
         double overlap = 0;  ///< share of them that is in the picture there
     };
-    [[nodiscard]] Relation relationOf(const RigidTransform& T_key_now, double rho) const;
+    [[nodiscard]] Relation relationOf(const RigidTransform& T_key_now, const PixelRect& part,
+                                      double rho) const;
 
     CameraModel video_;
     KeyframeOptions options_;

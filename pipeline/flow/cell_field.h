@@ -8,9 +8,12 @@
 
 namespace mfar {
 
-/// Cells of 4x4 pixels that cover a picture.
+/// Side of the cells that flow is kept in [px].
+inline constexpr int kCell = 4;
+
+/// Cells that cover a picture.
 [[nodiscard]] constexpr Size cellsOf(Size picture) {
-    return {(picture.width + 3) / 4, (picture.height + 3) / 4};
+    return {(picture.width + kCell - 1) / kCell, (picture.height + kCell - 1) / kCell};
 }
 
 /// Bilinear look-up in a read-back field of 4x4-pixel cells with four channels, at pixel (x, y).

@@ -8,7 +8,6 @@
 namespace mfar {
 namespace {
 
-constexpr int kCell = 4;
 constexpr float kNowhere = 1e4F;
 constexpr float kNearPlane = 0.05F;  // of rays turned into the still's frame
 constexpr float kLeastWay = 0.05F;   // of a pixel, when the others' longest is one [px]

@@ -37,15 +37,15 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
     for (int i = 0; i < level; ++i)
         size_ = {(size_.width + 1) / 2, (size_.height + 1) / 2};
     const auto& d = camera.distortion;
-    fx_ = static_cast<float>(camera.fx * scale);
-    fy_ = static_cast<float>(camera.fy * scale);
-    cx_ = static_cast<float>((camera.cx + 0.5) * scale - 0.5);
-    cy_ = static_cast<float>((camera.cy + 0.5) * scale - 0.5);
-    k1_ = static_cast<float>(d[0]);
-    k2_ = static_cast<float>(d[1]);
-    p1_ = static_cast<float>(d[2]);
-    p2_ = static_cast<float>(d[3]);
-    k3_ = static_cast<float>(d[4]);
+    lens_.fx = static_cast<float>(camera.fx * scale);
+    lens_.fy = static_cast<float>(camera.fy * scale);
+    lens_.cx = static_cast<float>((camera.cx + 0.5) * scale - 0.5);
+    lens_.cy = static_cast<float>((camera.cy + 0.5) * scale - 0.5);
+    lens_.k1 = static_cast<float>(d[0]);
+    lens_.k2 = static_cast<float>(d[1]);
+    lens_.p1 = static_cast<float>(d[2]);
+    lens_.p2 = static_cast<float>(d[3]);
+    lens_.k3 = static_cast<float>(d[4]);
     rays_.reserve(2UL * size_.width * size_.height);
     double rim = 0;  // of the picture's corners, squared
     for (int y = 0; y < size_.height; ++y) {
@@ -57,7 +57,19 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
             rim = std::max(rim, ray.squaredNorm());
         }
     }
-    rim2_ = static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2));
+    lens_.rim2 = static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2));
+}
+
+void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
+    size_ = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
+    lens_ = whole.lens_;
+    lens_.cx -= static_cast<float>(pixels.x0);
+    lens_.cy -= static_cast<float>(pixels.y0);
+    rays_.clear();
+    for (int y = pixels.y0; y < pixels.y1; ++y) {
+        const auto row = whole.rays_.begin() + 2L * y * whole.size_.width;
+        rays_.insert(rays_.end(), row + 2L * pixels.x0, row + 2L * pixels.x1);
+    }
 }
 
 }  // namespace mfar

@@ -27,6 +27,9 @@ public:
     /// `camera` of the finest level, `level` halvings; size is halved and rounded up each time.
     EpipolarLens(const CameraModel& camera, int level);
 
+    /// Becomes a lens over these pixels of `whole` alone.
+    void cover(const EpipolarLens& whole, const PixelRect& pixels);
+
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] float rayX(std::size_t pixel) const { return rays_[2 * pixel]; }
     [[nodiscard]] float rayY(std::size_t pixel) const { return rays_[2 * pixel + 1]; }
@@ -39,14 +42,14 @@ public:
     [[nodiscard]] Point project(float x, float y) const {
         // No branch, so that loops over pixels become vectors.
         const float r2 = x * x + y * y;
-        const float c = std::sqrt(rim2_ / std::max(r2, rim2_));
+        const float c = std::sqrt(lens_.rim2 / std::max(r2, lens_.rim2));
         x *= c;
         y *= c;
-        const float q = std::min(r2, rim2_);
-        const float radial = 1 + q * (k1_ + q * (k2_ + q * k3_));
+        const float q = std::min(r2, lens_.rim2);
+        const float radial = 1 + q * (lens_.k1 + q * (lens_.k2 + q * lens_.k3));
         const float xy = 2 * x * y;
-        return {fx_ * (x * radial + p1_ * xy + p2_ * (q + 2 * x * x)) + cx_,
-                fy_ * (y * radial + p2_ * xy + p1_ * (q + 2 * y * y)) + cy_};
+        return {lens_.fx * (x * radial + lens_.p1 * xy + lens_.p2 * (q + 2 * x * x)) + lens_.cx,
+                lens_.fy * (y * radial + lens_.p2 * xy + lens_.p1 * (q + 2 * y * y)) + lens_.cy};
     }
 
     /// The pixel that holds a point, row-major; -1 outside of the picture.
@@ -59,8 +62,13 @@ public:
     }
 
 private:
+    struct Lens {
+        float fx, fy, cx, cy, k1, k2, p1, p2, k3;
+        float rim2;  // squared radius of the rim
+    };
+
     Size size_;
-    float fx_, fy_, cx_, cy_, k1_, k2_, p1_, p2_, k3_, rim2_;
+    Lens lens_;
     std::vector<float> rays_;  // x, y per pixel
 };
 

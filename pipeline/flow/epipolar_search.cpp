@@ -2,7 +2,6 @@
 
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/flow/census.h"
-#include "pipeline/flow/census_costs.h"
 
 #include <algorithm>
 #include <cassert>
@@ -59,19 +58,9 @@ std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     return std::max(finest, coarsest * pixelsOf(size));
 }
 
-/// How far along a way of one label the pixel nearest to a point lies [labels]; none where the way
-/// is too short to tell.
-float footOf(EpipolarLens::Point p, EpipolarLens::Point way) {
-    constexpr float kLeast = 0.1F;  // [px^2]
-    const float square = way.x * way.x + way.y * way.y;
-    const float x = std::floor(p.x + 0.5F) - p.x, y = std::floor(p.y + 0.5F) - p.y;
-    return square > kLeast ? (x * way.x + y * way.y) / square : 0.0F;
-}
-
 // From as many patches the median of their distances is the better guess than the pose's
 // covariance.
 constexpr int kEnoughPatches = 16;
-constexpr double kNoSlack = 0.5;  // [px of a level]
 
 /// What a pose's doubt moves the lines by [px]: its rotation, as what is far shows it.
 double normalErrorOf(const Matrix6& covariance, double focal) {
@@ -86,6 +75,14 @@ std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     return static_cast<std::size_t>(y) * size.width + x;
 }
 
+// The same camera with a sensor of these pixels alone.
+CameraModel partOf(CameraModel camera, const PixelRect& pixels) {
+    camera.size = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
+    camera.cx -= pixels.x0;
+    camera.cy -= pixels.y0;
+    return camera;
+}
+
 }  // namespace
 
 CameraModel atScaleOf(const StereoRig& rig) {
@@ -98,16 +95,35 @@ CameraModel atScaleOf(const StereoRig& rig) {
 
 EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
                                const EpipolarOptions& options)
-    : options_(validated(options)), video_(rig.video), still_(atScaleOf(rig)),
+    : options_(validated(options)), whole_(rig.video), video_(rig.video), still_(atScaleOf(rig)),
       workers_(std::move(workers)), matcher_(mostVectors(rig.video.size, options)) {
-    for (int i = 0; i < levelsFor(video_.size, options_); ++i) {
-        levels_.push_back({EpipolarLens(video_, i), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
-        Level& level = levels_.back();
-        const Size size = level.lens.size();
-        const std::size_t pixels = pixelsOf(size);
-        level.videoCensus.resize(pixels);
-        level.base.resize(pixels);
-        level.labels.resize(pixels);
+    for (int i = 0; i < levelsFor(whole_.size, options_); ++i) {
+        lenses_.emplace_back(whole_, i);
+        levels_.push_back({lenses_.back(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+    }
+    setArea({0, 0, whole_.size.width, whole_.size.height});
+}
+
+void EpipolarSearch::setArea(const PixelRect& pixels) {
+    // Of a pixel of the coarsest level, so that the levels' pixels stay where they are.
+    const int grid = 1 << (levels_.size() - 1);
+    const auto up = [&](int x, int most) { return std::min((x + grid - 1) / grid * grid, most); };
+    const PixelRect area{pixels.x0 / grid * grid, pixels.y0 / grid * grid,
+                         up(pixels.x1, whole_.size.width), up(pixels.y1, whole_.size.height)};
+    assert(area.x0 >= 0 && area.y0 >= 0 && !area.empty());
+    if (area == area_) return;
+    area_ = area;
+    video_ = partOf(whole_, area);
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        Level& level = levels_[l];
+        const int scale = 1 << l;
+        level.lens.cover(lenses_[l],
+                         {area.x0 / scale, area.y0 / scale, (area.x1 + scale - 1) / scale,
+                          (area.y1 + scale - 1) / scale});
+        const std::size_t count = pixelsOf(level.lens.size());
+        level.videoCensus.resize(count);
+        level.base.resize(count);
+        level.labels.resize(count);
     }
     inverseDepth_.resize(levels_[0].labels.size());
     scratch_.resize(inverseDepth_.size());
@@ -122,8 +138,8 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
                          const std::optional<Matrix6>& covariance,
                          std::span<const float> predicted) {
     assert(predicted.empty() || predicted.size() == pixelsOf(cellsOf(video_.size)));
-    levels_[0].video = video;
-    videoNoise_ = noiseOf(video);
+    cut(video, area_, levels_[0].video);
+    videoNoise_ = noiseOf(levels_[0].video);
     refinement_ = {};
     normalError_ = 0;
     std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
@@ -155,7 +171,7 @@ bool EpipolarSearch::place(const RigidTransform& T_still_video) {
     if (!turnStill(R_still_video)) return false;
     measureParallax();
     if (pixelsPerUnit_ > 0)
-        labels_ = static_cast<int>(options_.longestParallax * video_.size.width);
+        labels_ = static_cast<int>(options_.longestParallax * whole_.size.width);
     return true;
 }
 
@@ -183,7 +199,8 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
 // The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
 // holds what of it a parallax can reach.
 bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video) {
-    turned_.place(video_, still_, R_still_video, options_.longestParallax);
+    const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
+    turned_.place(video_, still_, R_still_video, beyond);
     if (turned_.size().width < kSmallestCanvas || turned_.size().height < kSmallestCanvas)
         return false;
     Level& fine = levels_[0];
@@ -311,78 +328,6 @@ void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
             fine.base[static_cast<std::size_t>(y) * to.width + x] = static_cast<std::int16_t>(
                 range_.low[static_cast<std::size_t>(y >> coarse.shift) * from.width +
                            (x >> coarse.shift)]);
-}
-
-// The costs of a label are those of the pixel nearest to its point, up to 0.7 px beside it. So the
-// label that fits is the one whose point is the foot of that pixel on the line.
-void EpipolarSearch::undoRounding(Level& level) {
-    const int width = level.lens.size().width;
-    const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
-    workers_->forRange(level.lens.size().height, 8, [&](int firstRow, int lastRow) {
-        std::vector<float> whole(width);
-        std::vector<EpipolarLens::Point> here(width), next(width);
-        for (int y = firstRow; y < lastRow; ++y) {
-            const auto first = static_cast<std::size_t>(y) * width;
-            float* label = level.labels.data() + first;
-            for (int x = 0; x < width; ++x)
-                whole[x] = std::floor(label[x]);
-            const auto labelAt = [&](int x) { return whole[x]; };
-            placeRow(level, first, perLabel, labelAt, here);
-            placeRow(level, first, perLabel, [&](int x) { return labelAt(x) + 1; }, next);
-            for (int x = 0; x < width; ++x) {
-                const float part = label[x] - whole[x];
-                const EpipolarLens::Point way{next[x].x - here[x].x, next[x].y - here[x].y};
-                label[x] += (1 - part) * footOf(here[x], way) + part * footOf(next[x], way);
-            }
-        }
-    });
-}
-
-void EpipolarSearch::costRow(const Level& level, int index, int vectors, int y,
-                             std::uint8_t* out) const {
-    const Size size = level.lens.size();
-    const auto first = static_cast<std::size_t>(y) * size.width;
-    const float perLabel = static_cast<float>((1 << index) / pixelsPerUnit_);
-    std::vector<EpipolarLens::Point> from(size.width), to(size.width);
-    const std::int16_t* base = level.base.data() + first;
-    const bool slack = hasSlack(index);
-    for (int v = 0; v < vectors; ++v) {
-        const int low = SemiGlobal::kLabels * v, high = low + SemiGlobal::kLabels - 1;
-        const auto labelled = [&](int label) {
-            return [=](int x) { return static_cast<float>(base[x] + label); };
-        };
-        placeRow(level, first, perLabel, labelled(low), from);
-        placeRow(level, first, perLabel, labelled(high), to);
-        for (int x = 0; x < size.width; ++x) {
-            std::uint8_t* costs =
-                out + static_cast<std::size_t>(x * vectors + v) * SemiGlobal::kLabels;
-            const std::uint32_t own = level.videoCensus[first + x];
-            const std::uint32_t* still = level.stillCensus.data();
-            costsAlong(from[x], to[x], own, still, level.still.size, costs);
-            if (slack) takeLesserBeside(from[x], to[x], own, still, level.still.size, costs);
-        }
-    }
-}
-
-bool EpipolarSearch::hasSlack(int index) const {
-    return normalError_ > kNoSlack * (1 << index);
-}
-
-// Where the canvas shows a row's pixels under their labels.
-template <class LabelAt>
-void EpipolarSearch::placeRow(const Level& level, std::size_t first, float perLabel,
-                              LabelAt labelAt, std::vector<EpipolarLens::Point>& out) const {
-    const EpipolarLens& lens = level.lens;
-    const float tx = translation_.x(), ty = translation_.y(), tz = translation_.z();
-    const auto ox = static_cast<float>(level.origin.x), oy = static_cast<float>(level.origin.y);
-    const int width = lens.size().width;
-    EpipolarLens::Point* to = out.data();
-    for (int x = 0; x < width; ++x) {
-        const float s = perLabel * labelAt(x);
-        const float rx = lens.rayX(first + x), ry = lens.rayY(first + x);
-        const auto p = lens.project(rx + s * (tx - rx * tz), ry + s * (ty - ry * tz));
-        to[x] = {p.x - ox, p.y - oy};
-    }
 }
 
 }  // namespace mfar

@@ -33,12 +33,17 @@ public:
     /// The still as its sensor took it.
     void setStill(const ImageView& still);
 
+    /// Searches for these pixels of the video alone from now on, and for what is around them up to
+    /// a grid of a few pixels. At first the area is the whole picture.
+    void setArea(const PixelRect& pixels);
+    [[nodiscard]] const PixelRect& area() const { return area_; }
+
     /// `T_still_video`: video camera coordinates at the frame's time to still camera coordinates at
     /// the still's; its unit of length is free. `covariance`: of a small motion x, T_still_video *
     /// exp(x); with it the pose is refined from the pictures first, without it taken as exact.
-    /// `predicted`: about s of every cell of 4x4 pixels, row-major; the coarser levels, which would
-    /// find it, are then left out. Returns false, and a field of zeros, where nothing of the still
-    /// is in reach.
+    /// `predicted`: about s of every cell of 4x4 pixels of the area, row-major; the coarser levels,
+    /// which would find it, are then left out. Returns false, and a field of zeros, where nothing
+    /// of the still is in reach. `video`: the whole picture.
     bool run(const LumaImage& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
@@ -52,8 +57,8 @@ public:
     /// half a pixel are searched a pixel to both sides of each line as well.
     [[nodiscard]] double normalError() const { return normalError_; }
 
-    /// Per pixel: s [1/unit of length], see EpipolarLens. Less than zero where the best match lies
-    /// beyond infinity, as noise and errors of the pose make it.
+    /// Per pixel of the area: s [1/unit of length], see EpipolarLens. Less than zero where the best
+    /// match lies beyond infinity, as noise and errors of the pose make it.
     [[nodiscard]] const std::vector<float>& inverseDepth() const { return inverseDepth_; }
     /// Longest way of a pixel per unit of s [px]; zero: no parallax, nothing was searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
@@ -100,7 +105,9 @@ private:
     void undoRounding(Level& level);
 
     EpipolarOptions options_;
-    CameraModel video_, still_;  // the still's: atScaleOf()
+    CameraModel whole_, video_, still_;  // the area's is video_; the still's: atScaleOf()
+    PixelRect area_;
+    std::vector<EpipolarLens> lenses_;  // of the whole picture's levels
     std::shared_ptr<Workers> workers_;
     TurnedPicture turned_;
     std::vector<Level> levels_;

@@ -89,6 +89,13 @@ void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage
     });
 }
 
+void cut(const LumaImage& picture, const PixelRect& pixels, LumaImage& out) {
+    out.size = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
+    out.pixels.clear();
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+        out.pixels.insert(out.pixels.end(), picture.row(y) + pixels.x0, picture.row(y) + pixels.x1);
+}
+
 void halve(const LumaImage& fine, LumaImage& coarse) {
     const Size size{(fine.size.width + 1) / 2, (fine.size.height + 1) / 2};
     if (!(coarse.size == size)) coarse = LumaImage(size);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/frame.h"
+#include "pipeline/geometry.h"
 #include "pipeline/workers.h"
 
 #include <cstdint>
@@ -31,6 +32,9 @@ void lumaOf(const ImageView& picture, LumaImage& out);
 /// The picture's luma at another size, none larger than its own: each pixel the mean of the area
 /// that it covers.
 void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out);
+
+/// These pixels of a picture, which holds them all.
+void cut(const LumaImage& picture, const PixelRect& pixels, LumaImage& out);
 
 /// Half the size, rounded up: mean of 2x2 pixels, the last column and row repeated.
 void halve(const LumaImage& fine, LumaImage& coarse);

@@ -58,15 +58,24 @@ void Texture::upload(const ImageView& view) {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-void Texture::upload(std::span<const float> values) {
+void Texture::upload(std::span<const float> values, int firstRow) {
     assert(format_ == TexelFormat::R32F || format_ == TexelFormat::Rg32F ||
            format_ == TexelFormat::Rgba32F);
     GLenum layout = GL_RED;
-    if (format_ == TexelFormat::Rg32F) layout = GL_RG;
-    if (format_ == TexelFormat::Rgba32F) layout = GL_RGBA;
+    std::size_t row = size_.width;
+    if (format_ == TexelFormat::Rg32F) {
+        layout = GL_RG;
+        row *= 2;
+    }
+    if (format_ == TexelFormat::Rgba32F) {
+        layout = GL_RGBA;
+        row *= 4;
+    }
+    const auto rows = static_cast<int>(values.size() / row);
+    assert(values.size() % row == 0 && firstRow >= 0 && firstRow + rows <= size_.height);
     glBindTexture(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, layout, GL_FLOAT,
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, firstRow, size_.width, rows, layout, GL_FLOAT,
                     values.data());
 }
 

@@ -50,9 +50,9 @@ public:
     }
     /// Replaces level 0. Asserts takes(view).
     void upload(const ImageView& view);
-    /// Replaces level 0 of an R32F, Rg32F or Rgba32F texture: one, two or four floats a texel, rows
-    /// without padding. Asserts format and count.
-    void upload(std::span<const float> values);
+    /// Replaces level 0 of an R32F, Rg32F or Rgba32F texture from a row on: one, two or four floats
+    /// a texel, rows without padding. Asserts format and that they are whole rows of it.
+    void upload(std::span<const float> values, int firstRow = 0);
     /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
     /// Reads level 0 back as four floats a texel. Waits for the GPU: not for the frame path.

@@ -16,10 +16,6 @@ bool overlap(const PixelRect& a, const PixelRect& b) {
     return a.x0 < b.x1 && b.x0 < a.x1 && a.y0 < b.y1 && b.y0 < a.y1;
 }
 
-PixelRect around(const PixelRect& a, const PixelRect& b) {
-    return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
 /// Three standard deviations of a point at this distance [px].
 double uncertainty(const Matrix6& covariance, double distance, const CameraModel& camera) {
     const double turn = covariance.diagonal().head<3>().maxCoeff();

@@ -30,14 +30,14 @@ Scene panelScene() {
 /// The depth stage as a camera moves in that scene; the world is the scene's frame.
 class Walk {
 public:
-    explicit Walk(const DepthOptions& options = {})
-        : stage_(barrelCamera(), std::make_shared<Workers>(2), options) {}
+    explicit Walk(const DepthOptions& options = {}, const PixelRect& where = kAll)
+        : stage_(barrelCamera(), std::make_shared<Workers>(2), options), where_(where) {}
 
     /// A frame of a camera there.
     void go(const RigidTransform& T_world_video) {
         pose_ = T_world_video;
         Pose pose{Timestamp::fromSeconds(1 + kFrame * frames_++), T_world_video};
-        stage_.run(panelScene().render(barrelCamera(), T_world_video.inverse()), pose, {}, kAll);
+        stage_.run(panelScene().render(barrelCamera(), T_world_video.inverse()), pose, {}, where_);
     }
     void goSideways(int frames, double step) {
         for (int i = 0; i < frames; ++i)
@@ -53,10 +53,10 @@ public:
     [[nodiscard]] Errors errors() const {
         std::vector<double> all;
         std::size_t pixels = 0;
-        const Size size = barrelCamera().size;
-        for (int y = 8; y < size.height - 8; ++y) {
-            for (int x = 8; x < size.width - 8; ++x, ++pixels) {
-                const auto i = static_cast<std::size_t>(y) * size.width + x;
+        const PixelRect scored = common(where_, {8, 8, kAll.x1 - 8, kAll.y1 - 8});
+        for (int y = scored.y0; y < scored.y1; ++y) {
+            for (int x = scored.x0; x < scored.x1; ++x, ++pixels) {
+                const auto i = static_cast<std::size_t>(y) * kAll.x1 + x;
                 const double z =
                     panelScene().depth(pose_.inverse(), barrelCamera().unproject({x, y}));
                 if (stage_.field().isKnown(i))
@@ -76,6 +76,7 @@ public:
 
 private:
     DepthStage stage_;
+    PixelRect where_;
     RigidTransform pose_;
     double x_ = 0;
     int frames_ = 0;
@@ -126,6 +127,23 @@ TEST(DepthStage, MeasuresOnTheWayToTheScene) {
     const Walk::Errors errors = walk.errors();
     EXPECT_LT(errors.median, 0.03);
     EXPECT_GT(errors.complete, 0.8);
+}
+
+TEST(DepthStage, MeasuresOnlyWhereItIsNeeded) {
+    const PixelRect where{70, 50, 150, 120};
+    Walk walk({}, where);
+    walk.goSideways(10, 0.01);
+    expectGood(walk.errors());
+    const InverseDepthField& field = walk.stage().field();
+    // What was measured moves by up to four pixels a frame.
+    const PixelRect reached = widened(where, 40, field.size);
+    for (int y = 0; y < field.size.height; ++y) {
+        for (int x = 0; x < field.size.width; ++x) {
+            const bool inside = around(reached, {x, y, x + 1, y + 1}) == reached;
+            EXPECT_TRUE(inside ||
+                        !field.isKnown(static_cast<std::size_t>(y) * field.size.width + x));
+        }
+    }
 }
 
 TEST(DepthStage, ForgetsWhatItIsToldTo) {

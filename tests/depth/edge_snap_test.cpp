@@ -38,9 +38,9 @@ InverseDepthField field(int too, int unknown) {
 InverseDepthField snapped(const InverseDepthField& in, const std::vector<std::uint8_t>& pixels,
                           const PixelRect& where = kWhole) {
     EdgeSnap snap(kPicture, std::make_shared<Workers>(2));
-    InverseDepthField out;
-    snap.run(in, {pixels.data(), kPicture, 64, PixelFormat::Gray8}, where, out);
-    return out;
+    const ImageView view{pixels.data(), kPicture, 64, PixelFormat::Gray8};
+    snap.run(in, view, kWhole);
+    return snap.run(in, view, where);
 }
 
 TEST(EdgeSnap, AnEdgeGoesWhereThePictureHasIt) {

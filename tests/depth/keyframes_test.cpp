@@ -10,6 +10,8 @@ namespace {
 
 const CameraModel kCamera{{160, 120}, 150, 150, 79.5, 59.5, {}};
 
+const PixelRect kAll{0, 0, 160, 120};
+
 Pose poseAt(double x, double z = 0) {
     Pose pose;
     pose.T_world_video.translation = {x, 0, z};
@@ -32,14 +34,14 @@ Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
 
 TEST(Keyframes, FixedIsSoManyFramesAgo) {
     const Keyframes frames = walked({.rule = KeyframeRule::Fixed, .distance = 4});
-    const auto choice = frames.choose(poseAt(0.1), 100, 1);
+    const auto choice = frames.choose(poseAt(0.1), 100, kAll, 1);
     ASSERT_TRUE(choice);
     EXPECT_NEAR(choice->frame->pose.T_world_video.translation.x(), 0.06, 1e-12);
 }
 
 TEST(Keyframes, AngleIsTheNewestFarEnoughAway) {
     const Keyframes frames = walked({.rule = KeyframeRule::Angle, .angle = 0.035});
-    const auto choice = frames.choose(poseAt(0.1), 100, 1);
+    const auto choice = frames.choose(poseAt(0.1), 100, kAll, 1);
     ASSERT_TRUE(choice);
     EXPECT_NEAR(choice->frame->pose.T_world_video.translation.x(), 0.06, 1e-12);
     EXPECT_GT(choice->angle, 0.035);
@@ -47,9 +49,10 @@ TEST(Keyframes, AngleIsTheNewestFarEnoughAway) {
 
 TEST(Keyframes, ScoreTakesTheMostParallaxThatOverlaps) {
     const Keyframes frames = walked({});
-    EXPECT_EQ(frames.choose(poseAt(0.1), 100, 1)->frame->pose.T_world_video.translation.x(), 0);
+    EXPECT_EQ(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->pose.T_world_video.translation.x(),
+              0);
     // So near that frames from farther away see other parts of the scene.
-    const auto near = frames.choose(poseAt(0.1), 100, 8);
+    const auto near = frames.choose(poseAt(0.1), 100, kAll, 8);
     ASSERT_TRUE(near);
     EXPECT_NEAR(near->frame->pose.T_world_video.translation.x(), 0.06, 0.011);
 }
@@ -58,29 +61,37 @@ TEST(Keyframes, AnotherExposureCounts) {
     Keyframes frames(kCamera, {});
     frames.add(grey(30), poseAt(0), 30, 1);
     frames.add(grey(100), poseAt(0.04), 100, 1);
-    EXPECT_NEAR(frames.choose(poseAt(0.1), 100, 1)->frame->brightness, 100, 1e-9);
-    EXPECT_NEAR(frames.choose(poseAt(0.1), 30, 1)->frame->brightness, 30, 1e-9);
+    EXPECT_NEAR(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->brightness, 100, 1e-9);
+    EXPECT_NEAR(frames.choose(poseAt(0.1), 30, kAll, 1)->frame->brightness, 30, 1e-9);
 }
 
 TEST(Keyframes, ARestingOrTurningCameraKeepsThoseItHas) {
     Keyframes frames = walked({});
     for (int i = 0; i < 300; ++i)
         frames.add(grey(100), poseAt(0.09), 100, 1);
-    ASSERT_TRUE(frames.choose(poseAt(0.09), 100, 1));
-    EXPECT_LT(frames.choose(poseAt(0.09), 100, 1)->frame->pose.T_world_video.translation.x(), 0.05);
+    ASSERT_TRUE(frames.choose(poseAt(0.09), 100, kAll, 1));
+    EXPECT_LT(frames.choose(poseAt(0.09), 100, kAll, 1)->frame->pose.T_world_video.translation.x(),
+              0.05);
 }
 
 TEST(Keyframes, WithoutParallaxThereIsNone) {
     Keyframes frames(kCamera, {});
-    EXPECT_FALSE(frames.choose(poseAt(0), 100, 1));
+    EXPECT_FALSE(frames.choose(poseAt(0), 100, kAll, 1));
     frames.add(grey(100), poseAt(0), 100, 1);
-    EXPECT_FALSE(frames.choose(poseAt(0), 100, 1));
-    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, 0));
-    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, std::numeric_limits<double>::quiet_NaN()));
-    EXPECT_TRUE(frames.choose(poseAt(0.1), 100, 1));
-    EXPECT_TRUE(frames.choose(poseAt(0, 0.2), 100, 1)) << "ahead";
+    EXPECT_FALSE(frames.choose(poseAt(0), 100, kAll, 1));
+    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, 0));
+    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, std::numeric_limits<double>::quiet_NaN()));
+    EXPECT_TRUE(frames.choose(poseAt(0.1), 100, kAll, 1));
+    EXPECT_TRUE(frames.choose(poseAt(0, 0.2), 100, kAll, 1)) << "ahead";
     frames.forget();
-    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, 1));
+    EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, 1));
+}
+
+TEST(Keyframes, APartAboutTheEpipoleHasNone) {
+    Keyframes frames(kCamera, {});
+    frames.add(grey(100), poseAt(0), 100, 1);
+    EXPECT_FALSE(frames.choose(poseAt(0, 0.06), 100, {70, 50, 90, 70}, 1));
+    EXPECT_TRUE(frames.choose(poseAt(0, 0.06), 100, {0, 0, 40, 120}, 1));
 }
 
 TEST(Keyframes, OptionsOutOfRangeAreRefused) {

@@ -202,6 +202,40 @@ TEST(EpipolarSearch, FindsAroundAPredictionWhatItFindsFromCoarseToFine) {
     EXPECT_GT(errorsOf(search, view).bad, 0.9);
 }
 
+/// Share of the pixels in which both find the same surface: steps along the line are not the same.
+double alikeIn(const PixelRect& area, const EpipolarSearch& part, const EpipolarSearch& whole) {
+    const PixelRect& from = part.area();
+    int alike = 0, all = 0;
+    for (int y = area.y0; y < area.y1; ++y) {
+        for (int x = area.x0; x < area.x1; ++x, ++all) {
+            const auto i =
+                static_cast<std::size_t>(y - from.y0) * (from.x1 - from.x0) + x - from.x0;
+            const auto j = static_cast<std::size_t>(y) * 200 + x;
+            if (std::abs(part.inverseDepth()[i] - whole.inverseDepth()[j]) <
+                1 / whole.pixelsPerUnit())
+                ++alike;
+        }
+    }
+    return static_cast<double>(alike) / all;
+}
+
+TEST(EpipolarSearch, FindsInAPartWhatItFindsInTheWhole) {
+    const View view{barrel(), stepScene(), motion({1, -2, 3}, {-0.15, 0.1, 0.03})};
+    const EpipolarSearch whole = searched(view);
+    EpipolarSearch search = test::searchWith(view.camera, 2);
+    search.setStill(test::viewOf(view.still()));
+    for (const PixelRect& wanted :
+         {PixelRect{61, 43, 139, 107}, PixelRect{0, 0, 70, 60}, PixelRect{123, 77, 200, 150}}) {
+        search.setArea(wanted);
+        EXPECT_EQ(around(search.area(), wanted), search.area());
+        ASSERT_TRUE(search.run(view.video(), view.T_still_video));
+        EXPECT_GT(alikeIn(wanted, search, whole), 0.93);
+    }
+    search.setArea({0, 0, 200, 150});
+    ASSERT_TRUE(search.run(view.video(), view.T_still_video));
+    EXPECT_EQ(search.inverseDepth(), whole.inverseDepth());
+}
+
 TEST(EpipolarSearch, GainAndGammaChangeLittle) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const LumaImage video = view.video(), still = view.still();
