@@ -10,12 +10,17 @@ namespace {
 
 constexpr int kBand = 4;     // undecided on both sides of a depth edge [px]
 constexpr int kRadius = 10;  // from where surfaces are taken [px]
+constexpr int kVoters = 2;   // every so manyth column and row votes
 // An edge, no slope: so much of the nearer inverse depth within 2 kBand + 1 pixels, and more than
 // noise makes.
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;    // colours so far apart are alike by half [grey levels]
-constexpr float kLeastWeight = 3;  // of all voters, each at most one
+constexpr float kLeastWeight = 0.75F;  // of all voters, each at most one
 constexpr float kNothing = std::numeric_limits<float>::max();
+
+constexpr int nextVoter(int from) {
+    return (from + kVoters - 1) / kVoters * kVoters;
+}
 
 using Colour = std::array<int, 3>;
 
@@ -112,11 +117,13 @@ void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, cons
         out_.variance[i] = in.variance[i];
         out_.filled[i] = in.filled[i];
         if (open_[i] == 0) continue;
-        const int x0 = std::max(x - kRadius, where.x0), x1 = std::min(x + kRadius + 1, where.x1);
-        const int y0 = std::max(y - kRadius, where.y0), y1 = std::min(y + kRadius + 1, where.y1);
+        const int x0 = nextVoter(std::max(x - kRadius, where.x0));
+        const int y0 = nextVoter(std::max(y - kRadius, where.y0));
+        const int x1 = std::min(x + kRadius + 1, where.x1);
+        const int y1 = std::min(y + kRadius + 1, where.y1);
         float low = kNothing, high = -kNothing;
-        for (int v = y0; v < y1; ++v)
-            for (int u = x0; u < x1; ++u) {
+        for (int v = y0; v < y1; v += kVoters)
+            for (int u = x0; u < x1; u += kVoters) {
                 const auto j = static_cast<std::size_t>(v) * width + u;
                 if (open_[j] != 0) continue;
                 low = std::min(low, in.rho[j]);
@@ -126,8 +133,8 @@ void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, cons
         const float middle = 0.5F * (low + high);
         const Colour own = colourAt(frame, x, y);
         std::array<Side, 2> sides;
-        for (int v = y0; v < y1; ++v)
-            for (int u = x0; u < x1; ++u) {
+        for (int v = y0; v < y1; v += kVoters)
+            for (int u = x0; u < x1; u += kVoters) {
                 const auto j = static_cast<std::size_t>(v) * width + u;
                 if (open_[j] != 0) continue;
                 sides[in.rho[j] > middle ? 1 : 0].add(likeness(own, colourAt(frame, u, v)),

@@ -204,6 +204,7 @@ BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode
         Ours resting(rest, mode);
         out.cases.push_back(measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, {}));
     }
+    out.depth = measureDepth(posed);
     out.triangulation = measureTriangulation(out.video);
     return out;
 }

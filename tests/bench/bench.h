@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/pipeline.h"
+#include "tests/bench/depth_bench.h"
 #include "tests/bench/summary.h"
 #include "tests/bench/triangulation_bench.h"
 #include "tests/bench/workload.h"
@@ -40,6 +41,7 @@ struct BenchResult {
     Summary setStill;  ///< per-still work of our pipeline
     std::vector<CaseResult> cases;
     std::vector<PeerResult> peers;
+    DepthTimes depth;  ///< of what is hand-held
     TriangulationTimes triangulation;
 };
 

@@ -67,6 +67,7 @@ nlohmann::json toJson(const BenchResult& result) {
             {"set_still", json(result.setStill)},
             {"cases", cases},
             {"peers", peers},
+            {"depth", {{"tenth", json(result.depth.tenth)}, {"whole", json(result.depth.whole)}}},
             {"triangulation_ns_per_point",
              {{"flow", result.triangulation.flow},
               {"midpoint", result.triangulation.midpoint},
@@ -89,6 +90,9 @@ std::string toTable(const BenchResult& result) {
     for (const PeerResult& peer : result.peers)
         out += line("peer " + peer.name, peer.frame) +
                fmt::format("  {} / {} = {:.2f}\n", peer.of, peer.name, peer.ratio);
+    if (result.depth.whole.runs > 0)
+        out += line("depth, tenth of the picture", result.depth.tenth) + '\n' +
+               line("depth, whole picture", result.depth.whole) + '\n';
     const TriangulationTimes& t = result.triangulation;
     out += fmt::format("triangulation [ns a point]: flow {:.1f}, midpoint {:.1f}, "
                        "cv::triangulatePoints {:.0f} = {:.0f} times flow\n",
