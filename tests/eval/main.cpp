@@ -1,10 +1,13 @@
+#include "daemon/exit_code.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recording.h"
 #include "tests/eval/depth.h"
 #include "tests/eval/depth_methods.h"
 #include "tests/eval/flow.h"
 #include "tests/eval/flow_methods.h"
+#include "tests/eval/occlusion_command.h"
 #include "tests/eval/pose_command.h"
+#include "tests/eval/pose_source_option.h"
 #include "tests/eval/superres.h"
 #include "tests/eval/superres_methods.h"
 
@@ -14,7 +17,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <map>
 
 namespace {
 
@@ -72,22 +74,11 @@ struct Options {
     SuperResRequest superres;
     SampleRequest flow, depth;
     PoseRequest pose;
+    OcclusionRequest occlusion;
     std::string degrade;
     PoseNoise poseNoise;
     std::string csv;
 };
-
-void addPoseSource(CLI::App& sub, PoseSource& source) {
-    const std::map<std::string, PoseSource> sources{
-        {"recorded", PoseSource::Recorded}, {"tags", PoseSource::Tags}, {"none", PoseSource::None}};
-    sub.add_option_function<std::string>(
-           "--poses", [&source, sources](const std::string& name) { source = sources.at(name); },
-           "what methods are told: recorded poses (default), tags (the tracker's, from the "
-           "pictures "
-           "and tags.toml; that of a still from itself) or none")
-        ->check(CLI::IsMember({"recorded", "tags", "none"}))
-        ->option_text("recorded|tags|none");
-}
 
 /// CLI::Range lets NaN pass.
 std::string isAngle(const std::string& text) {
@@ -162,6 +153,7 @@ int run(int argc, char** argv) {
                                        depthMethodNames(), o.depth, o);
     addSamples(app, "flow", "dense flow against the true one", kFlowHelp, flowMethodNames(), o.flow,
                o);
+    const CLI::App* occlusion = addOcclusionCommand(app, o.occlusion, o.csv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -176,6 +168,8 @@ int run(int argc, char** argv) {
     } else if (pose->parsed()) {
         checkMethods(o.pose.methods, poseMethodNames());
         report = evaluatePose(o.pose);
+    } else if (occlusion->parsed()) {
+        report = evaluateOcclusion(o.occlusion);
     } else if (depth->parsed()) {
         report = evaluateDepth(completed(o.depth, depthMethodNames(), o));
     } else {
@@ -203,6 +197,8 @@ int main(int argc, char** argv) {
     } catch (const TagMapError& e) {
         return fail(kUsage, e);
     } catch (const ImageFileError& e) {
+        return fail(kUsage, e);
+    } catch (const Failure& e) {
         return fail(kUsage, e);
     } catch (const std::invalid_argument& e) {
         return fail(kUsage, e);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cassert>
 #include <fstream>
+#include <iterator>
+#include <numeric>
 
 namespace mfar::eval {
 namespace {
@@ -48,25 +50,23 @@ void Report::add(const std::string& recording, const std::string& frame, const s
     rows_.push_back({recording, frame, method, std::move(values)});
 }
 
-void Report::addMean(const std::string& label, const std::string& method,
-                     const std::vector<const Row*>& of) {
+void Report::addSummary(const char* name, Summary summary, const std::string& label,
+                        const std::string& method, const std::vector<const Row*>& of) {
     if (of.empty()) return;
-    Row out{label, "mean", method, std::vector<std::optional<double>>(columns_.size())};
+    Row out{label, name, method, std::vector<std::optional<double>>(columns_.size()), true};
     for (std::size_t c = 0; c < columns_.size(); ++c) {
-        double sum = 0;
-        int count = 0;
-        for (const Row* row : of) {
-            if (!row->values[c]) continue;
-            sum += *row->values[c];
-            ++count;
-        }
-        if (count > 0) out.values[c] = sum / count;
+        std::vector<double> values;
+        for (const Row* row : of)
+            if (row->values[c]) values.push_back(*row->values[c]);
+        if (!values.empty()) out.values[c] = summary(values);
     }
     rows_.push_back(std::move(out));
 }
 
-void Report::addMeans() {
-    const std::vector<Row> frames = rows_;
+void Report::addSummaries(const char* name, Summary summary) {
+    std::vector<Row> frames;
+    std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(frames),
+                 [](const Row& row) { return !row.ofFrames; });
     std::vector<std::string> recordings, methods;
     for (const Row& row : frames) {
         addUnique(recordings, row.recording);
@@ -81,10 +81,25 @@ void Report::addMeans() {
     };
     for (const std::string& recording : recordings)
         for (const std::string& method : methods)
-            addMean(recording, method, matching(&recording, method));
+            addSummary(name, summary, recording, method, matching(&recording, method));
     if (recordings.size() < 2) return;
     for (const std::string& method : methods)
-        addMean("all", method, matching(nullptr, method));
+        addSummary(name, summary, "all", method, matching(nullptr, method));
+}
+
+void Report::addMeans() {
+    addSummaries("mean", [](std::vector<double>& values) {
+        return std::accumulate(values.begin(), values.end(), 0.0) /
+               static_cast<double>(values.size());
+    });
+}
+
+void Report::addMedians() {
+    addSummaries("median", [](std::vector<double>& values) {
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    });
 }
 
 std::string Report::table() const {

@@ -31,6 +31,8 @@ public:
     /// Appends the means: `frame` = "mean" per recording and method; with several recordings also
     /// recording = "all", over all their frames.
     void addMeans();
+    /// The same with the middle values of the frames, `frame` = "median".
+    void addMedians();
 
     /// Columns that were never measured are left out.
     [[nodiscard]] std::string table() const;
@@ -41,12 +43,15 @@ public:
     struct Row {
         std::string recording, frame, method;
         std::vector<std::optional<double>> values;
+        bool ofFrames = false;  ///< of several
     };
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 
 private:
-    void addMean(const std::string& label, const std::string& method,
-                 const std::vector<const Row*>& of);
+    using Summary = double (*)(std::vector<double>& values);
+    void addSummaries(const char* name, Summary summary);
+    void addSummary(const char* name, Summary summary, const std::string& label,
+                    const std::string& method, const std::vector<const Row*>& of);
 
     std::vector<Column> columns_;
     std::vector<Row> rows_;

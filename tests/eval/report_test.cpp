@@ -32,6 +32,18 @@ TEST(Report, SeveralRecordingsHaveAMeanOverAll) {
     EXPECT_EQ(report.rows()[4].values[1], 1.0);
 }
 
+TEST(Report, MediansAreOfFramesAlone) {
+    Report report({{"ms", 1}});
+    for (const double ms : {9.0, 1.0, 2.0})
+        report.add("a", "1", "x", {ms});
+    report.addMeans();
+    report.addMedians();
+    ASSERT_EQ(report.rows().size(), 5U);
+    EXPECT_EQ(report.rows()[3].values[0], 4.0);
+    EXPECT_EQ(report.rows()[4].frame, "median");
+    EXPECT_EQ(report.rows()[4].values[0], 2.0);
+}
+
 TEST(Report, TableLeavesOutWhatWasNotMeasured) {
     EXPECT_EQ(twoFrames("a").table(), "recording  frame  method   ms  epe_px\n"
                                       "a          1      x       1.0   0.500\n"

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "hal/virtual/synthetic_scene.h"
+#include "pipeline/composite/virtual_object.h"
+
+#include <vector>
+
+namespace mfar::eval {
+
+/// Virtual objects half behind real things of a scene; none where no place for one is known.
+[[nodiscard]] std::vector<VirtualObject> sceneObjects(synthetic::Scene scene);
+
+}  // namespace mfar::eval
