@@ -10,14 +10,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The tags that stay where they are.
-TagMap mapOf(const synthetic::World& world) {
-    std::vector<MappedTag> out;
-    for (const synthetic::Tag& tag : world.tags)
-        if (!tag.moves) out.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
-    return TagMap(out);
-}
-
 std::unique_ptr<SyntheticBoard> startedBoard(SyntheticOptions options) {
     options.pace = Pace::Consumer;
     auto out = std::make_unique<SyntheticBoard>(options);
@@ -28,11 +20,18 @@ std::unique_ptr<SyntheticBoard> startedBoard(SyntheticOptions options) {
 
 }  // namespace
 
+TagMap tagMapOf(const synthetic::World& world) {
+    std::vector<MappedTag> out;
+    for (const synthetic::Tag& tag : world.tags)
+        if (!tag.moves) out.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
+    return TagMap(out);
+}
+
 SceneRun::SceneRun(SyntheticOptions options, PoseSource poses)
     : poses_(poses), board_(startedBoard(options)) {
     if (poses != PoseSource::Tags) return;
     TrackerOptions tracking;
-    tracking.map = mapOf(board_->world());
+    tracking.map = tagMapOf(board_->world());
     tracker_.emplace(board_->rig(), std::move(tracking));
 }
 

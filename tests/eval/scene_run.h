@@ -12,6 +12,9 @@
 
 namespace mfar::eval {
 
+/// The tags of a world that stay where they are.
+[[nodiscard]] TagMap tagMapOf(const synthetic::World& world);
+
 /// A synthetic scene as the product meets it, frame by frame: the pictures of both sensors, with
 /// the poses that a source tells. Its truth is the board's. Same options: the same pictures.
 class SceneRun {
@@ -32,7 +35,7 @@ public:
     /// Asks for a still.
     void fire() { board_->trigger().fire(); }
 
-    [[nodiscard]] const SyntheticBoard& board() const { return *board_; }
+    [[nodiscard]] SyntheticBoard& board() const { return *board_; }
     [[nodiscard]] const StereoRig& rig() const { return board_->rig(); }
 
 private:

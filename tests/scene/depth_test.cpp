@@ -1,0 +1,98 @@
+// The depth of synthetic scenes while the camera does what people do, against the truth.
+#include "hal/gl_context.h"
+#include "tests/eval/scene_objects.h"
+#include "tests/eval/scene_run.h"
+#include "tests/scene/depth_watch.h"
+#include "tests/scene/stopped_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace mfar::test {
+namespace {
+
+using namespace eval;
+using synthetic::Path;
+using synthetic::Scene;
+
+constexpr int kSettling = 12;  // frames
+constexpr double kMostError = 0.015, kLeastKnown = 0.85;
+/// One match against the still knows inverse depth to 4.5 % here, and a filter in balance takes a
+/// twelfth of what it says: 0.26 % a frame in the median. Three times that is a jump.
+constexpr double kMostChange = 0.0075;
+
+/// A scene with an object, and its depth in the whole picture.
+struct Watched {
+    Watched(Scene scene, Path path, double rateHz, PoseSource poses = PoseSource::Recorded)
+        : run(optionsOf(scene, path, rateHz), poses), watch(run.board(), sceneObjects(scene).at(0)),
+          pipeline(run.rig(), {.output = {}, .depthEverywhere = true}) {}
+
+    static SyntheticOptions optionsOf(Scene scene, Path path, double rateHz) {
+        SyntheticOptions out;
+        out.scene = scene;
+        out.path = path;
+        out.rateHz = rateHz;
+        return out;
+    }
+
+    SceneRun run;
+    DepthWatch watch;
+    Pipeline pipeline;
+};
+
+/// `poseError`: of the position, as a share of the distance; it is one of depth as well.
+void expectGood(const DepthState& state, int frame, double poseError = 0) {
+    SCOPED_TRACE(frame);
+    EXPECT_LE(state.absrel, kMostError + poseError);
+    EXPECT_LE(state.absrel, state.sigma + poseError) << "knows less than it says";
+    EXPECT_GE(state.completeness, kLeastKnown);
+    EXPECT_LE(state.change, kMostChange + poseError);
+}
+
+class DepthScenario : public testing::Test {
+protected:
+    void SetUp() override { context_->makeCurrent(); }
+
+    /// Along the path, with one still at its start.
+    static void follow(Watched& w, int frames) {
+        for (int frame = 0; frame < frames; ++frame) {
+            const SceneRun::Shots shots = w.run.next();
+            if (frame == 0) w.run.fire();
+            runOn(w.pipeline, shots);
+            const DepthState state = w.watch.look(w.pipeline, shots.frame.time());
+            if (frame >= kSettling) expectGood(state, frame);
+        }
+    }
+
+private:
+    std::unique_ptr<GlContext> context_ = createGlContext();
+};
+
+TEST_F(DepthScenario, StaysWhileTheCameraRestsForTenSeconds) {
+    constexpr std::int64_t kStep = 200'000'000;  // [ns]
+    Watched w(Scene::Shelf, Path::Handheld, 30);
+    follow(w, kSettling + 2);
+    const SceneRun::Shots last = w.run.next();
+    runOn(w.pipeline, last);
+    StoppedCamera stopped(w.run.board(), last.frame);
+    Pose pose = *last.pose;
+    for (int frame = 0; frame < 50; ++frame) {
+        pose.time.ns += kStep;
+        w.pipeline.run(stopped.next(), pose.time, pose);
+        expectGood(w.watch.look(w.pipeline, last.frame.time()), frame);
+    }
+}
+
+TEST_F(DepthScenario, StaysWhileTheCameraTurnsOnTheSpot) {
+    Watched w(Scene::Shelf, Path::Rotate, 10);
+    follow(w, 28);
+}
+
+TEST_F(DepthScenario, StaysWhileTheCameraComesNearer) {
+    Watched w(Scene::Office, Path::Forward, 10);
+    follow(w, 28);
+}
+
+}  // namespace
+}  // namespace mfar::test

@@ -1,0 +1,81 @@
+#include "tests/scene/depth_watch.h"
+
+#include "hal/virtual/synthetic_ray.h"
+#include "tests/eval/metrics/depth_error.h"
+#include "tests/eval/virtual_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mfar::test {
+namespace {
+
+constexpr int kStep = 3;       // [px]
+constexpr double kFar = 1000;  // [m]
+
+double medianOf(std::vector<double>& values) {
+    if (values.empty()) return 0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+// 1/z of the pixels that are looked at, 0 of all others.
+cv::Mat DepthWatch::trueDepth(Timestamp time) const {
+    const CameraModel& video = board_.rig().video;
+    const RigidTransform pose = board_.pose(time).T_world_video;
+    const double seconds = static_cast<double>((time - board_.epoch()).count()) * 1e-9;
+    const synthetic::Snapshot solids(board_.world(), seconds);
+    cv::Mat out(video.size.height, video.size.width, CV_32F, cv::Scalar(0));
+    for (int y = 0; y < out.rows; y += kStep) {
+        for (int x = 0; x < out.cols; x += kStep) {
+            const Eigen::Vector2d ray = video.unproject({x, y});
+            if (!(eval::surfaceDepth(object_, pose, ray) > 0)) continue;
+            const auto hit =
+                solids.cast({pose.translation, pose.rotation * ray.homogeneous()}, kFar);
+            if (hit) out.at<float>(y, x) = static_cast<float>(1 / hit->distance);
+        }
+    }
+    return out;
+}
+
+// Where the pixel's point was then, the nearest of the pixels that were looked at.
+double DepthWatch::ratioBefore(int x, int y, double rho, const RigidTransform& pose) const {
+    const CameraModel& video = board_.rig().video;
+    const Eigen::Vector3d p =
+        pose_->inverse() * (pose * (video.unproject({x, y}).homogeneous() / rho));
+    if (!(p.z() > 0)) return 0;
+    const Eigen::Vector2d q = video.project(p.hnormalized()) / kStep;
+    const cv::Point at = kStep * cv::Point(cvRound(q.x()), cvRound(q.y()));
+    return cv::Rect({0, 0}, ratio_.size()).contains(at) ? ratio_.at<float>(at) : 0;
+}
+
+DepthState DepthWatch::look(const Pipeline& pipeline, Timestamp time) {
+    const cv::Mat truth = trueDepth(time);
+    const RigidTransform pose = board_.pose(time).T_world_video;
+    const InverseDepthField& field = pipeline.inverseDepth();
+    cv::Mat rho(truth.size(), CV_32F, cv::Scalar(0)), ratio = rho.clone();
+    std::vector<double> sigmas, changes;
+    for (int y = 0; y < truth.rows; y += kStep) {
+        for (int x = 0; x < truth.cols; x += kStep) {
+            const auto i = static_cast<std::size_t>(y) * truth.cols + x;
+            const float wanted = truth.at<float>(y, x);
+            if (!(wanted > 0) || !field.isKnown(i) || !(field.rho[i] > 0)) continue;
+            rho.at<float>(y, x) = field.rho[i];
+            ratio.at<float>(y, x) = field.rho[i] / wanted;
+            sigmas.push_back(std::sqrt(field.variance[i]) / field.rho[i]);
+            const double before = pose_ ? ratioBefore(x, y, wanted, pose) : 0;
+            if (before > 0) changes.push_back(std::abs(ratio.at<float>(y, x) - before));
+        }
+    }
+    ratio_ = ratio;
+    pose_ = pose;
+    const cv::Mat all(truth.size(), CV_8U, cv::Scalar(255));
+    const eval::DepthError error = eval::depthError(rho, truth, 1, all);
+    return {error.absrel, error.completeness, medianOf(sigmas), medianOf(changes)};
+}
+
+}  // namespace mfar::test
