@@ -4,7 +4,8 @@
 set -euo pipefail
 build=$1
 out=$2
-frames=60
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+frames=45
 seconds=1
 
 rm -rf "$out"
@@ -14,19 +15,22 @@ trap 'rm -rf "$work"' EXIT
 
 echo "1/3  mfard on the synthetic scene 'office', hand-held, $frames frames"
 "$build/daemon/mfard" --source synthetic:office --pace consumer --frames "$frames" \
-    --display "y4m:$work/video.y4m" --summary "$out/summary.json"
+    --config "$here/demo.toml" --display "y4m:$work/video.y4m" --summary "$out/summary.json"
 
 echo "2/3  the same scene with its truth, for comparison"
 "$build/daemon/tools/mfar-sim" --scene office --path handheld --seconds "$seconds" --stills 4 \
     --out "$work/recording"
 
 echo "3/3  pictures"
-"$build/tests/demo/mfar-demo" "$work/recording" "$out" --video "$work/video.y4m"
+"$build/tests/demo/mfar-demo" "$work/recording" "$out" --video "$work/video.y4m" \
+    --scene office --objects "$here/demo.toml"
 
 cat <<EOF
 
 In $out:
   comparison.png    upscaled video, result and truth, with a magnified detail
+  occlusion.png     a virtual ball behind real things: over everything, as composed, and truth
+  depth.png         depth of the desk, truth and error
   confidence.png    how far each place of the still is trusted
   tile_classes.png  which work each tile needed
   video.avi         what the daemon showed, at half size

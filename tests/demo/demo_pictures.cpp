@@ -1,5 +1,6 @@
 #include "tests/demo/demo_pictures.h"
 
+#include "tests/demo/picture_layout.h"
 #include "tests/eval/metrics/luma.h"
 #include "tests/eval/metrics/psnr.h"
 
@@ -11,28 +12,10 @@
 namespace mfar::demo {
 namespace {
 
-constexpr int kMargin = 24;   ///< around and between panels [px]
-constexpr int kCaption = 44;  ///< height of a line of text above a panel [px]
-constexpr int kPanelWidth = 640;
-constexpr int kMagnification = 3;
-const cv::Scalar kPaper(250, 250, 250);
-const cv::Scalar kInk(40, 40, 40);
-const cv::Scalar kFrame(60, 160, 255);  ///< around the detail, B G R
-
 /// By TileClass, B G R.
 const std::array<cv::Scalar, kTileClasses> kClassColours{
     cv::Scalar(170, 170, 170), cv::Scalar(200, 130, 60), cv::Scalar(100, 180, 80),
     cv::Scalar(60, 170, 240), cv::Scalar(60, 60, 60)};
-
-void write(cv::Mat& canvas, const std::string& text, cv::Point leftBase, double scale = 0.7) {
-    cv::putText(canvas, text, leftBase, cv::FONT_HERSHEY_SIMPLEX, scale, kInk, 1, cv::LINE_AA);
-}
-
-cv::Mat resized(const cv::Mat& picture, cv::Size size, int how) {
-    cv::Mat out;
-    cv::resize(picture, out, size, 0, 0, how);
-    return out;
-}
 
 /// The window where the truth differs most from the upscaled video.
 cv::Rect mostDetailed(const Shown& shown, cv::Size window) {
@@ -45,10 +28,6 @@ cv::Rect mostDetailed(const Shown& shown, cv::Size window) {
     cv::Point best;
     cv::minMaxLoc(energy(centres), nullptr, nullptr, nullptr, &best);
     return {best, window};
-}
-
-void place(cv::Mat& canvas, const cv::Mat& picture, cv::Point corner) {
-    picture.copyTo(canvas(cv::Rect(corner, picture.size())));
 }
 
 std::string withPsnr(const char* what, const cv::Mat& picture, const cv::Mat& truth) {
@@ -81,33 +60,11 @@ std::string_view name(TileClass tileClass) {
 }
 
 cv::Mat comparisonPicture(const Shown& shown) {
-    struct Column {
-        std::string title;
-        const cv::Mat& picture;
-    };
     const std::array<Column, 3> columns{
         Column{withPsnr("Video, upscaled", shown.upscaled, shown.truth), shown.upscaled},
         Column{withPsnr("mfar", shown.result, shown.truth), shown.result},
         Column{"Truth", shown.truth}};
-    const cv::Size panel(kPanelWidth, kPanelWidth * shown.truth.rows / shown.truth.cols);
-    const cv::Rect detail =
-        mostDetailed(shown, {panel.width / kMagnification, panel.height / kMagnification});
-    const double toPanel = static_cast<double>(panel.width) / shown.truth.cols;
-    const cv::Rect mark(cv::Point(detail.tl() * toPanel), cv::Point(detail.br() * toPanel));
-
-    cv::Mat canvas(kCaption + 2 * panel.height + 3 * kMargin, 3 * panel.width + 4 * kMargin,
-                   CV_8UC3, kPaper);
-    for (int i = 0; i < 3; ++i) {
-        const Column& column = columns[i];
-        const int x = kMargin + i * (panel.width + kMargin);
-        write(canvas, column.title, {x, kMargin + 16});
-        cv::Mat whole = resized(column.picture, panel, cv::INTER_AREA);
-        cv::rectangle(whole, mark, kFrame, 2, cv::LINE_AA);
-        place(canvas, whole, {x, kMargin + kCaption - 12});
-        place(canvas, resized(column.picture(detail), panel, cv::INTER_NEAREST),
-              {x, kMargin + kCaption - 12 + panel.height + kMargin});
-    }
-    return canvas;
+    return columnsWithDetail(columns, mostDetailed(shown, detailSize(shown.truth.size())));
 }
 
 cv::Mat confidencePicture(const Shown& shown) {
@@ -121,7 +78,7 @@ cv::Mat confidencePicture(const Shown& shown) {
         ramp.col(x).setTo(x);
     cv::applyColorMap(ramp, scale, cv::COLORMAP_VIRIDIS);
     map = resized(map, map.size() * 2, cv::INTER_NEAREST);
-    canvas = cv::Mat(map.rows + kCaption + 2 * kMargin, map.cols + 2 * kMargin, CV_8UC3, kPaper);
+    canvas = sheet({map.cols + 2 * kMargin, map.rows + kCaption + 2 * kMargin});
     write(canvas, "Confidence", {kMargin, kMargin + 18});
     const int right = canvas.cols - kMargin - 24;
     place(canvas, scale, {right - scale.cols, kMargin});
@@ -137,7 +94,7 @@ cv::Mat tileClassPicture(const Shown& shown) {
     cv::cvtColor(resized(shown.result, size, cv::INTER_AREA), gray, cv::COLOR_BGR2GRAY);
     cv::cvtColor(gray, gray, cv::COLOR_GRAY2BGR);
     cv::addWeighted(gray, 0.5, resized(colours, size, cv::INTER_NEAREST), 0.5, 0, mixed);
-    cv::Mat canvas(size.height + kCaption + 2 * kMargin, size.width + 2 * kMargin, CV_8UC3, kPaper);
+    cv::Mat canvas = sheet({size.width + 2 * kMargin, size.height + kCaption + 2 * kMargin});
     int x = kMargin;
     for (std::size_t i = 0; i < kTileClasses; ++i) {
         cv::rectangle(canvas, cv::Rect(x, kMargin, kMargin, kMargin), kClassColours[i], cv::FILLED);

@@ -1,6 +1,7 @@
 #include "tests/demo/demo_run.h"
 
 #include "pipeline/pipeline.h"
+#include "tests/demo/still_feed.h"
 #include "tests/eval/metrics/harm_rate.h"
 #include "tests/eval/metrics/luma.h"
 #include "tests/eval/metrics/psnr.h"
@@ -52,26 +53,6 @@ void divideByFrames(Quality& sum) {
     for (double& share : sum.tileShares)
         share /= n;
 }
-
-/// Gives the pipeline the newest still taken before the frame, once each.
-class StillFeed {
-public:
-    explicit StillFeed(const Recording& recording) : recording_(recording) {}
-
-    void feed(Pipeline& pipeline, Timestamp frame) {
-        const std::size_t before = next_;
-        while (next_ < recording_.stills.size() && recording_.stills[next_].time < frame)
-            ++next_;
-        if (next_ == before) return;
-        const RecordedImage& still = recording_.stills[next_ - 1];
-        const cv::Mat rgba = eval::toRgba(eval::loadPicture(still.file));
-        pipeline.setStill(eval::viewOf(rgba), still.time);
-    }
-
-private:
-    const Recording& recording_;
-    std::size_t next_ = 0;  ///< the first still not taken before the last frame
-};
 
 Shown shownBy(const Pipeline& pipeline, const cv::Mat& video, const cv::Mat& truth) {
     Shown out;

@@ -1,8 +1,11 @@
+#include "daemon/config.h"
 #include "hal/gl_context.h"
 #include "hal/virtual/recording.h"
 #include "tests/demo/demo_pictures.h"
 #include "tests/demo/demo_run.h"
 #include "tests/demo/demo_video.h"
+#include "tests/demo/occlusion_pictures.h"
+#include "tests/demo/occlusion_run.h"
 #include "tests/eval/picture.h"
 
 #include <CLI/CLI.hpp>
@@ -13,6 +16,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 namespace {
@@ -20,12 +24,16 @@ namespace {
 namespace fs = std::filesystem;
 
 using mfar::demo::DemoRun;
+using mfar::demo::OcclusionQuality;
+using mfar::demo::OcclusionRun;
 using mfar::demo::Quality;
 
 struct Request {
     fs::path recording;
     fs::path folder;
-    fs::path video;  ///< Y4M of the daemon, empty: none
+    fs::path video;     ///< Y4M of the daemon, empty: none
+    fs::path objects;   ///< configuration with objects, empty: none
+    std::string scene;  ///< that was recorded; the objects' truth needs it
 };
 
 void showProgress(int done, int all) {
@@ -36,12 +44,13 @@ void showProgress(int done, int all) {
                all, done == all ? "\n" : "");
 }
 
+void row(const std::string& what, const std::string& upscaled, const std::string& ours) {
+    fmt::print("  {:<34}{:>16}{:>12}\n", what, upscaled, ours);
+}
+
 void printTable(const Quality& q) {
-    const auto row = [](const char* what, const std::string& upscaled, const std::string& ours) {
-        fmt::print("  {:<34}{:>16}{:>12}\n", what, upscaled, ours);
-    };
     fmt::print("\n");
-    row(fmt::format("means over {} frames", q.frames).c_str(), "video upscaled", "mfar");
+    row(fmt::format("means over {} frames", q.frames), "video upscaled", "mfar");
     row("PSNR [dB]", fmt::format("{:.2f}", q.upscaledPsnrDb),
         fmt::format("{:.2f}", q.resultPsnrDb));
     row("SSIM", fmt::format("{:.4f}", q.upscaledSsim), fmt::format("{:.4f}", q.resultSsim));
@@ -50,9 +59,28 @@ void printTable(const Quality& q) {
     row("time of a frame [ms]", "", fmt::format("{:.1f}", q.frameMs));
     for (std::size_t i = 0; i < mfar::kTileClasses; ++i) {
         const auto tileClass = static_cast<mfar::TileClass>(i);
-        row(fmt::format("tiles {} [%]", mfar::demo::name(tileClass)).c_str(), "",
+        row(fmt::format("tiles {} [%]", mfar::demo::name(tileClass)), "",
             fmt::format("{:.1f}", 100 * q.tileShares[i]));
     }
+}
+
+void printTable(const OcclusionQuality& q) {
+    fmt::print("\n");
+    row(fmt::format("means over {} frames", q.frames), "", "mfar");
+    row("error of depth, median [%]", "", fmt::format("{:.2f}", 100 * q.absrel));
+    row("depth known [%]", "", fmt::format("{:.1f}", 100 * q.completeness));
+    row("object seen where it should be, IoU", "", fmt::format("{:.3f}", q.overlap));
+    row("error of its boundary [video px]", "", fmt::format("{:.2f}", q.boundary));
+}
+
+void runObjects(const Request& request, const mfar::Recording& recording) {
+    const auto scene = mfar::synthetic::sceneNamed(request.scene);
+    if (!scene) throw std::runtime_error("there is no scene '" + request.scene + "'");
+    const auto objects = mfar::loadConfig(request.objects).objects;
+    const OcclusionRun run = mfar::demo::runOcclusion(recording, *scene, objects, showProgress);
+    mfar::eval::savePicture(request.folder / "depth.png", mfar::demo::depthPicture(run));
+    mfar::eval::savePicture(request.folder / "occlusion.png", mfar::demo::occlusionPicture(run));
+    printTable(run.quality);
 }
 
 void run(const Request& request) {
@@ -68,6 +96,7 @@ void run(const Request& request) {
                             mfar::demo::tileClassPicture(run.last));
     if (!request.video.empty()) mfar::demo::writeVideo(request.video, request.folder / "video.avi");
     printTable(run.quality);
+    if (!request.objects.empty()) runObjects(request, recording);
 }
 
 }  // namespace
@@ -78,6 +107,9 @@ int main(int argc, char** argv) {
     app.add_option("RECORDING", request.recording, "folder of the recording")->required();
     app.add_option("FOLDER", request.folder, "where the pictures go")->required();
     app.add_option("--video", request.video, "Y4M file that becomes FOLDER/video.avi");
+    auto* scene = app.add_option("--scene", request.scene, "synthetic scene that was recorded");
+    app.add_option("--objects", request.objects, "configuration whose [[objects]] are shown in it")
+        ->needs(scene);
     CLI11_PARSE(app, argc, argv);
     try {
         run(request);

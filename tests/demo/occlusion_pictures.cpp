@@ -1,0 +1,115 @@
+#include "tests/demo/occlusion_pictures.h"
+
+#include "tests/demo/picture_layout.h"
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mfar::demo {
+namespace {
+
+constexpr double kMostError = 0.05;  // share of the depth, the scale's end
+const cv::Scalar kUnknown(120, 120, 120);
+
+/// Nearest and farthest depth of a colour scale [1/m].
+struct Range {
+    double far, near;
+};
+
+// Without the farthest and nearest hundredth.
+Range rangeOf(const cv::Mat& rho) {
+    std::vector<float> values;
+    for (const float value : cv::Mat_<float>(rho))
+        if (value > 0) values.push_back(value);
+    std::sort(values.begin(), values.end());
+    return {values[values.size() / 100], values[values.size() - 1 - values.size() / 100]};
+}
+
+/// Turbo, from blue (0) to red (1); unknown where `known` is 0.
+cv::Mat colours(const cv::Mat& shares, const cv::Mat& known) {
+    cv::Mat levels, out;
+    shares.convertTo(levels, CV_8U, 255);
+    cv::applyColorMap(levels, out, cv::COLORMAP_TURBO);
+    out.setTo(kUnknown, known == 0);
+    return out;
+}
+
+cv::Mat depthColours(const cv::Mat& rho, const Range& range) {
+    return colours((rho - range.far) / (range.near - range.far), rho > 0);
+}
+
+cv::Mat errorColours(const cv::Mat& rho, const cv::Mat& truth) {
+    const cv::Mat known = (rho > 0) & (truth > 0);
+    return colours(cv::abs(truth / rho - 1) / kMostError, known);
+}
+
+/// A bar of the colours with what its ends mean.
+void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const std::string& to) {
+    constexpr int kLabel = 90;
+    cv::Mat ramp(kMargin, 256, CV_32F);
+    for (int x = 0; x < ramp.cols; ++x)
+        ramp.col(x).setTo(x / 255.0);
+    write(canvas, from, {corner.x, corner.y + 18});
+    place(canvas, colours(ramp, ramp >= 0), {corner.x + kLabel, corner.y});
+    write(canvas, to, {corner.x + kLabel + ramp.cols + 12, corner.y + 18});
+}
+
+/// Where much of the object is hidden beside much that is seen of it.
+cv::Rect mostHidden(const OcclusionShown& shown) {
+    const cv::Size window = detailSize(shown.composite.size());
+    cv::Mat hidden, visible, both;
+    cv::boxFilter(shown.hidden, hidden, CV_32F, window);
+    cv::boxFilter(shown.visible, visible, CV_32F, window);
+    cv::min(hidden, visible, both);
+    const cv::Rect centres(window.width / 2 + 1, window.height / 2 + 1,
+                           both.cols - window.width - 2, both.rows - window.height - 2);
+    cv::Point best;
+    cv::minMaxLoc(both(centres), nullptr, nullptr, nullptr, &best);
+    return {best, window};
+}
+
+}  // namespace
+
+cv::Mat depthPicture(const OcclusionRun& run) {
+    const OcclusionShown& shown = run.last;
+    const Range range = rangeOf(shown.trueDepth);
+    const OcclusionQuality& q = run.quality;
+    const std::array<Column, 3> columns{
+        Column{fmt::format("mfar: {:.0f} % known, AbsRel {:.2f} %", 100 * q.completeness,
+                           100 * q.absrel),
+               depthColours(shown.depth, range)},
+        Column{"Truth", depthColours(shown.trueDepth, range)},
+        Column{"Error", errorColours(shown.depth, shown.trueDepth)}};
+    const cv::Size panel = shown.depth.size();
+    cv::Mat canvas = sheet({3 * panel.width + 4 * kMargin, 2 * kCaption + panel.height + kMargin});
+    int x = kMargin;
+    const int below = kMargin + kCaption - 12 + panel.height + 12;
+    for (const Column& column : columns) {
+        write(canvas, column.title, {x, kMargin + 16});
+        place(canvas, column.picture, {x, kMargin + kCaption - 12});
+        if (&column != &columns.back())
+            addScale(canvas, {x, below}, fmt::format("{:.2f} m", 1 / range.far),
+                     fmt::format("{:.2f} m", 1 / range.near));
+        else
+            addScale(canvas, {x, below}, "0 %",
+                     fmt::format("{:.0f} % of the depth", 100 * kMostError));
+        x += panel.width + kMargin;
+    }
+    return canvas;
+}
+
+cv::Mat occlusionPicture(const OcclusionRun& run) {
+    const std::array<Column, 3> columns{
+        Column{"Object over everything", run.last.overlaid},
+        Column{fmt::format("mfar: IoU {:.3f}, boundary {:.2f} px", run.quality.overlap,
+                           run.quality.boundary),
+               run.last.composite},
+        Column{"Truth", run.last.trueComposite}};
+    return columnsWithDetail(columns, mostHidden(run.last));
+}
+
+}  // namespace mfar::demo

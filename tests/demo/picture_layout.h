@@ -1,0 +1,32 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include <span>
+#include <string>
+
+namespace mfar::demo {
+
+inline constexpr int kMargin = 24;   ///< around and between panels [px]
+inline constexpr int kCaption = 44;  ///< height of a line of text above a panel [px]
+inline constexpr int kPanelWidth = 640;
+inline constexpr int kMagnification = 3;
+
+/// An empty sheet, CV_8UC3.
+[[nodiscard]] cv::Mat sheet(cv::Size size);
+void write(cv::Mat& canvas, const std::string& text, cv::Point leftBase);
+void place(cv::Mat& canvas, const cv::Mat& picture, cv::Point corner);
+[[nodiscard]] cv::Mat resized(const cv::Mat& picture, cv::Size size, int how);
+
+/// A picture with what is written above it. B G R, all of one size.
+struct Column {
+    std::string title;
+    cv::Mat picture;
+};
+
+/// Size of the window that fills a panel when magnified.
+[[nodiscard]] cv::Size detailSize(cv::Size picture);
+/// Side by side, each with the same detail magnified below it.
+[[nodiscard]] cv::Mat columnsWithDetail(std::span<const Column> columns, const cv::Rect& detail);
+
+}  // namespace mfar::demo

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "hal/virtual/recording.h"
+#include "pipeline/pipeline.h"
+#include "tests/eval/pose_source.h"
+
+#include <cstddef>
+
+namespace mfar::demo {
+
+/// Gives the pipeline the newest still taken before the frame, once each.
+class StillFeed {
+public:
+    /// `poses`: of the stills; nullptr: the pipeline is told none. Both must outlive this.
+    explicit StillFeed(const Recording& recording, const eval::KnownPoses* poses = nullptr)
+        : recording_(recording), poses_(poses) {}
+
+    void feed(Pipeline& pipeline, Timestamp frame);
+
+private:
+    const Recording& recording_;
+    const eval::KnownPoses* poses_;
+    std::size_t next_ = 0;  ///< the first still not taken before the last frame
+};
+
+}  // namespace mfar::demo
