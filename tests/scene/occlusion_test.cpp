@@ -4,9 +4,11 @@
 #include "tests/eval/scene_objects.h"
 #include "tests/eval/scene_run.h"
 #include "tests/eval/virtual_truth.h"
+#include "tests/scene/stopped_camera.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -72,14 +74,76 @@ TEST_P(Occlusion, RealThingsHideAVirtualOneAtTheirEdges) {
     EXPECT_LT(boundary / scored, GetParam().mostBoundary);
 }
 
+class Rest : public Occlusion {};
+
+/// The overlap of what a pipeline shows now with what it should.
+double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
+    return occlusionScore(
+               shownAtVideo(shownObjects(pipeline), {truth.visible.cols, truth.visible.rows}),
+               truth.visible)
+        .overlap;
+}
+
+TEST_P(Rest, AStillShowsWhatIsInFront) {
+    SceneRun scene = sceneOn(Path::Rest);
+    Pipeline pipeline(scene.rig(), {});
+    pipeline.setObjects({object_});
+    for (int frame = 0; frame < kSettling; ++frame) {
+        const SceneRun::Shots shots = scene.next();
+        if (frame == 0) scene.fire();
+        runOn(pipeline, shots);
+    }
+    EXPECT_GT(overlapOf(pipeline, truthAt(scene.board(), scene.board().epoch())),
+              GetParam().leastOverlap);
+}
+
+// Carried by hand, then put down where the scene's resting camera is.
+TEST_P(Rest, NothingFlickersNorComesThrough) {
+    constexpr int kFrames = 30;
+    constexpr double kMostFlicker = 0.001;
+    SceneRun carried = sceneOn(Path::Handheld), resting = sceneOn(Path::Rest);
+    Pipeline pipeline(carried.rig(), {});
+    pipeline.setObjects({object_});
+    const SceneRun::Shots rest = resting.next();
+    Pose pose = *rest.pose;
+    for (int frame = 0; frame < 2 * kSettling; ++frame) {
+        const SceneRun::Shots shots = carried.next();
+        if (frame == 0) carried.fire();
+        runOn(pipeline, shots);
+        pose.time = shots.frame.time();
+    }
+    StoppedCamera stopped(resting.board(), rest.frame);
+    const VirtualTruth truth = truthAt(resting.board(), rest.frame.time());
+    const double scale = static_cast<double>(pipeline.outputSize().width) / truth.visible.cols;
+    const double silhouette = scale * scale * cv::countNonZero(truth.silhouette);
+    const auto next = [&](std::int64_t step) {
+        pose.time.ns += step;
+        pipeline.run(stopped.next(), pose.time, pose);
+    };
+    for (int frame = 0; frame < kSettling; ++frame)
+        next(33'333'333);
+    const double overlap = overlapOf(pipeline, truth);
+    cv::Mat before = shownObjects(pipeline);
+    double worst = 0;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        next(33'333'333);
+        const cv::Mat shown = shownObjects(pipeline);
+        worst = std::max(worst, flicker(before, shown, silhouette));
+        before = shown;
+    }
+    EXPECT_LT(worst, kMostFlicker);
+    for (int frame = 0; frame < kFrames; ++frame)
+        next(300'000'000);
+    EXPECT_GT(overlapOf(pipeline, truth), overlap - 0.01);
+}
+
 std::string nameOf(const testing::TestParamInfo<Case>& c) {
     return c.param.scene == Scene::Office ? "Office" : "Shelf";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Occlusion,
-                         testing::Values(Case{Scene::Office, 0.95, 1.5},
-                                         Case{Scene::Shelf, 0.9, 2.2}),
-                         nameOf);
+const auto kCases = testing::Values(Case{Scene::Office, 0.95, 1.5}, Case{Scene::Shelf, 0.9, 2.2});
+INSTANTIATE_TEST_SUITE_P(Scenes, Occlusion, kCases, nameOf);
+INSTANTIATE_TEST_SUITE_P(Scenes, Rest, kCases, nameOf);
 
 }  // namespace
 }  // namespace mfar::test
