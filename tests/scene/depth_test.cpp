@@ -1,13 +1,17 @@
 // The depth of synthetic scenes while the camera does what people do, against the truth.
 #include "hal/gl_context.h"
+#include "tests/eval/picture.h"
 #include "tests/eval/scene_objects.h"
 #include "tests/eval/scene_run.h"
 #include "tests/scene/depth_watch.h"
 #include "tests/scene/stopped_camera.h"
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace mfar::test {
 namespace {
@@ -92,6 +96,64 @@ TEST_F(DepthScenario, StaysWhileTheCameraTurnsOnTheSpot) {
 TEST_F(DepthScenario, StaysWhileTheCameraComesNearer) {
     Watched w(Scene::Office, Path::Forward, 10);
     follow(w, 28);
+}
+
+/// Grey paper over all tags.
+cv::Mat covered(const ImageView& view, const SyntheticBoard& board, Timestamp time) {
+    cv::Mat out = cv::Mat(view.size.height, view.size.width,
+                          view.format == PixelFormat::Gray8 ? CV_8UC1 : CV_8UC4,
+                          const_cast<std::uint8_t*>(view.data), view.stride)
+                      .clone();
+    const RigidTransform T_video_world = board.pose(time).T_world_video.inverse();
+    for (const synthetic::Tag& tag : board.world().tags) {
+        std::vector<cv::Point> corners;
+        for (const auto& [u, v] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+            const Eigen::Vector3d corner = 0.7 * tag.size * Eigen::Vector3d(u, v, 0);
+            const Eigen::Vector3d p = T_video_world * (tag.T_world_tag * corner);
+            const Eigen::Vector2d pixel = board.rig().video.project(p.hnormalized());
+            corners.emplace_back(cvRound(pixel.x()), cvRound(pixel.y()));
+        }
+        cv::fillConvexPoly(out, corners, cv::Scalar::all(128));
+    }
+    return out;
+}
+
+/// How far a pose is from the true one, as a share of the distance to the object.
+double errorOf(const Pose& pose, const SyntheticBoard& board) {
+    const Eigen::Vector3d truth = board.pose(pose.time).T_world_video.translation;
+    const Eigen::Vector3d object = sceneObjects(Scene::Office).at(0).T_world_object.translation;
+    return (pose.T_world_video.translation - truth).norm() / (object - truth).norm();
+}
+
+// Lost for a second: predicted at first, then unknown.
+TEST_F(DepthScenario, StaysWhileTheTagsAreLostAndFoundAgain) {
+    constexpr int kLost = kSettling + 4, kFound = kLost + 15, kEnd = kFound + 8;
+    Watched w(Scene::Office, Path::Handheld, 15, PoseSource::None);
+    TrackerOptions options;
+    options.map = tagMapOf(w.run.board().world());
+    Tracker tracker(w.run.rig(), options);
+    int predicted = 0, unknown = 0;
+    for (int frame = 0; frame < kEnd; ++frame) {
+        const SceneRun::Shots shots = w.run.next();
+        if (frame == 0) w.run.fire();
+        const Timestamp time = shots.frame.time();
+        cv::Mat paper;
+        if (frame >= kLost && frame < kFound)
+            paper = covered(shots.frame.view(), w.run.board(), time);
+        const ImageView picture = paper.empty() ? shots.frame.view() : viewOf(paper);
+        const auto pose = tracker.track(picture, time);
+        if (shots.still)
+            w.pipeline.setStill(shots.still->view(), shots.still->time(),
+                                tracker.trackStill(shots.still->view(), shots.still->time()));
+        w.pipeline.run(picture, time, pose);
+        predicted += pose && pose->tags == 0 ? 1 : 0;
+        unknown += pose ? 0 : 1;
+        if (!pose) continue;
+        const DepthState state = w.watch.look(w.pipeline, time);
+        if (frame >= kSettling) expectGood(state, frame, errorOf(*pose, w.run.board()));
+    }
+    EXPECT_GT(predicted, 3);
+    EXPECT_GT(unknown, 3);
 }
 
 }  // namespace
