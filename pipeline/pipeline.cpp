@@ -53,6 +53,7 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
     s.still.set(still);
     s.epipolar.dropStill();
     if (pose) s.epipolar.setStill(still, *pose);
+    s.depth.renew();
     s.pyramids.buildStill(s.still.picture(), s.rig);
     s.hasStill = true;
     s.redraw = true;
@@ -104,7 +105,7 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose) {
     if (objects) {
         where =
             objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, depth.field());
-        plan.drawnOver(objects->staleTiles(), objects->mustRedraw());
+        plan.drawnOver(objects->staleTiles(), objects->redraw());
     }
     if (options.depthEverywhere) where = {0, 0, rig.video.size.width, rig.video.size.height};
     return where;
@@ -125,7 +126,7 @@ void Pipeline::State::measureAlongLines(const Pose& pose, const PixelRect& where
     const EpipolarFlow::Cells vectors = flow.readForward();
     depth.run(epipolar.luma(), pose,
               DepthStage::StillSearch{epipolar.search(), epipolar.rotation(), epipolar.unit(),
-                                      epipolar.inverseDepthOf(vectors)},
+                                      epipolar.lengthError(), epipolar.inverseDepthOf(vectors)},
               where);
     forgetMoving(vectors);
 }
@@ -162,9 +163,9 @@ void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
                                   const std::optional<Pose>& pose, bool searched,
                                   const PixelRect& where) {
     const bool inView = objects && !objects->region().empty();
-    const bool measures = pose && (!where.empty() || inView);
-    if (!(measures || objects) || plan.changedTiles() == 0) return;
-    if (measures) {
+    const bool draws = objects && plan.redraws();
+    const bool measures = options.depthEverywhere ? plan.changedTiles() > 0 : draws;
+    if (pose && measures && (!where.empty() || inView)) {
         measureDepth(frame, {time, pose->T_world_video, pose->covariance}, searched, where);
         result.stats.depthTiles = tilesIn(where);
         if (inView)
@@ -173,7 +174,7 @@ void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
         if (!where.empty()) result.stats.depth = depth.source();
         lap("depth");
     }
-    if (!objects) return;
+    if (!draws) return;
     objects->draw(snap.field(), snap.where(), video, superres.output(), superres.target());
     lap("composite");
 }

@@ -47,7 +47,7 @@ void WorkPlan::openAll() {
     plan_.write(std::span<const std::array<std::uint32_t, 4>>(wanted_), kPlanHeader);
 }
 
-void WorkPlan::drawnOver(const PixelRect& tiles, bool redraw) {
+void WorkPlan::drawnOver(const PixelRect& tiles, Redraw redraw) {
     drawnOver_ = {std::max(tiles.x0, 0), std::max(tiles.y0, 0),
                   std::min(tiles.x1, tileCount_.width), std::min(tiles.y1, tileCount_.height)};
     redraw_ = redraw;
@@ -55,6 +55,10 @@ void WorkPlan::drawnOver(const PixelRect& tiles, bool redraw) {
 
 int WorkPlan::changedTiles() const {
     return static_cast<int>(plan_.read<std::uint32_t>(1)[0]);
+}
+
+bool WorkPlan::redraws() const {
+    return plan_.read<std::uint32_t>(4)[3] != 0;
 }
 
 void WorkPlan::update(const gpu::Texture& now, const gpu::Texture& drawn, bool force) {
@@ -85,7 +89,7 @@ void WorkPlan::update(const gpu::Texture& now, const gpu::Texture& drawn, bool f
     counts.drawnOver[1] = drawnOver_.y0;
     counts.drawnOver[2] = drawnOver_.x1;
     counts.drawnOver[3] = drawnOver_.y1;
-    counts.redraw[0] = std::exchange(redraw_, false) ? 1 : 0;
+    counts.redraw[0] = static_cast<std::int32_t>(std::exchange(redraw_, Redraw::WithThem));
     dispatch_.run(counts,
                   {gpu::storage(0, tiles_), gpu::storage(1, wantedBuffer_), gpu::storage(2, plan_)},
                   {});

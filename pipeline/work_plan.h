@@ -29,10 +29,16 @@ public:
 
     /// Compares `now` with `drawn` (RGBA8, video size). `force` counts every tile as changed.
     void update(const gpu::Texture& now, const gpu::Texture& drawn, bool force);
-    /// Something was drawn over these tiles of the output after they were drawn: from the next
-    /// update() on they count as changed with any other tile, so that it can be drawn anew.
-    /// `redraw`: also when no other tile has changed, once.
-    void drawnOver(const PixelRect& tiles, bool redraw);
+    /// When what was drawn over tiles of the output has to be drawn anew.
+    enum class Redraw : std::uint8_t {
+        WithThem,    ///< one of the tiles has changed, or one beside them
+        WithOthers,  ///< any tile has
+        Always,      ///< whatever has
+    };
+    /// Something was drawn over these tiles of the output after they were drawn: at the next
+    /// update() all of them count as changed when that is to be drawn anew; after it WithThem
+    /// holds.
+    void drawnOver(const PixelRect& tiles, Redraw redraw);
     /// Opens every dispatch without comparing anything.
     void openAll();
 
@@ -51,6 +57,8 @@ public:
     [[nodiscard]] gpu::IndirectDraw wholeDraw() const { return {plan_, 16}; }
     /// Number of tiles that the last update() found changed. Waits for the GPU.
     [[nodiscard]] int changedTiles() const;
+    /// Is what was drawn over tiles to be drawn anew, as of the last update()? Waits for the GPU.
+    [[nodiscard]] bool redraws() const;
     [[nodiscard]] Size tileCount() const { return tileCount_; }
     /// Standard deviation of the video's noise [grey levels], from the quietest tiles; follows
     /// update() a frame late, so that nothing waits. Before that: that of 8-bit rounding.
@@ -74,7 +82,7 @@ private:
     Size tileCount_;
     double noise_;
     PixelRect drawnOver_;  // tiles
-    bool redraw_ = false;
+    Redraw redraw_ = Redraw::WithThem;
     bool measured_ = false;  // plan_ holds the summary of an earlier frame
     std::vector<std::array<std::uint32_t, 4>> wanted_;
     gpu::Buffer tiles_, wantedBuffer_, plan_;

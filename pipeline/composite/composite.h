@@ -12,9 +12,9 @@ namespace mfar {
 struct CompositeOptions {
     /// How much nearer than the virtual surface the real one must be to hide any of it [sigmas]:
     /// what stands on a table is not eaten by it.
-    double bias = 2;
+    double bias = 0.5;
     /// From there on, how much nearer until all of it is hidden [sigmas], at least 0.01.
-    double softness = 2;
+    double softness = 1;
     /// Standard deviation of virtual depth, by the pose it is drawn for [share of the depth].
     double virtualSigma = 0.003;
     /// Distance of two colours (RGB, Euclidean) at which a depth sample counts for

@@ -1,7 +1,6 @@
 #include "pipeline/composite/virtual_view.h"
 
 #include "pipeline/results.h"
-#include "pipeline/work_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +16,8 @@ constexpr int kMargin = 8;
 // What is known to lie behind an object is measured again after so many frames at most: something
 // may have come before it.
 constexpr int kMostRelied = 8;
+// A camera that moved the objects less has not moved [px]: tags do not know better at rest.
+constexpr double kLeastMotion = 0.3;
 constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // pixels of a tile
 
 PixelRect tilesOf(const PixelRect& pixels, Size output, Size video) {
@@ -34,7 +35,7 @@ PixelRect tilesOf(const PixelRect& pixels, Size output, Size video) {
 VirtualView::VirtualView(const CameraModel& video, Size output)
     : video_(video.size), silhouette_(video, kMargin), renderer_(video, output),
       composite_(video.size, output), depth_(video.size, gpu::TexelFormat::Rg32F),
-      values_(2UL * video.size.width * video.size.height),
+      values_(2UL * video.size.width * video.size.height), focal_(std::max(video.fx, video.fy)),
       uploaded_{0, 0, video.size.width, video.size.height} {}
 
 void VirtualView::setObjects(std::vector<VirtualObject> objects) {
@@ -50,10 +51,12 @@ PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
     const auto& tiles = silhouette_.run(objects_, *T_world_video);
     const int columns = silhouette_.tileCount().width;
     const bool relies = relied_ < kMostRelied;
+    nearest_ = 0;
     PixelRect decides;
     for (int i = 0; i < static_cast<int>(tiles.size()); ++i) {
-        const float farthest = tiles[static_cast<std::size_t>(i)].farthest;
+        const auto [nearest, farthest] = tiles[static_cast<std::size_t>(i)];
         if (!(farthest > 0)) continue;
+        nearest_ = std::max(nearest_, 1.0 / nearest);
         const int x = i % columns * kTileSize, y = i / columns * kTileSize;
         const PixelRect tile{x, y, x + kTileSize, y + kTileSize};
         region_ = around(region_, widened(tile, 0, video_));
@@ -81,8 +84,14 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
     return unknown > kMostUnknown;
 }
 
-bool VirtualView::mustRedraw() const {
-    return changed_ || placed_ == region_.empty();
+WorkPlan::Redraw VirtualView::redraw() const {
+    using Redraw = WorkPlan::Redraw;
+    if (mustRedraw()) return Redraw::Always;
+    if (!placedPose_ || !drawnPose_) return Redraw::WithThem;
+    const RigidTransform T = drawnPose_->inverse() * *placedPose_;
+    const double turn = 2 * T.rotation.vec().norm();
+    const bool moved = focal_ * (turn + nearest_ * T.translation.norm()) > kLeastMotion;
+    return moved ? Redraw::WithOthers : Redraw::WithThem;
 }
 
 PixelRect VirtualView::staleTiles() const {
@@ -95,6 +104,7 @@ void VirtualView::draw(const InverseDepthField& real, const PixelRect& where,
                        const gpu::Framebuffer& target) {
     changed_ = false;
     placed_ = !region_.empty();
+    drawnPose_ = placedPose_;
     drawn_ = {};
     if (region_.empty()) return;
     layer_ = renderer_.render(objects_, *placedPose_);

@@ -4,6 +4,7 @@
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/work_plan.h"
 
 #include <optional>
 #include <vector>
@@ -27,9 +28,9 @@ public:
                     const InverseDepthField& known);
     /// Video pixels around all objects, as placed.
     [[nodiscard]] const PixelRect& region() const { return region_; }
-    /// The last picture shows what this one must not, although nothing else may have changed: other
-    /// objects, or any after none and the other way round.
-    [[nodiscard]] bool mustRedraw() const;
+    /// When they have to be drawn anew: always after other objects, or when there are any after
+    /// none and the other way round; with any change when the camera has moved.
+    [[nodiscard]] WorkPlan::Redraw redraw() const;
     /// Tiles of the picture to draw anew before the next draw().
     [[nodiscard]] PixelRect staleTiles() const;
 
@@ -42,6 +43,7 @@ public:
     [[nodiscard]] std::vector<float> readShown() const;
 
 private:
+    [[nodiscard]] bool mustRedraw() const { return changed_ || placed_ == region_.empty(); }
     [[nodiscard]] bool mayHide(const PixelRect& tile, float farthest,
                                const InverseDepthField& known) const;
     void upload(const InverseDepthField& real, const PixelRect& where);
@@ -53,7 +55,8 @@ private:
     Composite composite_;
     gpu::Texture depth_;
     std::vector<float> values_;
-    std::optional<RigidTransform> placedPose_;
+    double focal_, nearest_ = 0;  // [px]; of the objects' inverse depths, as placed [1/m]
+    std::optional<RigidTransform> placedPose_, drawnPose_;
     PixelRect region_, drawn_, uploaded_;  // video pixels, tiles, video pixels
     VirtualLayer layer_;                   // as last drawn
     int relied_ = 0;                       // frames in a row on what was known before

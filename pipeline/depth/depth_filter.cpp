@@ -8,8 +8,10 @@ namespace mfar {
 namespace {
 
 constexpr float kNearPlane = 0.05F;  // [share of the depth before]
-// Of inverse depth, in a second without a measurement.
+// Of inverse depth, in a second of motion without a measurement.
 constexpr double kDrift = 0.02;
+// The camera rested before that [s].
+constexpr double kMostMoving = 0.2;
 // Motions of the picture below this are added up: each time it is carried, points are rounded to
 // pixels [px].
 constexpr float kLeastMotion = 0.25F;
@@ -39,14 +41,15 @@ void DepthFilter::predict(const RigidTransform& T_world_video, double seconds) {
         fieldPose_ = T_world_video;
         return;
     }
-    const auto growth = static_cast<float>(kDrift * kDrift * std::max(seconds, 0.0));
+    const RigidTransform T_now_before = T_world_video.inverse() * *fieldPose_;
+    moving_ = std::min(moving_ + std::max(seconds, 0.0), kMostMoving);
+    if (!moves(T_now_before)) return;
+    const auto growth = static_cast<float>(kDrift * kDrift * std::exchange(moving_, 0));
     for (int y = known_.y0; y < known_.y1; ++y) {
         const auto row = static_cast<std::size_t>(y) * field_.size.width;
         for (std::size_t i = row + known_.x0; i < row + known_.x1; ++i)
             field_.variance[i] += growth * field_.rho[i] * field_.rho[i];
     }
-    const RigidTransform T_now_before = T_world_video.inverse() * *fieldPose_;
-    if (!moves(T_now_before)) return;
     carry(T_now_before);
     fieldPose_ = T_world_video;
 }

@@ -23,8 +23,8 @@ public:
     /// Nothing is known any more.
     void forget();
     /// Carries what is known to a camera at this pose, the nearest where several surfaces meet
-    /// (z-test); its variance grows with the time since the last call. Camera motions too small to
-    /// show are added up first.
+    /// (z-test); its variance grows with the time that this motion took. Camera motions too small
+    /// to show are added up first; a camera at rest forgets nothing.
     void predict(const RigidTransform& T_world_video, double seconds);
     /// Takes the measurement of a frame at the pose of the last predict(), within `where`: fused
     /// where it agrees with what is known, and instead of that where it keeps disagreeing.
@@ -54,6 +54,7 @@ private:
     float focal_, pixelX_, pixelY_;  // [px], and rays a pixel
     std::shared_ptr<Workers> workers_;
     std::optional<RigidTransform> fieldPose_;
+    double moving_ = 0;                  // since the field was last carried [s]
     InverseDepthField field_, carried_;  // nothing is known in carried_ between two motions
     PixelRect known_, carriedTo_;
     std::vector<Point> points_, carriedPoints_;

@@ -15,6 +15,9 @@ constexpr double kSameView = 0.3;  // [px]
 constexpr double kNearest = 0.01;  // [m]
 // A keyframe is worth a search when it sees so many times the still's parallax.
 constexpr double kWorth = 2;
+// How far it is to the other picture must be known this well, as a share: depth is wrong by as
+// much.
+constexpr double kMostLengthError = 0.15;
 // A search starts from what is known when so much of the picture is.
 constexpr double kMostlyKnown = 0.97;
 
@@ -49,8 +52,8 @@ void DepthStage::run(const LumaImage& luma, const Pose& pose,
     const Summary before = summaryOf(where, pose);
     source_ = before.share < 1 ? DepthSource::Carried : DepthSource::None;
     const double brightness = brightnessOf(luma);
-    if (!where.empty() && seesMore(pose, before.rho)) {
-        if (still && still->search.pixelsPerUnit() > 0) {
+    if (!where.empty() && seesMore(pose, before.rho, where)) {
+        if (still && still->search.pixelsPerUnit() > 0 && still->lengthError < kMostLengthError) {
             measurement_.run(still->search, still->R_still_video, still->unit, still->cells, where,
                              measured_);
             filter_.fuse(measured_, where);
@@ -58,19 +61,20 @@ void DepthStage::run(const LumaImage& luma, const Pose& pose,
         }
         findNeeds(pose, brightness, still ? still->unit : 0, where);
         searchKeyframe(luma, pose);
+        if (source_ != DepthSource::None && source_ != DepthSource::Carried) {
+            measuredPose_ = pose.T_world_video;
+            measuredWhere_ = where;
+        }
     }
     keyframes_.add(luma, pose, brightness, before.rho);
 }
 
 // The same view measured again would only make its errors look smaller.
-bool DepthStage::seesMore(const Pose& pose, double rho) {
-    if (measuredPose_) {
-        const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
-        const double turn = 2 * T.rotation.vec().norm();
-        if (focal_ * (turn + rho * T.translation.norm()) < kSameView) return false;
-    }
-    measuredPose_ = pose.T_world_video;
-    return true;
+bool DepthStage::seesMore(const Pose& pose, double rho, const PixelRect& where) const {
+    if (!measuredPose_ || around(measuredWhere_, where) != measuredWhere_) return true;
+    const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
+    const double turn = 2 * T.rotation.vec().norm();
+    return focal_ * (turn + rho * T.translation.norm()) >= kSameView;
 }
 
 // Where a camera moves towards the scene, what lies ahead has no parallax against a frame that
@@ -113,6 +117,7 @@ void DepthStage::searchKeyframe(const LumaImage& luma, const Pose& pose) {
     }
     search_.setArea(widened(where, kSupport, luma.size));
     const UnitPose relative = unitPose({}, frame.pose, pose);
+    if (relative.lengthError >= kMostLengthError) return;
     if (!search_.run(luma, relative.T_other_frame, relative.covariance, predicted(relative, where)))
         return;
     const Eigen::Matrix3f R = search_.pose().rotation.toRotationMatrix().cast<float>();

@@ -25,10 +25,13 @@ public:
         const EpipolarSearch& search;
         const Eigen::Matrix3f& R_still_video;  ///< of rays, at the video's geometry
         double unit;                           ///< [m]
+        double lengthError;                    ///< of it, UnitPose
         std::span<const float> cells;          ///< see DepthMeasurement::run()
     };
 
     void forget();
+    /// What is there to measure against has changed: another still.
+    void renew() { measuredPose_.reset(); }
     /// A frame that changed. Measures inside of `where`, which may be empty.
     void run(const LumaImage& luma, const Pose& pose, const std::optional<StillSearch>& still,
              const PixelRect& where);
@@ -50,7 +53,7 @@ private:
         Keyframes::Choice choice;
     };
     [[nodiscard]] Summary summaryOf(const PixelRect& where, const Pose& pose);
-    [[nodiscard]] bool seesMore(const Pose& pose, double rho);
+    [[nodiscard]] bool seesMore(const Pose& pose, double rho, const PixelRect& where) const;
     void findNeeds(const Pose& pose, double brightness, double stillBaseline,
                    const PixelRect& where);
     void searchKeyframe(const LumaImage& luma, const Pose& pose);
@@ -67,6 +70,7 @@ private:
     DepthSource source_ = DepthSource::None;
     long searchedKey_ = -1;
     std::optional<RigidTransform> measuredPose_;
+    PixelRect measuredWhere_;
     std::optional<Timestamp> last_;
     std::vector<Need> needs_;
     std::vector<float> predicted_, samples_, shares_;

@@ -47,6 +47,7 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
     lumaOf(video, luma_);
     const UnitPose relative = unitPose(rig_.T_still_video, *stillPose_, pose);
     unit_ = relative.unit;
+    lengthError_ = relative.lengthError;
     search(relative);
     // At the video's geometry the still keeps the video's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)

@@ -49,6 +49,8 @@ public:
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
     /// That unit [unit of length of the poses].
     [[nodiscard]] double unit() const { return unit_; }
+    /// UnitPose::lengthError of it.
+    [[nodiscard]] double lengthError() const { return lengthError_; }
     /// Turns the frame's rays into the still at the video's geometry.
     [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
     /// Luma of the frame.
@@ -72,7 +74,7 @@ private:
     int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
     EpipolarLens lens_, cellRays_;
     Eigen::Matrix3f rotation_;
-    double unit_ = 1;
+    double unit_ = 1, lengthError_ = 0;
     std::optional<Pose> stillPose_;
     LumaImage luma_;
     Cells forward_, hidden_;

@@ -34,6 +34,9 @@ UnitPose unitPose(const RigidTransform& T_camera_video, const Pose& other, const
     out.covariance.topRightCorner<3, 3>() /= out.unit;
     out.covariance.bottomLeftCorner<3, 3>() /= out.unit;
     out.covariance.bottomRightCorner<3, 3>() /= out.unit * out.unit;
+    const Eigen::Vector3d along =
+        out.T_other_frame.rotation.conjugate() * out.T_other_frame.translation;
+    out.lengthError = std::sqrt(along.dot(out.covariance.bottomRightCorner<3, 3>() * along));
     return out;
 }
 

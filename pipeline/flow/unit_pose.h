@@ -11,6 +11,8 @@ struct UnitPose {
     RigidTransform T_other_frame;
     Matrix6 covariance;  ///< of a small motion x, T_other_frame * exp(x)
     double unit = 1;     ///< [unit of length of the poses]
+    /// Standard deviation of the distance, as a share of it: no match can tell it.
+    double lengthError = 0;
 };
 
 /// `other`, `frame`: where the video camera was at both times. `T_camera_video`: of the camera that

@@ -84,8 +84,6 @@ TEST(DepthFilter, MovesAndGrowsWithTheCamera) {
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
     const float variance = filter.field().variance[middle()];
-    filter.predict({}, 1);
-    EXPECT_GT(filter.field().variance[middle()], variance);
     // Half a metre ahead of a wall at one metre.
     filter.predict(motion({0, 0, 0}, {0, 0, 0.5}), 0);
     ASSERT_TRUE(filter.field().isKnown(middle()));
@@ -94,6 +92,18 @@ TEST(DepthFilter, MovesAndGrowsWithTheCamera) {
     // Through it.
     filter.predict(motion({0, 0, 0}, {0, 0, 1.2}), 0);
     EXPECT_FALSE(filter.field().isKnown(middle()));
+}
+
+TEST(DepthFilter, ForgetsWithMotionAlone) {
+    DepthFilter filter = filterOf();
+    filter.predict({}, 0);
+    filter.fuse(evenField(1, 0.02F), kWhole);
+    const float variance = filter.field().variance[middle()];
+    filter.predict({}, 10);
+    EXPECT_EQ(filter.field().variance[middle()], variance);
+    filter.predict(motion({1, 0, 0}, {0, 0, 0}), 0.1);
+    EXPECT_GT(filter.field().variance[middle()], variance);
+    EXPECT_LT(filter.field().variance[middle()], 1.1F * variance);
 }
 
 TEST(DepthFilter, SmallMotionsAddUpWithoutBlur) {

@@ -172,7 +172,7 @@ TEST_F(CompositeTest, VirtualThingWinsWhereBothAreEqual) {
 TEST_F(CompositeTest, BlendIsOverByVisibility) {
     const twin::Scene scene = plainScene({0.53, 0.01});
     const Virtual layer{.colour = {120, 60, 0, 128}, .bounds = {30, 20, 131, 103}};
-    run(scene, layer, {.virtualSigma = 0});
+    run(scene, layer, {.bias = 2, .softness = 2, .virtualSigma = 0});
     EXPECT_NEAR(visibleAt(90, 60), 0.5, 0.01);
     for (int y = 0; y < kOutput.height; ++y)
         for (int x = 0; x < kOutput.width; ++x) {

@@ -73,9 +73,11 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
     const Picture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
     const WorkPlan::Dispatch dispatch = plan.add({5, 2, 1});
-    plan.drawnOver({2, 1, 4, 9}, false);
+    plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::WithOthers);
     plan.update(uploaded(base), uploaded(base), false);
     EXPECT_EQ(plan.changedTiles(), 0);
+    EXPECT_FALSE(plan.redraws());
+    plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::WithOthers);
     EXPECT_EQ(fourAt(plan, 32 + 16UL * dispatch.index)[0], 0U);
     plan.update(uploaded(oneTile), uploaded(base), false);
     EXPECT_EQ(plan.changedTiles(), 1 + 2 * 3);
@@ -84,14 +86,32 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
         const bool over = i % 7 >= 2 && i % 7 < 4 && i / 7 >= 1;
         EXPECT_EQ(tiles[i].changed, i == 0 || over ? 1U : 0U) << "tile " << i;
     }
-    plan.drawnOver({2, 1, 4, 9}, true);
+    EXPECT_TRUE(plan.redraws());
+    plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::Always);
     plan.update(uploaded(base), uploaded(base), false);
     EXPECT_EQ(plan.changedTiles(), 6);
+    EXPECT_TRUE(plan.redraws());
     EXPECT_EQ(fourAt(plan, 32 + 16UL * dispatch.index)[0], 5U);
     plan.update(uploaded(base), uploaded(base), false);
     EXPECT_EQ(plan.changedTiles(), 0) << "redrawn once";
     plan.update(uploaded(base), uploaded(base), true);
     EXPECT_EQ(plan.changedTiles(), 28) << "none counts twice";
+}
+
+TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithItsTilesOrTheWhole) {
+    const Picture base = Waves(1, 6, 60, 30).shoot(kSize, {});
+    const Picture oneTile = changedIn(base, 1, 64);  // the first
+    WorkPlan plan(kSize);
+    plan.drawnOver({2, 0, 4, 2}, WorkPlan::Redraw::WithThem);
+    plan.update(uploaded(oneTile), uploaded(base), false);
+    EXPECT_EQ(plan.changedTiles(), 1);
+    EXPECT_FALSE(plan.redraws());
+    plan.drawnOver({1, 0, 4, 2}, WorkPlan::Redraw::WithThem);
+    plan.update(uploaded(oneTile), uploaded(base), false);
+    EXPECT_EQ(plan.changedTiles(), 1 + 3 * 2) << "beside them";
+    EXPECT_TRUE(plan.redraws());
+    plan.update(uploaded(base), uploaded(base), true);
+    EXPECT_TRUE(plan.redraws());
 }
 
 TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
