@@ -141,7 +141,7 @@ std::string nameOf(const testing::TestParamInfo<Case>& c) {
     return c.param.scene == Scene::Office ? "Office" : "Shelf";
 }
 
-const auto kCases = testing::Values(Case{Scene::Office, 0.95, 1.5}, Case{Scene::Shelf, 0.9, 2.2});
+const auto kCases = testing::Values(Case{Scene::Office, 0.95, 1.5}, Case{Scene::Shelf, 0.9, 1.5});
 INSTANTIATE_TEST_SUITE_P(Scenes, Occlusion, kCases, nameOf);
 INSTANTIATE_TEST_SUITE_P(Scenes, Rest, kCases, nameOf);
 
