@@ -12,8 +12,10 @@ void main() {
     vec3 n = normalize(facing);
     if (dot(n, point) > 0.0) n = -n;
     float lit = mix(max(dot(n, light.xyz), 0.0), 1.0, light.w);
-    // Signed distance from the next line of the board in pixels: its steps are a pixel wide.
-    vec2 wave = 2.0 * abs(fract(0.5 * square + 0.25) - 0.5) - 0.5;
+    // Signed distance from the next line of the board in pixels: its steps are a pixel wide. A face's
+    // border is none, as what lies beyond it may have the same colour.
+    vec2 inner = clamp(square, vec2(0.5), vec2(size.w - 0.5));
+    vec2 wave = 2.0 * abs(fract(0.5 * inner + 0.25) - 0.5) - 0.5;
     vec2 side = clamp(wave / max(fwidth(square), 1e-6), vec2(-0.5), vec2(0.5));
     shown = vec4(lit * mix(colour[0].rgb, colour[1].rgb, 0.5 - 2.0 * side.x * side.y), 1.0);
     depth = 1.0 / gl_FragCoord.w;
