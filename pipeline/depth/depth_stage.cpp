@@ -111,13 +111,13 @@ void DepthStage::searchKeyframe(const LumaImage& luma, const Pose& pose) {
     PixelRect where;
     for (const Need& need : needs_)
         if (need.choice.frame == &frame) where = around(where, need.part);
+    const UnitPose relative = unitPose({}, frame.pose, pose);
+    if (relative.lengthError >= kMostLengthError) return;
     if (frame.number != searchedKey_) {
         search_.setStill(viewOf(frame.luma));
         searchedKey_ = frame.number;
     }
     search_.setArea(widened(where, kSupport, luma.size));
-    const UnitPose relative = unitPose({}, frame.pose, pose);
-    if (relative.lengthError >= kMostLengthError) return;
     if (!search_.run(luma, relative.T_other_frame, relative.covariance, predicted(relative, where)))
         return;
     const Eigen::Matrix3f R = search_.pose().rotation.toRotationMatrix().cast<float>();

@@ -14,7 +14,7 @@ constexpr int kVoters = 2;   // every so manyth column and row votes
 // An edge, no slope: so much of the nearer inverse depth within 2 kBand + 1 pixels, and more than
 // noise makes.
 constexpr float kJump = 0.08F, kSigmas = 3;
-constexpr float kLikeness = 12;    // colours so far apart are alike by half [grey levels]
+constexpr float kLikeness = 12;        // colours so far apart are alike by half [grey levels]
 constexpr float kLeastWeight = 0.75F;  // of all voters, each at most one
 constexpr float kNothing = std::numeric_limits<float>::max();
 
