@@ -14,7 +14,7 @@ constexpr float kMatchError = 0.3F;
 constexpr float kSlope = 1.5F;
 // A cell's vector this close to the pixel's is that of the same surface [px].
 constexpr double kSameSurface = 0.5;
-constexpr float kNearPlane = 0.05F;
+constexpr float kLeastDepth = 0.05F;
 constexpr float kNothing = -1e9F;
 
 }  // namespace
@@ -80,9 +80,9 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
                 const float s = s_[i], rx = lens_.rayX(i), ry = lens_.rayY(i);
                 const Eigen::Vector3f p = R * Eigen::Vector3f(rx + s * (t.x() - rx * t.z()),
                                                               ry + s * (t.y() - ry * t.z()), 1);
-                const float z = std::max(p.z(), kNearPlane);
+                const float z = std::max(p.z(), kLeastDepth);
                 const auto q = lens_.project(p.x() / z, p.y() / z);
-                landing_[i] = p.z() > kNearPlane ? lens_.pixelAt(q) : -1;
+                landing_[i] = p.z() > kLeastDepth ? lens_.pixelAt(q) : -1;
             }
         }
     });
@@ -118,7 +118,7 @@ void DepthMeasurement::run(const EpipolarSearch& search, const Eigen::Matrix3f& 
                                                       t.y() - lens_.rayY(i) * t.z());
                 // rho = s / (1 - s t.z): both change together, EpipolarLens.
                 const float depth = 1 - s * t.z();
-                if (!(seen && way > 0 && depth > kNearPlane)) {
+                if (!(seen && way > 0 && depth > kLeastDepth)) {
                     out.forget(i);
                     continue;
                 }

@@ -8,9 +8,9 @@
 namespace mfar {
 namespace {
 
-constexpr int kBand = 4;     // undecided on both sides of a depth edge [px]
-constexpr int kRadius = 10;  // from where surfaces are taken [px]
-constexpr int kVoters = 2;   // every so manyth column and row votes
+constexpr int kBand = 4;         // undecided on both sides of a depth edge [px]
+constexpr int kVoteRadius = 10;  // from where surfaces are taken [px]
+constexpr int kVoters = 2;       // every so manyth column and row votes
 // An edge, no slope: so much of the nearer inverse depth within 2 kBand + 1 pixels, and more than
 // noise makes.
 constexpr float kJump = 0.08F, kSigmas = 3;
@@ -117,10 +117,10 @@ void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, cons
         out_.variance[i] = in.variance[i];
         out_.filled[i] = in.filled[i];
         if (open_[i] == 0) continue;
-        const int x0 = nextVoter(std::max(x - kRadius, where.x0));
-        const int y0 = nextVoter(std::max(y - kRadius, where.y0));
-        const int x1 = std::min(x + kRadius + 1, where.x1);
-        const int y1 = std::min(y + kRadius + 1, where.y1);
+        const int x0 = nextVoter(std::max(x - kVoteRadius, where.x0));
+        const int y0 = nextVoter(std::max(y - kVoteRadius, where.y0));
+        const int x1 = std::min(x + kVoteRadius + 1, where.x1);
+        const int y1 = std::min(y + kVoteRadius + 1, where.y1);
         float low = kNothing, high = -kNothing;
         for (int v = y0; v < y1; v += kVoters)
             for (int u = x0; u < x1; u += kVoters) {

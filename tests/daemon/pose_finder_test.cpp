@@ -12,10 +12,11 @@ namespace {
 using namespace test;
 
 const StereoRig kRig{testCamera(), testCamera().scaledTo({1152, 864}), {}};
-const PlacedTag kTag{{TagFamily::Tag36h11, 4}, 0.1, {}};
+const PlacedTag kPlacedTag{{TagFamily::Tag36h11, 4}, 0.1, {}};
 
 PoseInputs inputs() {
-    return {"bench", kRig, 30, TagMap({{kTag.tag, kTag.size, kTag.T_world_tag}}), {}};
+    return {
+        "bench", kRig, 30, TagMap({{kPlacedTag.tag, kPlacedTag.size, kPlacedTag.T_world_tag}}), {}};
 }
 
 RigidTransform view(double frame) {
@@ -29,7 +30,8 @@ Timestamp frameTime(double frame) {
 /// Lends a picture of the tag, or of nothing, taken that many frames after the start.
 struct Shot {
     Shot(const CameraModel& camera, double at, bool withTag)
-        : picture(withTag ? renderTags(camera, view(at), {kTag}) : GrayPicture(camera.size, 90)),
+        : picture(withTag ? renderTags(camera, view(at), {kPlacedTag})
+                          : GrayPicture(camera.size, 90)),
           frame(picture.view(), frameTime(at), nullptr) {}
     GrayPicture picture;
     Frame frame;

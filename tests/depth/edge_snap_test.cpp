@@ -9,7 +9,7 @@ namespace mfar {
 namespace {
 
 constexpr Size kPicture{64, 48};
-constexpr PixelRect kWhole{0, 0, 64, 48};
+constexpr PixelRect kAllPixels{0, 0, 64, 48};
 constexpr int kEdge = 30;
 
 /// A dark surface left of kEdge before a bright one, with a fine pattern on both.
@@ -36,10 +36,10 @@ InverseDepthField field(int too, int unknown) {
 }
 
 InverseDepthField snapped(const InverseDepthField& in, const std::vector<std::uint8_t>& pixels,
-                          const PixelRect& where = kWhole) {
+                          const PixelRect& where = kAllPixels) {
     EdgeSnap snap(kPicture, std::make_shared<Workers>(2));
     const ImageView view{pixels.data(), kPicture, 64, PixelFormat::Gray8};
-    snap.run(in, view, kWhole);
+    snap.run(in, view, kAllPixels);
     return snap.run(in, view, where);
 }
 

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-const CameraModel kCamera{{160, 120}, 150, 150, 79.5, 59.5, {}};
+const CameraModel kKeyCamera{{160, 120}, 150, 150, 79.5, 59.5, {}};
 
 const PixelRect kAll{0, 0, 160, 120};
 
@@ -19,14 +19,14 @@ Pose poseAt(double x, double z = 0) {
 }
 
 LumaImage grey(int value) {
-    LumaImage out(kCamera.size);
+    LumaImage out(kKeyCamera.size);
     std::fill(out.pixels.begin(), out.pixels.end(), static_cast<std::uint8_t>(value));
     return out;
 }
 
 /// Frames 1 cm apart, the last at 9 cm.
 Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
-    Keyframes out(kCamera, options);
+    Keyframes out(kKeyCamera, options);
     for (int i = 0; i < 10; ++i)
         out.add(grey(brightness), poseAt(0.01 * i), brightness, 1);
     return out;
@@ -58,7 +58,7 @@ TEST(Keyframes, ScoreTakesTheMostParallaxThatOverlaps) {
 }
 
 TEST(Keyframes, AnotherExposureCounts) {
-    Keyframes frames(kCamera, {});
+    Keyframes frames(kKeyCamera, {});
     frames.add(grey(30), poseAt(0), 30, 1);
     frames.add(grey(100), poseAt(0.04), 100, 1);
     EXPECT_NEAR(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->brightness, 100, 1e-9);
@@ -75,7 +75,7 @@ TEST(Keyframes, ARestingOrTurningCameraKeepsThoseItHas) {
 }
 
 TEST(Keyframes, WithoutParallaxThereIsNone) {
-    Keyframes frames(kCamera, {});
+    Keyframes frames(kKeyCamera, {});
     EXPECT_FALSE(frames.choose(poseAt(0), 100, kAll, 1));
     frames.add(grey(100), poseAt(0), 100, 1);
     EXPECT_FALSE(frames.choose(poseAt(0), 100, kAll, 1));
@@ -88,17 +88,17 @@ TEST(Keyframes, WithoutParallaxThereIsNone) {
 }
 
 TEST(Keyframes, APartAboutTheEpipoleHasNone) {
-    Keyframes frames(kCamera, {});
+    Keyframes frames(kKeyCamera, {});
     frames.add(grey(100), poseAt(0), 100, 1);
     EXPECT_FALSE(frames.choose(poseAt(0, 0.06), 100, {70, 50, 90, 70}, 1));
     EXPECT_TRUE(frames.choose(poseAt(0, 0.06), 100, {0, 0, 40, 120}, 1));
 }
 
 TEST(Keyframes, OptionsOutOfRangeAreRefused) {
-    EXPECT_THROW(Keyframes(kCamera, {.frames = 1}), std::invalid_argument);
-    EXPECT_THROW(Keyframes(kCamera, {.frames = 5, .distance = 5}), std::invalid_argument);
-    EXPECT_THROW(Keyframes(kCamera, {.angle = 0}), std::invalid_argument);
-    EXPECT_THROW(Keyframes(kCamera, {.leastOverlap = std::numeric_limits<double>::quiet_NaN()}),
+    EXPECT_THROW(Keyframes(kKeyCamera, {.frames = 1}), std::invalid_argument);
+    EXPECT_THROW(Keyframes(kKeyCamera, {.frames = 5, .distance = 5}), std::invalid_argument);
+    EXPECT_THROW(Keyframes(kKeyCamera, {.angle = 0}), std::invalid_argument);
+    EXPECT_THROW(Keyframes(kKeyCamera, {.leastOverlap = std::numeric_limits<double>::quiet_NaN()}),
                  std::invalid_argument);
 }
 

@@ -19,7 +19,7 @@ using namespace eval;
 using synthetic::Path;
 using synthetic::Scene;
 
-constexpr int kSettling = 8;  // frames
+constexpr int kUnscored = 8;  // frames
 
 /// On the shelf the windows of the matching reach farther beside thin things than the picture's
 /// edges put right.
@@ -56,11 +56,11 @@ TEST_P(Occlusion, RealThingsHideAVirtualOneAtTheirEdges) {
     pipeline.setObjects({object_});
     double overlap = 0, boundary = 0;
     int scored = 0;
-    for (int frame = 0; frame < 2 * kSettling; ++frame) {
+    for (int frame = 0; frame < 2 * kUnscored; ++frame) {
         const SceneRun::Shots shots = scene.next();
         if (frame == 0) scene.fire();
         runOn(pipeline, shots);
-        if (frame < kSettling) continue;
+        if (frame < kUnscored) continue;
         const OcclusionScore score =
             occlusionScore(shownAtVideo(shownObjects(pipeline), scene.rig().video.size),
                            truthAt(scene.board(), shots.frame.time()).visible);
@@ -88,7 +88,7 @@ TEST_P(Rest, AStillShowsWhatIsInFront) {
     SceneRun scene = sceneOn(Path::Rest);
     Pipeline pipeline(scene.rig(), {});
     pipeline.setObjects({object_});
-    for (int frame = 0; frame < kSettling; ++frame) {
+    for (int frame = 0; frame < kUnscored; ++frame) {
         const SceneRun::Shots shots = scene.next();
         if (frame == 0) scene.fire();
         runOn(pipeline, shots);
@@ -106,7 +106,7 @@ TEST_P(Rest, NothingFlickersNorComesThrough) {
     pipeline.setObjects({object_});
     const SceneRun::Shots rest = resting.next();
     Pose pose = *rest.pose;
-    for (int frame = 0; frame < 2 * kSettling; ++frame) {
+    for (int frame = 0; frame < 2 * kUnscored; ++frame) {
         const SceneRun::Shots shots = carried.next();
         if (frame == 0) carried.fire();
         runOn(pipeline, shots);
@@ -120,7 +120,7 @@ TEST_P(Rest, NothingFlickersNorComesThrough) {
         pose.time.ns += step;
         pipeline.run(stopped.next(), pose.time, pose);
     };
-    for (int frame = 0; frame < kSettling; ++frame)
+    for (int frame = 0; frame < kUnscored; ++frame)
         next(33'333'333);
     const double overlap = overlapOf(pipeline, truth);
     cv::Mat before = shownObjects(pipeline);

@@ -12,7 +12,7 @@ namespace {
 
 using gpu::TexelFormat;
 
-constexpr Size kVideo{53, 37};
+constexpr Size kSmallVideo{53, 37};
 constexpr Size kOutput{191, 133};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -28,13 +28,13 @@ struct Virtual {
 class CompositeTest : public GlTest {
 protected:
     static twin::Scene plainScene(const twin::RealSample& real) {
-        return {randomPicture(kVideo, 1), randomPicture(kOutput, 2),
-                std::vector<twin::RealSample>(1UL * kVideo.width * kVideo.height, real)};
+        return {randomPicture(kSmallVideo, 1), randomPicture(kOutput, 2),
+                std::vector<twin::RealSample>(1UL * kSmallVideo.width * kSmallVideo.height, real)};
     }
 
     void run(const twin::Scene& scene, const Virtual& layer, const CompositeOptions& options = {}) {
         gpu::Texture colour(kOutput, TexelFormat::Rgba8), depth(kOutput, TexelFormat::R32F);
-        gpu::Texture real(kVideo, TexelFormat::Rg32F);
+        gpu::Texture real(kSmallVideo, TexelFormat::Rg32F);
         Picture p(kOutput);
         for (std::size_t i = 0; i < p.bytes.size(); ++i)
             p.bytes[i] = layer.colour[i % 4];
@@ -49,7 +49,7 @@ protected:
         real.upload(samples);
         const gpu::Texture video = uploaded(scene.video), picture = uploaded(scene.picture);
         const gpu::Framebuffer target(picture);
-        Composite composite(kVideo, kOutput, options);
+        Composite composite(kSmallVideo, kOutput, options);
         drew_ = drewAnything(
             [&] { composite.run({&colour, &depth, layer.bounds}, real, video, picture, target); });
         shown_ = picture.readRgba8();
@@ -74,7 +74,7 @@ TEST_F(CompositeTest, VisibilityMatchesTwin) {
     std::uniform_real_distribution<double> rho(0.3, 0.7), sigma(0.002, 0.05), unit(0, 1);
     twin::Scene scene = plainScene({1, 1});
     const Waves waves(3, 6, 50, 40);
-    scene.video = waves.shoot(kVideo, {});
+    scene.video = waves.shoot(kSmallVideo, {});
     scene.picture = waves.shoot(kOutput, {.step = 53.0 / 191, .footprint = 53.0 / 191});
     for (twin::RealSample& s : scene.real) {
         s = {rho(random), sigma(random)};
@@ -99,7 +99,7 @@ TEST_F(CompositeTest, EarlyAnswersAreThoseOfTheWeights) {
     // A real step, so that most pixels need no weighing, and all answers occur.
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
-        if (i % kVideo.width > 20) scene.real[i].rho = 0.8;
+        if (i % kSmallVideo.width > 20) scene.real[i].rho = 0.8;
     Virtual layer;
     layer.z = [](int, int y) { return 1.2 + 0.01 * y; };
     run(scene, layer);
@@ -212,12 +212,12 @@ TEST_F(CompositeTest, EmptyBoundsDrawNothing) {
 
 TEST_F(CompositeTest, OptionsOutOfRangeAreRefused) {
     for (const double bad : {-1.0, 1e9, kNan, kInfinite}) {
-        EXPECT_THROW(Composite(kVideo, kOutput, {.bias = bad}), std::invalid_argument);
-        EXPECT_THROW(Composite(kVideo, kOutput, {.virtualSigma = bad}), std::invalid_argument);
+        EXPECT_THROW(Composite(kSmallVideo, kOutput, {.bias = bad}), std::invalid_argument);
+        EXPECT_THROW(Composite(kSmallVideo, kOutput, {.virtualSigma = bad}), std::invalid_argument);
     }
     for (const double bad : {0.0, -1.0, 1e9, kNan}) {
-        EXPECT_THROW(Composite(kVideo, kOutput, {.softness = bad}), std::invalid_argument);
-        EXPECT_THROW(Composite(kVideo, kOutput, {.likeness = bad}), std::invalid_argument);
+        EXPECT_THROW(Composite(kSmallVideo, kOutput, {.softness = bad}), std::invalid_argument);
+        EXPECT_THROW(Composite(kSmallVideo, kOutput, {.likeness = bad}), std::invalid_argument);
     }
 }
 
@@ -233,7 +233,7 @@ struct EdgeScene {
     }
     [[nodiscard]] Picture shoot(Size size) const {
         Picture p(size, PixelFormat::Rgba8, 255);
-        const double step = static_cast<double>(kVideo.width) / size.width;
+        const double step = static_cast<double>(kSmallVideo.width) / size.width;
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
                 int near = 0;
@@ -250,9 +250,9 @@ struct EdgeScene {
         return p;
     }
     [[nodiscard]] twin::Scene scene() const {
-        twin::Scene s{shoot(kVideo), shoot(kOutput), {}};
-        for (int y = 0; y < kVideo.height; ++y)
-            for (int x = 0; x < kVideo.width; ++x)
+        twin::Scene s{shoot(kSmallVideo), shoot(kOutput), {}};
+        for (int y = 0; y < kSmallVideo.height; ++y)
+            for (int x = 0; x < kSmallVideo.width; ++x)
                 s.real.push_back({beyond(x, y) < 0 ? 1.0 : 0.25, 0.01});
         return s;
     }
@@ -264,7 +264,7 @@ protected:
     /// the length of the edge.
     double boundaryError(const EdgeScene& edge) {
         run(edge.scene(), {});
-        const double step = static_cast<double>(kVideo.width) / kOutput.width;
+        const double step = static_cast<double>(kSmallVideo.width) / kOutput.width;
         double wrong = 0;
         int rows = 0;
         for (int y = 12; y < kOutput.height - 12; ++y, ++rows)

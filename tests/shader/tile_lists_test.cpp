@@ -15,7 +15,7 @@ using TileListsGl = GlTest;
 using Eigen::Vector2d;
 using Cell = std::array<float, 4>;
 
-constexpr Size kVideo{301, 230};
+constexpr Size kVideoSize{301, 230};
 constexpr Size kCells{76, 58};
 constexpr Size kTiles{19, 15};
 constexpr int kLevels = 4;
@@ -97,7 +97,7 @@ std::set<std::uint32_t> listed(const TileLists& lists, int level) {
 }
 
 TEST_F(TileListsGl, FlagsAndListsMatchTheTwins) {
-    WorkPlan plan(kVideo);
+    WorkPlan plan(kVideoSize);
     TileLists lists(kCells, kLevels, plan);
     plan.openAll();
     const auto fields = randomFields(1);
@@ -113,7 +113,7 @@ TEST_F(TileListsGl, FlagsAndListsMatchTheTwins) {
 }
 
 TEST_F(TileListsGl, CoarserLevelsHaveWhatTheFinerLookAt) {
-    WorkPlan plan(kVideo);
+    WorkPlan plan(kVideoSize);
     TileLists lists(kCells, kLevels, plan);
     plan.openAll();
     std::vector<Cell> fields(2UL * kCount, Cell{0, 0, 0, 1e4F});
@@ -137,14 +137,14 @@ TEST_F(TileListsGl, CoarserLevelsHaveWhatTheFinerLookAt) {
 }
 
 TEST_F(TileListsGl, AShutPlanListsNothing) {
-    WorkPlan plan(kVideo);
+    WorkPlan plan(kVideoSize);
     TileLists lists(kCells, kLevels, plan);
     plan.openAll();
     const auto fields = randomFields(2);
     const gpu::Buffer patches = stored(fields);
     lists.find({patches, 0, kCount}, plan);
     const int before = lists.count();
-    const Picture same(kVideo, PixelFormat::Rgba8, 90);
+    const Picture same(kVideoSize, PixelFormat::Rgba8, 90);
     plan.update(uploaded(same), uploaded(same), false);
     lists.find({patches, 0, kCount}, plan);
     EXPECT_GT(before, 0);
@@ -159,9 +159,9 @@ struct MovedSquare {
 
     MovedSquare() {
         const Waves ground(1, 6, 60, 40), object(2, 6, 60, 40);
-        now = ground.shoot(kVideo, {});
+        now = ground.shoot(kVideoSize, {});
         then = now;
-        const Picture square = object.shoot(kVideo, {});
+        const Picture square = object.shoot(kVideoSize, {});
         for (int y = kFirst; y < kEnd; ++y)
             for (int x = kFirst; x < kEnd; ++x) {
                 std::copy_n(Picture(square).at(x, y), 4, now.at(x, y));
@@ -224,20 +224,21 @@ TEST_F(TileListsGl, WhatMovedIsFoundAndTheRestStays) {
 }
 
 TEST_F(TileListsGl, WhereNothingMovedNothingIsSearched) {
-    const Picture still = Waves(3, 6, 60, 40).shoot(kVideo, {});
+    const Picture still = Waves(3, 6, 60, 40).shoot(kVideoSize, {});
     const Refined r(still, still);
     EXPECT_EQ(r.flow.searched().count(), 0);
     EXPECT_EQ(r.flow.searched().read(), std::vector<bool>(kTiles.width * kTiles.height));
 }
 
 TEST_F(TileListsGl, UnrelatedTilesAreSearchedAndTrustedByTheirCost) {
-    const Refined r(randomPicture(kVideo, 1), randomPicture(kVideo, 2));
+    const Refined r(randomPicture(kVideoSize, 1), randomPicture(kVideoSize, 2));
     EXPECT_EQ(r.flow.searched().count(), kTiles.width * kTiles.height);
     const auto vectors = r.vectors(), errors = r.errors();
     int offLine = 0;
     for (int i = 0; i < kCount; ++i) {
         ASSERT_TRUE(std::isfinite(vectors[i][0]) && std::isfinite(vectors[i][1])) << "cell " << i;
-        ASSERT_LE(std::hypot(vectors[i][0], vectors[i][1]), 2.0F * kVideo.width) << "cell " << i;
+        ASSERT_LE(std::hypot(vectors[i][0], vectors[i][1]), 2.0F * kVideoSize.width)
+            << "cell " << i;
         if (errors[i][0] == 0) continue;
         ++offLine;
         EXPECT_NEAR(errors[i][0], 5 * (vectors[i][2] - 0.1F), 1e-3) << "cell " << i;

@@ -14,7 +14,7 @@ using TriangulationOdd = GlTest;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInf = std::numeric_limits<float>::infinity();
-constexpr auto kMethods = {TriangulationMethod::Flow, TriangulationMethod::Midpoint};
+constexpr auto kBothMethods = {TriangulationMethod::Flow, TriangulationMethod::Midpoint};
 
 /// All numbers in their ranges; how many depths are known.
 int checked(const std::vector<TriangulatedPoint>& points) {
@@ -36,7 +36,7 @@ int checked(const std::vector<TriangulatedPoint>& points) {
 TEST_F(TriangulationOdd, FlowThatIsNoneOrLeadsOutOfTheViewIsUnknown) {
     const twin::TwoViews views = plainViews(moved(1, {1, 2, 3}, {-0.2, 0, 0}));
     const float values[] = {kNan, kInf, -kInf, 3e38F, -3e38F, 1e9F, -1e9F, 100, -100};
-    for (const TriangulationMethod method : kMethods)
+    for (const TriangulationMethod method : kBothMethods)
         for (const float value : values)
             for (const int channel : {0, 1}) {
                 std::vector<float> flow(2UL * 64 * 48, 0.0F);
@@ -48,7 +48,7 @@ TEST_F(TriangulationOdd, FlowThatIsNoneOrLeadsOutOfTheViewIsUnknown) {
 
 TEST_F(TriangulationOdd, WithoutParallaxTheDepthIsZero) {
     const std::vector<float> still(2UL * 64 * 48, 0.0F);
-    for (const TriangulationMethod method : kMethods)
+    for (const TriangulationMethod method : kBothMethods)
         for (const Vector3d& step :
              {Vector3d(0, 0, 0), Vector3d(-0.2, 0, 0), Vector3d(0, 0, 0.1), Vector3d(1e-30, 0, 0)})
             EXPECT_EQ(checked(triangulated(plainViews(moved(0, Vector3d::UnitX(), step)), still,
@@ -67,7 +67,7 @@ TEST_F(TriangulationOdd, WithoutABaselineAllFlowIsResidual) {
 
 TEST_F(TriangulationOdd, PosesThatAreNoneGiveNothing) {
     const std::vector<float> flow(2UL * 64 * 48, -1.0F);
-    for (const TriangulationMethod method : kMethods)
+    for (const TriangulationMethod method : kBothMethods)
         for (const double value : {double(kNan), double(kInf), 1e300}) {
             RigidTransform far, turned;
             far.translation.x() = value;
@@ -93,7 +93,7 @@ TEST_F(TriangulationOdd, AnyFlowUnderAnyPoseGivesUsableNumbers) {
         const auto flow = fieldOf(views.a.size, [&](const Vector2d&) {
             return Vector2d(100 * std::pow(any(random), 5), 100 * std::pow(any(random), 5));
         });
-        for (const TriangulationMethod method : kMethods)
+        for (const TriangulationMethod method : kBothMethods)
             known += checked(triangulated(views, flow, {.method = method}));
     }
     EXPECT_GT(known, 10000);
@@ -105,7 +105,7 @@ TEST_F(TriangulationOdd, TheEpipoleItselfIsUnknown) {
     views.a.cx = views.b.cx = 30;
     views.a.cy = views.b.cy = 20;
     const auto flow = fieldOf({64, 48}, [&](const Vector2d& p) { return views.flow(p, 1); });
-    for (const TriangulationMethod method : kMethods) {
+    for (const TriangulationMethod method : kBothMethods) {
         const auto points = triangulated(views, flow, {.method = method});
         EXPECT_GT(checked(points), 2000);
         EXPECT_EQ(points[64 * 20 + 30].inverseDepth, 0);
