@@ -1,8 +1,9 @@
 // Turns the change flags into work: counts the changed tiles and opens or shuts every registered
 // dispatch of the frame. Tiles that something was drawn over count as changed, all of them, once one
-// of them or beside them has, the whole frame is drawn, or they are told to. In: tiles[]. Out: header = whole frame drawn at once (1 or 0), changed tiles;
-// dispatches[] = group counts, 0 when nothing changed; summary = changed tiles, quietest decile of the
-// noise [1/256 grey level], whole, whether the tiles under what was drawn over are drawn; wholeDraw = command of the full-screen draws.
+// of them or beside them has, the whole frame is drawn, or they are told to. In: tiles[].
+// Out: header = whole frame drawn at once (1 or 0), changed tiles; dispatches[] = group counts, 0 when
+// nothing changed; summary = changed tiles, quietest decile of the noise [1/256 grey level], whole,
+// what was drawn over is drawn anew (1 or 0); wholeDraw = command of the full-screen draws.
 
 layout(local_size_x = 1) in;
 layout(std140, binding = 0) uniform Params {

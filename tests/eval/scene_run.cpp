@@ -56,9 +56,9 @@ std::optional<Pose> SceneRun::poseOfStill(const Frame& still) {
     return std::nullopt;
 }
 
-void runOn(Pipeline& pipeline, const SceneRun::Shots& shots) {
+const FrameResult& runOn(Pipeline& pipeline, const SceneRun::Shots& shots) {
     if (shots.still) pipeline.setStill(shots.still->view(), shots.still->time(), shots.stillPose);
-    pipeline.run(shots.frame.view(), shots.frame.time(), shots.pose);
+    return pipeline.run(shots.frame.view(), shots.frame.time(), shots.pose);
 }
 
 cv::Mat shownObjects(const Pipeline& pipeline) {

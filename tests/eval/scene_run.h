@@ -48,7 +48,7 @@ private:
 };
 
 /// One frame through the pipeline, after its still if there is one.
-void runOn(Pipeline& pipeline, const SceneRun::Shots& shots);
+const FrameResult& runOn(Pipeline& pipeline, const SceneRun::Shots& shots);
 
 /// How much of each pixel of a pipeline's picture shows a virtual object, CV_32F of the output's
 /// size; nothing of any without objects.

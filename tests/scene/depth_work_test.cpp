@@ -1,7 +1,6 @@
 // Real depth is measured only where it may decide about a virtual object.
 #include "hal/gl_context.h"
-#include "hal/virtual/synthetic_board.h"
-#include "pipeline/pipeline.h"
+#include "tests/eval/scene_run.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +11,7 @@
 namespace mfar::test {
 namespace {
 
-using namespace std::chrono_literals;
+using namespace eval;
 
 class DepthWork : public testing::Test {
 protected:
@@ -21,11 +20,8 @@ protected:
         SyntheticOptions options;
         options.scene = synthetic::Scene::Office;
         options.path = synthetic::Path::Handheld;
-        options.pace = Pace::Consumer;
-        board_.emplace(options);
-        board_->video().start();
-        board_->stills().start();
-        pipeline_.emplace(board_->rig(), PipelineOptions{});
+        scene_.emplace(options, PoseSource::Recorded);
+        pipeline_.emplace(scene_->rig(), PipelineOptions{});
     }
 
     /// A sphere of 10 cm before the camera's first place, at this share of the way to the desk.
@@ -33,7 +29,7 @@ protected:
         VirtualObject sphere;
         sphere.shape = VirtualShape::Sphere;
         sphere.size.setConstant(0.1);
-        const RigidTransform& T = board_->pose({}).T_world_video;
+        const RigidTransform& T = scene_->board().pose({}).T_world_video;
         sphere.T_world_object.translation = T * Eigen::Vector3d(0, 0, share * kDesk);
         pipeline_->setObjects({sphere});
     }
@@ -41,13 +37,9 @@ protected:
     std::vector<FrameStats> run(int frames) {
         std::vector<FrameStats> out;
         for (int i = 0; i < frames; ++i) {
-            const auto video = board_->video().next(60s);
-            if (!video) break;
-            if (count_++ == 0) board_->trigger().fire();
-            if (const auto still = board_->stills().next(0s))
-                pipeline_->setStill(still->view(), still->time(), board_->pose(still->time()));
-            out.push_back(
-                pipeline_->run(video->view(), video->time(), board_->pose(video->time())).stats);
+            const SceneRun::Shots shots = scene_->next();
+            if (count_++ == 0) scene_->fire();
+            out.push_back(runOn(*pipeline_, shots).stats);
         }
         return out;
     }
@@ -56,7 +48,7 @@ protected:
 
 private:
     std::unique_ptr<GlContext> context_ = createGlContext();
-    std::optional<SyntheticBoard> board_;
+    std::optional<SceneRun> scene_;
     std::optional<Pipeline> pipeline_;
     int count_ = 0;
 };
