@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-void readDistortion(const YamlReader& in, CameraModel& camera) {
+void readInfoLens(const YamlReader& in, CameraModel& camera) {
     const YAML::Node name = in.at("distortion_model");
     const std::string model = in.word(name, "distortion_model");
     if (model != "plumb_bob" && model != "rational_polynomial")
@@ -20,14 +20,14 @@ void readDistortion(const YamlReader& in, CameraModel& camera) {
     plausible::setDistortion(in, data, in.numbers(data, "distortion_coefficients"), camera);
 }
 
-CameraModel read(const YamlReader& in, std::optional<Size> wanted) {
+CameraModel readInfo(const YamlReader& in, std::optional<Size> wanted) {
     CameraModel out;
     const YAML::Node width = in.at("image_width"), height = in.at("image_height");
     out.size = plausible::size(in, width, in.number(width, "image_width"),
                                in.number(height, "image_height"), wanted);
     const YAML::Node data = in.data(in.at("camera_matrix"), "camera_matrix");
     plausible::setCameraMatrix(in, data, in.matrix(data, 3, 3, "camera_matrix"), out);
-    readDistortion(in, out);
+    readInfoLens(in, out);
     return out;
 }
 
@@ -35,7 +35,7 @@ CameraModel read(const YamlReader& in, std::optional<Size> wanted) {
 
 CameraModel readCameraInfo(const std::filesystem::path& file, std::optional<Size> wanted) {
     CameraModel out;
-    readYaml(file, [&](const YamlReader& in) { out = read(in, wanted); });
+    readYaml(file, [&](const YamlReader& in) { out = readInfo(in, wanted); });
     return out;
 }
 

@@ -8,7 +8,7 @@
 namespace mfar::rig_formats {
 namespace {
 
-void readDistortion(const YamlReader& in, const YAML::Node& map, CameraModel& camera) {
+void readChainLens(const YamlReader& in, const YAML::Node& map, CameraModel& camera) {
     const YAML::Node name = in.at(map, "distortion_model");
     const std::string model = in.word(name, "distortion_model");
     if (model == "none") return;
@@ -31,7 +31,7 @@ CameraModel readCamera(const YamlReader& in, const YAML::Node& map, std::optiona
     const std::vector<double> v = in.numbers(node, "intrinsics");
     if (v.size() != 4) in.fail(node, "intrinsics need fu, fv, pu, pv");
     plausible::setIntrinsics(in, node, {v[0], v[1], v[2], v[3]}, out);
-    readDistortion(in, map, out);
+    readChainLens(in, map, out);
     return out;
 }
 

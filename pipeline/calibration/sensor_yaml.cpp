@@ -16,7 +16,7 @@ Eigen::Vector4d readIntrinsics(const YamlReader& in, const YAML::Node& node) {
     return {v[0], v[1], v[2], v[3]};
 }
 
-void readDistortion(const YamlReader& in, CameraModel& camera) {
+void readSensorLens(const YamlReader& in, CameraModel& camera) {
     const YAML::Node name = in.at("distortion_model");
     const std::string model = in.word(name, "distortion_model");
     if (model == "none") return;
@@ -35,7 +35,7 @@ double readRate(const YamlReader& in) {
     return rate;
 }
 
-SensorYaml read(const YamlReader& in, std::optional<Size> wanted) {
+SensorYaml readSensor(const YamlReader& in, std::optional<Size> wanted) {
     const YAML::Node name = in.at("camera_model");
     if (const std::string model = in.word(name, "camera_model"); model != "pinhole")
         in.fail(name, fmt::format("camera_model '{}' is unknown, pinhole is read", model));
@@ -46,7 +46,7 @@ SensorYaml read(const YamlReader& in, std::optional<Size> wanted) {
     out.camera.size = plausible::size(in, resolution, sides[0], sides[1], wanted);
     const YAML::Node intrinsics = in.at("intrinsics");
     plausible::setIntrinsics(in, intrinsics, readIntrinsics(in, intrinsics), out.camera);
-    readDistortion(in, out.camera);
+    readSensorLens(in, out.camera);
     const YAML::Node data = in.data(in.at("T_BS"), "T_BS");
     out.T_body_sensor = plausible::transform(in, data, in.matrix(data, 4, 4, "T_BS"), "T_BS");
     out.rateHz = readRate(in);
@@ -57,7 +57,7 @@ SensorYaml read(const YamlReader& in, std::optional<Size> wanted) {
 
 SensorYaml readSensorYaml(const std::filesystem::path& file, std::optional<Size> wanted) {
     SensorYaml out;
-    readYaml(file, [&](const YamlReader& in) { out = read(in, wanted); });
+    readYaml(file, [&](const YamlReader& in) { out = readSensor(in, wanted); });
     return out;
 }
 

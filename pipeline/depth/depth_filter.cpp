@@ -7,7 +7,7 @@
 namespace mfar {
 namespace {
 
-constexpr float kNearPlane = 0.05F;  // [share of the depth before]
+constexpr float kNearestShare = 0.05F;  // [of the depth before]
 // Of inverse depth, in a second of motion without a measurement.
 constexpr double kDrift = 0.02;
 // The camera rested before that [s].
@@ -89,7 +89,7 @@ void DepthFilter::carryRow(const Eigen::Matrix3f& R, const Eigen::Vector3f& t, i
         const Eigen::Vector3f turned = R * Eigen::Vector3f(lens_.rayX(i) + pixelX_ * point.x,
                                                            lens_.rayY(i) + pixelY_ * point.y, 1);
         const Eigen::Vector3f p = turned + rho * t;
-        if (!(p.z() > kNearPlane)) continue;
+        if (!(p.z() > kNearestShare)) continue;
         const auto q = lens_.project(p.x() / p.z(), p.y() / p.z());
         const int landed = lens_.pixelAt(q);
         if (landed < 0) continue;

@@ -16,7 +16,7 @@ constexpr int kVoters = 2;       // every so manyth column and row votes
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;        // colours so far apart are alike by half [grey levels]
 constexpr float kLeastWeight = 0.75F;  // of all voters, each at most one
-constexpr float kNothing = std::numeric_limits<float>::max();
+constexpr float kLargest = std::numeric_limits<float>::max();
 
 constexpr int nextVoter(int from) {
     return (from + kVoters - 1) / kVoters * kVoters;
@@ -77,12 +77,12 @@ void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             const auto row = static_cast<std::size_t>(y) * width;
             for (int x = where.x0; x < where.x1; ++x) {
-                float low = kNothing, high = -kNothing;
+                float low = kLargest, high = -kLargest;
                 for (int u = std::max(x - kBand, where.x0); u < std::min(x + kBand + 1, where.x1);
                      ++u) {
                     const bool known = in.isKnown(row + u);
-                    low = std::min(low, known ? in.rho[row + u] : kNothing);
-                    high = std::max(high, known ? in.rho[row + u] : -kNothing);
+                    low = std::min(low, known ? in.rho[row + u] : kLargest);
+                    high = std::max(high, known ? in.rho[row + u] : -kLargest);
                 }
                 low_[row + x] = low;
                 high_[row + x] = high;
@@ -92,7 +92,7 @@ void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
     workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             for (int x = where.x0; x < where.x1; ++x) {
-                float low = kNothing, high = -kNothing;
+                float low = kLargest, high = -kLargest;
                 for (int v = std::max(y - kBand, where.y0); v < std::min(y + kBand + 1, where.y1);
                      ++v) {
                     const auto j = static_cast<std::size_t>(v) * width + x;
@@ -121,7 +121,7 @@ void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, cons
         const int y0 = nextVoter(std::max(y - kVoteRadius, where.y0));
         const int x1 = std::min(x + kVoteRadius + 1, where.x1);
         const int y1 = std::min(y + kVoteRadius + 1, where.y1);
-        float low = kNothing, high = -kNothing;
+        float low = kLargest, high = -kLargest;
         for (int v = y0; v < y1; v += kVoters)
             for (int u = x0; u < x1; u += kVoters) {
                 const auto j = static_cast<std::size_t>(v) * width + u;

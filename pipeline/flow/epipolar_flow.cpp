@@ -1,6 +1,7 @@
 #include "pipeline/flow/epipolar_flow.h"
 
 #include "pipeline/flow/cell_field.h"
+#include "pipeline/flow/near_plane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +10,7 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-constexpr float kNearPlane = 0.05F;  // of rays turned into the still's frame
-constexpr float kLeastWay = 0.05F;   // of a pixel, when the others' longest is one [px]
+constexpr float kLeastWay = 0.05F;  // of a pixel, when the others' longest is one [px]
 // Neighbours on one slanted surface that land on the same cell differ by this much [px].
 constexpr float kSlope = 1.0F;
 

@@ -1,5 +1,7 @@
 #include "pipeline/flow/field_prediction.h"
 
+#include "pipeline/flow/near_plane.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +10,6 @@ namespace {
 
 constexpr int kCellLevel = 2;  // of the pyramid: cells are 4x4 pixels
 constexpr float kUnknown = -1e9F;
-constexpr float kNearPlane = 0.05F;
 // Cells by which gaps are closed, from the picture's border and at depth edges: 12 px a frame.
 constexpr int kWidestGap = 3;
 

@@ -1,5 +1,7 @@
 #include "pipeline/flow/relative_pose.h"
 
+#include "pipeline/flow/near_plane.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -23,7 +25,6 @@ constexpr double kTukey = 4.685;
 constexpr double kMatchError = 0.3;
 // A pose explains what lies no farther from its lines [px].
 constexpr double kExplained = 1;
-constexpr double kNearPlane = 0.05;
 constexpr double kNotExplained = 1e6;  // [px]
 
 /// Rotation and translation of points, in the prior's orientation and unit of length.

@@ -1,11 +1,11 @@
 #include "pipeline/flow/two_way.h"
 
+#include "pipeline/flow/near_plane.h"
+
 #include <cmath>
 
 namespace mfar {
 namespace {
-
-constexpr double kNearPlane = 0.05;  // of rays turned into the other camera's frame
 
 /// Where another camera shows the point of a ray: s as EpipolarLens has it.
 std::optional<Eigen::Vector2d> seenFrom(const Eigen::Vector2d& ray, double s,

@@ -13,7 +13,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr std::size_t kWarmUp = 6;  // frames: until there is a keyframe
+constexpr std::size_t kFirstFrames = 6;  // frames: until there is a keyframe
 constexpr double kNeverEnough = 0.001;
 
 Summary measureIn(const Workload& posed, const PixelRect& where) {
@@ -35,7 +35,7 @@ Summary measureIn(const Workload& posed, const PixelRect& where) {
             stage.run(luma, *posed.framePoses[i], {}, where);
             snap.run(stage.field(), view, where);
         });
-        if (i >= kWarmUp && stage.source() == DepthSource::Keyframe) ms.push_back(time);
+        if (i >= kFirstFrames && stage.source() == DepthSource::Keyframe) ms.push_back(time);
     }
     return summarise(std::move(ms));
 }

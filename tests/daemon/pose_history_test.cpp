@@ -6,13 +6,13 @@
 namespace mfar {
 namespace {
 
-constexpr double kFrame = 1. / 30;
+constexpr double kInterval = 1. / 30;
 
 /// The camera's own rate [rad/s, m/s].
 const Vector6 kTwist{{0.3, -0.2, 0.5, 0.4, 0.1, -0.3}};
 
 Timestamp timeOf(double frame) {
-    return Timestamp::fromSeconds(100 + frame * kFrame);
+    return Timestamp::fromSeconds(100 + frame * kInterval);
 }
 
 /// A camera that keeps its rate.
@@ -20,7 +20,7 @@ Pose steady(double frame) {
     Pose pose;
     pose.time = timeOf(frame);
     const RigidTransform start{Eigen::Quaterniond(0.8, 0.6, 0, 0), {1, 2, 3}};
-    pose.T_world_video = start * exponential(frame * kFrame * kTwist);
+    pose.T_world_video = start * exponential(frame * kInterval * kTwist);
     pose.covariance.diagonal().setConstant(1e-6);
     pose.tags = 4;
     return pose;
@@ -81,7 +81,7 @@ TEST(PoseHistory, AChangeOfRateIsInTheCovariance) {
     const auto accelerated = [](double frame) {
         Pose pose;
         pose.time = timeOf(frame);
-        pose.T_world_video.translation.x() = 2 * frame * kFrame * frame * kFrame;
+        pose.T_world_video.translation.x() = 2 * frame * kInterval * frame * kInterval;
         return pose;
     };
     PoseHistory history;

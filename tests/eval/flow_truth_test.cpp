@@ -10,7 +10,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 /// Lenses that bend, a still camera that looks elsewhere.
 StereoRig crookedRig() {
@@ -57,7 +57,7 @@ TEST(FlowTruth, LeadsToTheStillPixelThatShowsThePoint) {
 TEST(FlowTruth, IsZeroAtInfinityAndUnknownWithoutDepth) {
     StereoRig rig = crookedRig();
     FloatImage depth = depthOf(rig.video.size, 0);
-    depth.at(40, 30) = kNan;
+    depth.at(40, 30) = kUnknown;
     depth.at(41, 30) = -1;
     const cv::Mat flow = flowOfInverseDepth(depth, rig, rig.T_still_video);
     EXPECT_NEAR(cv::norm(flow.at<cv::Vec2f>(20, 30)), 0, 1e-4);

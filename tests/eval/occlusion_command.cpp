@@ -9,7 +9,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kOcclusionHelp =
     "Shows each object alone in synthetic scenes and compares where it is seen with the truth, at\n"
     "the middle of every video pixel; the board's exact poses stand for recorded ones.\n"
     "iou: intersection over union of what is seen of it and what should be; boundary_px: mean\n"
@@ -50,7 +50,7 @@ void addNames(CLI::App& sub, const char* option, std::vector<T>& values, const c
 CLI::App* addOcclusionCommand(CLI::App& app, OcclusionRequest& request, std::string& csv) {
     CLI::App* sub =
         app.add_subcommand("occlusion", "virtual objects behind real things of synthetic scenes");
-    sub->footer(kHelp);
+    sub->footer(kOcclusionHelp);
     addNames(*sub, "--scenes", request.scenes, "of mfar-sim's (default: office,shelf)",
              synthetic::sceneNamed);
     addNames(*sub, "--paths", request.paths, "of the camera (default: handheld,rest)",

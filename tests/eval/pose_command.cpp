@@ -5,7 +5,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kPoseHelp =
     "Takes recordings with poses and tags.toml, and folders with NAME.jpg|png and the corners of "
     "the tags in NAME.txt.\n"
     "Recordings: rot_deg, trans_mm: of the camera against the recorded pose; trans_percent: of the "
@@ -21,7 +21,7 @@ constexpr const char* kHelp =
 CLI::App* addPoseCommand(CLI::App& app, PoseRequest& request, std::string& csv) {
     CLI::App* sub =
         app.add_subcommand("pose", "camera poses and tag corners against the true ones");
-    sub->footer(kHelp);
+    sub->footer(kPoseHelp);
     request.methods = poseMethodNames();
     sub->add_option("folder", request.folders, "recordings or folders of pictures")->required();
     sub->add_option("--methods", request.methods,

@@ -10,14 +10,6 @@
 namespace mfar {
 namespace {
 
-CameraModel plain() {
-    return {{161, 119}, 150, 148, 79.2, 60.7, {}};
-}
-
-CameraModel barrel() {
-    return {{161, 119}, 120, 121, 82.5, 57.1, {-0.31, 0.08, 0.002, -0.0015, 0.004}};
-}
-
 CameraModel pincushion() {
     return {{161, 119}, 150, 150, 80, 59, {0.15, 0.03, 0, 0, 0.01}};
 }
@@ -36,7 +28,8 @@ double rimOf(const CameraModel& camera) {
 }
 
 TEST(EpipolarLens, RaysAreThoseOfThePixelsOfEveryLevel) {
-    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+    for (const CameraModel& camera :
+         {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         Size size = camera.size;
         for (int level = 0; level < 4; ++level) {
             const EpipolarLens lens(camera, level);
@@ -59,7 +52,8 @@ TEST(EpipolarLens, RaysAreThoseOfThePixelsOfEveryLevel) {
 
 TEST(EpipolarLens, ProjectsAsTheCameraDoesWithinThePicture) {
     std::mt19937 random(3);
-    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+    for (const CameraModel& camera :
+         {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         std::uniform_real_distribution<double> x(-0.5, camera.size.width - 0.5);
         std::uniform_real_distribution<double> y(-0.5, camera.size.height - 0.5);
         for (int level = 0; level < 3; ++level) {
@@ -78,7 +72,8 @@ TEST(EpipolarLens, ProjectsAsTheCameraDoesWithinThePicture) {
 }
 
 TEST(EpipolarLens, PixelsComeBackFromTheirRays) {
-    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+    for (const CameraModel& camera :
+         {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         const EpipolarLens lens(camera, 1);
         for (int y = 0; y < lens.size().height; ++y) {
             for (int x = 0; x < lens.size().width; ++x) {
@@ -93,7 +88,8 @@ TEST(EpipolarLens, PixelsComeBackFromTheirRays) {
 
 // Out along a ray, what the lens shows moves outwards or stays; it never comes back.
 TEST(EpipolarLens, NeverFoldsBack) {
-    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+    for (const CameraModel& camera :
+         {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         const EpipolarLens lens(camera, 0);
         const auto centre = lens.project(0, 0);
         for (int a = 0; a < 64; ++a) {
@@ -111,7 +107,8 @@ TEST(EpipolarLens, NeverFoldsBack) {
 }
 
 TEST(EpipolarLens, RaysFarBesideThePictureStayOutsideIt) {
-    for (const CameraModel& camera : {plain(), barrel(), pincushion(), fisheye()}) {
+    for (const CameraModel& camera :
+         {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         const EpipolarLens lens(camera, 0);
         for (const double r : {1.05, 1.3, 2.0, 5.0, 1e3, 1e6}) {
             for (int a = 0; a < 64; ++a) {
@@ -131,7 +128,7 @@ TEST(EpipolarLens, RaysFarBesideThePictureStayOutsideIt) {
 TEST(EpipolarLens, StateIsTheInverseDepthOfTheSecondView) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> unit(-1, 1);
-    for (const CameraModel& camera : {plain(), barrel()}) {
+    for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel()}) {
         const EpipolarLens lens(camera, 0);
         for (int i = 0; i < 1000; ++i) {
             const Eigen::Vector2d r(0.3 * unit(random), 0.25 * unit(random));

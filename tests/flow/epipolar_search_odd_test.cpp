@@ -32,7 +32,7 @@ Scene scene() {
     return {{{{0, 0, 1}, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
 
-LumaImage pictureOf(Size size, const std::function<int(int, int)>& grey) {
+LumaImage wholePictureOf(Size size, const std::function<int(int, int)>& grey) {
     LumaImage out(size);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
@@ -71,9 +71,9 @@ TEST(EpipolarSearchOdd, EvenAndExtremePicturesGiveFiniteFields) {
     for (const auto& video : greys) {
         for (const auto& still : greys) {
             EpipolarSearch search = test::searchWith(barrelOf(size), 2);
-            search.setStill(test::viewOf(pictureOf(size, still)));
+            search.setStill(test::viewOf(wholePictureOf(size, still)));
             for (const Eigen::Vector3d& t : translations()) {
-                ASSERT_TRUE(search.run(pictureOf(size, video), motion({3, -5, 10}, t)));
+                ASSERT_TRUE(search.run(wholePictureOf(size, video), motion({3, -5, 10}, t)));
                 expectSane(search, size);
             }
         }
@@ -84,9 +84,9 @@ TEST(EpipolarSearchOdd, EvenAndExtremePicturesGiveFiniteFields) {
 TEST(EpipolarSearchOdd, EvenPicturesGiveAnEvenField) {
     const Size size{97, 71};
     EpipolarSearch search = test::searchWith(cameraOf(size), 2);
-    search.setStill(test::viewOf(pictureOf(size, [](int, int) { return 90; })));
-    ASSERT_TRUE(
-        search.run(pictureOf(size, [](int, int) { return 140; }), motion({0, 0, 0}, {0.2, 0, 0})));
+    search.setStill(test::viewOf(wholePictureOf(size, [](int, int) { return 90; })));
+    ASSERT_TRUE(search.run(wholePictureOf(size, [](int, int) { return 140; }),
+                           motion({0, 0, 0}, {0.2, 0, 0})));
     const auto [least, greatest] =
         std::minmax_element(search.inverseDepth().begin(), search.inverseDepth().end());
     EXPECT_LT((*greatest - *least) * search.pixelsPerUnit(), 8);

@@ -75,6 +75,14 @@ LumaImage Scene::render(const CameraModel& camera, const RigidTransform& T_camer
     return out;
 }
 
+CameraModel oddPlain() {
+    return {{161, 119}, 150, 148, 79.2, 60.7, {}};
+}
+
+CameraModel oddBarrel() {
+    return {{161, 119}, 120, 121, 82.5, 57.1, {-0.31, 0.08, 0.002, -0.0015, 0.004}};
+}
+
 EpipolarSearch searchWith(const CameraModel& camera, int threads) {
     return {{camera, camera, {}}, std::make_shared<Workers>(threads)};
 }

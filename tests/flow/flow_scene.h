@@ -43,6 +43,10 @@ struct View {
 
 using mfar::viewOf;
 
+/// Of an odd size, without and with a lens that bends.
+[[nodiscard]] CameraModel oddPlain();
+[[nodiscard]] CameraModel oddBarrel();
+
 /// A search whose two cameras are the same.
 [[nodiscard]] EpipolarSearch searchWith(const CameraModel& camera, int threads);
 

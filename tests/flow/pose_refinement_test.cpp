@@ -17,11 +17,11 @@ using test::motion;
 using test::Scene;
 using test::View;
 
-CameraModel plain() {
+CameraModel pagePlain() {
     return {{240, 180}, 230, 230, 119.5, 89.5, {}};
 }
 
-CameraModel barrel() {
+CameraModel pageBarrel() {
     return {{240, 180}, 195, 196, 123, 87, {-0.29, 0.08, 0.001, -0.0012, 0.002}};
 }
 
@@ -96,10 +96,10 @@ double depthErrorOf(const EpipolarSearch& search, const View& view) {
 const Matrix6 kUsual = covarianceOf(0.4, 0.002);
 
 std::vector<View> views() {
-    return {{plain(), stepScene(), motion({0, 0, 0}, {-0.2, 0.02, 0})},
-            {plain(), stepScene(), motion({2, -3, 10}, {0.1, 0.15, 0.05})},
-            {barrel(), stepScene(), motion({-3, 5, -8}, {0.2, 0.05, -0.1})},
-            {plain(), stepScene(), motion({0, 0, 0}, {0.02, 0.01, 0.4})}};
+    return {{pagePlain(), stepScene(), motion({0, 0, 0}, {-0.2, 0.02, 0})},
+            {pagePlain(), stepScene(), motion({2, -3, 10}, {0.1, 0.15, 0.05})},
+            {pageBarrel(), stepScene(), motion({-3, 5, -8}, {0.2, 0.05, -0.1})},
+            {pagePlain(), stepScene(), motion({0, 0, 0}, {0.02, 0.01, 0.4})}};
 }
 
 // 2 px at this focal length are half a degree.
@@ -134,14 +134,14 @@ TEST(PoseRefinement, LeavesAGoodPoseAsItIs) {
 }
 
 TEST(PoseRefinement, AnUncertainPoseIsSoughtFartherAway) {
-    const View view{plain(), stepScene(), motion({3, -4, 5}, {0, 0, 0})};
+    const View view{pagePlain(), stepScene(), motion({3, -4, 5}, {0, 0, 0})};
     const RigidTransform error = motion({1.5, -1, 0.3}, {0, 0, 0});
     EXPECT_LT(missOf(searched(view, error, covarianceOf(1, 0)).pose(), view), 0.1);
     EXPECT_GT(missOf(searched(view, error, covarianceOf(0.1, 0)).pose(), view), 1);
 }
 
 TEST(PoseRefinement, PureRotationIsRefinedWithoutASearch) {
-    const View view{plain(), stepScene(), motion({3, -4, 5}, {0, 0, 0})};
+    const View view{pagePlain(), stepScene(), motion({3, -4, 5}, {0, 0, 0})};
     const EpipolarSearch search =
         searched(view, motion({0.3, 0.4, -0.3}, {0, 0, 0}), covarianceOf(0.4, 0));
     EXPECT_TRUE(search.refinement().accepted);
@@ -151,7 +151,7 @@ TEST(PoseRefinement, PureRotationIsRefinedWithoutASearch) {
 
 // A panel before a wall moves by itself, across the lines; it holds nearly half of the patches.
 TEST(PoseRefinement, FollowsTheSceneAndNotWhatMovesInIt) {
-    View view{plain(), stepScene(), motion({0, 0, 0}, {-0.2, 0, 0})};
+    View view{pagePlain(), stepScene(), motion({0, 0, 0}, {-0.2, 0, 0})};
     view.scene.surfaces[1].least = {-0.75, -0.75};
     view.scene.surfaces[1].greatest = {0.65, 0.35};
     const LumaImage video = view.video();
@@ -177,7 +177,7 @@ TEST(PoseRefinement, FollowsTheSceneAndNotWhatMovesInIt) {
 }
 
 TEST(PoseRefinement, PicturesThatShowNothingKeepThePrior) {
-    const CameraModel camera = plain();
+    const CameraModel camera = pagePlain();
     const LumaImage scene = stepScene().render(camera, {});
     std::vector<LumaImage> pictures;
     for (const int grey : {0, 128, 255}) {
@@ -250,7 +250,7 @@ TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
 // Too few patches to refine by: the search itself looks beside its lines.
 TEST(PoseRefinement, WithoutPatchesTheSearchHasRoomBesideItsLines) {
     // A small panel before nothing.
-    const Shots shots({plain(),
+    const Shots shots({pagePlain(),
                        {{{{0.3, 0, 1}, 2, {-0.1, -0.1}, {0.15, 0.1}}}, 60, 100},
                        motion({0, 0, 0}, {0.2, 0, 0})});
     const RigidTransform error = motion({0.4, 0, 0}, {0, 0, 0});
@@ -258,7 +258,7 @@ TEST(PoseRefinement, WithoutPatchesTheSearchHasRoomBesideItsLines) {
     EXPECT_FALSE(roomy.refinement().accepted);
     EXPECT_LT(roomy.refinement().patches, 16);
     EXPECT_NEAR(roomy.normalError(), 1.6, 0.1);
-    EpipolarSearch strict = test::searchWith(plain(), 2);
+    EpipolarSearch strict = test::searchWith(pagePlain(), 2);
     strict.setStill(test::viewOf(shots.still));
     ASSERT_TRUE(strict.run(shots.video, shots.view.T_still_video * error));
     EXPECT_EQ(strict.normalError(), 0);

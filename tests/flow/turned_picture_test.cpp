@@ -11,14 +11,6 @@ namespace {
 
 constexpr double kBeyond = 0.8;
 
-CameraModel plain() {
-    return {{161, 119}, 150, 148, 79.2, 60.7, {}};
-}
-
-CameraModel barrel() {
-    return {{161, 119}, 120, 121, 82.5, 57.1, {-0.31, 0.08, 0.002, -0.0015, 0.004}};
-}
-
 // Folds back not far beyond its corners: rays 61 degrees off its axis come back to the centre.
 CameraModel folding() {
     return {{161, 119}, 150, 150, 80, 59, {-0.3, 0, 0, 0, 0}};
@@ -118,7 +110,7 @@ int leftOff(const CameraModel& camera, const Eigen::Matrix3d& rotation, const Ca
 }
 
 TEST(TurnedPicture, NoTurnIsTheSamePicture) {
-    const CameraModel camera = plain();
+    const CameraModel camera = test::oddPlain();
     const Canvas canvas = turned(camera, Eigen::Matrix3d::Identity());
     const LumaImage picture = smoothPicture(camera.size);
     const auto [ox, oy] = canvas.placed.origin();
@@ -134,7 +126,7 @@ TEST(TurnedPicture, NoTurnIsTheSamePicture) {
 }
 
 TEST(TurnedPicture, ShowsWhatDirectProjectionFinds) {
-    for (const CameraModel& camera : {plain(), barrel(), folding()}) {
+    for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         for (const Eigen::Matrix3d& rotation :
              {turn(0, 0, 0), turn(3, -4, 2), turn(-12, 8, 20), turn(0, 0, 90), turn(0, 0, 180),
               turn(5, 25, -30), turn(0, -40, 0), turn(25, 0, 0), turn(-20, 35, 120)}) {
@@ -154,7 +146,7 @@ TEST(TurnedPicture, ShowsWhatDirectProjectionFinds) {
 }
 
 TEST(TurnedPicture, CanvasLiesWhereTheCameraTurnedTo) {
-    const CameraModel camera = plain();
+    const CameraModel camera = test::oddPlain();
     // Rays of the new orientation come from the right of the picture: it lies to the left.
     const Canvas left = turned(camera, turn(0, 38, 0));
     EXPECT_LT(left.placed.origin().x, -camera.size.width / 4);
@@ -165,7 +157,7 @@ TEST(TurnedPicture, CanvasLiesWhereTheCameraTurnedTo) {
 }
 
 TEST(TurnedPicture, OriginIsAlignedAndTheCanvasStaysWithinReach) {
-    for (const CameraModel& camera : {plain(), barrel(), folding()}) {
+    for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         const double reach = kBeyond * camera.size.width;
         for (int y = -80; y <= 80; y += 10) {
             for (int z = 0; z < 360; z += 45) {
@@ -184,7 +176,7 @@ TEST(TurnedPicture, OriginIsAlignedAndTheCanvasStaysWithinReach) {
 }
 
 TEST(TurnedPicture, NothingIsSeenBackwards) {
-    for (const CameraModel& camera : {plain(), barrel(), folding()}) {
+    for (const CameraModel& camera : {test::oddPlain(), test::oddBarrel(), folding()}) {
         for (const Eigen::Matrix3d& rotation :
              {turn(0, 180, 0), turn(180, 0, 0), turn(0, 150, 0), turn(0, -145, 40)}) {
             const Canvas canvas = turned(camera, rotation);
@@ -194,7 +186,7 @@ TEST(TurnedPicture, NothingIsSeenBackwards) {
 }
 
 TEST(TurnedPicture, MayBePlacedAgain) {
-    const CameraModel camera = barrel();
+    const CameraModel camera = test::oddBarrel();
     Canvas canvas = turned(camera, turn(0, 20, 30));
     Workers workers(3);
     canvas.placed.place(camera, camera, turn(0, 180, 0), kBeyond);

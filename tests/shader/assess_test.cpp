@@ -11,8 +11,8 @@ using Eigen::Vector2d;
 
 constexpr Size kVideo{61, 45};
 constexpr Size kStill{220, 163};
-constexpr Size kCells{16, 12};
-constexpr int kArea = 16 * 12;
+constexpr Size kGrid{16, 12};
+constexpr int kGridArea = 16 * 12;
 constexpr double kAlpha = 2;
 // Single precision sums of 64 products of up to 255^2.
 constexpr double kRelative = 1e-3, kAbsolute = 2;
@@ -34,16 +34,14 @@ struct Fields {
     std::vector<std::array<float, 4>> forward, backward;
     int scale = 1;
 
-    [[nodiscard]] Size backwardCells() const {
-        return {kCells.width / scale, kCells.height / scale};
-    }
+    [[nodiscard]] Size backwardCells() const { return {kGrid.width / scale, kGrid.height / scale}; }
 };
 
 Fields constantFields(const Vector2d& forward, const Vector2d& backward) {
     const auto four = [](const Vector2d& v) {
         return std::array<float, 4>{static_cast<float>(v.x()), static_cast<float>(v.y()), 0, 0};
     };
-    return {{kArea, four(forward)}, {kArea, four(backward)}};
+    return {{kGridArea, four(forward)}, {kGridArea, four(backward)}};
 }
 
 struct Assessed {
@@ -51,18 +49,18 @@ struct Assessed {
 };
 
 Assessed assess(const LevelPair& pair, const StereoRig& rig, const Fields& fields) {
-    gpu::Buffer patches(2 * kArea * 16);
+    gpu::Buffer patches(2 * kGridArea * 16);
     patches.write(std::span(fields.forward));
-    patches.write(std::span(fields.backward), kArea * 16);
-    const gpu::Texture displacement(kCells, gpu::TexelFormat::Rgba32F);
-    const gpu::Texture statistics(kCells, gpu::TexelFormat::Rgba32F);
+    patches.write(std::span(fields.backward), kGridArea * 16);
+    const gpu::Texture displacement(kGrid, gpu::TexelFormat::Rgba32F);
+    const gpu::Texture statistics(kGrid, gpu::TexelFormat::Rgba32F);
     AssessParams p{};
     p.rig = rigParams(rig);
     p.video = pair.pyramids.video()[0];
     p.still = pair.pyramids.still()[0];
-    p.cells[0] = kCells.width;
-    p.cells[1] = kCells.height;
-    p.offsets[1] = kArea;
+    p.cells[0] = kGrid.width;
+    p.cells[1] = kGrid.height;
+    p.offsets[1] = kGridArea;
     p.cells[2] = fields.backwardCells().width;
     p.cells[3] = fields.backwardCells().height;
     p.offsets[3] = fields.scale;
@@ -76,7 +74,7 @@ Assessed assess(const LevelPair& pair, const StereoRig& rig, const Fields& field
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
               gpu::imageWrite(0, displacement), gpu::imageWrite(1, statistics)},
              {4, 3, 1});
-    return {{kCells, displacement.readRgba32F()}, {kCells, statistics.readRgba32F()}};
+    return {{kGrid, displacement.readRgba32F()}, {kGrid, statistics.readRgba32F()}};
 }
 
 bool insideOf(const Vector2d& p, Size size) {
@@ -89,7 +87,7 @@ Fields randomFields(int scale) {
     Fields f = constantFields({0, 0}, {0, 0});
     f.scale = scale;
     const auto coarse = static_cast<float>(scale);
-    for (int i = 0; i < kArea; ++i) {
+    for (int i = 0; i < kGridArea; ++i) {
         const float x = wide(random), y = wide(random);
         f.forward[i] = {x, y, 0, 0};
         f.backward[i] = {(near(random) - 3) / coarse, (near(random) + 2) / coarse, 0, 0};
@@ -118,7 +116,7 @@ TEST_P(AssessFields, StatisticsLookUpAndConfidenceMatchTwin) {
     const Assessed got = assess(pair, rig, fields);
     const Eigen::Array2d scale(rig.still.fx / rig.video.fx, rig.still.fy / rig.video.fy);
     int outside = 0, confident = 0;
-    for (int i = 0; i < kArea; ++i) {
+    for (int i = 0; i < kGridArea; ++i) {
         const int x = i % 16, y = i / 16;
         const Vector2d u(fields.forward[i][0], fields.forward[i][1]);
         const Vector2d centre(4 * x + 1.5, 4 * y + 1.5), q = centre + u;
@@ -149,7 +147,7 @@ TEST_F(Assess, AgreeingFieldsAreFullyConfident) {
     const StereoRig rig = plainRig(kVideo, kStill);
     const Picture p = randomPicture(kVideo, 1);
     const Assessed got = assess(LevelPair(p, p), rig, constantFields({2, 1}, {-2, -1}));
-    for (int i = 0; i < kArea; ++i) {
+    for (int i = 0; i < kGridArea; ++i) {
         const int column = i % 16, row = i / 16;
         const Vector2d q(4 * column + 3.5, 4 * row + 2.5);
         EXPECT_EQ(got.statistics.at(i % 16, i / 16)[3], insideOf(q, kVideo) ? 1 : 0) << i;
@@ -163,7 +161,7 @@ TEST_F(Assess, DisagreementBeyondAlphaAndLookUpsOutsideHaveNoConfidence) {
     for (const Fields& f : {constantFields({0, 0}, {kAlpha, 0}), constantFields({99, 0}, {-99, 0}),
                             constantFields({0, -1e6}, {0, 1e6})}) {
         const Assessed got = assess(pair, rig, f);
-        for (int i = 0; i < kArea; ++i)
+        for (int i = 0; i < kGridArea; ++i)
             EXPECT_EQ(got.statistics.at(i % 16, i / 16)[3], 0) << "cell " << i;
     }
 }

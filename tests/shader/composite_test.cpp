@@ -12,36 +12,36 @@ namespace {
 
 using gpu::TexelFormat;
 
-constexpr Size kSmallVideo{53, 37};
-constexpr Size kOutput{191, 133};
+constexpr Size kCoarse{53, 37};
+constexpr Size kFine{191, 133};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 0.51 / 255;
+constexpr double kRounded = 0.51 / 255;
 
 struct Virtual {
     std::array<std::uint8_t, 4> colour{200, 100, 50, 255};
     std::function<double(int, int)> z = [](int, int) { return 2.0; };
-    PixelRect bounds{0, 0, kOutput.width, kOutput.height};
+    PixelRect bounds{0, 0, kFine.width, kFine.height};
 };
 
 /// The composite of a small scene, and what came of it.
 class CompositeTest : public GlTest {
 protected:
     static twin::Scene plainScene(const twin::RealSample& real) {
-        return {randomPicture(kSmallVideo, 1), randomPicture(kOutput, 2),
-                std::vector<twin::RealSample>(1UL * kSmallVideo.width * kSmallVideo.height, real)};
+        return {randomPicture(kCoarse, 1), randomPicture(kFine, 2),
+                std::vector<twin::RealSample>(1UL * kCoarse.width * kCoarse.height, real)};
     }
 
     void run(const twin::Scene& scene, const Virtual& layer, const CompositeOptions& options = {}) {
-        gpu::Texture colour(kOutput, TexelFormat::Rgba8), depth(kOutput, TexelFormat::R32F);
-        gpu::Texture real(kSmallVideo, TexelFormat::Rg32F);
-        Picture p(kOutput);
+        gpu::Texture colour(kFine, TexelFormat::Rgba8), depth(kFine, TexelFormat::R32F);
+        gpu::Texture real(kCoarse, TexelFormat::Rg32F);
+        Picture p(kFine);
         for (std::size_t i = 0; i < p.bytes.size(); ++i)
             p.bytes[i] = layer.colour[i % 4];
         colour.upload(p.view());
         std::vector<float> z, samples;
-        for (int y = 0; y < kOutput.height; ++y)
-            for (int x = 0; x < kOutput.width; ++x)
+        for (int y = 0; y < kFine.height; ++y)
+            for (int x = 0; x < kFine.width; ++x)
                 z.push_back(static_cast<float>(layer.z(x, y)));
         for (const twin::RealSample& s : scene.real)
             samples.insert(samples.end(), {static_cast<float>(s.rho), static_cast<float>(s.sigma)});
@@ -49,14 +49,14 @@ protected:
         real.upload(samples);
         const gpu::Texture video = uploaded(scene.video), picture = uploaded(scene.picture);
         const gpu::Framebuffer target(picture);
-        Composite composite(kSmallVideo, kOutput, options);
+        Composite composite(kCoarse, kFine, options);
         drew_ = drewAnything(
             [&] { composite.run({&colour, &depth, layer.bounds}, real, video, picture, target); });
         shown_ = picture.readRgba8();
         visibility_ = composite.visibility().readRgba8();
     }
     [[nodiscard]] double visibleAt(int x, int y) const {
-        return visibility_[4UL * (1UL * y * kOutput.width + x)] / 255.0;
+        return visibility_[4UL * (1UL * y * kFine.width + x)] / 255.0;
     }
     /// The same everywhere, or -1.
     [[nodiscard]] double visibleEverywhere() const {
@@ -74,8 +74,8 @@ TEST_F(CompositeTest, VisibilityMatchesTwin) {
     std::uniform_real_distribution<double> rho(0.3, 0.7), sigma(0.002, 0.05), unit(0, 1);
     twin::Scene scene = plainScene({1, 1});
     const Waves waves(3, 6, 50, 40);
-    scene.video = waves.shoot(kSmallVideo, {});
-    scene.picture = waves.shoot(kOutput, {.step = 53.0 / 191, .footprint = 53.0 / 191});
+    scene.video = waves.shoot(kCoarse, {});
+    scene.picture = waves.shoot(kFine, {.step = 53.0 / 191, .footprint = 53.0 / 191});
     for (twin::RealSample& s : scene.real) {
         s = {rho(random), sigma(random)};
         if (unit(random) < 0.1) s.rho = kNan;
@@ -87,10 +87,10 @@ TEST_F(CompositeTest, VisibilityMatchesTwin) {
          {CompositeOptions{}, CompositeOptions{.bias = 0, .softness = 5, .virtualSigma = 0.02},
           CompositeOptions{.bias = 1, .softness = 0.5, .virtualSigma = 0, .likeness = 60}}) {
         run(scene, layer, o);
-        for (int y = 0; y < kOutput.height; ++y)
-            for (int x = 0; x < kOutput.width; ++x)
+        for (int y = 0; y < kFine.height; ++y)
+            for (int x = 0; x < kFine.width; ++x)
                 ASSERT_NEAR(visibleAt(x, y), scene.visibility(x, y, layer.z(x, y), o),
-                            kRounding + 1e-3)
+                            kRounded + 1e-3)
                     << x << " " << y;
     }
 }
@@ -99,15 +99,15 @@ TEST_F(CompositeTest, EarlyAnswersAreThoseOfTheWeights) {
     // A real step, so that most pixels need no weighing, and all answers occur.
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
-        if (i % kSmallVideo.width > 20) scene.real[i].rho = 0.8;
+        if (i % kCoarse.width > 20) scene.real[i].rho = 0.8;
     Virtual layer;
     layer.z = [](int, int y) { return 1.2 + 0.01 * y; };
     run(scene, layer);
     int hidden = 0, visible = 0;
-    for (int y = 0; y < kOutput.height; ++y)
-        for (int x = 0; x < kOutput.width; ++x) {
+    for (int y = 0; y < kFine.height; ++y)
+        for (int x = 0; x < kFine.width; ++x) {
             ASSERT_NEAR(visibleAt(x, y), scene.visibility(x, y, layer.z(x, y), {}),
-                        kRounding + 1e-3);
+                        kRounded + 1e-3);
             hidden += visibleAt(x, y) == 0 ? 1 : 0;
             visible += visibleAt(x, y) == 1 ? 1 : 0;
         }
@@ -131,9 +131,9 @@ TEST_F(CompositeTest, UnknownNeighboursOnlyShowMore) {
     for (std::size_t i = 0; i < scene.real.size(); i += 3)
         scene.real[i].rho = kNan;
     run(scene, {});
-    for (int y = 0; y < kOutput.height; ++y)
-        for (int x = 0; x < kOutput.width; ++x)
-            ASSERT_NEAR(visibleAt(x, y), scene.visibility(x, y, 2, {}), kRounding + 1e-3);
+    for (int y = 0; y < kFine.height; ++y)
+        for (int x = 0; x < kFine.width; ++x)
+            ASSERT_NEAR(visibleAt(x, y), scene.visibility(x, y, 2, {}), kRounded + 1e-3);
 }
 
 TEST_F(CompositeTest, ExtremeKnownValuesAreCompared) {
@@ -174,13 +174,13 @@ TEST_F(CompositeTest, BlendIsOverByVisibility) {
     const Virtual layer{.colour = {120, 60, 0, 128}, .bounds = {30, 20, 131, 103}};
     run(scene, layer, {.bias = 2, .softness = 2, .virtualSigma = 0});
     EXPECT_NEAR(visibleAt(90, 60), 0.5, 0.01);
-    for (int y = 0; y < kOutput.height; ++y)
-        for (int x = 0; x < kOutput.width; ++x) {
+    for (int y = 0; y < kFine.height; ++y)
+        for (int x = 0; x < kFine.width; ++x) {
             const PixelRect& b = layer.bounds;
             const bool in = x >= b.x0 && x < b.x1 && y >= b.y0 && y < b.y1;
             const double v = in ? visibleAt(x, y) : 0;
             for (std::size_t c = 0; c < 3; ++c) {
-                const std::size_t i = 4 * (1UL * y * kOutput.width + x) + c;
+                const std::size_t i = 4 * (1UL * y * kFine.width + x) + c;
                 const double wanted =
                     v * layer.colour[c] + (1 - v * layer.colour[3] / 255) * scene.picture.bytes[i];
                 ASSERT_NEAR(shown_[i], wanted, in ? 1.1 : 0) << x << " " << y;
@@ -192,9 +192,9 @@ TEST_F(CompositeTest, BoundsAreClippedAtTheBorders) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const PixelRect& b : {PixelRect{-50, -9, 1000, 999}, PixelRect{180, 120, 500, 140}}) {
         run(scene, {.bounds = b});
-        for (int y = std::max(b.y0, 0); y < kOutput.height; ++y)
-            for (int x = std::max(b.x0, 0); x < kOutput.width; ++x)
-                ASSERT_EQ(shown_[4UL * (1UL * y * kOutput.width + x)], 200);
+        for (int y = std::max(b.y0, 0); y < kFine.height; ++y)
+            for (int x = std::max(b.x0, 0); x < kFine.width; ++x)
+                ASSERT_EQ(shown_[4UL * (1UL * y * kFine.width + x)], 200);
     }
 }
 
@@ -212,12 +212,12 @@ TEST_F(CompositeTest, EmptyBoundsDrawNothing) {
 
 TEST_F(CompositeTest, OptionsOutOfRangeAreRefused) {
     for (const double bad : {-1.0, 1e9, kNan, kInfinite}) {
-        EXPECT_THROW(Composite(kSmallVideo, kOutput, {.bias = bad}), std::invalid_argument);
-        EXPECT_THROW(Composite(kSmallVideo, kOutput, {.virtualSigma = bad}), std::invalid_argument);
+        EXPECT_THROW(Composite(kCoarse, kFine, {.bias = bad}), std::invalid_argument);
+        EXPECT_THROW(Composite(kCoarse, kFine, {.virtualSigma = bad}), std::invalid_argument);
     }
     for (const double bad : {0.0, -1.0, 1e9, kNan}) {
-        EXPECT_THROW(Composite(kSmallVideo, kOutput, {.softness = bad}), std::invalid_argument);
-        EXPECT_THROW(Composite(kSmallVideo, kOutput, {.likeness = bad}), std::invalid_argument);
+        EXPECT_THROW(Composite(kCoarse, kFine, {.softness = bad}), std::invalid_argument);
+        EXPECT_THROW(Composite(kCoarse, kFine, {.likeness = bad}), std::invalid_argument);
     }
 }
 
@@ -233,7 +233,7 @@ struct EdgeScene {
     }
     [[nodiscard]] Picture shoot(Size size) const {
         Picture p(size, PixelFormat::Rgba8, 255);
-        const double step = static_cast<double>(kSmallVideo.width) / size.width;
+        const double step = static_cast<double>(kCoarse.width) / size.width;
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
                 int near = 0;
@@ -250,9 +250,9 @@ struct EdgeScene {
         return p;
     }
     [[nodiscard]] twin::Scene scene() const {
-        twin::Scene s{shoot(kSmallVideo), shoot(kOutput), {}};
-        for (int y = 0; y < kSmallVideo.height; ++y)
-            for (int x = 0; x < kSmallVideo.width; ++x)
+        twin::Scene s{shoot(kCoarse), shoot(kFine), {}};
+        for (int y = 0; y < kCoarse.height; ++y)
+            for (int x = 0; x < kCoarse.width; ++x)
                 s.real.push_back({beyond(x, y) < 0 ? 1.0 : 0.25, 0.01});
         return s;
     }
@@ -264,11 +264,11 @@ protected:
     /// the length of the edge.
     double boundaryError(const EdgeScene& edge) {
         run(edge.scene(), {});
-        const double step = static_cast<double>(kSmallVideo.width) / kOutput.width;
+        const double step = static_cast<double>(kCoarse.width) / kFine.width;
         double wrong = 0;
         int rows = 0;
-        for (int y = 12; y < kOutput.height - 12; ++y, ++rows)
-            for (int x = 0; x < kOutput.width; ++x) {
+        for (int y = 12; y < kFine.height - 12; ++y, ++rows)
+            for (int x = 0; x < kFine.width; ++x) {
                 const double d = edge.beyond((x + 0.5) * step - 0.5, (y + 0.5) * step - 0.5);
                 if ((visibleAt(x, y) > 0.5) != (d > 0)) wrong += step * step;
             }

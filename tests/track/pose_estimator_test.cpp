@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-const PlacedTag kTag{{TagFamily::Tag36h11, 0}, 0.08, {}};
+const PlacedTag kBareTag{{TagFamily::Tag36h11, 0}, 0.08, {}};
 
 Timestamp momentOf(int i) {
     return Timestamp::fromSeconds(1 + i / 30.);
@@ -33,8 +33,8 @@ class Corners {
 public:
     explicit Corners(double sigma, double unit = 1) : noise_(0, sigma), unit_(unit) {}
     TagObservation of(const CameraModel& camera, const RigidTransform& T_world_camera) {
-        TagObservation out{kTag.size * unit_, kTag.T_world_tag,
-                           cornersOf(camera, T_world_camera, kTag)};
+        TagObservation out{kBareTag.size * unit_, kBareTag.T_world_tag,
+                           cornersOf(camera, T_world_camera, kBareTag)};
         for (Eigen::Vector2d& corner : out.corners)
             corner += Eigen::Vector2d(noise_(random_), noise_(random_));
         return out;
