@@ -1,11 +1,12 @@
 #include "hal/frame.h"
 
+#include "hal/image_layout.h"
+
 namespace mfar {
 
 FramePool::FramePool(Size size, PixelFormat format, int count)
     : size_(size), format_(format), shared_(std::make_shared<Shared>()) {
-    const std::size_t bytes =
-        static_cast<std::size_t>(size.width) * size.height * bytesPerPixel(format);
+    const std::size_t bytes = packedBytes(format, size);
     shared_->free.reserve(count);
     for (int i = 0; i < count; ++i) {
         shared_->buffers.emplace_back(bytes);
@@ -24,14 +25,17 @@ std::optional<FramePool::Slot> FramePool::acquire(std::chrono::milliseconds time
 }
 
 Frame FramePool::lend(const Slot& slot, Timestamp time) const {
-    return Frame({slot.data, size_, slot.stride, format_}, time,
-                 [shared = shared_, index = slot.index] {
-                     {
-                         std::lock_guard lock(shared->mutex);
-                         shared->free.push_back(index);
-                     }
-                     shared->returned.notify_one();
-                 });
+    return lend(slot, packedView(slot.data, size_, format_), time);
+}
+
+Frame FramePool::lend(const Slot& slot, const ImageView& view, Timestamp time) const {
+    return Frame(view, time, [shared = shared_, index = slot.index] {
+        {
+            std::lock_guard lock(shared->mutex);
+            shared->free.push_back(index);
+        }
+        shared->returned.notify_one();
+    });
 }
 
 void FramePool::giveBack(const Slot& slot) const {

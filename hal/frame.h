@@ -103,7 +103,8 @@ private:
 };
 
 /// A fixed set of equal buffers, allocated once, lent out as Frames. Thread-safe. The pool may be
-/// destroyed before its frames: the memory lives until the last loan is back.
+/// destroyed before its frames: the memory lives until the last loan is back. Planes follow each
+/// other and rows have no padding (packedView() in image_layout.h).
 class FramePool {
 public:
     FramePool(Size size, PixelFormat format, int count);
@@ -117,6 +118,8 @@ public:
     [[nodiscard]] std::optional<Slot> acquire(std::chrono::milliseconds timeout);
     /// Turns a filled slot into a frame whose destruction returns the buffer.
     [[nodiscard]] Frame lend(const Slot& slot, Timestamp time) const;
+    /// The same, seen in another way that fits into the slot's memory.
+    [[nodiscard]] Frame lend(const Slot& slot, const ImageView& view, Timestamp time) const;
     /// Returns a slot that was acquired but will not be lent.
     void giveBack(const Slot& slot) const;
 
