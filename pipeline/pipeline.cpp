@@ -1,5 +1,6 @@
 #include "pipeline/pipeline.h"
 
+#include "hal/image_layout.h"
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
 
@@ -12,8 +13,11 @@
 namespace mfar {
 namespace {
 
-void requireSize(const ImageView& view, Size size, const char* what) {
-    if (view.data != nullptr && view.size == size) return;
+void requireFit(const ImageView& view, Size size, const char* what) {
+    if (view.size == size) {
+        requireSound(view, what);
+        return;
+    }
     throw std::invalid_argument(std::string(what) + " is " + std::to_string(view.size.width) + "x" +
                                 std::to_string(view.size.height) + ", the calibration says " +
                                 std::to_string(size.width) + "x" + std::to_string(size.height));
@@ -49,7 +53,7 @@ Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
 void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<Pose>& pose) {
     State& s = *state_;
-    requireSize(still, s.rig.still.size, "still");
+    requireFit(still, s.rig.still.size, "still");
     s.still.set(still);
     s.epipolar.dropStill();
     if (pose) s.epipolar.setStill(still, *pose);
@@ -85,7 +89,7 @@ void Pipeline::setSkipUnchanged(bool skip) {
 
 // Along epipolar lines where the frame's pose is known, and the still's.
 void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pose>& pose) {
-    pyramids.buildVideo(video, plan);
+    pyramids.buildVideo(video.texture(), plan);
     lap("pyramid");
     if (pose) {
         // The search runs on the processor, so that has to know whether it is needed.
@@ -175,27 +179,27 @@ void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
         lap("depth");
     }
     if (!draws) return;
-    objects->draw(snap.field(), snap.where(), video, superres.output(), superres.target());
+    objects->draw(snap.field(), snap.where(), video.texture(), superres.output(),
+                  superres.target());
     lap("composite");
 }
 
 const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
                                  const std::optional<Pose>& pose) {
     State& s = *state_;
-    requireSize(video, s.rig.video.size, "video frame");
+    requireFit(video, s.rig.video.size, "video frame");
     s.stageTimes.clear();
     s.lastLap = std::chrono::steady_clock::now();
 
-    if (!s.video.takes(video)) s.video = gpu::pictureTexture(video);
     s.video.upload(video);
     s.lap("upload");
     const PixelRect where = s.placeObjects(pose);
-    s.plan.update(s.video, s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
+    s.plan.update(s.video.texture(), s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
     const bool usePose = useStill && pose && s.epipolar.hasStill();
     if (useStill) s.matchStill(video, usePose ? pose : std::nullopt);
-    s.superres.draw(s.video, useStill ? &s.still : nullptr, s.plan);
+    s.superres.draw(s.video.texture(), useStill ? &s.still : nullptr, s.plan);
     glFlush();
     s.lap("superres");
     s.result.stats = s.superres.statsBefore();

@@ -51,13 +51,14 @@ public:
     Pipeline& operator=(Pipeline&&) noexcept;
 
     /// Makes this still the reference of the following frames; all per-still work happens here.
-    /// Size must be the rig's. Frames of another size throw std::invalid_argument.
+    /// Size must be the rig's, any format; another size or a view that is not sound
+    /// (requireSound()) throws std::invalid_argument.
     /// `pose` of the video camera at the still's time: with it and a frame's the flow is sought
     /// along epipolar lines; without one of them it is sought in both dimensions.
     void setStill(const ImageView& still, Timestamp time, const std::optional<Pose>& pose = {});
     /// Forgets the still: the upscaled video is shown until the next one.
     void dropStill();
-    /// Computes one picture. Throws std::invalid_argument for a frame of another size.
+    /// Computes one picture. Throws std::invalid_argument as setStill() does.
     const FrameResult& run(const ImageView& video, Timestamp time,
                            const std::optional<Pose>& pose = {});
 
@@ -100,7 +101,7 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// Dense 2-D flow between two pictures of the same size (grey or RGBA): the flow stage alone, for
+/// Dense 2-D flow between two pictures of the same size, any format: the flow stage alone, for
 /// evaluation and tests. Returns x, y interleaved per pixel: a(p) looks like b(p + flow).
 [[nodiscard]] std::vector<float> flowBetween(const ImageView& a, const ImageView& b);
 

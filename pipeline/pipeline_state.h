@@ -5,6 +5,7 @@
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/flow/epipolar_flow.h"
 #include "pipeline/flow/flow2d.h"
+#include "pipeline/gpu/picture_texture.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/superres/superres.h"
 
@@ -52,7 +53,7 @@ struct Pipeline::State {
 
     StereoRig rig;
     PipelineOptions options;
-    gpu::Texture video;
+    gpu::PictureTexture video;
     WorkPlan plan;
     LumaPyramids pyramids;
     Flow2d flow;

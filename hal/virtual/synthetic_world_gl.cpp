@@ -38,8 +38,7 @@ WorldGl::WorldGl(const World& world, std::uint64_t seed)
                 gpu::Filter::Linear),
       materials_(kMaxPrimitives * sizeof(MaterialEntry)), worldPass_("synthetic_world.frag"),
       sensorPass_("synthetic_sensor.frag") {
-    lightMap_.upload(
-        {light_.texels.ptr(), lightMap_.size(), light_.texels.step, PixelFormat::Rgba8});
+    lightMap_.upload(PlaneView{light_.texels.ptr(), light_.texels.step});
     uploadLayers(seed);
     uploadMaterials();
     gpu::checkErrors("WorldGl");

@@ -1,5 +1,7 @@
+#include "hal/image_layout.h"
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/flow/flow2d.h"
+#include "pipeline/gpu/picture_texture.h"
 #include "pipeline/pipeline.h"
 
 #include <stdexcept>
@@ -9,15 +11,17 @@ namespace mfar {
 std::vector<float> flowBetween(const ImageView& a, const ImageView& b) {
     if (!(a.size == b.size) || a.size.width < 16 || a.size.height < 16)
         throw std::invalid_argument("flow needs two pictures of the same size, 16x16 at least");
-    gpu::Texture first = gpu::pictureTexture(a), second = gpu::pictureTexture(b);
+    requireSound(a, "first picture");
+    requireSound(b, "second picture");
+    gpu::PictureTexture first, second;
     first.upload(a);
     second.upload(b);
     WorkPlan plan(a.size);
     LumaPyramids pyramids(a.size, plan);
     Flow2d flow(pyramids, plan);
     plan.openAll();
-    pyramids.buildVideo(first, plan);
-    pyramids.buildSecond(second);
+    pyramids.buildVideo(first.texture(), plan);
+    pyramids.buildSecond(second.texture());
     flow.run(pyramids, plan, false);
 
     const Flow2d::Field& field = flow.forward();

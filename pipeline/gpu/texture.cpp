@@ -40,21 +40,23 @@ Texture::~Texture() {
     if (id_ != 0) glDeleteTextures(1, &id_);
 }
 
-Texture pictureTexture(const ImageView& view, Filter filter) {
-    return Texture(view.size,
-                   view.format == PixelFormat::Gray8 ? TexelFormat::R8 : TexelFormat::Rgba8,
-                   filter);
-}
-
-void Texture::upload(const ImageView& view) {
-    assert(takes(view));
-    const bool gray = view.format == PixelFormat::Gray8;
+void Texture::upload(const PlaneView& rows) {
+    GLenum layout = GL_RGBA;
+    GLint bytes = 4;
+    if (format_ == TexelFormat::Rg8) {
+        layout = GL_RG;
+        bytes = 2;
+    }
+    if (format_ == TexelFormat::R8) {
+        layout = GL_RED;
+        bytes = 1;
+    }
+    assert(format_ == TexelFormat::Rgba8 || bytes < 4);
     glBindTexture(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glPixelStorei(GL_UNPACK_ROW_LENGTH,
-                  static_cast<GLint>(view.stride / bytesPerPixel(view.format)));
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, gray ? GL_RED : GL_RGBA,
-                    GL_UNSIGNED_BYTE, view.data);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(rows.stride) / bytes);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, layout, GL_UNSIGNED_BYTE,
+                    rows.data);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 

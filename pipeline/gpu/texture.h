@@ -27,8 +27,8 @@ enum class TexelFormat : GLenum {
 
 enum class Filter { Nearest, Linear };
 
-/// An immutable 2-D texture. Move-only. Needs a current context for its whole life.
-/// Throws GlError when the driver refuses the size or format.
+/// An immutable 2-D texture, R8 samples as grey. Move-only. Needs a current context for its whole
+/// life. Throws GlError when the driver refuses the size or format.
 class Texture {
 public:
     Texture() = default;
@@ -43,13 +43,9 @@ public:
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] TexelFormat format() const { return format_; }
 
-    /// True when `view` has this texture's size and format.
-    [[nodiscard]] bool takes(const ImageView& view) const {
-        const bool gray = view.format == PixelFormat::Gray8;
-        return view.size == size_ && format_ == (gray ? TexelFormat::R8 : TexelFormat::Rgba8);
-    }
-    /// Replaces level 0. Asserts takes(view).
-    void upload(const ImageView& view);
+    /// Replaces level 0 of an R8, Rg8 or Rgba8 texture; rows of its width, the stride a multiple
+    /// of its texel. Asserts the format.
+    void upload(const PlaneView& rows);
     /// Replaces level 0 of an R32F, Rg32F or Rgba32F texture from a row on: one, two or four floats
     /// a texel, rows without padding. Asserts format and that they are whole rows of it.
     void upload(std::span<const float> values, int firstRow = 0);
@@ -63,9 +59,6 @@ private:
     Size size_;
     TexelFormat format_ = TexelFormat::Rgba8;
 };
-
-/// A texture that can take the uploads of pictures like `view`. R8 samples as grey.
-[[nodiscard]] Texture pictureTexture(const ImageView& view, Filter filter = Filter::Nearest);
 
 /// A framebuffer that draws into one or more textures. Move-only; does not own the textures.
 class Framebuffer {

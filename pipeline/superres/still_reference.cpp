@@ -26,23 +26,21 @@ StillReference::StillReference(const StereoRig& rig)
       detailTarget_(detail_), lowPass_("still_low.frag"), detailPass_("still_detail.frag") {}
 
 void StillReference::set(const ImageView& still) {
-    if (picture_.id() == 0 || !picture_.takes(still))
-        picture_ = gpu::pictureTexture(still, gpu::Filter::Linear);
     picture_.upload(still);
     const auto low = low_.size();
-    const auto full = picture_.size();
+    const auto full = picture().size();
     LowParams l{};
     l.step[0] = 1.0F / static_cast<float>(low.width);
     l.step[1] = 1.0F / static_cast<float>(low.height);
     l.step[2] = 0.25F * kFootprint * l.step[0];
     l.step[3] = 0.25F * kFootprint * l.step[1];
-    lowPass_.run(l, {gpu::sampler(0, picture_)}, lowTarget_);
+    lowPass_.run(l, {gpu::sampler(0, picture())}, lowTarget_);
     DetailParams d{};
     d.low[0] = low.width;
     d.low[1] = low.height;
     d.scale[0] = static_cast<float>(low.width) / static_cast<float>(full.width);
     d.scale[1] = static_cast<float>(low.height) / static_cast<float>(full.height);
-    detailPass_.run(d, {gpu::sampler(0, picture_), gpu::sampler(1, low_)}, detailTarget_);
+    detailPass_.run(d, {gpu::sampler(0, picture()), gpu::sampler(1, low_)}, detailTarget_);
 }
 
 }  // namespace mfar

@@ -2,6 +2,7 @@
 
 #include "pipeline/geometry.h"
 #include "pipeline/gpu/pass.h"
+#include "pipeline/gpu/picture_texture.h"
 
 #include <cstdint>
 
@@ -16,7 +17,7 @@ public:
     /// Size must be the still camera's; the pixel format may change from one still to the next.
     void set(const ImageView& still);
 
-    [[nodiscard]] const gpu::Texture& picture() const { return picture_; }
+    [[nodiscard]] const gpu::Texture& picture() const { return picture_.texture(); }
     [[nodiscard]] const gpu::Texture& detail() const { return detail_; }  ///< R8, 128 = none
 
 private:
@@ -28,7 +29,8 @@ private:
         float scale[4];
     };
 
-    gpu::Texture picture_, low_, detail_;
+    gpu::PictureTexture picture_{gpu::Filter::Linear};
+    gpu::Texture low_, detail_;
     gpu::Framebuffer lowTarget_, detailTarget_;
     gpu::DrawPass<LowParams> lowPass_;
     gpu::DrawPass<DetailParams> detailPass_;

@@ -38,7 +38,7 @@ protected:
         Picture p(kFine);
         for (std::size_t i = 0; i < p.bytes.size(); ++i)
             p.bytes[i] = layer.colour[i % 4];
-        colour.upload(p.view());
+        colour.upload(PlaneView{p.view().data, p.view().stride});
         std::vector<float> z, samples;
         for (int y = 0; y < kFine.height; ++y)
             for (int x = 0; x < kFine.width; ++x)

@@ -112,8 +112,9 @@ StereoRig bentRig(Size video, Size still) {
 }
 
 gpu::Texture uploaded(const Picture& p, gpu::Filter f) {
-    gpu::Texture t = gpu::pictureTexture(p.view(), f);
-    t.upload(p.view());
+    const bool grey = p.format == PixelFormat::Gray8;
+    gpu::Texture t(p.size, grey ? gpu::TexelFormat::R8 : gpu::TexelFormat::Rgba8, f);
+    t.upload(PlaneView{p.view().data, p.view().stride});
     return t;
 }
 

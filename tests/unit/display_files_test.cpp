@@ -33,7 +33,7 @@ protected:
     /// Shows a picture the way the pipeline does: as a texture.
     void show(Display& display, const StoredImage& picture, Timestamp time) {
         gpu::Texture texture(picture.size, gpu::TexelFormat::Rgba8);
-        texture.upload(picture.view());
+        texture.upload(PlaneView{picture.view().data, picture.view().stride});
         display.show({texture.id(), picture.size}, time);
     }
 

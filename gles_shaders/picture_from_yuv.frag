@@ -1,0 +1,36 @@
+// R G B of a picture in Y U V. Chroma lies in the middle of the pixels that share it and is interpolated.
+// In: planes of 8 bits (luma read at its texel, chroma by a bilinear filter). Out: RGBA8, alpha 1.
+// Source: ITU-R BT.601-7, BT.709-6; rows of hal/image_layout.h.
+// Variant: #define PACKED 1   Y U Y V of two pixels in one texel
+// Variant: #define PAIRS 1    a plane of Y, a plane of U V
+layout(std140, binding = 0) uniform Params {
+    vec4 rows[3];  // R, G, B = row . (Y, U, V, 1), all in [0, 1]
+    vec4 step;     // 1 / size (x, y), -, -
+};
+layout(binding = 0) uniform sampler2D first;
+#ifndef PACKED
+layout(binding = 1) uniform sampler2D second;
+#ifndef PAIRS
+layout(binding = 2) uniform sampler2D third;
+#endif
+#endif
+layout(location = 0) out vec4 colour;
+
+void main() {
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    vec2 at = gl_FragCoord.xy * step.xy;
+    vec4 yuv = vec4(1.0);
+#ifdef PACKED
+    vec4 texel = texelFetch(first, ivec2(p.x >> 1, p.y), 0);
+    yuv.x = (p.x & 1) == 0 ? texel.r : texel.b;
+    yuv.yz = textureLod(first, at, 0.0).ga;
+#else
+    yuv.x = texelFetch(first, p, 0).r;
+#ifdef PAIRS
+    yuv.yz = textureLod(second, at, 0.0).rg;
+#else
+    yuv.yz = vec2(textureLod(second, at, 0.0).r, textureLod(third, at, 0.0).r);
+#endif
+#endif
+    colour = vec4(dot(rows[0], yuv), dot(rows[1], yuv), dot(rows[2], yuv), 1.0);
+}
