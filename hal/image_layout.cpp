@@ -16,13 +16,6 @@ bool sharesRows(PixelFormat format) {
     return format == PixelFormat::Nv12 || format == PixelFormat::Yuv420;
 }
 
-/// The smallest number of bytes that a row may be cut into.
-std::size_t grainOf(PixelFormat format, int plane) {
-    if (format == PixelFormat::Yuyv) return 4;
-    if (plane == 1 && format == PixelFormat::Nv12) return 2;
-    return plane == 0 ? bytesPerPixel(format) : 1;
-}
-
 PlaneView planeOf(const ImageView& picture, int plane) {
     if (plane == 0) return {picture.data, picture.stride};
     return picture.chroma[static_cast<std::size_t>(plane) - 1];
@@ -42,7 +35,7 @@ std::string faultOf(const ImageView& picture) {
         const auto name = "plane " + std::to_string(i) + " of " + format;
         if (plane.data == nullptr) return name + " is missing";
         const std::size_t needed = planeSize(picture.format, picture.size, i).rowBytes;
-        if (plane.stride < needed || plane.stride % grainOf(picture.format, i) != 0)
+        if (plane.stride < needed)
             return name + " has rows of " + std::to_string(plane.stride) +
                    " bytes, a row of the picture has " + std::to_string(needed);
     }

@@ -34,7 +34,7 @@ struct PlaneSize {
 
 /// Throws std::invalid_argument "WHAT: why" unless the view can be read as its format says: all
 /// planes there, a size from 1 to kMaxPictureSide that is even where chroma is shared, strides that
-/// hold a row and are whole pixels (of YUYV: whole pairs).
+/// hold a row.
 void requireSound(const ImageView& picture, std::string_view what);
 
 /// The luma of a sound picture that has it in a plane of its own, as Gray8, without a copy; nothing

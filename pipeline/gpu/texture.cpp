@@ -54,6 +54,12 @@ void Texture::upload(const PlaneView& rows) {
     assert(format_ == TexelFormat::Rgba8 || bytes < 4);
     glBindTexture(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (rows.stride % static_cast<std::size_t>(bytes) != 0) {
+        for (int y = 0; y < size_.height; ++y)
+            glTexSubImage2D(GL_TEXTURE_2D, 0, 0, y, size_.width, 1, layout, GL_UNSIGNED_BYTE,
+                            rows.data + static_cast<std::size_t>(y) * rows.stride);
+        return;
+    }
     glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(rows.stride) / bytes);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, layout, GL_UNSIGNED_BYTE,
                     rows.data);

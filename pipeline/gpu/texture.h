@@ -43,8 +43,8 @@ public:
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] TexelFormat format() const { return format_; }
 
-    /// Replaces level 0 of an R8, Rg8 or Rgba8 texture; rows of its width, the stride a multiple
-    /// of its texel. Asserts the format.
+    /// Replaces level 0 of an R8, Rg8 or Rgba8 texture; rows of its width. Slow where the
+    /// stride is no multiple of the texel. Asserts the format.
     void upload(const PlaneView& rows);
     /// Replaces level 0 of an R32F, Rg32F or Rgba32F texture from a row on: one, two or four floats
     /// a texel, rows without padding. Asserts format and that they are whole rows of it.

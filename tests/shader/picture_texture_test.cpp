@@ -63,6 +63,15 @@ TEST_F(PictureTexture, EveryFormatWithPaddedRowsMatchesTheTwin) {
     }
 }
 
+TEST_F(PictureTexture, RowsMayHaveAnyNumberOfBytes) {
+    for (const PixelFormat format : kEveryFormat) {
+        const PaddedPicture source(format, kSize, 3, 5);
+        gpu::PictureTexture picture;
+        picture.upload(source.view());
+        expectTwin(picture, source.view(), isYuv(format) ? kFiltered : 0);
+    }
+}
+
 // Constant chroma needs no filter, so that nothing hides behind its tolerance.
 TEST_F(PictureTexture, LumaIsExact) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {

@@ -74,16 +74,16 @@ TEST(ImageLayout, EachFaultIsNamed) {
     view.chroma[0].data = nullptr;
     EXPECT_EQ(faultOf(view), "still: plane 1 of NV12 is missing");
     view = nv12.view();
-    view.chroma[0].stride = 23;
-    EXPECT_EQ(faultOf(view), "still: plane 1 of NV12 has rows of 23 bytes, a row of the picture "
+    view.chroma[0].stride = 21;
+    EXPECT_EQ(faultOf(view), "still: plane 1 of NV12 has rows of 21 bytes, a row of the picture "
                              "has 22");
     view = nv12.view();
     view.stride = 21;
     EXPECT_EQ(faultOf(view), "still: plane 0 of NV12 has rows of 21 bytes, a row of the picture "
                              "has 22");
     view = yuyv.view();
-    view.stride = 46;
-    EXPECT_EQ(faultOf(view), "still: plane 0 of YUYV has rows of 46 bytes, a row of the picture "
+    view.stride = 43;
+    EXPECT_EQ(faultOf(view), "still: plane 0 of YUYV has rows of 43 bytes, a row of the picture "
                              "has 44");
     EXPECT_EQ(faultOf({}), "still: 0x0 is no size of a picture");
 }

@@ -16,13 +16,13 @@ inline constexpr PixelFormat kEveryFormat[]{PixelFormat::Gray8, PixelFormat::Rgb
 /// with padding, which differs between the planes.
 class PaddedPicture {
 public:
-    PaddedPicture(PixelFormat format, Size size, unsigned seed) {
+    PaddedPicture(PixelFormat format, Size size, unsigned seed, std::size_t padding = 8) {
         view_.size = size;
         view_.format = format;
         std::mt19937 random(seed);
         for (int i = 0; i < planeCount(format); ++i) {
             const PlaneSize plane = planeSize(format, size, i);
-            const std::size_t stride = plane.rowBytes + 8 + 4 * static_cast<std::size_t>(i);
+            const std::size_t stride = plane.rowBytes + padding + 4 * static_cast<std::size_t>(i);
             planes_[i].resize(stride * plane.rows);
             for (auto& b : planes_[i])
                 b = static_cast<std::uint8_t>(random() >> 24);
