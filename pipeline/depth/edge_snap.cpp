@@ -1,5 +1,7 @@
 #include "pipeline/depth/edge_snap.h"
 
+#include "hal/image_layout.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,12 +26,55 @@ constexpr int nextVoter(int from) {
 
 using Colour = std::array<int, 3>;
 
-Colour colourAt(const ImageView& picture, int x, int y) {
-    const std::uint8_t* p = picture.data + static_cast<std::size_t>(y) * picture.stride +
-                            static_cast<std::size_t>(x) * bytesPerPixel(picture.format);
-    if (picture.format == PixelFormat::Gray8) return {p[0], p[0], p[0]};
-    return {p[0], p[1], p[2]};
-}
+/// Colours of a picture of any format, each where it is asked for: few pixels are.
+class Colours {
+public:
+    explicit Colours(const ImageView& picture) : picture_(picture) {
+        const YuvToRgb rows = yuvToRgb(picture.matrix, picture.range);
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            for (std::size_t j = 0; j < rows[i].size(); ++j)
+                rows_[i][j] = static_cast<int>(std::lround(rows[i][j] * kOne));
+    }
+
+    [[nodiscard]] Colour at(int x, int y) const {
+        const std::uint8_t* p = picture_.data + static_cast<std::size_t>(y) * picture_.stride +
+                                static_cast<std::size_t>(x) * bytesPerPixel(picture_.format);
+        switch (picture_.format) {
+        case PixelFormat::Gray8: return {p[0], p[0], p[0]};
+        case PixelFormat::Rgba8:
+        case PixelFormat::Bgra8: return {p[0], p[1], p[2]};  // of distances the order is nothing
+        case PixelFormat::Yuyv: {
+            const std::uint8_t* pair = p - 2 * (x % 2);
+            return rgbOf(p[0], pair[1], pair[3]);
+        }
+        case PixelFormat::Nv12: {
+            const std::uint8_t* pair = chromaRow(0, y) + x / 2 * 2;
+            return rgbOf(p[0], pair[0], pair[1]);
+        }
+        case PixelFormat::Yuv420: break;
+        }
+        return rgbOf(p[0], chromaRow(0, y)[x / 2], chromaRow(1, y)[x / 2]);
+    }
+
+private:
+    static constexpr int kOne = 1 << 12;
+
+    [[nodiscard]] const std::uint8_t* chromaRow(std::size_t plane, int y) const {
+        return picture_.chroma[plane].data +
+               static_cast<std::size_t>(y) / 2 * picture_.chroma[plane].stride;
+    }
+    [[nodiscard]] Colour rgbOf(int y, int u, int v) const {
+        Colour out{};
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const auto& row = rows_[i];
+            out[i] = std::clamp((row[0] * y + row[1] * u + row[2] * v + row[3]) / kOne, 0, 255);
+        }
+        return out;
+    }
+
+    ImageView picture_;
+    std::array<std::array<int, 4>, 3> rows_{};
+};
 
 float likeness(const Colour& a, const Colour& b) {
     const int r = a[0] - b[0], g = a[1] - b[1], u = a[2] - b[2];
@@ -111,6 +156,7 @@ void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
 void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
                        int y) {
     const int width = size_.width;
+    const Colours colours(frame);
     for (int x = where.x0; x < where.x1; ++x) {
         const auto i = static_cast<std::size_t>(y) * width + x;
         out_.rho[i] = in.rho[i];
@@ -131,14 +177,14 @@ void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, cons
             }
         if (low > high) continue;
         const float middle = 0.5F * (low + high);
-        const Colour own = colourAt(frame, x, y);
+        const Colour own = colours.at(x, y);
         std::array<Side, 2> sides;
         for (int v = y0; v < y1; v += kVoters)
             for (int u = x0; u < x1; u += kVoters) {
                 const auto j = static_cast<std::size_t>(v) * width + u;
                 if (open_[j] != 0) continue;
-                sides[in.rho[j] > middle ? 1 : 0].add(likeness(own, colourAt(frame, u, v)),
-                                                      in.rho[j], in.variance[j]);
+                sides[in.rho[j] > middle ? 1 : 0].add(likeness(own, colours.at(u, v)), in.rho[j],
+                                                      in.variance[j]);
             }
         const Side& side = sides[sides[1].weight > sides[0].weight ? 1 : 0];
         if (side.weight < kLeastWeight) continue;

@@ -19,8 +19,9 @@ class EdgeSnap {
 public:
     EdgeSnap(Size video, std::shared_ptr<Workers> workers);
 
-    /// `frame`: the picture that `in` belongs to. Works on the pixels of `where` alone; nothing is
-    /// known elsewhere afterwards. What was given by likeness is marked as filled.
+    /// `frame`: the picture that `in` belongs to, of any format. Works on the pixels of `where`
+    /// alone; nothing is known elsewhere afterwards. What was given by likeness is marked as
+    /// filled.
     const InverseDepthField& run(const InverseDepthField& in, const ImageView& frame,
                                  const PixelRect& where);
     /// Of the last run.

@@ -1,5 +1,7 @@
 #include "pipeline/flow/luma_image.h"
 
+#include "hal/image_layout.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,14 +14,22 @@ constexpr int kRed = 19595, kGreen = 38470, kBlue = 7471;
 
 void lumaRow(const ImageView& picture, int y, std::uint8_t* to) {
     const std::uint8_t* from = picture.data + static_cast<std::size_t>(y) * picture.stride;
-    if (picture.format == PixelFormat::Gray8) {
-        std::copy_n(from, picture.size.width, to);
+    const int width = picture.size.width;
+    if (lumaPlane(picture)) {
+        std::copy_n(from, width, to);
         return;
     }
-    for (int x = 0; x < picture.size.width; ++x) {
+    if (picture.format == PixelFormat::Yuyv) {
+        for (int x = 0; x < width; ++x)
+            to[x] = from[2 * static_cast<std::size_t>(x)];
+        return;
+    }
+    const bool blueFirst = picture.format == PixelFormat::Bgra8;
+    const int first = blueFirst ? kBlue : kRed, third = blueFirst ? kRed : kBlue;
+    for (int x = 0; x < width; ++x) {
         const std::uint8_t* p = from + 4 * static_cast<std::size_t>(x);
         to[x] =
-            static_cast<std::uint8_t>((kRed * p[0] + kGreen * p[1] + kBlue * p[2] + 32768) >> 16);
+            static_cast<std::uint8_t>((first * p[0] + kGreen * p[1] + third * p[2] + 32768) >> 16);
     }
 }
 

@@ -26,7 +26,9 @@ struct LumaImage {
 
 [[nodiscard]] ImageView viewOf(const LumaImage& picture);
 
-/// Luma (Rec. 601) of a grey or RGBA picture, as luma.glsl computes it. `out` has its size.
+/// Luma of a picture: of RGBA and BGRA as luma.glsl computes it (Rec. 601), otherwise the camera's
+/// own Y, whatever its matrix and range. The costs of flow and pose are blind to gain and offset,
+/// so limited range (219/255 of full range's contrast) need not be stretched. `out` has its size.
 void lumaOf(const ImageView& picture, LumaImage& out);
 
 /// The picture's luma at another size, none larger than its own: each pixel the mean of the area

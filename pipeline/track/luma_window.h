@@ -12,7 +12,10 @@ namespace mfar {
 class LumaWindow {
 public:
     /// A Gray8 view of the whole picture in which the pixels of `part` (clipped) are valid: the
-    /// picture itself, or a buffer that lives until the next call. Rec. 601 weights.
+    /// picture's own luma where that is a plane (grey, NV12, YUV420), otherwise a buffer that lives
+    /// until the next call: Y of YUYV, Rec. 601 luma of RGBA and BGRA. Limited range stays as it is
+    /// (219/255 of full range's contrast): tag detection looks at contrast, and corners move by
+    /// less than 0.02 px.
     [[nodiscard]] ImageView of(const ImageView& picture, const PixelRect& part);
 
 private:

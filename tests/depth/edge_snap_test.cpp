@@ -1,7 +1,11 @@
 #include "pipeline/depth/edge_snap.h"
+#include "tests/shader/twins/yuv.h"
+#include "tests/unit/padded_picture.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -35,6 +39,33 @@ InverseDepthField field(int too, int unknown) {
     return out;
 }
 
+/// Two colours of the same luma, one on each side of kEdge.
+void paintHalves(test::PaddedPicture& out) {
+    const ImageView view = out.view();
+    const int step = bytesPerPixel(view.format);
+    for (int plane = 0; plane < planeCount(view.format); ++plane) {
+        const std::size_t stride =
+            plane == 0 ? view.stride : view.chroma[static_cast<std::size_t>(plane) - 1].stride;
+        const int pixels = view.format == PixelFormat::Nv12 && plane == 1 ? 1
+                           : plane == 0                                   ? step
+                                                                          : 0;
+        for (std::size_t i = 0; i < out.plane(plane).size(); ++i) {
+            const auto column = static_cast<int>(i % stride);
+            const int x = pixels == 0 ? 2 * column : column / pixels;
+            const bool left = x < kEdge;
+            std::uint8_t& b = out.plane(plane)[i];
+            if (step == 4)
+                b = std::array<std::uint8_t, 4>{left ? std::uint8_t{200} : std::uint8_t{60}, 110,
+                                                left ? std::uint8_t{60} : std::uint8_t{200},
+                                                255}[static_cast<std::size_t>(column) % 4];
+            else if (plane == 0 && (step == 1 || column % 2 == 0))
+                b = 110;
+            else
+                b = left ? 90 : 166;
+        }
+    }
+}
+
 InverseDepthField snapped(const InverseDepthField& in, const std::vector<std::uint8_t>& pixels,
                           const PixelRect& where = kAllPixels) {
     EdgeSnap snap(kPicture, std::make_shared<Workers>(2));
@@ -55,6 +86,56 @@ TEST(EdgeSnap, AnEdgeGoesWhereThePictureHasIt) {
                         << x << "," << y << " off " << too << " gap " << unknown;
                 }
         }
+}
+
+// The surfaces differ in colour alone, so that it must be read from where each format has it.
+TEST(EdgeSnap, ColourOfEveryFormatTellsSurfacesApart) {
+    for (const PixelFormat format : test::kEveryFormat) {
+        if (format == PixelFormat::Gray8) continue;
+        test::PaddedPicture painted(format, kPicture, 1);
+        paintHalves(painted);
+        EdgeSnap snap(kPicture, std::make_shared<Workers>(2));
+        for (const int too : {-2, 2}) {
+            const InverseDepthField& out = snap.run(field(too, 0), painted.view(), kAllPixels);
+            for (int y = 0; y < kPicture.height; ++y)
+                for (int x = 0; x < kPicture.width; ++x)
+                    ASSERT_NEAR(out.rho[static_cast<std::size_t>(y) * kPicture.width + x],
+                                x < kEdge ? 2 : 0.5, 1e-4)
+                        << nameOf(format) << " " << x << "," << y;
+        }
+    }
+}
+
+// Rounded, and with each pair's chroma as it is, a picture in Y U V is the picture in R G B.
+TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
+    for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
+        test::PaddedPicture painted(format, kPicture, 6);
+        for (int plane = 0; plane < planeCount(format); ++plane)
+            for (auto& b : painted.plane(plane))
+                b = static_cast<std::uint8_t>(110 + b / 8);  // some are alike
+        const ImageView view = painted.view(YuvMatrix::Bt709, YuvRange::Limited);
+        const auto samples = twin::yuvSamples(view);
+        const int down = format == PixelFormat::Yuyv ? 1 : 2;
+        std::vector<std::uint8_t> rgba;
+        for (int y = 0; y < kPicture.height; ++y)
+            for (int x = 0; x < kPicture.width; ++x) {
+                for (const double c :
+                     twin::rgbOfYuv(samples[0].at(x, y), samples[1].at(x / 2, y / down),
+                                    samples[2].at(x / 2, y / down), view))
+                    rgba.push_back(static_cast<std::uint8_t>(std::clamp(c, 0.0, 255.0)));
+                rgba.push_back(255);
+            }
+        EdgeSnap snap(kPicture, std::make_shared<Workers>(2));
+        const InverseDepthField in = field(1, 3);
+        const InverseDepthField a = snap.run(in, view, kAllPixels);
+        const InverseDepthField b =
+            snap.run(in, packedView(rgba.data(), kPicture, PixelFormat::Rgba8), kAllPixels);
+        EXPECT_GT(std::count(a.filled.begin(), a.filled.end(), 1), 100);
+        int differ = 0;
+        for (std::size_t i = 0; i < a.rho.size(); ++i)
+            if (!(std::abs(a.rho[i] - b.rho[i]) < 0.01F)) ++differ;
+        EXPECT_LE(differ, 20) << nameOf(format);
+    }
 }
 
 TEST(EdgeSnap, ASlopeStaysAsItIs) {

@@ -1,4 +1,6 @@
 #include "pipeline/flow/luma_image.h"
+#include "tests/shader/twins/yuv.h"
+#include "tests/unit/padded_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +59,35 @@ TEST(LumaOf, RgbaIsRec601WithinRounding) {
         for (int x = 0; x < 23; ++x) {
             const std::uint8_t* p = bytes.data() + kStride * y + 4UL * x;
             ASSERT_NEAR(luma.row(y)[x], 0.299 * p[0] + 0.587 * p[1] + 0.114 * p[2], 0.503);
+        }
+    }
+}
+
+TEST(LumaOf, BgraIsRgbaWithRedAndBlueExchanged) {
+    const test::PaddedPicture picture(PixelFormat::Bgra8, {22, 14}, 3);
+    LumaImage luma;
+    lumaOf(picture.view(), luma);
+    for (int y = 0; y < 14; ++y) {
+        for (int x = 0; x < 22; ++x) {
+            const auto rgb = twin::rgbAt(picture.view(), x, y);
+            ASSERT_NEAR(luma.row(y)[x], 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2], 0.503);
+        }
+    }
+}
+
+TEST(LumaOf, PicturesWithLumaKeepIt) {
+    Workers workers(2);
+    for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
+        const test::PaddedPicture picture(format, {22, 14}, 3);
+        LumaImage luma, shrunk;
+        lumaOf(picture.view(), luma);
+        shrinkLuma(picture.view(), {22, 14}, workers, shrunk);
+        const auto y = twin::yuvSamples(picture.view())[0];
+        for (int row = 0; row < 14; ++row) {
+            for (int x = 0; x < 22; ++x) {
+                ASSERT_EQ(luma.row(row)[x], y.at(x, row));
+                ASSERT_EQ(shrunk.row(row)[x], y.at(x, row));
+            }
         }
     }
 }
