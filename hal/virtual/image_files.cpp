@@ -1,5 +1,7 @@
 #include "hal/virtual/image_files.h"
 
+#include "hal/image_layout.h"
+#include "hal/virtual/bgr_picture.h"
 #include "hal/virtual/png_header.h"
 #include "hal/virtual/whole_file.h"
 
@@ -59,15 +61,10 @@ void loadImageInto(const fs::path& file, Size expected, std::uint8_t* rgba, std:
 }
 
 void encodePng(const ImageView& image, std::vector<std::uint8_t>& out) {
-    const bool grey = image.format == PixelFormat::Gray8;
-    // OpenCV writes from a non-const Mat only in its type: the pixels are not touched.
-    const cv::Mat source(image.size.height, image.size.width, grey ? CV_8UC1 : CV_8UC4,
-                         const_cast<std::uint8_t*>(image.data), image.stride);
-    cv::Mat bgr = source;
-    if (!grey) cv::cvtColor(source, bgr, cv::COLOR_RGBA2BGR);
+    requireSound(image, "picture to be written");
     // Without parameters OpenCV uses one fixed filter and run lengths only, 8 ms for 648x432;
     // asking for compression level 1 takes 22 ms and saves nothing.
-    cv::imencode(".png", bgr, out);
+    cv::imencode(".png", bgrPicture(image), out);
 }
 
 void savePng(const fs::path& file, const ImageView& image) {

@@ -1,5 +1,6 @@
 #include "hal/virtual/recorder.h"
 
+#include "hal/image_layout.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/whole_file.h"
 #include "pipeline/calibration/sensor_yaml.h"
@@ -7,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -33,15 +33,6 @@ void beginCamera(const fs::path& folder, const SensorYaml& sensor, const char* c
     appendToFile(folder / "data.csv", kImageHeader);
 }
 
-// Rows without padding, in the memory of an RGBA buffer, which is large enough for both formats.
-ImageView copied(const ImageView& image, const FramePool::Slot& slot) {
-    const auto width = static_cast<std::size_t>(image.size.width);
-    const std::size_t rowBytes = width * bytesPerPixel(image.format);
-    for (int y = 0; y < image.size.height; ++y)
-        std::memcpy(slot.data + y * rowBytes, image.data + y * image.stride, rowBytes);
-    return {slot.data, image.size, rowBytes, image.format};
-}
-
 }  // namespace
 
 Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateHz,
@@ -61,6 +52,7 @@ bool Recorder::accepts(const Stream& stream, Timestamp time) const {
 }
 
 bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp time) {
+    if (image.size == stream.pool.size()) requireSound(image, "picture to be recorded");
     std::optional<FramePool::Slot> slot;
     if (image.size == stream.pool.size() && accepts(stream, time))
         slot = stream.pool.acquire(std::chrono::milliseconds(0));
@@ -69,7 +61,8 @@ bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp 
         return false;
     }
     stream.last = time;
-    const ImageView copy = copied(image, *slot);
+    // An RGBA buffer is large enough for every format; the writer's thread makes RGB of it.
+    const ImageView copy = packInto(slot->data, image);
     const auto loan = std::make_shared<Frame>(stream.pool.lend(*slot, time));
     writer_.post([&stream, loan, copy] {
         const std::string name = fmt::format("{}.png", loan->time().ns);

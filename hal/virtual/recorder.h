@@ -28,6 +28,8 @@ struct RecorderOptions {
 /// video() is called from one thread, and so are still() and pose(); the three may be different
 /// ones. Returned false = not recorded: buffers full, time not after that of the previous picture,
 /// another size than the rig's, a pose that is not finite, or an earlier write error.
+/// Pictures of any format are taken as they are and become RGB in the writer's thread. A view that
+/// is not sound (requireSound()) throws std::invalid_argument.
 class Recorder {
 public:
     struct Counts {

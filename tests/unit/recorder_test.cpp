@@ -1,6 +1,8 @@
 #include "hal/virtual/recorder.h"
 #include "hal/virtual/recording.h"
 #include "hal/virtual/recording_player.h"
+#include "tests/shader/twins/yuv.h"
+#include "tests/unit/padded_picture.h"
 #include "tests/unit/same_camera.h"
 #include "tests/unit/small_recording.h"
 
@@ -12,6 +14,10 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace mfar {
 namespace {
@@ -63,6 +69,48 @@ TEST(Recorder, WhatIsRecordedIsWhatIsPlayed) {
     EXPECT_EQ(player.video().next(seconds(10))->view().data[0], 11);
     EXPECT_EQ(player.stills().next(seconds(10))->view().data[0], 33);
     EXPECT_EQ(player.video().next(seconds(10))->view().data[0], 22);
+}
+
+TEST(Recorder, PicturesOfEveryFormatAreRecordedAsTheyLook) {
+    const TempFolder folder;
+    Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 32});
+    std::int64_t time = 0;
+    std::vector<std::pair<std::unique_ptr<test::PaddedPicture>, ImageView>> taken;
+    for (const PixelFormat format : test::kEveryFormat)
+        for (const YuvRange range : {YuvRange::Limited, YuvRange::Full}) {
+            auto picture = std::make_unique<test::PaddedPicture>(format, test::kSmallVideo, 3);
+            const ImageView view = picture->view(YuvMatrix::Bt709, range);
+            EXPECT_TRUE(recorder.video(view, {++time}));
+            taken.emplace_back(std::move(picture), view);
+        }
+    recorder.finish();
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+        const StoredImage read = loadImage(folder / fmt::format("cam0/data/{}.png", i + 1));
+        const ImageView& view = taken[i].second;
+        ASSERT_EQ(read.size, view.size);
+        for (int y = 0; y < view.size.height; ++y)
+            for (int x = 0; x < view.size.width; ++x) {
+                const auto rgb = twin::rgbAt(view, x, y);
+                const std::uint8_t* p = &read.pixels[4UL * (y * view.size.width + x)];
+                // Interpolated chroma is rounded to 8 bits before it becomes colour.
+                for (std::size_t c = 0; c < 3; ++c)
+                    ASSERT_NEAR(p[c], rgb[c], 1.7) << nameOf(view.format) << " " << x << "," << y;
+            }
+    }
+}
+
+TEST(Recorder, ViewsThatCannotBeReadAreRefused) {
+    const TempFolder folder;
+    Recorder recorder(folder.path(), smallRig(), 30);
+    const test::PaddedPicture picture(PixelFormat::Yuv420, test::kSmallVideo, 3);
+    ImageView broken = picture.view();
+    broken.chroma[1] = {};
+    EXPECT_THROW(recorder.video(broken, {1}), std::invalid_argument);
+    EXPECT_THROW(savePng(folder / "a.png", broken), std::invalid_argument);
+    EXPECT_TRUE(recorder.video(picture.view(), {1}));
+    recorder.finish();
+    EXPECT_EQ(recorder.videoCounts().written, 1U);
+    EXPECT_EQ(recorder.videoCounts().dropped, 0U);
 }
 
 TEST(Recorder, PaddedRowsAreRecordedWithoutThePadding) {
