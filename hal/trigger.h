@@ -2,9 +2,16 @@
 
 #include "hal/time.h"
 
+#include <stdexcept>
 #include <string>
 
 namespace mfar {
+
+/// The trigger cannot fire now because its last pulse is still on; a moment later it can.
+class TriggerBusy : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
 
 /// The line that makes the still sensor expose one picture.
 class Trigger {
@@ -13,7 +20,7 @@ public:
 
     /// Fires one pulse and returns the time of its leading edge. Never waits for the still; the
     /// picture arrives later through the still camera. Throws std::runtime_error when the line
-    /// cannot be driven.
+    /// cannot be driven, TriggerBusy when it can later.
     virtual Timestamp fire() = 0;
     [[nodiscard]] virtual std::string name() const = 0;
 };

@@ -1,0 +1,130 @@
+#include "hal/device/pulse_trigger.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+using std::chrono::microseconds;
+
+constexpr microseconds kLongest{10'000'000};
+/// Up to here waking another thread would cost more accuracy than the wait costs time.
+constexpr microseconds kInCaller{1000};
+/// A sleeping thread wakes this much late at most, on a machine that is not overloaded.
+constexpr microseconds kWakeUp{100};
+/// An edge comes back within microseconds or not at all.
+constexpr microseconds kEdgeWait{1000};
+
+std::chrono::steady_clock::time_point steady(Timestamp time) {
+    return std::chrono::steady_clock::time_point(std::chrono::nanoseconds(time.ns));
+}
+
+void sleepUntil(Timestamp time) {
+    std::this_thread::sleep_until(steady(time - kWakeUp));
+    while (Timestamp::now() < time) {
+    }
+}
+
+}  // namespace
+
+PulseTrigger::PulseTrigger(std::string name, std::unique_ptr<OutputLine> line,
+                           std::unique_ptr<EdgeInput> loopback, microseconds pulse)
+    : name_(std::move(name)), line_(std::move(line)), loopback_(std::move(loopback)),
+      pulse_(pulse) {
+    line_->set(false);
+    if (pulse < microseconds{1} || pulse > kLongest)
+        throw std::runtime_error(fmt::format(
+            "a trigger pulse of {} us is not possible, only 1 us to 10 s", pulse.count()));
+    ender_ = std::jthread([this](const std::stop_token& stop) { endLater(stop); });
+}
+
+PulseTrigger::~PulseTrigger() {
+    ender_.request_stop();
+    ender_.join();
+    try {
+        line_->set(false);
+    } catch (const std::runtime_error&) {
+        // The chip is gone; there is nobody left to tell and nothing left to drive.
+    }
+}
+
+Timestamp PulseTrigger::fire() {
+    std::lock_guard lock(mutex_);
+    if (failure_) throw std::runtime_error(*std::exchange(failure_, std::nullopt));
+    if (running_) throw TriggerBusy(name_ + ": the last pulse is still on");
+    while (loopback_ && loopback_->next(microseconds{0})) {
+    }
+    leading_.reset();
+    begun_ = Timestamp::now();
+    line_->set(true);
+    const Timestamp driven = begun_ + (Timestamp::now() - begun_) / 2;
+    due_ = driven + pulse_;
+    if (pulse_ <= kInCaller) {
+        sleepUntil(due_);
+        end();
+        if (failure_) throw std::runtime_error(*std::exchange(failure_, std::nullopt));
+    } else {
+        running_ = true;
+        wake_.notify_one();
+        leading_ = edgeSince(begun_);
+    }
+    return leading_.value_or(driven);
+}
+
+void PulseTrigger::endLater(const std::stop_token& stop) {
+    std::unique_lock lock(mutex_);
+    while (wake_.wait(lock, stop, [this] { return running_; })) {
+        wake_.wait_until(lock, stop, steady(due_ - kWakeUp), [] { return false; });
+        if (!stop.stop_requested()) sleepUntil(due_);
+        running_ = false;
+        end();
+    }
+}
+
+void PulseTrigger::end() {
+    const Timestamp endDriven = Timestamp::now();
+    try {
+        line_->set(false);
+        if (loopback_) measure(endDriven);
+    } catch (const std::runtime_error& error) {
+        failure_ = error.what();
+    }
+}
+
+std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
+    while (loopback_) {
+        const std::optional<Timestamp> edge = loopback_->next(kEdgeWait);
+        // A clock other than CLOCK_MONOTONIC (kernels before 5.7) shows itself as the future.
+        if (!edge || *edge > Timestamp::now()) return std::nullopt;
+        if (*edge >= earliest) return edge;
+    }
+    return std::nullopt;
+}
+
+/// The time tells the edges apart, not their kind: of a short pulse the kernel reads the level,
+/// from which it takes the kind, when the pulse is over.
+void PulseTrigger::measure(Timestamp endDriven) {
+    if (!leading_) leading_ = edgeSince(begun_);
+    if (leading_ && *leading_ >= endDriven) leading_.reset();  // it was the trailing one
+    const std::optional<Timestamp> trailing =
+        leading_ ? edgeSince(endDriven) : std::optional<Timestamp>{};
+    if (trailing)
+        measured_ = MeasuredPulse{*leading_, *trailing};
+    else
+        ++missed_;
+}
+
+std::optional<MeasuredPulse> PulseTrigger::measured() const {
+    std::lock_guard lock(mutex_);
+    return measured_;
+}
+
+std::uint64_t PulseTrigger::loopbackMissed() const {
+    std::lock_guard lock(mutex_);
+    return missed_;
+}
+
+}  // namespace mfar

@@ -1,0 +1,34 @@
+#include "hal/device/trigger_gpiod.h"
+#include "hal/device/trigger_safe_level.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+// True on every machine, with GPIO chips or without.
+TEST(GpioTrigger, UnknownChipIsRefusedByName) {
+    TriggerOptions options;
+    options.chip = "no-such-chip";
+    options.line = "2";
+    EXPECT_THAT([&] { (void)openGpioTrigger(options); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("'no-such-chip'")));
+    EXPECT_THAT([&] { driveSafe(options); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("'no-such-chip'")));
+}
+
+TEST(GpioTrigger, EveryListedChipHasAPathAndLinesOrAReason) {
+    for (const GpioChip& chip : listGpioChips()) {
+        EXPECT_EQ(chip.path, "/dev/" + chip.name);
+        EXPECT_NE(chip.lines.empty(), chip.error == 0) << chip.path;
+    }
+}
+
+}  // namespace
+}  // namespace mfar
