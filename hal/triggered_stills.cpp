@@ -1,0 +1,104 @@
+#include "hal/triggered_stills.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// How long a lost pulse may go unnoticed while nothing comes.
+constexpr milliseconds kLookAround{50};
+
+/// The same loan with another time.
+Frame retimed(Frame frame, Timestamp time, std::chrono::nanoseconds exposure) {
+    const auto held = std::make_shared<std::optional<Frame>>(std::move(frame));
+    Frame renamed((*held)->view(), time, [held] { held->reset(); });
+    renamed.exposure = exposure;
+    return renamed;
+}
+
+}  // namespace
+
+TriggeredStillCamera::TriggeredStillCamera(std::unique_ptr<Camera> camera,
+                                           std::unique_ptr<Trigger> trigger,
+                                           const TriggeredStillOptions& options)
+    : camera_(std::move(camera)), trigger_(std::move(trigger)), exposure_(options.exposure),
+      matcher_(options.matching) {}
+
+CameraInfo TriggeredStillCamera::info() const {
+    CameraInfo info = camera_->info();
+    info.rateHz = 0;
+    return info;
+}
+
+void TriggeredStillCamera::start() {
+    stopped_ = false;
+    camera_->start();
+}
+
+void TriggeredStillCamera::stop() {
+    stopped_ = true;
+    camera_->stop();
+}
+
+std::optional<Frame> TriggeredStillCamera::next(milliseconds timeout) {
+    const Timestamp deadline = Timestamp::now() + timeout;
+    while (!stopped_) {
+        repeatLost();
+        const auto left = std::chrono::ceil<milliseconds>(deadline - Timestamp::now());
+        std::optional<Frame> frame = camera_->next(std::clamp(left, milliseconds{0}, kLookAround));
+        if (frame) {
+            frame = admit(std::move(*frame));
+            if (frame) return frame;
+        } else if (left <= milliseconds{0} || camera_->ended()) {
+            break;
+        }
+    }
+    return std::nullopt;
+}
+
+void TriggeredStillCamera::repeatLost() {
+    std::lock_guard lock(mutex_);
+    if (!matcher_.poll(Timestamp::now()).repeat) return;
+    try {
+        matcher_.pulseFired(trigger_->fire(), StillMatcher::Pulse::Repetition);
+    } catch (const TriggerBusy&) {
+        // It stays due.
+    }
+}
+
+std::optional<Frame> TriggeredStillCamera::admit(Frame frame) {
+    std::lock_guard lock(mutex_);
+    const auto match = matcher_.stillArrived(frame.time() - frame.exposure / 2);
+    if (!match) return std::nullopt;
+    const std::chrono::nanoseconds exposure =
+        frame.exposure.count() > 0 ? frame.exposure : exposure_;
+    const Timestamp time = match->exposed + exposure / 2;
+    if (newest_ && time <= *newest_) {
+        ++overtaken_;
+        return std::nullopt;
+    }
+    newest_ = time;
+    return retimed(std::move(frame), time, exposure);
+}
+
+Timestamp TriggeredStillCamera::fire() {
+    std::lock_guard lock(mutex_);
+    const Timestamp edge = trigger_->fire();
+    matcher_.pulseFired(edge);
+    return edge;
+}
+
+StillCounters TriggeredStillCamera::counters() const {
+    std::lock_guard lock(mutex_);
+    return matcher_.counters();
+}
+
+std::uint64_t TriggeredStillCamera::overtaken() const {
+    std::lock_guard lock(mutex_);
+    return overtaken_;
+}
+
+}  // namespace mfar

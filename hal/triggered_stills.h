@@ -1,0 +1,68 @@
+#pragma once
+
+#include "hal/camera.h"
+#include "hal/still_matcher.h"
+#include "hal/trigger.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace mfar {
+
+struct TriggeredStillOptions {
+    StillMatcherOptions matching;
+    /// Of stills whose camera does not say it: the pulse, where that makes the exposure. 0:
+    /// unknown.
+    std::chrono::nanoseconds exposure{0};
+};
+
+/// The still camera and its trigger as one: lets only stills through that belong to a pulse, each
+/// once and in the order of their times, and fires once more for a pulse whose still did not come.
+///
+/// A still's time is its pulse + the learned constant + half the exposure. The constant is the
+/// median of twenty of the camera's own times, so it has their mean and none of their jitter; the
+/// pulse is timed to microseconds. `fire` and `counters` may be called from any thread.
+class TriggeredStillCamera final : public Camera, public Trigger {
+public:
+    /// Throws std::invalid_argument, see StillMatcher.
+    TriggeredStillCamera(std::unique_ptr<Camera> camera, std::unique_ptr<Trigger> trigger,
+                         const TriggeredStillOptions& options);
+
+    /// The camera's, with rate 0.
+    [[nodiscard]] CameraInfo info() const override;
+    void start() override;
+    /// Throws what the camera throws, and what the trigger throws for a repetition. Lost pulses are
+    /// found and repeated here, so it must be called now and then, if with timeout 0.
+    [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
+    void stop() override;
+    [[nodiscard]] bool ended() const override { return camera_->ended(); }
+
+    Timestamp fire() override;
+    [[nodiscard]] std::string name() const override { return trigger_->name(); }
+
+    [[nodiscard]] StillCounters counters() const;
+    /// Matched stills that came after a later one and were left out.
+    [[nodiscard]] std::uint64_t overtaken() const;
+
+private:
+    void repeatLost();
+    [[nodiscard]] std::optional<Frame> admit(Frame frame);
+
+    std::unique_ptr<Camera> camera_;
+    std::unique_ptr<Trigger> trigger_;
+    std::chrono::nanoseconds exposure_;
+    std::atomic<bool> stopped_{false};
+
+    mutable std::mutex
+        mutex_;  ///< also keeps a still from being looked at before its pulse is known
+    StillMatcher matcher_;
+    std::optional<Timestamp> newest_;
+    std::uint64_t overtaken_ = 0;
+};
+
+}  // namespace mfar
