@@ -83,10 +83,11 @@ TEST(StillMatcher, WindowNeverReachesPastHalfATriggerPeriod) {
     StillMatcher matcher(options);
     matcher.pulseFired(kStart);
     matcher.pulseFired(kStart + 20ms);
-    EXPECT_EQ(matcher.stillArrived(kStart + 10001us)->pulse, kStart + 20ms);
-    EXPECT_EQ(matcher.stillArrived(kStart + 9999us)->pulse, kStart);
     EXPECT_FALSE(matcher.stillArrived(kStart + 31ms))
         << "half of the period before, beyond the last";
+    EXPECT_FALSE(matcher.stillArrived(kStart - 11ms));
+    EXPECT_EQ(matcher.stillArrived(kStart + 10001us)->pulse, kStart + 20ms);
+    EXPECT_EQ(matcher.stillArrived(kStart + 9999us)->pulse, kStart);
 }
 
 TEST(StillMatcher, SwappedStillsFindTheirPulses) {
