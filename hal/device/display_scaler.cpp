@@ -1,0 +1,120 @@
+#include "hal/device/display_scaler.h"
+
+#include "hal/device/display_spec.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+struct ScaleParams {
+    std::int32_t target[4];
+    float scale[2], footprint[2];
+    std::int32_t source[4];
+};
+
+ScaleParams scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
+    const ScreenRect to = letterbox(picture, screen);
+    const float x = static_cast<float>(picture.width) / static_cast<float>(to.size.width);
+    const float y = static_cast<float>(picture.height) / static_cast<float>(to.size.height);
+    return {{to.x, to.y, to.size.width, to.size.height},
+            {x, y},
+            {std::max(x, 1.0F), std::max(y, 1.0F)},
+            {picture.width, picture.height, order == ScreenScaler::Order::Bgra ? 1 : 0, 0}};
+}
+
+GLsizeiptr bytesOf(Size size) {
+    return static_cast<GLsizeiptr>(size.width) * size.height * 4;
+}
+
+}  // namespace
+
+KeptTarget::KeptTarget() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
+    glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &pack_);
+    glGetIntegerv(GL_VIEWPORT, viewport_.data());
+}
+
+KeptTarget::~KeptTarget() {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(pack_));
+    glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
+}
+
+ScreenScaler::ScreenScaler()
+    : program_("fullscreen.vert", "display_scale.frag", {}, sizeof(ScaleParams)) {
+    glGenSamplers(1, &sampler_);
+    glSamplerParameteri(sampler_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(sampler_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+ScreenScaler::~ScreenScaler() {
+    glDeleteSamplers(1, &sampler_);
+}
+
+void ScreenScaler::draw(const GlImage& picture, GLuint framebuffer, Size screen, Order order) {
+    if (picture.size.width < 1 || picture.size.height < 1)
+        throw std::runtime_error("a picture without pixels cannot be shown");
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, screen.width, screen.height);
+    const ScaleParams params = scaleParams(picture.size, screen, order);
+    program_.use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});
+    glBindSampler(0, sampler_);
+    gpu::detail::drawFullScreen();
+    glBindSampler(0, 0);
+}
+
+ScreenReader::ScreenReader(Size screen)
+    : texture_(screen, gpu::TexelFormat::Rgba8), framebuffer_(texture_) {
+    glGenBuffers(1, &packBuffer_);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
+    glBufferData(GL_PIXEL_PACK_BUFFER, bytesOf(screen), nullptr, GL_STREAM_READ);
+}
+
+ScreenReader::~ScreenReader() {
+    glDeleteBuffers(1, &packBuffer_);
+}
+
+void ScreenReader::begin(const GlImage& picture) {
+    const Size size = texture_.size();
+    scaler_.draw(picture, framebuffer_.id(), size, ScreenScaler::Order::Bgra);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
+    glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glFlush();
+}
+
+ImageView ScreenReader::map() {
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
+    const void* pixels =
+        glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, bytesOf(texture_.size()), GL_MAP_READ_BIT);
+    if (pixels == nullptr) throw std::runtime_error("the picture for the screen cannot be read");
+    return {static_cast<const std::uint8_t*>(pixels), texture_.size(),
+            static_cast<std::size_t>(texture_.size().width) * 4, PixelFormat::Bgra8};
+}
+
+void ScreenReader::unmap() {
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
+    glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
+}
+
+ScreenPicture ScreenReader::last() const {
+    return readFramebuffer(framebuffer_.id(), texture_.size(), PixelFormat::Bgra8);
+}
+
+ScreenPicture readFramebuffer(GLuint framebuffer, Size size, PixelFormat format) {
+    ScreenPicture picture{size, format,
+                          std::vector<std::uint8_t>(static_cast<std::size_t>(bytesOf(size)))};
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, picture.pixels.data());
+    return picture;
+}
+
+}  // namespace mfar

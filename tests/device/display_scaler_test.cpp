@@ -1,0 +1,187 @@
+#include "hal/device/display_scaler.h"
+#include "hal/device/display_spec.h"
+#include "tests/shader/gl_test.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+namespace mfar {
+namespace {
+
+using Colour = std::array<int, 3>;
+
+class DisplayScaler : public GlTest {
+protected:
+    // A texture with colours given by a function of the pixel.
+    static gpu::Texture picture(Size size, const std::function<Colour(int, int)>& colour) {
+        std::vector<std::uint8_t> pixels;
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) {
+                for (const int value : colour(x, y))
+                    pixels.push_back(static_cast<std::uint8_t>(value));
+                pixels.push_back(7);  // alpha means nothing
+            }
+        gpu::Texture texture(size, gpu::TexelFormat::Rgba8);
+        texture.upload({pixels.data(), size, static_cast<std::size_t>(size.width) * 4});
+        return texture;
+    }
+    // What ScreenReader shows of it, as R G B.
+    static std::vector<Colour> shown(const gpu::Texture& picture, Size screen) {
+        ScreenReader reader(screen);
+        reader.begin({picture.id(), picture.size()});
+        std::vector<Colour> out;
+        reader.finish([&](const ImageView& view) {
+            EXPECT_EQ(view.size, screen);
+            EXPECT_EQ(view.format, PixelFormat::Bgra8);
+            for (int y = 0; y < screen.height; ++y)
+                for (int x = 0; x < screen.width; ++x) {
+                    const std::uint8_t* p = view.data + y * view.stride + 4 * x;
+                    out.push_back({p[2], p[1], p[0]});
+                    EXPECT_EQ(p[3], 255);
+                }
+        });
+        return out;
+    }
+};
+
+Colour noise(int x, int y) {
+    const unsigned h =
+        (static_cast<unsigned>(x) * 73856093U) ^ (static_cast<unsigned>(y) * 19349663U);
+    return {static_cast<int>(h * 2654435761U >> 24), static_cast<int>(h * 40503U >> 8 & 255U),
+            static_cast<int>(h * 69069U >> 16 & 255U)};
+}
+
+// The mean of the picture over [lo, hi) in x and y, pixels beyond the edge repeating it.
+std::array<double, 3> areaMean(Size size, const std::function<Colour(int, int)>& colour,
+                               std::array<double, 2> lo, std::array<double, 2> hi) {
+    std::array<double, 3> sum{};
+    for (int y = static_cast<int>(std::floor(lo[1])); y < hi[1]; ++y)
+        for (int x = static_cast<int>(std::floor(lo[0])); x < hi[0]; ++x) {
+            const double w = (std::min(hi[0], x + 1.0) - std::max(lo[0], double(x))) *
+                             (std::min(hi[1], y + 1.0) - std::max(lo[1], double(y)));
+            const Colour c =
+                colour(std::clamp(x, 0, size.width - 1), std::clamp(y, 0, size.height - 1));
+            for (std::size_t k = 0; k < 3; ++k)
+                sum[k] += w * c[k];
+        }
+    for (double& s : sum)
+        s /= (hi[0] - lo[0]) * (hi[1] - lo[1]);
+    return sum;
+}
+
+TEST_F(DisplayScaler, EqualSizeIsACopy) {
+    const Size size{321, 97};
+    const auto pixels = shown(picture(size, noise), size);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            ASSERT_EQ(pixels[static_cast<std::size_t>(y) * size.width + x], noise(x, y))
+                << x << ' ' << y;
+}
+
+TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
+    struct Case {
+        Size from, screen;
+    };
+    for (const auto [from, screen] : {Case{{230, 172}, {128, 72}},
+                                      {{64, 48}, {160, 90}},
+                                      {{300, 20}, {40, 50}},
+                                      {{9, 9}, {9, 5}}}) {
+        const auto pixels = shown(picture(from, noise), screen);
+        const ScreenRect r = letterbox(from, screen);
+        const double sx = double(from.width) / r.size.width,
+                     sy = double(from.height) / r.size.height;
+        const double fx = std::max(sx, 1.0), fy = std::max(sy, 1.0);
+        double worst = 0;
+        for (int y = 0; y < r.size.height; ++y)
+            for (int x = 0; x < r.size.width; ++x) {
+                const double cx = (x + 0.5) * sx, cy = (y + 0.5) * sy;
+                const auto mean =
+                    areaMean(from, noise, {cx - fx / 2, cy - fy / 2}, {cx + fx / 2, cy + fy / 2});
+                const Colour& got =
+                    pixels[static_cast<std::size_t>(y + r.y) * screen.width + x + r.x];
+                for (std::size_t k = 0; k < 3; ++k)
+                    worst = std::max(worst, std::abs(got[k] - mean[k]));
+            }
+        // A linear sampler has at least 8 bits between two pixels, cut off along x and along y;
+        // and half a level of rounding.
+        EXPECT_LE(worst, 2.5) << from.width << "x" << from.height;
+    }
+}
+
+TEST_F(DisplayScaler, BesideThePictureIsBlack) {
+    const Size screen{128, 72};
+    const auto white = [](int, int) { return Colour{255, 255, 255}; };
+    const Size from{230, 172};
+    const auto pixels = shown(picture(from, white), screen);
+    const ScreenRect r = letterbox(from, screen);
+    for (int y = 0; y < screen.height; ++y)
+        for (int x = 0; x < screen.width; ++x) {
+            const bool inside =
+                x >= r.x && x < r.x + r.size.width && y >= r.y && y < r.y + r.size.height;
+            const int level = inside ? 255 : 0;
+            ASSERT_EQ(pixels[static_cast<std::size_t>(y) * screen.width + x],
+                      (Colour{level, level, level}))
+                << x << ' ' << y;
+        }
+}
+
+// A zone plate runs through all frequencies. Where it is finer than the screen can show, nothing
+// but grey may be left: sampled without a filter, it would come back as false rings of full
+// contrast.
+TEST_F(DisplayScaler, WhatIsFinerThanTheScreenBecomesGrey) {
+    const Size from{2304, 1728}, screen{1280, 720};
+    const auto stripes = [](int x, int) {
+        const double phase = std::numbers::pi * x * x / 2304.0 / 2;  // x / 2304 / 2 cycles a pixel
+        const int level = static_cast<int>(std::lround(127.5 + 127.5 * std::cos(phase)));
+        return Colour{level, level, level};
+    };
+    const auto pixels = shown(picture(from, stripes), screen);
+    const auto contrast = [&](int begin, int end) {
+        int low = 255, high = 0;
+        for (int x = begin; x < end; ++x) {
+            low = std::min(low, pixels[static_cast<std::size_t>(360) * 1280 + x][0]);
+            high = std::max(high, pixels[static_cast<std::size_t>(360) * 1280 + x][0]);
+        }
+        return high - low;
+    };
+    EXPECT_GE(contrast(160, 400), 240);  // up to 0.3 cycles a screen pixel: kept
+    EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles a screen pixel: at most a quarter
+}
+
+TEST_F(DisplayScaler, KeptTargetGivesTheCallersTargetBack) {
+    const gpu::Texture target({31, 17}, gpu::TexelFormat::Rgba8);
+    const gpu::Framebuffer framebuffer(target);
+    framebuffer.bind();
+    {
+        const KeptTarget kept;
+        (void)shown(picture({20, 10}, noise), {64, 64});
+    }
+    const auto integer = [](GLenum name) {
+        GLint value = -1;
+        glGetIntegerv(name, &value);
+        return value;
+    };
+    EXPECT_EQ(integer(GL_DRAW_FRAMEBUFFER_BINDING), static_cast<GLint>(framebuffer.id()));
+    EXPECT_EQ(integer(GL_READ_FRAMEBUFFER_BINDING), static_cast<GLint>(framebuffer.id()));
+    EXPECT_EQ(integer(GL_PIXEL_PACK_BUFFER_BINDING), 0);
+    std::array<GLint, 4> viewport{};
+    glGetIntegerv(GL_VIEWPORT, viewport.data());
+    EXPECT_EQ(viewport, (std::array<GLint, 4>{0, 0, 31, 17}));
+}
+
+TEST_F(DisplayScaler, LastIsWhatWasShown) {
+    const gpu::Texture from = picture({230, 172}, noise);
+    ScreenReader reader({128, 72});
+    reader.begin({from.id(), from.size()});
+    std::vector<std::uint8_t> sent;
+    reader.finish(
+        [&](const ImageView& view) { sent.assign(view.data, view.data + 128UL * 72 * 4); });
+    EXPECT_EQ(reader.last().pixels, sent);
+    EXPECT_EQ(reader.last().format, PixelFormat::Bgra8);
+}
+
+}  // namespace
+}  // namespace mfar
