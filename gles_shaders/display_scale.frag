@@ -3,6 +3,11 @@
 // an area filter where the picture shrinks (nothing aliases), linear interpolation where it grows, a
 // copy at equal size. Two neighbours are fetched at once, weighted by where between them is sampled;
 // so the sampler must be linear and clamp to the edge. Values are averaged as they are stored.
+// PAIRS: as many pairs of texels in a row as a footprint can touch; a constant, so that loops unroll.
+// Variant: #define PAIRS 2
+#ifndef PAIRS
+#define PAIRS 1
+#endif
 
 layout(std140) uniform Params {
     ivec4 target;         // x, y, width, height of the rectangle [px of the screen]
@@ -25,15 +30,20 @@ void main() {
 
     vec2 centre = (vec2(p) + 0.5) * scaleFootprint.xy;
     vec2 lo = centre - 0.5 * scaleFootprint.zw, hi = lo + scaleFootprint.zw;
+    vec2 first = floor(lo), texel = 1.0 / vec2(source.xy);
     vec3 sum = vec3(0.0);
-    for (float y = floor(lo.y); y < hi.y; y += 2.0) {
+    for (int j = 0; j < PAIRS; ++j) {
+        float y = first.y + float(2 * j);
         vec2 wy = overlap(y, lo.y, hi.y);
         float weightY = wy.x + wy.y;
-        for (float x = floor(lo.x); x < hi.x; x += 2.0) {
+        for (int i = 0; i < PAIRS; ++i) {
+            float x = first.x + float(2 * i);
             vec2 wx = overlap(x, lo.x, hi.x);
             float weightX = wx.x + wx.y;
-            vec2 at = vec2(x + wx.y / weightX, y + wy.y / weightY) + 0.5;
-            sum += weightX * weightY * textureLod(picture, at / vec2(source.xy), 0.0).rgb;
+            // Beyond the footprint there is no weight, and any place will do.
+            vec2 between = vec2(wx.y, wy.y) / max(vec2(weightX, weightY), 1.0e-6);
+            vec2 at = (vec2(x, y) + 0.5 + between) * texel;
+            sum += weightX * weightY * textureLod(picture, at, 0.0).rgb;
         }
     }
     sum /= scaleFootprint.z * scaleFootprint.w;

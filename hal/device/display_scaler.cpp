@@ -2,8 +2,11 @@
 
 #include "hal/device/display_spec.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 namespace mfar {
@@ -23,6 +26,12 @@ ScaleParams scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
             {x, y},
             {std::max(x, 1.0F), std::max(y, 1.0F)},
             {picture.width, picture.height, order == ScreenScaler::Order::Bgra ? 1 : 0, 0}};
+}
+
+// A footprint that is no whole number begins and ends inside a texel.
+int pairsOver(float footprint) {
+    const int texels = static_cast<int>(std::ceil(footprint)) + 1;
+    return footprint <= 1.0F ? 1 : (texels + 1) / 2;
 }
 
 GLsizeiptr bytesOf(Size size) {
@@ -45,8 +54,7 @@ KeptTarget::~KeptTarget() {
     glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
 }
 
-ScreenScaler::ScreenScaler()
-    : program_("fullscreen.vert", "display_scale.frag", {}, sizeof(ScaleParams)) {
+ScreenScaler::ScreenScaler() {
     glGenSamplers(1, &sampler_);
     glSamplerParameteri(sampler_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glSamplerParameteri(sampler_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -58,20 +66,28 @@ ScreenScaler::~ScreenScaler() {
     glDeleteSamplers(1, &sampler_);
 }
 
+void ScreenScaler::prepare(int pairs) {
+    if (program_ && pairs == pairs_) return;
+    program_.emplace("fullscreen.vert", "display_scale.frag",
+                     fmt::format("#define PAIRS {}\n", pairs), sizeof(ScaleParams));
+    pairs_ = pairs;
+}
+
 void ScreenScaler::draw(const GlImage& picture, GLuint framebuffer, Size screen, Order order) {
     if (picture.size.width < 1 || picture.size.height < 1)
         throw std::runtime_error("a picture without pixels cannot be shown");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, screen.width, screen.height);
     const ScaleParams params = scaleParams(picture.size, screen, order);
-    program_.use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});
+    prepare(pairsOver(std::max(params.footprint[0], params.footprint[1])));
+    program_->use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});
     glBindSampler(0, sampler_);
     gpu::detail::drawFullScreen();
     glBindSampler(0, 0);
 }
 
-ScreenReader::ScreenReader(Size screen)
-    : texture_(screen, gpu::TexelFormat::Rgba8), framebuffer_(texture_) {
+ScreenReader::ScreenReader(Size screen, ScreenScaler& scaler)
+    : scaler_(scaler), texture_(screen, gpu::TexelFormat::Rgba8), framebuffer_(texture_) {
     glGenBuffers(1, &packBuffer_);
     glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
     glBufferData(GL_PIXEL_PACK_BUFFER, bytesOf(screen), nullptr, GL_STREAM_READ);

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace mfar {
@@ -51,14 +52,19 @@ public:
     void draw(const GlImage& picture, GLuint framebuffer, Size screen, Order order);
 
 private:
-    gpu::Program program_;
+    void prepare(int pairs);
+
+    // For footprints that touch up to `pairs_` pairs of texels in a row.
+    std::optional<gpu::Program> program_;
+    int pairs_ = 0;
     GLuint sampler_ = 0;
 };
 
 /// Pictures scaled for a screen that is written by the CPU. Needs a current context.
 class ScreenReader {
 public:
-    explicit ScreenReader(Size screen);
+    /// `scaler` must outlive it.
+    ScreenReader(Size screen, ScreenScaler& scaler);
     ScreenReader(const ScreenReader&) = delete;
     ScreenReader& operator=(const ScreenReader&) = delete;
     ~ScreenReader();
@@ -79,7 +85,7 @@ private:
     [[nodiscard]] ImageView map();
     void unmap();
 
-    ScreenScaler scaler_;
+    ScreenScaler& scaler_;
     gpu::Texture texture_;
     gpu::Framebuffer framebuffer_;
     GLuint packBuffer_ = 0;

@@ -30,7 +30,8 @@ protected:
     }
     // What ScreenReader shows of it, as R G B.
     static std::vector<Colour> shown(const gpu::Texture& picture, Size screen) {
-        ScreenReader reader(screen);
+        ScreenScaler scaler;
+        ScreenReader reader(screen, scaler);
         reader.begin({picture.id(), picture.size()});
         std::vector<Colour> out;
         reader.finish([&](const ImageView& view) {
@@ -174,7 +175,8 @@ TEST_F(DisplayScaler, KeptTargetGivesTheCallersTargetBack) {
 
 TEST_F(DisplayScaler, LastIsWhatWasShown) {
     const gpu::Texture from = picture({230, 172}, noise);
-    ScreenReader reader({128, 72});
+    ScreenScaler scaler;
+    ScreenReader reader({128, 72}, scaler);
     reader.begin({from.id(), from.size()});
     std::vector<std::uint8_t> sent;
     reader.finish(

@@ -1,0 +1,122 @@
+#include "hal/device/display_auto.h"
+
+#include "hal/device/display_fbdev.h"
+#include "hal/device/display_kms.h"
+#include "hal/device/display_spec.h"
+#include "hal/device/display_uevents.h"
+
+#include <GLES3/gl31.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+// A device that appears between two looks is shown within this and one frame.
+constexpr std::chrono::milliseconds kLookEvery{500};
+
+}  // namespace
+
+ScreenDisplay::ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
+                             std::vector<std::unique_ptr<Screen>> screens, Clock clock,
+                             Events changed)
+    : scaler_(std::move(scaler)), screens_(std::move(screens)), clock_(std::move(clock)),
+      changed_(std::move(changed)) {}
+
+ScreenDisplay::~ScreenDisplay() {
+    const KeptTarget kept;
+    screens_.clear();
+    scaler_.reset();
+}
+
+void ScreenDisplay::show(const GlImage& image, Timestamp) {
+    const KeptTarget kept;
+    const bool changed = changed_();
+    const Timestamp now = clock_();
+    if (changed || !lookedAt_ || now - *lookedAt_ >= kLookEvery) {
+        lookedAt_ = now;
+        Screen* found = look(changed);
+        if (found != active_) shown_ = false;
+        active_ = found;
+    }
+    if (active_ == nullptr) {
+        glFinish();  // without a screen nothing else would hold the renderer back
+        return;
+    }
+    try {
+        active_->show(image);
+        shown_ = true;
+        failed_ = nullptr;
+    } catch (const std::runtime_error& error) {
+        lose(error.what());
+    }
+}
+
+void ScreenDisplay::lose(const std::string& why) {
+    fault_ = why;
+    failed_ = shown_ ? nullptr : active_;
+    active_->close();
+    active_ = nullptr;
+}
+
+// A screen that shows is asked alone, unless something has changed: asking the others opens
+// devices.
+Screen* ScreenDisplay::look(bool changed) {
+    if (active_ != nullptr && !changed && active_->look(false) == Screen::Presence::Ready)
+        return active_;
+    if (changed) failed_ = nullptr;
+    Screen* holder = nullptr;
+    Screen* ready = nullptr;
+    const auto ask = [&](Screen& screen) {
+        const Screen::Presence presence = screen.look(true);
+        if (presence != Screen::Presence::Absent) holder = &screen;
+        if (presence == Screen::Presence::Ready) ready = &screen;
+    };
+    // A device that waits for its monitor is held: those after it would show behind its back.
+    for (const auto& screen : screens_)
+        if (holder == nullptr && screen.get() != failed_) ask(*screen);
+    if (holder == nullptr && failed_ != nullptr) ask(*failed_);
+    for (const auto& screen : screens_)
+        if (screen.get() != holder) screen->close();
+    return ready;
+}
+
+std::string ScreenDisplay::name() const {
+    if (active_ != nullptr) return active_->status();
+    std::string text = "no screen yet (" + fault_;
+    for (const auto& screen : screens_)
+        text += (text.ends_with('(') ? "" : "; ") + screen->status();
+    return text + ")";
+}
+
+std::optional<ScreenPicture> ScreenDisplay::lastShown() const {
+    if (active_ == nullptr) return std::nullopt;
+    const KeptTarget kept;
+    return active_->lastShown();
+}
+
+std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec) {
+    const ScreenSpec words = parseScreenSpec(spec);
+    // Made once, as compiling its shader is slow: a screen that appears is to be shown at once.
+    auto scaler = std::make_unique<ScreenScaler>();
+    std::vector<std::unique_ptr<Screen>> screens;
+    if (words.kind != ScreenSpec::Kind::Fbdev)
+        screens.push_back(std::make_unique<KmsScreen>(words, *scaler));
+    if (words.kind != ScreenSpec::Kind::Kms)
+        screens.push_back(std::make_unique<FbdevScreen>(words.device, *scaler));
+    return std::make_unique<ScreenDisplay>(
+        std::move(scaler), std::move(screens), &Timestamp::now,
+        [events = std::make_shared<DisplayEvents>()] { return events->changed(); });
+}
+
+std::optional<std::string> screenFault(std::string_view spec) {
+    try {
+        (void)parseScreenSpec(spec);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return std::nullopt;
+}
+
+}  // namespace mfar

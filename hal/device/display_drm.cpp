@@ -1,0 +1,192 @@
+#include "hal/device/display_drm.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <drm_fourcc.h>
+#include <stdexcept>
+#include <tuple>
+
+namespace mfar {
+namespace {
+
+using Resources = std::unique_ptr<drmModeRes, FreedBy<drmModeFreeResources>>;
+using Connector = std::unique_ptr<drmModeConnector, FreedBy<drmModeFreeConnector>>;
+using Encoder = std::unique_ptr<drmModeEncoder, FreedBy<drmModeFreeEncoder>>;
+using Plane = std::unique_ptr<drmModePlane, FreedBy<drmModeFreePlane>>;
+using Planes = std::unique_ptr<drmModePlaneRes, FreedBy<drmModeFreePlaneResources>>;
+using ObjectProperties =
+    std::unique_ptr<drmModeObjectProperties, FreedBy<drmModeFreeObjectProperties>>;
+using Property = std::unique_ptr<drmModePropertyRes, FreedBy<drmModeFreeProperty>>;
+
+constexpr int kMaxSide = 16384;
+constexpr double kSameRateHz = 0.5;
+
+bool usable(const drmModeModeInfo& mode) {
+    return mode.hdisplay >= 1 && mode.vdisplay >= 1 && mode.hdisplay <= kMaxSide &&
+           mode.vdisplay <= kMaxSide && refreshHz(mode) > 0;
+}
+
+std::string nameOf(const drmModeConnector& connector) {
+    const char* type = drmModeGetConnectorTypeName(connector.connector_type);
+    return fmt::format("{}-{}", type != nullptr ? type : "Unknown", connector.connector_type_id);
+}
+
+std::string openFault(const std::string& path) {
+    if (errno == EACCES)
+        return path + ": no permission, the user must be in group video (and render for the GPU)";
+    return path + ": " + std::strerror(errno);
+}
+
+Resources resources(int fd) {
+    return Resources(drmModeGetResources(fd));
+}
+
+Connector connectorOf(int fd, std::uint32_t id, bool probe) {
+    return Connector(probe ? drmModeGetConnector(fd, id) : drmModeGetConnectorCurrent(fd, id));
+}
+
+// The CRTC a console already drives the connector with, 0 for none.
+std::uint32_t currentCrtc(int fd, const drmModeConnector& connector) {
+    if (connector.encoder_id == 0) return 0;
+    const Encoder encoder(drmModeGetEncoder(fd, connector.encoder_id));
+    return encoder ? encoder->crtc_id : 0;
+}
+
+std::optional<std::uint64_t> propertyValue(int fd, std::uint32_t object, std::uint32_t type,
+                                           std::string_view name) {
+    const ObjectProperties all(drmModeObjectGetProperties(fd, object, type));
+    for (std::uint32_t i = 0; all && i < all->count_props; ++i) {
+        const Property property(drmModeGetProperty(fd, all->props[i]));
+        if (property && name == property->name) return all->prop_values[i];
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+double refreshHz(const drmModeModeInfo& mode) {
+    const double pixels = static_cast<double>(mode.htotal) * mode.vtotal;
+    if (!(pixels > 0) || mode.clock == 0) return mode.vrefresh;
+    double hz = mode.clock * 1000.0 / pixels;
+    if ((mode.flags & DRM_MODE_FLAG_INTERLACE) != 0) hz *= 2;
+    if ((mode.flags & DRM_MODE_FLAG_DBLSCAN) != 0) hz /= 2;
+    if (mode.vscan > 1) hz /= mode.vscan;
+    return hz;
+}
+
+bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish) {
+    return mode.hdisplay == wish.size.width && mode.vdisplay == wish.size.height &&
+           (!wish.rateHz || std::abs(refreshHz(mode) - *wish.rateHz) <= kSameRateHz);
+}
+
+std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes,
+                                          const std::optional<ModeWish>& wish) {
+    const auto rank = [&](const drmModeModeInfo& mode) {
+        const bool wanted = wish && fulfils(mode, *wish);
+        const bool progressive = (mode.flags & DRM_MODE_FLAG_INTERLACE) == 0;
+        double rate = 0;
+        if (wanted)
+            rate = wish->rateHz ? -std::abs(refreshHz(mode) - *wish->rateHz) : refreshHz(mode);
+        const bool preferred = (mode.type & DRM_MODE_TYPE_PREFERRED) != 0;
+        return std::tuple(wanted, wanted && progressive, rate, preferred);
+    };
+    const drmModeModeInfo* best = nullptr;
+    for (const drmModeModeInfo& mode : modes)
+        if (usable(mode) && (best == nullptr || rank(mode) > rank(*best))) best = &mode;
+    if (best == nullptr) return std::nullopt;
+    return *best;
+}
+
+DrmProperties::DrmProperties(int fd, std::uint32_t object, std::uint32_t type) {
+    const ObjectProperties all(drmModeObjectGetProperties(fd, object, type));
+    for (std::uint32_t i = 0; all && i < all->count_props; ++i) {
+        const Property property(drmModeGetProperty(fd, all->props[i]));
+        if (property) ids_[property->name] = property->prop_id;
+    }
+}
+
+std::uint32_t DrmProperties::id(std::string_view name) const {
+    const auto found = ids_.find(name);
+    if (found == ids_.end())
+        throw std::runtime_error(fmt::format("the display driver has no property {}", name));
+    return found->second;
+}
+
+DrmCard::DrmCard(const std::string& path)
+    : path_(path), fd_(::open(path.c_str(), O_RDWR | O_CLOEXEC)) {
+    if (!fd_) throw std::runtime_error(openFault(path));
+    const Resources all = resources(fd());
+    if (!all || all->count_connectors == 0)
+        throw std::runtime_error(path + ": has no connectors, it renders only");
+    if (drmSetClientCap(fd(), DRM_CLIENT_CAP_ATOMIC, 1) != 0)
+        throw std::runtime_error(
+            path + ": its driver has no atomic mode setting, which is needed for kms");
+    if (drmIsMaster(fd()) == 0 && drmSetMaster(fd()) != 0)
+        throw std::runtime_error(path + ": another program (a desktop?) holds the screen");
+}
+
+std::optional<DrmOutput> DrmCard::findOutput(const ScreenSpec& spec, bool probe) const {
+    const Resources all = resources(fd());
+    if (!all) throw std::runtime_error(fmt::format("{}: {}", path_, std::strerror(errno)));
+    for (int i = 0; i < all->count_connectors; ++i) {
+        const Connector connector = connectorOf(fd(), all->connectors[i], probe);
+        if (!connector || connector->connection != DRM_MODE_CONNECTED) continue;
+        if (!spec.connector.empty() && spec.connector != nameOf(*connector)) continue;
+        if (auto output = route(*connector, spec)) return output;
+    }
+    return std::nullopt;
+}
+
+std::optional<DrmOutput> DrmCard::route(const drmModeConnector& connector,
+                                        const ScreenSpec& spec) const {
+    const std::span modes(connector.modes, static_cast<std::size_t>(connector.count_modes));
+    const auto mode = chooseMode(modes, spec.mode);
+    const Resources all = resources(fd());
+    if (!mode || !all) return std::nullopt;
+    const std::uint32_t possible = drmModeConnectorGetPossibleCrtcs(fd(), &connector);
+    const std::uint32_t current = currentCrtc(fd(), connector);
+    std::optional<DrmOutput> found;
+    for (int i = 0; i < std::min(all->count_crtcs, 32); ++i) {
+        if ((possible >> i & 1U) == 0 || (found && all->crtcs[i] != current)) continue;
+        const std::uint32_t plane = primaryPlane(static_cast<unsigned>(i));
+        if (plane != 0)
+            found =
+                DrmOutput{nameOf(connector), *mode, connector.connector_id, all->crtcs[i], plane};
+    }
+    return found;
+}
+
+std::uint32_t DrmCard::primaryPlane(unsigned crtcIndex) const {
+    const Planes all(drmModeGetPlaneResources(fd()));
+    for (std::uint32_t i = 0; all && i < all->count_planes; ++i) {
+        const Plane plane(drmModeGetPlane(fd(), all->planes[i]));
+        if (!plane || (plane->possible_crtcs >> crtcIndex & 1U) == 0) continue;
+        const std::span formats(plane->formats, plane->count_formats);
+        if (std::ranges::find(formats, DRM_FORMAT_XRGB8888) == formats.end()) continue;
+        if (propertyValue(fd(), plane->plane_id, DRM_MODE_OBJECT_PLANE, "type") ==
+            DRM_PLANE_TYPE_PRIMARY)
+            return plane->plane_id;
+    }
+    return 0;
+}
+
+std::string DrmCard::connectors() const {
+    const Resources all = resources(fd());
+    std::string text;
+    for (int i = 0; all && i < all->count_connectors; ++i) {
+        const Connector connector = connectorOf(fd(), all->connectors[i], false);
+        if (!connector) continue;
+        const bool connected = connector->connection == DRM_MODE_CONNECTED;
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", nameOf(*connector),
+                            connected ? "connected" : "disconnected");
+    }
+    return text;
+}
+
+}  // namespace mfar

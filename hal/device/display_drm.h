@@ -1,0 +1,74 @@
+#pragma once
+
+#include "hal/device/display_handles.h"
+#include "hal/device/display_spec.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <xf86drm.h>
+#include <xf86drmMode.h>
+
+namespace mfar {
+
+/// Pictures per second, of the timing rather than of the rounded number beside it. 0: impossible.
+[[nodiscard]] double refreshHz(const drmModeModeInfo& mode);
+
+/// The mode of a connector to use. Wanted and offered (the rate to 0.5 Hz): that one, the highest
+/// rate where none is wanted, progressive before interlaced. Otherwise the preferred one, or the
+/// first. Nothing when no mode has sides of 1 to 16384 pixels and a rate.
+[[nodiscard]] std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes,
+                                                        const std::optional<ModeWish>& wish);
+[[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);
+
+/// The properties of one KMS object, by name.
+class DrmProperties {
+public:
+    DrmProperties() = default;
+    DrmProperties(int fd, std::uint32_t object, std::uint32_t type);
+    /// Throws std::runtime_error when the driver lacks it.
+    [[nodiscard]] std::uint32_t id(std::string_view name) const;
+    [[nodiscard]] bool has(std::string_view name) const { return ids_.find(name) != ids_.end(); }
+
+private:
+    std::map<std::string, std::uint32_t, std::less<>> ids_;
+};
+
+/// A way from a plane to a monitor, complete and unused by others.
+struct DrmOutput {
+    std::string connectorName;
+    drmModeModeInfo mode{};
+    std::uint32_t connector = 0, crtc = 0, plane = 0;
+
+    [[nodiscard]] Size size() const { return {mode.hdisplay, mode.vdisplay}; }
+};
+
+/// A DRM device that has connectors, atomic mode setting, and obeys this process (DRM master).
+class DrmCard {
+public:
+    /// Throws std::runtime_error that says why this device cannot be used.
+    explicit DrmCard(const std::string& path);
+
+    [[nodiscard]] int fd() const { return fd_.get(); }
+    [[nodiscard]] const std::string& path() const { return path_; }
+    /// The wanted connector, or the first that is connected, with its mode. `probe`: has the driver
+    /// ask the monitor, which may take tens of milliseconds; otherwise what the driver knows.
+    /// Nothing when no screen is connected; throws std::runtime_error when the device is gone.
+    [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
+    /// The connectors and what is known of them: "HDMI-A-1 disconnected, ..."
+    [[nodiscard]] std::string connectors() const;
+
+private:
+    [[nodiscard]] std::optional<DrmOutput> route(const drmModeConnector& connector,
+                                                 const ScreenSpec& spec) const;
+    [[nodiscard]] std::uint32_t primaryPlane(unsigned crtcIndex) const;
+
+    std::string path_;
+    DisplayFd fd_;
+};
+
+}  // namespace mfar

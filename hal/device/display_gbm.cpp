@@ -1,0 +1,218 @@
+#include "hal/device/display_buffers.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GLES3/gl31.h>
+
+#include <GLES2/gl2ext.h>
+#include <array>
+#include <drm_fourcc.h>
+#include <gbm.h>
+#include <stdexcept>
+#include <string_view>
+
+namespace mfar {
+namespace {
+
+using GbmDevice = std::unique_ptr<gbm_device, FreedBy<gbm_device_destroy>>;
+using GbmBuffer = std::unique_ptr<gbm_bo, FreedBy<gbm_bo_destroy>>;
+
+bool has(std::string_view rest, std::string_view extension) {
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find(' '), rest.size());
+        if (rest.substr(0, end) == extension) return true;
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return false;
+}
+
+// A software renderer draws fastest into its own memory. And Mesa's crashes where it cannot map
+// what it has imported, as on the render node of a card that has no GPU.
+bool isSoftware(std::string_view renderer) {
+    return renderer.find("llvmpipe") != renderer.npos ||
+           renderer.find("softpipe") != renderer.npos || renderer.find("swrast") != renderer.npos;
+}
+
+std::string_view glText(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text != nullptr ? reinterpret_cast<const char*>(text) : "";
+}
+
+std::string_view eglText(EGLDisplay display) {
+    const char* text =
+        display != EGL_NO_DISPLAY ? eglQueryString(display, EGL_EXTENSIONS) : nullptr;
+    return text != nullptr ? text : "";
+}
+
+/// The functions of EGL and GL that GBM buffers need. Throws where one is missing.
+struct Importer {
+    EGLDisplay display = eglGetCurrentDisplay();
+    bool modifiers = false;
+    PFNEGLCREATEIMAGEKHRPROC createImage = nullptr;
+    PFNEGLDESTROYIMAGEKHRPROC destroyImage = nullptr;
+    PFNGLEGLIMAGETARGETRENDERBUFFERSTORAGEOESPROC imageStorage = nullptr;
+
+    Importer() {
+        const std::string_view egl = eglText(display);
+        if (isSoftware(glText(GL_RENDERER))) throw std::runtime_error("the renderer is no GPU");
+        if (!has(egl, "EGL_EXT_image_dma_buf_import") ||
+            !has(glText(GL_EXTENSIONS), "GL_OES_EGL_image"))
+            throw std::runtime_error("the GPU's driver imports no buffers");
+        modifiers = has(egl, "EGL_EXT_image_dma_buf_import_modifiers");
+        load(createImage, "eglCreateImageKHR");
+        load(destroyImage, "eglDestroyImageKHR");
+        load(imageStorage, "glEGLImageTargetRenderbufferStorageOES");
+    }
+
+    template <class F>
+    static void load(F& function, const char* name) {
+        function = reinterpret_cast<F>(eglGetProcAddress(name));
+        if (function == nullptr) throw std::runtime_error(std::string("EGL lacks ") + name);
+    }
+};
+
+/// Tells when the GPU has drawn. Throws where EGL has no such fences.
+class NativeFences {
+public:
+    explicit NativeFences(EGLDisplay display) : display_(display) {
+        if (!has(eglText(display), "EGL_ANDROID_native_fence_sync"))
+            throw std::runtime_error("the GPU's driver exports no fences");
+        Importer::load(create_, "eglCreateSyncKHR");
+        Importer::load(destroy_, "eglDestroySyncKHR");
+        Importer::load(dup_, "eglDupNativeFenceFDANDROID");
+    }
+    /// Signalled after all that was drawn so far.
+    [[nodiscard]] DisplayFd insert() const {
+        const EGLSyncKHR sync = create_(display_, EGL_SYNC_NATIVE_FENCE_ANDROID, nullptr);
+        if (sync == EGL_NO_SYNC_KHR) throw std::runtime_error("EGL makes no fence");
+        glFlush();  // a fence has a descriptor once its commands are on their way
+        DisplayFd fd(dup_(display_, sync));
+        destroy_(display_, sync);
+        if (!fd) throw std::runtime_error("EGL exports no fence");
+        return fd;
+    }
+
+private:
+    EGLDisplay display_;
+    PFNEGLCREATESYNCKHRPROC create_ = nullptr;
+    PFNEGLDESTROYSYNCKHRPROC destroy_ = nullptr;
+    PFNEGLDUPNATIVEFENCEFDANDROIDPROC dup_ = nullptr;
+};
+
+/// Linear, so that the card and a GPU that is another device agree on it without negotiation.
+GbmBuffer allocate(gbm_device* device, Size size) {
+    GbmBuffer buffer(gbm_bo_create(device, static_cast<std::uint32_t>(size.width),
+                                   static_cast<std::uint32_t>(size.height), GBM_FORMAT_XRGB8888,
+                                   GBM_BO_USE_SCANOUT | GBM_BO_USE_RENDERING | GBM_BO_USE_LINEAR));
+    if (!buffer) throw std::runtime_error("GBM allocates no buffer for the screen");
+    return buffer;
+}
+
+/// A buffer of the screen that the GPU draws into.
+class GbmTarget {
+public:
+    GbmTarget(const Importer& importer, gbm_device* device, int fd, Size size)
+        : importer_(importer), buffer_(allocate(device, size)),
+          scanout_(fd, size, gbm_bo_get_handle(buffer_.get()).u32,
+                   gbm_bo_get_stride(buffer_.get())),
+          image_(import(size)) {
+        if (image_ == EGL_NO_IMAGE_KHR)
+            throw std::runtime_error("the GPU's driver does not import the screen's buffer");
+        glGenRenderbuffers(1, &renderbuffer_);
+        glBindRenderbuffer(GL_RENDERBUFFER, renderbuffer_);
+        importer_.imageStorage(GL_RENDERBUFFER, image_);
+        glGenFramebuffers(1, &framebuffer_);
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+        glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
+                                  renderbuffer_);
+        const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+        glBindRenderbuffer(GL_RENDERBUFFER, 0);
+        if (complete && glGetError() == GL_NO_ERROR) return;
+        release();
+        throw std::runtime_error("the GPU cannot draw into the screen's buffer");
+    }
+    GbmTarget(const GbmTarget&) = delete;
+    GbmTarget& operator=(const GbmTarget&) = delete;
+    ~GbmTarget() { release(); }
+
+    [[nodiscard]] GLuint framebuffer() const { return framebuffer_; }
+    [[nodiscard]] std::uint32_t scanout() const { return scanout_.id(); }
+
+private:
+    EGLImageKHR import(Size size) {
+        const DisplayFd dmaBuf(gbm_bo_get_fd(buffer_.get()));
+        std::array<EGLint, 17> attributes{
+            EGL_WIDTH, size.width, EGL_HEIGHT, size.height, EGL_LINUX_DRM_FOURCC_EXT,
+            static_cast<EGLint>(DRM_FORMAT_XRGB8888), EGL_DMA_BUF_PLANE0_FD_EXT, dmaBuf.get(),
+            EGL_DMA_BUF_PLANE0_OFFSET_EXT, 0, EGL_DMA_BUF_PLANE0_PITCH_EXT,
+            static_cast<EGLint>(gbm_bo_get_stride(buffer_.get())),
+            // Where the words for a layout do not exist, the list ends here.
+            importer_.modifiers ? EGL_DMA_BUF_PLANE0_MODIFIER_LO_EXT : EGL_NONE,
+            static_cast<EGLint>(DRM_FORMAT_MOD_LINEAR & 0xffffffffU),
+            EGL_DMA_BUF_PLANE0_MODIFIER_HI_EXT, static_cast<EGLint>(DRM_FORMAT_MOD_LINEAR >> 32),
+            EGL_NONE};
+        return importer_.createImage(importer_.display, EGL_NO_CONTEXT, EGL_LINUX_DMA_BUF_EXT,
+                                     nullptr, attributes.data());
+    }
+    void release() {
+        glDeleteFramebuffers(1, &framebuffer_);
+        glDeleteRenderbuffers(1, &renderbuffer_);
+        importer_.destroyImage(importer_.display, image_);
+    }
+
+    const Importer& importer_;
+    GbmBuffer buffer_;
+    DrmFramebuffer scanout_;
+    EGLImageKHR image_;
+    GLuint renderbuffer_ = 0, framebuffer_ = 0;
+};
+
+class GbmBuffers final : public ScanoutBuffers {
+public:
+    GbmBuffers(int fd, Size size, bool fences, ScreenScaler& scaler)
+        : size_(size), scaler_(scaler), device_(openDevice(fd)),
+          targets_{{{importer_, device_.get(), fd, size},
+                    {importer_, device_.get(), fd, size},
+                    {importer_, device_.get(), fd, size}}} {
+        if (fences) fences_.emplace(importer_.display);
+    }
+
+    // One buffer is on the screen, one may be on its way there: the third is free.
+    void begin(const GlImage& image) override {
+        current_ = (current_ + 1) % targets_.size();
+        scaler_.draw(image, targets_[current_].framebuffer(), size_, ScreenScaler::Order::Rgba);
+        if (fences_) fence_ = fences_->insert();
+    }
+    Ready complete() override {
+        if (!fences_) glFinish();
+        return {targets_[current_].scanout(), std::move(fence_)};
+    }
+    [[nodiscard]] ScreenPicture last() const override {
+        return readFramebuffer(targets_[current_].framebuffer(), size_, PixelFormat::Rgba8);
+    }
+
+private:
+    static GbmDevice openDevice(int fd) {
+        GbmDevice device(gbm_create_device(fd));
+        if (!device) throw std::runtime_error("GBM does not know the display's driver");
+        return device;
+    }
+
+    Size size_;
+    Importer importer_;
+    std::optional<NativeFences> fences_;
+    ScreenScaler& scaler_;
+    GbmDevice device_;
+    std::array<GbmTarget, 3> targets_;
+    std::size_t current_ = 0;
+    DisplayFd fence_;
+};
+
+}  // namespace
+
+std::unique_ptr<ScanoutBuffers> makeGbmBuffers(const DrmCard& card, Size size, bool fences,
+                                               ScreenScaler& scaler) {
+    return std::make_unique<GbmBuffers>(card.fd(), size, fences, scaler);
+}
+
+}  // namespace mfar

@@ -1,0 +1,236 @@
+#include "hal/device/display_kms.h"
+
+#include <fmt/format.h>
+
+#include <poll.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+using Request = std::unique_ptr<drmModeAtomicReq, FreedBy<drmModeAtomicFree>>;
+
+constexpr int kFlipTimeoutMs = 1000;  // 24 Hz is the slowest mode in use
+
+std::vector<std::string> cardPaths() {
+    std::vector<std::string> paths;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator("/dev/dri", error))
+        if (entry.path().filename().string().starts_with("card"))
+            paths.push_back(entry.path().string());
+    std::ranges::sort(paths);
+    return paths;
+}
+
+/// A mode as the kernel wants to be told it.
+class ModeBlob {
+public:
+    ModeBlob(int fd, const drmModeModeInfo& mode) : fd_(fd) {
+        if (drmModeCreatePropertyBlob(fd, &mode, sizeof mode, &id_) != 0)
+            throw std::runtime_error(fmt::format("the mode is refused: {}", std::strerror(errno)));
+    }
+    ModeBlob(const ModeBlob&) = delete;
+    ModeBlob& operator=(const ModeBlob&) = delete;
+    ~ModeBlob() { drmModeDestroyPropertyBlob(fd_, id_); }
+    [[nodiscard]] std::uint32_t id() const { return id_; }
+
+private:
+    int fd_;
+    std::uint32_t id_ = 0;
+};
+
+void onFlip(int, unsigned, unsigned, unsigned, unsigned, void* pending) {
+    *static_cast<bool*>(pending) = false;
+}
+
+// Throws at the end of drmModeAtomicAddProperty's chain of small failures: no memory.
+void add(drmModeAtomicReq& request, std::uint32_t object, std::uint32_t property,
+         std::uint64_t value) {
+    if (drmModeAtomicAddProperty(&request, object, property, value) < 0)
+        throw std::runtime_error("a request to the display driver cannot be built");
+}
+
+bool sameOutput(const DrmOutput& a, const DrmOutput& b) {
+    return a.connector == b.connector && std::memcmp(&a.mode, &b.mode, sizeof a.mode) == 0;
+}
+
+}  // namespace
+
+KmsScreen::KmsScreen(ScreenSpec spec, ScreenScaler& scaler)
+    : spec_(std::move(spec)), scaler_(scaler) {}
+
+KmsScreen::~KmsScreen() {
+    close();
+}
+
+// A card with a screen wins over one that waits for a screen.
+void KmsScreen::openCard() {
+    const std::vector<std::string> paths =
+        spec_.device.empty() ? cardPaths() : std::vector{spec_.device};
+    fault_ = paths.empty() ? "there is no /dev/dri/card0" : "";
+    for (const std::string& path : paths) {
+        try {
+            auto card = std::make_unique<DrmCard>(path);
+            const bool connected = card->findOutput(spec_, true).has_value();
+            if (!card_ || connected) card_ = std::move(card);
+            if (connected) return;
+        } catch (const std::runtime_error& error) {
+            fault_ += (fault_.empty() ? "" : "; ") + std::string(error.what());
+        }
+    }
+}
+
+Screen::Presence KmsScreen::look(bool thorough) {
+    try {
+        if (!card_) openCard();
+        if (!card_) return Presence::Absent;
+        auto found = card_->findOutput(spec_, thorough);
+        if (!found || (output_ && !sameOutput(*found, *output_))) leaveOutput();
+        output_ = std::move(found);
+        return output_ ? Presence::Ready : Presence::Waiting;
+    } catch (const std::runtime_error& error) {
+        fault_ = error.what();
+        close();
+        return Presence::Absent;
+    }
+}
+
+void KmsScreen::show(const GlImage& image) {
+    if (!buffers_) {
+        startOutput(image);
+        return;
+    }
+    buffers_->begin(image);
+    waitForFlip();
+    commit(buffers_->complete(), Commit::Flip);
+}
+
+void KmsScreen::startOutput(const GlImage& image) {
+    const int fd = card_->fd();
+    properties_ = {DrmProperties(fd, output_->connector, DRM_MODE_OBJECT_CONNECTOR),
+                   DrmProperties(fd, output_->crtc, DRM_MODE_OBJECT_CRTC),
+                   DrmProperties(fd, output_->plane, DRM_MODE_OBJECT_PLANE)};
+    saved_.reset(drmModeGetCrtc(fd, output_->crtc));
+    std::string faults;
+    for (const ScanoutMethod method :
+         {ScanoutMethod::GbmFenced, ScanoutMethod::Gbm, ScanoutMethod::Dumb}) {
+        try {
+            if (method == ScanoutMethod::GbmFenced) (void)properties_.plane.id("IN_FENCE_FD");
+            buffers_ = makeScanoutBuffers(*card_, output_->size(), method, scaler_);
+            buffers_->begin(image);
+            commit(buffers_->complete(), Commit::ModeSet);
+            method_ = method;
+            return;
+        } catch (const std::runtime_error& error) {
+            buffers_.reset();
+            faults += fmt::format("; {}: {}", name(method), error.what());
+        }
+    }
+    throw std::runtime_error(fmt::format("{}, {}: no picture can be shown{}", card_->path(),
+                                         output_->connectorName, faults));
+}
+
+void KmsScreen::addModeSet(drmModeAtomicReq& request, std::uint32_t modeBlob) const {
+    const std::uint64_t width = output_->mode.hdisplay, height = output_->mode.vdisplay;
+    add(request, output_->connector, properties_.connector.id("CRTC_ID"), output_->crtc);
+    add(request, output_->crtc, properties_.crtc.id("MODE_ID"), modeBlob);
+    add(request, output_->crtc, properties_.crtc.id("ACTIVE"), 1);
+    const auto plane = [&](const char* property, std::uint64_t value) {
+        add(request, output_->plane, properties_.plane.id(property), value);
+    };
+    plane("CRTC_ID", output_->crtc);
+    plane("SRC_X", 0);
+    plane("SRC_Y", 0);
+    plane("SRC_W", width << 16);  // 16.16 fixed point
+    plane("SRC_H", height << 16);
+    plane("CRTC_X", 0);
+    plane("CRTC_Y", 0);
+    plane("CRTC_W", width);
+    plane("CRTC_H", height);
+}
+
+void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
+    const Request request(drmModeAtomicAlloc());
+    if (!request) throw std::runtime_error("a request to the display driver cannot be built");
+    add(*request, output_->plane, properties_.plane.id("FB_ID"), ready.framebuffer);
+    if (ready.fence)
+        add(*request, output_->plane, properties_.plane.id("IN_FENCE_FD"),
+            static_cast<std::uint64_t>(ready.fence.get()));
+    std::optional<ModeBlob> mode;
+    std::uint32_t flags = DRM_MODE_ATOMIC_NONBLOCK | DRM_MODE_PAGE_FLIP_EVENT;
+    if (kind == Commit::ModeSet) {
+        mode.emplace(card_->fd(), output_->mode);
+        addModeSet(*request, mode->id());
+        flags = DRM_MODE_ATOMIC_ALLOW_MODESET;
+    }
+    if (drmModeAtomicCommit(card_->fd(), request.get(), flags, &flipPending_) != 0)
+        throw std::runtime_error(fmt::format("{}, {}: the picture is refused: {}", card_->path(),
+                                             output_->connectorName, std::strerror(errno)));
+    flipPending_ = kind == Commit::Flip;
+}
+
+void KmsScreen::waitForFlip() {
+    drmEventContext events{};
+    events.version = 3;
+    events.page_flip_handler2 = onFlip;
+    while (flipPending_) {
+        pollfd waiting{card_->fd(), POLLIN, 0};
+        const int count = poll(&waiting, 1, kFlipTimeoutMs);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0 || (waiting.revents & POLLIN) == 0 ||
+            drmHandleEvent(card_->fd(), &events) != 0)
+            throw std::runtime_error(
+                fmt::format("{}, {}: shows no new picture", card_->path(), output_->connectorName));
+    }
+}
+
+// The console's picture is set before our buffers go: a buffer that goes while shown turns the
+// screen off. It may have no picture to come back to, and a lost device takes no orders.
+void KmsScreen::leaveOutput() {
+    if (buffers_ && output_) {
+        try {
+            waitForFlip();
+        } catch (const std::runtime_error&) {
+            flipPending_ = false;  // lost: nothing to wait for
+        }
+        if (saved_ && saved_->mode_valid != 0 && saved_->buffer_id != 0)
+            drmModeSetCrtc(card_->fd(), saved_->crtc_id, saved_->buffer_id, saved_->x, saved_->y,
+                           &output_->connector, 1, &saved_->mode);
+    }
+    buffers_.reset();
+    saved_.reset();
+    output_.reset();
+    flipPending_ = false;
+}
+
+void KmsScreen::close() {
+    leaveOutput();
+    card_.reset();
+}
+
+std::string KmsScreen::status() const {
+    if (!card_) return "kms: " + fault_;
+    const std::string card = std::filesystem::path(card_->path()).filename().string();
+    if (!output_) return fmt::format("kms:{}: no screen connected ({})", card, card_->connectors());
+    std::string text =
+        fmt::format("kms:{},{},{}x{}@{:.4g}", card, output_->connectorName, output_->mode.hdisplay,
+                    output_->mode.vdisplay, refreshHz(output_->mode));
+    if (buffers_) text += fmt::format(", {}", name(method_));
+    if (spec_.mode && !fulfils(output_->mode, *spec_.mode))
+        text += ", which is not the wanted mode: the screen does not offer it";
+    return text;
+}
+
+std::optional<ScreenPicture> KmsScreen::lastShown() const {
+    if (!buffers_) return std::nullopt;
+    return buffers_->last();
+}
+
+}  // namespace mfar

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "hal/device/display_buffers.h"
+#include "hal/device/display_screen.h"
+
+namespace mfar {
+
+/// A monitor on an atomic DRM/KMS driver. One picture in flight: show() waits until the picture
+/// before is on the screen, which is the pace of the vertical blank. Pixels take the first
+/// ScanoutMethod that the driver accepts. What the screen showed before comes back at close().
+class KmsScreen final : public Screen {
+public:
+    /// `spec.device` empty: the first card that can be used, one with a screen before others.
+    /// `scaler` must outlive it.
+    KmsScreen(ScreenSpec spec, ScreenScaler& scaler);
+    KmsScreen(const KmsScreen&) = delete;
+    KmsScreen& operator=(const KmsScreen&) = delete;
+    ~KmsScreen() override;
+
+    Presence look(bool thorough) override;
+    void show(const GlImage& image) override;
+    void close() override;
+    [[nodiscard]] std::string status() const override;
+    [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
+
+private:
+    using SavedCrtc = std::unique_ptr<drmModeCrtc, FreedBy<drmModeFreeCrtc>>;
+    enum class Commit { ModeSet, Flip };
+    struct Properties {
+        DrmProperties connector, crtc, plane;
+    };
+
+    void openCard();
+    void leaveOutput();
+    void startOutput(const GlImage& image);
+    void commit(ScanoutBuffers::Ready ready, Commit kind);
+    void addModeSet(drmModeAtomicReq& request, std::uint32_t modeBlob) const;
+    void waitForFlip();
+
+    ScreenSpec spec_;
+    ScreenScaler& scaler_;
+    std::string fault_;
+    std::unique_ptr<DrmCard> card_;
+    std::optional<DrmOutput> output_;
+    Properties properties_;
+    SavedCrtc saved_;
+    std::unique_ptr<ScanoutBuffers> buffers_;
+    ScanoutMethod method_ = ScanoutMethod::Dumb;
+    bool flipPending_ = false;
+};
+
+}  // namespace mfar

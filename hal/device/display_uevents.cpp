@@ -1,0 +1,46 @@
+#include "hal/device/display_uevents.h"
+
+#include <linux/netlink.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cerrno>
+#include <string_view>
+
+namespace mfar {
+namespace {
+
+constexpr unsigned kKernelGroup = 1;
+
+// "ACTION=change\0SUBSYSTEM=drm\0..."
+bool concernsDisplays(std::string_view message) {
+    constexpr std::string_view kDrm{"\0SUBSYSTEM=drm\0", 15};
+    constexpr std::string_view kFb{"\0SUBSYSTEM=graphics\0", 20};
+    return message.find(kDrm) != message.npos || message.find(kFb) != message.npos;
+}
+
+}  // namespace
+
+DisplayEvents::DisplayEvents()
+    : socket_(
+          ::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_KOBJECT_UEVENT)) {
+    sockaddr_nl address{};
+    address.nl_family = AF_NETLINK;
+    address.nl_groups = kKernelGroup;
+    if (socket_ && bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
+        socket_ = DisplayFd();
+}
+
+bool DisplayEvents::changed() {
+    bool any = false;
+    std::array<char, 8192> message{};
+    while (socket_) {
+        const ssize_t bytes = recv(socket_.get(), message.data(), message.size(), 0);
+        const bool lost = bytes < 0 && errno == ENOBUFS;  // and one of them may have been ours
+        if (bytes <= 0 && !lost) break;
+        if (lost || concernsDisplays({message.data(), static_cast<std::size_t>(bytes)})) any = true;
+    }
+    return any;
+}
+
+}  // namespace mfar

@@ -1,0 +1,187 @@
+#include "hal/device/display_auto.h"
+#include "tests/shader/gl_test.h"
+
+#include <filesystem>
+#include <gmock/gmock.h>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+using Presence = Screen::Presence;
+using testing::HasSubstr;
+
+// What a test knows and decides about a device.
+struct Device {
+    Presence presence = Presence::Absent;
+    bool refuses = false;  // show() throws
+    int shown = 0, looks = 0, thoroughLooks = 0;
+    bool held = false;
+};
+
+class FakeScreen final : public Screen {
+public:
+    FakeScreen(std::string name, Device& device) : name_(std::move(name)), device_(device) {}
+
+    Presence look(bool thorough) override {
+        ++device_.looks;
+        device_.thoroughLooks += thorough ? 1 : 0;
+        device_.held = device_.presence != Presence::Absent;
+        return device_.presence;
+    }
+    void show(const GlImage&) override {
+        EXPECT_EQ(device_.presence, Presence::Ready);
+        if (device_.refuses) throw std::runtime_error(name_ + " is broken");
+        ++device_.shown;
+    }
+    void close() override { device_.held = false; }
+    [[nodiscard]] std::string status() const override {
+        return name_ + (device_.held ? " held" : " missing");
+    }
+    [[nodiscard]] std::optional<ScreenPicture> lastShown() const override {
+        return ScreenPicture{{1, 1}, PixelFormat::Rgba8, {1, 2, 3, 4}};
+    }
+
+private:
+    std::string name_;
+    Device& device_;
+};
+
+class AutoDisplay : public GlTest {
+protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        std::vector<std::unique_ptr<Screen>> screens;
+        screens.push_back(std::make_unique<FakeScreen>("kms", kms_));
+        screens.push_back(std::make_unique<FakeScreen>("fbdev", fbdev_));
+        display_ = std::make_unique<ScreenDisplay>(
+            nullptr, std::move(screens), [this] { return now_; },
+            [this] { return std::exchange(changed_, false); });
+    }
+    // Pictures at 20 Hz for a time; gives the pictures that were shown by either.
+    int run(std::chrono::milliseconds duration) {
+        const int before = kms_.shown + fbdev_.shown;
+        for (const Timestamp end = now_ + duration; now_ < end;
+             now_ = now_ + std::chrono::milliseconds(50))
+            display_->show({}, now_);
+        return kms_.shown + fbdev_.shown - before;
+    }
+
+    Device kms_, fbdev_;
+    Timestamp now_ = Timestamp::fromSeconds(100);
+    bool changed_ = false;
+    std::unique_ptr<ScreenDisplay> display_;
+};
+
+constexpr std::chrono::milliseconds kSecond{1000};
+
+TEST_F(AutoDisplay, RunsWithoutAScreenAndSaysSo) {
+    EXPECT_EQ(run(kSecond * 2), 0);
+    EXPECT_THAT(display_->name(), HasSubstr("no screen yet"));
+    EXPECT_THAT(display_->name(), HasSubstr("kms missing; fbdev missing"));
+    EXPECT_FALSE(display_->lastShown());
+    EXPECT_LE(kms_.looks, 5);  // twice a second
+    EXPECT_NO_THROW(display_->finish());
+}
+
+TEST_F(AutoDisplay, ShowsWithinASecondAfterADeviceAppears) {
+    run(kSecond * 2);
+    fbdev_.presence = Presence::Ready;
+    EXPECT_GE(run(kSecond), 10);
+    EXPECT_EQ(display_->name(), "fbdev held");
+    EXPECT_TRUE(display_->lastShown());
+}
+
+TEST_F(AutoDisplay, ShowsAtOnceWhenTheKernelTells) {
+    run(std::chrono::milliseconds(600));
+    kms_.presence = Presence::Ready;
+    changed_ = true;
+    EXPECT_EQ(run(std::chrono::milliseconds(100)), 2);
+}
+
+TEST_F(AutoDisplay, PrefersTheFirstAndLeavesTheOther) {
+    fbdev_.presence = Presence::Ready;
+    run(kSecond);
+    kms_.presence = Presence::Ready;
+    changed_ = true;
+    run(kSecond);
+    EXPECT_EQ(display_->name(), "kms held");
+    EXPECT_FALSE(fbdev_.held);
+}
+
+TEST_F(AutoDisplay, OpensNoOtherDeviceWhileOneShows) {
+    fbdev_.presence = Presence::Ready;
+    run(kSecond);
+    const int looks = kms_.looks;
+    EXPECT_EQ(run(kSecond * 5), 100);
+    EXPECT_EQ(kms_.looks, looks);
+    EXPECT_EQ(fbdev_.thoroughLooks, 1);
+}
+
+TEST_F(AutoDisplay, WaitsForTheMonitorOfADeviceItHolds) {
+    kms_.presence = Presence::Waiting;
+    fbdev_.presence = Presence::Ready;
+    EXPECT_EQ(run(kSecond), 0);
+    EXPECT_FALSE(fbdev_.held);
+    kms_.presence = Presence::Ready;
+    EXPECT_GE(run(kSecond), 10);
+    EXPECT_EQ(fbdev_.shown, 0);
+}
+
+TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
+    kms_.presence = fbdev_.presence = Presence::Ready;
+    run(kSecond);
+    kms_.refuses = true;
+    EXPECT_EQ(run(std::chrono::milliseconds(100)), 0);
+    EXPECT_FALSE(kms_.held);
+    EXPECT_THAT(display_->name(), HasSubstr("no screen yet (kms is broken"));
+    kms_.refuses = false;
+    EXPECT_GE(run(kSecond), 10);
+    EXPECT_EQ(display_->name(), "kms held");
+    EXPECT_EQ(fbdev_.shown, 0);
+}
+
+TEST_F(AutoDisplay, GivesADeviceBackThatWentAway) {
+    kms_.presence = Presence::Ready;
+    run(kSecond);
+    kms_.presence = Presence::Absent;
+    EXPECT_EQ(run(kSecond), 0);
+    EXPECT_FALSE(kms_.held);
+}
+
+TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsRefused) {
+    kms_.presence = fbdev_.presence = Presence::Ready;
+    kms_.refuses = true;
+    EXPECT_GE(run(kSecond), 8);
+    EXPECT_EQ(display_->name(), "fbdev held");
+    EXPECT_FALSE(kms_.held);
+}
+
+TEST_F(AutoDisplay, TriesTheFirstAgainWhenThereIsNoNext) {
+    kms_.presence = Presence::Ready;
+    kms_.refuses = true;
+    EXPECT_EQ(run(kSecond), 0);
+    EXPECT_THAT(display_->name(), HasSubstr("kms is broken"));
+    kms_.refuses = false;
+    EXPECT_GE(run(kSecond), 8);
+}
+
+TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {
+    if (std::filesystem::exists("/dev/dri/card0") || std::filesystem::exists("/dev/fb0"))
+        GTEST_SKIP() << "this machine has a screen";
+    for (const char* spec : {"auto", "kms:card0", "kms", "fbdev:/dev/fb0", "fbdev"}) {
+        const std::unique_ptr<ScreenDisplay> screen = openScreen(spec);
+        EXPECT_NO_THROW(screen->show({}, now_));
+        EXPECT_THAT(screen->name(), HasSubstr("no screen yet")) << spec;
+        EXPECT_THAT(screen->name(), HasSubstr("/dev/")) << spec;
+        EXPECT_FALSE(screenFault(spec));
+    }
+}
+
+TEST_F(AutoDisplay, OnlyMalformedWordsAreErrors) {
+    EXPECT_THROW((void)openScreen("kms:card0,17"), std::runtime_error);
+    EXPECT_THAT(screenFault("kms:card0,17").value_or(""), HasSubstr("\"17\""));
+}
+
+}  // namespace
+}  // namespace mfar

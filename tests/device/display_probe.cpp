@@ -1,0 +1,135 @@
+// Shows a test picture on a real screen and says what is shown where: for boards, and for a guest
+// whose host takes a screenshot. Usage:
+//   display_probe SCREEN PICTURES PPM SECONDS
+// SCREEN as in openScreen(). Waits for a screen, shows PICTURES pictures with a moving bar, writes
+// the last one to PPM as lastShown() gives it, and goes on showing that one for SECONDS. Prints
+// every change of name().
+
+#include "hal/device/display_auto.h"
+#include "hal/gl_context.h"
+
+#include <GLES3/gl31.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+namespace mfar {
+namespace {
+
+constexpr Size kSize{640, 480};
+constexpr int kBarWidth = 16;
+
+// Colours that tell channels, rows and columns apart, fine stripes, and a bar.
+std::vector<std::uint8_t> testPicture(int bar) {
+    std::vector<std::uint8_t> rgba;
+    for (int y = 0; y < kSize.height; ++y)
+        for (int x = 0; x < kSize.width; ++x) {
+            const bool inBar = x >= bar && x < bar + kBarWidth;
+            const int red = inBar ? 255 : x * 255 / kSize.width;
+            const int green = y * 255 / kSize.height;
+            const int blue = x > 320 && y > 240 ? (x % 2) * 255 : (x * 7 + y * 13) % 256;
+            for (const int value : {red, green, blue, 255})
+                rgba.push_back(static_cast<std::uint8_t>(value));
+        }
+    return rgba;
+}
+
+void savePpm(const std::string& path, const ScreenPicture& picture) {
+    std::ofstream file(path, std::ios::binary);
+    file << fmt::format("P6\n{} {}\n255\n", picture.size.width, picture.size.height);
+    const std::size_t red = picture.format == PixelFormat::Bgra8 ? 2 : 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); i += 4)
+        for (const std::size_t channel : {red, std::size_t{1}, 2 - red})
+            file.put(static_cast<char>(picture.pixels[i + channel]));
+    if (!file.flush()) throw std::runtime_error(path + " cannot be written");
+}
+
+class Probe {
+public:
+    explicit Probe(std::string_view screen)
+        : display_(openScreen(screen)), texture_(kSize, gpu::TexelFormat::Rgba8) {
+        draw(0);
+    }
+
+    // Counts pictures from the first that is on a screen.
+    void move(int pictures) {
+        while (!display_->lastShown())
+            show();
+        const double begin = seconds();
+        for (int i = 1; i <= pictures; ++i) {
+            draw(i * 4 % kSize.width);
+            show();
+        }
+        say(fmt::format("{:.2f} pictures a second", pictures / (seconds() - begin)));
+    }
+    void hold(double duration) {
+        for (const double end = seconds() + duration; seconds() < end;)
+            show();
+    }
+    void save(const std::string& path) {
+        const std::optional<ScreenPicture> picture = display_->lastShown();
+        if (!picture) throw std::runtime_error("nothing is shown");
+        savePpm(path, *picture);
+        say("saved " + path);
+    }
+
+private:
+    double seconds() const { return (Timestamp::now() - start_).count() * 1e-9; }
+    void draw(int bar) {
+        const std::vector<std::uint8_t> pixels = testPicture(bar);
+        texture_.upload({pixels.data(), kSize, std::size_t{4} * kSize.width});
+    }
+    void show() {
+        display_->show({texture_.id(), kSize}, Timestamp::now());
+        if (std::string name = display_->name(); name != name_) {
+            say(name);
+            name_ = std::move(name);
+        }
+        // Without a screen, or on one without a vertical blank, nothing else holds it back.
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    void say(std::string_view what) const {
+        fmt::print("{:.1f} s: {}\n", seconds(), what);
+        std::fflush(stdout);
+    }
+
+    Timestamp start_ = Timestamp::now();
+    std::unique_ptr<ScreenDisplay> display_;
+    gpu::Texture texture_;
+    std::string name_;
+};
+
+double number(std::string_view text) {
+    double value = -1;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    if (!(value >= 0 && value < 1e6)) throw std::runtime_error("PICTURES, SECONDS: a number");
+    return value;
+}
+
+void probe(const char* screen, const char* pictures, const std::string& ppm, const char* duration) {
+    const std::unique_ptr<GlContext> context = createGlContext();
+    fmt::print("{}\n", context->description());
+    Probe shown(screen);
+    shown.move(static_cast<int>(number(pictures)));
+    shown.save(ppm);
+    shown.hold(number(duration));
+}
+
+}  // namespace
+}  // namespace mfar
+
+int main(int argc, char** argv) {
+    try {
+        if (argc != 5) throw std::runtime_error("usage: display_probe SCREEN PICTURES PPM SECONDS");
+        mfar::probe(argv[1], argv[2], argv[3], argv[4]);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "display_probe: %s\n", error.what());
+        return 1;
+    }
+}
