@@ -48,6 +48,7 @@ void ScreenDisplay::show(const GlImage& image, Timestamp) {
         active_->show(image);
         shown_ = true;
         failed_ = nullptr;
+        fault_.clear();
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }

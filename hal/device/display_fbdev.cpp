@@ -196,7 +196,7 @@ void FbdevScreen::close() {
 }
 
 std::string FbdevScreen::status() const {
-    if (!fd_) return "fbdev: " + fault_;
+    if (!fd_) return "fbdev: " + (fault_.empty() ? "not in use" : fault_);
     return fmt::format("fbdev:{}, {}x{}, {} bits{}", path_, geometry_.size.width,
                        geometry_.size.height, geometry_.layout.bits, pans_ ? ", two pages" : "");
 }

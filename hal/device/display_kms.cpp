@@ -216,7 +216,7 @@ void KmsScreen::close() {
 }
 
 std::string KmsScreen::status() const {
-    if (!card_) return "kms: " + fault_;
+    if (!card_) return "kms: " + (fault_.empty() ? "not in use" : fault_);
     const std::string card = std::filesystem::path(card_->path()).filename().string();
     if (!output_) return fmt::format("kms:{}: no screen connected ({})", card, card_->connectors());
     std::string text =

@@ -30,8 +30,8 @@ public:
         return device_.presence;
     }
     void show(const GlImage&) override {
-        EXPECT_EQ(device_.presence, Presence::Ready);
-        if (device_.refuses) throw std::runtime_error(name_ + " is broken");
+        if (device_.refuses || device_.presence != Presence::Ready)
+            throw std::runtime_error(name_ + " is broken");
         ++device_.shown;
     }
     void close() override { device_.held = false; }
@@ -139,6 +139,10 @@ TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
     EXPECT_GE(run(kSecond), 10);
     EXPECT_EQ(display_->name(), "kms held");
     EXPECT_EQ(fbdev_.shown, 0);
+    kms_.presence = fbdev_.presence = Presence::Absent;
+    changed_ = true;
+    run(kSecond);
+    EXPECT_EQ(display_->name(), "no screen yet (kms missing; fbdev missing)");
 }
 
 TEST_F(AutoDisplay, GivesADeviceBackThatWentAway) {
