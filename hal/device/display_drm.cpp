@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <drm_fourcc.h>
+#include <filesystem>
 #include <stdexcept>
 #include <tuple>
 
@@ -68,6 +71,33 @@ std::optional<std::uint64_t> propertyValue(int fd, std::uint32_t object, std::ui
     return std::nullopt;
 }
 
+bool isMaster(int fd) {
+    return drmIsMaster(fd) != 0 || drmSetMaster(fd) == 0;
+}
+
+// Mesa's software renderer opens the card, too, where it may not open a render node, and is made
+// master by coming first; it has no use for that. True when it has been taken from it.
+bool dropMasterOfThisProcess(const std::string& path) {
+    struct stat card{};
+    bool dropped = false;
+    if (stat(path.c_str(), &card) != 0) return false;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
+        const int fd = std::atoi(entry.path().filename().c_str());
+        struct stat file{};
+        if (fstat(fd, &file) == 0 && S_ISCHR(file.st_mode) && file.st_rdev == card.st_rdev &&
+            drmIsMaster(fd) != 0 && drmDropMaster(fd) == 0)
+            dropped = true;
+    }
+    return dropped;
+}
+
+DisplayFd openCard(const std::string& path) {
+    DisplayFd fd(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+    if (!fd) throw std::runtime_error(openFault(path));
+    return fd;
+}
+
 }  // namespace
 
 double refreshHz(const drmModeModeInfo& mode) {
@@ -118,16 +148,16 @@ std::uint32_t DrmProperties::id(std::string_view name) const {
     return found->second;
 }
 
-DrmCard::DrmCard(const std::string& path)
-    : path_(path), fd_(::open(path.c_str(), O_RDWR | O_CLOEXEC)) {
-    if (!fd_) throw std::runtime_error(openFault(path));
+DrmCard::DrmCard(const std::string& path) : path_(path), fd_(openCard(path)) {
+    // Who opens a card that has no master becomes it: without rights, the only way.
+    if (!isMaster(fd()) && dropMasterOfThisProcess(path)) fd_ = openCard(path);
     const Resources all = resources(fd());
     if (!all || all->count_connectors == 0)
         throw std::runtime_error(path + ": has no connectors, it renders only");
     if (drmSetClientCap(fd(), DRM_CLIENT_CAP_ATOMIC, 1) != 0)
         throw std::runtime_error(
             path + ": its driver has no atomic mode setting, which is needed for kms");
-    if (drmIsMaster(fd()) == 0 && drmSetMaster(fd()) != 0)
+    if (!isMaster(fd()))
         throw std::runtime_error(path + ": another program (a desktop?) holds the screen");
 }
 
