@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 
-packages=g++,pkg-config,libfmt-dev,libgpiod-dev,libgtest-dev,libgmock-dev
+packages=g++,pkg-config,libfmt-dev,libgpiod-dev,libcamera-dev,libgtest-dev,libgmock-dev
 
 [[ ${1:-} != --packages ]] || { echo "$packages"; exit 0; }
 root=${1:?usage: compile_against.sh ROOT | --packages}
@@ -24,20 +24,38 @@ set -eu
 cd "$1"
 version() { pkg-config --modversion "$1"; }
 warnings="-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror"
-compile() { # NAME PACKAGES SOURCES...
-    name=$1 packages=$2
-    shift 2
+objects() { # PACKAGES SOURCES...: compiles each into the folder
     # System headers: their warnings are not ours.
-    flags=$(pkg-config --cflags $packages | sed "s/-I/-isystem /g")
-    g++ -std=c++20 -O1 $warnings -I. $flags "$@" -o "$name" \
-        $(pkg-config --libs $packages) -lgmock_main -lgmock -lgtest -lfmt -pthread
+    flags=$(pkg-config --cflags "$1" | sed "s/-I/-isystem /g")
+    shift
+    for source; do
+        g++ -std=c++20 $warnings -I. $flags -c "$source" -o "$(basename "$source" .cpp).o"
+    done
+}
+link() { # NAME PACKAGES PARTS...
+    name=$1 libraries=$(pkg-config --libs "$2")
+    shift 2
+    g++ $(printf "%s.o " "$@") -o "$name" $libraries -lgmock_main -lgmock -lgtest -lfmt -pthread
 }
 case $(version libgpiod) in 1.*) v=1 ;; *) v=2 ;; esac
 echo "libgpiod $(version libgpiod): trigger_gpiod_v$v.cpp"
-compile trigger libgpiod hal/device/gpio_selection.cpp hal/device/pulse_trigger.cpp \
-    hal/device/trigger_gpiod.cpp hal/device/trigger_gpiod_v$v.cpp \
-    tests/device/gpio_selection_test.cpp tests/device/pulse_trigger_test.cpp \
-    tests/device/trigger_gpiod_test.cpp
-./trigger --gtest_brief=1
+trigger="gpio_selection pulse_trigger trigger_gpiod"
+objects libgpiod $(printf "hal/device/%s.cpp tests/device/%s_test.cpp " \
+    $(for part in $trigger; do echo $part $part; done)) hal/device/trigger_gpiod_v$v.cpp
+link trigger-tests libgpiod $trigger trigger_gpiod_v$v $(printf "%s_test " $trigger)
+./trigger-tests --gtest_brief=1
+
+echo "libcamera $(version libcamera)"
+tested="camera_selection field_of_view frame_drops picture_layout sensor_clock libcamera_buffers
+    libcamera_controls"
+parts="$tested camera_libcamera libcamera_manager libcamera_setup libcamera_stream"
+objects libcamera $(printf "hal/device/%s.cpp " $parts) tests/device/libcamera_test.cpp \
+    $(printf "tests/device/%s_test.cpp " $tested) tests/device/libcamera_probe.cpp
+link camera-tests libcamera $parts libcamera_test $(printf "%s_test " $tested)
+link probe libcamera $parts libcamera_probe
+# libcamera says with every start who it is, and what a chroot lacks.
+export LIBCAMERA_LOG_LEVELS="*:FATAL"
+./camera-tests --gtest_brief=1
+./probe
 '
 chroot "$root" /bin/sh -c "$inside" sh "/tmp/${work##*/}"

@@ -41,7 +41,7 @@ homeOf() {
     case $1 in
     apriltag/* | apriltag.h | tag36h11.h) echo 'pipeline/track/|tests/' ;;
     embree*) echo 'pipeline/render/|tests/' ;;
-    EGL/* | libcamera/* | gpiod* | xf86drm* | drm/* | libdrm/* | gbm.h) echo 'hal/device/' ;;
+    EGL/* | libcamera/* | gpiod* | xf86drm* | drm/* | libdrm/* | gbm.h) echo 'hal/device/|tests/device/' ;;
     GL/osmesa.h) echo 'hal/virtual/' ;;
     esac
 }

@@ -1,0 +1,39 @@
+#include "hal/device/camera_libcamera.h"
+
+#include "hal/device/libcamera_manager.h"
+#include "hal/device/libcamera_stream.h"
+
+namespace mfar {
+
+LibcameraCamera::LibcameraCamera(const LibcameraOptions& options)
+    : stream_(std::make_shared<Stream>(options)) {}
+
+LibcameraCamera::~LibcameraCamera() {
+    stream_->close();
+}
+
+CameraInfo LibcameraCamera::info() const {
+    return stream_->info();
+}
+
+void LibcameraCamera::start() {
+    stream_->start();
+}
+
+std::optional<Frame> LibcameraCamera::next(std::chrono::milliseconds timeout) {
+    return stream_->next(timeout);
+}
+
+void LibcameraCamera::stop() {
+    stream_->stop();
+}
+
+LibcameraCounters LibcameraCamera::counters() const {
+    return stream_->counters();
+}
+
+std::vector<ListedCamera> listLibcameras() {
+    return listCameras(libcameraManager()->cameras());
+}
+
+}  // namespace mfar

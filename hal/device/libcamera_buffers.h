@@ -1,0 +1,42 @@
+#pragma once
+
+#include "hal/device/libcamera_compat.h"
+#include "hal/device/picture_layout.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace mfar {
+
+/// One of a camera's buffers in this process's memory, mapped once. Outlives the camera. Planes may
+/// share a file with different offsets.
+class MappedPicture {
+public:
+    /// Throws std::runtime_error when the memory cannot be mapped or does not hold the picture.
+    MappedPicture(const libcamera::FrameBuffer& buffer, const PictureLayout& layout);
+    MappedPicture(const MappedPicture&) = delete;
+    MappedPicture& operator=(const MappedPicture&) = delete;
+    ~MappedPicture();
+
+    [[nodiscard]] const ImageView& view() const { return view_; }
+    /// Around each time the memory is read: devices need not be coherent with the CPU's caches.
+    void beginRead() const;
+    void endRead() const;
+
+private:
+    struct File {
+        libcamera::SharedFD fd;
+        std::size_t length = 0;
+        void* memory = nullptr;
+    };
+
+    File& fileOf(const libcamera::SharedFD& fd);
+    void map(const libcamera::FrameBuffer& buffer);
+    void unmap();
+    void synchronize(std::uint64_t flags) const;
+
+    std::vector<File> files_;
+    ImageView view_;
+};
+
+}  // namespace mfar

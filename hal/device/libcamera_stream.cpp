@@ -1,0 +1,261 @@
+#include "hal/device/libcamera_stream.h"
+
+#include "hal/device/libcamera_manager.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+/// One with the camera, one with the user.
+constexpr std::size_t kLeastBuffers = 2;
+
+void check(const LibcameraOptions& options) {
+    const auto sound = [](const std::optional<double>& value, double least, double most) {
+        return !value || (*value >= least && *value <= most);
+    };
+    const Size size = options.size;
+    if (size.width < 2 || size.height < 2 || size.width % 2 != 0 || size.height % 2 != 0)
+        throw std::runtime_error(fmt::format(
+            "a camera cannot give {}x{}: it takes positive even numbers", size.width, size.height));
+    if (!sound(options.rateHz, 0, 1000) || !sound(options.exposureUs, 1, 1e8) ||
+        !sound(options.gain, 0, 1000) || !sound(options.focusDioptres, 0, 100))
+        throw std::runtime_error("a camera's rate must be in 0 to 1000 Hz, its exposure in 1 us to "
+                                 "100 s, its gain in 0 to 1000, its focus in 0 to 100 dioptres");
+    if (options.buffers < kLeastBuffers || options.buffers > 64)
+        throw std::runtime_error("a camera takes 2 to 64 buffers");
+}
+
+}  // namespace
+
+LibcameraCamera::Stream::Stream(const LibcameraOptions& options) : options_(options) {
+    check(options);
+    manager_ = libcameraManager();
+    camera_ = findLibcamera(*manager_, options.camera);
+    if (const int error = camera_->acquire(); error != 0)
+        throw std::runtime_error(
+            fmt::format("camera '{}' is {}", camera_->id(),
+                        error == -EBUSY ? "in use by another program or another camera of this one"
+                                        : fmt::format("not to be had (error {})", -error)));
+    try {
+        open();
+    } catch (...) {
+        slots_.clear();
+        allocator_.reset();
+        camera_->release();
+        throw;
+    }
+}
+
+void LibcameraCamera::Stream::open() {
+    configured_ = configureLibcamera(*camera_, options_);
+    controls_ = controlsFor(*camera_, options_);
+    stream_ = configured_.configuration->at(0).stream();
+    allocate();
+    camera_->requestCompleted.connect(this, &Stream::completed);
+    camera_->disconnected.connect(this, &Stream::disconnected);
+}
+
+void LibcameraCamera::Stream::allocate() {
+    allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
+    if (const int count = allocator_->allocate(stream_); count < static_cast<int>(kLeastBuffers))
+        throw std::runtime_error(fmt::format("camera '{}' gives no buffers for its pictures ({})",
+                                             camera_->id(), count));
+    for (const auto& buffer : allocator_->buffers(stream_)) {
+        Slot slot;
+        slot.request = camera_->createRequest(slots_.size());
+        if (!slot.request || slot.request->addBuffer(stream_, buffer.get()) != 0)
+            throw std::runtime_error(fmt::format("camera '{}' takes no requests", camera_->id()));
+        slot.picture = std::make_shared<MappedPicture>(*buffer, configured_.layout);
+        slots_.push_back(std::move(slot));
+    }
+}
+
+void LibcameraCamera::Stream::close() {
+    stop();
+    camera_->requestCompleted.disconnect(this);
+    camera_->disconnected.disconnect(this);
+    std::vector<Slot> slots;
+    {
+        std::lock_guard lock(mutex_);
+        slots.swap(slots_);
+    }
+    // Requests belong to the camera and buffers to the allocator: both go before what they know.
+    slots.clear();
+    allocator_.reset();
+    configured_.configuration.reset();
+    camera_->release();
+    camera_.reset();
+    manager_.reset();
+}
+
+CameraInfo LibcameraCamera::Stream::info() const {
+    return {camera_->id(), configured_.layout.size, configured_.layout.format, options_.rateHz};
+}
+
+void LibcameraCamera::Stream::start() {
+    std::lock_guard life(lifecycle_);
+    {
+        std::lock_guard lock(mutex_);
+        if (running_) return;
+        if (!lost_.empty()) throw DeviceLost(lost_);
+    }
+    libcamera::ControlList initial(camera_->controls());
+    for (const auto& [id, value] : controls_)
+        initial.set(id, value);
+    if (const int error = camera_->start(&initial); error != 0) {
+        const std::string text =
+            fmt::format("camera '{}' does not start (error {})", camera_->id(), -error);
+        if (error == -ENODEV) throw DeviceLost(text);
+        throw std::runtime_error(text);
+    }
+    std::lock_guard lock(mutex_);
+    running_ = true;
+    drops_.pause();
+    bool first = true;
+    for (Slot& slot : slots_) {
+        if (slot.state != State::Idle) continue;
+        slot.request->reuse(libcamera::Request::ReuseBuffers);
+        // Some drivers (uvcvideo) look at controls in requests alone.
+        for (const auto& [id, value] : first ? controls_ : ControlValues{})
+            slot.request->controls().set(id, value);
+        first = false;
+        queue(slot);
+    }
+}
+
+void LibcameraCamera::Stream::stop() {
+    std::lock_guard life(lifecycle_);
+    {
+        std::lock_guard lock(mutex_);
+        if (!running_) return;
+        running_ = false;
+    }
+    changed_.notify_all();
+    camera_->stop();  // completes what is queued, so without the mutex
+    std::lock_guard lock(mutex_);
+    ready_.clear();
+    for (Slot& slot : slots_)
+        if (slot.state != State::Lent) slot.state = State::Idle;
+}
+
+/// With the mutex held, the request clean.
+void LibcameraCamera::Stream::queue(Slot& slot) {
+    slot.state = State::Queued;
+    const int error = camera_->queueRequest(slot.request.get());
+    if (error == 0) return;
+    slot.state = State::Idle;
+    lose(fmt::format("camera '{}' takes no more requests (error {})", camera_->id(), -error));
+}
+
+void LibcameraCamera::Stream::lose(const std::string& why) {
+    if (lost_.empty()) lost_ = why;
+    changed_.notify_all();
+}
+
+void LibcameraCamera::Stream::giveBack(std::size_t index) {
+    std::lock_guard lock(mutex_);
+    if (index >= slots_.size()) return;  // closed
+    Slot& slot = slots_[index];
+    slot.state = State::Idle;
+    if (!running_ || !lost_.empty()) return;
+    slot.request->reuse(libcamera::Request::ReuseBuffers);
+    queue(slot);
+}
+
+/// In libcamera's thread.
+void LibcameraCamera::Stream::disconnected() {
+    std::lock_guard lock(mutex_);
+    lose(fmt::format("camera '{}' has been unplugged", camera_->id()));
+}
+
+/// In libcamera's thread.
+void LibcameraCamera::Stream::completed(libcamera::Request* request) {
+    std::lock_guard lock(mutex_);
+    const auto index = static_cast<std::size_t>(request->cookie());
+    if (index >= slots_.size()) return;  // closed
+    Slot& slot = slots_[index];
+    slot.state = State::Idle;
+    if (!running_ || request->status() == libcamera::Request::RequestCancelled) return;
+    const libcamera::FrameMetadata& metadata = request->findBuffer(stream_)->metadata();
+    if (!isSound(metadata)) {
+        request->reuse(libcamera::Request::ReuseBuffers);
+        queue(slot);
+        return;
+    }
+    slot.state = State::Ready;
+    ready_.push_back(describe(index, *request, metadata));
+    changed_.notify_all();
+}
+
+bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) {
+    if (libcamera_compat::isStartup(metadata)) {
+        ++counters_.startup;
+        return false;
+    }
+    std::size_t bytes = 0;
+    for (const auto& plane : metadata.planes())
+        bytes += plane.bytesused;
+    const bool sound = metadata.status == libcamera::FrameMetadata::FrameSuccess &&
+                       bytes >= leastBytes(configured_.layout);
+    if (!sound) ++counters_.broken;
+    return sound;
+}
+
+LibcameraCamera::Stream::Done
+LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
+                                  const libcamera::FrameMetadata& metadata) {
+    namespace controls = libcamera::controls;
+    const libcamera::ControlList& told = request.metadata();
+    const auto stamp = told.get(controls::SensorTimestamp);
+    const auto now = SensorClock::Now::read();
+    const auto start =
+        clock_.toMonotonic({stamp ? *stamp : static_cast<std::int64_t>(metadata.timestamp)}, now);
+    if (!start) ++counters_.untimed;
+    const auto exposure = std::chrono::microseconds(told.get(controls::ExposureTime).value_or(0));
+    const Timestamp time = start ? *start + exposure / 2 : now.monotonic;
+    ++counters_.frames;
+    if (options_.rateHz > 0) drops_.add(time);
+    if (!viewChecked_) {
+        viewChecked_ = true;
+        viewFault_ =
+            cropFault(*camera_, told.get(controls::ScalerCrop), options_).value_or(std::string());
+    }
+    return {slot, time, exposure};
+}
+
+std::optional<Frame> LibcameraCamera::Stream::next(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, timeout,
+                      [&] { return !running_ || !lost_.empty() || !ready_.empty(); });
+    if (!lost_.empty()) throw DeviceLost(lost_);
+    if (!viewFault_.empty()) throw std::runtime_error(viewFault_);
+    if (!running_ || ready_.empty()) return std::nullopt;
+    const Done done = ready_.front();
+    ready_.pop_front();
+    slots_[done.slot].state = State::Lent;
+    const std::shared_ptr<const MappedPicture> picture = slots_[done.slot].picture;
+    lock.unlock();
+    picture->beginRead();
+    Frame frame(picture->view(), done.time, [picture, stream = weak_from_this(), slot = done.slot] {
+        picture->endRead();
+        if (const auto alive = stream.lock()) alive->giveBack(slot);
+    });
+    frame.exposure = done.exposure;
+    return frame;
+}
+
+LibcameraCounters LibcameraCamera::Stream::counters() const {
+    std::lock_guard lock(mutex_);
+    LibcameraCounters counters = counters_;
+    counters.dropped = drops_.dropped();
+    counters.clock = clock_.kind();
+    return counters;
+}
+
+}  // namespace mfar

@@ -1,0 +1,33 @@
+#include "hal/device/field_of_view.h"
+
+#include <gtest/gtest.h>
+
+namespace mfar {
+namespace {
+
+TEST(FieldOfView, WholeSensorIsWhole) {
+    EXPECT_TRUE(showsWholeField({4056, 3040}, {4056, 3040}, {640, 480}));
+    EXPECT_TRUE(showsWholeField({4032, 3024}, {4056, 3040}, {640, 480})) << "aligned mode";
+}
+
+TEST(FieldOfView, ShapeMayCostOneDirection) {
+    EXPECT_TRUE(showsWholeField({1440, 1080}, {1920, 1080}, {640, 480}));
+    EXPECT_TRUE(showsWholeField({4056, 2282}, {4056, 3040}, {1920, 1080}));
+}
+
+TEST(FieldOfView, CroppedModeIsSeen) {
+    // imx477 1332x990: the middle 2664x1980 of the sensor, binned.
+    EXPECT_FALSE(showsWholeField({2664, 1980}, {4056, 3040}, {640, 480}));
+    EXPECT_FALSE(showsWholeField({1280, 720}, {1920, 1080}, {640, 480}));
+    EXPECT_FALSE(showsWholeField({1440, 900}, {1920, 1080}, {640, 480}));
+    EXPECT_FALSE(showsWholeField({1200, 1080}, {1920, 1080}, {640, 480}));
+}
+
+TEST(FieldOfView, NothingIsNoField) {
+    EXPECT_FALSE(showsWholeField({0, 0}, {4056, 3040}, {640, 480}));
+    EXPECT_FALSE(showsWholeField({4056, 3040}, {0, 3040}, {640, 480}));
+    EXPECT_FALSE(showsWholeField({4056, 3040}, {4056, 3040}, {640, -1}));
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,69 @@
+#include "hal/device/frame_drops.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace mfar {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::chrono::nanoseconds kPeriod{33'333'333};
+
+TEST(FrameDrops, EveryGapIsCounted) {
+    for (unsigned seed = 0; seed < 50; ++seed) {
+        std::mt19937 random(seed);
+        std::uniform_int_distribution<int> jitter(-4'000'000, 4'000'000);
+        std::uniform_int_distribution<int> percent(0, 99);
+        FrameDrops drops;
+        Timestamp ideal{1'000'000'000};
+        std::uint64_t missing = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const int gap = i >= 10 && percent(random) < 5 ? 1 + percent(random) % 7 : 0;
+            ideal = ideal + kPeriod * (1 + gap);
+            EXPECT_EQ(drops.add(ideal + std::chrono::nanoseconds(jitter(random))), gap) << i;
+            missing += static_cast<std::uint64_t>(gap);
+        }
+        EXPECT_EQ(drops.dropped(), missing);
+    }
+}
+
+TEST(FrameDrops, NothingIsCountedBeforeThePeriodIsKnown) {
+    FrameDrops drops;
+    Timestamp time{0};
+    for (int i = 0; i < 8; ++i)
+        EXPECT_EQ(drops.add(time = time + kPeriod * (1 + i % 3)), 0);
+    EXPECT_FALSE(drops.period());
+}
+
+TEST(FrameDrops, NewRateIsLearned) {
+    FrameDrops drops;
+    Timestamp time{0};
+    for (int i = 0; i < 40; ++i)
+        drops.add(time = time + kPeriod);
+    for (int i = 0; i < 40; ++i)
+        drops.add(time = time + 2 * kPeriod);
+    const std::uint64_t before = drops.dropped();
+    for (int i = 0; i < 40; ++i)
+        drops.add(time = time + 2 * kPeriod);
+    EXPECT_EQ(drops.dropped(), before);
+    EXPECT_EQ(drops.period(), 2 * kPeriod);
+}
+
+TEST(FrameDrops, PauseAndTimesThatDoNotRiseAreNoGaps) {
+    FrameDrops drops;
+    Timestamp time{0};
+    for (int i = 0; i < 40; ++i)
+        drops.add(time = time + kPeriod);
+    drops.pause();
+    EXPECT_EQ(drops.add(time = time + 10s), 0);
+    EXPECT_EQ(drops.add(time), 0);
+    EXPECT_EQ(drops.add(time = time - 5s), 0);
+    EXPECT_EQ(drops.add(time = time + kPeriod), 0);
+    EXPECT_EQ(drops.add(time = time + 2 * kPeriod), 1);
+    EXPECT_EQ(drops.dropped(), 1U);
+}
+
+}  // namespace
+}  // namespace mfar
