@@ -100,9 +100,12 @@ std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& 
     failOnFormat(camera, options, configuration.at(0), became);
 }
 
-/// "SRGGB10_CSI2P": 10.
+/// Of what a sensor gives, "SRGGB10_CSI2P" or "R10": 10. Of anything else 0.
 unsigned bitDepth(const std::string& format) {
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    const bool bayer = format.starts_with('S');
+    const bool mono = format.size() > 1 && format[0] == 'R' && isDigit(format[1]);
+    if (!bayer && !mono) return 0;
     unsigned depth = 0;
     for (auto c = std::ranges::find_if(format, isDigit); c != format.end() && isDigit(*c); ++c)
         depth = std::min(depth * 10 + static_cast<unsigned>(*c - '0'), 64U);

@@ -7,11 +7,13 @@
 
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace mfar {
 namespace {
 
 using libcamera::FrameBuffer;
+using Planes = std::vector<FrameBuffer::Plane>;
 
 /// 4 KiB that count up.
 libcamera::SharedFD memory(std::uint8_t first) {
@@ -33,15 +35,15 @@ FrameBuffer::Plane plane(const libcamera::SharedFD& fd, unsigned offset, unsigne
 
 TEST(MappedPicture, PlanesMayShareAFileWithOffsets) {
     const auto fd = memory(0);
-    const FrameBuffer buffer({plane(fd, 16, 32 * 16), plane(fd, 1000, 32 * 8)});
+    const FrameBuffer buffer(Planes{plane(fd, 16, 32 * 16), plane(fd, 1000, 32 * 8)});
     const MappedPicture picture(buffer, {{32, 16}, PixelFormat::Nv12, 32});
     EXPECT_EQ(picture.view().data[0], 16);
     EXPECT_EQ(picture.view().chroma[0].data[0], 1000 % 256);
 }
 
 TEST(MappedPicture, PlanesMayBeFilesOfTheirOwn) {
-    const FrameBuffer buffer(
-        {plane(memory(1), 0, 32 * 16), plane(memory(2), 0, 16 * 8), plane(memory(3), 0, 16 * 8)});
+    const FrameBuffer buffer(Planes{plane(memory(1), 0, 32 * 16), plane(memory(2), 0, 16 * 8),
+                                    plane(memory(3), 0, 16 * 8)});
     const MappedPicture picture(buffer, {{32, 16}, PixelFormat::Yuv420, 32});
     EXPECT_EQ(picture.view().data[0], 1);
     EXPECT_EQ(picture.view().chroma[0].data[0], 2);
@@ -51,7 +53,7 @@ TEST(MappedPicture, PlanesMayBeFilesOfTheirOwn) {
 TEST(MappedPicture, OutlivesTheBufferAndReadsAroundSynchronisation) {
     std::unique_ptr<MappedPicture> picture;
     {
-        const FrameBuffer buffer({plane(memory(7), 0, 4096)});
+        const FrameBuffer buffer(Planes{plane(memory(7), 0, 4096)});
         picture =
             std::make_unique<MappedPicture>(buffer, PictureLayout{{32, 16}, PixelFormat::Yuyv, 64});
     }
@@ -63,9 +65,9 @@ TEST(MappedPicture, OutlivesTheBufferAndReadsAroundSynchronisation) {
 TEST(MappedPicture, WhatDoesNotHoldThePictureIsRefused) {
     const auto fd = memory(0);
     const PictureLayout layout{{32, 16}, PixelFormat::Nv12, 32};
-    const FrameBuffer small({plane(fd, 0, 32 * 16), plane(fd, 512, 32 * 7)});
+    const FrameBuffer small(Planes{plane(fd, 0, 32 * 16), plane(fd, 512, 32 * 7)});
     EXPECT_THROW(MappedPicture(small, layout), std::runtime_error);
-    const FrameBuffer closed({plane(libcamera::SharedFD(), 0, 4096)});
+    const FrameBuffer closed(Planes{plane(libcamera::SharedFD(), 0, 4096)});
     EXPECT_THROW(MappedPicture(closed, layout), std::runtime_error);
 }
 
