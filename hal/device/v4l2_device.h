@@ -1,0 +1,102 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mfar {
+
+/// The calls into the kernel that have to do with the driver: the seam at which tests put a driver
+/// of their own. All return as the system calls do, with errno.
+class V4l2Api {
+public:
+    virtual ~V4l2Api() = default;
+
+    /// Paths of the video device nodes of this machine, sorted.
+    [[nodiscard]] virtual std::vector<std::string> nodes() = 0;
+    [[nodiscard]] virtual int open(const char* path) = 0;
+    virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
+    /// Shared, readable and writable; unmapped by munmap().
+    [[nodiscard]] virtual void* map(int fd, std::size_t length, std::int64_t offset) = 0;
+};
+
+/// The kernel's V4L2.
+[[nodiscard]] V4l2Api& kernelV4l2();
+
+/// A device call failed. The message names the device, what was tried and why it failed.
+class V4l2Error : public std::runtime_error {
+public:
+    V4l2Error(const std::string& message, int errorNumber)
+        : std::runtime_error(message), errorNumber_(errorNumber) {}
+    [[nodiscard]] int errorNumber() const { return errorNumber_; }
+
+private:
+    int errorNumber_;
+};
+
+/// A file descriptor that is closed with its owner.
+class OwnedFd {
+public:
+    OwnedFd() = default;
+    explicit OwnedFd(int fd) : fd_(fd) {}
+    OwnedFd(OwnedFd&& other) noexcept;
+    OwnedFd& operator=(OwnedFd&& other) noexcept;
+    OwnedFd(const OwnedFd&) = delete;
+    OwnedFd& operator=(const OwnedFd&) = delete;
+    ~OwnedFd();
+
+    [[nodiscard]] int get() const { return fd_; }
+
+private:
+    int fd_ = -1;
+};
+
+/// An open V4L2 device node. Calls may come from several threads.
+class V4l2Device {
+public:
+    /// Throws V4l2Error when the node cannot be opened or is none of V4L2's.
+    V4l2Device(V4l2Api& api, const std::string& path);
+
+    /// 0, or the error's number. Interrupted calls are repeated.
+    [[nodiscard]] int tryCall(unsigned long request, void* argument) const;
+    /// Throws DeviceLost when the device has gone, V4l2Error "PATH: WHAT: why" otherwise.
+    void call(unsigned long request, void* argument, std::string_view what) const;
+    /// The error as call() throws it.
+    [[noreturn]] void fail(std::string_view what, int errorNumber) const;
+
+    struct Unmap {
+        std::size_t length = 0;
+        void operator()(std::uint8_t* memory) const;
+    };
+    using Mapping = std::unique_ptr<std::uint8_t, Unmap>;
+    [[nodiscard]] Mapping map(std::size_t length, std::int64_t offset) const;
+
+    [[nodiscard]] int fd() const { return fd_.get(); }
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] const std::string& card() const { return card_; }  ///< the driver's name for it
+    [[nodiscard]] const std::string& bus() const { return bus_; }    ///< where it is plugged in
+    [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }  ///< of this node
+    [[nodiscard]] bool captures() const;     ///< delivers pictures through buffers
+    [[nodiscard]] bool multiPlanar() const;  ///< through the multi-planar API alone
+
+private:
+    V4l2Api* api_;
+    std::string path_, card_, bus_;
+    std::uint32_t capabilities_ = 0;
+    OwnedFd fd_;
+};
+
+/// Opens the capture device that `which` names: a path, or the card or bus of one device node of
+/// this machine. Throws std::runtime_error that lists what there is when none or several fit.
+[[nodiscard]] V4l2Device openCapture(V4l2Api& api, const std::string& which);
+
+/// The text of a fixed field of a driver, which need not end in a zero.
+[[nodiscard]] std::string fieldText(const void* field, std::size_t bytes);
+
+}  // namespace mfar
