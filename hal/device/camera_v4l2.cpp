@@ -1,0 +1,202 @@
+#include "hal/device/camera_v4l2.h"
+
+#include <fmt/format.h>
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <stdexcept>
+#include <thread>
+
+namespace mfar {
+namespace {
+
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+// A stamp may be so much ahead of now (its clock was read on another core), or so old (nobody
+// called next()).
+constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
+constexpr std::chrono::milliseconds kTroublePause{5};
+// More numbers left out at once are a restarted count.
+constexpr std::uint32_t kMostMissed = 10000;
+
+/// A filled buffer, which goes back with the last of those that hold it.
+class Loan {
+public:
+    Loan(std::shared_ptr<V4l2Stream> stream, int index)
+        : stream_(std::move(stream)), index_(index) {}
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    ~Loan() { stream_->giveBack(index_); }
+
+private:
+    std::shared_ptr<V4l2Stream> stream_;
+    int index_;
+};
+
+V4l2Layout negotiated(const V4l2Device& device, const V4l2Wish& wish) {
+    if (wish.size.width < 1 || wish.size.height < 1)
+        throw std::runtime_error(device.path() + ": a size is needed");
+    if (!(wish.rateHz >= 0 && wish.rateHz <= 1e4))
+        throw std::runtime_error(
+            fmt::format("{}: {} frames a second are impossible", device.path(), wish.rateHz));
+    return setFormat(device, chooseFormat(device, wish), wish.size);
+}
+
+}  // namespace
+
+CameraV4l2::CameraV4l2(const CameraV4l2Options& options, V4l2Api& api) : options_(options) {
+    V4l2Device device = openCapture(api, options.device);
+    layout_ = negotiated(device, options.wish);
+    const double rate = setRate(device, options.wish.rateHz);
+    info_ = {fmt::format("{} ({})", device.card(), device.path()), layout_.size,
+             layout_.format.picture, rate > 0 ? rate : options.wish.rateHz};
+    stream_ = std::make_shared<V4l2Stream>(std::move(device), layout_, options.buffers);
+    controls_ = std::make_unique<V4l2Controls>(stream_->device());
+    for (const auto& [name, value] : options.controls)
+        controls_->set(name, value);
+    if (layout_.format.jpeg)
+        decoder_ = std::make_unique<JpegDecoder>(layout_.size, options.buffers);
+    wake_ = OwnedFd(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+    if (wake_.get() < 0) throw std::runtime_error("no further file can be opened");
+}
+
+CameraV4l2::~CameraV4l2() {
+    stop();
+    stream_->close();
+}
+
+void CameraV4l2::start() {
+    if (running_) return;
+    std::uint64_t drained = 0;
+    static_cast<void>(!read(wake_.get(), &drained, sizeof drained));
+    exposure_ = manualExposure();
+    sequence_.reset();
+    stream_->start();
+    running_ = true;
+}
+
+void CameraV4l2::stop() {
+    running_ = false;
+    constexpr std::uint64_t kOne = 1;
+    // Before the stream ends: who wakes by that must find it said.
+    static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
+    stream_->stop();
+}
+
+std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
+    const auto until = steady_clock::now() + timeout;
+    while (running_) {
+        const Wait waited = wait(until);
+        if (waited == Wait::Nothing) return std::nullopt;
+        const auto filled = stream_->take();
+        if (filled) {
+            if (auto frame = frameOf(*filled)) return frame;
+        } else if (waited == Wait::Trouble) {
+            // A lost device would have said so. The kernel also reports this while every buffer is
+            // lent since the start.
+            if (steady_clock::now() >= until) return std::nullopt;
+            std::this_thread::sleep_for(kTroublePause);
+        }
+    }
+    return std::nullopt;
+}
+
+CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
+    // The device first: it is in trouble once stopped, and then the other already says why.
+    std::array<pollfd, 2> fds{pollfd{stream_->device().fd(), POLLIN, 0},
+                              pollfd{wake_.get(), POLLIN, 0}};
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
+    const int ready =
+        poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
+    if (ready < 0 && errno == EINTR) return Wait::Picture;  // take() will find what there is
+    if (ready <= 0 || fds[1].revents != 0) return Wait::Nothing;
+    return (fds[0].revents & (POLLERR | POLLHUP | POLLNVAL)) != 0 ? Wait::Trouble : Wait::Picture;
+}
+
+std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
+    countMissed(filled.sequence);
+    const auto loan = std::make_shared<Loan>(stream_, filled.index);
+    if (!isWhole(filled)) {
+        ++counts_.broken;
+        return std::nullopt;
+    }
+    const auto time = timeOf(filled);
+    if (!time) {
+        ++counts_.badTimes;
+        return std::nullopt;
+    }
+    auto memory = stream_->memory(filled.index);
+    for (std::size_t i = 0; i < memory.size(); ++i)
+        if (memory[i] != nullptr) memory[i] += filled.offset[i];
+    std::optional<Frame> out;
+    if (decoder_)
+        out = decoder_->decode({memory[0], filled.bytes[0] - filled.offset[0]}, *time);
+    else
+        out.emplace(layout_.view(memory), *time, [loan] {});
+    if (!out) {
+        ++counts_.broken;
+        return std::nullopt;
+    }
+    out->exposure = exposure_;
+    last_ = time;
+    ++counts_.delivered;
+    return out;
+}
+
+bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
+    if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0) return false;
+    for (int p = 0; p < layout_.memoryPlanes; ++p) {
+        const auto i = static_cast<std::size_t>(p);
+        // V4L2 counts the offset as used.
+        const std::size_t room = stream_->memoryBytes(filled.index, p);
+        if (filled.bytes[i] > room || filled.offset[i] >= filled.bytes[i] ||
+            filled.bytes[i] - filled.offset[i] < layout_.bytes[i])
+            return false;
+    }
+    return true;
+}
+
+std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
+    constexpr std::int64_t kMostSeconds = 1'000'000'000;
+    if (filled.seconds < 0 || filled.seconds > kMostSeconds || filled.microseconds < 0 ||
+        filled.microseconds >= 1'000'000)
+        return std::nullopt;
+    const Timestamp stamp{filled.seconds * 1'000'000'000 + filled.microseconds * 1000};
+    const nanoseconds age = Timestamp::now() - stamp;
+    if (age < -kAhead || age > kOldest) return std::nullopt;
+    const bool begin =
+        (filled.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+    const Timestamp out = stamp + (begin ? exposure_ / 2 : -exposure_ / 2) + options_.timeOffset;
+    if (last_ && out <= *last_) return std::nullopt;
+    return out;
+}
+
+// In units of 100 us; V4L2 has two names for it and for its automatic.
+nanoseconds CameraV4l2::manualExposure() const {
+    constexpr std::int64_t kMost = 100'000;
+    for (const char* automatic : {"auto_exposure", "exposure_auto"})
+        if (controls_->find(automatic) != nullptr &&
+            controls_->get(automatic) != V4L2_EXPOSURE_MANUAL)
+            return nanoseconds(0);
+    for (const char* name : {"exposure_time_absolute", "exposure_absolute"})
+        if (controls_->find(name) != nullptr)
+            return std::chrono::microseconds(
+                100 * std::clamp<std::int64_t>(controls_->get(name), 0, kMost));
+    return nanoseconds(0);
+}
+
+void CameraV4l2::countMissed(std::uint32_t sequence) {
+    if (sequence_) {
+        const std::uint32_t step = sequence - *sequence_;  // wraps as the driver's count does
+        if (step > 1 && step <= kMostMissed) counts_.missed += step - 1;
+    }
+    sequence_ = sequence;
+}
+
+}  // namespace mfar

@@ -1,0 +1,162 @@
+#include "hal/device/v4l2_stream.h"
+
+#include "hal/camera.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+
+struct V4l2Stream::Argument {
+    v4l2_buffer buffer{};
+    std::array<v4l2_plane, VIDEO_MAX_PLANES> planes{};
+
+    Argument(std::uint32_t type, int index) {
+        buffer.type = type;
+        buffer.memory = V4L2_MEMORY_MMAP;
+        buffer.index = static_cast<std::uint32_t>(index);
+        if (multi()) {
+            buffer.m.planes = planes.data();
+            buffer.length = static_cast<std::uint32_t>(planes.size());
+        }
+    }
+    Argument(const Argument&) = delete;
+    Argument& operator=(const Argument&) = delete;
+
+    [[nodiscard]] bool multi() const { return buffer.type == V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE; }
+};
+
+V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
+    : device_(std::move(device)), type_(bufferType(*device_)), pieces_(layout.memoryPlanes) {
+    allocate(buffers);
+    for (int i = 0; i < static_cast<int>(buffers_.size()); ++i) {
+        mapBuffer(i);
+        for (int p = 0; p < pieces_; ++p)
+            if (memoryBytes(i, p) < layout.bytes[static_cast<std::size_t>(p)])
+                throw std::runtime_error(fmt::format(
+                    "{}: the driver's buffers have {} bytes, a picture needs {}", device_->path(),
+                    memoryBytes(i, p), layout.bytes[static_cast<std::size_t>(p)]));
+    }
+}
+
+void V4l2Stream::allocate(int buffers) {
+    constexpr std::uint32_t kFewest = 2, kMost = 64;
+    v4l2_requestbuffers request{};
+    request.type = type_;
+    request.memory = V4L2_MEMORY_MMAP;
+    request.count = static_cast<std::uint32_t>(std::clamp(buffers, 2, 32));
+    device_->call(VIDIOC_REQBUFS, &request, "allocating buffers");
+    if (request.count < kFewest || request.count > kMost)
+        throw std::runtime_error(
+            fmt::format("{}: the driver gives {} buffers", device_->path(), request.count));
+    buffers_.resize(request.count);
+}
+
+void V4l2Stream::mapBuffer(int index) {
+    Argument argument(type_, index);
+    device_->call(VIDIOC_QUERYBUF, &argument.buffer, "asking for a buffer");
+    const std::uint32_t clock = argument.buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK;
+    if (clock != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC)
+        throw std::runtime_error(
+            fmt::format("{}: the driver's timestamps are not of CLOCK_MONOTONIC", device_->path()));
+    for (int p = 0; p < pieces_; ++p) {
+        const auto i = static_cast<std::size_t>(p);
+        const bool multi = argument.multi();
+        const std::size_t length = multi ? argument.planes[i].length : argument.buffer.length;
+        const std::int64_t offset =
+            multi ? argument.planes[i].m.mem_offset : argument.buffer.m.offset;
+        buffers_[static_cast<std::size_t>(index)].pieces[i] = device_->map(length, offset);
+    }
+}
+
+int V4l2Stream::queue(int index) noexcept {
+    Argument argument(type_, index);
+    const int error = device_->tryCall(VIDIOC_QBUF, &argument.buffer);
+    buffers_[static_cast<std::size_t>(index)].holder = error == 0 ? Holder::Driver : Holder::Nobody;
+    return error;
+}
+
+void V4l2Stream::start() {
+    const std::scoped_lock lock(mutex_);
+    if (running_) return;
+    for (std::size_t i = 0; i < buffers_.size(); ++i)
+        if (buffers_[i].holder == Holder::Nobody)
+            if (const int error = queue(static_cast<int>(i)))
+                device_->fail("handing a buffer to the driver", error);
+    device_->call(VIDIOC_STREAMON, &type_, "starting");
+    running_ = true;
+}
+
+void V4l2Stream::stop() noexcept {
+    const std::scoped_lock lock(mutex_);
+    if (!device_) return;
+    static_cast<void>(device_->tryCall(VIDIOC_STREAMOFF, &type_));
+    running_ = false;
+    for (Buffer& buffer : buffers_)
+        if (buffer.holder == Holder::Driver) buffer.holder = Holder::Nobody;
+}
+
+void V4l2Stream::close() noexcept {
+    stop();
+    const std::scoped_lock lock(mutex_);
+    if (!device_) return;
+    // Mapped memory keeps the device's file open: without this nobody else could have its buffers
+    // until the last picture is back.
+    v4l2_requestbuffers none{};
+    none.type = type_;
+    none.memory = V4L2_MEMORY_MMAP;
+    static_cast<void>(device_->tryCall(VIDIOC_REQBUFS, &none));
+    device_.reset();
+}
+
+std::optional<V4l2Filled> V4l2Stream::take() {
+    const std::scoped_lock lock(mutex_);
+    if (!running_) return std::nullopt;
+    Argument argument(type_, 0);
+    const v4l2_buffer& buffer = argument.buffer;
+    if (const int error = device_->tryCall(VIDIOC_DQBUF, &argument.buffer)) {
+        if (error == EAGAIN) return std::nullopt;
+        // Also EIO: what can be recovered comes as a buffer with an error flag instead.
+        throw DeviceLost(fmt::format("{}: no more pictures ({})", device_->path(),
+                                     std::generic_category().message(error)));
+    }
+    if (buffer.index >= buffers_.size() || buffers_[buffer.index].holder != Holder::Driver)
+        throw DeviceLost(fmt::format("{}: the driver fills buffer {}, which it does not have",
+                                     device_->path(), buffer.index));
+    buffers_[buffer.index].holder = Holder::Picture;
+    V4l2Filled out{static_cast<int>(buffer.index), buffer.flags, buffer.sequence,
+                   buffer.timestamp.tv_sec, buffer.timestamp.tv_usec};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(pieces_); ++i) {
+        const v4l2_plane& plane = argument.planes[i];
+        out.offset[i] = argument.multi() ? plane.data_offset : 0;
+        out.bytes[i] = argument.multi() ? plane.bytesused : buffer.bytesused;
+    }
+    return out;
+}
+
+void V4l2Stream::giveBack(int index) noexcept {
+    const std::scoped_lock lock(mutex_);
+    if (running_)
+        // The next take() says so if the device has gone.
+        static_cast<void>(queue(index));
+    else
+        buffers_[static_cast<std::size_t>(index)].holder = Holder::Nobody;
+}
+
+std::array<const std::uint8_t*, 3> V4l2Stream::memory(int index) const {
+    const auto& pieces = buffers_[static_cast<std::size_t>(index)].pieces;
+    return {pieces[0].get(), pieces[1].get(), pieces[2].get()};
+}
+
+std::size_t V4l2Stream::memoryBytes(int index, int piece) const {
+    return buffers_[static_cast<std::size_t>(index)]
+        .pieces[static_cast<std::size_t>(piece)]
+        .get_deleter()
+        .length;
+}
+
+}  // namespace mfar

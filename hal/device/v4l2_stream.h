@@ -1,0 +1,77 @@
+#pragma once
+
+#include "hal/device/v4l2_formats.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// A buffer that the driver has filled, with what it says of it. Nothing of that is checked but the
+/// index.
+struct V4l2Filled {
+    int index = 0;
+    std::uint32_t flags = 0;     ///< V4L2_BUF_FLAG_...
+    std::uint32_t sequence = 0;  ///< of the frame, gaps are frames that found no buffer
+    std::int64_t seconds = 0, microseconds = 0;
+    std::array<std::size_t, 3> offset{}, bytes{};  ///< of what was written in each piece of memory
+};
+
+/// The memory-mapped buffers of a capture device: allocated once, on their way between the driver
+/// and those who hold a picture. Thread-safe. Holders keep it alive by shared_ptr, so that a
+/// picture can be read, and handed back, after the device was closed.
+class V4l2Stream {
+public:
+    /// Takes the device, whose format is set. Throws std::runtime_error, DeviceLost.
+    V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers);
+    V4l2Stream(const V4l2Stream&) = delete;
+    V4l2Stream& operator=(const V4l2Stream&) = delete;
+    ~V4l2Stream() { close(); }
+
+    /// Hands every buffer that nobody holds to the driver and lets it run. Throws like the
+    /// constructor.
+    void start();
+    /// Idempotent; a lost device is no error here.
+    void stop() noexcept;
+    /// stop(), then gives device and buffers up: another program may have the device, while the
+    /// memory of lent pictures stays.
+    void close() noexcept;
+
+    /// A filled buffer, which is the caller's until giveBack(); nothing when there is none or the
+    /// stream does not run. Throws DeviceLost when no further will come.
+    [[nodiscard]] std::optional<V4l2Filled> take();
+    void giveBack(int index) noexcept;
+
+    /// Readable while the caller holds the buffer.
+    [[nodiscard]] std::array<const std::uint8_t*, 3> memory(int index) const;
+    [[nodiscard]] std::size_t memoryBytes(int index, int piece) const;
+
+    /// Not after close().
+    [[nodiscard]] const V4l2Device& device() const { return *device_; }
+
+private:
+    enum class Holder { Nobody, Driver, Picture };
+    struct Buffer {
+        Holder holder = Holder::Nobody;
+        std::array<V4l2Device::Mapping, 3> pieces;
+    };
+    /// The argument of a buffer call, with planes where the multi-planar API wants them.
+    struct Argument;
+
+    void allocate(int buffers);
+    void mapBuffer(int index);
+    [[nodiscard]] int queue(int index) noexcept;
+
+    std::optional<V4l2Device> device_;
+    std::uint32_t type_;
+    int pieces_;
+    mutable std::mutex mutex_;
+    bool running_ = false;
+    std::vector<Buffer> buffers_;
+};
+
+}  // namespace mfar

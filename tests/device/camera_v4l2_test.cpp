@@ -1,0 +1,356 @@
+#include "hal/device/camera_v4l2.h"
+#include "tests/device/fake_v4l2.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <future>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace mfar {
+namespace {
+
+using namespace std::chrono_literals;
+using test::FakePicture;
+using test::FakeV4l2;
+
+constexpr Size kSize{32, 24};
+
+std::string errorOf(const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const std::runtime_error& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+CameraV4l2Options wanted(const std::string& format = {}, double rateHz = 0) {
+    CameraV4l2Options out;
+    out.device = "/dev/video0";
+    out.wish = {kSize, rateHz, format};
+    out.buffers = 4;
+    return out;
+}
+
+TEST(CameraV4l2, LendsThePicturesOfTheDriver) {
+    FakeV4l2 fake;
+    fake.padding = 12;
+    fake.quantization = V4L2_QUANTIZATION_FULL_RANGE;
+    CameraV4l2 camera(wanted({}, 25), fake);
+    EXPECT_EQ(camera.info().name, "Fake Camera (/dev/video0)");
+    EXPECT_EQ(camera.info().size, kSize);
+    EXPECT_EQ(camera.info().format, PixelFormat::Yuyv);
+    EXPECT_EQ(camera.info().rateHz, 25);
+    camera.start();
+    const Timestamp before = Timestamp::now();
+    ASSERT_TRUE(fake.deliver({.ageMs = 20, .level = 77}));
+    const auto frame = camera.next(1s);
+    ASSERT_TRUE(frame.has_value());
+    EXPECT_EQ(frame->view().size, kSize);
+    EXPECT_EQ(frame->view().stride, 32U * 2 + 12);
+    EXPECT_EQ(frame->view().range, YuvRange::Full);
+    EXPECT_EQ(frame->view().data[frame->view().stride * 23 + 63], 77);
+    EXPECT_NEAR(std::chrono::duration<double>(before - frame->time()).count(), 0.02, 0.015);
+    EXPECT_EQ(camera.counts().delivered, 1U);
+}
+
+TEST(CameraV4l2, FormatsAreTakenInTheOrderOfPreference) {
+    FakeV4l2 fake;
+    const auto chosen = [&](const std::string& format = {}, double rateHz = 0) {
+        return CameraV4l2(wanted(format, rateHz), fake).info().format;
+    };
+    fake.formats = {{V4L2_PIX_FMT_GREY, {kSize}}};
+    EXPECT_EQ(chosen(), PixelFormat::Gray8);
+    fake.formats.push_back({V4L2_PIX_FMT_XBGR32, {kSize}});
+    EXPECT_EQ(chosen(), PixelFormat::Bgra8);
+    fake.formats.push_back({V4L2_PIX_FMT_YUYV, {{64, 48}, kSize}, 5});
+    EXPECT_EQ(chosen(), PixelFormat::Yuyv);
+    EXPECT_EQ(chosen({}, 30), PixelFormat::Bgra8) << "the only colour that is fast enough";
+    EXPECT_EQ(chosen({}, 60), PixelFormat::Yuyv) << "none is: the best of all";
+    fake.formats.push_back({V4L2_PIX_FMT_YUV420, {kSize}});
+    EXPECT_EQ(chosen(), PixelFormat::Yuv420);
+    fake.formats.push_back({V4L2_PIX_FMT_NV12, {{64, 48}}});
+    EXPECT_EQ(chosen(), PixelFormat::Yuv420) << "NV12 has another size only";
+    EXPECT_EQ(chosen("GREY"), PixelFormat::Gray8);
+}
+
+TEST(CameraV4l2, WhatIsNotOfferedIsAnsweredByWhatIs) {
+    FakeV4l2 fake;
+    fake.formats = {{V4L2_PIX_FMT_YUYV, {{64, 48}, {160, 120}}}, {V4L2_PIX_FMT_SBGGR8, {kSize}}};
+    EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),
+              "/dev/video0: 'Fake Camera' has no 32x24 in a format that can be used; it offers\n"
+              "  YUYV: 64x48 160x120\n"
+              "  BA81: 32x24");
+    EXPECT_EQ(errorOf([&] { CameraV4l2(wanted("NV12"), fake); }).substr(0, 50),
+              "/dev/video0: 'Fake Camera' has no 32x24 in NV12; i");
+}
+
+TEST(CameraV4l2, ADriverThatRoundsTheSizeIsRefused) {
+    FakeV4l2 fake;
+    fake.formats = {{V4L2_PIX_FMT_YUYV, {}}};
+    fake.rounds = true;
+    EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),
+              "/dev/video0: 'Fake Camera' makes 16x16 YUYV of 32x24 YUYV");
+}
+
+TEST(CameraV4l2, NumbersOfTheDriverAreNotBelievedUnchecked) {
+    const auto errorWith = [](const std::function<void(FakeV4l2&)>& change) {
+        FakeV4l2 fake;
+        change(fake);
+        return errorOf([&] { CameraV4l2(wanted(), fake); });
+    };
+    EXPECT_EQ(errorWith([](FakeV4l2& f) { f.sizeFault = -1; }),
+              "/dev/video0: the driver says a picture has 1535 bytes, its rows need 1536");
+    EXPECT_EQ(errorWith([](FakeV4l2& f) { f.padding = std::size_t{2} << 20; }),
+              "/dev/video0: the driver says a row has 2097216 bytes");
+    EXPECT_EQ(errorWith([](FakeV4l2& f) { f.clock = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN; }),
+              "/dev/video0: the driver's timestamps are not of CLOCK_MONOTONIC");
+}
+
+TEST(CameraV4l2, ABusyDeviceIsSaidToBe) {
+    FakeV4l2 fake;
+    fake.busy = true;
+    EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),
+              "/dev/video0: setting the format: busy: another program uses it");
+}
+
+TEST(CameraV4l2, IsFoundByCardAndBus) {
+    FakeV4l2 fake;
+    CameraV4l2Options options = wanted();
+    for (const char* name : {"Fake Camera", "fake:1"}) {
+        options.device = name;
+        EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video0)");
+    }
+    options.device = "Other";
+    EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
+              "no camera 'Other' among\n  /dev/video0: 'Fake Camera' at fake:1");
+    fake.secondPath = "/dev/video2";
+    options.device = "Fake Camera";
+    EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }).substr(0, 63),
+              "several cameras are 'Fake Camera', name one by its path or bus:");
+    options.device = "/dev/video1";
+    EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
+              "/dev/video1: 'Fake Camera' delivers no pictures");
+    options.device = "/dev/video9";
+    EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
+              "/dev/video9: No such file or directory");
+}
+
+TEST(CameraV4l2, ControlsAreSetBeforeItRuns) {
+    FakeV4l2 fake;
+    fake.controls = {{0x980900, "Brightness", V4L2_CTRL_TYPE_INTEGER, 0, 255, 1, 100}};
+    CameraV4l2Options options = wanted();
+    options.controls = {{"brightness", "12"}};
+    const CameraV4l2 camera(options, fake);
+    EXPECT_EQ(fake.control("Brightness"), 12);
+    EXPECT_EQ(camera.controls().get("brightness"), 12);
+}
+
+TEST(CameraV4l2, BrokenPicturesAreCountedAndNeverDelivered) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_TRUE(fake.deliver({.flags = V4L2_BUF_FLAG_ERROR, .level = 1}));
+        ASSERT_TRUE(fake.deliver({.missingBytes = 1, .level = 2}));
+        EXPECT_FALSE(camera.next(0ms).has_value());
+    }
+    EXPECT_EQ(camera.counts().broken, 20U);
+    EXPECT_EQ(fake.queued(), 4) << "their buffers are back";
+    ASSERT_TRUE(fake.deliver({.level = 3}));
+    EXPECT_EQ(camera.next(1s)->view().data[0], 3);
+    EXPECT_EQ(camera.counts().delivered, 1U);
+}
+
+TEST(CameraV4l2, ImpossibleTimesAreCountedAndNeverDelivered) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.deliver({.ageMs = -1000});
+    fake.deliver({.ageMs = 60'000});
+    EXPECT_FALSE(camera.next(0ms).has_value());
+    fake.deliver({.ageMs = 10});
+    EXPECT_TRUE(camera.next(1s).has_value());
+    fake.deliver({.ageMs = 500});
+    EXPECT_FALSE(camera.next(0ms).has_value()) << "before the one before";
+    EXPECT_EQ(camera.counts().badTimes, 3U);
+}
+
+TEST(CameraV4l2, MissedPicturesAreCounted) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.deliver({.ageMs = 30});
+    fake.deliver({.ageMs = 20, .skipped = 3});
+    static_cast<void>(camera.next(1s));
+    static_cast<void>(camera.next(1s));
+    EXPECT_EQ(camera.counts().missed, 3U);
+}
+
+TEST(CameraV4l2, TimeIsTheMiddleOfAManualExposure) {
+    const auto ageWith = [](std::uint32_t flags, std::int64_t automatic) {
+        FakeV4l2 fake;
+        fake.controls = {{0x9a0901, "Auto Exposure", V4L2_CTRL_TYPE_INTEGER, 0, 3, 1, automatic},
+                         {0x9a0902, "Exposure Time, Absolute", V4L2_CTRL_TYPE_INTEGER, 1, 5000, 1,
+                          2000}};  // 200 ms
+        CameraV4l2 camera(wanted(), fake);
+        camera.start();
+        fake.deliver({.flags = flags, .ageMs = 1000});
+        const auto frame = camera.next(1s);
+        EXPECT_EQ(frame->exposure, automatic == V4L2_EXPOSURE_MANUAL ? 200ms : 0ms);
+        return std::chrono::duration<double>(Timestamp::now() - frame->time()).count();
+    };
+    EXPECT_NEAR(ageWith(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_MANUAL), 0.9, 0.04);
+    EXPECT_NEAR(ageWith(V4L2_BUF_FLAG_TSTAMP_SRC_EOF, V4L2_EXPOSURE_MANUAL), 1.1, 0.04);
+    EXPECT_NEAR(ageWith(V4L2_BUF_FLAG_TSTAMP_SRC_SOE, V4L2_EXPOSURE_AUTO), 1.0, 0.04);
+}
+
+TEST(CameraV4l2, StopWakesNext) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    auto waiting = std::async(std::launch::async, [&] { return camera.next(60s).has_value(); });
+    EXPECT_EQ(waiting.wait_for(20ms), std::future_status::timeout);
+    camera.stop();
+    ASSERT_EQ(waiting.wait_for(20s), std::future_status::ready);
+    EXPECT_FALSE(waiting.get());
+    EXPECT_FALSE(camera.next(60s).has_value());
+    camera.stop();
+}
+
+TEST(CameraV4l2, RunsAgainAfterStop) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.deliver({.ageMs = 30});
+    auto held = camera.next(1s);
+    ASSERT_TRUE(held.has_value());
+    fake.deliver({.ageMs = 20, .level = 5});  // stays in the queue that stop() empties
+    camera.stop();
+    camera.start();
+    EXPECT_EQ(fake.queued(), 3) << "all but the one that is held";
+    fake.deliver({.ageMs = 10, .level = 9});
+    EXPECT_EQ(camera.next(1s)->view().data[0], 9);
+    held.reset();
+    EXPECT_EQ(fake.queued(), 4);
+}
+
+TEST(CameraV4l2, EveryBufferMayBeLentAtOnce) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    std::vector<Frame> held;
+    for (int i = 0; i < 4; ++i) {
+        ASSERT_TRUE(fake.deliver({.ageMs = 50 - i, .level = static_cast<std::uint8_t>(i)}));
+        auto frame = camera.next(1s);
+        ASSERT_TRUE(frame.has_value());
+        held.push_back(std::move(*frame));
+    }
+    EXPECT_FALSE(fake.deliver()) << "no buffer is left";
+    EXPECT_FALSE(camera.next(5ms).has_value());
+    for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(held[static_cast<std::size_t>(i)].view().data[100], i);
+    held.pop_back();
+    EXPECT_TRUE(fake.deliver());
+    EXPECT_TRUE(camera.next(1s).has_value());
+    EXPECT_EQ(camera.counts().missed, 1U);
+}
+
+TEST(CameraV4l2, FramesOutliveTheCameraAndDoNotBlockTheNextOne) {
+    FakeV4l2 fake;
+    std::optional<Frame> held;
+    {
+        CameraV4l2 camera(wanted(), fake);
+        camera.start();
+        fake.deliver({.level = 42});
+        held = camera.next(1s);
+    }
+    ASSERT_TRUE(held.has_value());
+    EXPECT_TRUE(fake.released());
+    EXPECT_EQ(held->view().data[64 * 24 - 1], 42);
+    CameraV4l2 next(wanted(), fake);
+    next.start();
+    EXPECT_EQ(fake.queued(), 4);
+    held.reset();
+    EXPECT_EQ(fake.queued(), 4);
+}
+
+TEST(CameraV4l2, AnUnpluggedDeviceIsLost) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.deliver({.level = 42});
+    const auto held = camera.next(1s);
+    auto waiting = std::async(std::launch::async, [&] { static_cast<void>(camera.next(60s)); });
+    EXPECT_EQ(waiting.wait_for(20ms), std::future_status::timeout);
+    fake.unplug();
+    ASSERT_EQ(waiting.wait_for(20s), std::future_status::ready);
+    EXPECT_THROW(waiting.get(), DeviceLost);
+    EXPECT_THROW(static_cast<void>(camera.next(1s)), DeviceLost);
+    EXPECT_EQ(held->view().data[0], 42);
+    camera.stop();
+    EXPECT_THROW(camera.start(), DeviceLost);
+}
+
+// With vb2, poll() reports an error as long as no buffer was handed in since the start.
+TEST(CameraV4l2, AnErrorOfPollAloneIsNoLoss) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.hangUp();
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_FALSE(camera.next(20ms).has_value());
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, 20ms);
+    fake.unplug();
+    EXPECT_THROW(static_cast<void>(camera.next(1s)), DeviceLost);
+}
+
+TEST(CameraV4l2, PlanesLieWhereEachApiPutsThem) {
+    for (const auto& [fourcc, multi, format] :
+         {std::tuple{V4L2_PIX_FMT_NV12, false, PixelFormat::Nv12},
+          std::tuple{V4L2_PIX_FMT_YUV420, false, PixelFormat::Yuv420},
+          std::tuple{V4L2_PIX_FMT_NV12, true, PixelFormat::Nv12},
+          std::tuple{V4L2_PIX_FMT_NV12M, true, PixelFormat::Nv12}}) {
+        FakeV4l2 fake;
+        fake.multiPlanar = multi;
+        fake.padding = 8;
+        fake.colorspace = V4L2_COLORSPACE_REC709;
+        fake.formats = {{fourcc, {kSize}}};
+        CameraV4l2 camera(wanted(), fake);
+        camera.start();
+        fake.deliver({.level = 61});
+        const auto frame = camera.next(1s);
+        ASSERT_TRUE(frame.has_value());
+        const ImageView& view = frame->view();
+        EXPECT_EQ(view.format, format);
+        EXPECT_EQ(view.stride, 40U);
+        EXPECT_EQ(view.matrix, YuvMatrix::Bt709);
+        EXPECT_EQ(view.range, YuvRange::Limited);
+        const bool threePlanes = format == PixelFormat::Yuv420;
+        EXPECT_EQ(view.chroma[0].stride, threePlanes ? 20U : 40U);
+        if (fourcc != V4L2_PIX_FMT_NV12M) {
+            EXPECT_EQ(view.chroma[0].data - view.data, 40 * 24);
+        }
+        if (threePlanes) {
+            EXPECT_EQ(view.chroma[1].data - view.chroma[0].data, 20 * 12);
+        }
+        EXPECT_EQ(view.chroma[0].data[view.chroma[0].stride * 12 - 1], 61);
+    }
+}
+
+TEST(CameraV4l2, ABrokenJpegIsCounted) {
+    FakeV4l2 fake;
+    fake.formats = {{V4L2_PIX_FMT_MJPEG, {kSize}}};
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.deliver();
+    EXPECT_FALSE(camera.next(0ms).has_value());
+    EXPECT_EQ(camera.counts().broken, 1U);
+    EXPECT_EQ(fake.queued(), 4);
+}
+
+}  // namespace
+}  // namespace mfar
