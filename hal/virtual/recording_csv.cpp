@@ -23,8 +23,10 @@ std::string_view trimmed(std::string_view s) {
 // Broken files hold anything: keep the message one printable line.
 std::string quoted(std::string_view s) {
     std::string out = "'";
-    for (const char c : s.substr(0, 60))
-        out += (c >= 0 && c < 32) || c == 127 ? '?' : c;
+    for (const char c : s.substr(0, 60)) {
+        const auto byte = static_cast<unsigned char>(c);  // char has no sign on ARM
+        out += byte < 32 || byte == 127 ? '?' : c;
+    }
     return out + (s.size() > 60 ? "...'" : "'");
 }
 
