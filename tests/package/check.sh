@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# The Debian package's life in a bare Debian: install, upgrade, remove, purge. Needs root,
+# mmdebstrap and a package mirror; about two minutes. Usage: check.sh PACKAGE
+set -euo pipefail
+deb=$(readlink -f "$1")
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+# shellcheck source=toolchains/debian.sh
+. "$here/../../toolchains/debian.sh"
+
+work=$(mktemp -d)
+chmod 755 "$work" # apt reads packages as a user of its own
+root=$work/root
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+step() { printf '%s\n' "$*"; }
+
+# holds WHAT COMMAND...: the command must succeed.
+holds() {
+    local what=$1
+    shift
+    if ! "$@" >"$work/said" 2>&1; then
+        printf 'FAILED: %s\n' "$what"
+        tail -n 5 "$work/said"
+        failures=$((failures + 1))
+    fi
+}
+
+inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
+isNot() { ! "$@"; }
+
+apt() {
+    inside apt-get --yes --no-install-recommends -o Dpkg::Options::=--force-confold "$@" \
+        >"$work/apt" 2>&1 || { cat "$work/apt"; die "apt-get $* failed"; }
+    holds "apt-get $1 is silent about faults" isNot grep -iE 'warning|error|fail' "$work/apt"
+}
+
+# The same package with a higher version and another default configuration.
+makeSuccessor() {
+    dpkg-deb -R "$deb" "$work/next"
+    sed -i 's/^Version: .*/&+next/' "$work/next/DEBIAN/control"
+    echo '# of the next version' >>"$work/next/etc/mfar/mfard.toml"
+    (cd "$work/next" && find . -path ./DEBIAN -prune -o -type f -printf '%P\0' |
+        xargs -0 md5sum >DEBIAN/md5sums)
+    dpkg-deb --root-owner-group -b "$work/next" "$root/next.deb" >/dev/null
+}
+
+enabled=$root/etc/systemd/system/multi-user.target.wants/mfard.service
+inGroup() { grep -Eq "^$1:.*[:,]mfar(,|$)" "$root/etc/group"; }
+
+step "A bare Debian"
+mapfile -t sources < <(debianSources)
+mmdebstrap --quiet --mode=root --variant=minbase "$(debianSuite)" "$root" "${sources[@]}"
+cp "$deb" "$root/mfar.deb"
+cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
+makeSuccessor
+
+step "Install"
+apt update
+apt install /mfar.deb
+holds "all libraries are there" inside mfard --version
+holds "the default configuration is accepted" \
+    inside mfard --check-config --config /etc/mfar/mfard.toml
+holds "the user exists" grep -q '^mfar:' "$root/etc/passwd"
+for group in video render gpio; do holds "mfar is in $group" inGroup "$group"; done
+holds "the service is enabled" test -L "$enabled"
+holds "the unit is sound" inside systemd-analyze verify --man=no mfard.service
+holds "the licence is there" test -s "$root/usr/share/doc/mfar/copyright"
+holds "programs are stripped" isNot grep -q debug_info <(readelf -S "$root/usr/bin/mfard")
+
+step "Upgrade of a changed configuration and a disabled service"
+echo 'seed = 7' >"$root/etc/mfar/mfard.toml"
+inside systemctl disable mfard.service 2>/dev/null
+apt install /next.deb
+holds "the changed configuration stays" grep -qx 'seed = 7' "$root/etc/mfar/mfard.toml"
+holds "the new one is beside it" \
+    grep -q 'of the next version' "$root/etc/mfar/mfard.toml.dpkg-dist"
+holds "the service stays disabled" test ! -e "$enabled"
+
+step "Remove"
+inside systemctl enable mfard.service 2>/dev/null
+apt remove mfar
+holds "the program has gone" test ! -e "$root/usr/bin/mfard"
+holds "the unit has gone" test ! -e "$root/usr/lib/systemd/system/mfard.service"
+holds "the configuration stays" test -e "$root/etc/mfar/mfard.toml"
+
+step "Purge"
+mkdir -p "$root/var/cache/mfar/shaders" "$root/var/lib/mfar/recording"
+apt purge mfar
+holds "the configuration has gone" test ! -e "$root/etc/mfar"
+holds "the cache has gone" test ! -e "$root/var/cache/mfar"
+holds "recordings stay" test -d "$root/var/lib/mfar/recording"
+holds "it is no longer enabled" test ! -L "$enabled"
+holds "nothing else stays" \
+    test -z "$(find "$root"/{etc,usr,lib,var/lib} -name '*mfar*' ! -path '*/var/lib/mfar*' \
+        ! -path '*/dpkg/*' 2>/dev/null)"
+
+step "Install again"
+apt install /mfar.deb
+holds "the service is enabled again" test -L "$enabled"
+
+[[ $failures == 0 ]] && step "The package behaves"

@@ -1,0 +1,5 @@
+# Debian armhf: 32-bit ARMv7 with a floating-point unit.
+set(CMAKE_SYSTEM_PROCESSOR armhf)
+set(MFAR_TRIPLE arm-linux-gnueabihf)
+set(MFAR_EMULATOR qemu-arm-static)
+include(${CMAKE_CURRENT_LIST_DIR}/debian.cmake)

@@ -1,0 +1,87 @@
+# Debian packages as files, for roots of another architecture. Nothing of that architecture is
+# executed. To be sourced; needs root, mmdebstrap and dpkg.
+
+die() { printf '%s\n' "$(basename "$0"): $*" >&2; exit 1; }
+
+# Prints the release whose packages are used: the one that runs here, as its compilers fit.
+debianSuite() {
+    local ID='' VERSION_CODENAME=''
+    # shellcheck source=/dev/null
+    . /etc/os-release
+    [[ $ID == debian ]] || die "needs Debian, this is ${ID:-unknown}"
+    echo "$VERSION_CODENAME"
+}
+
+# Prints the files with this machine's package sources, one a line; nothing: the usual mirror.
+debianSources() {
+    local file
+    for file in /etc/apt/sources.list.d/debian.sources /etc/apt/sources.list; do
+        if grep -qs '^[^#]*debian' "$file"; then echo "$file"; fi
+    done
+}
+
+# Arguments: what a folder is made from. Prints a name part that is the same for the same.
+inputHash() { printf '%s\n' "$@" | sha256sum | cut -c 1-12; }
+
+# Arguments: architecture, new folder, packages. Extracts them with all they depend on and keeps
+# dpkg's records of them, as installed. No maintainer script is run.
+extractPackages() {
+    local architecture=$1 root=$2 log sources
+    shift 2
+    log=$(mktemp)
+    mapfile -t sources < <(debianSources)
+    # shellcheck disable=SC2016 # mmdebstrap expands $1
+    if ! mmdebstrap --quiet --mode=root --variant=extract --architectures="$architecture" \
+        --aptopt='APT::Install-Recommends "false"' \
+        --dpkgopt='path-exclude=/usr/share/doc/*' --dpkgopt='path-exclude=/usr/share/man/*' \
+        --dpkgopt='path-exclude=/usr/share/locale/*' --dpkgopt='path-exclude=/usr/share/info/*' \
+        --setup-hook='for d in bin sbin lib; do mkdir -p "$1/usr/$d"; ln -s "usr/$d" "$1/$d"; done' \
+        --skip=check/qemu,download/cleanup,cleanup/apt,output/dev \
+        --include="$(IFS=,; echo "$*")" "$(debianSuite)" "$root" "${sources[@]}" >"$log" 2>&1; then
+        tail -n 20 "$log" >&2
+        die "the $architecture packages could not be extracted"
+    fi
+    rm "$log"
+    recordPackages "$root"
+    rm -rf "${root:?}"/var/lib/apt/lists/* "${root:?}"/var/cache/apt/*
+}
+
+# Fills dpkg's database of a root from the packages that it was extracted from: their descriptions,
+# and which package a library belongs to.
+recordPackages() {
+    local root=$1 info=$1/var/lib/dpkg/info control deb name
+    control=$(mktemp -d)
+    mkdir -p "$info"
+    for deb in "$root"/var/cache/apt/archives/*.deb; do
+        rm -rf "${control:?}"/*
+        dpkg-deb --control "$deb" "$control"
+        name=$(sed -n 's/^Package: //p' "$control/control")
+        if grep -q '^Multi-Arch: same' "$control/control"; then
+            name+=:$(sed -n 's/^Architecture: //p' "$control/control")
+        fi
+        { sed '/^$/d; s/^Package: .*/&\nStatus: install ok installed/' "$control/control"; echo; } \
+            >>"$root/var/lib/dpkg/status"
+        : >"$info/$name.list"
+        if [[ -f $control/shlibs ]]; then cp "$control/shlibs" "$info/$name.shlibs"; fi
+    done
+    rm -rf "$control"
+}
+
+# Argument: a root. Debian chooses these libraries by scripts, which have not been run.
+linkAlternatives() {
+    local library folder
+    for library in blas/libblas.so.3 lapack/liblapack.so.3; do
+        for folder in "$1"/usr/lib/*-linux-gnu*/"${library%/*}"; do
+            [[ -d $folder ]] && ln -sf "$library" "${folder%/*}/${library##*/}"
+        done
+    done
+}
+
+# Argument: a root. Links to absolute paths would lead out of it.
+makeLinksRelative() {
+    local root=$1 link target
+    while IFS= read -r -d '' link; do
+        target=$(readlink "$link")
+        ln -snf "$(realpath -ms --relative-to="$(dirname "$link")" "$root$target")" "$link"
+    done < <(find "$root" -type l -lname '/*' -print0)
+}

@@ -1,0 +1,39 @@
+# The Debian package: `cpack` in the build folder, or ./run package. One per distribution and
+# architecture, as libcamera's and OpenCV's sonames differ.
+set(architectures x86_64 amd64 aarch64 arm64 armhf armhf armv7l armhf)
+list(FIND architectures ${CMAKE_SYSTEM_PROCESSOR} known)
+if(known EQUAL -1)
+    return()
+endif()
+math(EXPR known "${known} + 1")
+list(GET architectures ${known} CPACK_DEBIAN_PACKAGE_ARCHITECTURE)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME mfar)
+set(CPACK_PACKAGE_CONTACT "the mfar authors <mfar@localhost>")
+set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/package)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+"mfard lifts the video of one image sensor to the resolution of a second one
+that takes stills on a trigger, finds its pose by AprilTags, and shows virtual
+objects behind real ones. It runs as a service on small Linux boards.")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION video)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_STRIP_FILES ON)
+# The configuration has its place outside the prefix.
+set(CPACK_SET_DESTDIR ON)
+set(CPACK_INSTALL_PREFIX /usr)
+
+# The libraries that the programs name come before these, which are found at run time alone.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "init-system-helpers, libgl1-mesa-dri, systemd, udev")
+set(CPACK_MFAR_SYSROOT ${CMAKE_SYSROOT})
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/depends.cmake)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+    ${CMAKE_CURRENT_LIST_DIR}/conffiles ${CMAKE_CURRENT_LIST_DIR}/postinst
+    ${CMAKE_CURRENT_LIST_DIR}/postrm ${CMAKE_CURRENT_LIST_DIR}/prerm)
+
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/copyright ${CMAKE_SOURCE_DIR}/README.md
+        DESTINATION share/doc/mfar)
+include(CPack)
