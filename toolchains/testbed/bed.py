@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+"""Boots the test bed, installs a package in it and runs the scenarios. See README.md."""
+
+import argparse
+import importlib.util
+import itertools
+import os
+import shutil
+import sys
+import tempfile
+import time
+import traceback
+from pathlib import Path
+
+from camera import Camera
+from guest import Guest, GuestError
+from pictures import Film, Pattern, film_times
+
+HERE = Path(__file__).resolve().parent
+VIDEO, STILL = (640, 480), (2304, 1728)
+
+
+def pictures(options):
+    """What both cameras see, of one world: the film, or patterns."""
+    if not options.film:
+        return Pattern(*VIDEO), Pattern(*STILL)
+    files = options.film / 'video', options.film / 'still'
+    span = min(film_times(file)[-1] for file in files)
+    return Film(files[0], *VIDEO, span), Film(files[1], *STILL, span)
+
+
+class Bed:
+    """What a scenario gets: the guest, and the world around it."""
+
+    def __init__(self, options, boot):
+        self.work = tempfile.mkdtemp(prefix='mfar-bed.')
+        self.share = Path(self.work, 'share')
+        self.share.mkdir()
+        shutil.copy(options.package, self.share / 'mfar.deb')
+        for file in options.share:
+            shutil.copy(file, self.share)
+        video, still = pictures(options)
+        epoch = time.monotonic()
+        self.video = Camera('Bed video', video, 30, epoch)
+        self.still = Camera('Bed still', still, 0, epoch)
+        self._pictures = (video, still)
+        self.guest = Guest(str(options.image), self.work, str(self.share),
+                           (self.video, self.still), **boot)
+        self.run = self.guest.run
+        self.wait_for = self.guest.wait_for
+
+    def end(self):
+        self.guest.end()
+        shutil.rmtree(self.work)
+
+    def numbered(self, on):
+        """Whether films show their numbers; patterns always do."""
+        for picture in self._pictures:
+            picture.numbered = on
+
+    def journal(self, since=None):
+        """What mfard.service has said, without times."""
+        return self.run('journalctl --no-pager -q -u mfard -o cat'
+                        + (f' --since "{since}"' if since else ''))
+
+    def now(self):
+        """The guest's time of day, as journal() wants it."""
+        return self.run('date "+%F %T.%N"')
+
+    def property(self, name):
+        """A property of mfard.service, as systemctl show has it."""
+        return self.run(f'systemctl show mfard --value -p {name}')
+
+    def fresh_service(self, config, drop_in=''):
+        """Stops mfard and starts it with this configuration; the seconds until it was ready, on the
+        guest's clock. `drop_in` is added to the unit's section [Service]."""
+        self.run('systemctl stop mfard; systemctl reset-failed mfard; true')
+        self.write('/etc/mfar/mfard.toml', config)
+        self.run('mkdir -p /etc/systemd/system/mfard.service.d')
+        self.write('/etc/systemd/system/mfard.service.d/bed.conf', '[Service]\n' + drop_in)
+        self.run('systemctl daemon-reload')
+        begin = self.guest.clock()
+        self.run('systemctl start mfard', 120)
+        return self.guest.clock() - begin
+
+    def write(self, path, text):
+        """Writes a file in the guest."""
+        Path(self.share, 'written').write_text(text, encoding='utf-8')
+        self.run(f'cp /share/written {path}')
+
+
+def scenario_files(only):
+    files = sorted((HERE / 'scenarios').glob('[0-9]*.py'))
+    if only:
+        files = [f for f in files if any(f.name.startswith(o) for o in only)]
+        if not files:
+            sys.exit(f'no such scenario: {" ".join(only)}')
+    return files
+
+
+def load(file):
+    spec = importlib.util.spec_from_file_location(file.stem.replace('-', '_'), file)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.name = file.stem
+    return module
+
+
+def run_scenario(bed, scenario):
+    begin = time.monotonic()
+    since = bed.now()
+    try:
+        scenario.run(bed)
+        fault = None
+    except Exception:  # whatever it is, the other scenarios are of interest too
+        fault = traceback.format_exc()
+    took = time.monotonic() - begin
+    print(f'{"ok" if fault is None else "FAILED":8}{scenario.name:40}{took:7.1f} s', flush=True)
+    if fault:
+        print(fault)
+        try:
+            print(bed.run(f'systemctl --no-pager -n 0 status mfard; journalctl --no-pager -q '
+                          f'-u mfard -o short-monotonic --since "{since}"', check=False))
+        except GuestError as error:
+            print(error)
+    return fault is None
+
+
+def run_boot(options, boot, scenarios):
+    """One start of the guest with all scenarios that want it so: (passed, failed)."""
+    print(f'boot    {boot or ""}', flush=True)
+    try:
+        bed = Bed(options, boot)
+    except (GuestError, OSError) as error:
+        print(f'FAILED  boot: {error}')
+        return 0, len(scenarios)
+    try:
+        print(f'ok      {"boot":40}{bed.guest.boot_seconds:7.1f} s', flush=True)
+        begin = time.monotonic()
+        bed.run('dpkg -i /share/mfar.deb', 180)
+        print(f'ok      {"install":40}{time.monotonic() - begin:7.1f} s', flush=True)
+        passed = sum(run_scenario(bed, scenario) for scenario in scenarios)
+        return passed, len(scenarios) - passed
+    except GuestError as error:
+        print(f'FAILED  {error}')
+        return 0, len(scenarios)
+    finally:
+        bed.end()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--image', type=Path, required=True, help='folder made by image.sh')
+    parser.add_argument('--package', type=Path, required=True, help='the arm64 .deb')
+    parser.add_argument('--share', type=Path, nargs='*', default=[],
+                        help='files for the guest\'s folder /share')
+    parser.add_argument('--film', type=Path, help='folder made by mfar-film; none: patterns')
+    parser.add_argument('scenario', nargs='*', help='numbers of scenarios; none: all')
+    options = parser.parse_args()
+
+    begin = time.monotonic()
+    scenarios = [load(file) for file in scenario_files(options.scenario)]
+    wish = lambda scenario: sorted(getattr(scenario, 'BOOT', {}).items())
+    passed = failed = 0
+    for boot, group in itertools.groupby(sorted(scenarios, key=wish), key=wish):
+        good, bad = run_boot(options, dict(boot), list(group))
+        passed, failed = passed + good, failed + bad
+    print(f'{time.monotonic() - begin:.0f} s on {os.cpu_count()} processors')
+    print(f'{passed} passed, {failed} failed')
+    sys.exit(1 if failed else 0)
+
+
+if __name__ == '__main__':
+    main()

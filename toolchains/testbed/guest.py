@@ -1,0 +1,238 @@
+"""A Debian for arm64 under QEMU with two USB cameras, a GPIO chip, a display and a root shell."""
+
+import json
+import os
+import re
+import socket
+import subprocess
+import threading
+import time
+
+import usbredir
+
+TRIGGER_LINE = 5  # of the PL061, which is /dev/gpiochip0 of the guest
+BOOT_LIMIT = 180  # s
+
+
+class GuestError(Exception):
+    """The guest does not do as told."""
+
+
+class Result:
+    def __init__(self, status, output):
+        self.status = status
+        self.output = output
+
+
+class Listener:
+    """A socket file that QEMU connects to."""
+
+    def __init__(self, path):
+        self.path = path
+        self._socket = socket.socket(socket.AF_UNIX)
+        self._socket.bind(path)
+        self._socket.listen(1)
+
+    def accept(self, limit):
+        self._socket.settimeout(limit)
+        connection, _ = self._socket.accept()
+        self._socket.close()
+        connection.settimeout(None)
+        return connection
+
+
+class Shell:
+    """Commands for the guest's root shell, one after the other."""
+
+    def __init__(self, connection):
+        self._connection = connection
+        self._count = 0
+        self._rest = b''
+
+    def run(self, command, limit):
+        """Runs a command line and waits for its end. Throws GuestError after `limit` seconds."""
+        self._count += 1
+        mark = b'\n\x01%d ' % self._count
+        # eval, as a fault in the command's syntax would otherwise swallow the mark.
+        quoted = command.replace("'", "'\\''")
+        self._connection.sendall(f"eval '{quoted}' </dev/null; "
+                                 f"printf '\\n\\001{self._count} %d\\n' $?\n".encode())
+        end = time.monotonic() + limit
+        data = self._rest
+        while True:
+            start = data.find(mark)
+            stop = data.find(b'\n', start + len(mark)) if start >= 0 else -1
+            if stop >= 0:
+                self._rest = data[stop + 1:]
+                output = data[:start].decode(errors='replace')
+                return Result(int(data[start + len(mark):stop]), output)
+            self._connection.settimeout(max(end - time.monotonic(), 0.01))
+            try:
+                part = self._connection.recv(65536)
+            except TimeoutError:
+                raise GuestError(f'no end after {limit:.0f} s: {command}\n'
+                                 + data.decode(errors='replace')) from None
+            if not part:
+                raise GuestError(f'the guest has gone: {command}')
+            data += part
+
+
+class Monitor:
+    """QEMU's control socket (QMP)."""
+
+    def __init__(self, connection):
+        self._file = connection.makefile('rwb', buffering=0)
+        self._lines = connection.makefile('rb')
+        self._lines.readline()
+        self('qmp_capabilities')
+
+    def __call__(self, command, **arguments):
+        self._file.write(json.dumps({'execute': command, 'arguments': arguments}).encode() + b'\n')
+        while True:
+            line = self._lines.readline()
+            if not line:
+                raise GuestError(f'QEMU has gone: {command}')
+            answer = json.loads(line)
+            if 'error' in answer:
+                raise GuestError(f'{command}: {answer["error"]["desc"]}')
+            if 'return' in answer:
+                return answer['return']
+
+
+class Edges(threading.Thread):
+    """Levels that the guest gives to the lines of its GPIO chip, as QEMU traces them."""
+
+    LINE = re.compile(rb'setting output (\d+) to (\d)')
+
+    def __init__(self, path, on_rise):
+        super().__init__(daemon=True)
+        self._path = path
+        self._on_rise = on_rise
+        self.seen = []  # (time.monotonic(), line, level)
+
+    def run(self):
+        with open(self._path, 'rb') as trace:
+            for text in trace:
+                found = self.LINE.search(text)
+                if not found:
+                    continue
+                line, level = int(found[1]), int(found[2])
+                before = self.level(line)
+                self.seen.append((time.monotonic(), line, level))
+                if line == TRIGGER_LINE and level == 1 and before == 0:
+                    self._on_rise()
+
+    def level(self, line=TRIGGER_LINE):
+        """The last level of a line, 0 before the first."""
+        return next((edge[2] for edge in reversed(self.seen) if edge[1] == line), 0)
+
+    def rises(self, line=TRIGGER_LINE):
+        return sum(1 for edge in self.seen if edge[1:] == (line, 1))
+
+
+class Guest:
+    """`cameras` are plugged in from the start: the first as video sensor, the second as still sensor,
+    which gets the pulses. `share` is the folder that the guest has as /share."""
+
+    def __init__(self, image, work, share, cameras, display=True):
+        self._work = work
+        self.log = os.path.join(work, 'serial.log')
+        self.edges = Edges(self._path('trace'), cameras[1].pulse)
+        os.mkfifo(self._path('trace'))
+        self.edges.start()
+        listeners = {name: Listener(self._path(name)) for name in ('shell', 'qmp')}
+        for number, camera in enumerate(cameras):
+            camera.plugged = True
+            usbredir.serve(self._path(f'camera{number}'), camera.attach)
+        self._began = time.monotonic()
+        self._process = subprocess.Popen(
+            self._command(image, share, len(cameras), display), stdin=subprocess.DEVNULL)
+        try:
+            self.monitor = Monitor(listeners['qmp'].accept(10))
+            self._shell = Shell(listeners['shell'].accept(10))
+            self.run('true', BOOT_LIMIT)
+        except Exception:
+            self.end()
+            raise
+        self.boot_seconds = time.monotonic() - self._began
+
+    def _path(self, name):
+        return os.path.join(self._work, name)
+
+    def _command(self, image, share, cameras, display):
+        command = [
+            'qemu-system-aarch64', '-M', 'virt', '-cpu', 'cortex-a57', '-smp', '2', '-m', '2048',
+            '-accel', 'tcg,thread=multi', '-nodefaults', '-display', 'none', '-no-reboot',
+            '-serial', f'file:{self.log}',
+            '-kernel', f'{image}/vmlinuz', '-initrd', f'{image}/initrd',
+            '-append', 'console=ttyAMA0 quiet panic=-1 mitigations=off',
+            # The disks of virtio-mmio would be found in reverse order.
+            '-drive', f'if=none,id=disk,file={image}/root.img,format=raw,snapshot=on,cache=unsafe',
+            '-device', 'virtio-blk-pci,drive=disk', '-device', 'virtio-rng-pci',
+            '-virtfs', f'local,path={share},mount_tag=share,security_model=none',
+            '-device', 'virtio-serial-pci',
+            '-chardev', f'socket,id=shell,path={self._path("shell")}',
+            '-device', 'virtserialport,chardev=shell,name=bed',
+            '-qmp', f'unix:{self._path("qmp")}',
+            '-trace', 'pl061_set_output', '-D', self._path('trace'),
+            # A port of its own, as only there a display can be plugged in later.
+            '-device', 'pcie-root-port,id=display_port,chassis=1,slot=1',
+            '-device', 'qemu-xhci,id=usb']
+        for number in range(cameras):
+            command += ['-chardev', f'socket,id=usb{number},path={self._path(f"camera{number}")}',
+                        '-device', f'usb-redir,chardev=usb{number},bus=usb.0,port={number + 1}']
+        if display:
+            command += ['-device',
+                        'virtio-gpu-pci,id=display,bus=display_port,xres=1280,yres=720']
+        return command
+
+    def run(self, command, limit=60, check=True):
+        """Runs a command line in the guest: its output. `check`: throws when its status is not 0."""
+        result = self._shell.run(command, limit)
+        if check and result.status != 0:
+            raise GuestError(f'{command}: ended with {result.status}\n{result.output}')
+        return result.output.strip()
+
+    def status(self, command, limit=60):
+        """The exit status of a command line in the guest."""
+        return self._shell.run(command, limit).status
+
+    def wait_for(self, command, limit, pause=0.1):
+        """Waits until a command succeeds; the seconds that took, on the guest's own clock."""
+        loop = (f'begin=$(date +%s%N); until {command}; do sleep {pause}; '
+                f'[ $(( $(date +%s%N) - begin )) -lt {int(limit * 1e9)} ] || exit 1; done '
+                '>/dev/null 2>&1; echo $(( $(date +%s%N) - begin ))')
+        result = self._shell.run(f'( {loop} )', limit + 60)
+        if result.status != 0:
+            raise GuestError(f'not within {limit} s: {command}')
+        return int(result.output.split()[-1]) / 1e9
+
+    def clock(self):
+        """The guest's monotonic clock [s]."""
+        return float(self.run('cut -d " " -f 1 /proc/uptime'))
+
+    def screen(self):
+        """What the display shows: (width, height, bytes of R G B)."""
+        path = self._path('screen.ppm')
+        self.monitor('screendump', filename=path)
+        with open(path, 'rb') as file:
+            magic, size, depth = (file.readline() for _ in range(3))
+            if (magic, depth) != (b'P6\n', b'255\n'):
+                raise GuestError(f'not a screendump: {magic!r}')
+            width, height = map(int, size.split())
+            return width, height, file.read()
+
+    def plug_display(self):
+        self.monitor('device_add', driver='virtio-gpu-pci', id='display', bus='display_port',
+                     xres=1280, yres=720)
+
+    def unplug_display(self):
+        self.monitor('device_del', id='display')
+
+    def end(self):
+        self._process.terminate()
+        try:
+            self._process.wait(10)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
