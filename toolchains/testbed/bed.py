@@ -37,8 +37,9 @@ class Bed:
         self.share = Path(self.work, 'share')
         self.share.mkdir()
         shutil.copy(options.package, self.share / 'mfar.deb')
-        for file in options.share:
-            shutil.copy(file, self.share)
+        for file in options.programs.iterdir() if options.programs else ():
+            if file.is_file() and os.access(file, os.X_OK):
+                shutil.copy(file, self.share)
         video, still = pictures(options)
         epoch = time.monotonic()
         self.video = Camera('Bed video', video, 30, epoch)
@@ -152,8 +153,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--image', type=Path, required=True, help='folder made by image.sh')
     parser.add_argument('--package', type=Path, required=True, help='the arm64 .deb')
-    parser.add_argument('--share', type=Path, nargs='*', default=[],
-                        help='files for the guest\'s folder /share')
+    parser.add_argument('--programs', type=Path,
+                        help='folder with arm64 programs, which the guest has in /share')
     parser.add_argument('--film', type=Path, help='folder made by mfar-film; none: patterns')
     parser.add_argument('scenario', nargs='*', help='numbers of scenarios; none: all')
     options = parser.parse_args()
