@@ -1,11 +1,10 @@
 """The service starts as its own user and is ready within 10 s."""
 
-CONFIG = 'source = "synthetic:flat,rest"\n'
 READY_LIMIT = 10  # s
 
 
 def run(bed):
-    seconds = bed.fresh_service(CONFIG)
+    seconds = bed.fresh_service(bed.cameras)
     print(f'        ready after {seconds:.1f} s')
     assert seconds < READY_LIMIT, f'ready after {seconds:.1f} s'
     assert bed.property('ActiveState') == 'active'

@@ -1,6 +1,6 @@
 """A wrong configuration ends the service with exit code 78 and its place; it is not tried again."""
 
-CONFIG = 'source = "synthetic:flat,rest"\nsuperres.mode = "sometimes"\n'
+CONFIG = 'source = "cameras"\nsuperres.mode = "sometimes"\n'
 
 
 def run(bed):

@@ -1,11 +1,10 @@
 """The service stops within a second, cleanly."""
 
-CONFIG = 'source = "synthetic:flat,rest"\n'
 LIMIT = 1  # s
 
 
 def run(bed):
-    bed.fresh_service(CONFIG)
+    bed.fresh_service(bed.cameras)
     seconds = float(bed.run('TIMEFORMAT=%R; time systemctl stop mfard'))
     print(f'        stopped after {seconds:.2f} s')
     assert seconds < LIMIT, f'stopped after {seconds:.2f} s'

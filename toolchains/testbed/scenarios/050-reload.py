@@ -1,13 +1,12 @@
 """A reload takes the new configuration, and keeps the old one when the new one is wrong."""
 
-GOOD = 'source = "synthetic:flat,rest"\nsuperres.mode = "off"\n'
-BAD = GOOD.replace('off', 'best')
-
 
 def run(bed):
-    bed.fresh_service(GOOD)
+    good = bed.cameras + '[superres]\nmode = "off"\n'
+    bad = bed.cameras + '[superres]\nmode = "best"\n'
+    bed.fresh_service(bed.cameras)
     pid = bed.property('MainPID')
-    for config, answer in ((BAD, 'the old configuration stays'), (GOOD, 'mfard.toml: read again')):
+    for config, answer in ((bad, 'the old configuration stays'), (good, 'mfard.toml: read again')):
         begin = bed.now()
         bed.write('/etc/mfar/mfard.toml', config)
         bed.run('systemctl reload mfard')
