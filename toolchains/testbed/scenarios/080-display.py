@@ -16,7 +16,7 @@ def show(bed, screen):
         bed.wait_for('grep -q saved /tmp/probe', 180)
         said = bed.run('cat /tmp/probe')
         assert f'{screen}:' in said, said
-        print('        ' + said.splitlines()[-2])
+        print(f'        {screen}: {said.splitlines()[-2]}')
         expected = read_ppm(bed.share / 'shown.ppm')
         shown = bed.guest.screen()
         assert shown[:2] == expected[:2], f'{screen}: {shown[:2]} instead of {expected[:2]}'

@@ -15,9 +15,9 @@ def run(bed):
             '>/tmp/probe & echo started')
     bed.wait_for('grep -q "no screen yet" /tmp/probe', 180)
     bed.guest.plug_display()
-    bed.wait_for('grep -q kms: /tmp/probe', 60)
+    bed.wait_for('grep -q kms:card /tmp/probe', 60)
     said = bed.run('cat /tmp/probe')
-    picture = float(re.search(r'^([\d.]+) .*: kms:', said, re.MULTILINE)[1])
+    picture = float(re.search(r'^([\d.]+) .*: kms:card', said, re.MULTILINE)[1])
     device = float(bed.run('dmesg | sed -n "s/^\\[ *\\([0-9.]*\\)\\].*Initialized virtio_gpu.*/\\1/p" '
                            '| tail -n 1'))
     print(f'        picture {picture - device:.2f} s after the device')
