@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Debian packages as files, for roots of another architecture. Nothing of that architecture is
 # executed. To be sourced; needs root, mmdebstrap and dpkg.
 
