@@ -16,7 +16,7 @@ struct CameraInfo {
     double rateHz = 0;  ///< 0: on trigger only
 };
 
-/// The device went away while in use (unplugged, its driver gave up). Another try may find it back.
+/// The device has gone and won't come back by itself: open it again.
 class DeviceLost : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -31,8 +31,8 @@ public:
     [[nodiscard]] virtual CameraInfo info() const = 0;
     /// Begins delivery. Throws std::runtime_error.
     virtual void start() = 0;
-    /// The next frame, waiting up to `timeout`; nothing when none came or after stop().
-    /// Throws DeviceLost.
+    /// The next frame, waiting up to `timeout`; nothing when none came or after stop(). Throws
+    /// DeviceLost when the device is unplugged or failed.
     [[nodiscard]] virtual std::optional<Frame> next(std::chrono::milliseconds timeout) = 0;
     /// Ends delivery and wakes a waiting next(). Idempotent.
     virtual void stop() = 0;

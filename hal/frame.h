@@ -94,6 +94,9 @@ public:
     /// Middle of the exposure, CLOCK_MONOTONIC (recordings: the file's own epoch).
     [[nodiscard]] Timestamp time() const { return time_; }
 
+    /// To another clock.
+    void shift(std::chrono::nanoseconds by) { time_ = time_ + by; }
+
     std::chrono::nanoseconds exposure{0};  ///< 0 = unknown
 
 private:

@@ -25,8 +25,8 @@ std::string describe(const std::vector<ListedCamera>& cameras) {
 
 std::size_t chooseCamera(const std::vector<ListedCamera>& cameras, std::string_view wanted) {
     if (cameras.empty())
-        throw std::runtime_error(
-            "libcamera finds no camera; cameras that it does not serve may work with 'v4l2:'");
+        throw std::runtime_error("libcamera finds no camera; cameras that it does not serve may "
+                                 "work with driver \"v4l2\"");
     for (const auto key : {&ListedCamera::id, &ListedCamera::location, &ListedCamera::model}) {
         std::vector<std::size_t> found;
         for (std::size_t i = 0; i < cameras.size(); ++i)

@@ -27,12 +27,11 @@ using ObjectProperties =
     std::unique_ptr<drmModeObjectProperties, FreedBy<drmModeFreeObjectProperties>>;
 using Property = std::unique_ptr<drmModePropertyRes, FreedBy<drmModeFreeProperty>>;
 
-constexpr int kMaxSide = 16384;
 constexpr double kSameRateHz = 0.5;
 
 bool usable(const drmModeModeInfo& mode) {
-    return mode.hdisplay >= 1 && mode.vdisplay >= 1 && mode.hdisplay <= kMaxSide &&
-           mode.vdisplay <= kMaxSide && refreshHz(mode) > 0;
+    return mode.hdisplay >= 1 && mode.vdisplay >= 1 && mode.hdisplay <= kMaxScreenSide &&
+           mode.vdisplay <= kMaxScreenSide && refreshHz(mode) > 0;
 }
 
 std::string nameOf(const drmModeConnector& connector) {
@@ -40,7 +39,7 @@ std::string nameOf(const drmModeConnector& connector) {
     return fmt::format("{}-{}", type != nullptr ? type : "Unknown", connector.connector_type_id);
 }
 
-std::string openFault(const std::string& path) {
+std::string cardFault(const std::string& path) {
     if (errno == EACCES)
         return path + ": no permission, the user must be in group video (and render for the GPU)";
     return path + ": " + std::strerror(errno);
@@ -94,7 +93,7 @@ bool dropMasterOfThisProcess(const std::string& path) {
 
 DisplayFd openCard(const std::string& path) {
     DisplayFd fd(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-    if (!fd) throw std::runtime_error(openFault(path));
+    if (!fd) throw std::runtime_error(cardFault(path));
     return fd;
 }
 

@@ -15,10 +15,9 @@
 namespace mfar {
 namespace {
 
-constexpr std::uint32_t kMaxSide = 16384;
 constexpr int kDevices = 32;  // as many as the kernel has (FB_MAX)
 
-std::string openFault(const std::string& path) {
+std::string framebufferFault(const std::string& path) {
     if (errno == EACCES) return path + ": no permission, the user must be in group video";
     return path + ": " + std::strerror(errno);
 }
@@ -49,8 +48,11 @@ PixelLayout checkedLayout(const fb_var_screeninfo& var, const fb_fix_screeninfo&
 
 FbGeometry checkedGeometry(const fb_var_screeninfo& var, const fb_fix_screeninfo& fix) {
     const PixelLayout layout = checkedLayout(var, fix);
-    const auto inside = [](std::uint32_t length) { return length >= 1 && length <= kMaxSide; };
-    if (!inside(var.xres) || !inside(var.yres) || var.xoffset > kMaxSide || var.yoffset > kMaxSide)
+    const auto inside = [](std::uint32_t length) {
+        return length >= 1 && length <= std::uint32_t{kMaxScreenSide};
+    };
+    if (!inside(var.xres) || !inside(var.yres) || var.xoffset > std::uint32_t{kMaxScreenSide} ||
+        var.yoffset > std::uint32_t{kMaxScreenSide})
         throw std::runtime_error(fmt::format("a screen of {}x{} at ({}, {}) is impossible",
                                              var.xres, var.yres, var.xoffset, var.yoffset));
     FbGeometry g{{static_cast<int>(var.xres), static_cast<int>(var.yres)},
@@ -98,7 +100,7 @@ FbdevScreen::~FbdevScreen() {
 
 void FbdevScreen::open(const std::string& path) {
     DisplayFd fd(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-    if (!fd) throw std::runtime_error(openFault(path));
+    if (!fd) throw std::runtime_error(framebufferFault(path));
     fb_fix_screeninfo fix{};
     if (!readInfo(fd.get(), var_, fix))
         throw std::runtime_error(path + " is no framebuffer: " + std::strerror(errno));

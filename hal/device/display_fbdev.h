@@ -3,6 +3,7 @@
 #include "hal/device/display_handles.h"
 #include "hal/device/display_pixels.h"
 #include "hal/device/display_screen.h"
+#include "hal/device/display_spec.h"
 
 #include <linux/fb.h>
 

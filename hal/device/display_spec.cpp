@@ -10,7 +10,6 @@
 namespace mfar {
 namespace {
 
-constexpr int kMaxSide = 16384;
 constexpr double kMaxRateHz = 1000;
 
 // The whole text as a number, nothing when it is anything else.
@@ -33,7 +32,8 @@ std::optional<ModeWish> parseMode(std::string_view word) {
     if (cross == size.npos) return std::nullopt;
     const auto width = number<int>(size.substr(0, cross));
     const auto height = number<int>(size.substr(cross + 1));
-    if (!width || !height || *width < 1 || *height < 1 || *width > kMaxSide || *height > kMaxSide)
+    if (!width || !height || *width < 1 || *height < 1 || *width > kMaxScreenSide ||
+        *height > kMaxScreenSide)
         return std::nullopt;
     ModeWish wish{{*width, *height}, std::nullopt};
     if (at == word.npos) return wish;

@@ -8,6 +8,8 @@
 
 namespace mfar {
 
+inline constexpr int kMaxScreenSide = 16384;  ///< [px]; a larger screen is taken for a fault
+
 /// The mode somebody wants on a screen.
 struct ModeWish {
     Size size;

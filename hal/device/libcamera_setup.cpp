@@ -63,7 +63,7 @@ std::unique_ptr<CameraConfiguration> generate(libcamera::Camera& camera,
     const bool jpeg = offers(stream, libcamera::formats::MJPEG);
     throw std::runtime_error(fmt::format("camera '{}' offers {}, none of which can be used here{}",
                                          camera.id(), fmt::join(formats, ", "),
-                                         jpeg ? "; for MJPEG use the V4L2 driver, 'v4l2:'" : ""));
+                                         jpeg ? "; for MJPEG use driver \"v4l2\"" : ""));
 }
 
 struct Chosen {

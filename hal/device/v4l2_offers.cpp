@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kMostEntries = 512;  // a driver whose list goes on and on is not believed
+constexpr int kMostOffers = 512;  // a driver whose list goes on and on is not believed
 
 constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_NV12, PixelFormat::Nv12},
@@ -41,7 +41,7 @@ double rateOf(const v4l2_fract& interval) {
 
 double fastestRate(const V4l2Device& device, std::uint32_t fourcc, Size size) {
     double out = 0;
-    for (int i = 0; i < kMostEntries; ++i) {
+    for (int i = 0; i < kMostOffers; ++i) {
         v4l2_frmivalenum query{};
         query.index = static_cast<std::uint32_t>(i);
         query.pixel_format = fourcc;
@@ -66,7 +66,7 @@ bool contains(const v4l2_frmsize_stepwise& s, Size size) {
 
 // Drivers that list no sizes say by setFormat() what they can do.
 void askSizes(const V4l2Device& device, Size wanted, Offer& offer) {
-    for (int i = 0; i < kMostEntries; ++i) {
+    for (int i = 0; i < kMostOffers; ++i) {
         v4l2_frmsizeenum query{};
         query.index = static_cast<std::uint32_t>(i);
         query.pixel_format = offer.fourcc;
@@ -96,7 +96,7 @@ void askSizes(const V4l2Device& device, Size wanted, Offer& offer) {
 
 std::vector<Offer> offersOf(const V4l2Device& device, Size wanted) {
     std::vector<Offer> out;
-    for (int i = 0; i < kMostEntries; ++i) {
+    for (int i = 0; i < kMostOffers; ++i) {
         v4l2_fmtdesc query{};
         query.index = static_cast<std::uint32_t>(i);
         query.type = bufferType(device);

@@ -2,12 +2,11 @@
 
 #include "hal/image_layout.h"
 #include "hal/virtual/bgr_picture.h"
-#include "hal/virtual/png_header.h"
+#include "hal/virtual/image_codec.h"
 #include "hal/virtual/whole_file.h"
 
 #include <fmt/format.h>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 
 #include <fstream>
 #include <string>
@@ -18,53 +17,57 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isPng(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    char first = 0;
-    return in.get(first) && first == '\x89';
-}
-
-cv::Mat decoded(const fs::path& file) {
+std::vector<std::uint8_t> bytesOf(const fs::path& file) {
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) throw ImageFileError(file, "is missing");
-    cv::Mat bgr;
+    std::ifstream in(file, std::ios::binary);
+    std::vector<std::uint8_t> bytes(fs::file_size(file, ignored));
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (!in) throw ImageFileError(file, "cannot be read");
+    return bytes;
+}
+
+void decode(const fs::path& file, const TargetOf& targetOf) {
+    const std::vector<std::uint8_t> bytes = bytesOf(file);
     try {
-        if (isPng(file)) static_cast<void>(pngSize(file));
-        bgr = cv::imread(file.string(), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
-    } catch (const cv::Exception& e) {
-        throw ImageFileError(file, "cannot be decoded: " + e.err);
+        decodeImage(bytes, [&](Size size) {
+            if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide ||
+                size.height > kMaxImageSide)
+                throw std::runtime_error(fmt::format("{}x{} pixels", size.width, size.height));
+            return targetOf(size);
+        });
+    } catch (const ImageFileError&) {
+        throw;
     } catch (const std::runtime_error& e) {
-        throw ImageFileError(file, e.what());
+        throw ImageFileError(file, std::string("cannot be decoded: ") + e.what());
     }
-    if (bgr.empty()) throw ImageFileError(file, "cannot be decoded as PNG or JPEG");
-    return bgr;
 }
 
 }  // namespace
 
 StoredImage loadImage(const fs::path& file) {
-    const cv::Mat bgr = decoded(file);
-    StoredImage out{{bgr.cols, bgr.rows}, PixelFormat::Rgba8, {}};
-    out.pixels.resize(bgr.total() * 4);
-    cv::Mat rgba(bgr.rows, bgr.cols, CV_8UC4, out.pixels.data());
-    cv::cvtColor(bgr, rgba, cv::COLOR_BGR2RGBA);
+    StoredImage out;
+    decode(file, [&](Size size) -> PixelTarget {
+        const std::size_t stride = std::size_t{4} * size.width;
+        out = {size, PixelFormat::Rgba8, std::vector<std::uint8_t>(stride * size.height)};
+        return {out.pixels.data(), stride};
+    });
     return out;
 }
 
 void loadImageInto(const fs::path& file, Size expected, std::uint8_t* rgba, std::size_t stride) {
-    const cv::Mat bgr = decoded(file);
-    if (Size{bgr.cols, bgr.rows} != expected)
-        throw ImageFileError(file, fmt::format("is {}x{}, not {}x{}", bgr.cols, bgr.rows,
-                                               expected.width, expected.height));
-    cv::Mat target(bgr.rows, bgr.cols, CV_8UC4, rgba, stride);
-    cv::cvtColor(bgr, target, cv::COLOR_BGR2RGBA);
+    decode(file, [&](Size size) -> PixelTarget {
+        if (size != expected)
+            throw ImageFileError(file, fmt::format("is {}x{}, not {}x{}", size.width, size.height,
+                                                   expected.width, expected.height));
+        return {rgba, stride};
+    });
 }
 
 void encodePng(const ImageView& image, std::vector<std::uint8_t>& out) {
     requireSound(image, "picture to be written");
-    // Without parameters OpenCV uses one fixed filter and run lengths only, 8 ms for 648x432;
-    // asking for compression level 1 takes 22 ms and saves nothing.
-    cv::imencode(".png", bgrPicture(image), out);
+    const cv::Mat bgr = bgrPicture(image);
+    encodePng(bgr.ptr(), bgr.step, image.size, bgr.channels(), out);
 }
 
 void savePng(const fs::path& file, const ImageView& image) {
@@ -72,8 +75,6 @@ void savePng(const fs::path& file, const ImageView& image) {
         std::vector<std::uint8_t> bytes;
         encodePng(image, bytes);
         writeWholeFile(file, bytes);
-    } catch (const cv::Exception& e) {
-        throw ImageFileError(file, "cannot be encoded: " + e.err);
     } catch (const std::runtime_error& e) {
         throw ImageFileError(e.what());
     }

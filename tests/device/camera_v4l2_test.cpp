@@ -1,4 +1,5 @@
 #include "hal/device/camera_v4l2.h"
+#include "tests/device/error_of.h"
 #include "tests/device/fake_v4l2.h"
 
 #include <gtest/gtest.h>
@@ -13,19 +14,11 @@ namespace mfar {
 namespace {
 
 using namespace std::chrono_literals;
+using test::errorOf;
 using test::FakePicture;
 using test::FakeV4l2;
 
 constexpr Size kSize{32, 24};
-
-std::string errorOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "no error";
-}
 
 CameraV4l2Options wanted(const std::string& format = {}, double rateHz = 0) {
     CameraV4l2Options out;

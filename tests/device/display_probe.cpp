@@ -82,7 +82,7 @@ private:
     double seconds() const { return (Timestamp::now() - start_).count() * 1e-9; }
     void draw(int bar) {
         const std::vector<std::uint8_t> pixels = testPicture(bar);
-        texture_.upload({pixels.data(), kSize, std::size_t{4} * kSize.width});
+        texture_.upload({pixels.data(), std::size_t{4} * kSize.width});
     }
     void show() {
         display_->show({texture_.id(), kSize}, Timestamp::now());

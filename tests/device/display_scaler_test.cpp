@@ -25,7 +25,7 @@ protected:
                 pixels.push_back(7);  // alpha means nothing
             }
         gpu::Texture texture(size, gpu::TexelFormat::Rgba8);
-        texture.upload({pixels.data(), size, static_cast<std::size_t>(size.width) * 4});
+        texture.upload({pixels.data(), static_cast<std::size_t>(size.width) * 4});
         return texture;
     }
     // What ScreenReader shows of it, as R G B.

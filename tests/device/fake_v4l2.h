@@ -6,6 +6,7 @@
 #include <linux/videodev2.h>
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <span>

@@ -14,13 +14,13 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr Size kSize{64, 48};
+constexpr Size kJpegSize{64, 48};
 
 /// Colour that changes slowly across the picture.
 Bytes rgbRamp() {
     Bytes out;
-    for (int y = 0; y < kSize.height; ++y)
-        for (int x = 0; x < kSize.width; ++x)
+    for (int y = 0; y < kJpegSize.height; ++y)
+        for (int x = 0; x < kJpegSize.width; ++x)
             for (const int c : {60 + 2 * x, 200 - 2 * y, 90 + x + y})
                 out.push_back(static_cast<std::uint8_t>(c));
     return out;
@@ -31,8 +31,8 @@ Bytes encoded(int subsampling) {
     tjhandle handle = tjInitCompress();
     unsigned char* jpeg = nullptr;
     unsigned long bytes = 0;
-    EXPECT_EQ(tjCompress2(handle, rgb.data(), kSize.width, 0, kSize.height, TJPF_RGB, &jpeg, &bytes,
-                          subsampling, 95, 0),
+    EXPECT_EQ(tjCompress2(handle, rgb.data(), kJpegSize.width, 0, kJpegSize.height, TJPF_RGB, &jpeg,
+                          &bytes, subsampling, 95, 0),
               0);
     Bytes out(jpeg, jpeg + bytes);
     tjFree(jpeg);
@@ -57,20 +57,20 @@ Bytes withoutHuffmanTables(const Bytes& jpeg) {
 
 /// BT.601 full range, the centre of each 2x2 pixels for chroma.
 void expectRamp(const ImageView& view) {
-    ASSERT_EQ(view.size, kSize);
+    ASSERT_EQ(view.size, kJpegSize);
     ASSERT_EQ(view.format, PixelFormat::Yuv420);
     EXPECT_EQ(view.range, YuvRange::Full);
     EXPECT_EQ(view.matrix, YuvMatrix::Bt601);
     const auto at = [](double x, double y) {
         return std::array<double, 3>{60 + 2 * x, 200 - 2 * y, 90 + x + y};
     };
-    for (int y = 0; y < kSize.height; ++y)
-        for (int x = 0; x < kSize.width; ++x) {
+    for (int y = 0; y < kJpegSize.height; ++y)
+        for (int x = 0; x < kJpegSize.width; ++x) {
             const auto [r, g, b] = at(x, y);
             ASSERT_NEAR(view.data[y * view.stride + x], 0.299 * r + 0.587 * g + 0.114 * b, 4);
         }
-    for (int y = 0; y < kSize.height / 2; ++y)
-        for (int x = 0; x < kSize.width / 2; ++x) {
+    for (int y = 0; y < kJpegSize.height / 2; ++y)
+        for (int x = 0; x < kJpegSize.width / 2; ++x) {
             const auto [r, g, b] = at(2 * x + 0.5, 2 * y + 0.5);
             ASSERT_NEAR(view.chroma[0].data[y * view.chroma[0].stride + x],
                         128 - 0.168736 * r - 0.331264 * g + 0.5 * b, 3);
@@ -80,7 +80,7 @@ void expectRamp(const ImageView& view) {
 }
 
 TEST(JpegDecoder, PlanesOfBothSubsamplingsOfCameras) {
-    JpegDecoder decoder(kSize, 2);
+    JpegDecoder decoder(kJpegSize, 2);
     for (const int subsampling : {TJSAMP_420, TJSAMP_422}) {
         const auto frame = decoder.decode(encoded(subsampling), {5});
         ASSERT_TRUE(frame.has_value());
@@ -92,14 +92,14 @@ TEST(JpegDecoder, PlanesOfBothSubsamplingsOfCameras) {
 TEST(JpegDecoder, MissingHuffmanTablesAreTheStandardOnes) {
     const Bytes whole = encoded(TJSAMP_422), bare = withoutHuffmanTables(whole);
     ASSERT_LT(bare.size() + 300, whole.size());
-    JpegDecoder decoder(kSize, 1);
+    JpegDecoder decoder(kJpegSize, 1);
     const auto frame = decoder.decode(bare, {});
     ASSERT_TRUE(frame.has_value());
     expectRamp(frame->view());
 }
 
 TEST(JpegDecoder, GreyHasNoChroma) {
-    JpegDecoder decoder(kSize, 1);
+    JpegDecoder decoder(kJpegSize, 1);
     const auto frame = decoder.decode(encoded(TJSAMP_GRAY), {});
     ASSERT_TRUE(frame.has_value());
     EXPECT_EQ(frame->view().format, PixelFormat::Gray8);
@@ -109,7 +109,7 @@ TEST(JpegDecoder, GreyHasNoChroma) {
 TEST(JpegDecoder, FillBytesBeforeTheEndAreHarmless) {
     Bytes jpeg = encoded(TJSAMP_420);
     jpeg.insert(jpeg.end() - 2, {0x11, 0x22, 0x33, 0x44});
-    JpegDecoder decoder(kSize, 1);
+    JpegDecoder decoder(kJpegSize, 1);
     const auto frame = decoder.decode(jpeg, {});
     ASSERT_TRUE(frame.has_value());
     expectRamp(frame->view());
@@ -117,17 +117,17 @@ TEST(JpegDecoder, FillBytesBeforeTheEndAreHarmless) {
 
 TEST(JpegDecoder, DamageGivesNothingAndKeepsNoBuffer) {
     const Bytes jpeg = encoded(TJSAMP_422);
-    JpegDecoder decoder(kSize, 1);
+    JpegDecoder decoder(kJpegSize, 1);
     for (std::size_t bytes = 0; bytes < jpeg.size() - 40; bytes += 37)
         EXPECT_FALSE(decoder.decode({jpeg.data(), bytes}, {}).has_value()) << bytes;
     EXPECT_FALSE(decoder.decode(encoded(TJSAMP_444), {}).has_value());
-    JpegDecoder other({kSize.width, kSize.height + 2}, 1);
+    JpegDecoder other({kJpegSize.width, kJpegSize.height + 2}, 1);
     EXPECT_FALSE(other.decode(jpeg, {}).has_value()) << "another size";
     EXPECT_TRUE(decoder.decode(jpeg, {}).has_value());
 }
 
 TEST(JpegDecoder, AllBuffersLentGivesNothing) {
-    JpegDecoder decoder(kSize, 1);
+    JpegDecoder decoder(kJpegSize, 1);
     const Bytes jpeg = encoded(TJSAMP_420);
     auto held = decoder.decode(jpeg, {});
     EXPECT_FALSE(decoder.decode(jpeg, {}).has_value());

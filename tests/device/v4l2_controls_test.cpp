@@ -1,5 +1,6 @@
 #include "hal/camera.h"
 #include "hal/device/v4l2_controls.h"
+#include "tests/device/error_of.h"
 #include "tests/device/fake_v4l2.h"
 
 #include <gtest/gtest.h>
@@ -11,16 +12,8 @@
 namespace mfar {
 namespace {
 
+using test::errorOf;
 using test::FakeV4l2;
-
-std::string errorOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const std::runtime_error& e) {
-        return e.what();
-    }
-    return "no error";
-}
 
 class V4l2ControlsTest : public testing::Test {
 protected:

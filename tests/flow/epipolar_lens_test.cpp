@@ -1,4 +1,5 @@
 #include "pipeline/flow/epipolar_lens.h"
+#include "tests/flow/flow_scene.h"
 
 #include <gtest/gtest.h>
 

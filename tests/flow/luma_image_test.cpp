@@ -34,7 +34,7 @@ int clampedAt(const LumaImage& picture, int x, int y) {
 }
 
 /// Slopes, steps along both axes and a slanted edge: an even part, and parts that are not.
-double scene(int x, int y) {
+double greyScene(int x, int y) {
     double grey = 40 + 0.2 * x + 0.1 * y;
     if (x > 90) grey += 60;
     if (y > 70) grey += 25;
@@ -180,15 +180,16 @@ TEST(NoiseOf, FindsWhiteNoiseOnSlopesAndEdges) {
         for (unsigned seed = 1; seed <= 3; ++seed) {
             std::mt19937 random(seed);
             std::normal_distribution<double> noise(0, sigma);
-            const LumaImage picture =
-                pictureOf({200, 150}, [&](int x, int y) { return scene(x, y) + noise(random); });
+            const LumaImage picture = pictureOf(
+                {200, 150}, [&](int x, int y) { return greyScene(x, y) + noise(random); });
             EXPECT_NEAR(noiseOf(picture), sigma, 0.2 * sigma) << "seed " << seed;
         }
     }
 }
 
 TEST(NoiseOf, IsNearNothingWithoutNoise) {
-    EXPECT_LT(noiseOf(pictureOf({200, 150}, scene)), 0.45);  // rounding to grey levels alone: 0.29
+    EXPECT_LT(noiseOf(pictureOf({200, 150}, greyScene)),
+              0.45);  // rounding to grey levels alone: 0.29
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int, int) { return 255; })), 0);
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int x, int y) { return 2 * x + y; })), 0);
     EXPECT_EQ(noiseOf(pictureOf({64, 64}, [](int x, int) { return x < 29 ? 20 : 220; })), 0);

@@ -24,7 +24,7 @@ fault() {
 allowedFrom() {
     case $1 in
     tests/*) echo '.+' ;;
-    daemon/rig.*) echo 'daemon/.+|pipeline/.+|hal/.+' ;;
+    daemon/rig.* | daemon/rig_*) echo 'daemon/.+|pipeline/.+|hal/.+' ;;
     daemon/tools/*) echo "daemon/.+|pipeline/.+|$halTop|hal/virtual/.+" ;;
     daemon/*) echo "daemon/.+|pipeline/.+|$halTop" ;;
     pipeline/geometry.* | pipeline/calibration/* | pipeline/gpu/*) echo "$leaves|$halTop" ;;

@@ -11,11 +11,11 @@ using test::kEveryFormat;
 using test::PaddedPicture;
 using PictureTexture = GlTest;
 
-constexpr Size kSize{54, 38};
+constexpr Size kEvenSize{54, 38};
 // Of a result in 8 bits.
-constexpr double kRounding = 0.501;
+constexpr double kConverted = 0.501;
 // A grey level that a bilinear filter of 8-bit weights may lose in both chroma channels.
-constexpr double kFiltered = kRounding + 2.2;
+constexpr double kChroma = kConverted + 2.2;
 
 /// What shaders sample, swizzled and filtered as it is.
 std::vector<std::uint8_t> sampled(const gpu::Texture& texture) {
@@ -52,30 +52,30 @@ bool isYuv(PixelFormat format) {
 
 TEST_F(PictureTexture, EveryFormatWithPaddedRowsMatchesTheTwin) {
     for (const PixelFormat format : kEveryFormat) {
-        const PaddedPicture source(format, kSize, 3);
+        const PaddedPicture source(format, kEvenSize, 3);
         for (const YuvMatrix matrix : {YuvMatrix::Bt601, YuvMatrix::Bt709})
             for (const YuvRange range : {YuvRange::Limited, YuvRange::Full}) {
                 gpu::PictureTexture picture;
                 const ImageView view = source.view(matrix, range);
                 picture.upload(view);
-                expectTwin(picture, view, isYuv(format) ? kFiltered : 0);
+                expectTwin(picture, view, isYuv(format) ? kChroma : 0);
             }
     }
 }
 
 TEST_F(PictureTexture, RowsMayHaveAnyNumberOfBytes) {
     for (const PixelFormat format : kEveryFormat) {
-        const PaddedPicture source(format, kSize, 3, 5);
+        const PaddedPicture source(format, kEvenSize, 3, 5);
         gpu::PictureTexture picture;
         picture.upload(source.view());
-        expectTwin(picture, source.view(), isYuv(format) ? kFiltered : 0);
+        expectTwin(picture, source.view(), isYuv(format) ? kChroma : 0);
     }
 }
 
 // Constant chroma needs no filter, so that nothing hides behind its tolerance.
 TEST_F(PictureTexture, LumaIsExact) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
-        PaddedPicture source(format, kSize, 4);
+        PaddedPicture source(format, kEvenSize, 4);
         if (format == PixelFormat::Yuyv)
             for (std::size_t i = 1; i < source.plane(0).size(); i += 2)
                 source.plane(0)[i] = 140;
@@ -84,18 +84,18 @@ TEST_F(PictureTexture, LumaIsExact) {
                 std::fill(source.plane(i).begin(), source.plane(i).end(), std::uint8_t{140});
         gpu::PictureTexture picture;
         picture.upload(source.view());
-        expectTwin(picture, source.view(), kRounding);
+        expectTwin(picture, source.view(), kConverted);
     }
 }
 
 TEST_F(PictureTexture, FormatAndSizeMayChangeFromPictureToPicture) {
     gpu::PictureTexture picture;
-    for (const Size size : {kSize, Size{26, 50}})
+    for (const Size size : {kEvenSize, Size{26, 50}})
         for (const PixelFormat format : {PixelFormat::Nv12, PixelFormat::Bgra8, PixelFormat::Gray8,
                                          PixelFormat::Yuyv, PixelFormat::Rgba8}) {
             const PaddedPicture source(format, size, 5);
             picture.upload(source.view());
-            expectTwin(picture, source.view(), isYuv(format) ? kFiltered : 0);
+            expectTwin(picture, source.view(), isYuv(format) ? kChroma : 0);
         }
 }
 
@@ -103,9 +103,9 @@ TEST_F(PictureTexture, ThePictureOfEachUploadIsTheNewOne) {
     gpu::PictureTexture picture;
     GLuint id = 0;
     for (unsigned seed = 1; seed < 4; ++seed) {
-        const PaddedPicture source(PixelFormat::Yuv420, kSize, seed);
+        const PaddedPicture source(PixelFormat::Yuv420, kEvenSize, seed);
         picture.upload(source.view());
-        expectTwin(picture, source.view(), kFiltered);
+        expectTwin(picture, source.view(), kChroma);
         EXPECT_TRUE(id == 0 || id == picture.texture().id()) << "allocated again";
         id = picture.texture().id();
     }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 namespace mfar {
@@ -73,10 +74,15 @@ TEST(ImageFiles, BrokenPicturesAreRefusedByName) {
     const auto error = [&] { return errorOf([&] { static_cast<void>(loadImage(file)); }); };
     EXPECT_EQ(error(), file.string() + ": is missing");
     writeFile(file, "no picture at all");
-    EXPECT_EQ(error(), file.string() + ": cannot be decoded as PNG or JPEG");
+    EXPECT_EQ(error(), file.string() + ": cannot be decoded: neither PNG nor JPEG");
     savePng(file, test::plain({40, 30}, 9).view());
     fs::resize_file(file, fs::file_size(file) - 1);
-    EXPECT_EQ(error(), file.string() + ": is a truncated PNG file");
+    EXPECT_EQ(error(), file.string() + ": cannot be decoded: it ends too early");
+    savePng(file, test::plain({40, 30}, 9).view());
+    std::fstream(file, std::ios::in | std::ios::out | std::ios::binary).seekp(60).put('x');
+    EXPECT_NE(error(), "no error");
+    writeFile(file, "\xff\xd8\xff\xe0 and nothing else");
+    EXPECT_NE(error(), "no error");
 }
 
 TEST(ImageFiles, LoadingIntoABufferOfAnotherSizeIsRefused) {

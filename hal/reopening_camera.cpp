@@ -1,0 +1,150 @@
+#include "hal/reopening_camera.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+std::string sizeText(Size size) {
+    return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+}  // namespace
+
+ReopeningCamera::ReopeningCamera(CameraInfo info, Open open, const ReopeningOptions& options)
+    : info_(std::move(info)), open_(std::move(open)), options_(options),
+      fault_(info_.name + " is being opened") {}
+
+ReopeningCamera::~ReopeningCamera() {
+    stop();
+    if (opener_.joinable()) opener_.join();
+}
+
+void ReopeningCamera::start() {
+    opener_ = std::thread([this] { keepOpen(); });
+}
+
+void ReopeningCamera::keepOpen() {
+    std::chrono::milliseconds pause = options_.firstPause;
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        changed_.wait(lock, [&] { return stopped_ || (!camera_ && !closing_); });
+        if (stopped_) return;
+        lock.unlock();
+        std::shared_ptr<Camera> camera = tryOpen();
+        lock.lock();
+        if (stopped_) return;
+        if (camera) {
+            camera_ = std::move(camera);
+            lastFrame_ = Timestamp::now();
+            pause = options_.firstPause;
+            changed_.notify_all();
+        } else {
+            changed_.wait_for(lock, pause, [&] { return stopped_; });
+            pause = std::min(2 * pause, options_.longestPause);
+        }
+    }
+}
+
+std::shared_ptr<Camera> ReopeningCamera::tryOpen() {
+    try {
+        std::shared_ptr<Camera> camera = open_();
+        if (const Size size = camera->info().size; size != info_.size)
+            throw std::runtime_error("gives " + sizeText(size) + ", not " + sizeText(info_.size));
+        camera->start();
+        return camera;
+    } catch (const std::runtime_error& error) {
+        const std::lock_guard lock(mutex_);
+        fault_ = info_.name + ": " + error.what();
+        return nullptr;
+    }
+}
+
+std::shared_ptr<Camera> ReopeningCamera::opened(std::chrono::milliseconds timeout) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, timeout, [&] { return stopped_ || camera_; });
+    return stopped_ ? nullptr : camera_;
+}
+
+std::optional<Frame> ReopeningCamera::next(std::chrono::milliseconds timeout) {
+    const Timestamp end = Timestamp::now() + timeout;
+    std::shared_ptr<Camera> camera = opened(timeout);
+    if (!camera) return std::nullopt;
+    std::string reason = "sends no pictures";
+    try {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+            std::max(end - Timestamp::now(), std::chrono::nanoseconds{0}));
+        std::optional<Frame> frame = camera->next(left);
+        if (frame || !hasStalled()) {
+            if (frame) sent();
+            return frame;
+        }
+    } catch (const std::runtime_error& error) {
+        reason = error.what();
+    }
+    camera.reset();
+    lose(reason);
+    return std::nullopt;
+}
+
+void ReopeningCamera::sent() {
+    const std::lock_guard lock(mutex_);
+    lastFrame_ = Timestamp::now();
+    fault_.reset();
+}
+
+bool ReopeningCamera::hasStalled() {
+    const std::lock_guard lock(mutex_);
+    if (options_.silent.count() == 0) {
+        fault_.reset();  // it is there, and that is all that can be known
+        return false;
+    }
+    return Timestamp::now() - lastFrame_ >= options_.stalled;
+}
+
+// A device can be opened once at a time: first closed, then opened again.
+void ReopeningCamera::lose(const std::string& reason) {
+    std::shared_ptr<Camera> lost;
+    {
+        const std::lock_guard lock(mutex_);
+        fault_ = info_.name + ": " + reason;
+        lost = std::exchange(camera_, nullptr);
+        if (!lost) return;
+        ++losses_;
+        closing_ = true;
+    }
+    lost.reset();
+    {
+        const std::lock_guard lock(mutex_);
+        closing_ = false;
+    }
+    changed_.notify_all();
+}
+
+void ReopeningCamera::stop() {
+    std::shared_ptr<Camera> camera;
+    {
+        const std::lock_guard lock(mutex_);
+        stopped_ = true;
+        camera = camera_;
+    }
+    if (camera) camera->stop();
+    changed_.notify_all();
+}
+
+std::optional<std::string> ReopeningCamera::fault() const {
+    const std::lock_guard lock(mutex_);
+    if (fault_) return fault_;
+    if (options_.silent.count() > 0 && Timestamp::now() - lastFrame_ > options_.silent)
+        return info_.name + ": sends no pictures";
+    return std::nullopt;
+}
+
+std::uint64_t ReopeningCamera::losses() const {
+    const std::lock_guard lock(mutex_);
+    return losses_;
+}
+
+}  // namespace mfar

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "hal/camera.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace mfar {
+
+struct ReopeningOptions {
+    /// A camera that sends nothing for this long is called silent. 0: one that sends on trigger
+    /// only, whose silence says nothing.
+    std::chrono::milliseconds silent{200};
+    /// A camera that is silent for this long is closed and opened again.
+    std::chrono::milliseconds stalled{2000};
+    /// Pause between two attempts to open it; doubles from the first to the second.
+    std::chrono::milliseconds firstPause{100}, longestPause{1000};
+};
+
+/// A camera that outlives its device: it is opened by a thread of its own, again whenever it is
+/// lost, so that whoever asks for frames never waits for a device that is not there.
+/// next() is called from one thread, the rest from any.
+class ReopeningCamera final : public Camera {
+public:
+    /// Opens the device and throws std::runtime_error when it cannot be had.
+    using Open = std::function<std::unique_ptr<Camera>()>;
+
+    /// `info`: what the camera is to be; a device that is something else counts as not there.
+    ReopeningCamera(CameraInfo info, Open open, const ReopeningOptions& options);
+    ReopeningCamera(const ReopeningCamera&) = delete;
+    ReopeningCamera& operator=(const ReopeningCamera&) = delete;
+    ~ReopeningCamera() override;
+
+    [[nodiscard]] CameraInfo info() const override { return info_; }
+    /// Begins to open the device. Never throws for a device that is not there.
+    void start() override;
+    /// Never throws: a camera that fails is closed and opened again.
+    [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
+    void stop() override;
+    [[nodiscard]] bool ended() const override { return false; }
+
+    /// Why there are no frames, for people; nothing as long as there are.
+    [[nodiscard]] std::optional<std::string> fault() const;
+    /// How often it was lost since the start.
+    [[nodiscard]] std::uint64_t losses() const;
+
+private:
+    void keepOpen();
+    void sent();
+    [[nodiscard]] bool hasStalled();
+    void lose(const std::string& reason);
+    [[nodiscard]] std::shared_ptr<Camera> opened(std::chrono::milliseconds timeout);
+    [[nodiscard]] std::shared_ptr<Camera> tryOpen();
+
+    const CameraInfo info_;
+    const Open open_;
+    const ReopeningOptions options_;
+    mutable std::mutex mutex_;
+    std::condition_variable changed_;
+    std::shared_ptr<Camera> camera_;    ///< also held by a next() that waits for it
+    std::optional<std::string> fault_;  ///< why there is none
+    Timestamp lastFrame_;               ///< or when it was opened
+    std::uint64_t losses_ = 0;
+    bool closing_ = false;  ///< the one that is lost is not closed yet
+    bool stopped_ = false;
+    std::thread opener_;
+};
+
+}  // namespace mfar

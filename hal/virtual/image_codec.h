@@ -1,0 +1,31 @@
+#pragma once
+
+#include "hal/frame.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace mfar {
+
+/// Where a decoded picture goes: told its size, gives its first row and the bytes from one row to
+/// the next, of R G B A. May throw.
+struct PixelTarget {
+    std::uint8_t* rgba;
+    std::size_t stride;
+};
+using TargetOf = std::function<PixelTarget(Size size)>;
+
+/// Decodes a PNG (any colour type and depth, the upper 8 of 16 bits) or a JPEG (grey or colour) as
+/// RGBA, alpha 255. Throws std::runtime_error that says what is wrong, also for a file that ends
+/// too early.
+void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf);
+
+/// Encodes 3 channels B G R or 1 of grey as PNG, quickly rather than small. `out` is replaced.
+/// Throws std::runtime_error.
+void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, int channels,
+               std::vector<std::uint8_t>& out);
+
+}  // namespace mfar

@@ -1,0 +1,158 @@
+#include "hal/reopening_camera.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <functional>
+#include <stdexcept>
+#include <thread>
+
+namespace mfar {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A device as somebody plugs it in and out; may outlive its cameras and be used by any thread.
+struct Socket {
+    std::atomic<bool> plugged{true};
+    std::atomic<bool> sends{true};
+    std::atomic<int> open{0}, opened{0};
+    Size size{4, 2};
+};
+
+class PluggedCamera final : public Camera {
+public:
+    explicit PluggedCamera(Socket& socket) : socket_(socket) {
+        if (!socket_.plugged) throw std::runtime_error("there is no such device");
+        ++socket_.opened;
+        if (++socket_.open > 1) throw std::logic_error("opened twice at a time");
+    }
+    PluggedCamera(const PluggedCamera&) = delete;
+    PluggedCamera& operator=(const PluggedCamera&) = delete;
+    ~PluggedCamera() override { --socket_.open; }
+    [[nodiscard]] CameraInfo info() const override {
+        return {"plugged", socket_.size, PixelFormat::Gray8, 30};
+    }
+    void start() override {}
+    [[nodiscard]] std::optional<Frame> next(milliseconds timeout) override {
+        if (!socket_.plugged) throw DeviceLost("it has gone");
+        if (socket_.sends) {
+            std::this_thread::sleep_for(milliseconds(1));
+            return Frame({pixels_.data(), socket_.size, 4, PixelFormat::Gray8}, Timestamp::now(),
+                         {});
+        }
+        std::this_thread::sleep_for(std::min(timeout, milliseconds(5)));
+        return std::nullopt;
+    }
+    void stop() override {}
+    [[nodiscard]] bool ended() const override { return false; }
+
+private:
+    Socket& socket_;
+    std::array<std::uint8_t, 8> pixels_{};
+};
+
+ReopeningOptions quick() {
+    return {milliseconds(30), milliseconds(80), milliseconds(2), milliseconds(8)};
+}
+
+ReopeningCamera cameraOn(Socket& socket, const ReopeningOptions& options = quick()) {
+    return {{"video camera", {4, 2}, PixelFormat::Gray8, 30},
+            [&] { return std::make_unique<PluggedCamera>(socket); },
+            options};
+}
+
+/// Asks for frames until `done`; false after five seconds.
+bool drivenUntil(ReopeningCamera& camera, const std::function<bool(bool frame)>& done) {
+    const Timestamp end = Timestamp::now() + std::chrono::seconds(5);
+    while (Timestamp::now() < end)
+        if (done(camera.next(milliseconds(5)).has_value())) return true;
+    return false;
+}
+
+TEST(ReopeningCamera, SaysWhatIsMissingAndGoesOnWhenItComes) {
+    Socket socket;
+    socket.plugged = false;
+    ReopeningCamera camera = cameraOn(socket);
+    camera.start();
+    EXPECT_TRUE(drivenUntil(
+        camera, [&](bool) { return camera.fault() == "video camera: there is no such device"; }));
+    socket.plugged = true;
+    EXPECT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    EXPECT_EQ(camera.fault(), std::nullopt);
+    EXPECT_EQ(camera.losses(), 0U);
+}
+
+TEST(ReopeningCamera, SurvivesManyLosses) {
+    Socket socket;
+    ReopeningCamera camera = cameraOn(socket);
+    camera.start();
+    for (int i = 0; i < 20; ++i) {
+        ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; })) << i;
+        EXPECT_EQ(camera.fault(), std::nullopt);
+        socket.plugged = false;
+        ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.fault().has_value(); })) << i;
+        EXPECT_EQ(socket.open, 0);
+        socket.plugged = true;
+    }
+    EXPECT_EQ(camera.losses(), 20U);
+}
+
+TEST(ReopeningCamera, OneThatGoesSilentIsNamedAndThenOpenedAgain) {
+    Socket socket;
+    ReopeningCamera camera = cameraOn(socket);
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    socket.sends = false;
+    ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.fault().has_value(); }));
+    EXPECT_EQ(camera.fault(), "video camera: sends no pictures");
+    EXPECT_TRUE(drivenUntil(camera, [&](bool) { return socket.opened >= 3; }));
+    socket.sends = true;
+    EXPECT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    EXPECT_EQ(camera.fault(), std::nullopt);
+}
+
+TEST(ReopeningCamera, OneOnTriggerMayBeSilent) {
+    Socket socket;
+    socket.sends = false;
+    ReopeningOptions options = quick();
+    options.silent = milliseconds(0);
+    ReopeningCamera camera = cameraOn(socket, options);
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [&](bool) { return !camera.fault(); }));
+    const Timestamp end = Timestamp::now() + milliseconds(200);
+    while (Timestamp::now() < end) {
+        EXPECT_FALSE(camera.next(milliseconds(5)).has_value());
+        EXPECT_EQ(camera.fault(), std::nullopt);
+    }
+    EXPECT_EQ(socket.opened, 1);
+}
+
+TEST(ReopeningCamera, AnotherSizeCountsAsNotThere) {
+    Socket socket;
+    socket.size = {2, 2};
+    ReopeningCamera camera = cameraOn(socket);
+    camera.start();
+    EXPECT_TRUE(drivenUntil(
+        camera, [&](bool) { return camera.fault() == "video camera: gives 2x2, not 4x2"; }));
+    EXPECT_EQ(socket.open, 0);
+}
+
+TEST(ReopeningCamera, StopWakesWhoWaits) {
+    Socket socket;
+    socket.plugged = false;
+    ReopeningCamera camera = cameraOn(socket);
+    camera.start();
+    const Timestamp begin = Timestamp::now();
+    std::jthread stopper([&] {
+        std::this_thread::sleep_for(milliseconds(20));
+        camera.stop();
+    });
+    EXPECT_FALSE(camera.next(std::chrono::seconds(60)).has_value());
+    EXPECT_LT(Timestamp::now() - begin, std::chrono::seconds(30));
+    EXPECT_FALSE(camera.next(std::chrono::seconds(60)).has_value());
+}
+
+}  // namespace
+}  // namespace mfar
