@@ -58,7 +58,7 @@ ExitCode App::run() {
         session();
         events_.wake();
     });
-    if (log_.style() == Log::Style::Terminal) events_.tickEvery(Seconds(config_.status.intervalS));
+    setTicks();
     while (end.wait_for(Seconds(0)) != std::future_status::ready)
         handle(events_.wait());
     return finish(end);
@@ -83,7 +83,7 @@ void App::handle(const Event& event) {
     switch (event.kind) {
     case Event::Kind::Signal: return onSignal(event.signal);
     case Event::Kind::Deadline: return onDeadline();
-    case Event::Kind::Tick: return showStatus();
+    case Event::Kind::Tick: return onTick();
     case Event::Kind::Wake: return onReady();
     }
 }
@@ -95,6 +95,7 @@ void App::onReady() {
         running_ = std::exchange(ready_, std::nullopt);
     }
     log_.notice(running_->startLine);
+    service_.ready(running_->startLine);
     if (options_.seconds && !stopReason_) events_.deadlineIn(Seconds(*options_.seconds));
 }
 
@@ -120,6 +121,7 @@ void App::onDeadline() {
 }
 
 void App::stop(const std::string& reason) {
+    if (!stopReason_) service_.stopping("ending: " + reason);
     stopReason_ = stopReason_.value_or(reason);
     input_.request_stop();
 }
@@ -127,6 +129,7 @@ void App::stop(const std::string& reason) {
 void App::reload() {
     if (!options_.config)
         return log_.warning("SIGHUP: started without --config, nothing to read again");
+    if (running_) service_.reloading();
     try {
         const Config wanted = effectiveConfig(options_);
         const std::string restart = needRestart(config_, wanted);
@@ -135,20 +138,57 @@ void App::reload() {
         config_.status = wanted.status;
         config_.objects = wanted.objects;
         changes_.put(tunables(config_));
-        if (log_.style() == Log::Style::Terminal)
-            events_.tickEvery(Seconds(config_.status.intervalS));
+        setTicks();
         if (running_) running_->description.mode = name(config_.superres.mode);
         log_.notice(options_.config->string() + ": read again" +
                     (restart.empty() ? "" : "; after a restart only: " + restart));
     } catch (const Failure& failure) {
         log_.error(fmt::format("{}\nthe old configuration stays", failure.what()));
     }
+    if (running_) service_.ready(running_->startLine);
+}
+
+void App::setTicks() {
+    const Seconds status(config_.status.intervalS);
+    events_.tickEvery(std::min(service_.watchdogPeriod().value_or(status), status));
+}
+
+void App::onTick() {
+    feedWatchdog();
+    const Timestamp now = Timestamp::now();
+    // Ticks may come more often, for the watchdog.
+    if (now.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
+    statusShown_ = now;
+    showStatus();
+}
+
+// Before and after the pictures there is nothing to watch: systemd has limits of its own for both.
+void App::feedWatchdog() {
+    if (!running_ || !service_.watchdogPeriod()) return;
+    const std::uint64_t progress = stats_.progress();
+    if (progress == progressFed_ && !stopReason_) return;
+    progressFed_ = progress;
+    service_.alive();
 }
 
 void App::showStatus() {
     if (!running_) return;
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
-    log_.status(statusLine(stats_.count(), running_->description, elapsed));
+    const Counted counted = stats_.count();
+    if (counted.fault != fault_) {
+        fault_ = counted.fault;
+        if (fault_)
+            log_.warning(*fault_);
+        else
+            log_.notice("all devices are there");
+    }
+    if (!counted.display.empty() && counted.display != running_->description.display) {
+        running_->description.display = counted.display;
+        log_.notice("display " + counted.display);
+    }
+    const std::string line = statusLine(counted, running_->description, elapsed);
+    log_.status(line);
+    if (!stopReason_) service_.status(line);
 }
 
 ExitCode App::finish(std::future<std::string>& end) {

@@ -6,10 +6,12 @@
 #include "daemon/log.h"
 #include "daemon/mailbox.h"
 #include "daemon/options.h"
+#include "daemon/service.h"
 #include "daemon/session.h"
 #include "daemon/stats.h"
 #include "daemon/status.h"
 
+#include <cstdint>
 #include <fstream>
 #include <future>
 #include <mutex>
@@ -46,6 +48,9 @@ private:
     void onDeadline();
     void stop(const std::string& reason);
     void reload();
+    void onTick();
+    void setTicks();
+    void feedWatchdog();
     void showStatus();
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
     [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
@@ -54,6 +59,7 @@ private:
     Log& log_;
     Config config_;
     std::ofstream summary_;
+    const Service service_;
     Events events_;
     Stats stats_;
     Mailbox<Tunables> changes_{HandOver::NewestWins};
@@ -62,6 +68,9 @@ private:
     std::optional<std::string> stopReason_;
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
+    std::uint64_t progressFed_ = 0;  ///< the watchdog's last meal was about this
+    Timestamp statusShown_;
+    std::optional<std::string> fault_;  ///< that the log has said last
 
     std::mutex mutex_;
     std::optional<Ready> ready_;  ///< guarded by the mutex; moves to running_

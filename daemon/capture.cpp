@@ -60,6 +60,7 @@ void CaptureThread::run() {
         FramePairer pairer([&]() -> std::optional<Frame> {
             std::optional<Frame> still = take(rig_.still(), std::chrono::milliseconds(0), size);
             if (still) {
+                still->shift(rig_.stillTimeOffset());
                 stats_.stillReceived();
                 rig_.recordStill(*still);
             }

@@ -32,6 +32,11 @@ std::optional<E> meaning(std::span<const Word<E>> words, std::string_view word) 
     return std::nullopt;
 }
 
+/// A path in a configuration file is relative to that file.
+std::filesystem::path besides(const std::string& file, const std::filesystem::path& path) {
+    return std::filesystem::path(file).parent_path() / path;
+}
+
 void readTrigger(TomlReader& file, TriggerConfig& trigger) {
     file.choice<TriggerMode>("trigger.mode", trigger.mode, kTriggerModes);
     file.number("trigger.rate_hz", trigger.rateHz, 0.01, 60);
@@ -55,10 +60,12 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     file.integer("seed", config.seed);
     file.choice<SuperResMode>("superres.mode", config.superres.mode, kSuperResModes);
     file.boolean("superres.skip_unchanged", config.superres.skipUnchanged);
+    readCameras(file, config.cameras);
+    if (!config.cameras.calibration.empty())
+        config.cameras.calibration = besides(fileName, config.cameras.calibration);
     readTrigger(file, config.trigger);
     readPose(file, config.pose);
-    if (!config.pose.tags.empty())
-        config.pose.tags = std::filesystem::path(fileName).parent_path() / config.pose.tags;
+    if (!config.pose.tags.empty()) config.pose.tags = besides(fileName, config.pose.tags);
     std::string recordTo;
     file.text("record.directory", recordTo);
     config.recordTo = recordTo;
@@ -88,6 +95,7 @@ std::string needRestart(const Config& running, const Config& wanted) {
     };
     compare(running.source == wanted.source, "source");
     compare(running.recording == wanted.recording, "recording");
+    compare(running.cameras == wanted.cameras, "cameras");
     compare(running.display == wanted.display, "display");
     compare(running.pace == wanted.pace, "pace");
     compare(running.seed == wanted.seed, "seed");

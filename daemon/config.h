@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/cameras_config.h"
 #include "daemon/exit_code.h"
 #include "daemon/objects_config.h"
 #include "daemon/pose_config.h"
@@ -37,12 +38,13 @@ struct StatusConfig {
 /// Everything the daemon can be told, from the configuration file and the command line. The
 /// defaults here are the product's; systemd/mfard.toml shows them.
 struct Config {
-    std::string source = "synthetic";  ///< not used when `recording` is set
-    std::filesystem::path recording;   ///< empty: none
-    std::string display = "none";
+    std::string source = "cameras";   ///< not used when `recording` is set
+    std::filesystem::path recording;  ///< empty: none
+    std::string display = "auto";
     SourcePace pace = SourcePace::Auto;
     std::uint64_t seed = 1;          ///< of the synthetic board
     std::filesystem::path recordTo;  ///< empty: nothing is recorded
+    CamerasConfig cameras;           ///< used when source is "cameras"
     SuperResConfig superres;
     TriggerConfig trigger;
     PoseConfig pose;

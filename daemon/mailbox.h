@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -44,14 +45,24 @@ public:
         return older ? Put::Replaced : Put::Stored;
     }
 
-    /// Waits for an item; nothing once the mailbox is closed, or finished and empty.
+    /// Waits for an item; nothing once the mailbox is over().
     [[nodiscard]] std::optional<T> take() {
-        std::unique_lock lock(mutex_);
-        asking_ = true;
-        asked_.notify_one();
-        stored_.wait(lock, [&] { return closed_ || finished_ || slot_; });
-        asking_ = false;
-        return std::exchange(slot_, std::nullopt);
+        return take([&](std::unique_lock<std::mutex>& lock) {
+            stored_.wait(lock, [&] { return closed_ || finished_ || slot_; });
+        });
+    }
+
+    /// The same for at most `timeout`.
+    [[nodiscard]] std::optional<T> takeWithin(std::chrono::milliseconds timeout) {
+        return take([&](std::unique_lock<std::mutex>& lock) {
+            stored_.wait_for(lock, timeout, [&] { return closed_ || finished_ || slot_; });
+        });
+    }
+
+    /// Closed, or finished and empty: no item will ever come.
+    [[nodiscard]] bool over() const {
+        const std::lock_guard lock(mutex_);
+        return closed_ || (finished_ && !slot_);
     }
 
     /// The item if there is one; never waits.
@@ -89,6 +100,16 @@ public:
     }
 
 private:
+    template <class Wait>
+    std::optional<T> take(Wait wait) {
+        std::unique_lock lock(mutex_);
+        asking_ = true;
+        asked_.notify_one();
+        wait(lock);
+        asking_ = false;
+        return std::exchange(slot_, std::nullopt);
+    }
+
     const HandOver handOver_;
     mutable std::mutex mutex_;
     std::condition_variable stored_;

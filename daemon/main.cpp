@@ -2,16 +2,20 @@
 #include "daemon/exit_code.h"
 #include "daemon/log.h"
 #include "daemon/options.h"
+#include "daemon/rig.h"
 
 #include <fmt/format.h>
 
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 
 int main(int argc, char** argv) {
     using namespace mfar;
     Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO));
+    // libcamera tells standard error by itself how it is; what is wrong, we say.
+    setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
     try {
         const CommandLine line = parseCommandLine(argc, argv);
         if (line.print) {
@@ -21,6 +25,10 @@ int main(int argc, char** argv) {
         if (line.options.checkConfig) {
             (void)effectiveConfig(line.options);
             fmt::print("ok\n");
+            return static_cast<int>(ExitCode::Ok);
+        }
+        if (line.options.releaseTrigger) {
+            releaseTrigger(effectiveConfig(line.options));
             return static_cast<int>(ExitCode::Ok);
         }
         App app(line.options, log);

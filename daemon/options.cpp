@@ -32,8 +32,11 @@ void addInputs(CLI::App& app, Options& options, Words& words) {
     app.add_option("--config", options.config, "Configuration file (TOML)")->type_name("FILE");
     app.add_flag("--check-config", options.checkConfig,
                  "Only check the configuration: prints ok, or every fault with its line");
+    app.add_flag("--release-trigger", options.releaseTrigger,
+                 "Only bring the trigger's line to its safe level, after a crash");
     CLI::Option* source = app.add_option("--source", options.source,
-                                         "Where pictures come from: synthetic[:SCENE[,PATH]]\n"
+                                         "Where pictures come from: cameras (default), as\n"
+                                         "configured, or synthetic[:SCENE[,PATH]]\n"
                                          "(" +
                                              sourceHelp() + ")")
                               ->check(accepts(sourceFault, "source"))
@@ -58,8 +61,9 @@ void addInputs(CLI::App& app, Options& options, Words& words) {
 
 void addOutputs(CLI::App& app, Options& options, Words& words) {
     app.add_option("--display", options.display,
-                   "Where pictures go: none (default), png:DIR (one file per frame)\n"
-                   "or y4m:FILE (one video file or named pipe)")
+                   "Where pictures go: auto (default; the first screen there is),\n"
+                   "kms[:cardN][,CONNECTOR][,WxH[@HZ]], fbdev[:/dev/fbN], none,\n"
+                   "png:DIR (one file per frame) or y4m:FILE (one video file or named pipe)")
         ->check(accepts(displayFault, "display"))
         ->type_name("DISPLAY");
     app.add_option("--mode", words.mode,

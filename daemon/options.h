@@ -13,6 +13,7 @@ namespace mfar {
 struct Options {
     std::optional<std::filesystem::path> config;
     bool checkConfig = false;
+    bool releaseTrigger = false;
     std::optional<std::string> source;
     std::optional<std::filesystem::path> recording;
     std::optional<std::string> display;

@@ -1,5 +1,9 @@
 #include "daemon/rig.h"
 
+#include "daemon/rig_cameras.h"
+#include "daemon/rig_source.h"
+#include "hal/device/display_auto.h"
+#include "hal/device/trigger_safe_level.h"
 #include "hal/virtual/display_files.h"
 #include "hal/virtual/recorder.h"
 #include "hal/virtual/recording_player.h"
@@ -19,6 +23,7 @@ namespace {
 using synthetic::Path;
 using synthetic::Scene;
 
+constexpr std::string_view kCameras = "cameras";
 constexpr std::array kScenes = {Scene::Office, Scene::Shelf, Scene::Outdoor,    Scene::Flat,
                                 Scene::Moving, Scene::Still, Scene::Calibration};
 constexpr std::array kPaths = {Path::Handheld, Path::Pan,  Path::Orbit, Path::Forward,
@@ -56,34 +61,24 @@ Pace playerPace(SourcePace wanted, SourcePace automatic) {
     return pace == SourcePace::Realtime ? Pace::Realtime : Pace::Consumer;
 }
 
+bool isScreen(std::string_view display) {
+    const std::string_view kind = display.substr(0, display.find_first_of(":,"));
+    return kind == "auto" || kind == "kms" || kind == "fbdev";
+}
+
 HandOver handOverAt(Pace pace) {
     return pace == Pace::Realtime ? HandOver::NewestWins : HandOver::Lossless;
 }
 
-}  // namespace
-
-/// A set of devices that belong together.
-class Rig::Source {
-public:
-    virtual ~Source() = default;
-    [[nodiscard]] virtual const StereoRig& geometry() const = 0;
-    [[nodiscard]] virtual Camera& video() = 0;
-    [[nodiscard]] virtual Camera& still() = 0;
-    [[nodiscard]] virtual Trigger* trigger() = 0;
-    [[nodiscard]] virtual std::string name() const = 0;
-    /// Tags where they are known, else empty.
-    [[nodiscard]] virtual TagMap tags() const = 0;
-    /// Empty where poses are not recorded.
-    [[nodiscard]] virtual std::function<std::optional<Pose>(Timestamp)> recordedPoses() const = 0;
-
-    HandOver handOver = HandOver::NewestWins;
-    ExitCode failure = ExitCode::Unavailable;
-    std::optional<std::uint64_t> videoFrames{};
-};
-
-struct Rig::Synthetic final : Rig::Source {
-    explicit Synthetic(const Config& config) : source(config.source), board(options(config)) {
+struct SyntheticSource final : RigSource {
+    explicit SyntheticSource(const Config& config) : source(config.source), board(options(config)) {
         handOver = handOverAt(options(config).pace);
+        std::vector<MappedTag> known;
+        for (const synthetic::Tag& tag : board.world().tags)
+            // One that moves says nothing about where the camera is.
+            if (!tag.moves)
+                known.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
+        tags = TagMap(known);
     }
     static SyntheticOptions options(const Config& config) {
         SyntheticOptions options;
@@ -99,28 +94,21 @@ struct Rig::Synthetic final : Rig::Source {
     [[nodiscard]] Camera& still() override { return board.stills(); }
     [[nodiscard]] Trigger* trigger() override { return &board.trigger(); }
     [[nodiscard]] std::string name() const override { return source; }
-    [[nodiscard]] TagMap tags() const override {
-        std::vector<MappedTag> known;
-        for (const synthetic::Tag& tag : board.world().tags)
-            // One that moves says nothing about where the camera is.
-            if (!tag.moves)
-                known.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
-        return TagMap(known);
-    }
-    [[nodiscard]] std::function<std::optional<Pose>(Timestamp)> recordedPoses() const override {
-        return {};
-    }
 
     std::string source;
     SyntheticBoard board;
 };
 
-struct Rig::Played final : Rig::Source {
-    explicit Played(const Config& config)
+struct PlayedSource final : RigSource {
+    explicit PlayedSource(const Config& config)
         : player(load(config.recording), {playerPace(config.pace, SourcePace::Consumer)}) {
         handOver = handOverAt(playerPace(config.pace, SourcePace::Consumer));
         failure = ExitCode::BadData;
         videoFrames = player.recording().video.size();
+        if (const auto file = player.recording().root / "tags.toml"; std::filesystem::exists(file))
+            tags = readTagMap(file);
+        if (!player.recording().poses.empty())
+            recordedPoses = [this](Timestamp t) { return player.recording().poseAt(t); };
     }
     static Recording load(const std::filesystem::path& folder) {
         if (!std::filesystem::is_directory(folder))
@@ -139,28 +127,23 @@ struct Rig::Played final : Rig::Source {
     [[nodiscard]] std::string name() const override {
         return "recording " + player.recording().root.string();
     }
-    [[nodiscard]] TagMap tags() const override {
-        const std::filesystem::path file = player.recording().root / "tags.toml";
-        return std::filesystem::exists(file) ? readTagMap(file) : TagMap();
-    }
-    [[nodiscard]] std::function<std::optional<Pose>(Timestamp)> recordedPoses() const override {
-        if (player.recording().poses.empty()) return {};
-        return [this](Timestamp t) { return player.recording().poseAt(t); };
-    }
 
     RecordingPlayer player;
 };
 
-std::unique_ptr<Rig::Source> Rig::openSource(const Config& config) {
-    if (!config.recording.empty()) return std::make_unique<Played>(config);
+std::unique_ptr<RigSource> openSource(const Config& config) {
+    if (!config.recording.empty()) return std::make_unique<PlayedSource>(config);
+    if (config.source == kCameras) return std::make_unique<CamerasSource>(config.cameras);
     if (const std::optional<std::string> fault = sourceFault(config.source))
         throw Failure(ExitCode::BadConfig, *fault);
     try {
-        return std::make_unique<Synthetic>(config);
+        return std::make_unique<SyntheticSource>(config);
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::Unavailable, config.source + ": " + error.what());
     }
 }
+
+}  // namespace
 
 Rig::Rig(const Config& config) : source_(openSource(config)) {
     if (config.recordTo.empty()) return;
@@ -193,13 +176,17 @@ HandOver Rig::handOver() const {
     return source_->handOver;
 }
 
+std::chrono::nanoseconds Rig::stillTimeOffset() const {
+    return source_->stillTimeOffset;
+}
+
 std::optional<std::uint64_t> Rig::videoFrames() const {
     return source_->videoFrames;
 }
 
 PoseInputs Rig::poseInputs() const {
-    return {source_->name(), geometry(), source_->video().info().rateHz, source_->tags(),
-            source_->recordedPoses()};
+    return {source_->name(), geometry(), source_->video().info().rateHz, source_->tags,
+            source_->recordedPoses};
 }
 
 std::string Rig::description() const {
@@ -207,6 +194,15 @@ std::string Rig::description() const {
     const CameraInfo still = source_->still().info();
     return fmt::format("{}: video {}x{} at {:g} Hz, still {}x{}", source_->name(), video.size.width,
                        video.size.height, video.rateHz, still.size.width, still.size.height);
+}
+
+std::optional<StillCounters> Rig::matching() const {
+    if (!source_->matching) return std::nullopt;
+    return source_->matching();
+}
+
+std::optional<std::string> Rig::fault() const {
+    return source_->fault ? source_->fault() : std::nullopt;
 }
 
 ExitCode Rig::inputFailure() const {
@@ -253,8 +249,18 @@ void Rig::finishRecording() {
     }
 }
 
+void releaseTrigger(const Config& config) {
+    if (config.cameras.trigger.line.empty()) return;
+    try {
+        driveSafe(triggerOptions(config.cameras.trigger));
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::Unavailable, error.what());
+    }
+}
+
 std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::stop_token cancel) {
     try {
+        if (isScreen(config.display)) return openScreen(config.display);
         return openFileDisplay(config.display, rateHz, std::move(cancel));
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
@@ -262,10 +268,11 @@ std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::s
 }
 
 std::optional<std::string> sourceFault(std::string_view source) {
+    if (source == kCameras) return std::nullopt;
     const SourceWords words = split(source);
     if (words.kind != "synthetic")
-        return fmt::format("no source \"{}\"; there is synthetic[:scene[,path]], and --recording "
-                           "for recordings",
+        return fmt::format("no source \"{}\"; there are cameras and synthetic[:scene[,path]], and "
+                           "--recording for recordings",
                            words.kind);
     if (words.scene && !synthetic::sceneNamed(*words.scene))
         return fmt::format("no scene \"{}\"; there are {}", *words.scene, names(kScenes));
@@ -276,9 +283,12 @@ std::optional<std::string> sourceFault(std::string_view source) {
 
 std::optional<std::string> displayFault(std::string_view display) {
     if (display == "none") return std::nullopt;
+    if (isScreen(display)) return screenFault(display);
     for (const std::string_view kind : {"png:", "y4m:"})
         if (display.starts_with(kind) && display.size() > kind.size()) return std::nullopt;
-    return fmt::format("no display \"{}\"; there are none, png:FOLDER and y4m:FILE", display);
+    return fmt::format("no display \"{}\"; there are auto, kms, fbdev, none, png:FOLDER and "
+                       "y4m:FILE",
+                       display);
 }
 
 std::string sourceHelp() {

@@ -6,9 +6,11 @@
 #include "daemon/pose_finder.h"
 #include "hal/camera.h"
 #include "hal/display.h"
+#include "hal/still_matcher.h"
 #include "hal/trigger.h"
 #include "pipeline/geometry.h"
 
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,6 +21,7 @@
 namespace mfar {
 
 class Recorder;
+class RigSource;
 
 /// The devices of one run. This is the one place that knows which kinds exist.
 class Rig {
@@ -33,6 +36,8 @@ public:
     /// nullptr where stills come by themselves.
     [[nodiscard]] Trigger* trigger();
     [[nodiscard]] HandOver handOver() const;
+    /// What brings a still's time to the video's clock.
+    [[nodiscard]] std::chrono::nanoseconds stillTimeOffset() const;
     /// How many video frames there will be at most, where that is known.
     [[nodiscard]] std::optional<std::uint64_t> videoFrames() const;
     /// What is known about poses: a recording's tags.toml and poses, the synthetic board's tags.
@@ -40,6 +45,10 @@ public:
     [[nodiscard]] PoseInputs poseInputs() const;
     /// "synthetic office: video 640x480 at 30 Hz, still 2304x1728"
     [[nodiscard]] std::string description() const;
+    /// How stills and pulses went together, where a line of ours triggers them.
+    [[nodiscard]] std::optional<StillCounters> matching() const;
+    /// What is wrong with a device that the rig waits for, for people; nothing when all is well.
+    [[nodiscard]] std::optional<std::string> fault() const;
     /// What it means when a camera fails.
     [[nodiscard]] ExitCode inputFailure() const;
 
@@ -59,15 +68,12 @@ public:
     void finishRecording();
 
 private:
-    class Source;
-    struct Synthetic;
-    struct Played;
-
-    static std::unique_ptr<Source> openSource(const Config& config);
-
-    std::unique_ptr<Source> source_;
+    std::unique_ptr<RigSource> source_;
     std::unique_ptr<Recorder> recorder_;
 };
+
+/// Brings the trigger line that the configuration names to its safe level. Throws Failure.
+void releaseTrigger(const Config& config);
 
 /// Opens the display that the configuration names. A request on `cancel` ends its waiting. Throws
 /// Failure.

@@ -10,6 +10,9 @@
 namespace mfar {
 namespace {
 
+/// How soon a fault is in the picture, and how often it is shown anew, while no frames come.
+constexpr std::chrono::milliseconds kFaultInterval{100};
+
 std::unique_ptr<GlContext> openGl() {
     try {
         return createGlContext();
@@ -27,7 +30,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl()),
       pipeline_(rig_.geometry(), {config.superres.mode, {}, config.superres.skipUnchanged}),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
-      policy_(config.trigger) {
+      policy_(config.trigger), banner_(pipeline_.outputSize()) {
     rig_.recordTags(poses_.tags());
     pipeline_.setMeasure(config.status.measure);
     pipeline_.setObjects(config.objects);
@@ -51,9 +54,13 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
     const std::stop_callback onStop(stop_.input, [&] { capture.stop(); });
     bool enough = false;
     while (!enough) {
-        std::optional<CapturedFrame> captured = mailbox.take();
-        if (!captured) break;
+        std::optional<CapturedFrame> captured = mailbox.takeWithin(kFaultInterval);
+        if (!captured && mailbox.over()) break;
         if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
+        if (!captured) {
+            showFault();
+            continue;
+        }
         // Without a clock of its own a source waits for us: only our own time is latency then.
         if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
         process(std::move(*captured));
@@ -86,12 +93,16 @@ void Session::process(CapturedFrame captured) {
     // Before the display, which may wait: the exposure runs meanwhile.
     askForStill(time, result.stats);
     previous_ = time;
-    show(result.image, time);
+    last_ = result.image;
+    const std::optional<std::string> fault = rig_.fault();
+    stats_.fault(fault);
+    show(fault ? banner_.over(last_, *fault) : last_, time);
     ++shown_;
     std::optional<double> age;
     if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
     stats_.picture({result.stats, pipeline_.stageTimes(), captured.arrived, Timestamp::now(), age});
     stats_.recorderDropped(rig_.notRecorded());
+    if (const auto matching = rig_.matching()) stats_.matching(*matching);
     rig_.checkRecording();
 }
 
@@ -108,17 +119,31 @@ void Session::askForStill(Timestamp frame, const FrameStats& stats) {
     if (policy_.decide(frame, previous_.value_or(frame), stats)) {
         try {
             trigger->fire();
+        } catch (const TriggerBusy&) {
+            // The pulse before is not over; the policy asks again.
         } catch (const std::runtime_error& error) {
-            throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
+            // One that is waited for says so in the picture.
+            if (!rig_.fault())
+                throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }
     }
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()),
                     static_cast<std::uint64_t>(policy_.lost()));
 }
 
+// Frames bring the fault with them; without them it is shown over the last picture.
+void Session::showFault() {
+    const std::optional<std::string> fault = rig_.fault();
+    stats_.fault(fault);
+    if (!fault) return;
+    show(banner_.over(last_, *fault), Timestamp::now());
+    stats_.pictureOfFault();
+}
+
 void Session::show(const GlImage& image, Timestamp time) {
     try {
         display_->show(image, time);
+        stats_.display(display_->name());
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
     }

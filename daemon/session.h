@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/banner.h"
 #include "daemon/capture.h"
 #include "daemon/config.h"
 #include "daemon/mailbox.h"
@@ -59,6 +60,7 @@ private:
     void process(CapturedFrame captured);
     void useStill(const CapturedStill& still);
     void askForStill(Timestamp frame, const FrameStats& stats);
+    void showFault();
     void show(const GlImage& image, Timestamp time);
 
     Stats& stats_;
@@ -70,6 +72,8 @@ private:
     Pipeline pipeline_;
     std::unique_ptr<Display> display_;
     StillPolicy policy_;
+    Banner banner_;
+    GlImage last_;  ///< the pipeline's, without banner; no texture before the first
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;
     std::uint64_t shown_ = 0;

@@ -57,6 +57,27 @@ void Stats::picture(const Picture& picture) {
     counted_.stillAgeS = picture.stillAgeS;
 }
 
+void Stats::fault(const std::optional<std::string>& fault) {
+    const std::lock_guard lock(mutex_);
+    if (fault && !counted_.fault) ++counted_.faults;
+    counted_.fault = fault;
+}
+
+void Stats::display(const std::string& name) {
+    const std::lock_guard lock(mutex_);
+    if (counted_.display != name) counted_.display = name;
+}
+
+void Stats::pictureOfFault() {
+    const std::lock_guard lock(mutex_);
+    ++faultPictures_;
+}
+
+std::uint64_t Stats::progress() {
+    const std::lock_guard lock(mutex_);
+    return counted_.frames + faultPictures_;
+}
+
 void Stats::videoGap(std::uint64_t frames) {
     const std::lock_guard lock(mutex_);
     counted_.drops.sensor += frames;
@@ -86,6 +107,11 @@ void Stats::triggers(std::uint64_t fired, std::uint64_t lost) {
     const std::lock_guard lock(mutex_);
     counted_.stills.triggered = fired;
     counted_.stills.lost = lost;
+}
+
+void Stats::matching(const StillCounters& counters) {
+    const std::lock_guard lock(mutex_);
+    counted_.matching = counters;
 }
 
 void Stats::mailboxDropped(std::uint64_t total) {

@@ -2,6 +2,7 @@
 
 #include "daemon/histogram.h"
 #include "daemon/pose_counts.h"
+#include "hal/still_matcher.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/results.h"
 
@@ -41,6 +42,7 @@ struct Counted {
     double meanConfidence = 0;  ///< over the frames that used a still
     Drops drops;
     StillCounts stills;
+    StillCounters matching;  ///< zero without a trigger line of ours
     PoseCounts poses;
     std::uint64_t epipolarFrames = 0;     ///< pictures that were matched along epipolar lines
     std::uint64_t predictedFrames = 0;    ///< of them, around what the frame before showed
@@ -52,7 +54,10 @@ struct Counted {
     std::uint64_t tilesSearched2d = 0;    ///< as the lines did not explain them
     FrameStats last;
     std::vector<StageTime> lastStages;
-    std::optional<double> stillAgeS;  ///< at the last frame
+    std::optional<double> stillAgeS;   ///< at the last frame
+    std::optional<std::string> fault;  ///< of a device, as the picture says it
+    std::string display;               ///< what is shown where
+    std::uint64_t faults = 0;          ///< times that there was none before
 };
 
 /// One finished picture.
@@ -68,6 +73,12 @@ struct Picture {
 class Stats {
 public:
     void picture(const Picture& picture);
+    /// What the picture says that is missing; nothing when all is well.
+    void fault(const std::optional<std::string>& fault);
+    /// What is shown where, as Display::name() says it now.
+    void display(const std::string& name);
+    /// A picture was shown that says what is missing, while no frames come.
+    void pictureOfFault();
     void videoGap(std::uint64_t frames);
     void stillReceived();
     void stillUsed();
@@ -75,10 +86,13 @@ public:
     void framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker);
     void stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms);
     void triggers(std::uint64_t fired, std::uint64_t lost);
+    void matching(const StillCounters& counters);
     void mailboxDropped(std::uint64_t total);
     void recorderDropped(std::uint64_t total);
 
     [[nodiscard]] Counted count();
+    /// Grows as long as pictures are shown.
+    [[nodiscard]] std::uint64_t progress();
 
 private:
     std::mutex mutex_;
@@ -89,6 +103,7 @@ private:
     std::uint64_t epipolarErrorFrames_ = 0;
     std::optional<Timestamp> firstShown_;
     Timestamp lastShown_;
+    std::uint64_t faultPictures_ = 0;
     std::uint64_t framesBefore_ = 0;  ///< at the previous count()
     Timestamp shownBefore_;
 };

@@ -91,6 +91,12 @@ nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& fr
     };
 }
 
+nlohmann::ordered_json lineSummary(const StillCounters& line) {
+    return {{"fired", line.fired},        {"matched", line.matched}, {"unmatched", line.unmatched},
+            {"lost", line.lost},          {"late", line.late},       {"repeated", line.repeated},
+            {"relearned", line.relearned}};
+}
+
 }  // namespace
 
 // The most important first: what does not fit on the terminal is cut off.
@@ -98,6 +104,7 @@ std::string statusLine(const Counted& counted, const RunDescription& run, double
     std::string line;
     const auto out = std::back_inserter(line);
     if (const std::optional<double> done = progress(counted, run, elapsedS)) line = bar(*done);
+    if (counted.fault) line += *counted.fault + " | ";
     if (counted.frames == 0) return line + "waiting for the first picture";
     fmt::format_to(out, "{:.1f} fps", counted.recentFps);
     const Drops& drops = counted.drops;
@@ -152,11 +159,13 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
           {"received", counted.stills.received},
           {"used", counted.stills.used},
           {"lost", counted.stills.lost}}},
+        {"trigger_line", lineSummary(counted.matching)},
         {"pose", poseSummary(counted, run.poses)},
         {"drops",
          {{"sensor", counted.drops.sensor},
           {"mailbox", counted.drops.mailbox},
           {"recorder", counted.drops.recorder}}},
+        {"faults", counted.faults},
     };
 }
 

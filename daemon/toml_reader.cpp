@@ -149,6 +149,27 @@ void TomlReader::numbers(std::string_view key, std::span<double> out, double lea
     std::copy(values.begin(), values.end(), out.begin());
 }
 
+void TomlReader::values(std::string_view key,
+                        std::vector<std::pair<std::string, std::string>>& out) {
+    const toml::node* node = find(key, "a section", &toml::node::is_table);
+    if (node == nullptr) return;
+    for (const auto& [name, value] : *node->as_table()) {
+        const std::string full = fmt::format("{}.{}", key, name.str());
+        std::string& text = out.emplace_back(name.str(), "").second;
+        if (const auto flag = value.value_exact<bool>())
+            text = *flag ? "true" : "false";
+        else if (const auto whole = value.value_exact<std::int64_t>())
+            text = fmt::format("{}", *whole);
+        else if (const auto number = value.value_exact<double>(); number && std::isfinite(*number))
+            text = fmt::format("{}", *number);
+        else if (const auto word = value.value_exact<std::string>())
+            text = *word;
+        else
+            fault(value.source(),
+                  fmt::format("{} must be a number, a text in quotes, true or false", full));
+    }
+}
+
 std::vector<std::string> TomlReader::sections(std::string_view key, std::size_t most) {
     std::vector<std::string> out;
     const toml::node* node = find(key);
@@ -170,8 +191,6 @@ std::vector<std::string> TomlReader::sections(std::string_view key, std::size_t 
 void TomlReader::finish() {
     refuseUnknown(root_, "");
     if (faults_.empty()) return;
-    std::stable_sort(faults_.begin(), faults_.end(),
-                     [](const Fault& a, const Fault& b) { return a.at < b.at; });
     std::string all;
     for (const Fault& one : faults_)
         all += (all.empty() ? "" : "\n") + place(file_, one.at) + one.message;
@@ -192,7 +211,10 @@ const toml::node* TomlReader::find(std::string_view key, std::string_view wanted
 }
 
 void TomlReader::fault(const toml::source_region& at, std::string message) {
-    faults_.push_back({at.begin, std::move(message)});
+    const auto later = std::upper_bound(
+        faults_.begin(), faults_.end(), at.begin,
+        [](const toml::source_position& x, const Fault& other) { return x < other.at; });
+    faults_.insert(later, {at.begin, std::move(message)});
 }
 
 void TomlReader::refuseUnknown(const toml::table& table, const std::string& prefix) {

@@ -27,6 +27,7 @@ void expectSame(const Config& a, const Config& b) {
     EXPECT_EQ(a.superres, b.superres);
     EXPECT_EQ(a.trigger, b.trigger);
     EXPECT_EQ(a.pose, b.pose);
+    EXPECT_EQ(a.cameras, b.cameras);
     EXPECT_EQ(a.status, b.status);
 }
 
@@ -101,7 +102,7 @@ TEST(Config, UnknownKeysAreRefusedWithTheNearestKnownOne) {
 }
 
 TEST(Config, AKeyInTheWrongSectionPointsToTheRightOne) {
-    EXPECT_THAT(faults("rate_hz = 3\n"), HasSubstr("trigger.rate_hz"));
+    EXPECT_THAT(faults("explained_below = 3\n"), HasSubstr("trigger.explained_below"));
     EXPECT_THAT(faults("[status]\nskip_unchanged = true\n"), HasSubstr("superres.skip_unchanged"));
 }
 
@@ -132,7 +133,9 @@ TEST(Config, RangesAreHeld) {
 TEST(Config, UnknownWordsSayWhichExist) {
     EXPECT_THAT(faults("[superres]\nmode = \"best\"\n"),
                 AllOf(StartsWith("test.toml:2:8: "), HasSubstr("detail"), HasSubstr("blend")));
-    EXPECT_THAT(faults("source = \"libcamera\"\n"), HasSubstr("synthetic"));
+    EXPECT_THAT(faults("source = \"libcamera\"\n"),
+                AllOf(HasSubstr("cameras"), HasSubstr("synthetic")));
+    EXPECT_THAT(faults("display = \"kms:card0,1280y720\"\n"), HasSubstr("1280y720"));
     EXPECT_THAT(faults("source = \"synthetic:attic\"\n"), HasSubstr("office"));
     EXPECT_THAT(faults("source = \"synthetic:office,jump\"\n"), HasSubstr("orbit"));
     EXPECT_THAT(faults("display = \"jpg:x\"\n"), HasSubstr("png:"));

@@ -98,6 +98,17 @@ TEST(Mailbox, LosslessSenderAndReceiverWorkInTurn) {
     box.finish();
 }
 
+TEST(Mailbox, WhoWaitsForAWhileLearnsWhetherItIsOver) {
+    Mailbox<int> box(HandOver::NewestWins);
+    EXPECT_EQ(box.takeWithin(std::chrono::milliseconds(1)), std::nullopt);
+    EXPECT_FALSE(box.over());
+    box.put(5);
+    box.finish();
+    EXPECT_FALSE(box.over());
+    EXPECT_EQ(box.takeWithin(std::chrono::milliseconds(1)), 5);
+    EXPECT_TRUE(box.over());
+}
+
 TEST(Mailbox, FinishLetsTheLastItemThrough) {
     Mailbox<int> box(HandOver::NewestWins);
     box.put(5);

@@ -1,0 +1,53 @@
+#include "daemon/cameras_config.h"
+
+#include "daemon/toml_reader.h"
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, CameraDriver>, 2> kDrivers = {
+    {{"libcamera", CameraDriver::Libcamera}, {"v4l2", CameraDriver::V4l2}}};
+constexpr int kLeastSide = 16, kMostSide = 8192;  // [px]
+
+void readCamera(TomlReader& file, const std::string& section, CameraConfig& camera) {
+    file.choice<CameraDriver>(section + "driver", camera.driver, kDrivers);
+    file.text(section + "camera", camera.camera);
+    file.integer(section + "width", camera.size.width, kLeastSide, kMostSide);
+    file.integer(section + "height", camera.size.height, kLeastSide, kMostSide);
+    file.number(section + "rate_hz", camera.rateHz, 0, 1000);
+    file.text(section + "format", camera.format,
+              [&](std::string_view word) -> std::optional<std::string> {
+                  if (word == "auto" || camera.driver == CameraDriver::V4l2) return std::nullopt;
+                  return "must be \"auto\": libcamera's pictures are chosen among what it offers";
+              });
+    file.values(section + "controls", camera.controls);
+}
+
+void readLine(TomlReader& file, TriggerLineConfig& line) {
+    file.text("cameras.trigger.chip", line.chip);
+    file.text("cameras.trigger.line", line.line);
+    file.boolean("cameras.trigger.active_low", line.activeLow);
+    file.number("cameras.trigger.pulse_ms", line.pulseMs, 0.001, 10000);
+    file.text("cameras.trigger.loopback", line.loopback);
+    file.number("cameras.trigger.delay_ms", line.delayMs, -1000, 10000);
+    file.number("cameras.trigger.jitter_ms", line.jitterMs, 0.001, 1000);
+    file.number("cameras.trigger.arrival_ms", line.arrivalMs, 1, 60000);
+}
+
+}  // namespace
+
+void readCameras(TomlReader& file, CamerasConfig& cameras) {
+    std::string calibration;
+    file.text("cameras.calibration", calibration);
+    cameras.calibration = calibration;
+    readCamera(file, "cameras.video.", cameras.video);
+    readCamera(file, "cameras.still.", cameras.still);
+    readLine(file, cameras.trigger);
+}
+
+}  // namespace mfar

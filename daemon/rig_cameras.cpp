@@ -1,0 +1,172 @@
+#include "daemon/rig_cameras.h"
+
+#include "hal/device/camera_libcamera.h"
+#include "hal/device/camera_v4l2.h"
+#include "pipeline/calibration/rig_files.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <mutex>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+constexpr double kNominalView = std::numbers::pi / 3;  // across the picture [rad]
+constexpr double kNominalBaseline = 0.014;             // [m]
+
+std::chrono::nanoseconds nanoseconds(double ms) {
+    return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
+}
+
+/// A trigger whose line may not be there yet: each pulse tries anew to get it.
+class WaitingTrigger final : public Trigger {
+public:
+    explicit WaitingTrigger(TriggerOptions options) : options_(std::move(options)) {}
+
+    Timestamp fire() override {
+        const std::lock_guard lock(mutex_);
+        try {
+            if (!open_) open_ = openGpioTrigger(options_);
+            const Timestamp edge = open_->fire();
+            fault_.reset();
+            return edge;
+        } catch (const TriggerBusy&) {
+            throw;
+        } catch (const std::runtime_error& error) {
+            open_.reset();
+            fault_ = "trigger: " + std::string(error.what());
+            throw;
+        }
+    }
+    [[nodiscard]] std::string name() const override {
+        return fmt::format("trigger line {}", options_.line);
+    }
+    [[nodiscard]] std::optional<std::string> fault() const {
+        const std::lock_guard lock(mutex_);
+        return fault_;
+    }
+
+private:
+    const TriggerOptions options_;
+    mutable std::mutex mutex_;
+    std::unique_ptr<PulseTrigger> open_;
+    std::optional<std::string> fault_;
+};
+
+std::unique_ptr<Camera> openCamera(const CameraConfig& config) {
+    const bool onTrigger = config.rateHz == 0;
+    if (config.driver == CameraDriver::V4l2) {
+        CameraV4l2Options options;
+        options.device = config.camera;
+        options.wish.size = config.size;
+        if (!onTrigger) options.wish.rateHz = config.rateHz;
+        if (config.format != "auto") options.wish.format = config.format;
+        options.controls = config.controls;
+        return std::make_unique<CameraV4l2>(options);
+    }
+    LibcameraOptions options;
+    options.camera = config.camera;
+    options.size = config.size;
+    options.rateHz = config.rateHz;
+    options.controls = config.controls;
+    options.still = onTrigger;
+    return std::make_unique<LibcameraCamera>(options);
+}
+
+std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const char* role) {
+    ReopeningOptions options;
+    // One that waits for its trigger is silent as long as it likes.
+    if (config.rateHz == 0) options.silent = std::chrono::milliseconds(0);
+    return std::make_unique<ReopeningCamera>(
+        CameraInfo{role, config.size, PixelFormat::Nv12, config.rateHz},
+        [config] { return openCamera(config); }, options);
+}
+
+// A lost still is asked for once more by the StillPolicy.
+TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
+    TriggeredStillOptions out;
+    out.matching.guess = nanoseconds(line.delayMs);
+    out.matching.window = nanoseconds(line.jitterMs);
+    out.matching.timeout = nanoseconds(line.arrivalMs);
+    out.matching.repeat = false;
+    return out;
+}
+
+RigCalibration calibrationOf(const CamerasConfig& config) {
+    if (config.calibration.empty()) return {nominalRig(config.video.size, config.still.size), 0};
+    std::error_code ignored;
+    const bool there = std::filesystem::exists(config.calibration, ignored);
+    try {
+        return loadRig(config.calibration, {config.video.size, config.still.size});
+    } catch (const CalibrationError& error) {
+        throw Failure(there ? ExitCode::BadData : ExitCode::NoInput, error.what());
+    }
+}
+
+CameraModel nominalCamera(Size size) {
+    const double f = size.width / (2 * std::tan(kNominalView / 2));
+    return {size, f, f, (size.width - 1) / 2.0, (size.height - 1) / 2.0, {}};
+}
+
+}  // namespace
+
+TriggerOptions triggerOptions(const TriggerLineConfig& line) {
+    TriggerOptions out;
+    out.chip = line.chip;
+    out.line = line.line;
+    out.activeLow = line.activeLow;
+    out.pulse = std::chrono::microseconds(std::llround(line.pulseMs * 1e3));
+    out.loopback = line.loopback;
+    return out;
+}
+
+StereoRig nominalRig(Size video, Size still) {
+    StereoRig rig{nominalCamera(video), nominalCamera(still), {}};
+    rig.T_still_video.translation.x() = -kNominalBaseline;
+    return rig;
+}
+
+CamerasSource::CamerasSource(const CamerasConfig& config)
+    : config_(config), video_(waitingCamera(config.video, "video camera")) {
+    const RigCalibration calibration = calibrationOf(config);
+    geometry_ = calibration.rig;
+    stillTimeOffset = nanoseconds(calibration.stillTimeOffset * 1e3);
+    auto still = waitingCamera(config.still, "still camera");
+    still_ = still.get();
+    if (config.trigger.line.empty()) {
+        freeStill_ = std::move(still);
+    } else {
+        auto line = std::make_unique<WaitingTrigger>(triggerOptions(config.trigger));
+        triggerFault_ = [waiting = line.get()] { return waiting->fault(); };
+        triggered_ = std::make_unique<TriggeredStillCamera>(std::move(still), std::move(line),
+                                                            stillOptions(config.trigger));
+        matching = [this] { return triggered_->counters(); };
+    }
+    fault = [this] { return whatIsWrong(); };
+}
+
+Camera& CamerasSource::still() {
+    if (triggered_) return *triggered_;
+    return *freeStill_;
+}
+
+std::string CamerasSource::name() const {
+    return config_.calibration.empty() ? "cameras, not calibrated" : "cameras";
+}
+
+std::optional<std::string> CamerasSource::whatIsWrong() const {
+    std::string all;
+    for (const auto& one :
+         {video_->fault(), still_->fault(), triggerFault_ ? triggerFault_() : std::nullopt})
+        if (one) all += (all.empty() ? "" : "\n") + *one;
+    if (all.empty()) return std::nullopt;
+    return all;
+}
+
+}  // namespace mfar

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "daemon/cameras_config.h"
+#include "daemon/rig_source.h"
+#include "hal/device/trigger_gpiod.h"
+#include "hal/reopening_camera.h"
+#include "hal/triggered_stills.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace mfar {
+
+/// The geometry of two cameras that nobody has calibrated: pinholes of 60 degrees across the
+/// picture, the still sensor 14 mm beside the video sensor. Enough to enlarge the video by matching
+/// in both dimensions; poses and depth need a calibration.
+[[nodiscard]] StereoRig nominalRig(Size video, Size still);
+
+[[nodiscard]] TriggerOptions triggerOptions(const TriggerLineConfig& line);
+
+/// Two cameras of this board and the line that triggers the second. Devices that are not there are
+/// waited for.
+class CamerasSource final : public RigSource {
+public:
+    /// Throws Failure for a calibration that cannot be used and a trigger line that is not there.
+    explicit CamerasSource(const CamerasConfig& config);
+
+    [[nodiscard]] const StereoRig& geometry() const override { return geometry_; }
+    [[nodiscard]] Camera& video() override { return *video_; }
+    [[nodiscard]] Camera& still() override;
+    [[nodiscard]] Trigger* trigger() override { return triggered_.get(); }
+    [[nodiscard]] std::string name() const override;
+
+private:
+    [[nodiscard]] std::optional<std::string> whatIsWrong() const;
+
+    CamerasConfig config_;
+    StereoRig geometry_;
+    std::unique_ptr<ReopeningCamera> video_;
+    std::unique_ptr<ReopeningCamera> freeStill_;       ///< without a trigger line
+    std::unique_ptr<TriggeredStillCamera> triggered_;  ///< with one
+    const ReopeningCamera* still_ = nullptr;           ///< in one of the two
+    std::function<std::optional<std::string>()> triggerFault_{};
+};
+
+}  // namespace mfar

@@ -1,0 +1,56 @@
+#include "daemon/service.h"
+
+#include "hal/time.h"
+
+#include <fmt/format.h>
+
+#include <systemd/sd-daemon.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+
+namespace mfar {
+namespace {
+
+// A failure to tell is no reason to stop showing pictures.
+void tell(const std::string& state) {
+    (void)sd_notify(0, state.c_str());
+}
+
+// A line end would begin another assignment.
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+}  // namespace
+
+Service::Service() : listening_(std::getenv("NOTIFY_SOCKET") != nullptr) {
+    std::uint64_t us = 0;
+    // Twice as often as asked for, so that one late call does no harm.
+    if (listening_ && sd_watchdog_enabled(0, &us) > 0)
+        watchdogPeriod_ = std::chrono::duration<double>(static_cast<double>(us) * 1e-6 / 2);
+}
+
+void Service::ready(const std::string& status) const {
+    tell(fmt::format("READY=1\nSTATUS={}", oneLine(status)));
+}
+
+void Service::status(const std::string& status) const {
+    tell(fmt::format("STATUS={}", oneLine(status)));
+}
+
+void Service::reloading() const {
+    tell(fmt::format("RELOADING=1\nMONOTONIC_USEC={}", Timestamp::now().ns / 1000));
+}
+
+void Service::stopping(const std::string& status) const {
+    tell(fmt::format("STOPPING=1\nSTATUS={}", oneLine(status)));
+}
+
+void Service::alive() const {
+    tell("WATCHDOG=1");
+}
+
+}  // namespace mfar

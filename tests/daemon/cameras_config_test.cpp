@@ -1,0 +1,92 @@
+#include "daemon/config.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace mfar {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Pair;
+
+std::string faultsOf(std::string_view toml) {
+    try {
+        (void)parseConfig(toml, "/etc/mfar/test.toml");
+        return "";
+    } catch (const ConfigError& error) {
+        return error.what();
+    }
+}
+
+TEST(CamerasConfig, EveryKeyIsRead) {
+    const CamerasConfig cameras = parseConfig(R"(
+source = "cameras"
+[cameras]
+calibration = "lenses"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/video3"
+width = 320
+height = 240
+rate_hz = 60
+format = "YUYV"
+controls = { exposure_auto = 1, "Gain" = 2.5, flip = true, mode = "manual" }
+[cameras.still]
+width = 1280
+height = 960
+[cameras.trigger]
+chip = "pl061"
+line = "5"
+active_low = true
+pulse_ms = 0.5
+loopback = "6"
+delay_ms = 2
+jitter_ms = 3
+arrival_ms = 700
+)",
+                                              "/etc/mfar/test.toml")
+                                      .cameras;
+    EXPECT_EQ(cameras.calibration, "/etc/mfar/lenses");
+    EXPECT_EQ(cameras.video.driver, CameraDriver::V4l2);
+    EXPECT_EQ(cameras.video.camera, "/dev/video3");
+    EXPECT_EQ(cameras.video.size, (Size{320, 240}));
+    EXPECT_EQ(cameras.video.rateHz, 60);
+    EXPECT_EQ(cameras.video.format, "YUYV");
+    EXPECT_THAT(cameras.video.controls,
+                testing::UnorderedElementsAre(Pair("exposure_auto", "1"), Pair("Gain", "2.5"),
+                                              Pair("flip", "true"), Pair("mode", "manual")));
+    EXPECT_EQ(cameras.still.driver, CameraDriver::Libcamera);
+    EXPECT_EQ(cameras.still.size, (Size{1280, 960}));
+    EXPECT_EQ(cameras.still.rateHz, 0);
+    EXPECT_EQ(cameras.trigger, (TriggerLineConfig{"pl061", "5", true, 0.5, "6", 2, 3, 700}));
+}
+
+TEST(CamerasConfig, EveryFaultHasItsPlace) {
+    EXPECT_THAT(
+        faultsOf("[cameras.video]\nwidth = 0\ndriver = \"usb\"\ncontrols = { gain = [1] }\n"
+                 "colour = 3\n[cameras.trigger]\npulse_ms = nan\nline = 5\n"),
+        AllOf(HasSubstr("test.toml:2:9: cameras.video.width must be from 16 to 8192, not 0"),
+              HasSubstr(":3:10: cameras.video.driver = \"usb\": must be one of"),
+              HasSubstr(":4:21: cameras.video.controls.gain must be a number"),
+              HasSubstr(":5:1: unknown key cameras.video.colour"),
+              HasSubstr(":7:12: cameras.trigger.pulse_ms must be from 0.001 to 10000"),
+              HasSubstr(":8:8: cameras.trigger.line must be a text in quotes")));
+}
+
+TEST(CamerasConfig, LibcameraChoosesItsFormat) {
+    EXPECT_EQ(faultsOf("[cameras.still]\nformat = \"auto\"\n"), "");
+    EXPECT_THAT(faultsOf("[cameras.still]\nformat = \"NV12\"\n"), HasSubstr("libcamera"));
+    EXPECT_EQ(faultsOf("[cameras.still]\ndriver = \"v4l2\"\nformat = \"NV12\"\n"), "");
+}
+
+TEST(CamerasConfig, OtherCamerasNeedARestart) {
+    const Config running = parseConfig("source = \"cameras\"", "a.toml");
+    const Config wanted =
+        parseConfig("source = \"cameras\"\n[cameras.still]\nwidth = 1280\nheight = 960", "a.toml");
+    EXPECT_EQ(needRestart(running, wanted), "cameras");
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# Without its cameras mfard runs, says in the picture and in words what is missing, and goes on
+# looking. Without them a service is alive all the same.
+. "$(dirname "$0")/lib.sh"
+
+cat >mfard.toml <<'END'
+source = "cameras"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/no-such-camera"
+[cameras.still]
+driver = "v4l2"
+camera = "no such card"
+[cameras.trigger]
+chip = "no such chip"
+line = "5"
+END
+
+start --config mfard.toml --display png:frames --summary summary.json --seconds 2
+ends_with 0 6000
+says err 'warning: video camera: '
+says err 'still camera: .*no such card'
+[ "$(find frames -name '*.png' | wc -l)" -ge 5 ] || fail "the picture does not say it"
+summary_has frames 0
+summary_has faults 1
+
+# The line is not there either: to leave it in its safe level fails with a reason.
+run 69 --config mfard.toml --release-trigger
+says err 'no such chip'
+sed -i '/trigger/,$d' mfard.toml
+run 0 --config mfard.toml --release-trigger
+
+# A calibration that is not there, or is of other sizes, is no matter of waiting.
+sed -i '1a [cameras]\ncalibration = "lenses"' mfard.toml
+run 66 --config mfard.toml
+says err 'lenses'
