@@ -11,9 +11,8 @@
 namespace mfar {
 namespace {
 
-/// Only bounds how long a camera without frames keeps the thread from looking around; stop() wakes
-/// it at once.
-constexpr std::chrono::milliseconds kFrameWait{500};
+/// How soon it is told that a camera sends nothing. stop() wakes the thread at once.
+constexpr std::chrono::milliseconds kFrameWait{50};
 
 }  // namespace
 
@@ -76,6 +75,8 @@ void CaptureThread::run() {
 
 bool CaptureThread::captureOne(FramePairer& pairer) {
     std::optional<Frame> video = take(rig_.video(), kFrameWait, rig_.geometry().video.size);
+    // From here, as the GL thread may be busy with a picture for a while.
+    stats_.fault(rig_.fault());
     if (!video) return !stopped_ && !rig_.video().ended();
     const Timestamp arrived = Timestamp::now();
     countGap(video->time());

@@ -95,7 +95,6 @@ void Session::process(CapturedFrame captured) {
     previous_ = time;
     last_ = result.image;
     const std::optional<std::string> fault = rig_.fault();
-    stats_.fault(fault);
     show(fault ? banner_.over(last_, *fault) : last_, time);
     ++shown_;
     std::optional<double> age;
@@ -134,7 +133,6 @@ void Session::askForStill(Timestamp frame, const FrameStats& stats) {
 // Frames bring the fault with them; without them it is shown over the last picture.
 void Session::showFault() {
     const std::optional<std::string> fault = rig_.fault();
-    stats_.fault(fault);
     if (!fault) return;
     show(banner_.over(last_, *fault), Timestamp::now());
     stats_.pictureOfFault();

@@ -73,7 +73,7 @@ struct Picture {
 class Stats {
 public:
     void picture(const Picture& picture);
-    /// What the picture says that is missing; nothing when all is well.
+    /// What is missing, as the picture says it; nothing when all is well.
     void fault(const std::optional<std::string>& fault);
     /// What is shown where, as Display::name() says it now.
     void display(const std::string& name);

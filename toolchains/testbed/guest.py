@@ -167,7 +167,8 @@ class Guest:
             '-accel', 'tcg,thread=multi', '-nodefaults', '-display', 'none', '-no-reboot',
             '-serial', f'file:{self.log}',
             '-kernel', f'{image}/vmlinuz', '-initrd', f'{image}/initrd',
-            '-append', 'console=ttyAMA0 quiet panic=-1 mitigations=off'
+            # A text cursor would blink in the framebuffer.
+            '-append', 'console=ttyAMA0 quiet panic=-1 mitigations=off vt.global_cursor_default=0'
             + ('' if display else ' modprobe.blacklist=virtio_gpu'),
             # The disks of virtio-mmio would be found in reverse order.
             '-drive', f'if=none,id=disk,file={image}/root.img,format=raw,snapshot=on,cache=unsafe',
