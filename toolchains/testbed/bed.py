@@ -83,7 +83,7 @@ class Bed:
 
     def now(self):
         """The guest's time of day, as journal() wants it."""
-        return self.run('date "+%F %T.%N"')
+        return self.run('date "+%F %T.%6N"')
 
     def property(self, name):
         """A property of mfard.service, as systemctl show has it."""
