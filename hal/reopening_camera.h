@@ -20,8 +20,9 @@ struct ReopeningOptions {
     std::chrono::milliseconds silent{200};
     /// A camera that is silent for this long is closed and opened again.
     std::chrono::milliseconds stalled{2000};
-    /// Pause between two attempts to open it; doubles from the first to the second.
-    std::chrono::milliseconds firstPause{100}, longestPause{1000};
+    /// Pause between two attempts to open it; doubles from the first to the second. A camera that
+    /// is plugged in again is to be back within 3 s, of which some libraries take two to find it.
+    std::chrono::milliseconds firstPause{100}, longestPause{500};
 };
 
 /// A camera that outlives its device: it is opened by a thread of its own, again whenever it is
