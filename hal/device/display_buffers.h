@@ -2,6 +2,7 @@
 
 #include "hal/device/display_drm.h"
 #include "hal/device/display_scaler.h"
+#include "hal/device/owned_fd.h"
 
 #include <memory>
 
@@ -21,7 +22,7 @@ class ScanoutBuffers {
 public:
     struct Ready {
         std::uint32_t framebuffer;  ///< DRM framebuffer id
-        DisplayFd fence;            ///< signalled when the GPU has drawn; may be none: it has
+        OwnedFd fence;              ///< signalled when the GPU has drawn; may be none: it has
     };
 
     virtual ~ScanoutBuffers() = default;

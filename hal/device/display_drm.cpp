@@ -91,8 +91,8 @@ bool dropMasterOfThisProcess(const std::string& path) {
     return dropped;
 }
 
-DisplayFd openCard(const std::string& path) {
-    DisplayFd fd(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+OwnedFd openCard(const std::string& path) {
+    OwnedFd fd(::open(path.c_str(), O_RDWR | O_CLOEXEC));
     if (!fd) throw std::runtime_error(cardFault(path));
     return fd;
 }

@@ -2,6 +2,7 @@
 
 #include "hal/device/display_handles.h"
 #include "hal/device/display_spec.h"
+#include "hal/device/owned_fd.h"
 
 #include <cstdint>
 #include <map>
@@ -68,7 +69,7 @@ private:
     [[nodiscard]] std::uint32_t primaryPlane(unsigned crtcIndex) const;
 
     std::string path_;
-    DisplayFd fd_;
+    OwnedFd fd_;
 };
 
 }  // namespace mfar

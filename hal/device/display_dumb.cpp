@@ -74,7 +74,7 @@ public:
                             picture.data + static_cast<std::size_t>(y) * picture.stride,
                             picture.stride);
         });
-        return {to.framebuffer.id(), DisplayFd()};
+        return {to.framebuffer.id(), OwnedFd()};
     }
     [[nodiscard]] ScreenPicture last() const override { return reader_.last(); }
 

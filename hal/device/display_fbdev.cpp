@@ -99,7 +99,7 @@ FbdevScreen::~FbdevScreen() {
 }
 
 void FbdevScreen::open(const std::string& path) {
-    DisplayFd fd(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+    OwnedFd fd(::open(path.c_str(), O_RDWR | O_CLOEXEC));
     if (!fd) throw std::runtime_error(framebufferFault(path));
     fb_fix_screeninfo fix{};
     if (!readInfo(fd.get(), var_, fix))
@@ -193,7 +193,7 @@ void FbdevScreen::close() {
     }
     reader_.reset();
     mapping_.reset();
-    fd_ = DisplayFd();
+    fd_ = OwnedFd();
     shown_ = false;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "hal/device/display_handles.h"
 #include "hal/device/display_pixels.h"
 #include "hal/device/display_screen.h"
 #include "hal/device/display_spec.h"
+#include "hal/device/owned_fd.h"
 
 #include <linux/fb.h>
 
@@ -69,7 +69,7 @@ private:
     ScreenScaler& scaler_;
     std::string fault_;
     std::string path_;  // of the open device
-    DisplayFd fd_;
+    OwnedFd fd_;
     fb_var_screeninfo var_{};
     FbGeometry geometry_;
     std::unique_ptr<Mapping> mapping_;

@@ -82,11 +82,11 @@ public:
         Importer::load(dup_, "eglDupNativeFenceFDANDROID");
     }
     /// Signalled after all that was drawn so far.
-    [[nodiscard]] DisplayFd insert() const {
+    [[nodiscard]] OwnedFd insert() const {
         const EGLSyncKHR sync = create_(display_, EGL_SYNC_NATIVE_FENCE_ANDROID, nullptr);
         if (sync == EGL_NO_SYNC_KHR) throw std::runtime_error("EGL makes no fence");
         glFlush();  // a fence has a descriptor once its commands are on their way
-        DisplayFd fd(dup_(display_, sync));
+        OwnedFd fd(dup_(display_, sync));
         destroy_(display_, sync);
         if (!fd) throw std::runtime_error("EGL exports no fence");
         return fd;
@@ -140,7 +140,7 @@ public:
 
 private:
     EGLImageKHR import(Size size) {
-        const DisplayFd dmaBuf(gbm_bo_get_fd(buffer_.get()));
+        const OwnedFd dmaBuf(gbm_bo_get_fd(buffer_.get()));
         std::array<EGLint, 17> attributes{
             EGL_WIDTH, size.width, EGL_HEIGHT, size.height, EGL_LINUX_DRM_FOURCC_EXT,
             static_cast<EGLint>(DRM_FORMAT_XRGB8888), EGL_DMA_BUF_PLANE0_FD_EXT, dmaBuf.get(),
@@ -205,7 +205,7 @@ private:
     GbmDevice device_;
     std::array<GbmTarget, 3> targets_;
     std::size_t current_ = 0;
-    DisplayFd fence_;
+    OwnedFd fence_;
 };
 
 }  // namespace

@@ -28,7 +28,7 @@ DisplayEvents::DisplayEvents()
     address.nl_family = AF_NETLINK;
     address.nl_groups = kKernelGroup;
     if (socket_ && bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
-        socket_ = DisplayFd();
+        socket_ = OwnedFd();
 }
 
 bool DisplayEvents::changed() {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/device/display_handles.h"
+#include "hal/device/owned_fd.h"
 
 namespace mfar {
 
@@ -13,7 +13,7 @@ public:
     [[nodiscard]] bool changed();
 
 private:
-    DisplayFd socket_;
+    OwnedFd socket_;
 };
 
 }  // namespace mfar

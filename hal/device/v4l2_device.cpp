@@ -59,17 +59,6 @@ std::string fieldText(const void* field, std::size_t bytes) {
     return {text, strnlen(text, bytes)};
 }
 
-OwnedFd::OwnedFd(OwnedFd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-
-OwnedFd& OwnedFd::operator=(OwnedFd&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-}
-
-OwnedFd::~OwnedFd() {
-    if (fd_ >= 0) ::close(fd_);
-}
-
 V4l2Device::V4l2Device(V4l2Api& api, const std::string& path) : api_(&api), path_(path) {
     fd_ = OwnedFd(api.open(path.c_str()));
     if (fd_.get() < 0) throw V4l2Error(fmt::format("{}: {}", path, reason(errno)), errno);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "hal/device/owned_fd.h"
+
 #include <sys/types.h>
 
 #include <cstddef>
@@ -38,23 +40,6 @@ public:
 
 private:
     int errorNumber_;
-};
-
-/// A file descriptor that is closed with its owner.
-class OwnedFd {
-public:
-    OwnedFd() = default;
-    explicit OwnedFd(int fd) : fd_(fd) {}
-    OwnedFd(OwnedFd&& other) noexcept;
-    OwnedFd& operator=(OwnedFd&& other) noexcept;
-    OwnedFd(const OwnedFd&) = delete;
-    OwnedFd& operator=(const OwnedFd&) = delete;
-    ~OwnedFd();
-
-    [[nodiscard]] int get() const { return fd_; }
-
-private:
-    int fd_ = -1;
 };
 
 /// An open V4L2 device node. Calls may come from several threads.
