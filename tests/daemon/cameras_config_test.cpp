@@ -1,4 +1,5 @@
 #include "daemon/config.h"
+#include "tests/daemon/config_faults.h"
 
 #include <gtest/gtest.h>
 
@@ -7,18 +8,10 @@
 namespace mfar {
 namespace {
 
+using test::configFaults;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Pair;
-
-std::string faultsOf(std::string_view toml) {
-    try {
-        (void)parseConfig(toml, "/etc/mfar/test.toml");
-        return "";
-    } catch (const ConfigError& error) {
-        return error.what();
-    }
-}
 
 TEST(CamerasConfig, EveryKeyIsRead) {
     const CamerasConfig cameras = parseConfig(R"(
@@ -65,8 +58,8 @@ arrival_ms = 700
 
 TEST(CamerasConfig, EveryFaultHasItsPlace) {
     EXPECT_THAT(
-        faultsOf("[cameras.video]\nwidth = 0\ndriver = \"usb\"\ncontrols = { gain = [1] }\n"
-                 "colour = 3\n[cameras.trigger]\npulse_ms = nan\nline = 5\n"),
+        configFaults("[cameras.video]\nwidth = 0\ndriver = \"usb\"\ncontrols = { gain = [1] }\n"
+                     "colour = 3\n[cameras.trigger]\npulse_ms = nan\nline = 5\n"),
         AllOf(HasSubstr("test.toml:2:9: cameras.video.width must be from 16 to 8192, not 0"),
               HasSubstr(":3:10: cameras.video.driver = \"usb\": must be one of"),
               HasSubstr(":4:21: cameras.video.controls.gain must be a number"),
@@ -76,9 +69,9 @@ TEST(CamerasConfig, EveryFaultHasItsPlace) {
 }
 
 TEST(CamerasConfig, LibcameraChoosesItsFormat) {
-    EXPECT_EQ(faultsOf("[cameras.still]\nformat = \"auto\"\n"), "");
-    EXPECT_THAT(faultsOf("[cameras.still]\nformat = \"NV12\"\n"), HasSubstr("libcamera"));
-    EXPECT_EQ(faultsOf("[cameras.still]\ndriver = \"v4l2\"\nformat = \"NV12\"\n"), "");
+    EXPECT_EQ(configFaults("[cameras.still]\nformat = \"auto\"\n"), "");
+    EXPECT_THAT(configFaults("[cameras.still]\nformat = \"NV12\"\n"), HasSubstr("libcamera"));
+    EXPECT_EQ(configFaults("[cameras.still]\ndriver = \"v4l2\"\nformat = \"NV12\"\n"), "");
 }
 
 TEST(CamerasConfig, OtherCamerasNeedARestart) {

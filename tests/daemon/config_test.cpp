@@ -1,5 +1,6 @@
 #include "daemon/config.h"
 #include "daemon/exit_code.h"
+#include "tests/daemon/config_faults.h"
 
 #include <gtest/gtest.h>
 
@@ -8,19 +9,10 @@
 namespace mfar {
 namespace {
 
+using test::configFaults;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-/// All faults of a text, one line each; empty when it is good.
-std::string faults(std::string_view toml) {
-    try {
-        (void)parseConfig(toml, "test.toml");
-        return "";
-    } catch (const ConfigError& error) {
-        return error.what();
-    }
-}
 
 void expectSame(const Config& a, const Config& b) {
     EXPECT_EQ(needRestart(a, b), "");
@@ -92,58 +84,61 @@ measure = true
 }
 
 TEST(Config, SyntaxErrorsHaveAPlace) {
-    EXPECT_THAT(faults("seed = 1\nseed = = 2\n"), StartsWith("test.toml:2:"));
+    EXPECT_THAT(configFaults("seed = 1\nseed = = 2\n"), StartsWith("test.toml:2:"));
 }
 
 TEST(Config, UnknownKeysAreRefusedWithTheNearestKnownOne) {
-    EXPECT_EQ(faults("[trigger]\nmin_intervall_s = 1\n"),
+    EXPECT_EQ(configFaults("[trigger]\nmin_intervall_s = 1\n"),
               "test.toml:2:1: unknown key trigger.min_intervall_s; the nearest known one is "
               "trigger.min_interval_s");
 }
 
 TEST(Config, AKeyInTheWrongSectionPointsToTheRightOne) {
-    EXPECT_THAT(faults("explained_below = 3\n"), HasSubstr("trigger.explained_below"));
-    EXPECT_THAT(faults("[status]\nskip_unchanged = true\n"), HasSubstr("superres.skip_unchanged"));
+    EXPECT_THAT(configFaults("explained_below = 3\n"), HasSubstr("trigger.explained_below"));
+    EXPECT_THAT(configFaults("[status]\nskip_unchanged = true\n"),
+                HasSubstr("superres.skip_unchanged"));
 }
 
 TEST(Config, UnknownSectionsAreRefused) {
-    EXPECT_THAT(faults("[trigggr]\n"), AllOf(StartsWith("test.toml:1:"), HasSubstr("trigggr")));
-    EXPECT_THAT(faults("trigger = 3\n"), HasSubstr("must be a section"));
+    EXPECT_THAT(configFaults("[trigggr]\n"),
+                AllOf(StartsWith("test.toml:1:"), HasSubstr("trigggr")));
+    EXPECT_THAT(configFaults("trigger = 3\n"), HasSubstr("must be a section"));
 }
 
 TEST(Config, WrongTypesAreRefused) {
-    EXPECT_EQ(faults("pace = 3\n"),
+    EXPECT_EQ(configFaults("pace = 3\n"),
               "test.toml:1:8: pace must be a text in quotes, not a whole number");
-    EXPECT_THAT(faults("seed = 1.5\n"), HasSubstr("whole number"));
-    EXPECT_THAT(faults("[superres]\nskip_unchanged = 1\n"), HasSubstr("true or false"));
-    EXPECT_THAT(faults("[trigger]\nrate_hz = \"fast\"\n"), HasSubstr("must be a number"));
-    EXPECT_THAT(faults("[trigger]\nrate_hz = [1]\n"), HasSubstr("not a list"));
+    EXPECT_THAT(configFaults("seed = 1.5\n"), HasSubstr("whole number"));
+    EXPECT_THAT(configFaults("[superres]\nskip_unchanged = 1\n"), HasSubstr("true or false"));
+    EXPECT_THAT(configFaults("[trigger]\nrate_hz = \"fast\"\n"), HasSubstr("must be a number"));
+    EXPECT_THAT(configFaults("[trigger]\nrate_hz = [1]\n"), HasSubstr("not a list"));
 }
 
 TEST(Config, RangesAreHeld) {
-    EXPECT_THAT(faults("seed = -1\n"), HasSubstr("negative"));
+    EXPECT_THAT(configFaults("seed = -1\n"), HasSubstr("negative"));
     for (const char* value : {"0.0", "-1", "61", "nan", "inf", "-inf", "1e300"})
-        EXPECT_THAT(faults(std::string("[trigger]\nrate_hz = ") + value + "\n"),
+        EXPECT_THAT(configFaults(std::string("[trigger]\nrate_hz = ") + value + "\n"),
                     StartsWith("test.toml:2:11: trigger.rate_hz must be from 0.01 to 60"))
             << value;
-    EXPECT_THAT(faults("[trigger]\nexplained_below = 1.01\n"), HasSubstr("from 0 to 1"));
-    EXPECT_THAT(faults("[status]\ninterval_s = 0\n"), HasSubstr("from 0.1 to 3600"));
+    EXPECT_THAT(configFaults("[trigger]\nexplained_below = 1.01\n"), HasSubstr("from 0 to 1"));
+    EXPECT_THAT(configFaults("[status]\ninterval_s = 0\n"), HasSubstr("from 0.1 to 3600"));
 }
 
 TEST(Config, UnknownWordsSayWhichExist) {
-    EXPECT_THAT(faults("[superres]\nmode = \"best\"\n"),
+    EXPECT_THAT(configFaults("[superres]\nmode = \"best\"\n"),
                 AllOf(StartsWith("test.toml:2:8: "), HasSubstr("detail"), HasSubstr("blend")));
-    EXPECT_THAT(faults("source = \"libcamera\"\n"),
+    EXPECT_THAT(configFaults("source = \"libcamera\"\n"),
                 AllOf(HasSubstr("cameras"), HasSubstr("synthetic")));
-    EXPECT_THAT(faults("display = \"kms:card0,1280y720\"\n"), HasSubstr("1280y720"));
-    EXPECT_THAT(faults("source = \"synthetic:attic\"\n"), HasSubstr("office"));
-    EXPECT_THAT(faults("source = \"synthetic:office,jump\"\n"), HasSubstr("orbit"));
-    EXPECT_THAT(faults("display = \"jpg:x\"\n"), HasSubstr("png:"));
-    EXPECT_THAT(faults("display = \"png:\"\n"), HasSubstr("png:"));
+    EXPECT_THAT(configFaults("display = \"kms:card0,1280y720\"\n"), HasSubstr("1280y720"));
+    EXPECT_THAT(configFaults("source = \"synthetic:attic\"\n"), HasSubstr("office"));
+    EXPECT_THAT(configFaults("source = \"synthetic:office,jump\"\n"), HasSubstr("orbit"));
+    EXPECT_THAT(configFaults("display = \"jpg:x\"\n"), HasSubstr("png:"));
+    EXPECT_THAT(configFaults("display = \"png:\"\n"), HasSubstr("png:"));
 }
 
 TEST(Config, EveryFaultIsSaidInFileOrder) {
-    const std::string all = faults("colour = 1\nseed = -3\n[trigger]\nrate_hz = 99\nzoom = 1\n");
+    const std::string all =
+        configFaults("colour = 1\nseed = -3\n[trigger]\nrate_hz = 99\nzoom = 1\n");
     std::vector<std::string> lines;
     std::istringstream in(all);
     for (std::string line; std::getline(in, line);)
@@ -193,7 +188,7 @@ TEST(Config, EveryPoseKeyIsChecked) {
         {"tag_sise = 1", "2:1: unknown key pose.tag_sise; the nearest known one is pose.tag_size"},
     };
     for (const auto& [line, message] : wrong)
-        EXPECT_THAT(faults(std::string("[pose]\n") + line + "\n"),
+        EXPECT_THAT(configFaults(std::string("[pose]\n") + line + "\n"),
                     StartsWith(std::string("test.toml:") + message))
             << line;
 }

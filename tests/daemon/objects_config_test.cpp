@@ -1,4 +1,5 @@
 #include "daemon/config.h"
+#include "tests/daemon/config_faults.h"
 
 #include <gtest/gtest.h>
 
@@ -10,17 +11,9 @@
 namespace mfar {
 namespace {
 
+using test::configFaults;
 using testing::HasSubstr;
 using testing::StartsWith;
-
-std::string objectFaults(const std::string& toml) {
-    try {
-        (void)parseConfig(toml, "test.toml");
-        return "";
-    } catch (const ConfigError& error) {
-        return error.what();
-    }
-}
 
 TEST(ObjectsConfig, EveryKeyIsRead) {
     const Config config = parseConfig(R"(
@@ -52,23 +45,23 @@ colour = [0.5, 0.5, 0.5]
 }
 
 TEST(ObjectsConfig, FaultsHaveTheirPlace) {
-    EXPECT_THAT(objectFaults("[[objects]]\nshape = \"teapot\"\n"),
+    EXPECT_THAT(configFaults("[[objects]]\nshape = \"teapot\"\n"),
                 StartsWith("test.toml:2:9: objects[0].shape = \"teapot\": must be one of \"box\""));
-    EXPECT_THAT(objectFaults("[[objects]]\n[[objects]]\nsize = [1, 2]\n"),
+    EXPECT_THAT(configFaults("[[objects]]\n[[objects]]\nsize = [1, 2]\n"),
                 StartsWith("test.toml:3:8: objects[1].size must be a list of 3 numbers"));
-    EXPECT_THAT(objectFaults("[[objects]]\nsize = [1, nan, 1]\n"),
+    EXPECT_THAT(configFaults("[[objects]]\nsize = [1, nan, 1]\n"),
                 StartsWith("test.toml:2:12: objects[0].size must hold numbers from 0.001 to 100"));
-    EXPECT_THAT(objectFaults("[[objects]]\norientation = [0, 0, 0, 0]\n"), HasSubstr("length 1"));
+    EXPECT_THAT(configFaults("[[objects]]\norientation = [0, 0, 0, 0]\n"), HasSubstr("length 1"));
     EXPECT_THAT(
-        objectFaults("[[objects]]\npositon = [0, 0, 0]\n"),
+        configFaults("[[objects]]\npositon = [0, 0, 0]\n"),
         StartsWith("test.toml:2:1: unknown key objects[0].positon; the nearest known one is "
                    "objects[0].position"));
-    EXPECT_THAT(objectFaults("objects = 3\n"), HasSubstr("sections [[objects]]"));
-    EXPECT_THAT(objectFaults("[objects]\nsize = [1, 1, 1]\n"), HasSubstr("sections [[objects]]"));
+    EXPECT_THAT(configFaults("objects = 3\n"), HasSubstr("sections [[objects]]"));
+    EXPECT_THAT(configFaults("[objects]\nsize = [1, 1, 1]\n"), HasSubstr("sections [[objects]]"));
     std::string many;
     for (int i = 0; i < 65; ++i)
         many += "[[objects]]\n";
-    EXPECT_THAT(objectFaults(many), HasSubstr("at most 64"));
+    EXPECT_THAT(configFaults(many), HasSubstr("at most 64"));
 }
 
 // The default file shows an object in comments: as it stands there it must be right.

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "daemon/config.h"
+
+#include <string>
+#include <string_view>
+
+namespace mfar::test {
+
+/// All faults of a configuration "test.toml", one line each; empty when it is good.
+[[nodiscard]] inline std::string configFaults(std::string_view toml) {
+    try {
+        (void)parseConfig(toml, "test.toml");
+        return "";
+    } catch (const ConfigError& error) {
+        return error.what();
+    }
+}
+
+}  // namespace mfar::test
