@@ -1,7 +1,8 @@
 // Parameters of the composite's passes (mirrors Composite::Params), and what counts as known.
 layout(std140, binding = 0) uniform Params {
     ivec4 video;  // width, height; width, height of the output
-    vec4 scale;   // video pixels per output pixel (x, y)
+    ivec4 layer;  // width, height of the virtual layer
+    vec4 scale;   // video pixels per output pixel (x, y), layer pixels per output pixel
     vec4 tune;    // bias [sigmas], softness [sigmas], virtual sigma [share of depth],
                   // likeness [1 / colour distance^2]
 };

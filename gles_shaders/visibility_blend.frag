@@ -1,12 +1,13 @@
 // The visible part of the virtual layer, to be blended over the picture. In: RGBA8 premultiplied by
 // coverage, R8 visibility. Out: the product, premultiplied.
 #include "visibility.glsl"
+#include "virtual_layer.glsl"
 
-layout(binding = 0) uniform sampler2D layer;
+layout(binding = 0) uniform sampler2D virtualColour;
 layout(binding = 1) uniform sampler2D visibility;
 layout(location = 0) out vec4 colour;
 
 void main() {
     ivec2 p = min(ivec2(gl_FragCoord.xy), video.zw - 1);
-    colour = texelFetch(visibility, p, 0).r * texelFetch(layer, p, 0);
+    colour = texelFetch(visibility, p, 0).r * layerColour(virtualColour);
 }

@@ -3,6 +3,7 @@
 // there, so that depth edges follow image edges (joint bilateral upsampling, Kopf et al. 2007).
 // In: virtual z [m], range (visibility_range.frag), real depth, video, picture. Out: R8.
 #include "visibility.glsl"
+#include "virtual_layer.glsl"
 
 layout(binding = 0) uniform sampler2D virtualDepth;
 layout(binding = 1) uniform sampler2D rangeField;
@@ -19,9 +20,9 @@ float visibleOver(vec2 real, float inverse) {
 }
 
 void main() {
-    float z = texelFetch(virtualDepth, ivec2(gl_FragCoord.xy), 0).r;
+    float z = layerDepth(virtualDepth);
     visibility = 0.0;
-    if (!(z > 1e-4 && z < 1e6)) return;
+    if (!(z > 0.0)) return;
     float inverse = 1.0 / z;
     vec2 at = gl_FragCoord.xy * scale.xy - 0.5;
     ivec2 base = ivec2(floor(at));

@@ -11,6 +11,8 @@
 namespace mfar {
 namespace {
 
+constexpr const char* kScaled = "#define SCALED_LAYER 1\n";
+
 void require(const char* name, double value, double least) {
     constexpr double kMost = 1000;
     if (!(value >= least && value <= kMost))
@@ -21,11 +23,12 @@ void require(const char* name, double value, double least) {
 
 }  // namespace
 
-Composite::Composite(Size video, Size output, const CompositeOptions& options)
-    : video_(video), options_(options), range_(video, gpu::TexelFormat::Rg32F),
+Composite::Composite(Size video, Size output, Size layer, const CompositeOptions& options)
+    : video_(video), layer_(layer), options_(options), range_(video, gpu::TexelFormat::Rg32F),
       visibility_(output, gpu::TexelFormat::R8), rangeTarget_(range_),
       visibilityTarget_(visibility_), rangePass_("visibility_range.frag"),
-      samplePass_("visibility_sample.frag"), blendPass_("visibility_blend.frag") {
+      samplePass_("visibility_sample.frag", layer == output ? "" : kScaled),
+      blendPass_("visibility_blend.frag", layer == output ? "" : kScaled) {
     require("bias", options.bias, 0);
     require("softness", options.softness, 0.01);
     require("virtualSigma", options.virtualSigma, 0);
@@ -40,6 +43,10 @@ Composite::Params Composite::params() const {
     p.video[1] = video_.height;
     p.video[2] = output.width;
     p.video[3] = output.height;
+    p.layer[0] = layer_.width;
+    p.layer[1] = layer_.height;
+    p.scale[2] = static_cast<float>(layer_.width) / static_cast<float>(output.width);
+    p.scale[3] = static_cast<float>(layer_.height) / static_cast<float>(output.height);
     p.scale[0] = static_cast<float>(video_.width) / static_cast<float>(output.width);
     p.scale[1] = static_cast<float>(video_.height) / static_cast<float>(output.height);
     p.tune[0] = static_cast<float>(options_.bias);
@@ -61,15 +68,29 @@ PixelRect Composite::videoPixels(const PixelRect& bounds) const {
             std::min(below(bounds.y1, sy) + 1, video_.height)};
 }
 
+PixelRect Composite::outputPixels(const PixelRect& layerPixels) const {
+    const Size output = visibility_.size();
+    const PixelRect all{0, 0, output.width, output.height};
+    if (layerPixels.empty() || layer_ == output) return common(layerPixels, all);
+    // Linear interpolation reaches a pixel of the layer beyond its own.
+    const auto to = [](int pixel, int from, int size) {
+        return static_cast<double>(pixel) * size / from;
+    };
+    return common(
+        {static_cast<int>(std::floor(to(layerPixels.x0 - 1, layer_.width, output.width))),
+         static_cast<int>(std::floor(to(layerPixels.y0 - 1, layer_.height, output.height))),
+         static_cast<int>(std::ceil(to(layerPixels.x1 + 1, layer_.width, output.width))),
+         static_cast<int>(std::ceil(to(layerPixels.y1 + 1, layer_.height, output.height)))},
+        all);
+}
+
 void Composite::run(const VirtualLayer& layer, const gpu::Texture& realDepth,
                     const gpu::Texture& video, const gpu::Texture& picture,
                     const gpu::Framebuffer& target) {
-    const Size output = visibility_.size();
-    assert(realDepth.size() == video_ && video.size() == video_ && picture.size() == output);
-    assert(layer.colour->size() == output && layer.depth->size() == output);
-    const PixelRect bounds{std::max(layer.bounds.x0, 0), std::max(layer.bounds.y0, 0),
-                           std::min(layer.bounds.x1, output.width),
-                           std::min(layer.bounds.y1, output.height)};
+    assert(realDepth.size() == video_ && video.size() == video_);
+    assert(picture.size() == visibility_.size());
+    assert(layer.colour->size() == layer_ && layer.depth->size() == layer_);
+    const PixelRect bounds = outputPixels(layer.bounds);
     if (bounds.empty()) return;
     const Params p = params();
     {

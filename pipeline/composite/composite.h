@@ -27,14 +27,19 @@ struct CompositeOptions {
 /// layer's bounds are worked on.
 class Composite {
 public:
-    /// Throws std::invalid_argument for an option that is not finite or out of its range, and
-    /// GlError where the GL does not draw into Rg32F.
-    Composite(Size video, Size output, const CompositeOptions& options = {});
+    /// `layer`: size of the layers that come. Throws std::invalid_argument for an option that is
+    /// not finite or out of its range, and GlError where the GL does not draw into Rg32F.
+    Composite(Size video, Size output, Size layer, const CompositeOptions& options = {});
+    /// For layers of the output's size.
+    Composite(Size video, Size output, const CompositeOptions& options = {})
+        : Composite(video, output, output, options) {}
 
     /// `realDepth`: Rg32F, video size: inverse depth, its sigma [1/m]; a pixel whose values are not
     /// both finite and positive is unknown and hides nothing. `video`: the frame the depth belongs
     /// to, RGBA8 or R8. `picture`: that frame at output size, RGBA8; `target` draws into it (or
-    /// into a copy). A layer pixel whose depth is not finite and positive is not drawn.
+    /// into a copy). A layer pixel whose depth is not finite and positive is not drawn. Between the
+    /// pixels of a smaller layer colours are linear; depth is that of the nearest pixel of the four
+    /// around that has one.
     void run(const VirtualLayer& layer, const gpu::Texture& realDepth, const gpu::Texture& video,
              const gpu::Texture& picture, const gpu::Framebuffer& target);
 
@@ -43,15 +48,17 @@ public:
 
 private:
     struct Params {  // visibility.glsl
-        std::int32_t video[4];
+        std::int32_t video[4], layer[4];
         float scale[4], tune[4];
     };
 
     [[nodiscard]] Params params() const;
     /// The video pixels whose range the output pixels of `bounds` look up.
     [[nodiscard]] PixelRect videoPixels(const PixelRect& bounds) const;
+    /// The output pixels that pixels of the layer are seen in.
+    [[nodiscard]] PixelRect outputPixels(const PixelRect& layerPixels) const;
 
-    Size video_;
+    Size video_, layer_;
     CompositeOptions options_;
     gpu::Texture range_, visibility_;
     gpu::Framebuffer rangeTarget_, visibilityTarget_;

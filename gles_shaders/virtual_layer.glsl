@@ -1,0 +1,57 @@
+// The virtual layer at an output pixel. Needs visibility.glsl. SCALED_LAYER: it has a size of its own;
+// colours are interpolated linearly, depth is that of the nearest of the four pixels that has one.
+// Variant: #define SCALED_LAYER 1
+
+bool isVirtual(float z) {
+    return z > 1e-4 && z < 1e6;
+}
+
+#ifdef SCALED_LAYER
+vec2 layerAt(out ivec2 base) {
+    vec2 at = gl_FragCoord.xy * scale.zw - 0.5;
+    base = ivec2(floor(at));
+    return at - vec2(base);
+}
+
+ivec2 layerPixel(ivec2 base, int corner) {
+    return clamp(base + ivec2(corner & 1, corner >> 1), ivec2(0), layer.xy - 1);
+}
+
+float cornerWeight(vec2 f, int corner) {
+    return ((corner & 1) == 1 ? f.x : 1.0 - f.x) * ((corner >> 1) == 1 ? f.y : 1.0 - f.y);
+}
+#endif
+
+vec4 layerColour(highp sampler2D colours) {
+#ifdef SCALED_LAYER
+    ivec2 base;
+    vec2 f = layerAt(base);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; ++i)
+        sum += cornerWeight(f, i) * texelFetch(colours, layerPixel(base, i), 0);
+    return sum;
+#else
+    return texelFetch(colours, min(ivec2(gl_FragCoord.xy), video.zw - 1), 0);
+#endif
+}
+
+// z [m]; 0: nothing is there.
+float layerDepth(highp sampler2D depths) {
+#ifdef SCALED_LAYER
+    ivec2 base;
+    vec2 f = layerAt(base);
+    float best = 0.0, depth = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        float z = texelFetch(depths, layerPixel(base, i), 0).r;
+        float w = cornerWeight(f, i);
+        if (w > best && isVirtual(z)) {
+            best = w;
+            depth = z;
+        }
+    }
+    return depth;
+#else
+    float z = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
+    return isVirtual(z) ? z : 0.0;
+#endif
+}
