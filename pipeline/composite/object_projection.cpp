@@ -3,7 +3,6 @@
 #include "pipeline/se3.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace mfar {
 namespace {
@@ -13,29 +12,22 @@ bool isPlausible(const Eigen::Vector3d& metres) {
     return (metres.array().abs() < kFarthest).all();
 }
 
-/// Of (w u, w v, w) at or before the near plane.
-void extend(TriangleExtent& extent, const Eigen::Vector3d& h) {
-    extent.pixels.extend(Eigen::Vector2d(h.hnormalized()));
-    extent.nearest = std::min(extent.nearest, h.z());
-    extent.farthest = std::max(extent.farthest, h.z());
-}
-
-/// Clipped at the near plane, as the rasteriser does it. Empty box: all of it lies behind.
-TriangleExtent extentOf(const std::array<Eigen::Vector3d, 3>& corners) {
-    constexpr double kNear = LensProjection::kNear;
-    TriangleExtent extent{{}, std::numeric_limits<double>::max(), 0};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Eigen::Vector3d &a = corners[i], &b = corners[(i + 1) % corners.size()];
-        if (a.z() >= kNear) extend(extent, a);
-        if ((a.z() >= kNear) == (b.z() >= kNear)) continue;
-        Eigen::Vector3d cut = a + (b - a) * ((kNear - a.z()) / (b.z() - a.z()));
-        cut.z() = kNear;
-        extend(extent, cut);
-    }
-    return extent;
-}
-
 }  // namespace
+
+void SurfaceExtent::extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    constexpr double kNear = LensProjection::kNear;
+    const auto extend = [this](const Eigen::Vector3d& h) {
+        pixels.extend(Eigen::Vector2d(h.hnormalized()));
+        nearest = std::min(nearest, h.z());
+        farthest = std::max(farthest, h.z());
+    };
+    if (a.z() >= kNear) extend(a);
+    if (b.z() >= kNear) extend(b);
+    if ((a.z() >= kNear) == (b.z() >= kNear)) return;
+    Eigen::Vector3d cut = a + (b - a) * ((kNear - a.z()) / (b.z() - a.z()));
+    cut.z() = kNear;
+    extend(cut);
+}
 
 ObjectProjection::ObjectProjection(const CameraModel& camera)
     : lens_(camera), meshes_{shapeMesh(VirtualShape::Box), shapeMesh(VirtualShape::Sphere),
@@ -46,7 +38,7 @@ ObjectProjection::ObjectProjection(const CameraModel& camera)
     }
 }
 
-const std::vector<TriangleExtent>&
+const std::vector<SurfaceExtent>&
 ObjectProjection::operator()(const VirtualObject& object, const RigidTransform& T_world_video) {
     projected_.clear();
     extents_.clear();
@@ -59,8 +51,9 @@ ObjectProjection::operator()(const VirtualObject& object, const RigidTransform& 
     for (const ShapeMesh::Vertex& v : mesh(object.shape).vertices)
         projected_.push_back(lens_(axes * v.position.cast<double>() + T_video_object.translation));
     for (const auto& t : mesh(object.shape).triangles) {
-        const TriangleExtent extent =
-            extentOf({projected_[t[0]], projected_[t[1]], projected_[t[2]]});
+        SurfaceExtent extent;
+        for (std::size_t i = 0; i < 3; ++i)
+            extent.extendBySegment(projected_[t[i]], projected_[t[(i + 1) % 3]]);
         if (!extent.pixels.isEmpty()) extents_.push_back(extent);
     }
     return extents_;

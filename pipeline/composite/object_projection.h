@@ -6,14 +6,20 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace mfar {
 
-/// What a triangle covers of the picture, and of the space before the camera.
-struct TriangleExtent {
+/// What a piece of surface covers of the picture, and of the space before the camera.
+struct SurfaceExtent {
     Eigen::AlignedBox2d pixels;
-    double nearest, farthest;  ///< z [m], from LensProjection::kNear on
+    double nearest = std::numeric_limits<double>::max();  ///< z [m], from LensProjection::kNear on
+    double farthest = 0;
+
+    /// By the part of a straight line that lies before the near plane, as the rasteriser clips it.
+    /// Both ends as LensProjection gives them: (w u, w v, w).
+    void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 
 /// The triangles of virtual objects as a camera sees them, on the host: where they are, not what
@@ -25,8 +31,8 @@ public:
     /// Of every triangle that reaches before the near plane, within the picture or not. Nothing
     /// for an object with a pose or size that is not finite or above 100 km, or a negative size.
     /// Valid until the next call.
-    const std::vector<TriangleExtent>& operator()(const VirtualObject& object,
-                                                  const RigidTransform& T_world_video);
+    const std::vector<SurfaceExtent>& operator()(const VirtualObject& object,
+                                                 const RigidTransform& T_world_video);
 
     [[nodiscard]] const LensProjection& lens() const { return lens_; }
     [[nodiscard]] const ShapeMesh& mesh(VirtualShape shape) const {
@@ -37,7 +43,7 @@ private:
     LensProjection lens_;
     std::array<ShapeMesh, kVirtualShapes> meshes_;
     std::vector<Eigen::Vector3d> projected_;  // (w u, w v, w)
-    std::vector<TriangleExtent> extents_;
+    std::vector<SurfaceExtent> extents_;
 };
 
 }  // namespace mfar

@@ -79,7 +79,7 @@ PixelRect PreviewRenderer::boundsOf(const VirtualObject& object,
     const Eigen::AlignedBox2d picture(Eigen::Vector2d(-1, -1),
                                       Eigen::Vector2d(size.width, size.height));
     Eigen::AlignedBox2d box;
-    for (const TriangleExtent& extent : projection_(object, T_world_video))
+    for (const SurfaceExtent& extent : projection_(object, T_world_video))
         box.extend(extent.pixels.intersection(picture));
     if (box.isEmpty()) return {};
     const Eigen::Array2i least = (box.min().array() - 1).floor().cast<int>().max(0);

@@ -26,12 +26,20 @@ const std::vector<SurfaceRange>& Silhouette::run(std::span<const VirtualObject> 
                                                  const RigidTransform& T_world_video) {
     std::fill(tiles_.begin(), tiles_.end(), SurfaceRange{});
     for (const VirtualObject& object : objects)
-        for (const TriangleExtent& extent : projection_(object, T_world_video))
+        for (const SurfaceExtent& extent : projection_(object, T_world_video))
             add(extent);
     return tiles_;
 }
 
-void Silhouette::add(const TriangleExtent& extent) {
+const std::vector<SurfaceRange>& Silhouette::run(SceneBoxes& scene,
+                                                 const RigidTransform& T_world_video) {
+    std::fill(tiles_.begin(), tiles_.end(), SurfaceRange{});
+    for (const SurfaceExtent& extent : scene.extents(projection_.lens(), T_world_video))
+        add(extent);
+    return tiles_;
+}
+
+void Silhouette::add(const SurfaceExtent& extent) {
     const Eigen::Array2d least = ((extent.pixels.min().array() - margin_) / kTileSize).floor();
     const Eigen::Array2d most = ((extent.pixels.max().array() + margin_) / kTileSize).floor();
     const double right = tileCount_.width - 1, bottom = tileCount_.height - 1;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/composite/object_projection.h"
+#include "pipeline/composite/scene_boxes.h"
 
 #include <span>
 #include <vector>
@@ -24,10 +25,13 @@ public:
     const std::vector<SurfaceRange>& run(std::span<const VirtualObject> objects,
                                          const RigidTransform& T_world_video);
 
+    /// The same of a scene.
+    const std::vector<SurfaceRange>& run(SceneBoxes& scene, const RigidTransform& T_world_video);
+
     [[nodiscard]] Size tileCount() const { return tileCount_; }
 
 private:
-    void add(const TriangleExtent& extent);
+    void add(const SurfaceExtent& extent);
 
     ObjectProjection projection_;
     double margin_;

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "pipeline/composite/object_projection.h"
+#include "pipeline/render/scene.h"
+
+#include <vector>
+
+namespace mfar {
+
+/// Boxes around the parts of a scene's surfaces, its shadow catcher among them: where something
+/// virtual may be in a picture, at a cost that does not depend on how many triangles there are.
+class SceneBoxes {
+public:
+    /// None: no box.
+    SceneBoxes() = default;
+    explicit SceneBoxes(const Scene& scene);
+
+    /// What each box that reaches before the near plane covers. Valid until the next call.
+    const std::vector<SurfaceExtent>& extents(const LensProjection& lens,
+                                              const RigidTransform& T_world_video);
+
+    [[nodiscard]] const std::vector<Eigen::AlignedBox3d>& world() const { return boxes_; }
+
+private:
+    std::vector<Eigen::AlignedBox3d> boxes_;  // [m], along the world's axes
+    std::vector<SurfaceExtent> extents_;
+};
+
+}  // namespace mfar
