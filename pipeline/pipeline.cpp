@@ -168,6 +168,8 @@ void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
                                   const PixelRect& where) {
     const bool inView = objects && !objects->region().empty();
     const bool draws = objects && plan.redraws();
+    result.stats.objectsInView = inView;
+    result.stats.objectsHidden = inView && objects->hidden();
     const bool measures = options.depthEverywhere ? plan.changedTiles() > 0 : draws;
     if (pose && measures && (!where.empty() || inView)) {
         measureDepth(frame, {time, pose->T_world_video, pose->covariance}, searched, where);

@@ -48,6 +48,8 @@ struct FrameStats {
     /// Tiles under a virtual object in which real depth was not measured, as it is known to lie
     /// behind that.
     int depthTilesSkipped = 0;
+    bool objectsInView = false;  ///< a virtual object is within the picture's borders
+    bool objectsHidden = false;  ///< and real things are before all of them: nothing was drawn
     DepthSource depth = DepthSource::None;
 };
 

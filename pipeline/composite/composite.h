@@ -43,6 +43,12 @@ public:
     void run(const VirtualLayer& layer, const gpu::Texture& realDepth, const gpu::Texture& video,
              const gpu::Texture& picture, const gpu::Framebuffer& target);
 
+    /// Does a real sample hide, by itself, a surface at inverse depth `inverse` [1/m] wholly?
+    [[nodiscard]] bool hides(double rho, double sigma, double inverse) const {
+        const double sigmas = options_.bias + options_.softness;
+        return rho - sigmas * sigma >= inverse * (1 + sigmas * options_.virtualSigma);
+    }
+
     /// Share of each pixel of the layer that was drawn, R8, output size, within the last bounds.
     [[nodiscard]] const gpu::Texture& visibility() const { return visibility_; }
 

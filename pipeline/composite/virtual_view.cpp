@@ -18,6 +18,8 @@ constexpr int kMargin = 8;
 constexpr int kMostRelied = 8;
 // A camera that moved the objects less has not moved [px]: tags do not know better at rest.
 constexpr double kLeastMotion = 0.3;
+// Pixels of a tile that may be unknown within what hides an object: specks of it would be seen.
+constexpr int kMostGaps = 4;
 constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // pixels of a tile
 
 PixelRect tilesOf(const PixelRect& pixels, Size output, Size video) {
@@ -47,11 +49,13 @@ PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
                              const InverseDepthField& known) {
     placedPose_ = T_world_video;
     region_ = {};
+    hidden_ = false;
     if (!T_world_video || objects_.empty()) return {};
     const auto& tiles = silhouette_.run(objects_, *T_world_video);
     const int columns = silhouette_.tileCount().width;
     const bool relies = relied_ < kMostRelied;
     nearest_ = 0;
+    hidden_ = true;
     PixelRect decides;
     for (int i = 0; i < static_cast<int>(tiles.size()); ++i) {
         const auto [nearest, farthest] = tiles[static_cast<std::size_t>(i)];
@@ -60,9 +64,11 @@ PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
         const int x = i % columns * kTileSize, y = i / columns * kTileSize;
         const PixelRect tile{x, y, x + kTileSize, y + kTileSize};
         region_ = around(region_, widened(tile, 0, video_));
+        hidden_ = hidden_ && isHidden(tile, nearest, known);
         if (!relies || mayHide(tile, farthest, known))
             decides = around(decides, widened(tile, kTileSize, video_));
     }
+    hidden_ = hidden_ && !region_.empty();
     relied_ = relies ? relied_ + 1 : 0;
     return decides.empty() ? decides : common(decides, region_);
 }
@@ -84,6 +90,22 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
     return unknown > kMostUnknown;
 }
 
+// The surfaces of a tile are those around it as well, so its samples are all that decide.
+bool VirtualView::isHidden(const PixelRect& tile, float nearest,
+                           const InverseDepthField& known) const {
+    int gaps = 0;
+    for (int y = tile.y0; y < std::min(tile.y1, video_.height); ++y) {
+        for (int x = tile.x0; x < std::min(tile.x1, video_.width); ++x) {
+            const auto i = static_cast<std::size_t>(y) * video_.width + x;
+            if (!known.isKnown(i))
+                ++gaps;
+            else if (!composite_.hides(known.rho[i], std::sqrt(known.variance[i]), 1 / nearest))
+                return false;
+        }
+    }
+    return gaps <= kMostGaps;
+}
+
 WorkPlan::Redraw VirtualView::redraw() const {
     using Redraw = WorkPlan::Redraw;
     if (mustRedraw()) return Redraw::Always;
@@ -95,7 +117,9 @@ WorkPlan::Redraw VirtualView::redraw() const {
 }
 
 PixelRect VirtualView::staleTiles() const {
-    if (!mustRedraw() || region_.empty()) return drawn_;
+    // What hides all of them may go away.
+    const bool keepsAll = !mustRedraw() && !hidden_;
+    if (keepsAll || region_.empty()) return drawn_;
     return around(drawn_, tilesAround(region_));
 }
 
@@ -103,10 +127,10 @@ void VirtualView::draw(const InverseDepthField& real, const PixelRect& where,
                        const gpu::Texture& video, const gpu::Texture& picture,
                        const gpu::Framebuffer& target) {
     changed_ = false;
-    placed_ = !region_.empty();
+    shown_ = shows();
     drawnPose_ = placedPose_;
     drawn_ = {};
-    if (region_.empty()) return;
+    if (!shown_) return;
     layer_ = renderer_.render(objects_, *placedPose_);
     if (layer_.bounds.empty()) return;
     upload(real, where);

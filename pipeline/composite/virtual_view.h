@@ -28,6 +28,8 @@ public:
                     const InverseDepthField& known);
     /// Video pixels around all objects, as placed.
     [[nodiscard]] const PixelRect& region() const { return region_; }
+    /// Nothing of them is seen, as placed: real things are before them everywhere.
+    [[nodiscard]] bool hidden() const { return hidden_; }
     /// When they have to be drawn anew: always after other objects, or when there are any after
     /// none and the other way round; with any change when the camera has moved.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
@@ -43,9 +45,12 @@ public:
     [[nodiscard]] std::vector<float> readShown() const;
 
 private:
-    [[nodiscard]] bool mustRedraw() const { return changed_ || placed_ == region_.empty(); }
+    [[nodiscard]] bool shows() const { return !region_.empty() && !hidden_; }
+    [[nodiscard]] bool mustRedraw() const { return changed_ || shown_ != shows(); }
     [[nodiscard]] bool mayHide(const PixelRect& tile, float farthest,
                                const InverseDepthField& known) const;
+    [[nodiscard]] bool isHidden(const PixelRect& tile, float nearest,
+                                const InverseDepthField& known) const;
     void upload(const InverseDepthField& real, const PixelRect& where);
 
     Size video_;
@@ -60,7 +65,7 @@ private:
     PixelRect region_, drawn_, uploaded_;  // video pixels, tiles, video pixels
     VirtualLayer layer_;                   // as last drawn
     int relied_ = 0;                       // frames in a row on what was known before
-    bool changed_ = false, placed_ = false;
+    bool changed_ = false, hidden_ = false, shown_ = false;
 };
 
 }  // namespace mfar

@@ -75,5 +75,19 @@ TEST_F(DepthWork, WhatMayHideItIsMeasuredInEveryFrame) {
         EXPECT_GT(stats.depthTiles, 0);
 }
 
+TEST_F(DepthWork, WhatIsBehindTheDeskIsNotDrawnButLookedFor) {
+    placeSphere(1.5);
+    run(6);
+    for (const FrameStats& stats : run(4)) {
+        EXPECT_TRUE(stats.objectsInView);
+        EXPECT_TRUE(stats.objectsHidden);
+        EXPECT_GT(stats.depthTiles, 0);
+    }
+    placeSphere(0.5);
+    run(2);
+    for (const FrameStats& stats : run(2))
+        EXPECT_FALSE(stats.objectsHidden);
+}
+
 }  // namespace
 }  // namespace mfar::test
