@@ -1,0 +1,166 @@
+#include "pipeline/render/film.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mfar {
+namespace {
+
+constexpr float kDisplayGamma = 2.2F;
+constexpr float kGreyLevels = 255;
+// Of an unknown background to an object's value: half the range.
+constexpr float kEdgeContrast = 0.5F * kGreyLevels;
+
+float luminanceOf(const Eigen::Vector3f& rgb) {
+    return 0.2126F * rgb.x() + 0.7152F * rgb.y() + 0.0722F * rgb.z();
+}
+
+bool isLight(const Eigen::Vector3f& rgb) {
+    return rgb.allFinite() && rgb.minCoeff() >= 0;
+}
+
+void keepNearest(FirstHit& kept, const FirstHit& hit) {
+    if (kept.id == 0 || hit.depth < kept.depth) kept = hit;
+}
+
+/// Of the mean of n samples, from their sum and the sum of their squares.
+float varianceOfMean(float sum, float squares, float n) {
+    if (n < 2) return 0;
+    return std::max(0.0F, squares - sum * sum / n) / (n * (n - 1));
+}
+
+float slopeAt(const Eigen::Vector3f& radiance, const Exposure& exposure) {
+    return kGreyLevels * exposure.scale * srgbSlope(luminanceOf(radiance) * exposure.scale);
+}
+
+std::uint8_t quantised(float value) {
+    return static_cast<std::uint8_t>(std::lround(kGreyLevels * std::clamp(value, 0.0F, 1.0F)));
+}
+
+}  // namespace
+
+Film::Film(Size size)
+    : size_(size),
+      pixels_(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height)) {}
+
+void Film::clear() {
+    std::ranges::fill(pixels_, Pixel{});
+}
+
+void Film::clear(std::size_t pixel) {
+    pixels_[pixel] = Pixel{};
+}
+
+std::uint64_t Film::dropped() const {
+    std::uint64_t sum = 0;
+    for (const Pixel& p : pixels_)
+        sum += p.lost;
+    return sum;
+}
+
+void Film::add(std::size_t pixel, const FilmSample& sample) {
+    Pixel& p = pixels_[pixel];
+    ++p.taken;
+    if (!isLight(sample.radiance) || !isLight(sample.without)) {
+        ++p.lost;
+    } else if (sample.hit.id == kCatcherId) {
+        ++p.catcherHits;
+        p.with += sample.radiance;
+        p.without += sample.without;
+        const float change = luminanceOf(sample.radiance - sample.without);
+        p.changeSquares += change * change;
+        keepNearest(p.catcher, sample.hit);
+    } else if (sample.hit.id != 0) {
+        ++p.objectHits;
+        p.object += sample.radiance;
+        const float y = luminanceOf(sample.radiance);
+        p.objectSquares += y * y;
+        keepNearest(p.nearest, sample.hit);
+    }
+}
+
+void Film::setCentre(std::size_t pixel, const FirstHit& hit) {
+    pixels_[pixel].centre = hit;
+}
+
+float Film::error(std::size_t pixel, const Exposure& exposure) const {
+    const Pixel& p = pixels_[pixel];
+    const auto n = static_cast<float>(p.taken - p.lost);
+    if (n < 2) return std::numeric_limits<float>::infinity();
+    const auto objects = static_cast<float>(p.objectHits);
+    const auto catchers = static_cast<float>(p.catcherHits);
+    float variance = 0;
+    if (objects > 0) {
+        const float slope = slopeAt(p.object / objects, exposure) * objects / n;
+        variance += slope * slope * varianceOfMean(luminanceOf(p.object), p.objectSquares, objects);
+    }
+    if (catchers > 0) {
+        const float slope = slopeAt(p.without / catchers, exposure) * catchers / n;
+        const float change = luminanceOf(p.with - p.without);
+        variance += slope * slope * varianceOfMean(change, p.changeSquares, catchers);
+    }
+    const float covered = objects / n;
+    const float edge = kEdgeContrast * kEdgeContrast * covered * (1 - covered);
+    return std::sqrt(variance + edge / (n * std::sqrt(n)));
+}
+
+Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
+    Shown out;
+    const auto n = static_cast<float>(p.taken - p.lost);
+    if (!(n > 0)) return out;
+    if (p.objectHits > 0) {
+        const auto hits = static_cast<float>(p.objectHits);
+        out.coverage = hits / n;
+        out.colour = out.coverage * displayed(p.object / hits, exposure);
+    }
+    if (p.catcherHits == 0 || p.with == p.without) return out;
+    const auto hits = static_cast<float>(p.catcherHits);
+    const Eigen::Vector3f lit = displayed(p.with / hits, exposure);
+    const Eigen::Vector3f unlit = displayed(p.without / hits, exposure);
+    Eigen::Vector3f ratio{1, 1, 1};
+    for (int c = 0; c < 3; ++c)
+        if (p.without[c] > 0) ratio[c] = std::pow(p.with[c] / p.without[c], 1 / kDisplayGamma);
+    const float kept = std::min(1.0F, ratio.minCoeff());
+    const float share = hits / n;
+    for (int c = 0; c < 3; ++c) {
+        const float added = unlit[c] > 0 ? unlit[c] * (ratio[c] - kept) : lit[c];
+        out.colour[c] += share * std::min(added, 1.0F);
+    }
+    out.coverage += share * (1 - kept);
+    return out;
+}
+
+FirstHit Film::firstHit(const Pixel& p, bool changed) {
+    if (!changed) return {};
+    const bool objects = p.objectHits > 0;
+    if (p.centre.id != 0 && p.centre.id != kCatcherId) return p.centre;
+    // The catcher is nothing where objects change nothing of it.
+    if (p.catcherHits > 0 && !(p.with == p.without) && (p.centre.id == kCatcherId || !objects))
+        return p.centre.id == kCatcherId ? p.centre : p.catcher;
+    return objects ? p.nearest : FirstHit{};
+}
+
+void Film::resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out) const {
+    out.camera = view.camera;
+    out.T_world_camera = view.T_world_camera;
+    out.colour.resize(pixels_.size());
+    out.depth.resize(pixels_.size());
+    out.id.resize(pixels_.size());
+    double taken = 0, seen = 0;
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        const Shown s = shown(pixels_[i], exposure);
+        out.colour[i] = {quantised(s.colour.x()), quantised(s.colour.y()), quantised(s.colour.z()),
+                         quantised(s.coverage)};
+        const bool changed = out.colour[i] != std::array<std::uint8_t, 4>{};
+        const FirstHit hit = firstHit(pixels_[i], changed);
+        out.depth[i] = hit.depth;
+        out.id[i] = hit.id;
+        if (hit.id == 0) continue;
+        taken += pixels_[i].taken;
+        seen += 1;
+    }
+    out.samples = seen > 0 ? taken / seen : 0;
+}
+
+}  // namespace mfar

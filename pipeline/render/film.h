@@ -1,0 +1,78 @@
+#pragma once
+
+#include "pipeline/render/exposure.h"
+#include "pipeline/render/render_view.h"
+#include "pipeline/render/rendered_picture.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// What the first surface of a ray is. Depth [m] along the camera's axis, 0 with id 0.
+struct FirstHit {
+    float depth = 0;
+    std::uint8_t id = 0;  ///< SceneObject's number, kCatcherId, or 0: nothing
+};
+
+/// What one sample of a pixel saw.
+struct FilmSample {
+    FirstHit hit;
+    Eigen::Vector3f radiance{0, 0, 0};  ///< of the object or, with the objects there, the catcher
+    Eigen::Vector3f without{0, 0, 0};   ///< of the catcher if the objects were not there
+};
+
+/// Sums of the samples of one view, a pixel each, row-major. Calls for different pixels may run at
+/// the same time.
+class Film {
+public:
+    explicit Film(Size size);
+
+    [[nodiscard]] Size size() const { return size_; }
+    void clear();
+    void clear(std::size_t pixel);
+
+    /// Taken so far, those that were dropped too: the next one's number.
+    [[nodiscard]] std::uint32_t samples(std::size_t pixel) const { return pixels_[pixel].taken; }
+    /// Samples of all pixels that were not finite or negative, and count for nothing.
+    [[nodiscard]] std::uint64_t dropped() const;
+
+    void add(std::size_t pixel, const FilmSample& sample);
+    /// What is seen through the pixel's centre.
+    void setCentre(std::size_t pixel, const FirstHit& hit);
+
+    /// Estimated standard error of the displayed value [grey levels of 255], infinity before two
+    /// samples. Samples are taken as independent, which those of a good sequence are better than,
+    /// and an edge's coverage as that of jittered samples, n^-3/4 (Mitchell 1996).
+    [[nodiscard]] float error(std::size_t pixel, const Exposure& exposure = {}) const;
+
+    /// The picture of what there is. Shadow and bounced light change the real surface's value by
+    /// the ratio of its modelled light with the objects to without (differential rendering, Debevec
+    /// 1998): black of coverage 1 - ratio^(1/2.2) in the darkest channel, and what the others are
+    /// brighter as added colour. `out` keeps its memory.
+    void resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out) const;
+
+private:
+    struct Pixel {
+        Eigen::Vector3f object{0, 0, 0}, with{0, 0, 0}, without{0, 0, 0};
+        float objectSquares = 0;  // of luminance
+        float changeSquares = 0;  // of the luminance's change on the catcher
+        std::uint32_t taken = 0, lost = 0, objectHits = 0, catcherHits = 0;
+        FirstHit centre, nearest, catcher;
+    };
+    struct Shown {
+        Eigen::Vector3f colour{0, 0, 0};  // premultiplied, [0, 1]
+        float coverage = 0;
+    };
+
+    [[nodiscard]] static Shown shown(const Pixel& p, const Exposure& exposure);
+    [[nodiscard]] static FirstHit firstHit(const Pixel& p, bool changed);
+
+    Size size_;
+    std::vector<Pixel> pixels_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,191 @@
+#include "pipeline/render/ray_scene.h"
+
+#if MFAR_EMBREE_MAJOR >= 4
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace mfar {
+namespace {
+
+// The calls whose signatures differ between Embree 3 and 4.
+#if MFAR_EMBREE_MAJOR >= 4
+void intersectOne(RTCScene scene, RTCRayHit& query) {
+    rtcIntersect1(scene, &query);
+}
+void intersectFour(const int* valid, RTCScene scene, RTCRayHit4& query) {
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    rtcIntersect4(valid, scene, &query, &arguments);
+}
+void occludedOne(RTCScene scene, RTCRay& query) {
+    rtcOccluded1(scene, &query);
+}
+#else
+void intersectOne(RTCScene scene, RTCRayHit& query) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene, &context, &query);
+}
+void intersectFour(const int* valid, RTCScene scene, RTCRayHit4& query) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect4(valid, scene, &context, &query);
+}
+void occludedOne(RTCScene scene, RTCRay& query) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene, &context, &query);
+}
+#endif
+
+constexpr std::size_t kPacket = 4;
+
+RTCRay embreeRay(const Ray& ray) {
+    RTCRay out{};
+    out.org_x = ray.origin.x();
+    out.org_y = ray.origin.y();
+    out.org_z = ray.origin.z();
+    out.tnear = ray.least;
+    out.dir_x = ray.direction.x();
+    out.dir_y = ray.direction.y();
+    out.dir_z = ray.direction.z();
+    out.tfar = ray.most;
+    out.mask = 0xFFFFFFFFU;
+    return out;
+}
+
+void setLane(RTCRayHit4& query, std::size_t i, const Ray& ray) {
+    query.ray.org_x[i] = ray.origin.x();
+    query.ray.org_y[i] = ray.origin.y();
+    query.ray.org_z[i] = ray.origin.z();
+    query.ray.tnear[i] = ray.least;
+    query.ray.dir_x[i] = ray.direction.x();
+    query.ray.dir_y[i] = ray.direction.y();
+    query.ray.dir_z[i] = ray.direction.z();
+    query.ray.time[i] = 0;
+    query.ray.tfar[i] = ray.most;
+    query.ray.mask[i] = 0xFFFFFFFFU;
+    query.ray.id[i] = 0;
+    query.ray.flags[i] = 0;
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+}
+
+RayHit laneHit(const RTCRayHit4& query, std::size_t i) {
+    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) return {};
+    return {query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i], query.hit.u[i],
+            query.hit.v[i]};
+}
+
+void rejectHoles(const RTCFilterFunctionNArguments* arguments) {
+    const auto& holes = *static_cast<const HoleTest*>(arguments->geometryUserPtr);
+    for (unsigned i = 0; i < arguments->N; ++i) {
+        if (arguments->valid[i] == 0) continue;
+        const unsigned n = arguments->N;
+        if (holes.isHole(holes.context, RTCHitN_primID(arguments->hit, n, i),
+                         RTCHitN_u(arguments->hit, n, i), RTCHitN_v(arguments->hit, n, i)))
+            arguments->valid[i] = 0;
+    }
+}
+
+void check(RTCDevice device, const char* what) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error != RTC_ERROR_NONE)
+        throw std::runtime_error(std::string("Embree: ") + what + " failed with error " +
+                                 std::to_string(static_cast<int>(error)));
+}
+
+}  // namespace
+
+void RayScene::Release::operator()(RTCDeviceTy* device) const {
+    rtcReleaseDevice(device);
+}
+
+void RayScene::Release::operator()(RTCSceneTy* scene) const {
+    rtcReleaseScene(scene);
+}
+
+RayScene::RayScene(int buildThreads) {
+    const std::string settings = "threads=" + std::to_string(buildThreads);
+    device_.reset(rtcNewDevice(settings.c_str()));
+    if (!device_) check(nullptr, "the start");
+    if (!device_) throw std::runtime_error("Embree: no device");
+    scene_.reset(rtcNewScene(device_.get()));
+    check(device_.get(), "a new scene");
+    // Without it rays slip through between triangles that share an edge.
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+}
+
+std::uint32_t RayScene::add(std::span<const Eigen::Vector3f> positions,
+                            std::span<const std::array<std::uint32_t, 3>> triangles,
+                            const HoleTest& holes) {
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Embree's own buffers: it reads past the end of the last vertex.
+    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                             sizeof(Eigen::Vector3f), positions.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            3 * sizeof(std::uint32_t), triangles.size());
+    if (vertices != nullptr) std::memcpy(vertices, positions.data(), positions.size_bytes());
+    if (indices != nullptr) std::memcpy(indices, triangles.data(), triangles.size_bytes());
+    if (holes.isHole != nullptr) {
+        holes_.push_back(std::make_unique<HoleTest>(holes));
+        rtcSetGeometryUserData(geometry, holes_.back().get());
+        rtcSetGeometryIntersectFilterFunction(geometry, rejectHoles);
+        rtcSetGeometryOccludedFilterFunction(geometry, rejectHoles);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(scene_.get(), geometry, meshes_);
+    rtcReleaseGeometry(geometry);
+    check(device_.get(), "a mesh");
+    for (const auto& triangle : triangles)
+        for (const std::uint32_t corner : triangle)
+            box_.extend(positions[corner]);
+    return meshes_++;
+}
+
+void RayScene::commit() {
+    rtcCommitScene(scene_.get());
+    check(device_.get(), "the search structure");
+}
+
+RayHit RayScene::first(const Ray& ray) const {
+    RTCRayHit query;
+    query.ray = embreeRay(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    intersectOne(scene_.get(), query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+    return {query.ray.tfar, query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v};
+}
+
+bool RayScene::blocked(const Ray& ray) const {
+    RTCRay query = embreeRay(ray);
+    occludedOne(scene_.get(), query);
+    return query.tfar < 0;
+}
+
+void RayScene::firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const {
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+        const std::size_t count = std::min(kPacket, rays.size() - first);
+        RTCRayHit4 query;
+        alignas(16) std::array<int, kPacket> valid{};
+        for (std::size_t i = 0; i < kPacket; ++i) {
+            valid[i] = i < count ? -1 : 0;
+            setLane(query, i, rays[first + std::min(i, count - 1)]);
+        }
+        intersectFour(valid.data(), scene_.get(), query);
+        for (std::size_t i = 0; i < count; ++i)
+            hits[first + i] = laneHit(query, i);
+    }
+}
+
+}  // namespace mfar

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+struct RTCDeviceTy;
+struct RTCSceneTy;
+
+namespace mfar {
+
+/// Points origin + t direction, least <= t <= most. The direction need not be of unit length.
+struct Ray {
+    Eigen::Vector3f origin, direction;
+    float least = 0, most = std::numeric_limits<float>::infinity();
+};
+
+struct RayHit {
+    static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
+
+    float t = std::numeric_limits<float>::infinity();
+    std::uint32_t mesh = kNone, triangle = 0;  ///< in the order of addition
+    float u = 0, v = 0;  ///< weights of the triangle's second and third corner
+
+    [[nodiscard]] bool found() const { return mesh != kNone; }
+};
+
+/// Tells whether there is nothing at a point of a triangle after all. May be called by any thread.
+struct HoleTest {
+    bool (*isHole)(const void* context, std::uint32_t triangle, float u, float v) = nullptr;
+    const void* context = nullptr;  ///< outlives the scene
+};
+
+/// Triangle meshes in one frame, searched along rays by Embree. After commit(), const calls may
+/// run at the same time.
+class RayScene {
+public:
+    /// Throws std::runtime_error if Embree cannot be had; `buildThreads` >= 1.
+    explicit RayScene(int buildThreads = 1);
+
+    /// Copies the mesh; returns its number. Numbers finite, indices in range.
+    std::uint32_t add(std::span<const Eigen::Vector3f> positions,
+                      std::span<const std::array<std::uint32_t, 3>> triangles,
+                      const HoleTest& holes = {});
+    /// Builds the search structure over all meshes; throws std::runtime_error if that fails.
+    void commit();
+
+    [[nodiscard]] bool empty() const { return meshes_ == 0; }
+    /// Around all triangles; of an empty scene an empty box.
+    [[nodiscard]] const Eigen::AlignedBox3f& box() const { return box_; }
+
+    [[nodiscard]] RayHit first(const Ray& ray) const;
+    [[nodiscard]] bool blocked(const Ray& ray) const;
+    /// The same as first() for each; fast for neighbouring rays. `hits` is as long as `rays`.
+    void firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const;
+
+private:
+    struct Release {
+        void operator()(RTCDeviceTy* device) const;
+        void operator()(RTCSceneTy* scene) const;
+    };
+
+    std::unique_ptr<RTCDeviceTy, Release> device_;
+    std::unique_ptr<RTCSceneTy, Release> scene_;
+    std::vector<std::unique_ptr<HoleTest>> holes_;
+    std::uint32_t meshes_ = 0;
+    Eigen::AlignedBox3f box_;
+};
+
+}  // namespace mfar

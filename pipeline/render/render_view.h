@@ -1,0 +1,13 @@
+#pragma once
+
+#include "pipeline/geometry.h"
+
+namespace mfar {
+
+/// From where a picture of the scene is taken.
+struct RenderView {
+    CameraModel camera;  ///< with its lens; size at least 1x1
+    RigidTransform T_world_camera;
+};
+
+}  // namespace mfar

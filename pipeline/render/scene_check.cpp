@@ -1,0 +1,111 @@
+#include "pipeline/render/scene_check.h"
+
+#include "pipeline/se3.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace mfar {
+namespace {
+
+constexpr std::size_t kMostObjects = 250;
+constexpr float kUnitTolerance = 1e-3F;
+constexpr float kHalfTurn = 1.57079632679F;
+
+void require(bool sound, const std::string& what) {
+    if (!sound) throw std::invalid_argument("scene: " + what);
+}
+
+template <typename Vector>
+bool allFinite(const std::vector<Vector>& values) {
+    return std::ranges::all_of(values, [](const Vector& v) { return v.allFinite(); });
+}
+
+bool isRadiance(const Eigen::Vector3f& rgb) {
+    return rgb.allFinite() && rgb.minCoeff() >= 0;
+}
+
+bool isShare(float x) {
+    return x >= 0 && x <= 1;
+}
+
+void requireIndices(const std::vector<std::array<std::uint32_t, 3>>& triangles, std::size_t count,
+                    const char* what) {
+    for (const auto& triangle : triangles)
+        for (const std::uint32_t corner : triangle)
+            require(corner < count, std::string(what) + " has an index out of range");
+}
+
+void checkMesh(const Mesh& mesh, std::size_t materials) {
+    const std::size_t n = mesh.positions.size();
+    const auto fits = [n](std::size_t length) { return length == 0 || length == n; };
+    require(allFinite(mesh.positions), "a position is not finite");
+    require(allFinite(mesh.normals) && allFinite(mesh.tangents) && allFinite(mesh.uvs),
+            "a vertex is not finite");
+    require(fits(mesh.normals.size()) && fits(mesh.uvs.size()) && fits(mesh.tangents.size()),
+            "vertex arrays differ in length");
+    require(mesh.material >= 0 && static_cast<std::size_t>(mesh.material) < materials,
+            "a mesh has no such material");
+    requireIndices(mesh.triangles, n, "a mesh");
+}
+
+void checkMaterial(const Material& m, std::size_t textures) {
+    require(m.baseColour.allFinite() && m.baseColour.minCoeff() >= 0, "a colour is not sound");
+    require(isShare(m.metallic) && isShare(m.roughness), "metallic, roughness: not in [0, 1]");
+    require(isRadiance(m.emission), "an emission is not sound");
+    require(std::isfinite(m.normalScale) && std::isfinite(m.alphaCutoff),
+            "a material's number is not finite");
+    for (const int index :
+         {m.baseColourTexture, m.metallicRoughnessTexture, m.normalTexture, m.emissionTexture})
+        require(index >= -1 && index < static_cast<int>(textures), "no such texture");
+}
+
+void checkModel(const Model& model) {
+    require(!model.materials.empty(), "a model without material");
+    for (const Mesh& mesh : model.meshes)
+        checkMesh(mesh, model.materials.size());
+    for (const Material& material : model.materials)
+        checkMaterial(material, model.textures.size());
+    for (const SurfaceTexture& t : model.textures)
+        require(t.size.width >= 1 && t.size.height >= 1 &&
+                    t.texels.size() == static_cast<std::size_t>(t.size.width) *
+                                           static_cast<std::size_t>(t.size.height),
+                "a texture's size is not that of its texels");
+}
+
+void checkLighting(const Lighting& lighting) {
+    if (lighting.environment) {
+        const Environment& e = *lighting.environment;
+        require(e.size.width >= 1 && e.size.height >= 1 &&
+                    e.radiance.size() == static_cast<std::size_t>(e.size.width) *
+                                             static_cast<std::size_t>(e.size.height),
+                "the environment's size is not that of its radiance");
+        require(std::ranges::all_of(e.radiance, isRadiance), "an environment's radiance");
+    }
+    if (!lighting.sun) return;
+    const Sun& sun = *lighting.sun;
+    require(std::abs(sun.towards.norm() - 1) < kUnitTolerance, "the sun's direction");
+    require(isRadiance(sun.irradiance), "the sun's irradiance");
+    require(sun.angularRadius > 0 && sun.angularRadius < kHalfTurn, "the sun's radius");
+}
+
+}  // namespace
+
+void validate(const Scene& scene) {
+    require(scene.objects.size() <= kMostObjects, "more than 250 objects");
+    for (const SceneObject& object : scene.objects) {
+        require(object.model != nullptr, "an object without model");
+        require(isFinite(object.T_world_object), "an object's pose is not finite");
+        require(std::isfinite(object.scale) && object.scale > 0, "an object's scale");
+        checkModel(*object.model);
+    }
+    checkLighting(scene.lighting);
+    require(allFinite(scene.catcher.positions), "the catcher is not finite");
+    require(isRadiance(scene.catcher.albedo) && scene.catcher.albedo.maxCoeff() <= 1,
+            "the catcher's albedo is not in [0, 1]");
+    requireIndices(scene.catcher.triangles, scene.catcher.positions.size(), "the catcher");
+}
+
+}  // namespace mfar
