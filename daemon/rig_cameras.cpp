@@ -44,6 +44,10 @@ public:
             throw;
         }
     }
+    void endPulse() override {
+        const std::lock_guard lock(mutex_);
+        if (open_) open_->endPulse();
+    }
     [[nodiscard]] std::string name() const override {
         return fmt::format("trigger line {}", options_.line);
     }

@@ -39,7 +39,11 @@ void TriggeredStillCamera::start() {
 }
 
 void TriggeredStillCamera::stop() {
-    stopped_ = true;
+    {
+        const std::lock_guard lock(mutex_);  // after it nobody fires
+        stopped_ = true;
+    }
+    trigger_->endPulse();
     camera_->stop();
 }
 
@@ -61,6 +65,7 @@ std::optional<Frame> TriggeredStillCamera::next(milliseconds timeout) {
 
 void TriggeredStillCamera::repeatLost() {
     std::lock_guard lock(mutex_);
+    if (stopped_) return;
     if (!matcher_.poll(Timestamp::now()).repeat) return;
     try {
         matcher_.pulseFired(trigger_->fire(), StillMatcher::Pulse::Repetition);
@@ -86,6 +91,7 @@ std::optional<Frame> TriggeredStillCamera::admit(Frame frame) {
 
 Timestamp TriggeredStillCamera::fire() {
     std::lock_guard lock(mutex_);
+    if (stopped_) throw TriggerBusy(name() + ": the camera is stopped");
     const Timestamp edge = trigger_->fire();
     matcher_.pulseFired(edge);
     return edge;

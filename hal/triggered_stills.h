@@ -39,10 +39,12 @@ public:
     /// Throws what the camera throws, and what the trigger throws for a repetition. Lost pulses are
     /// found and repeated here, so it must be called now and then, if with timeout 0.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
+    /// Of both: the line becomes inactive first, and until start() fire() throws TriggerBusy.
     void stop() override;
     [[nodiscard]] bool ended() const override { return camera_->ended(); }
 
     Timestamp fire() override;
+    void endPulse() override { trigger_->endPulse(); }
     [[nodiscard]] std::string name() const override { return trigger_->name(); }
 
     [[nodiscard]] StillCounters counters() const;

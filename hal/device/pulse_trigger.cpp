@@ -74,11 +74,22 @@ Timestamp PulseTrigger::fire() {
     return leading_.value_or(driven);
 }
 
+void PulseTrigger::endPulse() {
+    const std::lock_guard lock(mutex_);
+    if (!running_) return;
+    running_ = false;
+    end();
+    wake_.notify_one();
+}
+
 void PulseTrigger::endLater(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (wake_.wait(lock, stop, [this] { return running_; })) {
-        wake_.wait_until(lock, stop, steady(due_ - kWakeUp), [] { return false; });
-        if (!stop.stop_requested()) sleepUntil(due_);
+        // Ended early by another, it may be followed by a pulse with another end.
+        const Timestamp due = due_;
+        const auto isOver = [&] { return !running_ || due_ != due; };
+        if (wake_.wait_until(lock, stop, steady(due - kWakeUp), isOver)) continue;
+        if (!stop.stop_requested()) sleepUntil(due);
         running_ = false;
         end();
     }

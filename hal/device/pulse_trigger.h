@@ -41,6 +41,7 @@ public:
     /// is refused, not queued, because its edge would come at a time nobody asked for. Throws
     /// std::runtime_error when the line cannot be driven or an earlier pulse could not be ended.
     Timestamp fire() override;
+    void endPulse() override;
     [[nodiscard]] std::string name() const override { return name_; }
 
     /// The last pulse whose both edges the loopback has seen.

@@ -155,6 +155,21 @@ TEST(PulseTrigger, FiresAgainOnceThePulseIsOver) {
         EXPECT_EQ(levels[i].active, i % 2 == 1) << i;
 }
 
+TEST(PulseTrigger, PulseCanBeEndedEarlyAndTheNextHasItsFullLength) {
+    const auto wire = std::make_shared<Wire>();
+    const auto trigger = triggerOn(wire, 100ms);
+    trigger->fire();
+    std::this_thread::sleep_for(50ms);
+    trigger->endPulse();
+    EXPECT_FALSE(wire->active());
+    trigger->fire();
+    untilInactive(*wire);
+    const std::vector<Level> levels = wire->all();
+    EXPECT_GE(levels.back().time - levels[levels.size() - 2].time, 100ms);
+    trigger->endPulse();
+    EXPECT_EQ(wire->all().size(), levels.size()) << "driven without need";
+}
+
 TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
     for (const microseconds pulse : {microseconds{50}, microseconds{3000}}) {
         const auto wire = std::make_shared<Wire>();

@@ -27,6 +27,7 @@ struct Sensor {
     int busy = 0;   ///< refuses so many pulses
     int blind = 0;  ///< exposes nothing for so many pulses
     bool stopped = false;
+    bool high = false;  ///< the line, from a pulse until somebody ends it
     nanoseconds exposure{0};
     nanoseconds delay{300us};  ///< from edge to the start of exposure
 
@@ -43,6 +44,7 @@ struct Sensor {
             --busy;
             throw TriggerBusy("busy");
         }
+        high = true;
         pulses.push_back(Timestamp::now());
         if (blind > 0)
             --blind;
@@ -83,6 +85,10 @@ class FakeTrigger final : public Trigger {
 public:
     explicit FakeTrigger(Sensor& sensor) : sensor_(sensor) {}
     Timestamp fire() override { return sensor_.fire(); }
+    void endPulse() override {
+        const std::lock_guard lock(sensor_.mutex);
+        sensor_.high = false;
+    }
     [[nodiscard]] std::string name() const override { return "fake line"; }
 
 private:
@@ -223,6 +229,18 @@ TEST_F(TriggeredStills, StopWakesTheOneWhoWaits) {
     std::this_thread::sleep_for(5ms);
     camera->stop();
     waiting.join();
+}
+
+TEST_F(TriggeredStills, StopLeavesTheLineInactiveAndNobodyFires) {
+    const auto camera = open();
+    camera->fire();
+    ASSERT_TRUE(sensor.high);
+    camera->stop();
+    EXPECT_FALSE(sensor.high);
+    EXPECT_THROW(camera->fire(), TriggerBusy);
+    EXPECT_FALSE(sensor.high);
+    camera->start();
+    EXPECT_NO_THROW(camera->fire());
 }
 
 TEST_F(TriggeredStills, FiringWhileAnotherThreadTakesStillsLosesNone) {
