@@ -41,6 +41,7 @@ void ScreenDisplay::show(const GlImage& image, Timestamp) {
         active_ = found;
     }
     if (active_ == nullptr) {
+        if (scaler_) scaler_->warmUp(image);
         glFinish();  // without a screen nothing else would hold the renderer back
         return;
     }

@@ -12,6 +12,9 @@
 namespace mfar {
 namespace {
 
+constexpr Size kLikelyScreen{1920, 1080};
+constexpr Size kFewPixels{16, 16};
+
 struct ScaleParams {
     std::int32_t target[4];
     float scale[2], footprint[2];
@@ -78,6 +81,22 @@ void ScreenScaler::draw(const GlImage& picture, GLuint framebuffer, Size screen,
         throw std::runtime_error("a picture without pixels cannot be shown");
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, screen.width, screen.height);
+    render(picture, screen, order);
+}
+
+// The renderer compiles with the first use, for which a few pixels will do.
+void ScreenScaler::warmUp(const GlImage& picture) {
+    if (program_ || picture.size.width < 1 || picture.size.height < 1) return;
+    const gpu::Texture few(kFewPixels, gpu::TexelFormat::Rgba8);
+    const gpu::Framebuffer target(few);
+    glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+    glViewport(0, 0, kFewPixels.width, kFewPixels.height);
+    render(picture, kLikelyScreen, Order::Bgra);
+    glFinish();
+}
+
+// Into what is bound.
+void ScreenScaler::render(const GlImage& picture, Size screen, Order order) {
     const ScaleParams params = scaleParams(picture.size, screen, order);
     prepare(pairsOver(std::max(params.footprint[0], params.footprint[1])));
     program_->use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});

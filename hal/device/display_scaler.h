@@ -50,8 +50,12 @@ public:
     /// Fills `framebuffer` (row 0 = top row), of `screen` pixels. Throws std::runtime_error for a
     /// picture without pixels.
     void draw(const GlImage& picture, GLuint framebuffer, Size screen, Order order);
+    /// Compiles what a screen of 1280x720 to 1920x1080 will most likely need, unless something has
+    /// been compiled already, so that its first picture does not wait for it.
+    void warmUp(const GlImage& picture);
 
 private:
+    void render(const GlImage& picture, Size screen, Order order);
     void prepare(int pairs);
 
     // For footprints that touch up to `pairs_` pairs of texels in a row.

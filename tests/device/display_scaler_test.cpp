@@ -31,6 +31,10 @@ protected:
     // What ScreenReader shows of it, as R G B.
     static std::vector<Colour> shown(const gpu::Texture& picture, Size screen) {
         ScreenScaler scaler;
+        return shown(scaler, picture, screen);
+    }
+    static std::vector<Colour> shown(ScreenScaler& scaler, const gpu::Texture& picture,
+                                     Size screen) {
         ScreenReader reader(screen, scaler);
         reader.begin({picture.id(), picture.size()});
         std::vector<Colour> out;
@@ -150,6 +154,17 @@ TEST_F(DisplayScaler, WhatIsFinerThanTheScreenBecomesGrey) {
     };
     EXPECT_GE(contrast(160, 400), 240);  // up to 0.3 cycles a screen pixel: kept
     EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles a screen pixel: at most a quarter
+}
+
+TEST_F(DisplayScaler, WarmUpChangesNothingThatIsShown) {
+    const gpu::Texture texture = picture({96, 54}, noise);
+    for (const Size screen : {Size{192, 108}, Size{96, 54}, Size{40, 30}, Size{20, 12}}) {
+        ScreenScaler warm;
+        warm.warmUp({texture.id(), texture.size()});
+        EXPECT_EQ(shown(warm, texture, screen), shown(texture, screen)) << screen.width;
+    }
+    ScreenScaler scaler;
+    EXPECT_NO_THROW(scaler.warmUp({})) << "there is no picture yet";
 }
 
 TEST_F(DisplayScaler, KeptTargetGivesTheCallersTargetBack) {
