@@ -18,7 +18,8 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kFlushTime{0.4};   ///< after a signal: for what is being written
+constexpr Seconds kLeaveTime{0.2};   ///< after a signal: for the picture in work
+constexpr Seconds kFlushTime{0.4};   ///< the same, for what is being written
 constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
 
 const char* signalName(int signal) {
@@ -108,14 +109,23 @@ void App::onSignal(int signal) {
     }
     stopSignal_ = signal;
     stop(signalName(signal));
-    events_.deadlineIn(kFlushTime);
+    events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
 }
 
 void App::onDeadline() {
     if (!stopSignal_) return stop("--seconds");
+    if (!writes()) leave("ended in the midst of a picture");
     if (cancel_.request_stop()) return events_.deadlineIn(kCancelTime);
+    leave("a device or display did not end in time, ended without it");
+}
+
+bool App::writes() const {
+    return !config_.recordTo.empty() || keepsPictures(config_.display);
+}
+
+void App::leave(const std::string& why) {
     log_.endStatus();
-    log_.warning("a device or display did not end in time, ended without it");
+    log_.warning(why);
     (void)writeSummary(*stopReason_, ExitCode::Ok);
     std::_Exit(static_cast<int>(ExitCode::Ok));
 }
@@ -123,7 +133,7 @@ void App::onDeadline() {
 void App::stop(const std::string& reason) {
     if (!stopReason_) service_.stopping("ending: " + reason);
     stopReason_ = stopReason_.value_or(reason);
-    input_.request_stop();
+    if (!stopper_.joinable()) stopper_ = std::jthread([this] { input_.request_stop(); });
 }
 
 void App::reload() {

@@ -18,13 +18,18 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <thread>
 
 namespace mfar {
 
 /// The main thread: signals, timers, status, shutdown. It waits for nothing but its events, so that
 /// it can end the program whatever a device or a driver does:
-///   signal -> no more frames -> after 0.4 s slow displays are given up -> after 0.9 s the process
-///   ends as it is. A second signal ends it at once.
+///   signal -> no more frames, the trigger line is inactive -> what is on its way is shown and
+///   written. When this takes longer than
+///     0.2 s, with nothing to be written: the process ends as it is, in the midst of a picture
+///     0.4 s, otherwise: slow readers of the display's pipe are given up, 0.5 s later the process
+///            ends as it is
+/// A second signal ends it at once.
 class App {
 public:
     /// Throws ConfigError, Failure.
@@ -47,6 +52,8 @@ private:
     void onSignal(int signal);
     void onDeadline();
     void stop(const std::string& reason);
+    [[nodiscard]] bool writes() const;
+    [[noreturn]] void leave(const std::string& why);
     void reload();
     void onTick();
     void setTicks();
@@ -65,6 +72,7 @@ private:
     Mailbox<Tunables> changes_{HandOver::NewestWins};
     std::stop_source input_;
     std::stop_source cancel_;
+    std::jthread stopper_;  ///< stops the devices, which may take its time
     std::optional<std::string> stopReason_;
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;

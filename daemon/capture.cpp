@@ -43,8 +43,8 @@ CaptureThread::~CaptureThread() {
 
 void CaptureThread::stop() {
     stopped_ = true;
+    rig_.still().stop();  // with its trigger line, which nobody else would leave safe
     rig_.video().stop();
-    rig_.still().stop();
     out_.close();
 }
 
@@ -71,6 +71,12 @@ void CaptureThread::run() {
         failure_ = std::current_exception();
     }
     out_.finish();
+    // Beside the last picture, for which a process in a hurry does not wait.
+    try {
+        rig_.finishRecording();
+    } catch (...) {
+        if (!failure_) failure_ = std::current_exception();
+    }
 }
 
 bool CaptureThread::captureOne(FramePairer& pairer) {

@@ -281,6 +281,10 @@ std::optional<std::string> sourceFault(std::string_view source) {
     return std::nullopt;
 }
 
+bool keepsPictures(std::string_view display) {
+    return display.starts_with("png:") || display.starts_with("y4m:");
+}
+
 std::optional<std::string> displayFault(std::string_view display) {
     if (display == "none") return std::nullopt;
     if (isScreen(display)) return screenFault(display);

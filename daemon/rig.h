@@ -80,6 +80,9 @@ void releaseTrigger(const Config& config);
 [[nodiscard]] std::unique_ptr<Display> openDisplay(const Config& config, double rateHz,
                                                    std::stop_token cancel);
 
+/// This display writes every picture that show() took, so its finish() is worth waiting for.
+[[nodiscard]] bool keepsPictures(std::string_view display);
+
 /// What is wrong with the name of a source or display, nothing when there is such a one. Says which
 /// exist. Does not try to open it.
 [[nodiscard]] std::optional<std::string> sourceFault(std::string_view source);

@@ -68,7 +68,6 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
     }
     capture.stop();
     capture.join();
-    rig_.finishRecording();
     stats_.recorderDropped(rig_.notRecorded());
     try {
         display_->finish();

@@ -16,6 +16,17 @@ kill -TERM "$pid"
 ends_with 0 $limit
 summary_has exit_reason '"SIGTERM"'
 
+echo "while recording: what was taken is written"
+start --source synthetic:flat --record cut --summary summary.json
+until_true test -s cut/cam0/data.csv
+until_true grep -q png cut/cam0/data.csv
+kill -TERM "$pid"
+ends_with 0 $limit
+taken=$(grep -vc '^#' cut/cam0/data.csv)
+[ "$(find cut/cam0/data -name '*.png' | wc -l)" = "$taken" ] || fail "a picture is not in the list"
+run 0 --recording cut --summary summary.json
+summary_has frames "$taken"
+
 echo "while waiting for a frame that comes in an hour"
 cp -r run gap
 last=$(tail -n 1 gap/cam0/data.csv)
