@@ -1,4 +1,5 @@
 #include "tests/bench/curve_report.h"
+#include "tests/eval/svg.h"
 
 #include <fmt/format.h>
 
@@ -13,32 +14,12 @@
 namespace mfar::bench {
 namespace {
 
-// Okabe and Ito: distinct for every kind of colour vision.
-constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                              "#e69f00", "#56b4e9", "#444444"};
+using eval::svg::escaped;
+using eval::svg::line;
+using eval::svg::text;
+
 constexpr int kPanelWidth = 470, kPanelHeight = 380, kLeft = 70, kTop = 70, kGap = 70;
 constexpr int kLegendLine = 20, kBelow = 64;
-
-/// Text of anybody as the content of an element.
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-        case '&': out += "&amp;"; break;
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        default: out += c;
-        }
-    }
-    return out;
-}
-
-std::string text(double x, double y, std::string_view anchor, std::string_view what, int size = 12,
-                 std::string_view colour = "#222") {
-    return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"{}\" text-anchor=\"{}\" "
-                       "fill=\"{}\">{}</text>\n",
-                       x, y, size, anchor, colour, escaped(what));
-}
 
 /// A time is positive and a share not negative, or there is nothing to draw.
 bool isPlottable(const CurvePoint& p) {
@@ -104,21 +85,15 @@ public:
                            left, kTop, kPanelWidth, kPanelHeight);
         out += text(left + kPanelWidth / 2.0, kTop + kPanelHeight + 36, "middle",
                     "time of the flow [ms], logarithmic");
-        return out + fmt::format("<text transform=\"translate({:.1f},{}) rotate(-90)\" "
-                                 "font-size=\"12\" text-anchor=\"middle\" fill=\"#222\">bad-1: "
-                                 "pixels off by more than 1 px [%], logarithmic</text>\n",
-                                 left - 40, kTop + kPanelHeight / 2);
+        return out + eval::svg::textUpwards(left - 40, kTop + kPanelHeight / 2.0,
+                                            "bad-1: pixels off by more than 1 px [%], "
+                                            "logarithmic");
     }
 
 private:
     // None at all has no logarithm.
     static double percent(const CurvePoint& p) { return std::max(100 * p.bad1, 0.01); }
     [[nodiscard]] double yOf(double percent) const { return kPanelHeight * (1 - bad_.at(percent)); }
-    static std::string line(double x0, double y0, double x1, double y1) {
-        return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
-                           "stroke=\"#ddd\"/>\n",
-                           x0, y0, x1, y1);
-    }
 
     LogAxis time_, bad_;
 };
@@ -129,7 +104,7 @@ public:
     Panel(const Axes& axes, double left) : axes_(axes), left_(left) {}
 
     void draw(const Curve& curve) {
-        const char* colour = kColours[lines_ % kColours.size()];
+        const char* colour = eval::svg::kColours[lines_ % eval::svg::kColours.size()];
         std::string path, marks, label;
         for (const CurvePoint& p : curve.points) {
             if (!isPlottable(p)) continue;
@@ -151,9 +126,7 @@ public:
                              path, colour) +
                  marks;
         const double at = legendAt(lines_++);
-        body_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" "
-                             "stroke=\"{}\" stroke-width=\"3\"/>\n",
-                             left_, at - 4, left_ + 26, at - 4, colour);
+        body_ += line(left_, at - 4, left_ + 26, at - 4, colour, 3);
         body_ += text(left_ + 34, at, "start", fmt::format("{}: {}", curve.knob, label));
     }
 
@@ -226,13 +199,9 @@ std::string curvesSvg(const Curves& curves) {
     body += text(kLeft, Panel::legendAt(legend), "start",
                  fmt::format("Diamonds: OpenCV, one direction. Samples: {}",
                              fmt::join(curves.samples, ", ")));
-    return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" "
-                       "height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-                       "font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
-                       "fill=\"#fff\"/>\n",
-                       width, height) +
-           text(kLeft, 26, "start", "Time against error of the flow, one knob at a time", 17) +
-           body + "</svg>\n";
+    return eval::svg::document(
+        width, height,
+        text(kLeft, 26, "start", "Time against error of the flow, one knob at a time", 17) + body);
 }
 
 }  // namespace mfar::bench
