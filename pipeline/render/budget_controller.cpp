@@ -1,0 +1,89 @@
+#include "pipeline/render/budget_controller.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+// Of the cost of a sample nothing is known yet: few enough for any scene.
+constexpr std::int64_t kFirstSamples = 64;
+// Fewer are not worth a call; what they take too much is paid back.
+constexpr std::int64_t kLeastSamples = 16;
+constexpr double kPortionsPerFrame = 16;
+// A budget that was not used up for want of processor time is made up for once, not for ever.
+constexpr double kMostSaved = 0.5;
+// A picture's conversion may take the budget of a few frames.
+constexpr double kMostDebt = 10;
+
+double valid(double ms) {
+    return std::isfinite(ms) && ms > 0 ? ms : 0;
+}
+
+}  // namespace
+
+BudgetController::BudgetController(double msPerFrame) : budget_(msPerFrame), balance_(msPerFrame) {
+    if (!(std::isfinite(msPerFrame) && msPerFrame > 0))
+        throw std::invalid_argument("a budget is a time above 0");
+}
+
+void BudgetController::beginFrame(bool workWaits) {
+    if (workWaits) shares_[frames_++ % kFrames] = static_cast<float>(used_ / budget_);
+    const double most = workWaits ? kMostSaved * budget_ : 0;
+    balance_ = budget_ + std::clamp(balance_, -kMostDebt * budget_, most);
+    used_ = 0;
+}
+
+BudgetGrant BudgetController::grant() {
+    const double left = balance_ - reserved_;
+    if (!(left > 0)) return {};
+    BudgetGrant out{kFirstSamples, 0};
+    if (msPerSample_ > 0) {
+        const double ms = std::min(left, budget_ / kPortionsPerFrame);
+        // Far inside the range of the integer, however cheap a sample is.
+        out.samples = static_cast<std::int64_t>(std::min(ms / msPerSample_, 1e9));
+        out.samples = std::max(out.samples, kLeastSamples);
+    }
+    out.reservedMs = static_cast<double>(out.samples) * msPerSample_;
+    reserved_ += out.reservedMs;
+    return out;
+}
+
+void BudgetController::spent(const BudgetGrant& grant, std::int64_t samples, double ms) {
+    reserved_ = std::max(0.0, reserved_ - grant.reservedMs);
+    spentElsewhere(ms);
+    if (samples > 0 && valid(ms) > 0) learn(ms / static_cast<double>(samples));
+}
+
+void BudgetController::spentElsewhere(double ms) {
+    used_ += valid(ms);
+    balance_ -= valid(ms);
+}
+
+void BudgetController::learn(double msPerSample) {
+    costs_[learned_++ % kCosts] = msPerSample;
+    std::array<double, kCosts> sorted = costs_;
+    const std::size_t known = std::min(learned_, kCosts);
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(known / 2);
+    std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(known));
+    msPerSample_ = *middle;
+}
+
+BudgetKept BudgetController::kept() const {
+    const std::size_t known = std::min<std::size_t>(frames_, kFrames);
+    if (known == 0) return {};
+    std::array<float, kFrames> off{};
+    double sum = 0;
+    for (std::size_t i = 0; i < known; ++i) {
+        sum += shares_[i];
+        off[i] = std::abs(shares_[i] - 1);
+    }
+    const auto end = off.begin() + static_cast<std::ptrdiff_t>(known);
+    const auto p95 = off.begin() + static_cast<std::ptrdiff_t>(known * 95 / 100);
+    std::nth_element(off.begin(), std::min(p95, end - 1), end);
+    return {static_cast<int>(known), sum / static_cast<double>(known),
+            static_cast<double>(*std::min(p95, end - 1))};
+}
+
+}  // namespace mfar

@@ -1,0 +1,166 @@
+#include "pipeline/render/budget_controller.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+constexpr double kBudget = 4;  // [ms]
+
+/// Cost of a sample [ms] in a frame.
+using CostTrace = std::function<double(int frame)>;
+
+/// The time used in each frame of a tracer with endless work in portions of at most `tile`.
+std::vector<double> usedIn(BudgetController& budget, int frames, int tile, const CostTrace& cost) {
+    std::vector<double> used;
+    for (int frame = 0; frame < frames; ++frame) {
+        budget.beginFrame(frame > 0);
+        for (BudgetGrant grant = budget.grant(); grant.samples > 0; grant = budget.grant()) {
+            const std::int64_t samples = std::min<std::int64_t>(grant.samples, tile);
+            budget.spent(grant, samples, static_cast<double>(samples) * cost(frame));
+        }
+        used.push_back(budget.used());
+    }
+    return used;
+}
+
+double meanShare(const std::vector<double>& used) {
+    double sum = 0;
+    for (const double ms : used)
+        sum += ms;
+    return sum / (kBudget * static_cast<double>(used.size()));
+}
+
+/// How many frames are off the budget by more than `share` of it.
+int framesOff(const std::vector<double>& used, double share) {
+    return static_cast<int>(std::ranges::count_if(
+        used, [&](double ms) { return !(std::abs(ms / kBudget - 1) <= share); }));
+}
+
+TEST(BudgetController, KeepsASteadyCostToTheMillisecond) {
+    BudgetController budget(kBudget);
+    const std::vector<double> used = usedIn(budget, 300, 1000, [](int) { return 0.003; });
+    EXPECT_NEAR(meanShare(used), 1, 0.001);
+    EXPECT_EQ(framesOff(used, 0.02), 0);
+}
+
+TEST(BudgetController, KeepsWithinATenthOver300FramesOfNoiseAndSteps) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        std::mt19937 random(seed);
+        std::lognormal_distribution<double> noise(0, 0.4);
+        const auto cost = [&](int frame) {
+            const double level = frame < 100 ? 0.002 : frame < 200 ? 0.016 : 0.001;
+            return level * noise(random);
+        };
+        BudgetController budget(kBudget);
+        const std::vector<double> used = usedIn(budget, 300, 128, cost);
+        EXPECT_NEAR(meanShare(used), 1, 0.01);
+        EXPECT_LE(framesOff(used, 0.1), 15) << "95 of 100 frames within a tenth";
+        budget.beginFrame(true);
+        EXPECT_EQ(budget.kept().frames, BudgetController::kFrames);
+        EXPECT_NEAR(budget.kept().mean, 1, 0.02);
+        EXPECT_LE(budget.kept().deviation, 0.1);
+    }
+}
+
+TEST(BudgetController, OutliersNeitherMoveTheCostNorTheMean) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    BudgetController budget(kBudget);
+    double least = 1, most = 0;
+    const std::vector<double> used = usedIn(budget, 300, 128, [&](int frame) {
+        if (frame > 0) {
+            least = std::min(least, budget.msPerSample());
+            most = std::max(most, budget.msPerSample());
+        }
+        return uniform(random) < 0.02 ? 0.1 : 0.002;
+    });
+    EXPECT_DOUBLE_EQ(least, 0.002);
+    EXPECT_DOUBLE_EQ(most, 0.002);
+    EXPECT_NEAR(meanShare(used), 1, 0.02) << "what an outlier takes is paid back";
+}
+
+TEST(BudgetController, FollowsAStepWithinOneFrame) {
+    BudgetController budget(kBudget);
+    const std::vector<double> used =
+        usedIn(budget, 60, 1000, [](int frame) { return frame < 30 ? 0.001 : 0.008; });
+    for (std::size_t frame = 0; frame < used.size(); ++frame)
+        if (frame < 30 || frame > 32) {
+            EXPECT_NEAR(used[frame], kBudget, 0.1 * kBudget) << frame;
+        }
+    EXPECT_LT(used[30] + used[31] + used[32], 3.2 * kBudget);
+}
+
+TEST(BudgetController, PortionsLeaveTheFrameInSmallParts) {
+    BudgetController budget(kBudget);
+    (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
+    budget.beginFrame(true);
+    const BudgetGrant grant = budget.grant();
+    EXPECT_LE(grant.reservedMs, kBudget / 16 + 1e-9);
+    EXPECT_GT(grant.samples, 200);
+}
+
+TEST(BudgetController, WhatIsOutIsReserved) {
+    BudgetController budget(kBudget);
+    (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
+    budget.beginFrame(true);
+    std::vector<BudgetGrant> out;
+    double reserved = 0;
+    for (BudgetGrant grant = budget.grant(); grant.samples > 0; grant = budget.grant()) {
+        out.push_back(grant);
+        reserved += grant.reservedMs;
+    }
+    EXPECT_NEAR(reserved, kBudget, 0.02 * kBudget);
+    for (const BudgetGrant& grant : out)
+        budget.spent(grant, 0, 0);  // there was no work after all
+    EXPECT_GT(budget.grant().samples, 0);
+    EXPECT_EQ(budget.used(), 0);
+}
+
+TEST(BudgetController, WhatIdleFramesLeaveIsNotSaved) {
+    BudgetController budget(kBudget);
+    (void)usedIn(budget, 10, 1000, [](int) { return 0.001; });
+    for (int i = 0; i < 100; ++i)
+        budget.beginFrame(false);
+    const std::vector<double> used = usedIn(budget, 1, 1000, [](int) { return 0.001; });
+    EXPECT_NEAR(used[0], kBudget, 0.05 * kBudget);
+    EXPECT_EQ(budget.kept().frames, 9) << "idle frames do not count";
+}
+
+TEST(BudgetController, AConversionIsPaidBackByTheFollowingFrames) {
+    BudgetController budget(kBudget);
+    (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
+    budget.beginFrame(true);
+    budget.spentElsewhere(3 * kBudget);
+    EXPECT_EQ(budget.grant().samples, 0);
+    budget.beginFrame(true);
+    EXPECT_EQ(budget.grant().samples, 0);
+    budget.beginFrame(true);
+    EXPECT_EQ(budget.grant().samples, 0);
+    budget.beginFrame(true);
+    EXPECT_GT(budget.grant().samples, 0);
+}
+
+TEST(BudgetController, TimesThatAreNoNumbersChangeNothing) {
+    BudgetController budget(kBudget);
+    (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
+    budget.beginFrame(true);
+    for (const double odd : {std::nan(""), std::numeric_limits<double>::infinity(), -1.0})
+        for (int i = 0; i < 20; ++i)
+            budget.spent({}, 10, odd);
+    EXPECT_DOUBLE_EQ(budget.msPerSample(), 0.001);
+    EXPECT_EQ(budget.used(), 0);
+    for (const double odd : {std::nan(""), std::numeric_limits<double>::infinity(), 0.0, -1.0})
+        EXPECT_THROW(BudgetController{odd}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mfar

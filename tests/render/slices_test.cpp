@@ -1,0 +1,247 @@
+#include "pipeline/render/slices.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <limits>
+#include <map>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+using Pixels = std::vector<std::uint32_t>;
+
+constexpr Size kPicture{37, 29};
+constexpr PixelRect kBounds{3, 5, 30, 28};
+
+/// A pixel's error falls with the root of its samples, from a noise of its own.
+class NoisyPicture {
+public:
+    explicit NoisyPicture(std::function<float(std::uint32_t)> noise) : noise_(std::move(noise)) {}
+
+    void trace(const Slice& slice) {
+        for (const std::uint32_t pixel : slice.pixels)
+            samples_[pixel] += slice.samples;
+    }
+    [[nodiscard]] float error(std::uint32_t pixel) const {
+        const auto found = samples_.find(pixel);
+        if (found == samples_.end()) return std::numeric_limits<float>::infinity();
+        return noise_(pixel) / std::sqrt(static_cast<float>(found->second));
+    }
+    [[nodiscard]] const std::map<std::uint32_t, int>& samples() const { return samples_; }
+
+private:
+    std::function<float(std::uint32_t)> noise_;
+    std::map<std::uint32_t, int> samples_;
+};
+
+/// From pixel to pixel at random, more and more towards the bottom.
+float hashedNoise(std::uint32_t pixel) {
+    const int row = static_cast<int>(pixel) / kPicture.width;
+    return 0.02F * static_cast<float>(row) * static_cast<float>(pixel * 2654435761U >> 28);
+}
+
+/// Traces until nothing is handed out; `workers` portions are out at a time and come back in an
+/// order of chance, `most` samples a portion at most.
+void traceAll(Slices& slices, NoisyPicture& picture, std::size_t workers, std::int64_t most) {
+    std::mt19937 random(7);
+    std::vector<Slice> out;
+    const auto error = [&](std::uint32_t pixel) { return picture.error(pixel); };
+    while (true) {
+        while (out.size() < workers) {
+            const Slice slice = slices.next(most);
+            if (slice.pixels.empty()) break;
+            out.push_back(slice);
+        }
+        if (out.empty()) return;
+        std::swap(out[random() % out.size()], out.back());
+        picture.trace(out.back());
+        slices.done(out.back(), error);
+        out.pop_back();
+    }
+}
+
+NoisyPicture traced(const SliceOptions& options, std::size_t workers, std::int64_t most) {
+    NoisyPicture picture(hashedNoise);
+    Slices slices(options);
+    slices.begin(kBounds, kPicture);
+    traceAll(slices, picture, workers, most);
+    EXPECT_TRUE(slices.finished());
+    EXPECT_TRUE(slices.turnComplete());
+    EXPECT_EQ(slices.samples(), options.samples);
+    EXPECT_DOUBLE_EQ(slices.progress(), 1);
+    return picture;
+}
+
+TEST(Slices, EveryPixelInBoundsGetsAllItsSamples) {
+    for (const Slicing slicing : {Slicing::Time, Slicing::Spatial}) {
+        const NoisyPicture picture = traced({slicing, 10, 3, 0, 2}, 3, 50);
+        EXPECT_EQ(picture.samples().size(), 27U * 23U);
+        for (const auto& [pixel, samples] : picture.samples()) {
+            const int x = static_cast<int>(pixel) % kPicture.width;
+            const int y = static_cast<int>(pixel) / kPicture.width;
+            EXPECT_TRUE(x >= 3 && x < 30 && y >= 5 && y < 28) << x << ' ' << y;
+            EXPECT_EQ(samples, 10);
+        }
+    }
+}
+
+TEST(Slices, SamplesArePlacedAlikeForBothWaysAndAnyThreads) {
+    const SliceOptions time{Slicing::Time, 64, 4, 1, 8};
+    SliceOptions spatial = time;
+    spatial.slicing = Slicing::Spatial;
+    const auto truth = traced(time, 1, 1 << 20).samples();
+    const auto [least, most] = std::ranges::minmax_element(
+        truth, {}, [](const auto& pixelAndSamples) { return pixelAndSamples.second; });
+    EXPECT_LT(least->second, most->second) << "the picture is no test of adaptivity";
+    for (const std::size_t workers : {1U, 2U, 5U})
+        for (const std::int64_t portion : {1, 40, 1000}) {
+            EXPECT_EQ(traced(time, workers, portion).samples(), truth);
+            EXPECT_EQ(traced(spatial, workers, portion).samples(), truth);
+        }
+}
+
+TEST(Slices, NoPixelIsOutTwice) {
+    for (const Slicing slicing : {Slicing::Time, Slicing::Spatial}) {
+        Slices slices({slicing, 16, 4, 0, 2});
+        slices.begin(kBounds, kPicture);
+        std::deque<Slice> out;
+        std::multiset<std::uint32_t> pixels;
+        for (int i = 0; i < 2000; ++i) {
+            const Slice slice = slices.next(i % 70);
+            for (const std::uint32_t pixel : slice.pixels)
+                EXPECT_EQ(pixels.count(pixel), 0U);
+            pixels.insert(slice.pixels.begin(), slice.pixels.end());
+            if (!slice.pixels.empty()) out.push_back(slice);
+            if (out.empty()) break;
+            if (out.size() < 4 && !slice.pixels.empty()) continue;
+            for (const std::uint32_t pixel : out.front().pixels)
+                pixels.erase(pixel);
+            slices.done(out.front(), [](std::uint32_t) { return 0.0F; });
+            out.pop_front();
+        }
+        EXPECT_TRUE(slices.finished());
+    }
+}
+
+TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
+    Slices slices({Slicing::Time, 8, 3, 0, 2});
+    slices.begin(kBounds, kPicture);
+    NoisyPicture picture([](std::uint32_t) { return 1.0F; });
+    std::vector<int> turns;
+    while (true) {
+        const Slice slice = slices.next(100);
+        if (slice.pixels.empty()) break;
+        EXPECT_FALSE(slices.turnComplete());
+        picture.trace(slice);
+        slices.done(slice, [](std::uint32_t) { return 1.0F; });
+        if (!slices.turnComplete()) continue;
+        turns.push_back(slices.samples());
+        for (const auto& [pixel, samples] : picture.samples())
+            EXPECT_EQ(samples, turns.back()) << pixel;
+        EXPECT_EQ(picture.samples().size(), slices.pixels());
+    }
+    EXPECT_EQ(turns, (std::vector<int>{3, 6, 8}));
+}
+
+TEST(Slices, SpatialSlicesFinishTileAfterTile) {
+    Slices slices({Slicing::Spatial, 16, 4, 0, 2});
+    slices.begin({0, 0, 32, 32}, {32, 32});
+    std::vector<std::uint32_t> tiles;
+    std::set<std::uint32_t> pixels;
+    for (Slice slice = slices.next(1000); !slice.pixels.empty(); slice = slices.next(1000)) {
+        if (tiles.empty() || tiles.back() != slice.tile) tiles.push_back(slice.tile);
+        pixels.insert(slice.pixels.begin(), slice.pixels.end());
+        if (tiles.size() == 1) {
+            EXPECT_LE(pixels.size(), 64U);
+        }
+        EXPECT_EQ(slices.samples(), 0);
+        slices.done(slice, [](std::uint32_t) { return 1.0F; });
+    }
+    EXPECT_EQ(tiles.size(), 16U) << "a tile was left before it was finished";
+    EXPECT_EQ(slices.samples(), 16);
+}
+
+TEST(Slices, TilesFollowTheMortonCurve) {
+    Slices slices({Slicing::Time, 1, 1, 0, 2});
+    slices.begin({0, 0, 32, 32}, {32, 32});
+    std::vector<std::pair<int, int>> places;
+    for (Slice slice = slices.next(64); !slice.pixels.empty(); slice = slices.next(64)) {
+        const int first = static_cast<int>(slice.pixels.front());
+        places.emplace_back(first % 32 / 8, first / 32 / 8);
+        slices.done(slice, [](std::uint32_t) { return 1.0F; });
+    }
+    const std::vector<std::pair<int, int>> curve{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}, {3, 0}};
+    ASSERT_EQ(places.size(), 16U);
+    EXPECT_TRUE(std::equal(curve.begin(), curve.end(), places.begin()));
+    EXPECT_EQ(places.back(), std::pair(3, 3));
+}
+
+TEST(Slices, CalmPixelsGetNoMoreSamplesNoisyOnesAll) {
+    // Noise in one tile's middle alone: it and its neighbours go on.
+    const std::uint32_t noisy = 12 * 32 + 12;
+    NoisyPicture picture([&](std::uint32_t pixel) { return pixel == noisy ? 1e6F : 0.1F; });
+    Slices slices({Slicing::Time, 64, 4, 1, 8});
+    slices.begin({0, 0, 32, 32}, {32, 32});
+    traceAll(slices, picture, 2, 100);
+    int many = 0;
+    for (const auto& [pixel, samples] : picture.samples()) {
+        const int x = static_cast<int>(pixel) % 32, y = static_cast<int>(pixel) / 32;
+        const bool near = std::abs(x - 12) <= 1 && std::abs(y - 12) <= 1;
+        EXPECT_EQ(samples, near ? 64 : 8) << x << ' ' << y;
+        many += samples == 64 ? 1 : 0;
+    }
+    EXPECT_EQ(many, 9);
+}
+
+TEST(Slices, AnErrorThatIsNoNumberIsNoCalm) {
+    Slices slices({Slicing::Spatial, 32, 4, 1, 4});
+    slices.begin({0, 0, 8, 8}, {8, 8});
+    const auto error = [](std::uint32_t) { return std::numeric_limits<float>::quiet_NaN(); };
+    for (Slice slice = slices.next(1000); !slice.pixels.empty(); slice = slices.next(1000))
+        slices.done(slice, error);
+    EXPECT_EQ(slices.traced(), 64U * 32U);
+}
+
+TEST(Slices, NothingInBoundsIsFinished) {
+    Slices slices({});
+    EXPECT_TRUE(slices.finished());
+    for (const PixelRect& nothing :
+         {PixelRect{}, PixelRect{40, 2, 50, 9}, PixelRect{-9, -9, 0, 4}}) {
+        slices.begin(nothing, kPicture);
+        EXPECT_TRUE(slices.finished());
+        EXPECT_TRUE(slices.next(100).pixels.empty());
+        EXPECT_DOUBLE_EQ(slices.progress(), 1);
+    }
+}
+
+TEST(Slices, ANewPictureBeginsFromNothing) {
+    Slices slices({Slicing::Spatial, 4, 2, 0, 2});
+    slices.begin(kBounds, kPicture);
+    const Slice slice = slices.next(10);
+    slices.done(slice, [](std::uint32_t) { return 0.0F; });
+    slices.begin({0, 0, 8, 8}, {8, 8});
+    NoisyPicture picture(hashedNoise);
+    traceAll(slices, picture, 1, 100);
+    EXPECT_EQ(slices.traced(), 64U * 4U);
+    EXPECT_EQ(picture.samples().size(), 64U);
+}
+
+TEST(Slices, OptionsOutOfRangeAreRefused) {
+    EXPECT_THROW(Slices({Slicing::Time, 0}), std::invalid_argument);
+    EXPECT_THROW(Slices({Slicing::Time, 4, 0}), std::invalid_argument);
+    EXPECT_THROW(Slices({Slicing::Time, 4, 1, -1}), std::invalid_argument);
+    EXPECT_THROW(Slices({Slicing::Time, 4, 1, std::nanf("")}), std::invalid_argument);
+    EXPECT_THROW(Slices({Slicing::Time, 4, 1, 1, 1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mfar
