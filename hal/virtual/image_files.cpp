@@ -2,7 +2,7 @@
 
 #include "hal/image_layout.h"
 #include "hal/virtual/bgr_picture.h"
-#include "hal/virtual/image_codec.h"
+#include "hal/image_codec.h"
 #include "hal/virtual/whole_file.h"
 
 #include <fmt/format.h>

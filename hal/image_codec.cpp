@@ -1,4 +1,4 @@
-#include "hal/virtual/image_codec.h"
+#include "hal/image_codec.h"
 
 #include <algorithm>
 #include <csetjmp>
@@ -70,14 +70,14 @@ void appendBytes(png_structp png, png_bytep from, std::size_t count) {
 
 void flushNothing(png_structp /*png*/) {}
 
-bool readHeader(PngReader& reader, std::span<const std::uint8_t>& left) {
+bool readHeader(PngReader& reader, std::span<const std::uint8_t>& left, ImageAlpha alpha) {
     if (setjmp(reader.error.back) != 0) return false;
     png_set_read_fn(reader.png, &left, readBytes);
     png_read_info(reader.png, reader.info);
     png_set_expand(reader.png);
     png_set_strip_16(reader.png);
     png_set_gray_to_rgb(reader.png);
-    png_set_strip_alpha(reader.png);
+    if (alpha == ImageAlpha::Opaque) png_set_strip_alpha(reader.png);
     png_set_filler(reader.png, 255, PNG_FILLER_AFTER);
     png_set_interlace_handling(reader.png);
     png_read_update_info(reader.png, reader.info);
@@ -98,9 +98,9 @@ std::vector<png_bytep> rowsOf(const std::uint8_t* first, std::size_t stride, int
     return rows;
 }
 
-void decodePng(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
+void decodePng(std::span<const std::uint8_t> file, const TargetOf& targetOf, ImageAlpha alpha) {
     PngReader reader;
-    if (!readHeader(reader, file)) throw std::runtime_error(reader.error.text);
+    if (!readHeader(reader, file, alpha)) throw std::runtime_error(reader.error.text);
     const Size size{static_cast<int>(png_get_image_width(reader.png, reader.info)),
                     static_cast<int>(png_get_image_height(reader.png, reader.info))};
     const PixelTarget target = targetOf(size);
@@ -145,8 +145,9 @@ bool write(PngWriter& writer, Size size, int channels, png_bytepp rows,
 
 }  // namespace
 
-void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
-    if (file.size() >= 8 && png_sig_cmp(file.data(), 0, 8) == 0) return decodePng(file, targetOf);
+void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf, ImageAlpha alpha) {
+    if (file.size() >= 8 && png_sig_cmp(file.data(), 0, 8) == 0)
+        return decodePng(file, targetOf, alpha);
     if (file.size() >= 3 && file[0] == 0xff && file[1] == 0xd8 && file[2] == 0xff)
         return decodeJpeg(file, targetOf);
     throw std::runtime_error("neither PNG nor JPEG");

@@ -18,10 +18,15 @@ struct PixelTarget {
 };
 using TargetOf = std::function<PixelTarget(Size size)>;
 
+enum class ImageAlpha : std::uint8_t {
+    Opaque,  ///< 255 everywhere
+    Kept,    ///< the file's; 255 where it has none
+};
+
 /// Decodes a PNG (any colour type and depth, the upper 8 of 16 bits) or a JPEG (grey or colour) as
-/// RGBA, alpha 255. Throws std::runtime_error that says what is wrong, also for a file that ends
-/// too early.
-void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf);
+/// RGBA. Throws std::runtime_error that says what is wrong, also for a file that ends too early.
+void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf,
+                 ImageAlpha alpha = ImageAlpha::Opaque);
 
 /// Encodes 3 channels B G R or 1 of grey as PNG, quickly rather than small. `out` is replaced.
 /// Throws std::runtime_error.
