@@ -60,7 +60,7 @@ class SeenSurface {
 public:
     SeenSurface(const InverseDepthField& field, const CameraModel& video,
                 const RigidTransform& T_world_video)
-        : field_(field), video_(video), T_world_video_(T_world_video) {}
+        : field_(field), video_(video), eye_(T_world_video) {}
 
     /// 0: unknown, or too far away to be near anything.
     [[nodiscard]] double depth(int x, int y) const {
@@ -71,9 +71,9 @@ public:
     [[nodiscard]] Eigen::Vector3d point(int x, int y) const {
         const double z = depth(x, y);
         const Eigen::Vector2d ray = video_.unproject({x, y});
-        const Eigen::Vector3d direction = T_world_video_.rotation * ray.homogeneous();
-        const Eigen::Vector3d& eye = T_world_video_.translation;
-        const Eigen::Vector3d p = eye + z * direction;
+        const Eigen::Vector3d direction = eye_.rotation * ray.homogeneous();
+        const Eigen::Vector3d& eye = eye_.translation;
+        Eigen::Vector3d p = eye + z * direction;
         if (!(std::abs(direction.z()) > 1e-6)) return p;
         const double zOnPlane = -eye.z() / direction.z();
         const double sigma = z * z * std::sqrt(static_cast<double>(field_.variance[pixel(x, y)]));
@@ -88,7 +88,7 @@ private:
 
     const InverseDepthField& field_;
     const CameraModel& video_;
-    const RigidTransform& T_world_video_;
+    const RigidTransform& eye_;  // T_world_video
 };
 
 }  // namespace
