@@ -1,0 +1,49 @@
+#pragma once
+
+#include "hal/frame.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mfar::test {
+
+/// Puts a glTF document together. What it makes is sound until `root` is changed by hand.
+class GltfMaker {
+public:
+    GltfMaker();
+
+    /// Each adds an accessor (with a bufferView of its own) and returns its number.
+    int floats(const std::vector<float>& values, int components);
+    int shorts(const std::vector<std::uint16_t>& values);
+    /// Adds an image in a bufferView with a texture of it; returns the texture's number.
+    int texture(const std::vector<std::uint8_t>& file, const std::string& mime);
+    /// Adds a mesh of one primitive in a node of the scene; returns the primitive.
+    nlohmann::json& mesh(int positions, int indices = -1);
+    int view(const void* bytes, std::size_t count);
+
+    /// The file in one piece.
+    [[nodiscard]] std::vector<std::uint8_t> glb() const;
+    /// The JSON alone, its buffer in the file "data.bin" of these bytes.
+    [[nodiscard]] std::string gltf() const;
+    [[nodiscard]] const std::vector<std::uint8_t>& bin() const { return bin_; }
+
+    nlohmann::json root;
+
+private:
+    std::vector<std::uint8_t> bin_;
+};
+
+/// One triangle (0,0,0), (1,0,0), (0,1,0).
+[[nodiscard]] GltfMaker oneTriangle();
+/// A textured quad with normals and all material fields, in a small hierarchy.
+[[nodiscard]] GltfMaker richModel();
+
+/// A PNG of RGBA texels.
+[[nodiscard]] std::vector<std::uint8_t>
+rgbaPng(Size size, const std::vector<std::array<std::uint8_t, 4>>& texels);
+
+}  // namespace mfar::test
