@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr double kDistance = 2;  // of the wall [m]
 
-StereoRig crookedRig() {
+StereoRig crookedPairRig() {
     StereoRig rig;
     rig.video = {{160, 120}, 150, 152, 78, 61, {-0.1, 0.02, 0, 0, 0}};
     rig.still = {{480, 360}, 470, 470, 241, 178, {0.05, 0, 0, 0, 0}};
@@ -53,7 +53,7 @@ cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_
 /// What the peer answers when the still was taken after `motion`.
 FlowError errorAfter(const RigidTransform& motion,
                      StereoPeer::Matcher matcher = StereoPeer::Matcher::SemiGlobal) {
-    const StereoRig rig = crookedRig();
+    const StereoRig rig = crookedPairRig();
     const RigidTransform T_still_frame = rig.T_still_video * motion;
     StereoPeer peer(rig, matcher);
     peer.setStill(pictureOfWall(rig.still, T_still_frame));
@@ -86,7 +86,7 @@ TEST(StereoPeer, HasNoAnswerWithoutABaselineAcrossTheView) {
 }
 
 TEST(Rectification, PutsEveryPointOnTheSameRowNearerToTheLeft) {
-    const CameraModel camera = crookedRig().video;
+    const CameraModel camera = crookedPairRig().video;
     const RigidTransform motion = moved(4, {1, -1, 2}, {0.03, 0.1, -0.02});
     const auto views = Rectification::of(camera, motion, 32);
     ASSERT_TRUE(views);
@@ -108,7 +108,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowNearerToTheLeft) {
 }
 
 TEST(Rectification, LeavesRectifiedPicturesAlone) {
-    CameraModel camera = crookedRig().video;
+    CameraModel camera = crookedPairRig().video;
     camera.distortion = {};
     camera.fy = camera.fx;
     const auto views =

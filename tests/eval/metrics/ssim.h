@@ -9,4 +9,11 @@ namespace mfar::eval {
 /// Both CV_64F in grey levels, same size, at least 11x11 pixels.
 [[nodiscard]] double ssim(const cv::Mat& picture, const cv::Mat& truth);
 
+/// Its multi-scale form (Wang, Simoncelli, Bovik 2003): five scales, each the mean of 2x2 pixels of
+/// the one before (an odd last row or column is left out), with the weights of that paper; the
+/// luminance at the coarsest alone. A scale whose contrast and structure disagree on the whole
+/// counts as 0. Both sides at least 176 pixels.
+[[nodiscard]] double msSsim(const cv::Mat& picture, const cv::Mat& truth);
+inline constexpr int kMsSsimSmallestSide = 176;
+
 }  // namespace mfar::eval

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include <array>
+
+namespace mfar::eval {
+
+/// Ratio of the filters' spread to their centre frequency: that of the authors' release 1.0, and
+/// that of a variant in circulation, whose values are higher and not to be compared.
+inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
+
+/// What one of the eight orientations contributes.
+struct LpcOrientation {
+    std::array<double, 3> filterSum{};    ///< of the gains at each scale, finest first
+    double mean = 0, deviation = 0;       ///< of the finest scale's amplitude within the border
+    double threshold = 0;                 ///< which that has to exceed
+    double energy = 0;                    ///< sum of what exceeds it, whole picture
+    std::array<double, 2> coarserMean{};  ///< amplitude at the other scales, whole picture
+};
+
+struct LpcSharpness {
+    double index = 0;                ///< LPC-SI, [0, 1): larger is sharper
+    double mapMax = 0, mapMean = 0;  ///< of the local values within the border
+    std::array<LpcOrientation, 8> orientations{};
+};
+
+/// Local phase coherence sharpness index (Hassen, Wang, Salama 2013, eqs. 21 to 35) as the authors'
+/// release 1.0 computes it. The sharpest ten thousandth of the pixels decides it, so that a single
+/// sharp patch makes a whole picture sharp: see also lpcTiles(). CV_64F in grey levels [0, 255], at
+/// least 32x32. Throws std::invalid_argument for others and for what is not finite. From one thread
+/// at a time.
+[[nodiscard]] LpcSharpness lpcSharpness(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
+[[nodiscard]] double lpcSi(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
+
+/// How lpcSi() is distributed over 8x8 tiles of equal size, alone each.
+struct LpcTiles {
+    double p10 = 0, median = 0, p90 = 0;
+};
+inline constexpr int kLpcTiles = 8;          ///< in each direction
+inline constexpr int kLpcSmallestSide = 32;  ///< of a picture or tile [px]
+[[nodiscard]] LpcTiles lpcTiles(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
+
+}  // namespace mfar::eval

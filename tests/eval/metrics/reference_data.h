@@ -1,0 +1,42 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mfar::eval::test {
+
+/// Folder of the metrics' reference vectors; may be absent.
+[[nodiscard]] std::filesystem::path referenceFolder();
+
+/// A row of a table by the names of its columns.
+class ReferenceRow {
+public:
+    explicit ReferenceRow(std::map<std::string, std::string> fields) : fields_(std::move(fields)) {}
+    [[nodiscard]] const std::string& text(const std::string& column) const {
+        return fields_.at(column);
+    }
+    [[nodiscard]] double number(const std::string& column) const {
+        return std::stod(fields_.at(column));
+    }
+
+private:
+    std::map<std::string, std::string> fields_;
+};
+
+/// The rows of a table of the folder; none when it is absent.
+[[nodiscard]] std::vector<ReferenceRow> referenceTable(const std::string& file);
+
+/// A picture of the folder in grey levels, CV_64F or CV_64FC3 (B G R).
+[[nodiscard]] cv::Mat referencePicture(const std::string& name);
+
+/// The scene that the pictures show, drawn `scale` times as large as they are, CV_8U; and the same
+/// seen through 3.6 times larger pixels and interpolated bilinearly, or blurred.
+[[nodiscard]] cv::Mat referenceScene(int scale);
+[[nodiscard]] cv::Mat bilinearFromLow(const cv::Mat& scene);
+[[nodiscard]] cv::Mat blurred(const cv::Mat& scene, double sigma);
+
+}  // namespace mfar::eval::test
