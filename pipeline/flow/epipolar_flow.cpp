@@ -14,16 +14,13 @@ constexpr float kLeastWay = 0.05F;  // of a pixel, when the others' longest is o
 // Neighbours on one slanted surface that land on the same cell differ by this much [px].
 constexpr float kSlope = 1.0F;
 
-// What comes into the picture, or moves by itself, is found by a search from coarse to fine.
-constexpr int kMostPredicted = 7;  // frames
-
 }  // namespace
 
 EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                            const EpipolarOptions& options)
     : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, workers, options),
-      prediction_(rig.video), lens_(rig.video, 0), cellRays_(rig.video, 2),
-      rotation_(Eigen::Matrix3f::Identity()) {
+      mostPredicted_(options.mostPredicted), prediction_(rig.video), lens_(rig.video, 0),
+      cellRays_(rig.video, 2), rotation_(Eigen::Matrix3f::Identity()) {
     if (options.bothWays) twoWay_.emplace(rig, std::move(workers), options);
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);
@@ -36,6 +33,11 @@ void EpipolarFlow::setStill(const ImageView& still, const Pose& pose) {
     search_.setStill(still);
     stillPose_ = pose;
     prediction_.forget();
+}
+
+void EpipolarFlow::setOptions(const EpipolarOptions& options) {
+    search_.setOptions(options);
+    mostPredicted_ = options.mostPredicted;
 }
 
 void EpipolarFlow::dropStill() {
@@ -65,7 +67,8 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
 }
 
 void EpipolarFlow::search(const UnitPose& relative) {
-    const auto predicted = predictedFrames_ < kMostPredicted
+    // What comes into the picture, or moves by itself, is found by a search from coarse to fine.
+    const auto predicted = predictedFrames_ < mostPredicted_
                                ? prediction_.in(relative.T_other_frame, relative.unit)
                                : std::span<const float>();
     predictedFrames_ = predicted.empty() ? 0 : predictedFrames_ + 1;

@@ -22,6 +22,9 @@ public:
     EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                  const EpipolarOptions& options = {});
 
+    /// As EpipolarSearch::setOptions().
+    void setOptions(const EpipolarOptions& options);
+
     /// The new reference as its sensor took it, and where the video camera was then.
     void setStill(const ImageView& still, const Pose& pose);
     void dropStill();
@@ -70,6 +73,7 @@ private:
     Size cells_;
     EpipolarSearch search_;
     std::optional<TwoWayTest> twoWay_;
+    int mostPredicted_;
     FieldPrediction prediction_;
     int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
     EpipolarLens lens_, cellRays_;

@@ -22,9 +22,10 @@ float footOf(EpipolarLens::Point p, EpipolarLens::Point way) {
 
 // The costs of a label are those of the pixel nearest to its point, up to 0.7 px beside it. So the
 // label that fits is the one whose point is the foot of that pixel on the line.
-void EpipolarSearch::undoRounding(Level& level) {
+void EpipolarSearch::undoRounding(int index) {
+    Level& level = levels_[index];
     const int width = level.lens.size().width;
-    const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
+    const auto perLabel = static_cast<float>((1 << index) / pixelsPerUnit_);
     workers_->forRange(level.lens.size().height, 8, [&](int firstRow, int lastRow) {
         std::vector<float> whole(width);
         std::vector<EpipolarLens::Point> here(width), next(width);

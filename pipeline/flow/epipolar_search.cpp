@@ -154,12 +154,31 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
         searchFiner();
     else
         searchAround(predicted);
-    undoRounding(levels_[0]);
-    const auto perLabel = static_cast<float>(1 / pixelsPerUnit_);
-    median3x3(levels_[0].labels, levels_[0].lens.size(), *workers_, inverseDepth_);
-    for (float& s : inverseDepth_)
-        s *= perLabel;
+    readInverseDepth();
     return true;
+}
+
+int EpipolarSearch::finestLevel() const {
+    return std::min(options_.finest, static_cast<int>(levels_.size()) - 1);
+}
+
+// A pixel takes what the one that covers it at a coarser level found: cells of 4x4 pixels take
+// their middle from four of them.
+void EpipolarSearch::readInverseDepth() {
+    const int finest = finestLevel();
+    const Level& level = levels_[finest];
+    undoRounding(finest);
+    std::vector<float>& smooth = finest > 0 ? scratch_ : inverseDepth_;
+    median3x3(level.labels, level.lens.size(), *workers_, smooth);
+    const auto perLabel = static_cast<float>((1 << finest) / pixelsPerUnit_);
+    const Size size = levels_[0].lens.size();
+    const int columns = level.lens.size().width;
+    for (int y = 0; y < size.height; ++y) {
+        const std::size_t row = static_cast<std::size_t>(y) * size.width;
+        const std::size_t from = static_cast<std::size_t>(y >> finest) * columns;
+        for (int x = 0; x < size.width; ++x)
+            inverseDepth_[row + x] = perLabel * smooth[from + (x >> finest)];
+    }
 }
 
 bool EpipolarSearch::place(const RigidTransform& T_still_video) {
@@ -280,7 +299,7 @@ void EpipolarSearch::searchCoarsest() {
 }
 
 void EpipolarSearch::searchFiner() {
-    for (int i = static_cast<int>(levels_.size()) - 2; i >= 0; --i) {
+    for (int i = static_cast<int>(levels_.size()) - 2; i >= finestLevel(); --i) {
         const Level& coarse = levels_[i + 1];
         prepare(i);
         centreWindows({coarse.labels, coarse.lens.size(), 2, 1}, levels_[i]);
@@ -294,9 +313,12 @@ void EpipolarSearch::searchAround(std::span<const float> predicted) {
     predicted_.clear();
     for (const float s : predicted)
         predicted_.push_back(std::clamp(s * labelsPerUnit, static_cast<float>(-kBeyond), longest));
-    prepare(0);
-    centreWindows({predicted_, cellsOf(video_.size), 1, kPredictedLevel}, levels_[0]);
-    match(0, 1);
+    const int finest = finestLevel();
+    prepare(finest);
+    centreWindows({predicted_, cellsOf(video_.size), 1.0F / static_cast<float>(1 << finest),
+                   kPredictedLevel - finest},
+                  levels_[finest]);
+    match(finest, 1);
 }
 
 void EpipolarSearch::match(int index, int vectors) {

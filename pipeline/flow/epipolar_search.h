@@ -30,6 +30,10 @@ public:
     EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
                    const EpipolarOptions& options = {});
 
+    /// See changed() in flow_options.h; takes effect with the next run. Throws
+    /// std::invalid_argument for options out of range.
+    void setOptions(const EpipolarOptions& options) { options_ = changed(options_, options); }
+
     /// The still as its sensor took it.
     void setStill(const ImageView& still);
 
@@ -85,6 +89,8 @@ private:
     void measureParallax();
     void searchCoarsest();
     void searchFiner();
+    [[nodiscard]] int finestLevel() const;
+    void readInverseDepth();
     void searchAround(std::span<const float> predicted);
     void refine(const Matrix6& covariance, std::span<const float> predicted);
     void prepare(int index);
@@ -102,7 +108,7 @@ private:
     template <class LabelAt>
     void placeRow(const Level& level, std::size_t first, float perLabel, LabelAt labelAt,
                   std::vector<EpipolarLens::Point>& out) const;
-    void undoRounding(Level& level);
+    void undoRounding(int index);
 
     EpipolarOptions options_;
     CameraModel whole_, video_, still_;  // the area's is video_; the still's: atScaleOf()

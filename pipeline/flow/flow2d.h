@@ -26,6 +26,10 @@ public:
     /// Throws std::invalid_argument for options out of range.
     Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions& options = {});
 
+    /// See changed() in flow_options.h; takes effect with the next run. Throws
+    /// std::invalid_argument for options out of range.
+    void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
+
     /// Computes both fields, as far as the plan asks for it. `usePrior`: the last frame's field is
     /// a candidate everywhere (not after a new still).
     void run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePrior);

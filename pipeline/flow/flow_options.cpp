@@ -32,6 +32,22 @@ void validate(const EpipolarOptions& o) {
     require(isWithin(o.windowRadius, 0, 8), "windowRadius", "[0, 8]");
     require(isWithin(o.stepPenalty, 1, 30), "stepPenalty", "[1, 30]");
     require(isWithin(o.jumpPenalty, 1, 60), "jumpPenalty", "[1, 60]");
+    require(isWithin(o.finest, 0, 1), "finest", "[0, 1]");
+    require(isWithin(o.mostPredicted, 0, 60), "mostPredicted", "[0, 60]");
+}
+
+Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted) {
+    Flow2dOptions out = validated(wanted);
+    out.levels = now.levels;
+    return out;
+}
+
+EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted) {
+    EpipolarOptions out = validated(wanted);
+    out.levels = now.levels;
+    out.longestParallax = now.longestParallax;
+    out.bothWays = now.bothWays;
+    return out;
 }
 
 }  // namespace mfar

@@ -12,6 +12,8 @@ struct Flow2dOptions {
     int propagations = 0;   ///< rounds at the finest level, video to still; [0, 8]
     int coarsestPropagations = 4;  ///< rounds at the coarsest level; [0, 8]
     int planeFits = 2;             ///< rounds of the clean-up after its median; [0, 2]
+
+    bool operator==(const Flow2dOptions&) const = default;
 };
 
 /// The same of the epipolar search. Its windows of 16 labels and its four paths are laid out in
@@ -23,7 +25,17 @@ struct EpipolarOptions {
     int stepPenalty = 12;   ///< Smoothness::step without noise; [1, 30]
     int jumpPenalty = 60;   ///< Smoothness::jump; [1, 60]
     bool bothWays = false;  ///< eq. 2's error from a search back, not from the z-test
+    int finest = 0;         ///< level the search ends at, 1: at half the resolution; [0, 1]
+    /// Of EpipolarFlow: frames in a row searched around what the one before showed; [0, 60].
+    int mostPredicted = 7;
+
+    bool operator==(const EpipolarOptions&) const = default;
 };
+
+/// `now` with what of `wanted` may change between frames: all but what memory is laid out for
+/// (levels, longestParallax, bothWays).
+[[nodiscard]] Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted);
+[[nodiscard]] EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted);
 
 /// Throw std::invalid_argument that names the first option out of its range.
 void validate(const Flow2dOptions& options);

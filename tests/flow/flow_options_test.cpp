@@ -41,6 +41,8 @@ TEST(FlowOptions, ValuesOutOfRangeAreRefused) {
     expectRange(&EpipolarOptions::windowRadius, 0, 8);
     expectRange(&EpipolarOptions::stepPenalty, 1, 30);
     expectRange(&EpipolarOptions::jumpPenalty, 1, 60);
+    expectRange(&EpipolarOptions::finest, 0, 1);
+    expectRange(&EpipolarOptions::mostPredicted, 0, 60);
     for (const double share : {0.0, -1.0, 1.01, std::numeric_limits<double>::quiet_NaN()})
         EXPECT_THROW(validate(EpipolarOptions{.longestParallax = share}), std::invalid_argument);
 }
@@ -65,6 +67,28 @@ TEST(EpipolarOptions, EverySettingFindsAWallInItsReach) {
     EXPECT_LT(errorsWith({.longestParallax = 0.25}).bad, 0.02);
     EXPECT_LT(errorsWith({.stepPenalty = 30}).bad, 0.02);
     EXPECT_LT(errorsWith({.jumpPenalty = 1}).bad, 0.1);
+}
+
+TEST(EpipolarOptions, HalfTheResolutionFindsAWallToAboutAPixel) {
+    for (const int levels : {1, 2, 4})
+        EXPECT_LT(errorsWith({.levels = levels, .finest = 1}).bad, 0.02) << levels;
+}
+
+TEST(EpipolarOptions, ChangedBetweenFramesFindAsMuchAsFromTheStart) {
+    const CameraModel camera{{200, 150}, 190, 190, 99.5, 74.5, {}};
+    const test::View view{
+        camera, {{{{0, 0, 1}, 2}}, 30, 100}, test::motion({0, 0, 0}, {-0.4, 0, 0})};
+    const LumaImage video = view.video(), still = view.still();
+    EpipolarSearch search = test::searchWith(camera, 2);
+    search.setStill(test::viewOf(still));
+    search.setOptions({.levels = 1, .finest = 1});
+    ASSERT_TRUE(search.run(video, view.T_still_video));
+    EXPECT_EQ(test::errorsOf(search, view).median, errorsWith({.finest = 1}).median)
+        << "levels stay";
+    search.setOptions({});
+    ASSERT_TRUE(search.run(video, view.T_still_video));
+    EXPECT_EQ(test::errorsOf(search, view).median, errorsWith({}).median);
+    EXPECT_THROW(search.setOptions({.windowRadius = -1}), std::invalid_argument);
 }
 
 TEST(EpipolarOptions, NothingIsSoughtBeyondTheLongestParallax) {
