@@ -105,29 +105,41 @@ float Film::error(std::size_t pixel, const Exposure& exposure) const {
     return std::sqrt(variance + edge / (n * std::sqrt(n)));
 }
 
-Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
-    Shown out;
+Film::Means Film::meansOf(const Pixel& p) {
+    Means out;
     const auto n = static_cast<float>(p.taken - p.lost);
-    if (!(n > 0)) return out;
     if (p.objectHits > 0) {
         const auto hits = static_cast<float>(p.objectHits);
-        out.coverage = hits / n;
-        out.colour = out.coverage * displayed(p.object / hits, exposure);
+        out.object = p.object / hits;
+        out.objectShare = hits / n;
     }
-    if (p.catcherHits == 0 || p.with == p.without) return out;
-    const auto hits = static_cast<float>(p.catcherHits);
-    const Eigen::Vector3f lit = displayed(p.with / hits, exposure);
-    const Eigen::Vector3f unlit = displayed(p.without / hits, exposure);
+    if (p.catcherHits > 0) {
+        const auto hits = static_cast<float>(p.catcherHits);
+        out.with = p.with / hits;
+        out.without = p.without / hits;
+        out.catcherShare = hits / n;
+    }
+    return out;
+}
+
+Film::Means Film::means(std::size_t pixel) const {
+    return meansOf(pixels_[pixel]);
+}
+
+Film::Shown Film::shown(const Means& m, const Exposure& exposure) {
+    Shown out{m.objectShare * displayed(m.object, exposure), m.objectShare};
+    if (m.with == m.without) return out;
+    const Eigen::Vector3f lit = displayed(m.with, exposure);
+    const Eigen::Vector3f unlit = displayed(m.without, exposure);
     Eigen::Vector3f ratio{1, 1, 1};
     for (int c = 0; c < 3; ++c)
-        if (p.without[c] > 0) ratio[c] = std::pow(p.with[c] / p.without[c], 1 / kDisplayGamma);
+        if (m.without[c] > 0) ratio[c] = std::pow(m.with[c] / m.without[c], 1 / kDisplayGamma);
     const float kept = std::min(1.0F, ratio.minCoeff());
-    const float share = hits / n;
     for (int c = 0; c < 3; ++c) {
         const float added = unlit[c] > 0 ? unlit[c] * (ratio[c] - kept) : lit[c];
-        out.colour[c] += share * std::min(added, 1.0F);
+        out.colour[c] += m.catcherShare * std::min(added, 1.0F);
     }
-    out.coverage += share * (1 - kept);
+    out.coverage += m.catcherShare * (1 - kept);
     return out;
 }
 
@@ -149,7 +161,7 @@ void Film::resolve(const RenderView& view, const Exposure& exposure, RenderedPic
     out.id.resize(pixels_.size());
     double taken = 0, seen = 0;
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const Shown s = shown(pixels_[i], exposure);
+        const Shown s = shown(meansOf(pixels_[i]), exposure);
         out.colour[i] = {quantised(s.colour.x()), quantised(s.colour.y()), quantised(s.colour.z()),
                          quantised(s.coverage)};
         const bool changed = out.colour[i] != std::array<std::uint8_t, 4>{};

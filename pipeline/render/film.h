@@ -41,6 +41,14 @@ public:
     [[nodiscard]] std::uint64_t dropped() const;
 
     void add(std::size_t pixel, const FilmSample& sample);
+    /// Mean radiances of what samples of a pixel met, and the shares of the samples that met it.
+    struct Means {
+        Eigen::Vector3f object{0, 0, 0};
+        Eigen::Vector3f with{0, 0, 0}, without{0, 0, 0};  ///< the catcher's
+        float objectShare = 0, catcherShare = 0;
+    };
+    [[nodiscard]] Means means(std::size_t pixel) const;
+
     /// What is seen through the pixel's centre.
     void setCentre(std::size_t pixel, const FirstHit& hit);
 
@@ -68,7 +76,8 @@ private:
         float coverage = 0;
     };
 
-    [[nodiscard]] static Shown shown(const Pixel& p, const Exposure& exposure);
+    [[nodiscard]] static Means meansOf(const Pixel& p);
+    [[nodiscard]] static Shown shown(const Means& m, const Exposure& exposure);
     [[nodiscard]] static FirstHit firstHit(const Pixel& p, bool changed);
 
     Size size_;

@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// What CameraModel::unproject() gives, from a table every few pixels: within 0.01 px of it inside
-/// the picture for lenses that do not fold there.
+/// What CameraModel::unproject() gives, from a table every few pixels: within 0.05 px of it inside
+/// the picture for lenses that do not fold there (0.01 px at 60 degrees).
 class LensRays {
 public:
     explicit LensRays(const CameraModel& camera);

@@ -1,18 +1,41 @@
 #include "pipeline/render/path_tracer.h"
 
 #include "pipeline/render/lens_rays.h"
-#include "pipeline/render/ray_scene.h"
+#include "pipeline/render/path_integrator.h"
 #include "pipeline/render/scene_check.h"
+#include "pipeline/render/traced_scene.h"
 #include "pipeline/render/view_bounds.h"
 #include "pipeline/se3.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 namespace mfar {
+namespace {
+
+constexpr std::size_t kBatch = 64;  // rays that go through Embree together
+
+/// A sample of a pixel, or the look through its centre that comes before the first.
+struct CameraSample {
+    std::uint32_t pixel = 0, number = 0;
+    bool centre = false;
+};
+
+float tent(float u) {
+    const float v = 2 * u;
+    return v < 1 ? std::sqrt(v) - 1 : 1 - std::sqrt(2 - v);
+}
+
+Eigen::Vector2f filtered(PixelFilter filter, const Eigen::Vector2f& u) {
+    if (filter == PixelFilter::Tent) return {tent(u.x()), tent(u.y())};
+    return u - Eigen::Vector2f(0.5F, 0.5F);
+}
+
+}  // namespace
 
 void validate(const PathTracerOptions& o) {
     const auto require = [](bool sound, const char* name) {
@@ -26,28 +49,94 @@ void validate(const PathTracerOptions& o) {
 }
 
 struct PathTracer::Parts {
-    Parts(std::shared_ptr<const Scene> sceneToTrace, const PathTracerOptions& o)
-        : scene(std::move(sceneToTrace)), options(o), objects(o.buildThreads),
-          catcher(o.buildThreads) {
-        for (std::size_t k = 0; k < scene->objects.size(); ++k)
-            for (const Mesh& mesh : scene->objects[k].model->meshes) {
-                std::vector<Eigen::Vector3f> world;
-                for (const Eigen::Vector3f& p : mesh.positions)
-                    world.emplace_back((scene->objects[k].T_world_object *
-                                        (scene->objects[k].scale * p.cast<double>()))
-                                           .cast<float>());
-                objects.add(world, mesh.triangles);
-                idOfMesh.push_back(static_cast<std::uint8_t>(k + 1));
-            }
-        objects.commit();
-        catcher.add(scene->catcher.positions, scene->catcher.triangles);
-        catcher.commit();
+    Parts(std::shared_ptr<const Scene> sound, const PathTracerOptions& o)
+        : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options) {}
+
+    /// The lens's table, kept until another camera comes.
+    [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
+        const std::scoped_lock lock(lensMutex);
+        if (!lens || !sameLens(lens->camera(), camera))
+            lens = std::make_shared<const LensRays>(camera);
+        return lens;
     }
 
-    std::shared_ptr<const Scene> scene;
     PathTracerOptions options;
-    RayScene objects, catcher;
-    std::vector<std::uint8_t> idOfMesh;
+    TracedScene scene;
+    PathIntegrator integrator;
+    mutable std::mutex lensMutex;
+    mutable std::shared_ptr<const LensRays> lens;
+};
+
+/// Camera samples of one view that are traced together.
+class PathTracer::Batch {
+public:
+    Batch(const Parts& parts, const RenderView& view, Film& film)
+        : parts_(parts), lens_(parts.lensOf(view.camera)),
+          R_world_camera_(
+              view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
+          eye_(view.T_world_camera.translation.cast<float>()),
+          width_(static_cast<std::uint32_t>(view.camera.size.width)), film_(film) {}
+
+    void add(const CameraSample& sample) {
+        samples_[count_] = sample;
+        rays_[count_] = rayOf(sample);
+        if (++count_ == kBatch) flush();
+    }
+
+    void flush() {
+        parts_.scene.objects().firstOfEach(std::span(rays_).first(count_),
+                                           std::span(hits_).first(count_));
+        for (std::size_t i = 0; i < count_; ++i)
+            finish(samples_[i], rays_[i], hits_[i]);
+        count_ = 0;
+    }
+
+private:
+    [[nodiscard]] PixelSampler samplerOf(const CameraSample& sample) const {
+        return {parts_.options.seed, sample.pixel, sample.number,
+                parts_.options.independentSamples};
+    }
+
+    /// Of camera z 1 a unit of the direction: distances along it are depths.
+    [[nodiscard]] Ray rayOf(const CameraSample& sample) const {
+        Eigen::Vector2f at{sample.pixel % width_, sample.pixel / width_};
+        if (!sample.centre) at += filtered(parts_.options.filter, samplerOf(sample).pair(0));
+        return {eye_, R_world_camera_ * lens_->at(at.x(), at.y()).homogeneous()};
+    }
+
+    void finish(const CameraSample& sample, const Ray& ray, const RayHit& first) {
+        const TracedScene& scene = parts_.scene;
+        const RayHit object = scene.shown(ray, first);
+        const RayHit real =
+            object.found() || scene.catcher().empty() ? RayHit{} : scene.catcher().first(ray);
+        FilmSample out;
+        if (object.found()) out.hit = {object.t, scene.idOf(object)};
+        if (real.found()) out.hit = {real.t, kCatcherId};
+        if (sample.centre) {
+            film_.setCentre(sample.pixel, out.hit);
+            return;
+        }
+        const PixelSampler sampler = samplerOf(sample);
+        if (object.found()) {
+            out.radiance = parts_.integrator.ofObject(object, ray.direction, sampler);
+        } else if (real.found()) {
+            const auto light = parts_.integrator.ofCatcher(real, ray.direction, sampler);
+            out.radiance = light.with;
+            out.without = light.without;
+        }
+        film_.add(sample.pixel, out);
+    }
+
+    const Parts& parts_;
+    std::shared_ptr<const LensRays> lens_;
+    Eigen::Matrix3f R_world_camera_;
+    Eigen::Vector3f eye_;
+    std::uint32_t width_;
+    Film& film_;
+    std::size_t count_ = 0;
+    std::array<CameraSample, kBatch> samples_;
+    std::array<Ray, kBatch> rays_;
+    std::array<RayHit, kBatch> hits_;
 };
 
 PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptions& options) {
@@ -59,42 +148,46 @@ PathTracer::PathTracer(std::shared_ptr<const Scene> scene, const PathTracerOptio
 
 PathTracer::~PathTracer() = default;
 
+namespace {
+
+void requireSound(const RenderView& view) {
+    if (!isSound(view.camera)) throw std::invalid_argument("view: the camera is not sound");
+    if (!isFinite(view.T_world_camera) || !(view.T_world_camera.rotation.norm() > 0))
+        throw std::invalid_argument("view: the pose is not sound");
+}
+
+}  // namespace
+
 void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pixels, int samples,
                        Film& film) const {
-    if (!isSound(view.camera) || !isFinite(view.T_world_camera) ||
-        !(film.size() == view.camera.size))
-        throw std::invalid_argument("view is not sound or not the film's");
-    const Eigen::Matrix3f R_world_camera =
-        view.T_world_camera.rotation.toRotationMatrix().cast<float>();
+    requireSound(view);
+    if (!(film.size() == view.camera.size)) throw std::invalid_argument("film: another size");
+    const auto count = static_cast<std::uint32_t>(film.size().width) *
+                       static_cast<std::uint32_t>(film.size().height);
+    if (!std::ranges::all_of(pixels, [count](std::uint32_t p) { return p < count; }))
+        throw std::invalid_argument("film: no such pixel");
+    Batch batch(*parts_, view, film);
     for (const std::uint32_t pixel : pixels) {
-        const auto width = static_cast<std::uint32_t>(view.camera.size.width);
-        const Eigen::Vector2d ray =
-            view.camera.unproject({pixel % width, pixel / width});  // its centre
-        const Ray seen{view.T_world_camera.translation.cast<float>(),
-                       R_world_camera * ray.cast<float>().homogeneous()};
-        const RayHit hit = parts_->objects.first(seen);
-        FilmSample sample;
-        if (hit.found()) {
-            sample.hit = {hit.t, parts_->idOfMesh[hit.mesh]};
-            sample.radiance = Eigen::Vector3f::Constant(0.5F);
-        }
-        film.setCentre(pixel, sample.hit);
+        const std::uint32_t taken = film.samples(pixel);
+        if (taken == 0 && samples > 0) batch.add({pixel, 0, true});
         for (int i = 0; i < samples; ++i)
-            film.add(pixel, sample);
+            batch.add({pixel, taken + static_cast<std::uint32_t>(i), false});
     }
+    batch.flush();
 }
 
 PixelRect PathTracer::bounds(const RenderView& view) const {
-    Eigen::AlignedBox3f box = parts_->objects.box();
+    requireSound(view);
+    Eigen::AlignedBox3f box = parts_->scene.objects().box();
     if (box.isEmpty()) return {};
-    if (!parts_->catcher.box().isEmpty()) {
-        const Eigen::Vector3f reach =
-            Eigen::Vector3f::Constant(0.5F * parts_->options.shadowReach * box.diagonal().norm());
-        const Eigen::AlignedBox3f near(box.center() - reach, box.center() + reach);
-        const Eigen::AlignedBox3f shadow = near.intersection(parts_->catcher.box());
-        if (!shadow.isEmpty()) box.extend(shadow);
-    }
-    return pixelsOfBox(box, view, LensRays(view.camera));
+    const Eigen::AlignedBox3f& real = parts_->scene.catcher().box();
+    const float reach = 0.5F * parts_->options.shadowReach * box.diagonal().norm();
+    const Eigen::Vector3f side = Eigen::Vector3f::Constant(reach);
+    const auto shaded =
+        Eigen::AlignedBox3f(box.center() - side, box.center() + side).intersection(real);
+    if (!real.isEmpty() && !shaded.isEmpty()) box.extend(shaded);
+    const PixelRect seen = pixelsOfBox(box, view, *parts_->lensOf(view.camera));
+    return seen.empty() ? seen : widened(seen, 1, view.camera.size);
 }
 
 }  // namespace mfar

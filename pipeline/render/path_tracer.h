@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/render/film.h"
+#include "pipeline/render/path_tracer_options.h"
 #include "pipeline/render/render_view.h"
 #include "pipeline/render/scene.h"
 
@@ -9,26 +10,6 @@
 #include <span>
 
 namespace mfar {
-
-/// The part of a pixel's surroundings that its samples are drawn from.
-enum class PixelFilter {
-    Box,   ///< the pixel itself
-    Tent,  ///< falls to 0 at the neighbours' centres
-};
-
-struct PathTracerOptions {
-    int maxDepth = 6;        ///< surfaces on a path, the camera's first included; [1, 64]
-    int rouletteDepth = 3;   ///< surfaces after which a path may end by chance; at least 1
-    float fireflyClamp = 0;  ///< limit of an indirect contribution's brightest channel; 0: none
-    PixelFilter filter = PixelFilter::Box;
-    std::uint32_t seed = 0;
-    bool independentSamples = false;  ///< random numbers in place of the Sobol sequence
-    float shadowReach = 3;  ///< objects' radii around them in which the catcher counts; at least 1
-    int buildThreads = 1;   ///< for the search structure; [1, 64]
-};
-
-/// Throws std::invalid_argument that names the first option out of its range.
-void validate(const PathTracerOptions& options);
 
 /// Unidirectional path tracing with next-event estimation of sun and environment, both combined
 /// with the surface's own sampling by multiple importance sampling (Veach 1997). The camera sees
@@ -54,6 +35,7 @@ public:
 
 private:
     struct Parts;
+    class Batch;
     std::unique_ptr<const Parts> parts_;
 };
 

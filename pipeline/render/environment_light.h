@@ -1,0 +1,40 @@
+#pragma once
+
+#include "pipeline/render/light_sample.h"
+#include "pipeline/render/scene.h"
+
+#include <memory>
+#include <vector>
+
+namespace mfar {
+
+/// Light from an environment picture, interpolated between its texels, sampled from a density that
+/// is constant on each texel and follows luminance times solid angle (Pharr, Jakob, Humphreys,
+/// Physically Based Rendering, 12.5).
+class EnvironmentLight {
+public:
+    /// May be null: dark.
+    explicit EnvironmentLight(std::shared_ptr<const Environment> environment);
+
+    [[nodiscard]] bool dark() const { return total_ == 0; }
+    [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
+    /// `direction` of unit length.
+    [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
+    [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
+
+private:
+    /// Of a direction in the picture [texels], the first texel's corner at 0.
+    [[nodiscard]] Eigen::Vector2f place(const Eigen::Vector3f& direction) const;
+    [[nodiscard]] Eigen::Vector3f interpolated(const Eigen::Vector2f& at) const;
+    [[nodiscard]] float density(int column, int row) const;
+    [[nodiscard]] float heightOf(int row) const { return tops_[static_cast<std::size_t>(row)]; }
+
+    std::shared_ptr<const Environment> environment_;
+    Size size_;
+    std::vector<float> tops_;    // world z of each row's upper edge and of the last one's lower
+    std::vector<float> rows_;    // cumulative share of the rows above, 0 first, 1 last
+    std::vector<float> texels_;  // and of the texels to the left, a row of width + 1 each
+    double total_ = 0;
+};
+
+}  // namespace mfar

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace mfar {
+
+/// A direction towards a light that is far away.
+struct LightSample {
+    Eigen::Vector3f direction{0, 0, 1};  ///< in the world, unit length
+    Eigen::Vector3f radiance{0, 0, 0};
+    float density = 0;  ///< [1/sr]; 0: there is no light
+};
+
+/// A frame whose z is `normal`, of unit length; columns x, y, z (Duff et al. 2017).
+[[nodiscard]] inline Eigen::Matrix3f frameAround(const Eigen::Vector3f& normal) {
+    const float sign = normal.z() < 0 ? -1.0F : 1.0F;
+    const float a = -1 / (sign + normal.z()), b = normal.x() * normal.y() * a;
+    Eigen::Matrix3f out;
+    out.col(0) =
+        Eigen::Vector3f(1 + sign * normal.x() * normal.x() * a, sign * b, -sign * normal.x());
+    out.col(1) = Eigen::Vector3f(b, sign + normal.y() * normal.y() * a, -normal.y());
+    out.col(2) = normal;
+    return out;
+}
+
+}  // namespace mfar

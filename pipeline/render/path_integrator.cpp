@@ -1,0 +1,156 @@
+#include "pipeline/render/path_integrator.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+enum PairOfVertex : std::uint32_t { kSunPair, kEnvironmentPair, kScatterPair, kRoulettePair };
+constexpr std::uint32_t kPairsOfVertex = 4;
+constexpr float kLongestWalk = 0.95F;  // greatest chance to go on after the roulette's depth
+
+/// Power heuristic of one sample from each of two densities (Veach 1997, equation 9.13).
+float powerWeight(float taken, float other) {
+    const float ratio = other / taken;
+    return 1 / (1 + ratio * ratio);
+}
+
+}  // namespace
+
+/// What rays meet: all, or the catcher alone.
+struct PathIntegrator::World {
+    const TracedScene& scene;
+    bool objects;
+    bool touched = false;  // an object was in a ray's way
+
+    bool blocked(const Ray& ray) {
+        if (objects && !scene.objects().empty() && scene.objects().blocked(ray)) {
+            touched = true;
+            return true;
+        }
+        return !scene.catcher().empty() && scene.catcher().blocked(ray);
+    }
+
+    std::optional<SurfacePoint> next(Ray ray) {
+        RayHit object;
+        if (objects && !scene.objects().empty()) object = scene.objects().first(ray);
+        if (object.found()) {
+            touched = true;
+            ray.most = object.t;
+        }
+        const RayHit real = scene.catcher().empty() ? RayHit{} : scene.catcher().first(ray);
+        if (real.found()) return scene.catcherPoint(real, ray.direction);
+        if (object.found()) return scene.objectPoint(object, ray.direction);
+        return std::nullopt;
+    }
+};
+
+/// A point with light scattered at it.
+struct PathIntegrator::Vertex {
+    const SurfacePoint& point;
+    Eigen::Matrix3f frame;
+    SurfaceScatter scatter;
+
+    Vertex(const SurfacePoint& p, const Eigen::Vector3f& wo)
+        : point(p), frame(frameAround(p.shading)), scatter(p.look, frame.transpose() * wo) {}
+
+    /// Whether the triangle itself and not only its shading faces there.
+    [[nodiscard]] bool faces(const Eigen::Vector3f& direction) const {
+        return point.geometric.dot(direction) > 0;
+    }
+};
+
+PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options)
+    : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
+      environment_(scene.scene().lighting.environment) {}
+
+Eigen::Vector3f PathIntegrator::lit(const Vertex& vertex, const LightSample& light,
+                                    World& world) const {
+    if (!(light.density > 0) || !vertex.faces(light.direction)) return {0, 0, 0};
+    const ScatterValue f = vertex.scatter.evaluate(vertex.frame.transpose() * light.direction);
+    if (!(f.density > 0)) return {0, 0, 0};
+    if (world.blocked(vertex.point.leaving(light.direction))) return {0, 0, 0};
+    return f.value.cwiseProduct(light.radiance) *
+           (powerWeight(light.density, f.density) / light.density);
+}
+
+Eigen::Vector3f PathIntegrator::direct(const Vertex& vertex, const PixelSampler& sampler,
+                                       std::uint32_t pair, World& world) const {
+    Eigen::Vector3f sum{0, 0, 0};
+    if (!sun_.dark()) sum += lit(vertex, sun_.sample(sampler.pair(pair + kSunPair)), world);
+    if (!environment_.dark())
+        sum += lit(vertex, environment_.sample(sampler.pair(pair + kEnvironmentPair)), world);
+    return sum;
+}
+
+Eigen::Vector3f PathIntegrator::escaped(const Eigen::Vector3f& direction, float density) const {
+    Eigen::Vector3f sum{0, 0, 0};
+    if (const float other = sun_.density(direction); other > 0)
+        sum += sun_.radiance(direction) * powerWeight(density, other);
+    if (!environment_.dark())
+        sum += environment_.radiance(direction) *
+               powerWeight(density, environment_.density(direction));
+    return sum;
+}
+
+Eigen::Vector3f PathIntegrator::limited(const Eigen::Vector3f& light, int depth) const {
+    const float most = light.maxCoeff();
+    if (depth < 2 || !(options_.fireflyClamp > 0) || !(most > options_.fireflyClamp)) return light;
+    return light * (options_.fireflyClamp / most);
+}
+
+Eigen::Vector3f PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo,
+                                     const PixelSampler& sampler, World& world) const {
+    Eigen::Vector3f sum{0, 0, 0}, throughput{1, 1, 1};
+    for (int depth = 1;; ++depth) {
+        const std::uint32_t pair =
+            kCameraPairs + static_cast<std::uint32_t>(depth - 1) * kPairsOfVertex;
+        sum += limited(throughput.cwiseProduct(point.emission), depth);
+        const Vertex vertex(point, wo);
+        sum += limited(throughput.cwiseProduct(direct(vertex, sampler, pair, world)), depth);
+
+        const ScatterSample out = vertex.scatter.sample(sampler.pair(pair + kScatterPair));
+        if (!(out.density > 0)) return sum;
+        const Eigen::Vector3f direction = vertex.frame * out.wi;
+        if (!vertex.faces(direction)) return sum;
+        throughput = throughput.cwiseProduct(out.weight);
+        if (depth >= options_.rouletteDepth) {
+            const float chance = std::min(kLongestWalk, throughput.maxCoeff());
+            if (!(sampler.pair(pair + kRoulettePair).x() < chance)) return sum;
+            throughput /= chance;
+        }
+        const Ray ray = point.leaving(direction);
+        if (depth == options_.maxDepth) {
+            // The lights' other half of the last vertex.
+            if (!world.blocked(ray))
+                sum += limited(throughput.cwiseProduct(escaped(direction, out.density)), depth);
+            return sum;
+        }
+        const std::optional<SurfacePoint> next = world.next(ray);
+        if (!next)
+            return sum + limited(throughput.cwiseProduct(escaped(direction, out.density)), depth);
+        point = *next;
+        wo = -direction;
+    }
+}
+
+Eigen::Vector3f PathIntegrator::ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
+                                         const PixelSampler& sampler) const {
+    World all{scene_, true};
+    return walk(scene_.objectPoint(hit, direction), -direction.normalized(), sampler, all);
+}
+
+PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,
+                                                    const Eigen::Vector3f& direction,
+                                                    const PixelSampler& sampler) const {
+    const SurfacePoint point = scene_.catcherPoint(hit, direction);
+    const Eigen::Vector3f wo = -direction.normalized();
+    World all{scene_, true}, real{scene_, false};
+    OfCatcher out;
+    out.with = walk(point, wo, sampler, all);
+    out.without = all.touched ? walk(point, wo, sampler, real) : out.with;
+    return out;
+}
+
+}  // namespace mfar

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "pipeline/render/environment_light.h"
+#include "pipeline/render/path_tracer_options.h"
+#include "pipeline/render/sobol.h"
+#include "pipeline/render/sun_light.h"
+#include "pipeline/render/traced_scene.h"
+
+namespace mfar {
+
+/// Pairs of random numbers that a sample uses before its path: the place in the pixel.
+inline constexpr std::uint32_t kCameraPairs = 1;
+
+/// Light that a path brings back from where it first meets a surface.
+class PathIntegrator {
+public:
+    /// What outlives the integrator.
+    PathIntegrator(const TracedScene& scene, const PathTracerOptions& options);
+
+    /// Radiance that leaves an object's point against `direction`, which is that of the ray that
+    /// found it, of any length.
+    [[nodiscard]] Eigen::Vector3f ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
+                                           const PixelSampler& sampler) const;
+
+    /// Radiance of the catcher with the objects there and without them, from the same random
+    /// numbers: equal to the bit where no object was met.
+    struct OfCatcher {
+        Eigen::Vector3f with, without;
+    };
+    [[nodiscard]] OfCatcher ofCatcher(const RayHit& hit, const Eigen::Vector3f& direction,
+                                      const PixelSampler& sampler) const;
+
+private:
+    struct World;
+    struct Vertex;
+    [[nodiscard]] Eigen::Vector3f walk(SurfacePoint point, Eigen::Vector3f wo,
+                                       const PixelSampler& sampler, World& world) const;
+    [[nodiscard]] Eigen::Vector3f direct(const Vertex& vertex, const PixelSampler& sampler,
+                                         std::uint32_t pair, World& world) const;
+    [[nodiscard]] Eigen::Vector3f lit(const Vertex& vertex, const LightSample& light,
+                                      World& world) const;
+    [[nodiscard]] Eigen::Vector3f escaped(const Eigen::Vector3f& direction, float density) const;
+    [[nodiscard]] Eigen::Vector3f limited(const Eigen::Vector3f& light, int depth) const;
+
+    const TracedScene& scene_;
+    const PathTracerOptions& options_;
+    SunLight sun_;
+    EnvironmentLight environment_;
+};
+
+}  // namespace mfar

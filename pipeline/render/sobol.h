@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace mfar {
+
+/// Integer hash of full avalanche (Wellons, "lowbias32").
+[[nodiscard]] constexpr std::uint32_t mixedBits(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x7FEB352DU;
+    x ^= x >> 15;
+    x *= 0x846CA68BU;
+    return x ^ (x >> 16);
+}
+
+[[nodiscard]] constexpr std::uint32_t reversedBits(std::uint32_t x) {
+    x = (x >> 16) | (x << 16);
+    x = ((x & 0xFF00FF00U) >> 8) | ((x & 0x00FF00FFU) << 8);
+    x = ((x & 0xF0F0F0F0U) >> 4) | ((x & 0x0F0F0F0FU) << 4);
+    x = ((x & 0xCCCCCCCCU) >> 2) | ((x & 0x33333333U) << 2);
+    return ((x & 0xAAAAAAAAU) >> 1) | ((x & 0x55555555U) << 1);
+}
+
+/// Nested uniform (Owen) scrambling of a number whose bits are reversed: each bit is turned by a
+/// hash of the bits below it and of the seed (Laine and Karras 2011, Burley 2020; multipliers by
+/// Vegdahl).
+[[nodiscard]] constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
+    x ^= x * 0x3D20ADEAU;
+    x += seed;
+    x *= (seed >> 16) | 1U;
+    x ^= x * 0x05526C56U;
+    return x ^ (x * 0x53A22864U);
+}
+
+/// The index that sample `index` has after an Owen scramble of the indices: aligned blocks of 2^k
+/// indices stay blocks.
+[[nodiscard]] constexpr std::uint32_t shuffledIndex(std::uint32_t index, std::uint32_t seed) {
+    return reversedBits(scrambledReversed(reversedBits(index), seed));
+}
+
+/// Coordinates of the first two Sobol dimensions in 32 bits, bits reversed. The second's matrix is
+/// Pascal's triangle modulo 2, in five steps (Ahmed 2024).
+[[nodiscard]] constexpr std::array<std::uint32_t, 2> sobolReversed(std::uint32_t index) {
+    std::uint32_t y = index;
+    y ^= (y & 0xAAAAAAAAU) >> 1;
+    y ^= (y & 0xCCCCCCCCU) >> 2;
+    y ^= (y & 0xF0F0F0F0U) >> 4;
+    y ^= (y & 0xFF00FF00U) >> 8;
+    y ^= y >> 16;
+    return {index, y};
+}
+
+/// The random numbers of one sample of a pixel: pairs of a (0, 2)-sequence in base 2,
+/// Owen-scrambled and shuffled anew for each pair (padding, Kollig and Keller 2002; Burley 2020,
+/// section 5). A function of seed, pixel, sample and place on the path alone.
+class PixelSampler {
+public:
+    /// `independent`: uniform numbers without any order instead.
+    PixelSampler(std::uint32_t seed, std::uint32_t pixel, std::uint32_t sample, bool independent)
+        : seed_(mixedBits(pixel ^ mixedBits(seed + 0x9E3779B9U))), sample_(sample),
+          independent_(independent) {}
+
+    /// Pair number `dimension`, in [0, 1)^2.
+    [[nodiscard]] Eigen::Vector2f pair(std::uint32_t dimension) const {
+        const std::uint32_t seed = mixedBits(seed_ + dimension * 0x9E3779B9U);
+        if (independent_) {
+            const std::uint32_t x = mixedBits(seed ^ mixedBits(sample_ + 0x85EBCA6BU));
+            return {unit(x), unit(mixedBits(x + 0xC2B2AE35U))};
+        }
+        const auto [x, y] = sobolReversed(shuffledIndex(sample_, seed));
+        const std::uint32_t first = mixedBits(seed + 1), second = mixedBits(seed + 2);
+        return {unit(reversedBits(scrambledReversed(x, first))),
+                unit(reversedBits(scrambledReversed(y, second)))};
+    }
+
+private:
+    /// The greatest float below 1 at most.
+    static float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24F; }
+
+    std::uint32_t seed_, sample_;
+    bool independent_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "pipeline/render/light_sample.h"
+#include "pipeline/render/scene.h"
+
+#include <optional>
+
+namespace mfar {
+
+/// The sun's disc: of the same radiance all over, sampled evenly in solid angle.
+class SunLight {
+public:
+    /// Without a sun it is dark.
+    explicit SunLight(const std::optional<Sun>& sun);
+
+    [[nodiscard]] bool dark() const { return density_ == 0; }
+    [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
+    /// Both 0 outside the disc. `direction` of unit length.
+    [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
+    [[nodiscard]] float density(const Eigen::Vector3f& direction) const;
+
+private:
+    [[nodiscard]] bool holds(const Eigen::Vector3f& direction) const;
+
+    Eigen::Matrix3f frame_ = Eigen::Matrix3f::Identity();
+    Eigen::Vector3f radiance_{0, 0, 0};
+    float chord2_ = 0;  // squared distance on the unit sphere from its centre to its rim
+    float density_ = 0;
+};
+
+}  // namespace mfar

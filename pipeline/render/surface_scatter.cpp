@@ -1,0 +1,120 @@
+#include "pipeline/render/surface_scatter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mfar {
+namespace {
+
+constexpr float kInversePi = std::numbers::inv_pi_v<float>;
+constexpr float kDielectricF0 = 0.04F;
+constexpr float kLeastSpecular = 0.1F, kMostSpecular = 0.98F;  // of the samples
+constexpr float kLeastPassed = 1e-4F;  // below it nothing is left to divide by
+constexpr float kLeastCosine = 1e-5F;
+
+float fifthPower(float x) {
+    const float x2 = x * x;
+    return x2 * x2 * x;
+}
+
+/// Share of the light that hits the facets again which comes back in the end (Kulla and Conty
+/// 2017).
+float manyfoldShare(float f0, const SpecularAlbedo& mean) {
+    const float fresnel = f0 + (1 - f0) / 21;  // mean of Schlick's term
+    return fresnel * fresnel * mean.full() / (1 - fresnel * std::max(1 - mean.full(), 0.0F));
+}
+
+}  // namespace
+
+SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& wo)
+    : wo_(wo), matt_(look.matt), roughness_(look.roughness), ggx_(alphaOf(look.roughness)) {
+    wo_.z() = std::max(wo_.z(), kLeastCosine);
+    diffuseFactor_ = look.baseColour * kInversePi;
+    if (matt_) return;
+    const SpecularAlbedo mean = meanSpecularAlbedo(roughness_);
+    const float lost = std::max(1 - mean.full(), 0.0F);
+    const float metallic = look.metallic;
+    f0_ = Eigen::Vector3f::Constant(kDielectricF0 * (1 - metallic)) + metallic * look.baseColour;
+    dielectricManyfold_ = manyfoldShare(kDielectricF0, mean);
+    Eigen::Vector3f manyfold;
+    for (int c = 0; c < 3; ++c)
+        manyfold[c] = (1 - metallic) * dielectricManyfold_ +
+                      metallic * manyfoldShare(look.baseColour[c], mean);
+    if (lost > kLeastPassed) manyfoldFactor_ = manyfold * (kInversePi / lost);
+    const float passedMean =
+        1 - kDielectricF0 * mean.scale - mean.offset - dielectricManyfold_ * lost;
+    diffuseFactor_ *= (1 - metallic) / std::max(passedMean, kLeastPassed);
+    passedOut_ = passed(wo_.z());
+    const SpecularAlbedo albedo = specularAlbedo(roughness_, wo_.z());
+    const float specular = f0_.mean() * albedo.scale + albedo.offset;
+    const float wide = manyfold.mean() * passedOut_.manyfold +
+                       (1 - metallic) * look.baseColour.mean() * passedOut_.diffuse;
+    specularShare_ = std::clamp(specular / (specular + wide), kLeastSpecular, kMostSpecular);
+}
+
+Eigen::Vector3f SurfaceScatter::fresnel(float cosH) const {
+    const float bent = fifthPower(1 - std::clamp(cosH, 0.0F, 1.0F));
+    return f0_ + bent * (Eigen::Vector3f::Ones() - f0_);
+}
+
+SurfaceScatter::Passed SurfaceScatter::passed(float mu) const {
+    const SpecularAlbedo albedo = specularAlbedo(roughness_, mu);
+    const float lost = std::max(1 - albedo.full(), 0.0F);
+    const float back = kDielectricF0 * albedo.scale + albedo.offset + dielectricManyfold_ * lost;
+    return {std::max(1 - back, 0.0F), lost};
+}
+
+Eigen::Vector3f SurfaceScatter::broad(float mu) const {
+    if (matt_) return diffuseFactor_ * mu;
+    const Passed in = passed(mu);
+    return diffuseFactor_ * (mu * in.diffuse * passedOut_.diffuse) +
+           manyfoldFactor_ * (mu * in.manyfold * passedOut_.manyfold);
+}
+
+ScatterValue SurfaceScatter::evaluate(const Eigen::Vector3f& wi) const {
+    if (!(wi.z() > kLeastCosine)) return {};
+    ScatterValue out{broad(wi.z()), wi.z() * kInversePi};
+    if (matt_) return out;
+    const Eigen::Vector3f h = (wo_ + wi).normalized();
+    const float density = ggx_.density(h);
+    out.value += fresnel(wo_.dot(h)) * (density * ggx_.visibility(wo_.z(), wi.z()) * wi.z());
+    const float mirrored = density * ggx_.masking(wo_.z()) / (4 * wo_.z());
+    out.density += specularShare_ * (mirrored - out.density);
+    return out;
+}
+
+ScatterSample SurfaceScatter::sample(const Eigen::Vector2f& u) const {
+    ScatterSample out;
+    if (matt_ || u.x() >= specularShare_) {
+        const float x = matt_ ? u.x() : (u.x() - specularShare_) / (1 - specularShare_);
+        out.wi = cosineDirection({std::min(x, 1 - 0x1p-24F), u.y()});
+    } else {
+        const Eigen::Vector3f h = ggx_.sampleNormal(wo_, {u.x() / specularShare_, u.y()});
+        out.wi = (2 * wo_.dot(h) * h - wo_).normalized();
+    }
+    const ScatterValue f = evaluate(out.wi);
+    if (!(f.density > 0)) return out;
+    out.density = f.density;
+    out.weight = f.value / f.density;
+    return out;
+}
+
+Eigen::Vector2f discPoint(const Eigen::Vector2f& u) {
+    const float x = 2 * u.x() - 1, y = 2 * u.y() - 1;
+    if (x == 0 && y == 0) return {0, 0};
+    constexpr float kQuarter = std::numbers::pi_v<float> / 4;
+    if (std::abs(x) > std::abs(y)) {
+        const float phi = kQuarter * (y / x);
+        return {x * std::cos(phi), x * std::sin(phi)};
+    }
+    const float phi = kQuarter * (x / y);
+    return {y * std::sin(phi), y * std::cos(phi)};
+}
+
+Eigen::Vector3f cosineDirection(const Eigen::Vector2f& u) {
+    const Eigen::Vector2f p = discPoint(u);
+    return {p.x(), p.y(), std::sqrt(std::max(0.0F, 1 - p.squaredNorm()))};
+}
+
+}  // namespace mfar

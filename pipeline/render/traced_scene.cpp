@@ -1,0 +1,198 @@
+#include "pipeline/render/traced_scene.h"
+
+#include "pipeline/render/texture_lookup.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+// Of the greatest coordinate: some 30 units in the last place.
+constexpr float kStartOffset = 0x1p-18F;
+constexpr float kLeastOffset = 1e-7F;  // [m]
+constexpr float kStepOver = 1e-6F;     // of the distance
+constexpr int kMostBackFaces = 64;     // on a camera ray
+// A normal seen from behind, as interpolation and maps can give, is turned until it shows.
+constexpr float kLeastShown = 1e-3F;
+
+template <typename T>
+T interpolated(const std::vector<T>& values, const std::array<std::uint32_t, 3>& corners,
+               const RayHit& hit) {
+    return values[corners[0]] * (1 - hit.u - hit.v) + values[corners[1]] * hit.u +
+           values[corners[2]] * hit.v;
+}
+
+/// Twice the triangle's area in length.
+Eigen::Vector3f crossed(const std::vector<Eigen::Vector3f>& positions,
+                        const std::array<std::uint32_t, 3>& corners) {
+    const Eigen::Vector3f& a = positions[corners[0]];
+    return (positions[corners[1]] - a).cross(positions[corners[2]] - a);
+}
+
+Eigen::Vector3f unitOr(const Eigen::Vector3f& v, const Eigen::Vector3f& otherwise) {
+    const float n = v.stableNorm();
+    return n > 0 && std::isfinite(n) ? Eigen::Vector3f(v / n) : otherwise;
+}
+
+Eigen::Vector3f shownTowards(const Eigen::Vector3f& normal, const Eigen::Vector3f& wo) {
+    const float cosine = normal.dot(wo);
+    if (cosine >= kLeastShown) return normal;
+    return unitOr(normal + (kLeastShown - cosine) * wo, wo);
+}
+
+}  // namespace
+
+Ray SurfacePoint::leaving(const Eigen::Vector3f& direction) const {
+    const float offset = std::max(kStartOffset * position.cwiseAbs().maxCoeff(), kLeastOffset);
+    return {position + geometric * (geometric.dot(direction) < 0 ? -offset : offset), direction};
+}
+
+TracedScene::TracedScene(std::shared_ptr<const Scene> scene, int buildThreads)
+    : scene_(std::move(scene)), objects_(buildThreads), catcher_(buildThreads) {
+    for (std::size_t i = 0; i < scene_->objects.size(); ++i)
+        add(scene_->objects[i], static_cast<std::uint8_t>(i + 1));
+    objects_.commit();
+    if (!scene_->catcher.triangles.empty())
+        catcher_.add(scene_->catcher.positions, scene_->catcher.triangles);
+    catcher_.commit();
+}
+
+void TracedScene::add(const SceneObject& object, std::uint8_t id) {
+    for (const Mesh& mesh : object.model->meshes) {
+        if (mesh.triangles.empty()) continue;
+        auto traced = std::make_unique<TracedMesh>();
+        traced->mesh = &mesh;
+        traced->model = object.model.get();
+        traced->id = id;
+        traced->R_world_object = object.T_world_object.rotation.toRotationMatrix().cast<float>();
+        traced->positions.reserve(mesh.positions.size());
+        for (const Eigen::Vector3f& p : mesh.positions)
+            traced->positions.push_back(
+                (object.T_world_object * (object.scale * p.cast<double>())).cast<float>());
+        HoleTest holes;
+        if (traced->material().alphaCutoff > 0) holes = {isHole, traced.get()};
+        objects_.add(traced->positions, mesh.triangles, holes);
+        meshes_.push_back(std::move(traced));
+    }
+}
+
+Eigen::Vector2f TracedScene::textureAt(const TracedMesh& mesh, const RayHit& hit) {
+    if (mesh.mesh->uvs.empty()) return {0, 0};
+    return interpolated(mesh.mesh->uvs, mesh.mesh->triangles[hit.triangle], hit);
+}
+
+bool TracedScene::isHole(const void* mesh, std::uint32_t triangle, float u, float v) {
+    const auto& traced = *static_cast<const TracedMesh*>(mesh);
+    const Material& material = traced.material();
+    float alpha = material.baseColour.w();
+    if (const SurfaceTexture* texture = traced.texture(material.baseColourTexture))
+        alpha *= lookUp(*texture, textureAt(traced, {0, 0, triangle, u, v})).w();
+    return alpha < material.alphaCutoff;
+}
+
+RayHit TracedScene::shown(const Ray& ray, RayHit hit) const {
+    Ray rest = ray;
+    for (int i = 0; hit.found(); ++i) {
+        const TracedMesh& mesh = *meshes_[hit.mesh];
+        if (mesh.material().doubleSided) return hit;
+        const auto& corners = mesh.mesh->triangles[hit.triangle];
+        if (!(crossed(mesh.positions, corners).dot(ray.direction) > 0)) return hit;
+        if (i == kMostBackFaces) return {};
+        rest.least = hit.t * (1 + kStepOver);
+        hit = objects_.first(rest);
+    }
+    return hit;
+}
+
+void TracedScene::setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoint& point) {
+    const Material& m = mesh.material();
+    const Eigen::Vector2f uv = textureAt(mesh, hit);
+    point.look = {m.baseColour.head<3>(), m.metallic, m.roughness};
+    point.emission = m.emission;
+    if (const SurfaceTexture* t = mesh.texture(m.baseColourTexture))
+        point.look.baseColour = point.look.baseColour.cwiseProduct(lookUp(*t, uv).head<3>());
+    if (const SurfaceTexture* t = mesh.texture(m.metallicRoughnessTexture)) {
+        const Eigen::Vector4f data = lookUp(*t, uv);
+        point.look.roughness *= data.y();
+        point.look.metallic *= data.z();
+    }
+    if (const SurfaceTexture* t = mesh.texture(m.emissionTexture))
+        point.emission = point.emission.cwiseProduct(lookUp(*t, uv).head<3>());
+    // More than all light does not come back, whatever a vertex colour or factor says.
+    point.look.baseColour = point.look.baseColour.cwiseMin(1.0F);
+}
+
+Eigen::Vector3f TracedScene::mapped(const TracedMesh& mesh, const RayHit& hit,
+                                    const Eigen::Vector3f& normal) {
+    const Material& m = mesh.material();
+    const SurfaceTexture* map = mesh.texture(m.normalTexture);
+    if (map == nullptr) return normal;
+    const auto& corners = mesh.mesh->triangles[hit.triangle];
+    Eigen::Vector3f tangent;
+    float sign = 1;
+    if (!mesh.mesh->tangents.empty()) {
+        const Eigen::Vector4f t = interpolated(mesh.mesh->tangents, corners, hit);
+        tangent = mesh.R_world_object * t.head<3>();
+        sign = t.w() < 0 ? -1.0F : 1.0F;
+    } else {
+        // The direction in which u grows on the triangle.
+        const Eigen::Vector2f a = mesh.mesh->uvs[corners[0]];
+        const Eigen::Vector2f b = mesh.mesh->uvs[corners[1]] - a,
+                              c = mesh.mesh->uvs[corners[2]] - a;
+        const Eigen::Vector3f& p = mesh.positions[corners[0]];
+        const float area = b.x() * c.y() - b.y() * c.x();
+        tangent =
+            (mesh.positions[corners[1]] - p) * c.y() - (mesh.positions[corners[2]] - p) * b.y();
+        if (area < 0) tangent = -tangent;
+        // Green is up in the texture, where v falls.
+        sign = area < 0 ? 1.0F : -1.0F;
+    }
+    tangent = unitOr(tangent - normal * normal.dot(tangent), Eigen::Vector3f::Zero());
+    if (tangent.isZero()) return normal;
+    const Eigen::Vector3f bitangent = sign * normal.cross(tangent);
+    const Eigen::Vector4f texel = lookUp(*map, textureAt(mesh, hit));
+    const float x = (2 * texel.x() - 1) * m.normalScale, y = (2 * texel.y() - 1) * m.normalScale;
+    return unitOr(tangent * x + bitangent * y + normal * (2 * texel.z() - 1), normal);
+}
+
+Eigen::Vector3f TracedScene::shadingNormal(const TracedMesh& mesh, const RayHit& hit,
+                                           const Eigen::Vector3f& ofTriangle) {
+    Eigen::Vector3f normal = ofTriangle;
+    if (!mesh.mesh->normals.empty()) {
+        const auto& corners = mesh.mesh->triangles[hit.triangle];
+        normal = unitOr(mesh.R_world_object * interpolated(mesh.mesh->normals, corners, hit),
+                        ofTriangle);
+    }
+    return mapped(mesh, hit, normal);
+}
+
+SurfacePoint TracedScene::objectPoint(const RayHit& hit, const Eigen::Vector3f& direction) const {
+    const TracedMesh& mesh = *meshes_[hit.mesh];
+    const auto& corners = mesh.mesh->triangles[hit.triangle];
+    const Eigen::Vector3f wo = -direction.normalized();
+    const Eigen::Vector3f front = unitOr(crossed(mesh.positions, corners), wo);
+    const float side = front.dot(wo) < 0 ? -1.0F : 1.0F;
+    SurfacePoint out;
+    out.position = interpolated(mesh.positions, corners, hit);
+    out.geometric = side * front;
+    out.shading = shownTowards(side * shadingNormal(mesh, hit, front), wo);
+    setLook(mesh, hit, out);
+    return out;
+}
+
+SurfacePoint TracedScene::catcherPoint(const RayHit& hit, const Eigen::Vector3f& direction) const {
+    const ShadowCatcher& catcher = scene_->catcher;
+    const auto& corners = catcher.triangles[hit.triangle];
+    const Eigen::Vector3f wo = -direction.normalized();
+    const Eigen::Vector3f front = unitOr(crossed(catcher.positions, corners), wo);
+    SurfacePoint out;
+    out.position = interpolated(catcher.positions, corners, hit);
+    out.geometric = front.dot(wo) < 0 ? Eigen::Vector3f(-front) : front;
+    out.shading = out.geometric;
+    out.look.baseColour = catcher.albedo;
+    out.look.matt = true;
+    return out;
+}
+
+}  // namespace mfar

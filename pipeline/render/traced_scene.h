@@ -1,0 +1,79 @@
+#pragma once
+
+#include "pipeline/render/ray_scene.h"
+#include "pipeline/render/scene.h"
+#include "pipeline/render/surface_scatter.h"
+
+#include <memory>
+#include <vector>
+
+namespace mfar {
+
+/// A point of a surface as seen from one side. Normals of unit length, on the viewer's side.
+struct SurfacePoint {
+    Eigen::Vector3f position{0, 0, 0};  ///< in the world
+    Eigen::Vector3f geometric{0, 0, 1};
+    Eigen::Vector3f shading{0, 0, 1};
+    SurfaceLook look;
+    Eigen::Vector3f emission{0, 0, 0};
+
+    /// Where a ray towards `direction` starts: beside the surface by what rounding may be off.
+    [[nodiscard]] Ray leaving(const Eigen::Vector3f& direction) const;
+};
+
+/// A sound scene in world coordinates, ready to be searched. Keeps models alive.
+class TracedScene {
+public:
+    /// Throws std::runtime_error if the search structure cannot be made.
+    TracedScene(std::shared_ptr<const Scene> scene, int buildThreads);
+    TracedScene(const TracedScene&) = delete;
+    TracedScene& operator=(const TracedScene&) = delete;
+
+    [[nodiscard]] const Scene& scene() const { return *scene_; }
+    [[nodiscard]] const RayScene& objects() const { return objects_; }
+    [[nodiscard]] const RayScene& catcher() const { return catcher_; }
+
+    /// What a ray meets of the objects that shows towards it: single-sided surfaces are not there
+    /// from behind. `hit` is the first one of all.
+    [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
+    [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
+
+    /// `direction` is the ray's, of any length.
+    [[nodiscard]] SurfacePoint objectPoint(const RayHit& hit,
+                                           const Eigen::Vector3f& direction) const;
+    [[nodiscard]] SurfacePoint catcherPoint(const RayHit& hit,
+                                            const Eigen::Vector3f& direction) const;
+
+private:
+    struct TracedMesh {
+        const Mesh* mesh = nullptr;
+        const Model* model = nullptr;
+        std::uint8_t id = 0;
+        std::vector<Eigen::Vector3f> positions;  // in the world
+        Eigen::Matrix3f R_world_object = Eigen::Matrix3f::Identity();
+
+        [[nodiscard]] const Material& material() const {
+            return model->materials[static_cast<std::size_t>(mesh->material)];
+        }
+        [[nodiscard]] const SurfaceTexture* texture(int index) const {
+            return index < 0 || mesh->uvs.empty()
+                       ? nullptr
+                       : &model->textures[static_cast<std::size_t>(index)];
+        }
+    };
+
+    void add(const SceneObject& object, std::uint8_t id);
+    static bool isHole(const void* mesh, std::uint32_t triangle, float u, float v);
+    static Eigen::Vector2f textureAt(const TracedMesh& mesh, const RayHit& hit);
+    static void setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoint& point);
+    static Eigen::Vector3f shadingNormal(const TracedMesh& mesh, const RayHit& hit,
+                                         const Eigen::Vector3f& ofTriangle);
+    static Eigen::Vector3f mapped(const TracedMesh& mesh, const RayHit& hit,
+                                  const Eigen::Vector3f& normal);
+
+    std::shared_ptr<const Scene> scene_;
+    std::vector<std::unique_ptr<const TracedMesh>> meshes_;  // at fixed places: hole tests
+    RayScene objects_, catcher_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,191 @@
+#include "pipeline/render/film.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace mfar {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+FilmSample objectSample(float radiance, float depth = 1, std::uint8_t id = 1) {
+    return {{depth, id}, Eigen::Vector3f::Constant(radiance), {0, 0, 0}};
+}
+
+FilmSample catcherSample(const Eigen::Vector3f& with, const Eigen::Vector3f& without) {
+    return {{2, kCatcherId}, with, without};
+}
+
+RenderedPicture pictureOf(const Film& film, const Exposure& exposure = {}) {
+    RenderView view;
+    view.camera.size = film.size();
+    RenderedPicture out;
+    film.resolve(view, exposure, out);
+    return out;
+}
+
+using Rgba = std::array<std::uint8_t, 4>;
+
+TEST(Film, EmptyIsNothing) {
+    const Film film({3, 2});
+    const RenderedPicture picture = pictureOf(film);
+    ASSERT_EQ(picture.colour.size(), 6U);
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(picture.colour[i], Rgba{});
+        EXPECT_EQ(picture.depth[i], 0);
+        EXPECT_EQ(picture.id[i], 0);
+        EXPECT_TRUE(std::isinf(film.error(i)));
+    }
+    EXPECT_EQ(picture.samples, 0);
+}
+
+TEST(Film, ObjectIsItsMeanPremultiplied) {
+    Film film({1, 1});
+    film.add(0, objectSample(0.1F, 1.5F, 7));
+    film.add(0, objectSample(0.3F, 1.2F, 7));
+    film.add(0, {});
+    film.add(0, {});
+    const RenderedPicture picture = pictureOf(film);
+    const int expected = static_cast<int>(std::lround(255 * 0.5F * srgbEncoded(0.2F)));
+    EXPECT_EQ(picture.colour[0][0], expected);
+    EXPECT_EQ(picture.colour[0][3], 128);
+    EXPECT_EQ(picture.id[0], 7);
+    EXPECT_EQ(picture.depth[0], 1.2F);  // the nearest: the centre saw nothing
+    EXPECT_EQ(picture.samples, 4);
+}
+
+TEST(Film, CentreDecidesDepth) {
+    Film film({1, 1});
+    film.setCentre(0, {1.5F, 2});
+    film.add(0, objectSample(0.1F, 1.0F, 1));
+    const RenderedPicture picture = pictureOf(film);
+    EXPECT_EQ(picture.depth[0], 1.5F);
+    EXPECT_EQ(picture.id[0], 2);
+}
+
+TEST(Film, ShadowIsBlackOfTheRatiosCoverage) {
+    Film film({1, 1});
+    film.setCentre(0, {2, kCatcherId});
+    film.add(0, catcherSample({0.1F, 0.05F, 0.025F}, {0.4F, 0.2F, 0.1F}));
+    const RenderedPicture picture = pictureOf(film);
+    const int coverage = static_cast<int>(std::lround(255 * (1 - std::pow(0.25F, 1 / 2.2F))));
+    EXPECT_EQ(picture.colour[0], (Rgba{0, 0, 0, static_cast<std::uint8_t>(coverage)}));
+    EXPECT_EQ(picture.id[0], kCatcherId);
+    EXPECT_EQ(picture.depth[0], 2);
+}
+
+TEST(Film, BouncedLightIsAddedColour) {
+    Film film({1, 1});
+    film.add(0, catcherSample({0.3F, 0.2F, 0.2F}, {0.2F, 0.2F, 0.2F}));
+    const RenderedPicture picture = pictureOf(film);
+    EXPECT_GT(picture.colour[0][0], 20);
+    EXPECT_EQ(picture.colour[0][1], 0);
+    EXPECT_EQ(picture.colour[0][3], 0);
+    EXPECT_EQ(picture.id[0], kCatcherId);
+}
+
+TEST(Film, BouncedLightOnADarkSurfaceIsSeen) {
+    Film film({1, 1});
+    film.add(0, catcherSample({0.3F, 0, 0}, {0, 0, 0}));
+    EXPECT_EQ(pictureOf(film).colour[0],
+              (Rgba{static_cast<std::uint8_t>(std::lround(255 * srgbEncoded(0.3F))), 0, 0, 0}));
+}
+
+TEST(Film, UnchangedCatcherIsNothing) {
+    Film film({1, 1});
+    film.setCentre(0, {2, kCatcherId});
+    film.add(0, catcherSample({0.37F, 0.2F, 0.11F}, {0.37F, 0.2F, 0.11F}));
+    const RenderedPicture picture = pictureOf(film);
+    EXPECT_EQ(picture.colour[0], Rgba{});
+    EXPECT_EQ(picture.id[0], 0);
+    EXPECT_EQ(picture.depth[0], 0);
+}
+
+TEST(Film, WhatIsNotFiniteIsDroppedAndCounted) {
+    Film film({1, 1});
+    film.add(0, objectSample(0.2F));
+    film.add(0, objectSample(kNan));
+    film.add(0, objectSample(std::numeric_limits<float>::infinity()));
+    film.add(0, objectSample(-1));
+    film.add(0, catcherSample({1, 1, 1}, {kNan, 1, 1}));
+    EXPECT_EQ(film.dropped(), 4U);
+    EXPECT_EQ(film.samples(0), 5U);
+    const RenderedPicture picture = pictureOf(film);
+    EXPECT_EQ(picture.colour[0][0], std::lround(255 * srgbEncoded(0.2F)));
+    EXPECT_EQ(picture.colour[0][3], 255);
+}
+
+TEST(Film, ErrorIsThatOfTheMeanInGreyLevels) {
+    Film film({1, 1});
+    film.add(0, objectSample(0.4F));
+    EXPECT_TRUE(std::isinf(film.error(0)));
+    for (int i = 1; i < 64; ++i)
+        film.add(0, objectSample(i % 2 == 0 ? 0.4F : 0.6F));
+    // Standard deviation 0.1 over the root of 64, through the slope of the encoding at 0.5.
+    const float slope = (srgbEncoded(0.501F) - srgbEncoded(0.499F)) / 0.002F;
+    EXPECT_NEAR(film.error(0), 255 * slope * 0.1F / 8, 0.05F);
+    // Half the light, shown twice as bright: the same picture.
+    Film dim({1, 1});
+    for (int i = 0; i < 64; ++i)
+        dim.add(0, objectSample(i % 2 == 0 ? 0.2F : 0.3F));
+    EXPECT_NEAR(dim.error(0, {2, false}), film.error(0), 0.01F);
+}
+
+TEST(Film, ErrorOfWhatIsEvenIsNone) {
+    Film film({2, 1});
+    for (int i = 0; i < 4; ++i) {
+        film.add(0, {});
+        film.add(1, catcherSample({0.5F, 0.5F, 0.5F}, {0.5F, 0.5F, 0.5F}));
+    }
+    EXPECT_EQ(film.error(0), 0);
+    EXPECT_EQ(film.error(1), 0);
+}
+
+TEST(Film, AnEdgesErrorFalls) {
+    const auto edge = [](int samples) {
+        Film film({1, 1});
+        for (int i = 0; i < samples; ++i)
+            film.add(0, i % 2 == 0 ? objectSample(0.5F) : FilmSample{});
+        return film.error(0);
+    };
+    EXPECT_NEAR(edge(16) / edge(256), 8, 0.1);
+}
+
+TEST(Film, ClearForgets) {
+    Film film({2, 1});
+    film.setCentre(0, {1, 1});
+    film.add(0, objectSample(0.5F));
+    film.add(1, objectSample(0.5F));
+    film.clear(0);
+    EXPECT_EQ(film.samples(0), 0U);
+    EXPECT_EQ(film.samples(1), 1U);
+    EXPECT_EQ(pictureOf(film).id[0], 0);
+    film.clear();
+    EXPECT_EQ(film.samples(1), 0U);
+}
+
+TEST(Exposure, SrgbIsTheStandards) {
+    EXPECT_NEAR(srgbEncoded(0.214041F), 0.5F, 1e-4F);
+    EXPECT_EQ(srgbEncoded(-1), 0);
+    EXPECT_EQ(srgbEncoded(kNan), 0);
+    EXPECT_EQ(srgbEncoded(7), 1);
+    for (const float x : {0.0F, 0.002F, 0.04F, 0.3F, 0.99F})
+        EXPECT_NEAR(srgbDecoded(srgbEncoded(x)), x, 1e-5F);
+    EXPECT_NEAR(srgbSlope(0.3F), (srgbEncoded(0.301F) - srgbEncoded(0.299F)) / 0.002F, 1e-3F);
+}
+
+TEST(Exposure, FilmicKeepsOrderAndNeverReachesBeyondWhite) {
+    float before = -1;
+    for (float x = 0; x < 100; x = 1.3F * x + 0.01F) {
+        const float y = displayed(Eigen::Vector3f::Constant(x), {1, true}).x();
+        EXPECT_GE(y, before);
+        EXPECT_LE(y, 1);
+        before = y;
+    }
+    EXPECT_TRUE(displayed(Eigen::Vector3f::Constant(1e38F), {1e6F, true}).allFinite());
+}
+
+}  // namespace
+}  // namespace mfar

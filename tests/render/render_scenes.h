@@ -1,0 +1,36 @@
+#pragma once
+
+#include "pipeline/render/film.h"
+#include "pipeline/render/path_tracer.h"
+#include "pipeline/render/scene.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+/// Small scenes of which the light is known, and ways to trace them.
+namespace mfar::render_scenes {
+
+/// Latitude-longitude sphere about `centre` with smooth normals.
+[[nodiscard]] Mesh sphere(const Eigen::Vector3f& centre, float radius, int rings = 32);
+/// Rectangle with the corners (-side, -side) and (side, side) at height z, facing up.
+[[nodiscard]] Mesh square(float side, float z);
+/// The same as a real surface.
+[[nodiscard]] ShadowCatcher ground(float side, float albedo);
+[[nodiscard]] Model modelOf(Mesh mesh, const Material& material);
+[[nodiscard]] SceneObject objectOf(Model model);
+/// The same radiance from all around.
+[[nodiscard]] std::shared_ptr<const Environment> evenLight(float radiance);
+/// Brighter towards +z, with a bright window on one side.
+[[nodiscard]] std::shared_ptr<const Environment> unevenLight();
+
+/// A pinhole camera at `eye` that looks at `target`, the top of the picture towards +z.
+[[nodiscard]] RenderView lookingAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
+                                   Size size, double focal);
+
+[[nodiscard]] std::vector<std::uint32_t> allPixels(Size size);
+/// All pixels, so many samples each.
+[[nodiscard]] Film traced(const PathTracer& tracer, const RenderView& view, int samples);
+[[nodiscard]] RenderedPicture resolved(const Film& film, const RenderView& view);
+
+}  // namespace mfar::render_scenes
