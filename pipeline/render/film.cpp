@@ -153,6 +153,15 @@ FirstHit Film::firstHit(const Pixel& p, bool changed) {
     return objects ? p.nearest : FirstHit{};
 }
 
+Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const {
+    const Shown s = shown(meansOf(pixels_[pixel]), exposure);
+    Resolved out;
+    out.colour = {quantised(s.colour.x()), quantised(s.colour.y()), quantised(s.colour.z()),
+                  quantised(s.coverage)};
+    out.hit = firstHit(pixels_[pixel], out.colour != std::array<std::uint8_t, 4>{});
+    return out;
+}
+
 void Film::resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out) const {
     out.camera = view.camera;
     out.T_world_camera = view.T_world_camera;
@@ -161,11 +170,8 @@ void Film::resolve(const RenderView& view, const Exposure& exposure, RenderedPic
     out.id.resize(pixels_.size());
     double taken = 0, seen = 0;
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const Shown s = shown(meansOf(pixels_[i]), exposure);
-        out.colour[i] = {quantised(s.colour.x()), quantised(s.colour.y()), quantised(s.colour.z()),
-                         quantised(s.coverage)};
-        const bool changed = out.colour[i] != std::array<std::uint8_t, 4>{};
-        const FirstHit hit = firstHit(pixels_[i], changed);
+        const auto [colour, hit] = resolved(i, exposure);
+        out.colour[i] = colour;
         out.depth[i] = hit.depth;
         out.id[i] = hit.id;
         if (hit.id == 0) continue;

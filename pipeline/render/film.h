@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -62,6 +63,12 @@ public:
     /// 1998): black of coverage 1 - ratio^(1/2.2) in the darkest channel, and what the others are
     /// brighter as added colour. `out` keeps its memory.
     void resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out) const;
+    /// One pixel of that picture.
+    struct Resolved {
+        std::array<std::uint8_t, 4> colour{};
+        FirstHit hit;
+    };
+    [[nodiscard]] Resolved resolved(std::size_t pixel, const Exposure& exposure) const;
 
 private:
     struct Pixel {
