@@ -1,0 +1,116 @@
+#pragma once
+
+#include "pipeline/render/path_tracer.h"
+#include "pipeline/render/slices.h"
+#include "pipeline/render/view_change.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// What is to be done about a reference picture.
+enum class ReferenceStep : unsigned char {
+    Refine,    ///< the picture shown gets more samples
+    Continue,  ///< the next one does
+    Start,     ///< a next one is begun, in place of what there is of it
+    Drop,      ///< the next one is given up: the one shown serves again
+};
+
+/// The changes since the pictures' views, as of viewChange(); nothing: there is no such picture, or
+/// it is of another scene.
+[[nodiscard]] ReferenceStep nextStep(std::optional<double> sinceShown,
+                                     std::optional<double> sinceNext);
+
+struct ReferencePolicy {
+    ViewLimits limits;
+    /// A picture of another view takes the shown one's place with so many samples, unless that is
+    /// of other objects or hopelessly far off.
+    int samplesToReplace = 16;
+};
+
+/// The scene a picture is of.
+struct ReferenceScene {
+    std::shared_ptr<const PathTracer> tracer;
+    std::vector<ObjectBall> balls;
+    std::uint64_t objects = 0, light = 0;  ///< numbers that change with them
+};
+
+/// The two reference pictures: the one shown, which is refined while it serves, and the next one,
+/// which takes its place. One caller at a time, but trace() may be called by any number, and
+/// trace() and done() alone during begin() and resolve().
+class ReferencePictures {
+public:
+    /// Throws std::invalid_argument for slices out of range.
+    ReferencePictures(const SliceOptions& slices, const ReferencePolicy& policy);
+
+    void setScene(std::shared_ptr<const ReferenceScene> scene) { scene_ = std::move(scene); }
+    [[nodiscard]] const ReferenceScene* scene() const { return scene_.get(); }
+
+    /// The camera is at `now`; a picture that is begun because of it is made for `predicted`.
+    void look(const RenderView& now, const RenderView& predicted, Timestamp time);
+
+    /// Whether begin() is due. Then there is nothing to trace.
+    [[nodiscard]] bool toBegin() const;
+    void begin();
+
+    /// The next portion of the picture in the making, which is number `picture` until it is done.
+    /// No pixels: nothing to trace now.
+    struct Portion {
+        Slice slice;
+        std::size_t picture = 0;
+    };
+    [[nodiscard]] Portion next(std::int64_t mostSamples);
+    /// Any number of threads may be in here.
+    void trace(const Portion& portion);
+    void done(const Portion& portion, const Exposure& exposure);
+
+    /// Whether the picture in the making is complete and should be shown.
+    [[nodiscard]] bool toShow() const;
+    void resolve(const Exposure& exposure, RenderedPicture& out);
+
+    /// No portion of the picture in the making is out, and every pixel has the same samples.
+    [[nodiscard]] bool turnComplete() const { return pictures_[working()].slices.turnComplete(); }
+    /// Nothing is to be done for a camera that rests.
+    [[nodiscard]] bool settled() const;
+    /// Of the picture in the making, as of Slices; 1 without one.
+    [[nodiscard]] double progress() const;
+    /// Pixels that a picture has, as far as is known.
+    [[nodiscard]] std::size_t pixels() const;
+    [[nodiscard]] std::uint64_t finished() const { return finished_; }
+    /// When the view of the picture shown was chosen.
+    [[nodiscard]] std::optional<Timestamp> shownSince() const;
+
+private:
+    struct Picture {
+        explicit Picture(const SliceOptions& slices) : slices(slices) {}
+
+        std::shared_ptr<const ReferenceScene> scene;  // none: there is no picture
+        RenderView view;
+        Timestamp chosen;
+        std::unique_ptr<Film> film;
+        Slices slices;
+        int portions = 0;                        // out
+        int shownSamples = 0;                    // when it was shown last
+        bool wasShown = false, counted = false;  // among the finished
+    };
+
+    [[nodiscard]] std::size_t working() const { return hasNext_ ? 1 - shown_ : shown_; }
+    [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
+    [[nodiscard]] int leastSamples(const Picture& picture) const;
+
+    const SliceOptions slices_;
+    const ReferencePolicy policy_;
+    std::shared_ptr<const ReferenceScene> scene_;
+    std::array<Picture, 2> pictures_;
+    std::size_t shown_ = 0;
+    bool hasNext_ = false, toBegin_ = false;
+    RenderView now_, wanted_;
+    Timestamp chosen_;
+    std::uint64_t finished_ = 0;
+};
+
+}  // namespace mfar

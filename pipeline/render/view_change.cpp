@@ -1,0 +1,150 @@
+#include "pipeline/render/view_change.h"
+
+#include "pipeline/render/lens_rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace mfar {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// Cones about the optical axis inside and around what a camera sees.
+struct ViewCones {
+    double inner = std::numbers::pi, outer = 0;  // half angles [rad]
+
+    explicit ViewCones(const CameraModel& camera) {
+        const double right = camera.size.width - 0.5, bottom = camera.size.height - 0.5;
+        for (const double x : {-0.5, camera.cx, right})
+            for (const double y : {-0.5, camera.cy, bottom}) {
+                if (x == camera.cx && y == camera.cy) continue;
+                const double angle = std::atan(camera.unproject({x, y}).norm());
+                inner = std::min(inner, angle);
+                outer = std::max(outer, angle);
+            }
+    }
+};
+
+/// A ball as a camera sees it.
+struct BallSight {
+    Eigen::Vector3d towards;  // in the camera's frame [m]
+    double fromAxis = 0, halfAngle = 0;
+
+    BallSight(const RenderView& view, const ObjectBall& ball)
+        : towards(view.T_world_camera.inverse() * ball.centre),
+          fromAxis(angleBetween(Eigen::Vector3d::UnitZ(), towards)),
+          halfAngle(towards.norm() > ball.radius ? std::asin(ball.radius / towards.norm())
+                                                 : std::numbers::pi) {}
+
+    [[nodiscard]] bool seen(const ViewCones& cones) const {
+        return fromAxis - halfAngle < cones.outer;
+    }
+    [[nodiscard]] bool whole(const ViewCones& cones) const {
+        return fromAxis + halfAngle < cones.inner;
+    }
+};
+
+/// Degree 0 and 1 of the light's spherical harmonics, up to constant factors: rows mean, x, y, z.
+using LightMoments = Eigen::Matrix<double, 4, 3>;
+
+LightMoments momentsOf(const Environment& environment) {
+    LightMoments out = LightMoments::Zero();
+    const auto [width, height] = environment.size;
+    for (int row = 0; row < height; ++row) {
+        const double polar = std::numbers::pi * (row + 0.5) / height;
+        const double solidAngle = std::sin(polar) * 2 * std::numbers::pi * std::numbers::pi /
+                                  (static_cast<double>(width) * height);
+        for (int column = 0; column < width; ++column) {
+            // Column 0 is -x, three quarters of the width +y.
+            const double around = 2 * std::numbers::pi * (column + 0.5) / width - std::numbers::pi;
+            const Eigen::Vector4d basis{1, std::sin(polar) * std::cos(around),
+                                        std::sin(polar) * std::sin(around), std::cos(polar)};
+            const auto texel = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                               static_cast<std::size_t>(column);
+            out += solidAngle * basis * environment.radiance[texel].cast<double>().transpose();
+        }
+    }
+    return out;
+}
+
+LightMoments momentsOf(const Lighting& light) {
+    LightMoments out = LightMoments::Zero();
+    if (light.environment) out = momentsOf(*light.environment);
+    if (light.sun) {
+        Eigen::Vector4d basis;
+        basis << 1, light.sun->towards.cast<double>();
+        out += basis * light.sun->irradiance.cast<double>().transpose();
+    }
+    return out;
+}
+
+bool sameTransform(const RigidTransform& a, const RigidTransform& b) {
+    return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
+}
+
+}  // namespace
+
+std::vector<ObjectBall> objectBalls(const Scene& scene) {
+    std::vector<ObjectBall> out;
+    for (const SceneObject& object : scene.objects) {
+        if (!object.model) continue;
+        Eigen::AlignedBox3f box;
+        for (const Mesh& mesh : object.model->meshes)
+            for (const Eigen::Vector3f& p : mesh.positions)
+                box.extend(p);
+        if (box.isEmpty()) continue;
+        const Eigen::Vector3d centre = object.scale * box.center().cast<double>();
+        out.push_back({object.T_world_object * centre, 0.5 * object.scale * box.diagonal().norm()});
+    }
+    return out;
+}
+
+double viewChange(const RenderView& from, const RenderView& to, std::span<const ObjectBall> objects,
+                  const ViewLimits& limits) {
+    if (!sameLens(from.camera, to.camera)) return kInfinity;
+    const ViewCones cones(from.camera);
+    const double turnLimit = limits.turnDegrees * std::numbers::pi / 180;
+    double change = 0;
+    for (const ObjectBall& ball : objects) {
+        const BallSight before(from, ball), after(to, ball);
+        if (!after.seen(cones)) continue;
+        if (!before.seen(cones)) return kInfinity;
+        if (!before.whole(cones))
+            change = std::max(change, angleBetween(before.towards, after.towards) / turnLimit);
+        const Eigen::Vector3d a = from.T_world_camera.translation - ball.centre;
+        const Eigen::Vector3d b = to.T_world_camera.translation - ball.centre;
+        change = std::max(change, angleBetween(a, b) / turnLimit);
+        const double nearer = std::min(a.norm(), b.norm()), farther = std::max(a.norm(), b.norm());
+        if (farther > nearer) change = std::max(change, (farther / nearer - 1) / limits.zoom);
+    }
+    return change;
+}
+
+double lightChange(const Lighting& a, const Lighting& b) {
+    const bool sameSun =
+        a.sun.has_value() == b.sun.has_value() &&
+        (!a.sun || (a.sun->towards == b.sun->towards && a.sun->irradiance == b.sun->irradiance));
+    if (a.environment == b.environment && sameSun) return 0;
+    const LightMoments before = momentsOf(a), after = momentsOf(b);
+    const double most = std::max(before.row(0).maxCoeff(), after.row(0).maxCoeff());
+    return most > 0 ? (after - before).cwiseAbs().maxCoeff() / most : 0;
+}
+
+bool sameObjects(const Scene& a, const Scene& b) {
+    const auto same = [](const SceneObject& x, const SceneObject& y) {
+        return x.model == y.model && x.scale == y.scale &&
+               sameTransform(x.T_world_object, y.T_world_object);
+    };
+    return std::ranges::equal(a.objects, b.objects, same) &&
+           a.catcher.positions == b.catcher.positions &&
+           a.catcher.triangles == b.catcher.triangles && a.catcher.albedo == b.catcher.albedo;
+}
+
+}  // namespace mfar

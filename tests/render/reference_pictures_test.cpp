@@ -1,0 +1,228 @@
+#include "pipeline/render/reference_pictures.h"
+#include "tests/render/still_life.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+constexpr Size kReferenceSize{48, 36};
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+std::shared_ptr<const ReferenceScene> preparedStillLife(std::uint64_t objects,
+                                                        std::uint64_t light) {
+    auto out = std::make_shared<ReferenceScene>();
+    const auto scene = render_scenes::stillLife();
+    out->tracer = std::make_shared<PathTracer>(scene);
+    out->balls = objectBalls(*scene);
+    out->objects = objects;
+    out->light = light;
+    return out;
+}
+
+/// Does one by one what the threads of a renderer do, and keeps what was shown.
+class Driver {
+public:
+    explicit Driver(const SliceOptions& slices) : pictures(slices, {{4, 0.2}, 8}) {
+        pictures.setScene(preparedStillLife(1, 1));
+    }
+
+    void look(double azimuth) {
+        const RenderView view = render_scenes::viewFrom(kReferenceSize, azimuth);
+        pictures.look(view, view, {});
+    }
+    /// True if there was something to do.
+    bool step() {
+        if (pictures.toBegin()) {
+            pictures.begin();
+            return true;
+        }
+        if (pictures.toShow()) {
+            pictures.resolve({}, shown.emplace_back());
+            return true;
+        }
+        const ReferencePictures::Portion portion = pictures.next(1000);
+        if (portion.slice.pixels.empty()) return false;
+        pictures.trace(portion);
+        pictures.done(portion, {});
+        return true;
+    }
+    void settle() {
+        while (step()) {
+        }
+    }
+    void untilShown(std::size_t pictures) {
+        while (shown.size() < pictures)
+            ASSERT_TRUE(step());
+    }
+    /// Whether the picture shown last was made for the view.
+    [[nodiscard]] bool shows(double azimuth) const {
+        const RigidTransform there =
+            render_scenes::viewFrom(kReferenceSize, azimuth).T_world_camera;
+        return !shown.empty() && shown.back().T_world_camera.translation == there.translation;
+    }
+
+    ReferencePictures pictures;
+    std::vector<RenderedPicture> shown;
+};
+
+constexpr SliceOptions kThirtyTwo{Slicing::Time, 32, 1, 0, 2};
+
+TEST(NextStep, FollowsTheCamera) {
+    using enum ReferenceStep;
+    struct Case {
+        std::optional<double> sinceShown, sinceNext;
+        ReferenceStep step;
+    };
+    for (const auto& [sinceShown, sinceNext, step] : std::vector<Case>{
+             {{}, {}, Start},         // nothing yet
+             {{}, 9.0, Continue},     // the first one, wherever the camera is
+             {0.9, {}, Refine},       // it serves
+             {1.0, {}, Start},        // it serves no longer
+             {kInfinite, {}, Start},  // it never did
+             {1.1, 0.9, Continue},    // on the way
+             {0.6, 2.0, Start},       // the same, and the shown one serves meanwhile
+             {0.4, 0.7, Drop},        // come back
+             {2.0, 1.5, Continue},    // too fast, but better than what is shown
+             {1.5, 2.0, Start},       // another way than was predicted
+         }) {
+        EXPECT_EQ(nextStep(sinceShown, sinceNext), step)
+            << sinceShown.value_or(-1) << ' ' << sinceNext.value_or(-1);
+    }
+}
+
+TEST(ReferencePictures, ACameraAtRestSeesItsPictureGetFiner) {
+    Driver driver(kThirtyTwo);
+    EXPECT_FALSE(driver.step()) << "no view, no work";
+    driver.look(20);
+    driver.settle();
+    std::vector<double> samples;
+    for (const RenderedPicture& picture : driver.shown)
+        samples.push_back(picture.samples);
+    EXPECT_EQ(samples, (std::vector<double>{1, 4, 16, 32}));
+    EXPECT_TRUE(driver.pictures.settled());
+    EXPECT_EQ(driver.pictures.finished(), 1U);
+    driver.look(20.5);
+    EXPECT_FALSE(driver.step()) << "it serves";
+}
+
+TEST(ReferencePictures, SpatialSlicesAreShownWhenTheyAreFinished) {
+    SliceOptions slices = kThirtyTwo;
+    slices.slicing = Slicing::Spatial;
+    Driver driver(slices);
+    driver.look(20);
+    driver.settle();
+    ASSERT_EQ(driver.shown.size(), 1U);
+    EXPECT_EQ(driver.shown[0].samples, 32);
+}
+
+TEST(ReferencePictures, AnotherViewsPictureIsShownWithEnoughSamples) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    driver.look(26);
+    driver.untilShown(5);
+    EXPECT_EQ(driver.shown[4].samples, 8);
+    EXPECT_TRUE(driver.shows(26));
+}
+
+TEST(ReferencePictures, AHopelesslyOldPictureIsReplacedAtOnce) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    driver.look(50);
+    driver.untilShown(5);
+    EXPECT_EQ(driver.shown[4].samples, 1);
+}
+
+TEST(ReferencePictures, ACameraThatComesBackFindsItsPictureAndRefinesIt) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.untilShown(3);
+    driver.look(26);
+    ASSERT_TRUE(driver.step());  // it is begun
+    ASSERT_TRUE(driver.step());
+    driver.look(20.2);
+    driver.settle();
+    ASSERT_EQ(driver.shown.size(), 4U);
+    EXPECT_EQ(driver.shown[3].samples, 32) << "the samples it had are not lost";
+    EXPECT_TRUE(driver.shows(20));
+}
+
+TEST(ReferencePictures, ACameraThatGoesOnFindsThePictureOfItsWay) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    driver.look(26);
+    driver.step();
+    driver.look(29);
+    driver.untilShown(5);
+    EXPECT_TRUE(driver.shows(26)) << "nearer than what is shown";
+    driver.look(33);
+    driver.settle();
+    EXPECT_TRUE(driver.shows(33));
+}
+
+TEST(ReferencePictures, ACameraThatTurnsRoundIsFollowed) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    driver.look(26);
+    driver.step();
+    driver.look(14);
+    driver.settle();
+    EXPECT_TRUE(driver.shows(14));
+    EXPECT_EQ(driver.pictures.finished(), 2U) << "that of 26 degrees was given up";
+}
+
+TEST(ReferencePictures, NewObjectsAreShownAtOnceNewLightWhenItIsCalm) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    driver.pictures.setScene(preparedStillLife(1, 2));
+    driver.look(20);
+    driver.untilShown(5);
+    EXPECT_EQ(driver.shown[4].samples, 8);
+    driver.settle();
+    const std::size_t before = driver.shown.size();
+    driver.pictures.setScene(preparedStillLife(2, 3));
+    driver.look(20);
+    driver.untilShown(before + 1);
+    EXPECT_EQ(driver.shown.back().samples, 1);
+}
+
+TEST(ReferencePictures, WaitsForPortionsOfThePictureThatGoes) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    driver.look(26);
+    driver.step();
+    const ReferencePictures::Portion out = driver.pictures.next(1000);
+    driver.look(14);
+    EXPECT_FALSE(driver.pictures.toBegin()) << "its film is in use";
+    EXPECT_TRUE(driver.pictures.next(1000).slice.pixels.empty());
+    driver.pictures.trace(out);
+    driver.pictures.done(out, {});
+    EXPECT_TRUE(driver.pictures.toBegin());
+}
+
+TEST(ReferencePictures, NothingInViewIsShownAsNothing) {
+    Driver driver(kThirtyTwo);
+    RenderView away = render_scenes::viewFrom(kReferenceSize, 20);
+    away.T_world_camera.translation.z() += 100;
+    driver.pictures.look(away, away, {});
+    driver.settle();
+    ASSERT_EQ(driver.shown.size(), 1U);
+    for (const std::uint8_t id : driver.shown[0].id)
+        EXPECT_EQ(id, 0);
+    EXPECT_TRUE(driver.pictures.settled());
+}
+
+}  // namespace
+}  // namespace mfar
