@@ -5,7 +5,9 @@
 #include "tests/eval/depth_methods.h"
 #include "tests/eval/flow.h"
 #include "tests/eval/flow_methods.h"
+#include "tests/eval/metric_command.h"
 #include "tests/eval/occlusion_command.h"
+#include "tests/eval/picture_metrics_option.h"
 #include "tests/eval/pose_command.h"
 #include "tests/eval/pose_source_option.h"
 #include "tests/eval/superres.h"
@@ -33,7 +35,7 @@ constexpr const char* kSuperResHelp =
     "The reference of a frame is the still nearest to it in time that does not show the "
     "frame's very own view: a still whose pose relative to the frame is below 1e-6 (from the "
     "rig at equal times, from the recorded poses otherwise) is never used.\n"
-    "ms: a second run on the same frame, every tile computed; work per still is not in it.";
+    "ms: a second run on the same frame, every tile computed; work per still is not in it.\n";
 
 constexpr const char* kFlowHelp =
     "Takes recordings with truth/flow from video frames to stills, or else with\n"
@@ -75,6 +77,7 @@ struct Options {
     SampleRequest flow, depth;
     PoseRequest pose;
     OcclusionRequest occlusion;
+    MetricRequest metric;
     std::string degrade;
     PoseNoise poseNoise;
     std::string csv;
@@ -101,13 +104,14 @@ void addDisturbances(CLI::App& sub, Options& o) {
 
 CLI::App* addSuperRes(CLI::App& app, Options& o) {
     CLI::App* sub = app.add_subcommand("superres", "super-resolved frames against truth/highres");
-    sub->footer(kSuperResHelp);
+    sub->footer(std::string(kSuperResHelp) + kPictureMetricsHelp);
     o.superres.methods = superResMethodNames();
     sub->add_option("recording", o.superres.recordings, "folders in the EuRoC layout")->required();
     sub->add_option("--methods", o.superres.methods, "of: " + joined(superResMethodNames()))
         ->delimiter(',');
     addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
+    addPictureMetrics(*sub, o.superres.metrics);
     sub->add_option("--alpha", o.superres.alpha,
                     "of the peer `paper`: two-way error at which its confidence is zero [video px]")
         ->check(CLI::PositiveNumber)
@@ -154,6 +158,7 @@ int run(int argc, char** argv) {
     addSamples(app, "flow", "dense flow against the true one", kFlowHelp, flowMethodNames(), o.flow,
                o);
     const CLI::App* occlusion = addOcclusionCommand(app, o.occlusion, o.csv);
+    const CLI::App* metric = addMetricCommand(app, o.metric, o.csv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -170,6 +175,8 @@ int run(int argc, char** argv) {
         report = evaluatePose(o.pose);
     } else if (occlusion->parsed()) {
         report = evaluateOcclusion(o.occlusion);
+    } else if (metric->parsed()) {
+        report = evaluateMetric(o.metric);
     } else if (depth->parsed()) {
         report = evaluateDepth(completed(o.depth, depthMethodNames(), o));
     } else {

@@ -81,7 +81,7 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
                                     MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 2 * 7 + 7) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 2 * 8 + 8) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate"));
     for (std::size_t i = 1; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].size(), rows[0].size());
@@ -93,11 +93,58 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
         EXPECT_LE(std::stod(rows[i][8]), 1);
     }
     EXPECT_EQ(rows[2][2], "detail2d");
-    EXPECT_EQ(rows[4][2], "bicubic");
-    EXPECT_EQ(std::stod(rows[4][8]), 0);
+    EXPECT_EQ(rows[4][2], "bilinear");
+    EXPECT_EQ(rows[5][2], "bicubic");
+    EXPECT_EQ(std::stod(rows[5][8]), 0);
     EXPECT_EQ(rows.back()[1], "mean");
     EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1000_detail.png"));
     EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1001_truth.png"));
+}
+
+TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const Outcome outcome =
+        execute(folder, fmt::format("{0} superres {1}/tiny --methods bicubic --frames 1 --metrics "
+                                    "psnr,msssim,lpc_si,lpc_si_tiles,hdrvdp --ppd 40 --csv "
+                                    "{1}/out.csv",
+                                    MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    EXPECT_EQ(rows.at(0), split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
+                                "msssim,lpc_si_p10,lpc_si_median,lpc_si_p90,lpc_ratio,hdrvdp_qmos,"
+                                "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma"));
+    ASSERT_EQ(rows.at(1).size(), rows[0].size());
+    EXPECT_TRUE(rows[1][5].empty());  // ssim was not asked for
+    EXPECT_GT(std::stod(rows[1][6]), 0);
+    EXPECT_LT(std::stod(rows[1][7]), 100);
+    EXPECT_EQ(std::stod(rows[1][15]), 40);
+}
+
+TEST(MfarEval, MetricComparesTwoPictures) {
+    const TempFolder folder;
+    const cv::Mat picture = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
+    cv::Mat blurred;
+    cv::GaussianBlur(picture, blurred, {0, 0}, 1);
+    savePicture(folder / "sharp.png", picture);
+    savePicture(folder / "soft.png", blurred);
+    const auto row = [&](const std::string& options) {
+        const Outcome outcome =
+            execute(folder, fmt::format("{0} metric {1}/soft.png {1}/sharp.png {2} --csv "
+                                        "{1}/out.csv",
+                                        MFAR_EVAL, folder.path().string(), options));
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        const auto rows = readCsv(folder / "out.csv");
+        EXPECT_EQ(rows.size(), 2U);
+        return rows.at(1);
+    };
+    const auto some = row("--metrics psnr,hdrvdp"), colour = row("--metrics psnr,hdrvdp --colour");
+    EXPECT_EQ(some[0], "sharp.png");
+    EXPECT_EQ(some[1], "soft.png");
+    EXPECT_EQ(some[3], colour[3]);
+    EXPECT_NE(some[6], colour[6]);
+    EXPECT_TRUE(some[4].empty() && some[5].empty());
+    EXPECT_TRUE(colour.back().empty());
 }
 
 TEST(MfarEval, FlowMeasuresAKnownShift) {
@@ -221,8 +268,8 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/absent", "absent"},
         {"superres " + dir + "/tiny", "no truth"},
         {"superres " + dir + "/tiny --methods detail,wonder",
-         "unknown method 'wonder' (valid: detail, detail2d, blend, bicubic, "
-         "paper, detail-two-way, blend-two-way)"},
+         "unknown method 'wonder' (valid: detail, detail2d, blend, bilinear, "
+         "bicubic, paper, detail-two-way, blend-two-way)"},
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},
@@ -237,6 +284,10 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"depth " + dir + "/tiny", "no truth"},
         {"depth " + dir + "/pair", "pair"},
         {"depth " + dir + "/tiny --methods depths", "unknown method 'depths'"},
+        {"metric " + dir + "/pair/frame10.png " + dir + "/absent.png", "absent.png"},
+        {"metric " + dir + "/pair/frame10.png " + dir + "/pair/frame11.png", "msssim needs"},
+        {"metric a.png b.png --metrics sharpness", "sharpness"},
+        {"metric a.png b.png --ppd nan", "--ppd"},
         {"warp " + dir, ""},
     };
     for (const auto& [arguments, message] : cases) {

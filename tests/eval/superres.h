@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/eval/degrade.h"
+#include "tests/eval/picture_metrics.h"
 #include "tests/eval/pose_source.h"
 #include "tests/eval/report.h"
 #include "tests/eval/shot.h"
@@ -20,10 +21,8 @@ struct SuperResRequest {
     double alpha = 2;            ///< of the paper's confidence [video px]
     int frames = 0;              ///< per recording, 0 = all that have truth
     std::filesystem::path save;  ///< folder for the pictures, empty = none
+    PictureMetrics metrics{{"psnr", "ssim"}, {}};
 };
-
-/// Border left out of every measure [output px].
-inline constexpr int kSuperResBorder = 32;
 
 /// Measures every method on every frame with truth/highres; columns as in design.md, section 10.
 /// One line per frame left out goes to stderr. Throws EvalError and RecordingError.

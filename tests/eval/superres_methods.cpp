@@ -47,17 +47,16 @@ private:
     Pipeline pipeline_;
 };
 
-class BicubicMethod final : public SuperResMethod {
+class Upscaling final : public SuperResMethod {
 public:
-    explicit BicubicMethod(Size output) : output_(output.width, output.height) {}
+    /// `filter`: of cv::InterpolationFlags.
+    Upscaling(Size output, int filter) : output_(output.width, output.height), filter_(filter) {}
 
     void setStill(const Shot&) override {}
 
     Result run(const Shot& frame) override {
         Result out;
-        const auto resize = [&] {
-            cv::resize(frame.picture, out.picture, output_, 0, 0, cv::INTER_CUBIC);
-        };
+        const auto resize = [&] { cv::resize(frame.picture, out.picture, output_, 0, 0, filter_); };
         resize();
         out.ms = wallMs(resize);
         return out;
@@ -65,6 +64,7 @@ public:
 
 private:
     cv::Size output_;
+    int filter_;
 };
 
 class PaperMethod final : public SuperResMethod {
@@ -87,14 +87,16 @@ private:
 }  // namespace
 
 const std::vector<std::string>& superResMethodNames() {
-    static const std::vector<std::string> names{
-        "detail", "detail2d", "blend", "bicubic", "paper", "detail-two-way", "blend-two-way"};
+    static const std::vector<std::string> names{"detail",         "detail2d",     "blend",
+                                                "bilinear",       "bicubic",      "paper",
+                                                "detail-two-way", "blend-two-way"};
     return names;
 }
 
 std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
                                                         const StereoRig& rig) {
-    if (name == "bicubic") return std::make_unique<BicubicMethod>(outputSize(rig));
+    if (name == "bicubic") return std::make_unique<Upscaling>(outputSize(rig), cv::INTER_CUBIC);
+    if (name == "bilinear") return std::make_unique<Upscaling>(outputSize(rig), cv::INTER_LINEAR);
     if (name == "paper") return std::make_unique<PaperMethod>(rig, alpha_);
     const bool detail = name.starts_with("detail"), blend = name.starts_with("blend");
     if (!detail && !blend) throw std::invalid_argument(fmt::format("unknown method '{}'", name));
