@@ -6,7 +6,8 @@
 namespace mfar {
 namespace {
 
-enum PairOfVertex : std::uint32_t { kSunPair, kEnvironmentPair, kScatterPair, kRoulettePair };
+// Pairs of random numbers of each vertex.
+constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
 constexpr float kLongestWalk = 0.95F;  // greatest chance to go on after the roulette's depth
 

@@ -72,8 +72,7 @@ class PathTracer::Batch {
 public:
     Batch(const Parts& parts, const RenderView& view, Film& film)
         : parts_(parts), lens_(parts.lensOf(view.camera)),
-          R_world_camera_(
-              view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
+          rotation_(view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
           eye_(view.T_world_camera.translation.cast<float>()),
           width_(static_cast<std::uint32_t>(view.camera.size.width)), film_(film) {}
 
@@ -101,7 +100,7 @@ private:
     [[nodiscard]] Ray rayOf(const CameraSample& sample) const {
         Eigen::Vector2f at{sample.pixel % width_, sample.pixel / width_};
         if (!sample.centre) at += filtered(parts_.options.filter, samplerOf(sample).pair(0));
-        return {eye_, R_world_camera_ * lens_->at(at.x(), at.y()).homogeneous()};
+        return {eye_, rotation_ * lens_->at(at.x(), at.y()).homogeneous()};
     }
 
     void finish(const CameraSample& sample, const Ray& ray, const RayHit& first) {
@@ -129,7 +128,7 @@ private:
 
     const Parts& parts_;
     std::shared_ptr<const LensRays> lens_;
-    Eigen::Matrix3f R_world_camera_;
+    Eigen::Matrix3f rotation_;
     Eigen::Vector3f eye_;
     std::uint32_t width_;
     Film& film_;

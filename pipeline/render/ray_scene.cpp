@@ -19,11 +19,14 @@ namespace {
 void intersectOne(RTCScene scene, RTCRayHit& query) {
     rtcIntersect1(scene, &query);
 }
-void intersectFour(const int* valid, RTCScene scene, RTCRayHit4& query) {
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-    rtcIntersect4(valid, scene, &query, &arguments);
+void intersectPacket(const int* valid, RTCScene scene, RTCRayHit4& query) {
+    rtcIntersect4(valid, scene, &query);
+}
+void intersectPacket(const int* valid, RTCScene scene, RTCRayHit8& query) {
+    rtcIntersect8(valid, scene, &query);
+}
+void intersectPacket(const int* valid, RTCScene scene, RTCRayHit16& query) {
+    rtcIntersect16(valid, scene, &query);
 }
 void occludedOne(RTCScene scene, RTCRay& query) {
     rtcOccluded1(scene, &query);
@@ -34,11 +37,21 @@ void intersectOne(RTCScene scene, RTCRayHit& query) {
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene, &context, &query);
 }
-void intersectFour(const int* valid, RTCScene scene, RTCRayHit4& query) {
+template <auto Intersect, typename Packet>
+void intersectCoherent(const int* valid, RTCScene scene, Packet& query) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect4(valid, scene, &context, &query);
+    Intersect(valid, scene, &context, &query);
+}
+void intersectPacket(const int* valid, RTCScene scene, RTCRayHit4& query) {
+    intersectCoherent<rtcIntersect4>(valid, scene, query);
+}
+void intersectPacket(const int* valid, RTCScene scene, RTCRayHit8& query) {
+    intersectCoherent<rtcIntersect8>(valid, scene, query);
+}
+void intersectPacket(const int* valid, RTCScene scene, RTCRayHit16& query) {
+    intersectCoherent<rtcIntersect16>(valid, scene, query);
 }
 void occludedOne(RTCScene scene, RTCRay& query) {
     RTCIntersectContext context;
@@ -47,7 +60,8 @@ void occludedOne(RTCScene scene, RTCRay& query) {
 }
 #endif
 
-constexpr std::size_t kPacket = 4;
+// Weight of a corner: rounding over the size of a triangle a thousandth of its distance wide.
+constexpr float kEdge = 4e-3F;
 
 RTCRay embreeRay(const Ray& ray) {
     RTCRay out{};
@@ -63,7 +77,8 @@ RTCRay embreeRay(const Ray& ray) {
     return out;
 }
 
-void setLane(RTCRayHit4& query, std::size_t i, const Ray& ray) {
+template <typename Packet>
+void setLane(Packet& query, std::size_t i, const Ray& ray) {
     query.ray.org_x[i] = ray.origin.x();
     query.ray.org_y[i] = ray.origin.y();
     query.ray.org_z[i] = ray.origin.z();
@@ -80,10 +95,39 @@ void setLane(RTCRayHit4& query, std::size_t i, const Ray& ray) {
     query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
 }
 
-RayHit laneHit(const RTCRayHit4& query, std::size_t i) {
+template <typename Packet>
+RayHit laneHit(const Packet& query, std::size_t i) {
     if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) return {};
     return {query.ray.tfar[i], query.hit.geomID[i], query.hit.primID[i], query.hit.u[i],
             query.hit.v[i]};
+}
+
+/// Where the next triangle may be hit at the same distance, and the first one tried is found: by a
+/// packet that may be another than by the ray alone.
+bool onEdge(const RayHit& hit) {
+    return hit.found() && !(std::min({hit.u, hit.v, 1 - hit.u - hit.v}) > kEdge);
+}
+
+template <std::size_t kWidth, typename Packet>
+void intersectInPackets(RTCScene scene, std::span<const Ray> rays, std::span<RayHit> hits) {
+    for (std::size_t first = 0; first < rays.size(); first += kWidth) {
+        const std::size_t count = std::min(kWidth, rays.size() - first);
+        Packet query;
+        alignas(Packet) std::array<int, kWidth> valid{};
+        for (std::size_t i = 0; i < kWidth; ++i) {
+            valid[i] = i < count ? -1 : 0;
+            setLane(query, i, rays[first + std::min(i, count - 1)]);
+        }
+        intersectPacket(valid.data(), scene, query);
+        for (std::size_t i = 0; i < count; ++i)
+            hits[first + i] = laneHit(query, i);
+    }
+}
+
+/// The widest packet that this processor does not have to take apart.
+std::size_t packetWidthOf(RTCDevice device) {
+    if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) return 16;
+    return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0 ? 8 : 4;
 }
 
 void rejectHoles(const RTCFilterFunctionNArguments* arguments) {
@@ -121,6 +165,7 @@ RayScene::RayScene(int buildThreads) {
     if (!device_) throw std::runtime_error("Embree: no device");
     scene_.reset(rtcNewScene(device_.get()));
     check(device_.get(), "a new scene");
+    packetWidth_ = packetWidthOf(device_.get());
     // Without it rays slip through between triangles that share an edge.
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
 }
@@ -130,11 +175,13 @@ std::uint32_t RayScene::add(std::span<const Eigen::Vector3f> positions,
                             const HoleTest& holes) {
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     // Embree's own buffers: it reads past the end of the last vertex.
-    void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                             sizeof(Eigen::Vector3f), positions.size());
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), positions.size()));
     void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             3 * sizeof(std::uint32_t), triangles.size());
-    if (vertices != nullptr) std::memcpy(vertices, positions.data(), positions.size_bytes());
+    for (std::size_t i = 0; vertices != nullptr && i < positions.size(); ++i)
+        std::copy_n(positions[i].data(), 3, vertices + 3 * i);
     if (indices != nullptr) std::memcpy(indices, triangles.data(), triangles.size_bytes());
     if (holes.isHole != nullptr) {
         holes_.push_back(std::make_unique<HoleTest>(holes));
@@ -174,18 +221,14 @@ bool RayScene::blocked(const Ray& ray) const {
 }
 
 void RayScene::firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const {
-    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-        const std::size_t count = std::min(kPacket, rays.size() - first);
-        RTCRayHit4 query;
-        alignas(16) std::array<int, kPacket> valid{};
-        for (std::size_t i = 0; i < kPacket; ++i) {
-            valid[i] = i < count ? -1 : 0;
-            setLane(query, i, rays[first + std::min(i, count - 1)]);
-        }
-        intersectFour(valid.data(), scene_.get(), query);
-        for (std::size_t i = 0; i < count; ++i)
-            hits[first + i] = laneHit(query, i);
-    }
+    if (packetWidth_ == 16)
+        intersectInPackets<16, RTCRayHit16>(scene_.get(), rays, hits);
+    else if (packetWidth_ == 8)
+        intersectInPackets<8, RTCRayHit8>(scene_.get(), rays, hits);
+    else
+        intersectInPackets<4, RTCRayHit4>(scene_.get(), rays, hits);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        if (onEdge(hits[i])) hits[i] = first(rays[i]);
 }
 
 }  // namespace mfar

@@ -57,7 +57,8 @@ public:
 
     [[nodiscard]] RayHit first(const Ray& ray) const;
     [[nodiscard]] bool blocked(const Ray& ray) const;
-    /// The same as first() for each; fast for neighbouring rays. `hits` is as long as `rays`.
+    /// The same to the bit as first() for each; fast for neighbouring rays. `hits` is as long as
+    /// `rays`.
     void firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const;
 
 private:
@@ -69,6 +70,7 @@ private:
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;
     std::vector<std::unique_ptr<HoleTest>> holes_;
+    std::size_t packetWidth_ = 4;
     std::uint32_t meshes_ = 0;
     Eigen::AlignedBox3f box_;
 };

@@ -31,7 +31,8 @@ Eigen::Vector3f crossed(const std::vector<Eigen::Vector3f>& positions,
 }
 
 Eigen::Vector3f unitOr(const Eigen::Vector3f& v, const Eigen::Vector3f& otherwise) {
-    const float n = v.stableNorm();
+    float n = v.norm();
+    if (!(n > 1e-15F && n < 1e15F)) n = v.stableNorm();  // the squares may have run over
     return n > 0 && std::isfinite(n) ? Eigen::Vector3f(v / n) : otherwise;
 }
 
