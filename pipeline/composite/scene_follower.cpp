@@ -1,0 +1,63 @@
+#include "pipeline/composite/scene_follower.h"
+
+#include <cmath>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+// A surface of fewer triangles is none.
+constexpr std::size_t kLeastTriangles = 50;
+
+double knownShare(const InverseDepthField& field, const PixelRect& region) {
+    std::size_t known = 0, all = 0;
+    for (int y = region.y0; y < region.y1; ++y)
+        for (int x = region.x0; x < region.x1; ++x, ++all)
+            known += field.isKnown(static_cast<std::size_t>(y) * field.size.width + x) ? 1 : 0;
+    return all > 0 ? static_cast<double>(known) / static_cast<double>(all) : 0;
+}
+
+double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace
+
+std::shared_ptr<const Scene> SceneFollower::set(Scene scene) {
+    scene_ = std::move(scene);
+    objects_ = boundsOf(scene_);
+    const Eigen::Vector3f albedo = scene_.catcher.albedo;
+    scene_.catcher = planeCatcher(objects_);
+    scene_.catcher.albedo = albedo;
+    frames_ = 0;
+    caught_.reset();
+    return std::make_shared<const Scene>(scene_);
+}
+
+bool SceneFollower::isDue(const RigidTransform& T_world_video, Timestamp time) const {
+    if (frames_ < rule_.settling) return false;
+    if (!caught_) return true;
+    const double age = static_cast<double>((time - *caught_).count()) * 1e-9;
+    const Eigen::Vector3d centre = objects_.center();
+    return age >= rule_.leastInterval &&
+           angleBetween(caughtFrom_ - centre, T_world_video.translation - centre) >= rule_.turn;
+}
+
+std::shared_ptr<const Scene> SceneFollower::follow(const InverseDepthField& field,
+                                                   const CameraModel& video,
+                                                   const RigidTransform& T_world_video,
+                                                   const PixelRect& region, Timestamp time) {
+    const PixelRect seen = common(region, {0, 0, field.size.width, field.size.height});
+    if (objects_.isEmpty() || seen.empty()) return nullptr;
+    ++frames_;
+    if (!isDue(T_world_video, time) || knownShare(field, seen) < rule_.leastKnown) return nullptr;
+    ShadowCatcher measured = depthCatcher(field, video, T_world_video, seen, objects_);
+    if (measured.triangles.size() < kLeastTriangles) return nullptr;
+    measured.albedo = scene_.catcher.albedo;
+    scene_.catcher = std::move(measured);
+    caught_ = time;
+    caughtFrom_ = T_world_video.translation;
+    return std::make_shared<const Scene>(scene_);
+}
+
+}  // namespace mfar

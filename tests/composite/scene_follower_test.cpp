@@ -1,0 +1,97 @@
+#include "pipeline/composite/scene_follower.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace mfar {
+namespace {
+
+const CameraModel kFollowing{{160, 120}, 150, 150, 79.5, 59.5, {}};
+constexpr PixelRect kPicture{0, 0, 160, 120};
+
+/// Looks down at the world's origin from above, turned about x by `angle`.
+RigidTransform downAt(double angle) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
+    const Eigen::Quaterniond down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
+    return {turn * down, turn * Eigen::Vector3d(0, 0, 0.5)};
+}
+
+Scene cube() {
+    Scene scene;
+    auto model = std::make_shared<Model>();
+    model->materials.resize(1);
+    model->meshes.resize(1);
+    model->meshes[0].positions = {{-0.05F, -0.05F, 0}, {0.05F, 0.05F, 0}, {0, 0, 0.1F}};
+    model->meshes[0].triangles = {{0, 1, 2}};
+    scene.objects.push_back({model, {}, 1});
+    scene.catcher.albedo = {0.1F, 0.2F, 0.3F};
+    return scene;
+}
+
+/// Depth of a table at this height.
+InverseDepthField table(double height, double known = 1) {
+    InverseDepthField field(kFollowing.size);
+    for (std::size_t i = 0; i < field.rho.size(); ++i) {
+        if (static_cast<double>(i % 100) >= 100 * known) continue;
+        field.rho[i] = static_cast<float>(1 / (0.5 - height));
+        field.variance[i] = 1e-8F;
+    }
+    return field;
+}
+
+Timestamp atSecond(int s) {
+    return Timestamp::fromSeconds(s);
+}
+
+bool isFlatAt(const ShadowCatcher& c, float z) {
+    return !c.positions.empty() &&
+           std::all_of(c.positions.begin(), c.positions.end(),
+                       [&](auto& p) { return std::abs(p.z() - z) < 1e-4F; });
+}
+
+TEST(SceneFollower, ShadowsFallOntoThePlaneUntilDepthIsKnown) {
+    SceneFollower follower({.settling = 3});
+    const auto first = follower.set(cube());
+    EXPECT_TRUE(isFlatAt(first->catcher, 0));
+    EXPECT_EQ(first->catcher.albedo, cube().catcher.albedo);
+    const auto follow = [&](double known, int s) {
+        return follower.follow(table(0.03, known), kFollowing, downAt(0), kPicture, atSecond(s));
+    };
+    EXPECT_EQ(follow(1, 1), nullptr);
+    EXPECT_EQ(follow(1, 2), nullptr);
+    EXPECT_EQ(follow(0.5, 3), nullptr);
+    const auto measured = follow(1, 4);
+    ASSERT_NE(measured, nullptr);
+    EXPECT_TRUE(isFlatAt(measured->catcher, 0.03F));
+    EXPECT_EQ(measured->catcher.albedo, cube().catcher.albedo);
+    EXPECT_EQ(measured->objects.size(), 1U);
+}
+
+TEST(SceneFollower, CatcherIsMadeAnewFromAnotherSideAfterAWhile) {
+    SceneFollower follower({.settling = 1, .leastKnown = 0.5, .turn = 0.3, .leastInterval = 4});
+    follower.set(cube());
+    const auto follow = [&](double angle, int s) {
+        return follower.follow(table(0), kFollowing, downAt(angle), kPicture, atSecond(s));
+    };
+    ASSERT_NE(follow(0, 1), nullptr);
+    EXPECT_EQ(follow(0, 100), nullptr);
+    EXPECT_EQ(follow(0.2, 100), nullptr);
+    EXPECT_NE(follow(0.35, 100), nullptr);
+    EXPECT_EQ(follow(0, 103), nullptr);
+    EXPECT_NE(follow(0, 105), nullptr);
+}
+
+TEST(SceneFollower, NothingToFollowChangesNothing) {
+    SceneFollower follower({.settling = 0});
+    EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(1)), nullptr);
+    EXPECT_TRUE(follower.set({})->catcher.positions.empty());
+    EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), kPicture, atSecond(2)), nullptr);
+    follower.set(cube());
+    EXPECT_EQ(follower.follow(table(0), kFollowing, downAt(0), {}, atSecond(3)), nullptr);
+    EXPECT_NE(follower.follow(table(0), kFollowing, downAt(0), {-9, -9, 900, 900}, atSecond(3)),
+              nullptr);
+}
+
+}  // namespace
+}  // namespace mfar
