@@ -46,6 +46,7 @@ std::span<const std::uint32_t> HoleTracer::next(std::int64_t mostSamples) {
 void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
     out.view = request_.view;
     out.samples = request_.samples;
+    out.scene = request_.scene;
     out.pixels = request_.pixels;
     out.colour.clear();
     out.depth.clear();

@@ -1,33 +1,14 @@
 #pragma once
 
 #include "pipeline/render/film.h"
-#include "pipeline/render/render_view.h"
+#include "pipeline/render/hole_request.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace mfar {
-
-/// Pixels of a view that no older picture shows.
-struct HoleRequest {
-    RenderView view;
-    std::vector<std::uint32_t> pixels;  ///< row-major indices, in any order
-    int samples = 4;                    ///< of each
-};
-
-/// What is seen through them: as RenderedPicture, for each of `pixels`.
-struct HoleAnswer {
-    RenderView view;
-    std::vector<std::uint32_t> pixels;  ///< rising
-    std::vector<std::array<std::uint8_t, 4>> colour;
-    std::vector<float> depth;
-    std::vector<std::uint8_t> id;
-    int samples = 0;  ///< of each
-};
 
 /// Cuts one request after the other into portions. One caller at a time for all but prepare() and
 /// answer(), during which none else is called.

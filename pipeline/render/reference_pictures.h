@@ -35,6 +35,7 @@ struct ReferencePolicy {
 /// The scene a picture is of.
 struct ReferenceScene {
     std::shared_ptr<const PathTracer> tracer;
+    std::shared_ptr<const Scene> source;
     std::vector<ObjectBall> balls;
     std::uint64_t objects = 0, light = 0;  ///< numbers that change with them
 };

@@ -200,6 +200,7 @@ void ReferenceWorkers::build(Job& job) const {
             return;
         auto built = std::make_shared<ReferenceScene>();
         built->tracer = std::make_shared<PathTracer>(job.source, options_.tracer);
+        built->source = job.source;
         built->balls = objectBalls(*job.source);
         built->objects = (previous ? previous->objects : 0) + (same ? 0 : 1);
         built->light = (previous ? previous->light : 0) + 1;

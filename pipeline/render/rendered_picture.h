@@ -1,9 +1,11 @@
 #pragma once
 
 #include "pipeline/geometry.h"
+#include "pipeline/render/scene.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace mfar {
@@ -21,7 +23,8 @@ struct RenderedPicture {
     /// nearest one any sample hit where that goes by; 0 = nothing.
     std::vector<float> depth;
     std::vector<std::uint8_t> id;  ///< what `depth` belongs to: SceneObject's number, 0 = nothing
-    double samples = 0;            ///< in the mean over the pixels with an id
+    std::shared_ptr<const Scene> scene;  ///< what it is a picture of, where its maker says so
+    double samples = 0;                  ///< in the mean over the pixels with an id
 };
 
 }  // namespace mfar

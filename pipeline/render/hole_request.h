@@ -1,0 +1,30 @@
+#pragma once
+
+#include "pipeline/render/render_view.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// Pixels of a view that no older picture shows, to be rendered for themselves.
+struct HoleRequest {
+    RenderView view;
+    std::vector<std::uint32_t> pixels;  ///< row-major indices, in any order
+    int samples = 4;                    ///< of each
+    std::uint64_t scene = 0;            ///< whatever the answer is to be recognised by
+};
+
+/// What is seen through them: as RenderedPicture, for each of `pixels`.
+struct HoleAnswer {
+    RenderView view;
+    std::vector<std::uint32_t> pixels;  ///< rising
+    std::vector<std::array<std::uint8_t, 4>> colour;
+    std::vector<float> depth;
+    std::vector<std::uint8_t> id;
+    int samples = 0;          ///< of each
+    std::uint64_t scene = 0;  ///< the request's
+};
+
+}  // namespace mfar
