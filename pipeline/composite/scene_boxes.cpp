@@ -100,7 +100,11 @@ SceneBoxes::SceneBoxes(const Scene& scene) {
                 {mesh.positions, mesh.triangles, object.T_world_object, object.scale});
         appendBoxes(surfaces, boxes_);
     }
-    appendBoxes(std::array{Surface{scene.catcher.positions, scene.catcher.triangles, {}}}, boxes_);
+    extents_.reserve(boxes_.size());
+}
+
+SceneBoxes::SceneBoxes(const ShadowCatcher& catcher) {
+    appendBoxes(std::array{Surface{catcher.positions, catcher.triangles, {}}}, boxes_);
     extents_.reserve(boxes_.size());
 }
 

@@ -7,13 +7,16 @@
 
 namespace mfar {
 
-/// Boxes around the parts of a scene's surfaces, its shadow catcher among them: where something
-/// virtual may be in a picture, at a cost that does not depend on how many triangles there are.
+/// Boxes around the parts of a scene's surfaces: where something virtual may be in a picture, at a
+/// cost that does not depend on how many triangles there are.
 class SceneBoxes {
 public:
     /// None: no box.
     SceneBoxes() = default;
+    /// Of its objects.
     explicit SceneBoxes(const Scene& scene);
+    /// Of the surface on which their shadows are seen.
+    explicit SceneBoxes(const ShadowCatcher& catcher);
 
     /// What each box that reaches before the near plane covers. Valid until the next call.
     const std::vector<SurfaceExtent>& extents(const LensProjection& lens,

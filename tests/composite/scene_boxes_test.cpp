@@ -81,12 +81,13 @@ TEST(SceneBoxes, AreFewAndTight) {
     EXPECT_LE(coveredTiles(silhouette.run(boxes, kEye)), 16);
 }
 
-TEST(SceneBoxes, ShadowCatcherIsPartOfIt) {
+TEST(SceneBoxes, ShadowCatcherHasItsOwn) {
     Scene scene;
-    EXPECT_TRUE(SceneBoxes(scene).world().empty());
+    EXPECT_TRUE(SceneBoxes(scene.catcher).world().empty());
     scene.catcher.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     scene.catcher.triangles = {{0, 1, 2}};
-    SceneBoxes boxes(scene);
+    EXPECT_TRUE(SceneBoxes(scene).world().empty());
+    const SceneBoxes boxes(scene.catcher);
     ASSERT_EQ(boxes.world().size(), 1U);
     EXPECT_EQ(boxes.world()[0].max(), Eigen::Vector3d(1, 1, 0));
 }
