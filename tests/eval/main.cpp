@@ -3,6 +3,7 @@
 #include "hal/virtual/recording.h"
 #include "tests/eval/depth.h"
 #include "tests/eval/depth_methods.h"
+#include "tests/eval/figure7_command.h"
 #include "tests/eval/flow.h"
 #include "tests/eval/flow_methods.h"
 #include "tests/eval/metric_command.h"
@@ -78,6 +79,7 @@ struct Options {
     PoseRequest pose;
     OcclusionRequest occlusion;
     MetricRequest metric;
+    Figure7Request figure7;
     std::string degrade;
     PoseNoise poseNoise;
     std::string csv;
@@ -159,6 +161,7 @@ int run(int argc, char** argv) {
                o);
     const CLI::App* occlusion = addOcclusionCommand(app, o.occlusion, o.csv);
     const CLI::App* metric = addMetricCommand(app, o.metric, o.csv);
+    const CLI::App* figure7 = addFigure7Command(app, o.figure7, o.csv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -177,6 +180,8 @@ int run(int argc, char** argv) {
         report = evaluateOcclusion(o.occlusion);
     } else if (metric->parsed()) {
         report = evaluateMetric(o.metric);
+    } else if (figure7->parsed()) {
+        report = runFigure7(o.figure7);
     } else if (depth->parsed()) {
         report = evaluateDepth(completed(o.depth, depthMethodNames(), o));
     } else {

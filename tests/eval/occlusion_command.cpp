@@ -1,10 +1,7 @@
 #include "tests/eval/occlusion_command.h"
 
+#include "tests/eval/name_options.h"
 #include "tests/eval/pose_source_option.h"
-
-#include <fmt/format.h>
-
-#include <optional>
 
 namespace mfar::eval {
 namespace {
@@ -25,24 +22,6 @@ std::string isNoise(const std::string& text) {
     double factor = -1;
     const bool number = CLI::detail::lexical_cast(text, factor);
     return number && factor >= 0 && factor <= 100 ? "" : text + " is not in [0, 100]";
-}
-
-/// Adds a list of names that `named` knows.
-template <class T>
-void addNames(CLI::App& sub, const char* option, std::vector<T>& values, const char* what,
-              std::optional<T> (*named)(std::string_view)) {
-    sub.add_option_function<std::vector<std::string>>(
-           option,
-           [&values, named](const std::vector<std::string>& names) {
-               values.clear();
-               for (const std::string& name : names)
-                   values.push_back(*named(name));
-           },
-           what)
-        ->delimiter(',')
-        ->check([named](const std::string& name) {
-            return named(name) ? std::string() : fmt::format("there is no '{}'", name);
-        });
 }
 
 }  // namespace

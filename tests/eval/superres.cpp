@@ -15,10 +15,10 @@ namespace mfar::eval {
 namespace {
 
 /// One recording with the methods set up for its rig.
-class RecordingRun {
+class SuperResRun {
 public:
-    RecordingRun(const SuperResRequest& request, const Recording& recording, std::string label,
-                 SuperResFactory& factory)
+    SuperResRun(const SuperResRequest& request, const Recording& recording, std::string label,
+                SuperResFactory& factory)
         : request_(request), recording_(recording), poses_(recording, request.poses),
           label_(std::move(label)) {
         for (const std::string& name : request.methods)
@@ -97,7 +97,7 @@ Report evaluateSuperRes(const SuperResRequest& request) {
     for (std::size_t i = 0; i < labels.size(); ++i) {
         const Recording recording = loadRecording(request.recordings[i]);
         const auto samples = superResSamplesOf(recording, request.frames);
-        RecordingRun run(request, recording, labels[i], factory);
+        SuperResRun run(request, recording, labels[i], factory);
         for (const SuperResSample& sample : samples)
             run.measure(sample, report);
     }

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mfar::eval {
+
+/// Adds a list of names that `named` knows.
+template <class T>
+void addNames(CLI::App& sub, const char* option, std::vector<T>& values, const char* what,
+              std::optional<T> (*named)(std::string_view)) {
+    sub.add_option_function<std::vector<std::string>>(
+           option,
+           [&values, named](const std::vector<std::string>& names) {
+               values.clear();
+               for (const std::string& name : names)
+                   values.push_back(*named(name));
+           },
+           what)
+        ->delimiter(',')
+        ->check([named](const std::string& name) {
+            return named(name) ? std::string() : fmt::format("there is no '{}'", name);
+        });
+}
+
+}  // namespace mfar::eval
