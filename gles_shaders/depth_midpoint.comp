@@ -2,6 +2,7 @@
 // In: flow [px], rays of both views. Out: points[], see pipeline/depth/triangulation.h.
 // Source: paper; P = A[R|t] = [Q|q~], c = -Q^-1 q~, w = c + lambda Q^-1 m. The ends of the line follow from
 // the rays' common normal, which the residual flow gives without cancellation.
+// Range: points 0..1e6, 0..1e9, -1e9..1e9, 0..1e35
 #include "triangulation.glsl"
 
 void main() {

@@ -4,6 +4,7 @@
 // In, out: two areas of patches[]. Out: flow (x, y) [px], cost, texture (energy of the patch). One
 // invocation a cell.
 // After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
+// Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 
 layout(local_size_x = 4, local_size_y = 4) in;

@@ -2,6 +2,7 @@
 // what agrees with it in 5x5. Larger medians measured worse on photographs: they flatten slanted and
 // curved surfaces.
 // In, out: two areas of patches[]. One invocation a cell.
+// Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {

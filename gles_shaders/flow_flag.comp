@@ -2,6 +2,7 @@
 // although the still shows the place. There something moved or came into view, or the pose is wrong.
 // In: refined forward field and its two-way errors in patches[]. Out: flags[] = 1 or 0. One invocation a
 // tile.
+// Range: flags 0..1
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {

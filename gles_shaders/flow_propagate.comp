@@ -1,5 +1,6 @@
 // Tries each cell's four neighbours' vectors and refines the one that fits better.
 // In, out: two areas of patches[], as flow_search.comp writes them. One invocation a cell.
+// Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 
 layout(local_size_x = 4, local_size_y = 4) in;

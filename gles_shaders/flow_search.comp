@@ -5,6 +5,7 @@
 // works on the groups of 4x4 cells in lists[] only, and turns the two-way errors of cells that leave
 // their epipolar line into what their match is worth.
 // After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
+// Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 #ifdef LISTED
 #include "tiles.glsl"

@@ -4,6 +4,7 @@
 // (after Immerkaer, Fast noise variance estimation, 1996). One invocation 4x4 pixels, 16 a tile.
 // A cell's mean difference shows slow changes below the noise of a pixel; its mean absolute difference
 // shows fine structure that moved. Colour counts by its largest channel.
+// Range: tiles 0..1, 0..1e6
 #include "luma.glsl"
 
 layout(local_size_x = 16) in;

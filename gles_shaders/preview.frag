@@ -1,5 +1,6 @@
 // Colour and depth of a virtual object: checkerboard, diffuse and ambient light.
 // In: preview.vert. Out: RGBA8 premultiplied by coverage (all or nothing), z [m].
+// Range: depth 0..4e5
 #include "preview_params.glsl"
 
 in vec3 point;

@@ -4,6 +4,8 @@
 // Out: displacement image = flow (x, y) [video px], its end in the still less the scaled cell centre
 // [still px]; statistics image = covariance, variance of the video and of the still in the patch,
 // confidence. Source: paper, eq. 2 with lambda(x) = min(x, 1).
+// Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3
+// Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1
 #include "luma.glsl"
 #include "rig.glsl"
 

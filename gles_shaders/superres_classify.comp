@@ -2,6 +2,7 @@
 // In: change flags, cell field. Out: lists[] = four lists of changed tiles (all, upscaled, trusted,
 // blended; empty when the whole frame is drawn at once), draws[] = their indirect commands and the counts of the frame, classes[] per tile.
 // One invocation a tile; draws[] is zeroed before.
+// Range: classes 0..3, 0..16
 #include "tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

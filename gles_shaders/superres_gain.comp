@@ -1,6 +1,7 @@
 // Photometric gain between the sensors, measured at half resolution: there the blur in which they differ
 // no longer counts. In: forward field, both pictures' second luma level. Out: covariance, variance of the
 // video and of the still per half-resolution cell (8x8 video pixels).
+// Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..0
 #include "luma.glsl"
 
 layout(local_size_x = 4, local_size_y = 4) in;

@@ -8,6 +8,8 @@
 // detail that aliases there: a match good enough to be right is trusted wholly. Where the flow bends,
 // the surface is seen from another side, and trust falls with the squared share of the video's variance
 // that the still explains.
+// Range: cellField -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
+// Range: lookupField -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {

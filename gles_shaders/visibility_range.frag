@@ -1,6 +1,7 @@
 // For the 4x4 samples that visibility_sample.frag weighs around a position whose lower sample this is:
 // which virtual inverse depths need no weighing. In: Rg32F real inverse depth, sigma [1/m].
 // Out: all at or above x are in front of every sample; y: bound of those hidden by every sample, 0 = none.
+// Range: range 0..1e6, 0..1e6
 #include "visibility.glsl"
 
 layout(binding = 0) uniform sampler2D realDepth;

@@ -1,5 +1,7 @@
 #include "pipeline/gpu/buffer.h"
 
+#include "pipeline/gpu/validation.h"
+
 #include <cassert>
 #include <cstdint>
 #include <cstring>
@@ -11,9 +13,13 @@ Buffer::Buffer(std::size_t bytes) : bytes_(bytes) {
     checkErrors("before Buffer");
     glGenBuffers(1, &id_);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, id_);
-    const std::vector<std::uint8_t> zeros(bytes);
-    glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), zeros.data(),
-                 GL_DYNAMIC_COPY);
+    std::vector<std::uint8_t> contents(bytes);
+    if (Validation* validation = Validation::active()) {
+        contents.resize(bytes + Validation::kGuardBytes, 0xFF);
+        validation->guard(id_, bytes);
+    }
+    glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(contents.size()),
+                 contents.data(), GL_DYNAMIC_COPY);
     checkErrors("Buffer");
 }
 

@@ -1,6 +1,7 @@
 #include "pipeline/gpu/pass.h"
 
 #include "gles_shaders/shaders.h"
+#include "pipeline/gpu/validation.h"
 
 #include <array>
 #include <cassert>
@@ -35,17 +36,18 @@ std::string shaderPreamble(std::string_view defines) {
            "precision highp image2D;\nprecision highp uimage2D;\n#line 1\n";
 }
 
-Program::Program(std::string_view computeShader, std::string_view defines,
-                 std::size_t paramsBytes) {
+Program::Program(std::string_view computeShader, std::string_view defines, std::size_t paramsBytes)
+    : name_(computeShader) {
     const GLuint shader = compile(GL_COMPUTE_SHADER, computeShader, defines);
     id_ = glCreateProgram();
     glAttachShader(id_, shader);
     glDeleteShader(shader);
-    finishLink(computeShader, paramsBytes);
+    finishLink(paramsBytes);
 }
 
 Program::Program(std::string_view vertexShader, std::string_view fragmentShader,
-                 std::string_view defines, std::size_t paramsBytes) {
+                 std::string_view defines, std::size_t paramsBytes)
+    : name_(fragmentShader) {
     const GLuint vertex = compile(GL_VERTEX_SHADER, vertexShader, defines);
     const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragmentShader, defines);
     id_ = glCreateProgram();
@@ -53,38 +55,39 @@ Program::Program(std::string_view vertexShader, std::string_view fragmentShader,
         glAttachShader(id_, shader);
         glDeleteShader(shader);
     }
-    finishLink(fragmentShader, paramsBytes);
+    finishLink(paramsBytes);
 }
 
-void Program::finishLink(std::string_view name, std::size_t paramsBytes) {
+void Program::finishLink(std::size_t paramsBytes) {
     glLinkProgram(id_);
     GLint ok = 0;
     glGetProgramiv(id_, GL_LINK_STATUS, &ok);
     if (ok != GL_TRUE) {
         std::array<char, 4096> log{};
         glGetProgramInfoLog(id_, log.size(), nullptr, log.data());
-        throw GlError("shader " + std::string(name) + " does not link: " + log.data());
+        throw GlError("shader " + name_ + " does not link: " + log.data());
     }
     const GLuint block = glGetUniformBlockIndex(id_, "Params");
     if (block == GL_INVALID_INDEX)
-        throw GlError("shader " + std::string(name) + " has no active uniform block Params");
+        throw GlError("shader " + name_ + " has no active uniform block Params");
     GLint bytes = 0;
     glGetActiveUniformBlockiv(id_, block, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
     // Drivers may report the size with or without the trailing padding of the last vec4.
     if ((static_cast<std::size_t>(bytes) + 15) / 16 * 16 != paramsBytes)
-        throw GlError("shader " + std::string(name) + ": block Params has " +
-                      std::to_string(bytes) + " bytes, the program expects " +
-                      std::to_string(paramsBytes));
+        throw GlError("shader " + name_ + ": block Params has " + std::to_string(bytes) +
+                      " bytes, the program expects " + std::to_string(paramsBytes));
     glUniformBlockBinding(id_, block, 0);
     params_ = Buffer(paramsBytes);
     checkErrors("Program");
 }
 
 Program::Program(Program&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), params_(std::move(other.params_)) {}
+    : id_(std::exchange(other.id_, 0)), name_(std::move(other.name_)),
+      params_(std::move(other.params_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(id_, other.id_);
+    std::swap(name_, other.name_);
     std::swap(params_, other.params_);
     return *this;
 }
@@ -115,6 +118,10 @@ void Program::use(const void* params, std::size_t bytes, Bindings bindings) {
 }
 
 namespace detail {
+
+void validate(const Program& program, Bindings bindings, const Framebuffer* target) {
+    validation->check(program, bindings, target);
+}
 
 void drawFullScreen() {
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -33,6 +33,18 @@ inline Binding storage(GLuint index, const Buffer& b) {
 
 using Bindings = std::initializer_list<Binding>;
 
+class Program;
+class Validation;
+namespace detail {
+/// The Validation of this thread.
+inline constinit thread_local Validation* validation = nullptr;
+void validate(const Program& program, Bindings bindings, const Framebuffer* target);
+/// After each pass.
+inline void ran(const Program& program, Bindings bindings, const Framebuffer* target = nullptr) {
+    if (validation != nullptr) validate(program, bindings, target);
+}
+}  // namespace detail
+
 /// Workgroup counts of a dispatch.
 struct Groups {
     GLuint x = 1, y = 1, z = 1;
@@ -61,11 +73,14 @@ public:
     /// Activates the program with its parameters and bindings.
     void use(const void* params, std::size_t bytes, Bindings bindings);
     [[nodiscard]] GLuint id() const { return id_; }
+    /// Of the compute or the fragment shader.
+    [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
-    void finishLink(std::string_view name, std::size_t paramsBytes);
+    void finishLink(std::size_t paramsBytes);
 
     GLuint id_ = 0;
+    std::string name_;
     Buffer params_;
 };
 
@@ -114,6 +129,7 @@ public:
         program_.use(&params, sizeof(P), bindings);
         glDispatchCompute(groups.x, groups.y, groups.z);
         glMemoryBarrier(kBarriers);
+        detail::ran(program_, bindings);
     }
     /// The group counts come from three uints in `commands` at `offset` bytes.
     void runIndirect(const P& params, Bindings bindings, const Buffer& commands,
@@ -122,6 +138,7 @@ public:
         glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, commands.id());
         glDispatchComputeIndirect(static_cast<GLintptr>(offset));
         glMemoryBarrier(kBarriers);
+        detail::ran(program_, bindings);
     }
 
 private:
@@ -148,6 +165,7 @@ public:
         target.bind();
         program_.use(&params, sizeof(P), bindings);
         detail::drawFullScreen();
+        detail::ran(program_, bindings, &target);
     }
     /// The same, if the command in the buffer says so.
     void runIndirect(const P& params, Bindings bindings, const Framebuffer& target,
@@ -155,6 +173,7 @@ public:
         target.bind();
         program_.use(&params, sizeof(P), bindings);
         detail::drawFullScreen(command);
+        detail::ran(program_, bindings, &target);
     }
     /// Draws one quad per instance of the list; the vertex shader places it.
     void runTiles(const P& params, Bindings bindings, const Framebuffer& target,
@@ -162,12 +181,14 @@ public:
         target.bind();
         program_.use(&params, sizeof(P), bindings);
         detail::drawTiles(tiles);
+        detail::ran(program_, bindings, &target);
     }
     /// Draws triangles; the vertex shader places them.
     void runMesh(const P& params, Bindings bindings, const Framebuffer& target, const Mesh& mesh) {
         target.bind();
         program_.use(&params, sizeof(P), bindings);
         detail::drawMesh(mesh);
+        detail::ran(program_, bindings, &target);
     }
 
 private:
