@@ -62,4 +62,10 @@ bool isFinite(const RigidTransform& T) {
     return T.rotation.coeffs().allFinite() && T.translation.allFinite();
 }
 
+std::optional<RigidTransform> soundMotion(const RigidTransform& T) {
+    const double norm = T.rotation.norm();
+    if (!isFinite(T) || !(norm > 0.9 && norm < 1.1)) return std::nullopt;
+    return RigidTransform{T.rotation.normalized(), T.translation};
+}
+
 }  // namespace mfar

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+
 namespace mfar {
 
 /// Rotation [rad] first, translation second, as in Pose::covariance.
@@ -29,5 +31,9 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 }
 
 [[nodiscard]] bool isFinite(const RigidTransform& T);
+
+/// The same motion, its rotation a unit quaternion; nothing when it is not finite or its rotation
+/// is farther from one than rounding and careless files bring it (a tenth).
+[[nodiscard]] std::optional<RigidTransform> soundMotion(const RigidTransform& T);
 
 }  // namespace mfar

@@ -1,5 +1,7 @@
 #include "pipeline/depth/depth_filter.h"
 
+#include "pipeline/se3.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -36,13 +38,15 @@ void DepthFilter::forget() {
     fieldPose_.reset();
 }
 
-void DepthFilter::predict(const RigidTransform& T_world_video, double seconds) {
-    if (!fieldPose_) {
+void DepthFilter::predict(const RigidTransform& told, double seconds) {
+    const std::optional<RigidTransform> T_world_video = soundMotion(told);
+    if (!T_world_video) forget();
+    if (!T_world_video || !fieldPose_) {
         fieldPose_ = T_world_video;
         return;
     }
-    const RigidTransform T_now_before = T_world_video.inverse() * *fieldPose_;
-    moving_ = std::min(moving_ + std::max(seconds, 0.0), kMostMoving);
+    const RigidTransform T_now_before = T_world_video->inverse() * *fieldPose_;
+    if (seconds > 0) moving_ = std::min(moving_ + seconds, kMostMoving);
     if (!moves(T_now_before)) return;
     const auto growth = static_cast<float>(kDrift * kDrift * std::exchange(moving_, 0));
     for (int y = known_.y0; y < known_.y1; ++y) {
@@ -51,7 +55,7 @@ void DepthFilter::predict(const RigidTransform& T_world_video, double seconds) {
             field_.variance[i] += growth * field_.rho[i] * field_.rho[i];
     }
     carry(T_now_before);
-    fieldPose_ = T_world_video;
+    fieldPose_ = *T_world_video;
 }
 
 bool DepthFilter::moves(const RigidTransform& T) const {
@@ -97,8 +101,10 @@ void DepthFilter::carryRow(const Eigen::Matrix3f& R, const Eigen::Vector3f& t, i
         const float moved = rho / p.z();
         if (carried_.isKnown(to) && carried_.rho[to] >= moved) continue;
         const float slope = turned.z() / (p.z() * p.z());  // of moved by rho
+        const float variance = field_.variance[i] * slope * slope;
+        if (!InverseDepthField::isSound(moved, variance)) continue;
         carried_.rho[to] = moved;
-        carried_.variance[to] = field_.variance[i] * slope * slope;
+        carried_.variance[to] = variance;
         carried_.filled[to] = field_.filled[i];
         const int column = landed % width, row = landed / width;
         carriedTo_ = around(carriedTo_, {column, row, column + 1, row + 1});
@@ -127,7 +133,7 @@ void DepthFilter::closeCrack(std::size_t i, std::size_t before, std::size_t afte
     const float apart = field_.rho[after] - field_.rho[before];
     const float sum = field_.variance[before] + field_.variance[after];
     if (apart * apart > kGate * sum) return;
-    field_.rho[i] = 0.5F * (field_.rho[before] + field_.rho[after]);
+    field_.rho[i] = 0.5F * field_.rho[before] + 0.5F * field_.rho[after];
     field_.variance[i] = 0.5F * sum + apart * apart;
     field_.filled[i] = 1;
     points_[i] = {};
@@ -139,7 +145,8 @@ void DepthFilter::fuse(const InverseDepthField& measured, const PixelRect& where
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
             const auto row = static_cast<std::size_t>(y) * field_.size.width;
             for (std::size_t i = row + where.x0; i < row + where.x1; ++i)
-                if (measured.isKnown(i)) fusePixel(i, measured.rho[i], measured.variance[i]);
+                if (InverseDepthField::isSound(measured.rho[i], measured.variance[i]))
+                    fusePixel(i, measured.rho[i], measured.variance[i]);
         }
     });
 }

@@ -24,10 +24,12 @@ public:
     void forget();
     /// Carries what is known to a camera at this pose, the nearest where several surfaces meet
     /// (z-test); its variance grows with the time that this motion took. Camera motions too small
-    /// to show are added up first; a camera at rest forgets nothing.
+    /// to show are added up first; a camera at rest forgets nothing. A pose that is none
+    /// (soundMotion()) forgets everything: from there nothing can be carried.
     void predict(const RigidTransform& T_world_video, double seconds);
     /// Takes the measurement of a frame at the pose of the last predict(), within `where`: fused
-    /// where it agrees with what is known, and instead of that where it keeps disagreeing.
+    /// where it agrees with what is known, and instead of that where it keeps disagreeing. What is
+    /// no inverse depth with a variance says nothing.
     void fuse(const InverseDepthField& measured, const PixelRect& where);
     /// Something moves in these pixels.
     void forget(const PixelRect& where);

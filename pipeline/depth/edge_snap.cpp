@@ -82,6 +82,10 @@ float likeness(const Colour& a, const Colour& b) {
     return 1 / (1 + square * square);
 }
 
+bool isSound(const InverseDepthField& field, std::size_t pixel) {
+    return InverseDepthField::isSound(field.rho[pixel], field.variance[pixel]);
+}
+
 /// Those that vote for one of two surfaces.
 struct Side {
     float weight = 0, rho = 0, variance = 0;
@@ -125,7 +129,7 @@ void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
                 float low = kLargest, high = -kLargest;
                 for (int u = std::max(x - kBand, where.x0); u < std::min(x + kBand + 1, where.x1);
                      ++u) {
-                    const bool known = in.isKnown(row + u);
+                    const bool known = isSound(in, row + u);
                     low = std::min(low, known ? in.rho[row + u] : kLargest);
                     high = std::max(high, known ? in.rho[row + u] : -kLargest);
                 }
@@ -145,9 +149,10 @@ void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
                     high = std::max(high, high_[j]);
                 }
                 const auto i = static_cast<std::size_t>(y) * width + x;
-                const float noise = in.isKnown(i) ? kSigmas * std::sqrt(in.variance[i]) : 0.0F;
+                const bool known = isSound(in, i);
+                const float noise = known ? kSigmas * std::sqrt(in.variance[i]) : 0.0F;
                 const bool edge = high - low > kJump * high + noise;
-                open_[i] = edge || !in.isKnown(i) ? 1 : 0;
+                open_[i] = edge || !known ? 1 : 0;
             }
         }
     });
@@ -159,9 +164,13 @@ void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, cons
     const Colours colours(frame);
     for (int x = where.x0; x < where.x1; ++x) {
         const auto i = static_cast<std::size_t>(y) * width + x;
-        out_.rho[i] = in.rho[i];
-        out_.variance[i] = in.variance[i];
-        out_.filled[i] = in.filled[i];
+        if (isSound(in, i)) {
+            out_.rho[i] = in.rho[i];
+            out_.variance[i] = in.variance[i];
+            out_.filled[i] = in.filled[i];
+        } else {
+            out_.forget(i);
+        }
         if (open_[i] == 0) continue;
         const int x0 = nextVoter(std::max(x - kVoteRadius, where.x0));
         const int y0 = nextVoter(std::max(y - kVoteRadius, where.y0));

@@ -24,6 +24,11 @@ struct InverseDepthField {
           variance(rho.size(), kUnknown), filled(rho.size()) {}
 
     [[nodiscard]] bool isKnown(std::size_t pixel) const { return variance[pixel] < kUnknown; }
+    /// Values that a known pixel may have. So far from float's ends that their products and the
+    /// sums of a picture's are numbers.
+    [[nodiscard]] static bool isSound(float rho, float variance) {
+        return rho >= 0 && rho < 1e15F && variance > 1e-30F && variance < 1e30F;
+    }
     void forget(std::size_t pixel) {
         rho[pixel] = 0;
         variance[pixel] = kUnknown;
