@@ -138,20 +138,21 @@ void EpipolarFlow::fillForward() {
     const auto& field = search_.inverseDepth();
     for (int j = 0; j < cells_.height; ++j) {
         for (int i = 0; i < cells_.width; ++i) {
-            const int x = std::min(kCell * i + 1, video.width - 2);
-            const int y = std::min(kCell * j + 1, video.height - 2);
+            const int x = std::clamp(kCell * i + 1, 0, std::max(video.width - 2, 0));
+            const int y = std::clamp(kCell * j + 1, 0, std::max(video.height - 2, 0));
+            const int right = video.width > 1 ? 1 : 0, below = video.height > 1 ? 1 : 0;
             const std::size_t p = static_cast<std::size_t>(y) * video.width + x;
-            std::array<float, 4> s{field[p], field[p + 1], field[p + video.width],
-                                   field[p + video.width + 1]};
+            const std::size_t across = p + right, down = p + static_cast<long>(below) * video.width;
+            std::array<float, 4> s{field[p], field[across], field[down], field[down + right]};
             std::sort(s.begin(), s.end());
             const float nearness = 0.5F * (s[1] + s[2]);
-            const float rx = 0.5F * (lens_.rayX(p) + lens_.rayX(p + video.width + 1));
-            const float ry = 0.5F * (lens_.rayY(p) + lens_.rayY(p + video.width + 1));
+            const float rx = 0.5F * (lens_.rayX(p) + lens_.rayX(down + right));
+            const float ry = 0.5F * (lens_.rayY(p) + lens_.rayY(down + right));
             const auto q = endOf(rx, ry, nearness);
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
             nearness_[cell] = nearness;
-            forward_[cell] = {q.x - static_cast<float>(x) - 0.5F,
-                              q.y - static_cast<float>(y) - 0.5F, 0, 0};
+            forward_[cell] = {q.x - static_cast<float>(x) - 0.5F * static_cast<float>(right),
+                              q.y - static_cast<float>(y) - 0.5F * static_cast<float>(below), 0, 0};
         }
     }
 }

@@ -57,7 +57,9 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
             rim = std::max(rim, ray.squaredNorm());
         }
     }
-    lens_.rim2 = static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2));
+    // A picture of one pixel has one ray, which may be the axis.
+    lens_.rim2 = std::max(
+        static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2)), 1e-12F);
 }
 
 void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {

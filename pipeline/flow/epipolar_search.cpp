@@ -58,6 +58,11 @@ std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     return std::max(finest, coarsest * pixelsOf(size));
 }
 
+/// A label that may be searched around; of one that is no number, infinity's.
+float soundLabel(float label, float longest) {
+    return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);
+}
+
 // From as many patches the median of their distances is the better guess than the pose's
 // covariance.
 constexpr int kEnoughPatches = 16;
@@ -181,13 +186,14 @@ void EpipolarSearch::readInverseDepth() {
     }
 }
 
-bool EpipolarSearch::place(const RigidTransform& T_still_video) {
-    pose_ = T_still_video;
-    const Eigen::Matrix3d R_still_video = T_still_video.rotation.toRotationMatrix();
-    translation_ = (R_still_video.transpose() * T_still_video.translation).cast<float>();
+bool EpipolarSearch::place(const RigidTransform& told) {
+    const std::optional<RigidTransform> T_still_video = soundMotion(told);
+    pose_ = T_still_video.value_or(RigidTransform{});
+    const Eigen::Matrix3d R_still_video = pose_.rotation.toRotationMatrix();
+    translation_ = (R_still_video.transpose() * pose_.translation).cast<float>();
     labels_ = 0;
     pixelsPerUnit_ = 0;
-    if (!turnStill(R_still_video)) return false;
+    if (!T_still_video || !turnStill(R_still_video)) return false;
     measureParallax();
     if (pixelsPerUnit_ > 0)
         labels_ = static_cast<int>(options_.longestParallax * whole_.size.width);
@@ -201,9 +207,12 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
     const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
     const double noise = std::max(videoNoise_, stillNoise_);
     const auto nearness = [&](const Eigen::Vector2d& pixel) {
-        if (!predicted.empty())
-            return static_cast<double>(
-                predicted[coarseIndex(pixel, cellsOf(video_.size), kPredictedLevel)]);
+        if (!predicted.empty()) {
+            const float s = predicted[coarseIndex(pixel, cellsOf(video_.size), kPredictedLevel)];
+            const double perUnit = std::max(pixelsPerUnit_, 1e-12);
+            return soundLabel(static_cast<float>(s * perUnit), static_cast<float>(labels_)) /
+                   perUnit;
+        }
         const int coarsest = static_cast<int>(levels_.size()) - 1;
         return levels_.back().labels[coarseIndex(pixel, levels_.back().lens.size(), coarsest)] *
                (1 << coarsest) / pixelsPerUnit_;
@@ -312,7 +321,7 @@ void EpipolarSearch::searchAround(std::span<const float> predicted) {
     const auto longest = static_cast<float>(labels_);
     predicted_.clear();
     for (const float s : predicted)
-        predicted_.push_back(std::clamp(s * labelsPerUnit, static_cast<float>(-kBeyond), longest));
+        predicted_.push_back(soundLabel(s * labelsPerUnit, longest));
     const int finest = finestLevel();
     prepare(finest);
     centreWindows({predicted_, cellsOf(video_.size), 1.0F / static_cast<float>(1 << finest),

@@ -47,7 +47,7 @@ public:
     /// exp(x); with it the pose is refined from the pictures first, without it taken as exact.
     /// `predicted`: about s of every cell of 4x4 pixels of the area, row-major; the coarser levels,
     /// which would find it, are then left out. Returns false, and a field of zeros, where nothing
-    /// of the still is in reach. `video`: the whole picture.
+    /// of the still is in reach or the pose is none (soundMotion()). `video`: the whole picture.
     bool run(const LumaImage& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
