@@ -75,6 +75,7 @@ bool PoseFilter::correct(State& state, const Pose& measured, double distance) co
     next.T_world_video = next.T_world_video * exponential(x.head<6>());
     next.twist += x.tail<6>();
     next.distance = distance;
+    if (!next.P.allFinite() || !(next.P.diagonal().minCoeff() >= 0)) return false;
     ++next.accepted;
     state = next;
     return true;
@@ -85,13 +86,16 @@ bool PoseFilter::reaches(const State& state, Timestamp t) const {
            std::chrono::duration<double>(options_.bridge).count();
 }
 
-PoseFilter::Outcome PoseFilter::update(const Pose& measured, double distance) {
-    const bool usable =
-        isFinite(measured.T_world_video) && measured.covariance.allFinite() && positive(distance);
+PoseFilter::Outcome PoseFilter::update(const Pose& told, double distance) {
+    const auto sound = soundMotion(told.T_world_video);
+    const bool usable = sound && told.covariance.allFinite() &&
+                        told.covariance.diagonal().minCoeff() >= 0 && positive(distance);
     if (!usable) {
         missed();
         return Outcome::Rejected;
     }
+    Pose measured = told;
+    measured.T_world_video = *sound;
     if (!state_ || missed_ > options_.bridgeFrames || !reaches(*state_, measured.time) ||
         !(state_->time < measured.time)) {
         reset();
@@ -128,6 +132,9 @@ void PoseFilter::reset() {
 std::optional<Pose> PoseFilter::predict(Timestamp t) const {
     if (!state_ || missed_ > options_.bridgeFrames || !reaches(*state_, t)) return std::nullopt;
     const State at = propagated(*state_, t);
+    // Of a pose whose covariance spans more than double precision does, nothing is left.
+    if (!isFinite(at.T_world_video) || !at.P.allFinite() || !(at.P.diagonal().minCoeff() >= 0))
+        return std::nullopt;
     Pose out;
     out.time = t;
     out.T_world_video = at.T_world_video;
