@@ -77,9 +77,27 @@ void Pipeline::setMode(SuperResMode mode) {
     state_->redraw = true;
 }
 
+void Pipeline::setQuality(const Quality& quality) {
+    validate(quality);
+    State& s = *state_;
+    s.options.mode = quality.mode;
+    s.superres.setMode(quality.mode);
+    s.flow.setOptions(quality.flow2d);
+    s.epipolar.setOptions(quality.epipolar);
+    s.alongLines = quality.alongLines;
+    s.depthEvery = quality.depthEvery;
+}
+
+void Pipeline::redraw() {
+    state_->redraw = true;
+}
+
 void Pipeline::setObjects(std::vector<VirtualObject> objects) {
     if (!state_->objects && objects.empty()) return;
-    if (!state_->objects) state_->objects.emplace(state_->rig.video, outputSize());
+    if (!state_->objects) {
+        state_->objects.emplace(state_->rig.video, outputSize());
+        state_->objects->setSkips(state_->options.skips);
+    }
     state_->objects->setObjects(std::move(objects));
 }
 
@@ -97,7 +115,7 @@ void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pos
         lap("epipolar");
         flow.refine(pyramids, plan, epipolar.forward(), epipolar.hidden());
     } else {
-        flow.run(pyramids, plan, hasPrior);
+        flow.run(pyramids, plan, hasPrior && options.skips.knownFlow);
     }
     lap("flow");
     superres.assess(pyramids, flow, plan);
@@ -117,11 +135,13 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose) {
 
 void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose, bool searched,
                                    const PixelRect& where) {
-    if (searched && !where.empty()) {
+    const bool isDue = ++depthAge >= depthEvery;
+    if (isDue && !where.empty()) depthAge = 0;
+    if (isDue && searched && !where.empty()) {
         measureAlongLines(pose, where);
     } else {
         lumaOf(frame, luma);
-        depth.run(luma, pose, {}, where);
+        depth.run(luma, pose, {}, isDue ? where : PixelRect{});
     }
     snap.run(depth.field(), frame, where);
 }
@@ -199,7 +219,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.plan.update(s.video.texture(), s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
-    const bool usePose = useStill && pose && s.epipolar.hasStill();
+    const bool usePose = useStill && s.alongLines && pose && s.epipolar.hasStill();
     if (useStill) s.matchStill(video, usePose ? pose : std::nullopt);
     s.superres.draw(s.video.texture(), useStill ? &s.still : nullptr, s.plan);
     glFlush();

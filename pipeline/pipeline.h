@@ -6,19 +6,15 @@
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/flow/flow_options.h"
 #include "pipeline/geometry.h"
+#include "pipeline/quality.h"
 #include "pipeline/results.h"
+#include "pipeline/skip_options.h"
 
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace mfar {
-
-enum class SuperResMode {
-    Off,     ///< bicubically upscaled video
-    Blend,   ///< the paper's: warped still blended by confidence
-    Detail,  ///< the still's fine detail, as far as the video confirms it
-};
 
 struct PipelineOptions {
     SuperResMode mode = SuperResMode::Detail;
@@ -32,6 +28,7 @@ struct PipelineOptions {
     /// Measures the real scene's depth in the whole picture, not only where a virtual object may be
     /// hidden: for evaluation and for the preview.
     bool depthEverywhere = false;
+    SkipOptions skips{};
 };
 
 /// Time of one stage of the last frame.
@@ -65,6 +62,11 @@ public:
     /// Both take effect with the next run.
     void setMode(SuperResMode mode);
     void setSkipUnchanged(bool skip);
+    /// Takes effect with the next run, in what that draws; allocates nothing. Throws
+    /// std::invalid_argument for settings out of range.
+    void setQuality(const Quality& quality);
+    /// The next run draws everything anew.
+    void redraw();
     /// Shown in frames with a pose, as seen from there and hidden behind what is nearer. The first
     /// call with any allocates what they need.
     void setObjects(std::vector<VirtualObject> objects);

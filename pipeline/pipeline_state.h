@@ -24,6 +24,8 @@ struct Pipeline::State {
           epipolar(rig, workers, options.epipolar), still(rig),
           depth(rig.video, workers, options.depth), snap(rig.video.size, workers),
           superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
+        superres.setSkips(options.skips);
+        if (!options.skips.tileLists) plan.drawWholeFrom(0);
         stageTimes.reserve(8);
         result.image = {superres.output().id(), superres.output().size()};
     }
@@ -66,8 +68,10 @@ struct Pipeline::State {
     SuperRes superres;
     std::optional<VirtualView> objects;
     bool hasStill = false;
-    bool redraw = true;     // nothing of the last output may stay
-    bool hasPrior = false;  // the flow field of the last frame belongs to this still
+    bool redraw = true;  // nothing of the last output may stay
+    bool alongLines = true;
+    int depthEvery = 1, depthAge = 0;  // frames; since depth was measured
+    bool hasPrior = false;             // the flow field of the last frame belongs to this still
     bool measure = false;
     FrameResult result;
     std::vector<StageTime> stageTimes;

@@ -26,7 +26,7 @@ PixelRect tilesAround(const PixelRect& videoPixels) {
 WorkPlan::WorkPlan(Size video)
     : video_(video), tileCount_{(video.width + kTileSize - 1) / kTileSize,
                                 (video.height + kTileSize - 1) / kTileSize},
-      noise_(kInitialNoise),
+      noise_(kInitialNoise), wholeShare_(kWholeShare),
       tiles_(sizeof(std::uint32_t) * 2 * (1 + tileCount_.width * tileCount_.height)),
       change_("plan_change.comp"), dispatch_("plan_dispatch.comp") {}
 
@@ -83,7 +83,8 @@ void WorkPlan::update(const gpu::Texture& now, const gpu::Texture& drawn, bool f
     DispatchParams counts{};
     counts.counts[0] = tileCount_.width * tileCount_.height;
     counts.counts[1] = static_cast<std::int32_t>(wanted_.size());
-    counts.counts[2] = static_cast<std::int32_t>(std::ceil(kWholeShare * counts.counts[0]));
+    counts.counts[2] =
+        std::max(1, static_cast<std::int32_t>(std::ceil(wholeShare_ * counts.counts[0])));
     counts.counts[3] = tileCount_.width;
     counts.drawnOver[0] = drawnOver_.x0;
     counts.drawnOver[1] = drawnOver_.y0;

@@ -39,6 +39,8 @@ public:
     /// update() all of them count as changed when that is to be drawn anew; after it WithThem
     /// holds.
     void drawnOver(const PixelRect& tiles, Redraw redraw);
+    /// The whole frame is drawn at once when so many tiles changed, [0, 1] of all; 0: when any did.
+    void drawWholeFrom(double share) { wholeShare_ = share; }
     /// Opens every dispatch without comparing anything.
     void openAll();
 
@@ -80,7 +82,7 @@ private:
 
     Size video_;
     Size tileCount_;
-    double noise_;
+    double noise_, wholeShare_;
     PixelRect drawnOver_;  // tiles
     Redraw redraw_ = Redraw::WithThem;
     bool measured_ = false;  // plan_ holds the summary of an earlier frame

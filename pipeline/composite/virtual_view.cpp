@@ -53,9 +53,9 @@ PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
     if (!T_world_video || objects_.empty()) return {};
     const auto& tiles = silhouette_.run(objects_, *T_world_video);
     const int columns = silhouette_.tileCount().width;
-    const bool relies = relied_ < kMostRelied;
+    const bool relies = skips_.knownBehind && relied_ < kMostRelied;
     nearest_ = 0;
-    hidden_ = true;
+    hidden_ = skips_.hiddenObjects;
     PixelRect decides;
     for (int i = 0; i < static_cast<int>(tiles.size()); ++i) {
         const auto [nearest, farthest] = tiles[static_cast<std::size_t>(i)];
@@ -108,7 +108,7 @@ bool VirtualView::isHidden(const PixelRect& tile, float nearest,
 
 WorkPlan::Redraw VirtualView::redraw() const {
     using Redraw = WorkPlan::Redraw;
-    if (mustRedraw()) return Redraw::Always;
+    if (mustRedraw() || (!skips_.objectsAtRest && shows())) return Redraw::Always;
     if (!placedPose_ || !drawnPose_) return Redraw::WithThem;
     const RigidTransform T = drawnPose_->inverse() * *placedPose_;
     const double turn = 2 * T.rotation.vec().norm();
@@ -134,7 +134,9 @@ void VirtualView::draw(const InverseDepthField& real, const PixelRect& where,
     layer_ = renderer_.render(objects_, *placedPose_);
     if (layer_.bounds.empty()) return;
     upload(real, where);
-    composite_.run(layer_, depth_, video, picture, target);
+    VirtualLayer laid = layer_;
+    if (!skips_.objectBounds) laid.bounds = {0, 0, picture.size().width, picture.size().height};
+    composite_.run(laid, depth_, video, picture, target);
     drawn_ = tilesOf(layer_.bounds, picture.size(), video_);
 }
 

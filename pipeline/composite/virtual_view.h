@@ -4,6 +4,7 @@
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/skip_options.h"
 #include "pipeline/work_plan.h"
 
 #include <optional>
@@ -19,6 +20,7 @@ public:
 
     /// Shown from the next place() on.
     void setObjects(std::vector<VirtualObject> objects);
+    void setSkips(const SkipOptions& skips) { skips_ = skips; }
 
     /// Where the objects are for a camera at this pose; nothing: they are not shown. Gives the
     /// video pixels whose real depth decides what of them is seen: empty where none is in the
@@ -54,6 +56,7 @@ private:
     void upload(const InverseDepthField& real, const PixelRect& where);
 
     Size video_;
+    SkipOptions skips_;
     std::vector<VirtualObject> objects_;
     Silhouette silhouette_;
     PreviewRenderer renderer_;

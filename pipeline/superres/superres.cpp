@@ -120,8 +120,8 @@ void SuperRes::classify(const WorkPlan& plan, bool hasStill) {
     p.tiles[1] = tiles_.height;
     p.tiles[2] = cells_.width;
     p.tiles[3] = cells_.height;
-    p.tune[0] = kLeastWeight;
-    p.tune[1] = kPlainFlow;
+    p.tune[0] = skips_.upscaledTiles ? kLeastWeight : -1.0F;
+    p.tune[1] = skips_.plainTiles ? kPlainFlow : 0.0F;
     p.tune[2] = kPlainWeight;
     p.tune[3] = hasStill ? 0.0F : 1.0F;
     classify_.run(p,

@@ -23,6 +23,7 @@ public:
     void draw(const gpu::Texture& video, const StillReference* still, const WorkPlan& plan);
 
     void setMode(SuperResMode mode) { mode_ = mode; }
+    void setSkips(const SkipOptions& skips) { skips_ = skips; }
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
     /// Draws into output(), for what comes over it.
     [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
@@ -85,6 +86,7 @@ private:
 
     StereoRig rig_;
     SuperResMode mode_;
+    SkipOptions skips_;
     Size video_, cells_, halfCells_, tiles_;
     gpu::Texture displacement_, statistics_, halfStatistics_, cellField_, weightField_,
         lookupField_, sharpened_, columns_, output_, drawn_;

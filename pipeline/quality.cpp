@@ -1,0 +1,14 @@
+#include "pipeline/quality.h"
+
+#include <stdexcept>
+
+namespace mfar {
+
+void validate(const Quality& quality) {
+    validate(quality.flow2d);
+    validate(quality.epipolar);
+    if (!(quality.depthEvery >= 1 && quality.depthEvery <= 60))
+        throw std::invalid_argument("depthEvery is not in [1, 60]");
+}
+
+}  // namespace mfar

@@ -1,0 +1,149 @@
+// Settings that change between frames, and work that is not left out.
+#include "tests/shader/gl_test.h"
+#include "tests/shader/pipeline_case.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+using QualityTest = GlTest;
+using Image = std::vector<std::uint8_t>;
+
+Pose posed(double x) {
+    Pose pose;
+    pose.T_world_video.translation = {x, 0, 0};
+    return pose;
+}
+
+Quality quick() {
+    return {.mode = SuperResMode::Blend,
+            .flow2d = {.searchRadius = 4, .candidates = 1, .steps = 1, .planeFits = 0},
+            .epipolar = {.windowRadius = 1, .finest = 1, .mostPredicted = 1}};
+}
+
+PipelineOptions madeWith(const Quality& quality) {
+    PipelineOptions out;
+    out.mode = quality.mode;
+    out.flow2d = quality.flow2d;
+    out.epipolar = quality.epipolar;
+    return out;
+}
+
+/// Two frames after a still, the second's picture.
+Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
+    const auto pose = [&](double x) { return withPoses ? std::optional(posed(x)) : std::nullopt; };
+    p.setStill(c.still().view(), {}, pose(0));
+    p.run(c.video({2, 0}).view(), {}, pose(0.02));
+    p.run(c.video({3, 0}).view(), {}, pose(0.03));
+    return p.readImage();
+}
+
+// All have seen the same frames before: the noise of the video is known from them.
+TEST_F(QualityTest, ChangedBetweenFramesIsAsFromTheStart) {
+    const PipelineCase c;
+    for (const bool withPoses : {false, true}) {
+        Pipeline made(c.rig, madeWith(quick())), usual(c.rig, {}), changed(c.rig, {});
+        for (Pipeline* p : {&made, &usual, &changed})
+            (void)pictureOf(*p, c, withPoses);
+        const Image wanted = pictureOf(made, c, withPoses);
+        const Image sharp = pictureOf(usual, c, withPoses);
+        changed.setQuality(quick());
+        EXPECT_TRUE(pictureOf(changed, c, withPoses) == wanted) << withPoses;
+        EXPECT_TRUE(wanted != sharp) << withPoses;
+        changed.setQuality({});
+        EXPECT_TRUE(pictureOf(changed, c, withPoses) == pictureOf(usual, c, withPoses))
+            << withPoses;
+    }
+}
+
+TEST_F(QualityTest, WithoutLinesAFrameIsMatchedAsWithoutItsPose) {
+    const PipelineCase c;
+    Pipeline blind(c.rig, {}), posed(c.rig, {});
+    posed.setQuality({.alongLines = false});
+    EXPECT_TRUE(pictureOf(posed, c, true) == pictureOf(blind, c, false));
+    EXPECT_FALSE(posed.readStats().usedPose);
+}
+
+TEST_F(QualityTest, WhatDoesNotChangeStaysAsItWasDrawn) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {});
+    const Image sharp = pictureOf(p, c, false);
+    p.setQuality({.mode = SuperResMode::Off});
+    p.run(c.video({3, 0}).view(), {});
+    EXPECT_TRUE(p.readImage() == sharp);
+    p.redraw();
+    p.run(c.video({3, 0}).view(), {});
+    EXPECT_TRUE(p.readImage() != sharp);
+    EXPECT_EQ(p.readStats().changed, 1);
+    p.setQuality({});
+    p.redraw();
+    p.run(c.video({3, 0}).view(), {});
+    EXPECT_TRUE(p.readStats().usedStill);
+}
+
+TEST_F(QualityTest, SettingsOutOfRangeAreRefusedAndChangeNothing) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {}), untouched(c.rig, {});
+    EXPECT_TRUE(pictureOf(p, c, true) == pictureOf(untouched, c, true));
+    for (const Quality& wrong :
+         {Quality{.flow2d = {.steps = 17}}, Quality{.epipolar = {.finest = 2}},
+          Quality{.depthEvery = 0}, Quality{.depthEvery = std::numeric_limits<int>::max()},
+          Quality{.mode = SuperResMode::Off, .epipolar = {.windowRadius = -1}}})
+        EXPECT_THROW(p.setQuality(wrong), std::invalid_argument);
+    EXPECT_TRUE(pictureOf(p, c, true) == pictureOf(untouched, c, true));
+}
+
+int mostDifference(const Image& a, const Image& b) {
+    int out = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        out = std::max(out, std::abs(a[i] - b[i]));
+    return out;
+}
+
+TEST_F(QualityTest, WorkThatIsNotLeftOutDrawsTheSamePicture) {
+    const PipelineCase c;
+    Pipeline usual(c.rig, {});
+    const Image wanted = pictureOf(usual, c, false);
+    for (bool SkipOptions::* skip :
+         {&SkipOptions::upscaledTiles, &SkipOptions::plainTiles, &SkipOptions::tileLists}) {
+        PipelineOptions options;
+        options.skips.*skip = false;
+        Pipeline p(c.rig, options);
+        EXPECT_LE(mostDifference(pictureOf(p, c, false), wanted), 3);
+    }
+}
+
+/// A small change in one corner: what is drawn by tiles, of which classes.
+std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
+    const PipelineCase c;
+    PipelineOptions options;
+    options.skips = skips;
+    Pipeline p(c.rig, options);
+    p.setStill(c.still().view(), {});
+    Picture frame = c.video({2, 0});
+    p.run(frame.view(), {});
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 12; ++x)
+            frame.at(x, y)[0] = static_cast<std::uint8_t>(255 - frame.at(x, y)[0]);
+    p.run(frame.view(), {});
+    return p.readTileClasses();
+}
+
+TEST_F(QualityTest, SkipsThatAreOffAreNotTaken) {
+    const auto count = [](const std::vector<TileClass>& classes, TileClass which) {
+        return std::ranges::count(classes, which);
+    };
+    const auto usual = classesAfterAChange({});
+    EXPECT_GT(count(usual, TileClass::Unchanged), 60);
+    EXPECT_EQ(count(classesAfterAChange({.tileLists = false}), TileClass::Unchanged), 0);
+    const auto blended = classesAfterAChange({.upscaledTiles = false, .plainTiles = false});
+    EXPECT_EQ(count(blended, TileClass::Unchanged), count(usual, TileClass::Unchanged));
+    EXPECT_EQ(count(blended, TileClass::Trusted) + count(blended, TileClass::Upscaled), 0);
+}
+
+}  // namespace
+}  // namespace mfar
