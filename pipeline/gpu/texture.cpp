@@ -87,6 +87,26 @@ void Texture::upload(std::span<const float> values, int firstRow) {
                     values.data());
 }
 
+void Texture::uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow) {
+    const std::size_t row = size_.width;
+    const auto rows = static_cast<int>(texels.size() / row);
+    assert(format_ == TexelFormat::Rgba8);
+    assert(texels.size() % row == 0 && firstRow >= 0 && firstRow + rows <= size_.height);
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, firstRow, size_.width, rows, GL_RGBA, GL_UNSIGNED_BYTE,
+                    texels.data());
+}
+
+void Texture::upload(std::span<const std::uint32_t> values) {
+    assert(format_ == TexelFormat::R32Ui);
+    assert(values.size() == static_cast<std::size_t>(size_.width) * size_.height);
+    glBindTexture(GL_TEXTURE_2D, id_);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, GL_RED_INTEGER,
+                    GL_UNSIGNED_INT, values.data());
+}
+
 std::vector<std::uint8_t> Texture::readRgba8() const {
     std::vector<std::uint8_t> out(static_cast<std::size_t>(size_.width) * size_.height * 4);
     Framebuffer target(*this);

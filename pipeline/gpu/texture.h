@@ -3,6 +3,7 @@
 #include "hal/frame.h"
 #include "pipeline/gpu/gl.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,10 @@ public:
     /// Replaces level 0 of an R32F, Rg32F or Rgba32F texture from a row on: one, two or four floats
     /// a texel, rows without padding. Asserts format and that they are whole rows of it.
     void upload(std::span<const float> values, int firstRow = 0);
+    /// Replaces level 0 of an Rgba8 texture from a row on: rows without padding. Asserts as above.
+    void uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow = 0);
+    /// The same of an R32Ui texture, all of it.
+    void upload(std::span<const std::uint32_t> values);
     /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
     /// Reads level 0 back as four floats a texel. Waits for the GPU: not for the frame path.
