@@ -1,0 +1,75 @@
+// Fills listed holes from the pyramid: what the levels from fine to coarse know, each as far as the finer ones do
+// not. A hole is a crack if it is at an edge or most of its neighbours show the same surface; then it is filled in any
+// case, from what is close. In: list[] and state of warp_rest.comp, pyramid. Out: the pixels, RGBA8 premultiplied; bit 30 of
+// list[] = crack.
+#include "warp_hole_params.glsl"
+#include "warp_pyramid.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform sampler2D state;
+layout(binding = 0, rgba8) writeonly uniform image2D colour;
+layout(std430, binding = 0) readonly buffer Commands {
+    uvec4 commands[];
+};
+layout(std430, binding = 1) buffer List {
+    uvec2 list[];
+};
+layout(std430, binding = 2) readonly buffer Pyramid {
+    uvec4 texels[];
+};
+
+// Bilinear at a pixel: colour times weight, weight.
+void sampleLevel(int l, ivec2 p, uint id, out vec4 sum, out float weights) {
+    ivec4 level = levels[l - 1];
+    int count = (l < layer.w ? levels[l].x : rows.z) - level.x;
+    vec2 at = (vec2(p) + 0.5) / float(1 << l) - 0.5;
+    vec2 low = floor(at), f = at - low;
+    sum = vec4(0.0);
+    weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 side = ivec2(i & 1, i >> 1);
+        ivec2 q = ivec2(low) + side - level.zw;
+        if (any(lessThan(q, ivec2(0))) || q.x >= level.y || q.y * level.y + q.x >= count) continue;
+        Area area = unpackArea(texels[level.x + q.y * level.y + q.x]);
+        vec2 near = mix(1.0 - f, f, vec2(side));
+        bool catcher = id == 255u;
+        float w = near.x * near.y * (catcher ? area.weights.y : area.id == id ? area.weights.x : 0.0);
+        sum += w * (catcher ? area.catcher : area.object);
+        weights += w;
+    }
+}
+
+bool isCrack(ivec2 p, float id) {
+    int same = 0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 q = p + ivec2(i % 3, i / 3) - 1;
+        bool within = all(greaterThanEqual(q, bounds.xy)) && all(lessThan(q, bounds.zw));
+        q = clamp(q, bounds.xy, bounds.zw - 1);
+        same += within && i != 4 && texelFetch(state, q, 0).a == id ? 1 : 0;
+    }
+    return same >= 5;
+}
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= commands[0].w) return;
+    uvec2 entry = list[i];
+    int index = int(entry.x & 0x3fffffffu);
+    ivec2 p = ivec2(index % layer.x, index / layer.x);
+    vec4 own = texelFetch(state, p, 0);
+    uint id = uint(own.r * 255.0 + 0.5);
+    bool crack = (entry.x & (1u << 30)) != 0u || isCrack(p, own.r);
+    if (crack) list[i].x = entry.x | (1u << 30);
+    if (!crack && layer.y == 0) return;
+    vec4 sum = vec4(0.0);
+    float weight = 0.0;
+    int last = crack && layer.y == 0 ? min(kCrackLevels, layer.w) : layer.w;
+    for (int l = 1; l <= last && weight < 0.99; ++l) {
+        vec4 c;
+        float w;
+        sampleLevel(l, p, id, c, w);
+        sum += (1.0 - weight) * c;
+        weight += (1.0 - weight) * w;
+    }
+    if (weight > 0.0) imageStore(colour, p, min(unpackUnorm4x8(entry.y) + own.g * sum / weight, vec4(1.0)));
+}

@@ -1,0 +1,54 @@
+// The second pass of the warp for all plain pixels: those that one surface fills, which the reference shows at four
+// texels and at the same depth. All others are left to warp_rest.comp. Branches would save nothing here: a
+// software renderer executes both sides. In: silhouette at twice the resolution. Out: RGBA8
+// premultiplied; z [m], 0 = nothing; state: 0, 1 if the pixel is left, 0, number of what fills it.
+// Source: paper, eq. 5.
+// Range: depth 0..1e6
+// Variant: #define SPLATTED_DEPTH
+#include "warp_view_params.glsl"
+#include "warp_view.glsl"
+#include "warp_surface.glsl"
+
+layout(binding = 0) uniform usampler2D silhouette;
+layout(binding = 1) uniform sampler2D rays;  // normalised, of each pixel of the layer
+layout(binding = 2) uniform sampler2D colours;
+layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); number 254: nothing is known
+#ifdef SPLATTED_DEPTH
+layout(binding = 6) uniform sampler2D objectDepth;
+layout(binding = 7) uniform sampler2D catcherDepth;
+#endif
+layout(location = 0) out vec4 colour;
+layout(location = 1) out float depth;
+layout(location = 2) out vec4 state;
+
+void main() {
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    vec2 ray = texelFetch(rays, p, 0).rg;
+    uvec4 s = textureGather(silhouette, gl_FragCoord.xy / vec2(sizes.zw));
+    uint id = surfaceId(s.x);
+    bool whole = all(equal(s & 0xffu, uvec4(id)));
+    float z = 0.25 * dot(uintBitsToFloat(s & 0xffffff00u), vec4(1.0));
+    bool open = whole && id == 0u;
+    z = open ? planeDepth(ray) : z;
+    id = open ? kCatcher : id;
+    bool empty = open && z == 0.0;
+#ifdef SPLATTED_DEPTH
+    float splatted = id == kCatcher ? texelFetch(catcherDepth, p, 0).r : texelFetch(objectDepth, p, 0).r;
+    bool here = abs(splatted - z) < kSplattedLayer * z;
+    // Of the catcher: where nothing was splatted, there may be nothing to see, too.
+    z = here ? splatted : id == kCatcher ? z : 0.0;
+#endif
+    vec3 at = inView(0, z * vec3(ray, 1.0));
+    // The corner that the four texels share: a rounding of the filter's own must not choose others.
+    vec2 corner = floor(at.xy) + 1.0;
+    uvec4 t = textureGather(surfaces, corner / vec2(sizes.xy));
+    vec4 off = abs(uintBitsToFloat(t & 0xffffff00u) - at.z);
+    bool same = all(equal(t & 0xffu, uvec4(id))) && all(lessThan(off, vec4(kSameDepth * at.z)));
+    bool bare = id == kCatcher && (t.x | t.y | t.z | t.w) == 0u;
+    bool inner = all(greaterThan(corner, vec2(0.0))) && all(lessThan(corner, vec2(sizes.xy)));
+    bool plain = whole && !empty && at.z > 0.0 && inner && (same || bare);
+    vec4 found = textureLod(colours, (at.xy + 0.5) / vec2(sizes.xy), 0.0);
+    colour = plain ? found : vec4(0.0);
+    depth = plain && found.a > 0.0 ? z : 0.0;
+    state = empty ? vec4(0.0) : plain ? vec4(0.0, 0.0, 0.0, float(id) / 255.0) : vec4(0.0, 1.0, 0.0, 0.0);
+}

@@ -1,0 +1,41 @@
+// The pyramid of push-pull filling (Gortler et al. 1996, section 3.5), apart for objects and the shadow below them,
+// so that neither leaks into the other. Needs warp_hole_params.glsl.
+
+// Of an area: the object with most of it and what it shows, what the catcher shows. Premultiplied RGBA8; number,
+// then weights of both in bytes [1/255].
+struct Area {
+    vec4 object, catcher;
+    uint id;
+    vec2 weights;
+};
+
+Area unpackArea(uvec4 texel) {
+    return Area(unpackUnorm4x8(texel.x), unpackUnorm4x8(texel.y), texel.z, unpackUnorm4x8(texel.w).xy);
+}
+uvec4 packArea(Area a) {
+    return uvec4(packUnorm4x8(a.object), packUnorm4x8(a.catcher), a.id, packUnorm4x8(vec4(a.weights, 0.0, 0.0)));
+}
+
+// Half of an area known is as good as all of it.
+Area merged(Area parts[4]) {
+    Area best = Area(vec4(0.0), vec4(0.0), 0u, vec2(0.0));
+    for (int i = 0; i < 4; ++i) {
+        float weight = 0.0;
+        vec4 sum = vec4(0.0);
+        for (int j = 0; j < 4; ++j) {
+            if (parts[j].id != parts[i].id) continue;
+            weight += parts[j].weights.x;
+            sum += parts[j].weights.x * parts[j].object;
+        }
+        if (weight > best.weights.x) {
+            best.weights.x = weight;
+            best.object = sum / weight;
+            best.id = parts[i].id;
+        }
+        best.weights.y += parts[i].weights.y;
+        best.catcher += parts[i].weights.y * parts[i].catcher;
+    }
+    best.catcher /= max(best.weights.y, 1e-6);
+    best.weights = min(0.5 * best.weights, vec2(1.0));
+    return best;
+}

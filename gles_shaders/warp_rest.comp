@@ -1,0 +1,149 @@
+// The second pass of the warp for the pixels that need more than warp_look_up.frag does: edges, covered by quarters,
+// and what the reference does not show, which the patches may. Objects and the shadow on the real surface
+// are two layers, the latter below. In: list[] of warp_rest_list.comp. Out: colour, z and state of the
+// pixels: number of what is missing and its share of the pixel, 1 where it fills the pixel and is known nowhere, number
+// of what fills the pixel alone; holes[] = pixel, bit 31: the same 1, bit 30: edge; colour so far (RGBA8). holeCommands[0] = groups of 64,
+// count; [l] = the pyramid's levels, once there is any hole.
+// Range: depth 0..1e6
+// Variant: #define SPLATTED_DEPTH
+#include "warp_view_params.glsl"
+#include "warp_view.glsl"
+#include "warp_surface.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform usampler2D silhouette;
+layout(binding = 1) uniform sampler2D rays;
+layout(binding = 2) uniform sampler2D colours;
+layout(binding = 3) uniform sampler2D surfaces;  // WarpSurface: z [m], number, tolerance [m], known
+layout(binding = 4) uniform sampler2D patchColours;
+layout(binding = 5) uniform sampler2D patchSurfaces;
+#ifdef SPLATTED_DEPTH
+layout(binding = 6) uniform sampler2D objectDepth;
+layout(binding = 7) uniform sampler2D catcherDepth;
+#endif
+layout(binding = 0, rgba8) writeonly uniform image2D colour;
+layout(binding = 1, r32f) writeonly uniform image2D depth;
+layout(binding = 2, rgba8) writeonly uniform image2D state;
+layout(std430, binding = 0) readonly buffer Commands {
+    uvec4 commands[];
+};
+layout(std430, binding = 1) readonly buffer List {
+    uint list[];
+};
+layout(std430, binding = 2) buffer HoleCommands {
+    uvec4 holeCommands[];
+};
+layout(std430, binding = 3) writeonly buffer Holes {
+    uvec2 holes[];
+};
+
+// Bilinear in those of the four texels around `at` (pixel, z) that show the same surface; rows of the picture
+// begin at `firstRow`. Premultiplied colour; its weight 0 where too little of the surface is there. To the
+// catcher, nothing at all is a surface without a shadow.
+float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at, float id, float slacken, out vec4 found) {
+    vec2 low = floor(at.xy), f = at.xy - low;
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 side = ivec2(i & 1, i >> 1);
+        ivec2 t = ivec2(low) + side;
+        bool within = at.z > 0.0 && all(greaterThanEqual(t, ivec2(0))) && all(lessThan(t, size));
+        t = clamp(t, ivec2(0), size - 1) + ivec2(0, firstRow);
+        vec4 s = texelFetch(shown, t, 0);
+        bool same = s.y == id ? abs(s.x - at.z) < slacken * s.z : s.y == 0.0 && id == 255.0;
+        vec2 near = mix(1.0 - f, f, vec2(side));
+        float w = within && same && s.w > 0.5 ? near.x * near.y : 0.0;
+        weights += w;
+        sum += w * texelFetch(from, t, 0);
+    }
+    found = sum / max(weights, 1e-6);
+    return weights > slack.y ? weights : 0.0;
+}
+
+// How much of the colour of the surface at `point` is known; at the depth of `seen` to the reference.
+float known(vec3 point, vec3 seen, float id, out vec4 found) {
+    if (lookUp(colours, surfaces, sizes.xy, 0, inView(0, seen), id, slack.x, found) > 0.0) return 1.0;
+    float share_ = 0.0;
+    for (int i = 0; i < counts.x && share_ == 0.0; ++i) {
+        vec3 at = inView(i + 1, point);
+        if (lookUp(patchColours, patchSurfaces, sizes.zw, i * sizes.w, at, id, 1.0, found) > 0.0) share_ = share[i];
+    }
+    if (share_ > 0.0) return share_;
+    // Of the catcher, nothing is known beyond the reference, and nothing is missed.
+    found = vec4(0.0);
+    return id == 255.0 && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
+}
+
+// The object that has most of the quarters.
+uint mostOf(uvec4 s) {
+    uint id = 0u;
+    int most = 0;
+    for (int i = 0; i < 4; ++i) {
+        uint own = surfaceId(s[i]);
+        ivec4 same = ivec4(equal(s & 0xffu, uvec4(own)));
+        int count = same.x + same.y + same.z + same.w;
+        bool more = own != 0u && own != kCatcher && count > most;
+        most = more ? count : most;
+        id = more ? own : id;
+    }
+    return id;
+}
+
+// The middle of those quarters that show `id`: offset [px], z [m], 0 = none.
+vec3 middleOf(uvec4 s, uint id) {
+    vec4 own = vec4(equal(s & 0xffu, uvec4(id)));
+    float count = dot(own, vec4(1.0));
+    vec4 z = uintBitsToFloat(s & 0xffffff00u);
+    // In the order of textureGather.
+    vec2 sum = vec2(dot(own, vec4(-0.25, 0.25, 0.25, -0.25)), dot(own, vec4(0.25, 0.25, -0.25, -0.25)));
+    return count > 0.0 && id != 0u ? vec3(sum, dot(own, z)) / count : vec3(0.0);
+}
+
+vec3 seenAt(sampler2D splattedDepth, ivec2 p, vec3 point, vec3 otherwise) {
+    float splatted = texelFetch(splattedDepth, p, 0).r;
+    return abs(splatted - point.z) < kSplattedLayer * point.z ? splatted / point.z * point : otherwise;
+}
+
+void main() {
+    uint entry = gl_GlobalInvocationID.x;
+    if (entry >= commands[0].w) return;
+    int index = int(list[entry]);
+    ivec2 p = ivec2(index % sizes.z, index / sizes.z);
+    vec2 ray = texelFetch(rays, p, 0).rg;
+    uvec4 s = textureGather(silhouette, (vec2(p) + 0.5) / vec2(sizes.zw));
+    uint id = mostOf(s);
+    vec3 object = middleOf(s, id), catcher = middleOf(s, kCatcher);
+    float covered = 0.25 * dot(vec4(notEqual(s & 0xffu, uvec4(0u))) * vec4(notEqual(s & 0xffu, uvec4(kCatcher))), vec4(1.0));
+    catcher.z = catcher.z == 0.0 ? planeDepth(ray) : catcher.z;
+    float below = catcher.z > 0.0 ? 1.0 - covered : 0.0;
+    vec3 point = object.z * vec3(ray + object.xy / pinhole[1].xy, 1.0);
+    vec3 under = catcher.z * vec3(ray + catcher.xy / pinhole[1].xy, 1.0);
+#ifdef SPLATTED_DEPTH
+    vec3 seen = seenAt(objectDepth, p, point, vec3(0.0)), seenUnder = seenAt(catcherDepth, p, under, under);
+#else
+    vec3 seen = point, seenUnder = under;
+#endif
+    vec4 ofObject, ofCatcher;
+    float objectKnown = covered > 0.0 ? known(point, seen, float(id), ofObject) : 1.0;
+    float catcherKnown = below > 0.0 ? known(under, seenUnder, 255.0, ofCatcher) : 1.0;
+    vec4 shown = vec4(0.0);
+    if (covered > 0.0) shown += covered * objectKnown * ofObject;
+    if (below > 0.0) shown += below * catcherKnown * ofCatcher;
+    bool missed = objectKnown < 1.0, hole = missed || catcherKnown < 1.0;
+    bool nowhere = objectKnown == 0.0 || catcherKnown == 0.0;
+    // Rendered for itself, an edge would show a mixture: it takes after its neighbours, which are.
+    bool edge = (missed ? covered : below) < 1.0;
+    float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? catcher.z : 0.0;
+    float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? 255.0 : 0.0;
+    float missing = missed ? float(id) : hole ? 255.0 : 0.0;
+    float part = missed ? covered * (1.0 - objectKnown) : below * (1.0 - catcherKnown);
+    imageStore(colour, p, shown);
+    imageStore(depth, p, vec4(z));
+    imageStore(state, p, vec4(missing / 255.0, part, nowhere && !edge ? 1.0 : 0.0, plain / 255.0));
+    if (!hole) return;
+    uint i = atomicAdd(holeCommands[0].w, 1u);
+    if (i % 64u == 0u) atomicAdd(holeCommands[0].x, 1u);
+    if (i == 0u)
+        for (int l = 0; l < counts.y; ++l) holeCommands[l + 1] = wanted[l];
+    holes[i] = uvec2(uint(index) | (edge ? 1u << 30 : nowhere ? 1u << 31 : 0u), packUnorm4x8(shown));
+}

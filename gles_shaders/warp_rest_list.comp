@@ -1,0 +1,36 @@
+// Lists the pixels that warp_look_up.frag left. A square of four an invocation: mostly there is none.
+// In: its state. Out: list[] = row-major index, commands[0] = groups of 64, count. The order is not fixed, and
+// nothing depends on it.
+#include "warp_view_params.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D state;
+layout(std430, binding = 0) buffer Commands {
+    uvec4 commands[];
+};
+layout(std430, binding = 1) writeonly buffer List {
+    uint list[];
+};
+
+void main() {
+    ivec2 p = 2 * ivec2(gl_GlobalInvocationID.xy) + bounds.xy;
+    vec4 left = textureGather(state, vec2(p + 1) / vec2(sizes.zw), 1);
+    // In the order of textureGather.
+    bvec4 within = bvec4(all(lessThan(p + ivec2(0, 1), bounds.zw)), all(lessThan(p + 1, bounds.zw)),
+                         all(lessThan(p + ivec2(1, 0), bounds.zw)), all(lessThan(p, bounds.zw)));
+    uvec4 some = uvec4(greaterThan(left, vec4(0.5))) & uvec4(within);
+    uint count = some.x + some.y + some.z + some.w;
+    if (count == 0u) return;
+    uint i = atomicAdd(commands[0].w, count);
+    // Of the groups, those that these entries begin.
+    uint groups = (i + count + 63u) / 64u - (i + 63u) / 64u;
+    if (groups > 0u) atomicAdd(commands[0].x, groups);
+    uint first = uint(p.y * sizes.z + p.x), row = uint(sizes.z);
+    if (some.w != 0u) list[i] = first;
+    i += some.w;
+    if (some.z != 0u) list[i] = first + 1u;
+    i += some.z;
+    if (some.x != 0u) list[i] = first + row;
+    i += some.x;
+    if (some.y != 0u) list[i] = first + row + 1u;
+}

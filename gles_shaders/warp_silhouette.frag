@@ -1,0 +1,17 @@
+// Which object is seen, and how far away. Out: R32UI packed by warp_surface.glsl.
+// Variant: #define ALPHA_MASK
+#include "warp_silhouette_params.glsl"
+#include "warp_surface.glsl"
+
+#ifdef ALPHA_MASK
+layout(binding = 0) uniform sampler2D alpha;  // times its factor; repeats
+in vec2 texel;
+#endif
+layout(location = 0) out uint surface;
+
+void main() {
+#ifdef ALPHA_MASK
+    if (!(textureLod(alpha, texel, 0.0).r >= target.w)) discard;
+#endif
+    surface = packSurface(1.0 / gl_FragCoord.w, uint(target.z));
+}

@@ -1,0 +1,15 @@
+// A surface in one word: the upper 24 bits of z [m] (2^-16 of it), the number of what it belongs to.
+const uint kCatcher = 255u;  // kCatcherId
+
+uint packSurface(float z, uint id) {
+    return ((floatBitsToUint(z) + 0x80u) & 0xffffff00u) | id;
+}
+float surfaceDepth(uint surface) {
+    return uintBitsToFloat(surface & 0xffffff00u);
+}
+uint surfaceId(uint surface) {
+    return surface & 0xffu;
+}
+
+const float kSameDepth = 0.003;     // of z: surfaces as close as that are one
+const float kSplattedLayer = 0.02;  // of z: what was splatted farther from a model is of another one

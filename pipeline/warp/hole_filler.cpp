@@ -1,0 +1,111 @@
+#include "pipeline/warp/hole_filler.h"
+
+#include <algorithm>
+#include <span>
+
+namespace mfar {
+namespace {
+
+constexpr int kPullGroup = 8;    // each way, as in the shaders
+constexpr int kCrackLevels = 2;  // that a crack needs
+constexpr std::uint32_t kOpen = 1U << 31, kCrack = 1U << 30;
+
+using Command = HoleFiller::Command;
+
+int halved(int pixels) {
+    return (pixels + 1) / 2;
+}
+
+std::size_t mostTexels(Size size) {
+    std::size_t sum = 0;
+    for (int l = 0; l < HoleFiller::kLevels; ++l) {
+        // A rectangle at odd coordinates takes one more than half its size.
+        size = {halved(size.width) + 1, halved(size.height) + 1};
+        sum += static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    }
+    return sum;
+}
+
+}  // namespace
+
+HoleFiller::HoleFiller(Size layer)
+    : layer_(layer), pyramid_(sizeof(Command) * mostTexels(layer)),
+      first_("warp_pull.comp", "#define FIRST_LEVEL\n"), pull_("warp_pull.comp"),
+      fill_("warp_fill.comp") {
+    const auto pixels = static_cast<std::size_t>(layer.width) * layer.height;
+    for (Lists& lists : lists_)
+        lists = {gpu::Buffer(sizeof(Command) * (1 + kLevels)),
+                 gpu::Buffer(2 * sizeof(std::uint32_t) * pixels)};
+}
+
+void HoleFiller::begin(const PixelRect& where, bool pushPull) {
+    std::array<Command, 1 + kLevels> none{};
+    for (Command& command : none)
+        command = {0, 1, 1, 0};
+    lists_[current_].commands.write(std::span<const Command>(none));
+    params_ = {{where.x0, where.y0, where.x1, where.y1},
+               {layer_.width, pushPull ? 1 : 0, 0, pushPull ? kLevels : kCrackLevels},
+               {},
+               {}};
+    PixelRect r = where;
+    int end = 0;
+    for (int l = 0; l < levels(); ++l) {
+        r = {r.x0 / 2, r.y0 / 2, halved(r.x1), halved(r.y1)};
+        const int columns = r.x1 - r.x0, rows = r.y1 - r.y0;
+        const std::array<std::int32_t, 4> level{end, columns, r.x0, r.y0};
+        std::copy_n(level.data(), 4, params_.levels[l]);
+        rows_[l] = rows;
+        end += columns * rows;
+        wanted_[l] = {gpu::groupsFor(columns, kPullGroup), gpu::groupsFor(rows, kPullGroup), 1, 0};
+    }
+    params_.rows[2] = end;
+}
+
+void HoleFiller::pull(const gpu::Texture& colour, const gpu::Texture& state) {
+    Params p = params_;
+    for (int l = 1; l <= levels(); ++l) {
+        p.layer[2] = l;
+        p.rows[0] = rows_[l - 1];
+        p.rows[1] = l > 1 ? rows_[l - 2] : 0;
+        const std::size_t offset = sizeof(Command) * l;
+        if (l == 1)
+            first_.runIndirect(
+                p, {gpu::sampler(0, colour), gpu::sampler(1, state), gpu::storage(0, pyramid_)},
+                commands(), offset);
+        else
+            pull_.runIndirect(p, {gpu::storage(0, pyramid_)}, commands(), offset);
+    }
+}
+
+void HoleFiller::fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList) {
+    pull(colour, state);
+    fill_.runIndirect(params_,
+                      {gpu::sampler(0, state), gpu::imageWrite(0, colour),
+                       gpu::storage(0, commands()), gpu::storage(1, entries()),
+                       gpu::storage(2, pyramid_)},
+                      commands(), 0);
+    if (!wantList || fence_) return;
+    fence_.emplace();
+    current_ = 1 - current_;
+}
+
+std::optional<HoleFiller::Holes> HoleFiller::poll() {
+    if (!fence_ || !fence_->passed()) return {};
+    fence_.reset();
+    Holes out;
+    const Lists& lists = lists_[1 - current_];
+    const std::size_t listed = lists.commands.read<Command>(1)[0][3];
+    if (listed == 0) return out;
+    for (const auto& [pixel, colour] : lists.entries.read<std::array<std::uint32_t, 2>>(listed)) {
+        if ((pixel & kCrack) != 0)
+            ++out.cracks;
+        else if ((pixel & kOpen) != 0)
+            out.open.push_back(pixel & ~kOpen);
+        else
+            ++out.fading;
+    }
+    std::ranges::sort(out.open);
+    return out;
+}
+
+}  // namespace mfar

@@ -1,0 +1,70 @@
+#include "pipeline/warp/patch_pictures.h"
+
+#include <algorithm>
+#include <cassert>
+#include <span>
+
+namespace mfar {
+
+PatchPictures::PatchPictures(Size layer, int fadeFrames)
+    : layer_(layer), fadeFrames_(fadeFrames),
+      colours_(static_cast<std::size_t>(layer.width) * layer.height), surfaces_(colours_.size()),
+      colour_({layer.width, kPatches * layer.height}, gpu::TexelFormat::Rgba8),
+      surface_(colour_.size(), gpu::TexelFormat::Rgba32F) {
+    for (int i = 0; i < kPatches; ++i) {
+        patches_[i].slot = i;
+        upload(i, 0, layer.height);
+    }
+}
+
+void PatchPictures::clear() {
+    for (Patch& patch : patches_)
+        patch.share = 0;
+}
+
+void PatchPictures::age() {
+    const double step = fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1;
+    for (Patch& patch : patches_)
+        if (patch.share > 0) patch.share = std::min(1.0, patch.share + step);
+}
+
+void PatchPictures::add(const HoleAnswer& answer) {
+    const auto& pixels = answer.pixels;
+    std::rotate(patches_.begin(), patches_.end() - 1, patches_.end());
+    Patch& patch = patches_.front();
+    PixelRect bounds;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        assert(pixels[i] < surfaces_.size());
+        const auto x = static_cast<int>(pixels[i] % static_cast<unsigned>(layer_.width));
+        const auto y = static_cast<int>(pixels[i] / static_cast<unsigned>(layer_.width));
+        const float z = answer.depth[i];
+        const bool is = answer.id[i] != 0 && z > LensProjection::kNear && z < kFarthestSurface;
+        const bool object = is && answer.id[i] != kCatcherId;
+        surfaces_[pixels[i]] = {is ? z : 0, is ? static_cast<float>(answer.id[i]) : 0, 0, 1};
+        if (is) colours_[pixels[i]] = object ? filled(answer.colour[i]) : answer.colour[i];
+        bounds = around(bounds, {x, y, x + 1, y + 1});
+    }
+    for (const std::uint32_t i : pixels)
+        surfaces_[i].tolerance = toleranceAt(
+            surfaces_, layer_, static_cast<int>(i % static_cast<unsigned>(layer_.width)),
+            static_cast<int>(i / static_cast<unsigned>(layer_.width)));
+    const PixelRect rows = around(bounds, patch.bounds);  // what was there before is cleared
+    upload(patch.slot, rows.y0, rows.y1);
+    for (const std::uint32_t i : pixels) {
+        surfaces_[i] = {};
+        colours_[i] = {};
+    }
+    patch = {patch.slot, answer.view.T_world_camera, bounds,
+             fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1};
+}
+
+void PatchPictures::upload(int slot, int firstRow, int lastRow) {
+    const std::size_t width = layer_.width;
+    const std::size_t first = firstRow * width, count = (lastRow - firstRow) * width;
+    const int top = slot * layer_.height + firstRow;
+    const auto texels = std::span(surfaces_).subspan(first, count);
+    surface_.upload(std::span(&texels.front().z, 4 * count), top);
+    colour_.uploadRows(std::span(colours_).subspan(first, count), top);
+}
+
+}  // namespace mfar

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pipeline/composite/lens_projection.h"
+#include "pipeline/gpu/texture.h"
+#include "pipeline/warp/warp_reference.h"
+
+#include <optional>
+
+namespace mfar {
+
+/// Normalised ray (x/z, y/z) of every pixel, Rg32F.
+[[nodiscard]] gpu::Texture rayTexture(const CameraModel& camera);
+
+/// A reference on the GPU.
+class ReferenceTextures {
+public:
+    /// Allocates where the size is another one than before.
+    void upload(const WarpReference& reference);
+
+    /// Valid after the first upload.
+    [[nodiscard]] const LensProjection& lens() const { return *lens_; }
+    [[nodiscard]] const gpu::Texture& picture() const { return picture_; }  ///< RGBA8, as rendered
+    [[nodiscard]] const gpu::Texture& depth() const { return depth_; }      ///< R32F, as rendered
+    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }    ///< RGBA8
+    [[nodiscard]] const gpu::Texture& surface() const { return surface_; }  ///< Rgba32F
+    [[nodiscard]] const gpu::Texture& packed() const { return packed_; }    ///< R32UI
+
+private:
+    std::optional<LensProjection> lens_;
+    gpu::Texture picture_, depth_, colour_, surface_, packed_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,141 @@
+#include "pipeline/warp/surface_mesh.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace mfar {
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+Eigen::Vector3f positionOf(const gpu::MeshVertex& v) {
+    return {v.position[0], v.position[1], v.position[2]};
+}
+
+gpu::MeshVertex middle(const gpu::MeshVertex& a, const gpu::MeshVertex& b) {
+    gpu::MeshVertex m{};
+    for (int i = 0; i < 3; ++i)
+        m.position[i] = 0.5F * (a.position[i] + b.position[i]);
+    for (int i = 0; i < 2; ++i)
+        m.uv[i] = 0.5F * (a.uv[i] + b.uv[i]);
+    return m;
+}
+
+SurfaceMesh soundPart(std::span<const Eigen::Vector3f> positions,
+                      std::span<const Eigen::Vector2f> uvs, std::span<const Triangle> triangles) {
+    SurfaceMesh mesh;
+    mesh.vertices.resize(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        std::copy_n(positions[i].data(), 3, mesh.vertices[i].position);
+        if (i < uvs.size()) std::copy_n(uvs[i].data(), 2, mesh.vertices[i].uv);
+    }
+    for (const Triangle& t : triangles)
+        if (std::ranges::all_of(t, [&](std::uint32_t corner) {
+                return corner < positions.size() && positions[corner].allFinite();
+            }))
+            mesh.triangles.push_back(t);
+    return mesh;
+}
+
+/// Longest edge first, for the best shape. False: more triangles than `most`.
+bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
+    for (std::size_t i = 0; i < mesh.triangles.size();) {
+        const Triangle t = mesh.triangles[i];
+        std::array<float, 3> length{};
+        for (std::size_t k = 0; k < 3; ++k)
+            length[k] =
+                (positionOf(mesh.vertices[t[k]]) - positionOf(mesh.vertices[t[(k + 1) % 3]]))
+                    .norm();
+        const auto k = static_cast<std::size_t>(std::ranges::max_element(length) - length.begin());
+        if (!(length[k] > longest)) {
+            ++i;
+            continue;
+        }
+        if (mesh.triangles.size() >= most) return false;
+        const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+        const auto m = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.push_back(middle(mesh.vertices[a], mesh.vertices[b]));
+        mesh.triangles[i] = {a, m, c};
+        mesh.triangles.push_back({m, b, c});
+    }
+    return true;
+}
+
+struct Cell {
+    gpu::MeshVertex sum{};
+    float count = 0;
+    std::uint32_t vertex = 0;
+};
+
+SurfaceMesh clustered(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
+    const float side = box.sizes().maxCoeff() / static_cast<float>(cells);
+    std::unordered_map<std::uint64_t, Cell> grid;
+    std::vector<std::uint64_t> keys;
+    keys.reserve(mesh.vertices.size());
+    for (const gpu::MeshVertex& v : mesh.vertices) {
+        const Eigen::Array3f at = (positionOf(v) - box.min()).array() / side;
+        const auto index = at.max(0).min(static_cast<float>(cells)).cast<std::uint64_t>().eval();
+        keys.push_back(index.x() << 40 | index.y() << 20 | index.z());
+        Cell& cell = grid[keys.back()];
+        for (int i = 0; i < 3; ++i)
+            cell.sum.position[i] += v.position[i];
+        for (int i = 0; i < 2; ++i)
+            cell.sum.uv[i] += v.uv[i];
+        ++cell.count;
+    }
+    SurfaceMesh out;
+    for (auto& [key, cell] : grid) {
+        cell.vertex = static_cast<std::uint32_t>(out.vertices.size());
+        for (float& x : cell.sum.position)
+            x /= cell.count;
+        for (float& x : cell.sum.uv)
+            x /= cell.count;
+        out.vertices.push_back(cell.sum);
+    }
+    for (const Triangle& t : mesh.triangles) {
+        const Triangle c{grid[keys[t[0]]].vertex, grid[keys[t[1]]].vertex, grid[keys[t[2]]].vertex};
+        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) out.triangles.push_back(c);
+    }
+    return out;
+}
+
+Eigen::AlignedBox3f cornersBox(const SurfaceMesh& mesh) {
+    Eigen::AlignedBox3f box;
+    for (const Triangle& t : mesh.triangles)
+        for (const std::uint32_t corner : t)
+            box.extend(positionOf(mesh.vertices[corner]));
+    return box;
+}
+
+}  // namespace
+
+SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles) {
+    if (mesh.triangles.size() <= mostTriangles) return mesh;
+    const Eigen::AlignedBox3f box = cornersBox(mesh);
+    if (!(box.sizes().maxCoeff() > 0)) return {};
+    // Corners that no triangle uses may lie anywhere, or nowhere.
+    for (gpu::MeshVertex& v : mesh.vertices)
+        if (!box.contains(positionOf(v))) std::copy_n(box.min().data(), 3, v.position);
+    for (int cells = 256; cells > 1; cells = cells * 3 / 4) {
+        SurfaceMesh out = clustered(mesh, box, cells);
+        if (out.triangles.size() <= mostTriangles) return out;
+    }
+    return clustered(mesh, box, 1);
+}
+
+SurfaceMesh surfaceMesh(std::span<const Eigen::Vector3f> positions,
+                        std::span<const Eigen::Vector2f> uvs, std::span<const Triangle> triangles,
+                        float longest, std::size_t mostTriangles) {
+    const SurfaceMesh whole = soundPart(positions, uvs, triangles);
+    const std::size_t most = std::max(mostTriangles, whole.triangles.size());
+    for (; longest > 0 && std::isfinite(longest); longest *= 2) {
+        SurfaceMesh mesh = whole;
+        if (cut(mesh, longest, most)) return mesh;
+    }
+    return whole;
+}
+
+}  // namespace mfar

@@ -1,0 +1,162 @@
+#include "pipeline/warp/warp.h"
+
+#include "pipeline/se3.h"
+
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+const WarpOptions& validated(const WarpOptions& options) {
+    validate(options);
+    return options;
+}
+
+/// Where a pixel stands in a pattern that fills a 4x4 square evenly (Bayer 1973).
+unsigned orderOf(std::uint32_t pixel, unsigned width) {
+    const unsigned x = pixel % width, y = pixel / width, d = x ^ y;
+    return (d & 1) << 3 | (x & 1) << 2 | (d & 2) | (x & 2) >> 1;
+}
+
+/// At most `most` of them, evenly spread, ascending.
+void thinOut(std::vector<std::uint32_t>& pixels, std::size_t most, unsigned width) {
+    if (pixels.size() <= most) return;
+    std::ranges::stable_sort(pixels, {}, [&](std::uint32_t p) { return orderOf(p, width); });
+    // The last square's pixels that still find room are spread, too.
+    std::size_t whole = most;
+    while (whole > 0 && orderOf(pixels[whole - 1], width) == orderOf(pixels[most], width))
+        --whole;
+    const auto last = std::span(pixels).subspan(whole);
+    const auto same = static_cast<std::size_t>(std::ranges::count_if(
+        last, [&](std::uint32_t p) { return orderOf(p, width) == orderOf(pixels[most], width); }));
+    for (std::size_t i = 0; i < most - whole; ++i)
+        pixels[whole + i] = pixels[whole + i * same / (most - whole)];
+    pixels.resize(most);
+    std::ranges::sort(pixels);
+}
+
+}  // namespace
+
+Warp::Warp(const CameraModel& video, Size output, const WarpOptions& options)
+    : lens_(video.scaledTo(output)), options_(validated(options)), silhouette_(lens_.camera),
+      lookUp_(lens_, options.depth), filler_(output),
+      patches_(output, options.filling == HoleFilling::Both ? options.fadeFrames : 0) {
+    if (options.depth == WarpDepth::Splatted) splat_.emplace(lens_);
+}
+
+void Warp::setScene(const Scene& scene) {
+    ++scene_;
+    silhouette_.setScene(scene);
+    dropReference();
+}
+
+void Warp::setReference(WarpReference reference) {
+    textures_.upload(reference);
+    dropReference();
+    reference_ = std::move(reference);
+}
+
+void Warp::dropReference() {
+    reference_.reset();
+    patches_.clear();
+    lastRequest_ = {};
+    filler_.drop();
+    asked_ = false;
+}
+
+const VirtualLayer& Warp::run(const RigidTransform& T_world_camera) {
+    layer_ = {&lookUp_.colour(), &lookUp_.depth(), {}};
+    PixelRect bounds;
+    WarpMotion motion;
+    if (reference_ && isFinite(T_world_camera)) {
+        motion = motionOf(*reference_, lens_, T_world_camera);
+        bounds = around(silhouette_.bounds(T_world_camera), motion.bounds);
+    }
+    if (bounds.empty()) {
+        ++counters_.empty;
+        return layer_;
+    }
+    if (!reference_->tiles.empty() && motion.greatest < options_.leastMotion) {
+        ++counters_.unmoved;
+        layer_ = {&textures_.picture(), &textures_.depth(), reference_->bounds};
+        return layer_;
+    }
+    ++counters_.warped;
+    warp(T_world_camera, bounds);
+    layer_.bounds = bounds;
+    return layer_;
+}
+
+void Warp::warp(const RigidTransform& T_world_camera, const PixelRect& bounds) {
+    if (!(around(drawn_, bounds) == bounds)) lookUp_.clear(drawn_);
+    drawn_ = bounds;
+    silhouette_.draw(T_world_camera, bounds);
+    ViewLookUp::Input input{silhouette_.surface(), textures_, reference_->T_world_camera, patches_,
+                            silhouette_.plane()};
+    if (splat_) {
+        splat_->run(*reference_, textures_, T_world_camera, bounds);
+        input.objectDepth = &splat_->objects();
+        input.catcherDepth = &splat_->catcher();
+    }
+    filler_.begin(bounds, options_.filling == HoleFilling::PushPull ||
+                              options_.filling == HoleFilling::Both);
+    lookUp_.run(input, T_world_camera, bounds, filler_);
+    const bool wantList = !asked_ && !filler_.isPending();
+    filler_.fill(lookUp_.colour(), lookUp_.state(), wantList);
+    if (wantList) listPose_ = T_world_camera;
+    patches_.age();
+}
+
+std::optional<HoleRequest> Warp::takeRequest() {
+    if (asked_ || !reference_) return {};
+    auto holes = filler_.poll();
+    if (!holes) return {};
+    counters_.openHoles = static_cast<int>(holes->open.size());
+    counters_.cracks = holes->cracks;
+    if (!rerenders() || holes->open.empty()) return {};
+    dropRefused(holes->open);
+    if (holes->open.empty()) return {};
+    thinOut(holes->open, static_cast<std::size_t>(options_.mostRequested),
+            static_cast<unsigned>(lens_.camera.size.width));
+    counters_.requested += holes->open.size();
+    asked_ = true;
+    lastRequest_ = HoleRequest{
+        {lens_.camera, listPose_}, std::move(holes->open), options_.holeSamples, scene_};
+    return lastRequest_;
+}
+
+// What was rendered for this very view and still is open will not be known by rendering it again.
+void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
+    const RigidTransform T = lastRequest_.view.T_world_camera.inverse() * listPose_;
+    float nearest = kFarthestSurface;
+    for (const WarpReference::Tile& tile : reference_->tiles)
+        nearest = std::min(nearest, tile.nearest);
+    const double turn = 2 * T.rotation.vec().norm();
+    const double motion = lens_.camera.fx * (turn + T.translation.norm() / nearest);
+    if (!(motion < options_.leastMotion)) return;
+    std::erase_if(pixels, [&](std::uint32_t p) {
+        return std::ranges::binary_search(lastRequest_.pixels, p);
+    });
+}
+
+void Warp::answer(const HoleAnswer& answer) {
+    const auto& pixels = answer.pixels;
+    const Size size = lens_.camera.size;
+    const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
+    if (answer.colour.size() != pixels.size() || answer.depth.size() != pixels.size() ||
+        answer.id.size() != pixels.size())
+        throw std::invalid_argument("an answer's fields are of unequal length");
+    if (std::ranges::any_of(pixels, [&](std::uint32_t p) { return p >= count; }))
+        throw std::invalid_argument("an answer has a pixel outside of the layer");
+    if (!isFinite(answer.view.T_world_camera))
+        throw std::invalid_argument("an answer's pose is not finite");
+    if (answer.scene != scene_ || pixels.empty()) return;
+    asked_ = false;
+    counters_.answered += pixels.size();
+    patches_.add(answer);
+}
+
+}  // namespace mfar

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "pipeline/composite/virtual_layer.h"
+#include "pipeline/render/hole_request.h"
+#include "pipeline/warp/depth_splat.h"
+#include "pipeline/warp/hole_filler.h"
+#include "pipeline/warp/model_silhouette.h"
+#include "pipeline/warp/patch_pictures.h"
+#include "pipeline/warp/reference_textures.h"
+#include "pipeline/warp/view_look_up.h"
+#include "pipeline/warp/warp_options.h"
+#include "pipeline/warp/warp_reference.h"
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// Totals since the start, and what was last known.
+struct WarpCounters {
+    std::uint64_t warped = 0;     ///< frames
+    std::uint64_t unmoved = 0;    ///< frames that show the reference as it is
+    std::uint64_t empty = 0;      ///< frames with nothing in view
+    std::uint64_t requested = 0;  ///< pixels asked to be rendered for themselves
+    std::uint64_t answered = 0;   ///< pixels that came back
+    int openHoles = 0;            ///< pixels known nowhere, of the frame last read
+    int cracks = 0;               ///< of the same frame
+};
+
+/// Image-based rendering of the virtual layer: a finished picture as the camera would see it from
+/// where it is now, in two passes (paper, eq. 5; depth, then inverse look-up of colour). Everything
+/// is clipped to the silhouette of the models at the current pose. Lives on the GL thread with its
+/// context current. The picture depends on nothing but its inputs, on any number of threads.
+class Warp {
+public:
+    /// `video`: any resolution of the camera; the layer has size `output`. Throws
+    /// std::invalid_argument for an option out of range and GlError for a GL that does not draw
+    /// into R32F.
+    Warp(const CameraModel& video, Size output, const WarpOptions& options = {});
+
+    /// Uploads the models. Drops the reference and all rendered holes, which were of another scene.
+    void setScene(const Scene& scene);
+    /// Shown from the next run on, in place of the one before and of the holes rendered for it.
+    void setReference(WarpReference reference);
+    void dropReference();
+
+    /// Nothing is shown without a scene, a reference, or at a pose that is not finite. Valid until
+    /// the next call of any member.
+    const VirtualLayer& run(const RigidTransform& T_world_camera);
+
+    /// Pixels to be rendered for themselves: of a frame or two ago, at most mostRequested of them,
+    /// spread evenly where there are more. Nothing while none are known, and none again until the
+    /// one taken is answered, or a new reference comes. Never waits.
+    [[nodiscard]] std::optional<HoleRequest> takeRequest();
+    /// Shown from the next run on. An answer of another scene is left out. Throws
+    /// std::invalid_argument for fields of unequal length or a pixel outside of the layer.
+    void answer(const HoleAnswer& answer);
+
+    [[nodiscard]] const WarpCounters& counters() const { return counters_; }
+    /// Of the layer, at its resolution.
+    [[nodiscard]] const CameraModel& camera() const { return lens_.camera; }
+    /// For tests: what is missing, see ViewLookUp.
+    [[nodiscard]] const gpu::Texture& state() const { return lookUp_.state(); }
+
+private:
+    [[nodiscard]] bool rerenders() const {
+        return options_.filling == HoleFilling::Rerender || options_.filling == HoleFilling::Both;
+    }
+    void dropRefused(std::vector<std::uint32_t>& pixels) const;
+    void warp(const RigidTransform& T_world_camera, const PixelRect& bounds);
+
+    LensProjection lens_;
+    WarpOptions options_;
+    ModelSilhouette silhouette_;
+    ReferenceTextures textures_;
+    ViewLookUp lookUp_;
+    HoleFiller filler_;
+    PatchPictures patches_;
+    std::optional<DepthSplat> splat_;
+    std::optional<WarpReference> reference_;
+    std::uint64_t scene_ = 0;
+    bool asked_ = false;  // a request waits for its answer
+    HoleRequest lastRequest_;
+    RigidTransform listPose_;  // of the frame whose holes are under way
+    PixelRect drawn_;          // where the look-up's pictures are not empty
+    WarpCounters counters_;
+    VirtualLayer layer_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "pipeline/warp/view_look_up.h"
+
+namespace mfar {
+
+/// What is done about pixels of a model that no picture shows. Cracks a pixel wide are always
+/// closed.
+enum class HoleFilling {
+    None,      ///< they show nothing
+    PushPull,  ///< filled from their surroundings
+    Rerender,  ///< rendered for themselves, nothing until they arrive
+    Both,      ///< rendered for themselves, filled until they arrive
+};
+
+struct WarpOptions {
+    WarpDepth depth = WarpDepth::Model;
+    HoleFilling filling = HoleFilling::Both;
+    /// Pixels rendered for themselves at a time, at most, from 1 on: 5 % of 640x480.
+    int mostRequested = 15360;
+    int holeSamples = 4;  ///< of each of them, [1, 4096]
+    /// A rendered hole appears over so many frames, [0, 100].
+    int fadeFrames = 4;
+    /// A pose that moves nothing of the reference by so much shows it as it is [px], [0, 10].
+    double leastMotion = 0.1;
+};
+
+/// Throws std::invalid_argument that names the first option out of its range.
+void validate(const WarpOptions& options);
+
+}  // namespace mfar

@@ -1,0 +1,145 @@
+#include "tests/shader/gl_test.h"
+#include "tests/warp/warp_support.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace mfar {
+namespace {
+
+using test::CastScene;
+using WarpHolesGl = GlTest;
+
+constexpr Size kHoleLayer{200, 150};
+
+struct Turned {
+    explicit Turned(const WarpOptions& options)
+        : scene(test::twoBalls()), warp(test::bentCamera(kHoleLayer), kHoleLayer, options) {
+        warp.setScene(scene.scene());
+        warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)}, 2)));
+    }
+    std::optional<HoleRequest> requestAt(double degrees) {
+        warp.run(test::orbit(degrees));
+        glFinish();
+        return warp.takeRequest();
+    }
+    CastScene scene;
+    Warp warp;
+};
+
+TEST_F(WarpHolesGl, RequestsAreWhatTheReferenceDoesNotShow) {
+    Turned s({});
+    const auto request = s.requestAt(15);
+    ASSERT_TRUE(request);
+    EXPECT_GT(request->pixels.size(), 50U);
+    EXPECT_TRUE(std::ranges::is_sorted(request->pixels));
+    const RenderedPicture now = s.scene.cast({s.warp.camera(), test::orbit(15)});
+    const RenderedPicture before = s.scene.cast({s.warp.camera(), test::orbit(0)});
+    int hidden = 0, surfaces = 0;
+    for (const std::uint32_t pixel : request->pixels) {
+        if (now.id[pixel] == 0) continue;  // the plane beside the shadow, which cannot be known
+        ++surfaces;
+        const Eigen::Vector2d at(pixel % kHoleLayer.width, pixel / kHoleLayer.width);
+        const Eigen::Vector3d p = now.depth[pixel] * s.warp.camera().unproject(at).homogeneous();
+        const Eigen::Vector3d q = test::orbit(0).inverse() * (test::orbit(15) * p);
+        const Eigen::Vector2d r = s.warp.camera().project(q.hnormalized());
+        const auto x = std::lround(r.x()), y = std::lround(r.y());
+        const auto i = static_cast<std::size_t>(y * kHoleLayer.width + x);
+        hidden +=
+            before.id[i] != now.id[pixel] || std::abs(before.depth[i] - q.z()) > 0.003 ? 1 : 0;
+    }
+    // The others lie at a limb, where rounding decides.
+    EXPECT_GT(surfaces, 100);
+    EXPECT_GT(hidden, 0.8 * surfaces);
+}
+
+TEST_F(WarpHolesGl, OneRequestAtATimeAndAnswersCloseTheirHoles) {
+    Turned s({});
+    const auto request = s.requestAt(15);
+    ASSERT_TRUE(request);
+    EXPECT_FALSE(s.requestAt(15)) << "the first is not answered";
+    s.warp.answer(test::answered(s.scene, *request));
+    const auto second = s.requestAt(15);
+    const std::size_t left = second ? second->pixels.size() : 0;
+    EXPECT_LT(left, request->pixels.size() / 20);
+    EXPECT_EQ(s.warp.counters().answered, request->pixels.size());
+}
+
+TEST_F(WarpHolesGl, AnswersMoveWithTheCamera) {
+    Turned s({.filling = HoleFilling::Rerender});
+    const auto request = s.requestAt(15);
+    ASSERT_TRUE(request);
+    s.warp.answer(test::answered(s.scene, *request));
+    const auto second = s.requestAt(16.5);
+    const std::size_t left = second ? second->pixels.size() : 0;
+    EXPECT_LT(left, request->pixels.size() / 3) << "but for what one more degree uncovers";
+}
+
+TEST_F(WarpHolesGl, AnswersAppearOverTheirFrames) {
+    Turned s({.fadeFrames = 4});
+    const auto request = s.requestAt(15);
+    ASSERT_TRUE(request);
+    HoleAnswer white = test::answered(s.scene, *request);
+    std::ranges::fill(white.colour, std::array<std::uint8_t, 4>{255, 255, 255, 255});
+    const auto mean = [&] {
+        const auto rgba = s.warp.run(test::orbit(15)).colour->readRgba8();
+        double sum = 0;
+        for (const std::uint32_t pixel : request->pixels)
+            sum += rgba[4UL * pixel + 1];
+        return sum / static_cast<double>(request->pixels.size());
+    };
+    const double filled = mean();
+    s.warp.answer(white);
+    double last = filled;
+    for (int i = 1; i <= 4; ++i) {
+        const double now = mean();
+        EXPECT_GT(now, last + 3) << i;
+        last = now;
+    }
+    EXPECT_NEAR(mean(), last, 0.5);
+}
+
+TEST_F(WarpHolesGl, MoreHolesThanMayBeAskedForAreSpreadEvenly) {
+    Turned all({}), few({.mostRequested = 100});
+    const auto every = all.requestAt(20), some = few.requestAt(20);
+    ASSERT_TRUE(every && some);
+    ASSERT_EQ(some->pixels.size(), 100U);
+    EXPECT_TRUE(std::ranges::includes(every->pixels, some->pixels));
+    const auto meanRow = [](const std::vector<std::uint32_t>& pixels) {
+        double sum = 0;
+        for (const std::uint32_t p : pixels)
+            sum += p / kHoleLayer.width;
+        return sum / static_cast<double>(pixels.size());
+    };
+    EXPECT_NEAR(meanRow(every->pixels), meanRow(some->pixels), 8);
+}
+
+TEST_F(WarpHolesGl, ModesThatDoNotRenderDoNotAsk) {
+    for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
+        Turned s({.filling = filling});
+        EXPECT_FALSE(s.requestAt(15));
+        EXPECT_GT(s.warp.counters().openHoles, 50);
+    }
+}
+
+TEST_F(WarpHolesGl, FaultyAnswersAreRefusedAndThoseOfAnotherSceneLeftOut) {
+    Turned s({});
+    const auto request = s.requestAt(15);
+    ASSERT_TRUE(request);
+    const HoleAnswer good = test::answered(s.scene, *request);
+    HoleAnswer bad = good;
+    bad.depth.pop_back();
+    EXPECT_THROW(s.warp.answer(bad), std::invalid_argument);
+    bad = good;
+    bad.pixels[0] = kHoleLayer.width * kHoleLayer.height;
+    EXPECT_THROW(s.warp.answer(bad), std::invalid_argument);
+    bad = good;
+    bad.view.T_world_camera.translation.x() = std::numeric_limits<double>::infinity();
+    EXPECT_THROW(s.warp.answer(bad), std::invalid_argument);
+    s.warp.setScene(s.scene.scene());
+    s.warp.answer(good);
+    EXPECT_EQ(s.warp.counters().answered, 0U);
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,69 @@
+#include "tests/shader/gl_test.h"
+#include "tests/warp/warp_support.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace mfar {
+namespace {
+
+using WarpThreadsGl = GlTest;
+
+constexpr const char* kHashFile = "MFAR_WARP_HASH_OUT";
+
+/// FNV-1a.
+template <class T>
+std::uint64_t hashed(std::uint64_t hash, const std::vector<T>& values) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
+    for (std::size_t i = 0; i < values.size() * sizeof(T); ++i)
+        hash = (hash ^ bytes[i]) * 1099511628211U;
+    return hash;
+}
+
+/// Of several poses, both sources of depth, with holes filled and rendered.
+std::uint64_t hashOfWarps() {
+    std::uint64_t hash = 14695981039346656037U;
+    const Size size{320, 240};
+    const test::CastScene scene = test::twoBalls();
+    for (const WarpDepth depth : {WarpDepth::Model, WarpDepth::Splatted}) {
+        Warp warp(test::bentCamera(size), size, {.depth = depth});
+        warp.setScene(scene.scene());
+        warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)})));
+        for (const double degrees : {1.0, 7.0, 25.0}) {
+            const VirtualLayer& layer = test::settled(warp, scene, test::orbit(degrees), 4);
+            hash = hashed(hash, layer.colour->readRgba8());
+            hash = hashed(hash, layer.depth->readRgba32F());
+        }
+    }
+    return hash;
+}
+
+TEST_F(WarpThreadsGl, WritesItsHash) {
+    const char* file = std::getenv(kHashFile);
+    if (file == nullptr) GTEST_SKIP() << "part of PicturesAreTheSameAtOneAndTwoThreads";
+    std::ofstream(file) << hashOfWarps();
+}
+
+TEST(WarpThreads, PicturesAreTheSameAtOneAndTwoThreads) {
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+    std::string hashes[2];
+    for (int threads = 1; threads <= 2; ++threads) {
+        const std::string file = testing::TempDir() + "warp_hash_" + std::to_string(::getpid());
+        const std::string command = std::string(kHashFile) + "='" + file +
+                                    "' LP_NUM_THREADS=" + std::to_string(threads) + " '" + program +
+                                    "' --gtest_filter=WarpThreadsGl.WritesItsHash >/dev/null";
+        ASSERT_EQ(std::system(command.c_str()), 0);
+        std::ifstream(file) >> hashes[threads - 1];
+        std::filesystem::remove(file);
+    }
+    EXPECT_FALSE(hashes[0].empty());
+    EXPECT_EQ(hashes[0], hashes[1]);
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "pipeline/warp/warp.h"
+#include "tests/warp/cast_scene.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace mfar::test {
+
+/// Of colours over the pixels that show an object in `truth` [dB against 255].
+inline double psnrInside(const std::vector<std::uint8_t>& rgba, const RenderedPicture& truth) {
+    double sum = 0;
+    std::size_t values = 0;
+    for (std::size_t i = 0; i < truth.id.size(); ++i) {
+        if (truth.id[i] == 0 || truth.id[i] == kCatcherId) continue;
+        for (std::size_t c = 0; c < 3; ++c, ++values)
+            sum += std::pow(rgba[4 * i + c] - truth.colour[i][c], 2);
+    }
+    return 10 * std::log10(255.0 * 255 * static_cast<double>(values) / sum);
+}
+
+/// What a request asks for, cast.
+inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, int grid = 2) {
+    const RenderedPicture picture = scene.castPixels(request.view, grid, request.pixels);
+    HoleAnswer out;
+    out.view = request.view;
+    out.pixels = request.pixels;
+    out.scene = request.scene;
+    for (const std::uint32_t pixel : request.pixels) {
+        out.colour.push_back(picture.colour[pixel]);
+        out.depth.push_back(picture.depth[pixel]);
+        out.id.push_back(picture.id[pixel]);
+    }
+    return out;
+}
+
+/// Runs until the holes of this pose are rendered and shown in full, or there are none.
+inline const VirtualLayer& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
+                                   int frames = 12) {
+    for (int i = 0; i < frames; ++i) {
+        warp.run(pose);
+        glFinish();
+        if (const auto request = warp.takeRequest()) warp.answer(answered(scene, *request));
+    }
+    return warp.run(pose);
+}
+
+}  // namespace mfar::test

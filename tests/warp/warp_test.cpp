@@ -1,0 +1,201 @@
+#include "pipeline/warp/warp.h"
+#include "tests/shader/gl_test.h"
+#include "tests/warp/warp_support.h"
+
+#include <limits>
+#include <memory>
+
+namespace mfar {
+namespace {
+
+using test::CastScene;
+using test::psnrInside;
+using WarpGl = GlTest;
+
+constexpr Size kLayer{241, 183};
+
+/// Reference at 0 degrees of test::twoBalls().
+struct Shown {
+    explicit Shown(const WarpOptions& options = {}, CastScene cast = test::twoBalls())
+        : scene(std::move(cast)), warp(test::bentCamera(kLayer), kLayer, options) {
+        warp.setScene(scene.scene());
+        warp.setReference(warpReference(scene.cast(view(0), 3)));
+    }
+    [[nodiscard]] RenderView view(double degrees) const {
+        return {warp.camera(), test::orbit(degrees)};
+    }
+    [[nodiscard]] double psnrAt(double degrees) {
+        const VirtualLayer& layer = test::settled(warp, scene, test::orbit(degrees));
+        return psnrInside(layer.colour->readRgba8(), scene.cast(view(degrees), 3));
+    }
+    CastScene scene;
+    Warp warp;
+};
+
+TEST_F(WarpGl, UnmovedPoseShowsTheReferenceItself) {
+    Shown s;
+    RigidTransform pose = test::orbit(0);
+    pose.translation.x() += 2e-5;  // 0.01 px
+    const VirtualLayer& layer = s.warp.run(pose);
+    const auto rgba = layer.colour->readRgba8();
+    const RenderedPicture reference = s.scene.cast(s.view(0), 3);
+    for (std::size_t i = 0; i < reference.colour.size(); ++i)
+        for (std::size_t c = 0; c < 4; ++c)
+            ASSERT_EQ(rgba[4 * i + c], reference.colour[i][c]);
+    EXPECT_EQ(s.warp.counters().unmoved, 1U);
+    s.warp.run(test::orbit(0.2));
+    EXPECT_EQ(s.warp.counters().warped, 1U);
+}
+
+TEST_F(WarpGl, SmallTurnsAreAsSharpAsInterpolationAllows) {
+    for (const WarpDepth depth : {WarpDepth::Model, WarpDepth::Splatted}) {
+        Shown s({.depth = depth, .filling = HoleFilling::PushPull});
+        for (const double degrees : {0.5, 1.0, 2.0})
+            EXPECT_GT(s.psnrAt(degrees), 35) << degrees << " " << static_cast<int>(depth);
+    }
+}
+
+TEST_F(WarpGl, RenderedHolesAreBetterThanFilledOnesAndThoseThanNone) {
+    std::array<double, 4> psnr{};
+    for (int i = 0; i < 4; ++i) {
+        // A ball well before another one.
+        Shown s({.filling = static_cast<HoleFilling>(i)},
+                {{{{0, 0, 0.1}, 0.09}, {{0.04, -0.25, 0.14}, 0.045}}, true, 1.5});
+        psnr[i] = s.psnrAt(15);
+    }
+    EXPECT_GT(psnr[1], psnr[0] + 1) << "push-pull over none";
+    EXPECT_GT(psnr[2], psnr[1] + 1) << "re-rendered over push-pull";
+    EXPECT_NEAR(psnr[3], psnr[2], 0.3) << "both, once they have arrived";
+}
+
+TEST_F(WarpGl, NothingIsShownOutsideOfSilhouetteAndShadow) {
+    Shown s;
+    const RenderedPicture truth = s.scene.cast(s.view(5), 4);
+    const auto rgba = test::settled(s.warp, s.scene, test::orbit(5)).colour->readRgba8();
+    double coverage = 0;
+    int pixels = 0;
+    for (std::size_t i = 0; i < truth.colour.size(); ++i) {
+        if (truth.colour[i][3] == 0) {
+            EXPECT_LE(rgba[4 * i + 3], 4) << i % kLayer.width << " " << i / kLayer.width;
+        }
+        coverage += std::abs(rgba[4 * i + 3] - truth.colour[i][3]);
+        pixels += truth.colour[i][3] > 0 ? 1 : 0;
+    }
+    EXPECT_LT(coverage / pixels, 4) << "mean error of coverage [grey levels]";
+}
+
+TEST_F(WarpGl, DepthIsThatOfTheCurrentPose) {
+    Shown s;
+    const RenderedPicture truth = s.scene.cast(s.view(8));
+    const auto z = s.warp.run(test::orbit(8)).depth->readRgba32F();
+    int checked = 0;
+    for (int y = 1; y + 1 < kLayer.height; ++y)
+        for (int x = 1; x + 1 < kLayer.width; ++x) {
+            const auto i = static_cast<std::size_t>(y) * kLayer.width + x;
+            const auto id = truth.id[i];
+            if (id == 0 || truth.id[i - 1] != id || truth.id[i + 1] != id ||
+                truth.id[i - kLayer.width] != id || truth.id[i + kLayer.width] != id)
+                continue;
+            if (id == kCatcherId && truth.colour[i][3] < 8) continue;
+            // At a ball's limb its facets are a little nearer to the middle than it is.
+            ASSERT_NEAR(z[4 * i], truth.depth[i], 0.01) << x << " " << y;
+            ++checked;
+        }
+    EXPECT_GT(checked, 5000);
+}
+
+TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
+    Shown s;
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    RigidTransform broken = test::orbit(0);
+    broken.translation.y() = kNan;
+    EXPECT_TRUE(s.warp.run(broken).bounds.empty());
+    RigidTransform away = test::orbit(0);
+    away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // looks the other way
+    EXPECT_TRUE(s.warp.run(away).bounds.empty());
+    // Within a ball, at its surface, in the plane, far away, upside down, turned by 90 degrees.
+    for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
+        for (const double degrees : {0.0, 90.0, 180.0}) {
+            const VirtualLayer& layer = s.warp.run(test::orbit(degrees, distance, 1));
+            for (const float z : layer.depth->readRgba32F())
+                ASSERT_TRUE(std::isfinite(z) && z >= 0) << distance << " " << degrees;
+        }
+    EXPECT_GT(
+        psnrInside(s.warp.run(test::orbit(1)).colour->readRgba8(), s.scene.cast(s.view(1), 3)), 33);
+}
+
+TEST_F(WarpGl, FaultyAndEmptyReferencesAreHarmless) {
+    Shown s({.filling = HoleFilling::PushPull});
+    RenderedPicture picture = s.scene.cast(s.view(0));
+    for (std::size_t i = 0; i < picture.depth.size(); i += 3)
+        picture.depth[i] = i % 2 == 0 ? std::numeric_limits<float>::quiet_NaN() : -1e30F;
+    s.warp.setReference(warpReference(picture));
+    for (const float z : s.warp.run(test::orbit(3)).depth->readRgba32F())
+        ASSERT_TRUE(std::isfinite(z));
+    std::ranges::fill(picture.id, std::uint8_t{0});
+    std::ranges::fill(picture.depth, 0.0F);
+    std::ranges::fill(picture.colour, std::array<std::uint8_t, 4>{});
+    s.warp.setReference(warpReference(picture));
+    const auto rgba = s.warp.run(test::orbit(0)).colour->readRgba8();
+    EXPECT_EQ(std::ranges::count(rgba, 0), static_cast<long>(rgba.size()));
+    s.warp.dropReference();
+    EXPECT_TRUE(s.warp.run(test::orbit(0)).bounds.empty());
+}
+
+TEST_F(WarpGl, EmptySceneShowsNothing) {
+    Warp warp(test::bentCamera(kLayer), kLayer);
+    EXPECT_TRUE(warp.run(test::orbit(0)).bounds.empty());
+    warp.setScene({});
+    CastScene bare{{}, false, 1};
+    warp.setReference(warpReference(bare.cast({warp.camera(), test::orbit(0)})));
+    EXPECT_TRUE(warp.run(test::orbit(1)).bounds.empty());
+    EXPECT_EQ(warp.counters().empty, 2U);
+}
+
+TEST_F(WarpGl, ObjectLargerThanTheView) {
+    Shown s({.filling = HoleFilling::PushPull}, {{{{0, 0, 0.1}, 0.5}}, false, 1});
+    EXPECT_GT(s.psnrAt(1), 33);
+}
+
+TEST_F(WarpGl, ReferenceOfAnotherResolutionIsWarpedAlways) {
+    Shown s({.filling = HoleFilling::PushPull});
+    const RenderView small{s.warp.camera().scaledTo({181, 137}), test::orbit(0)};
+    s.warp.setReference(warpReference(s.scene.cast(small, 3)));
+    const auto rgba = s.warp.run(test::orbit(0)).colour->readRgba8();
+    EXPECT_EQ(s.warp.counters().warped, 1U);
+    EXPECT_GT(psnrInside(rgba, s.scene.cast(s.view(0), 3)), 30);
+}
+
+TEST_F(WarpGl, OddSizesWork) {
+    for (const Size size : {Size{1, 1}, Size{2, 3}, Size{7, 5}, Size{63, 65}}) {
+        const CastScene scene = test::twoBalls();
+        Warp warp(test::bentCamera(kLayer), size);
+        warp.setScene(scene.scene(16));
+        warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)})));
+        const VirtualLayer& layer = test::settled(warp, scene, test::orbit(10), 3);
+        EXPECT_TRUE(layer.bounds.x1 <= size.width && layer.bounds.y1 <= size.height);
+    }
+}
+
+TEST_F(WarpGl, ACrowdOfTrianglesIsSimplifiedAndSeenTheSame) {
+    const CastScene scene{{{{0, 0, 0.1}, 0.09}}, true, 1};
+    Warp warp(test::bentCamera(kLayer), kLayer, {.filling = HoleFilling::PushPull});
+    warp.setScene(scene.scene(720));  // half a million
+    const RenderView from{warp.camera(), test::orbit(0)}, to{warp.camera(), test::orbit(2)};
+    warp.setReference(warpReference(scene.cast(from, 3)));
+    EXPECT_GT(psnrInside(warp.run(to.T_world_camera).colour->readRgba8(), scene.cast(to, 3)), 34);
+}
+
+TEST_F(WarpGl, OptionsOutOfRangeAreRefused) {
+    const CameraModel camera = test::bentCamera(kLayer);
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    for (const WarpOptions& options :
+         {WarpOptions{.mostRequested = 0}, WarpOptions{.fadeFrames = -1},
+          WarpOptions{.fadeFrames = 101}, WarpOptions{.leastMotion = kNan},
+          WarpOptions{.leastMotion = -0.1}, WarpOptions{.depth = static_cast<WarpDepth>(2)},
+          WarpOptions{.filling = static_cast<HoleFilling>(4)}})
+        EXPECT_THROW(Warp(camera, kLayer, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace mfar
