@@ -1,7 +1,6 @@
 #include "pipeline/render/hole_tracer.h"
 
-#include "pipeline/render/lens_rays.h"
-#include "pipeline/se3.h"
+#include "pipeline/render/view_change.h"
 
 #include <algorithm>
 #include <utility>
@@ -17,7 +16,7 @@ void HoleTracer::prepare() {
     std::vector<std::uint32_t>& pixels = request_.pixels;
     const RenderView& view = request_.view;
     request_.samples = std::clamp(request_.samples, 1, kMostSamples);
-    if (!isSound(view.camera) || !isFinite(view.T_world_camera)) pixels.clear();
+    if (!isUsable(view)) pixels.clear();
     if (pixels.size() > mostPixels_) pixels.resize(mostPixels_);
     std::ranges::sort(pixels);
     const auto twice = std::ranges::unique(pixels);

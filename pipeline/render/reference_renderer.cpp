@@ -1,7 +1,6 @@
 #include "pipeline/render/reference_renderer.h"
 
-#include "pipeline/render/lens_rays.h"
-#include "pipeline/se3.h"
+#include "pipeline/render/view_change.h"
 
 #include <stdexcept>
 #include <utility>
@@ -34,7 +33,10 @@ void ReferenceRenderer::setScene(std::shared_ptr<const Scene> scene) {
 }
 
 void ReferenceRenderer::update(const RenderView& now, Timestamp time) {
-    if (isSound(now.camera) && isFinite(now.T_world_camera)) view_ = now;
+    if (isUsable(now)) {
+        view_ = now;
+        view_->T_world_camera.rotation.normalize();
+    }
     mail_.ticks.back() = {view_, time, ++updates_};
     mail_.ticks.publish();
     wakeOne();

@@ -1,6 +1,7 @@
 #include "pipeline/render/view_change.h"
 
 #include "pipeline/render/lens_rays.h"
+#include "pipeline/se3.h"
 
 #include <algorithm>
 #include <cmath>
@@ -145,6 +146,11 @@ bool sameObjects(const Scene& a, const Scene& b) {
     return std::ranges::equal(a.objects, b.objects, same) &&
            a.catcher.positions == b.catcher.positions &&
            a.catcher.triangles == b.catcher.triangles && a.catcher.albedo == b.catcher.albedo;
+}
+
+bool isUsable(const RenderView& view) {
+    return isSound(view.camera) && isFinite(view.T_world_camera) &&
+           view.T_world_camera.rotation.norm() > 0;
 }
 
 }  // namespace mfar

@@ -40,4 +40,7 @@ struct ViewLimits {
 /// Whether all but the light is the same.
 [[nodiscard]] bool sameObjects(const Scene& a, const Scene& b);
 
+/// Whether a camera can be there: its numbers sound, its pose finite and a rotation.
+[[nodiscard]] bool isUsable(const RenderView& view);
+
 }  // namespace mfar

@@ -91,6 +91,9 @@ TEST(HoleTracer, AViewThatIsNotSoundHasNoPixels) {
     HoleRequest request = requestFor({1, 2, 3}, 1);
     request.view.T_world_camera.translation.x() = std::nan("");
     EXPECT_TRUE(answered(holes, tracer, request, 10).pixels.empty());
+    request = requestFor({1, 2, 3}, 1);
+    request.view.T_world_camera.rotation.coeffs().setZero();
+    EXPECT_TRUE(answered(holes, tracer, request, 10).pixels.empty());
     request = requestFor({0, 1}, 1);
     request.view.camera.size = {0, 5};
     EXPECT_TRUE(answered(holes, tracer, request, 10).pixels.empty());

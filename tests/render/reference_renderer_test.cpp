@@ -310,14 +310,16 @@ TEST(ReferenceRenderer, AViewThatIsNotSoundIsNoView) {
     Frames frames(quick());
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
-    RenderView broken = view;
-    broken.T_world_camera.rotation.w() = std::nan("");
-    for (int i = 0; i < 5; ++i)
-        frames.frame(broken);
+    std::vector<RenderView> broken(3, view);
+    broken[0].T_world_camera.rotation.w() = std::nan("");
+    broken[1].T_world_camera.rotation.coeffs().setZero();
+    broken[2].camera.fx = 0;
+    for (const RenderView& odd : broken)
+        frames.frame(odd);
     EXPECT_EQ(frames.renderer.newest(), nullptr);
     ASSERT_TRUE(frames.finish(view));
-    for (int i = 0; i < 5; ++i)
-        frames.frame(broken);
+    for (const RenderView& odd : broken)
+        frames.frame(odd);
     EXPECT_EQ(frames.renderer.counters().pictures, 1U);
 }
 
