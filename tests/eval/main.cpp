@@ -13,6 +13,7 @@
 #include "tests/eval/pose_source_option.h"
 #include "tests/eval/superres.h"
 #include "tests/eval/superres_methods.h"
+#include "tests/eval/traced_commands.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -162,13 +163,18 @@ int run(int argc, char** argv) {
     const CLI::App* occlusion = addOcclusionCommand(app, o.occlusion, o.csv);
     const CLI::App* metric = addMetricCommand(app, o.metric, o.csv);
     const CLI::App* figure7 = addFigure7Command(app, o.figure7, o.csv);
+    const std::vector<TracedCommand> traced = addTracedCommands(app, o.csv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : kUsage;
     }
     Report report({});
-    if (superres->parsed()) {
+    const auto used = std::ranges::find_if(
+        traced, [](const TracedCommand& command) { return command.command->parsed(); });
+    if (used != traced.end()) {
+        report = used->evaluate();
+    } else if (superres->parsed()) {
         checkMethods(o.superres.methods, superResMethodNames());
         o.superres.degradation = parseDegradation(o.degrade);
         o.superres.poseNoise = o.poseNoise;

@@ -1,0 +1,18 @@
+#include "tests/eval/traced_commands.h"
+
+#include "tests/eval/slicing_command.h"
+
+#include <memory>
+
+namespace mfar::eval {
+
+std::vector<TracedCommand> addTracedCommands(CLI::App& app, std::string& csv) {
+    const auto slicing = std::make_shared<SlicingRequest>();
+    std::vector<TracedCommand> out{
+        {addSlicingCommand(app, *slicing), [slicing] { return evaluateSlicing(*slicing); }}};
+    for (const TracedCommand& traced : out)
+        traced.command->add_option("--csv", csv, "file for the table");
+    return out;
+}
+
+}  // namespace mfar::eval
