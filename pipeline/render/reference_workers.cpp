@@ -22,7 +22,7 @@ double secondsBetween(Timestamp a, Timestamp b) {
     return static_cast<double>((b - a).count()) * 1e-9;
 }
 
-const ReferenceOptions& checked(const ReferenceOptions& o) {
+ReferenceOptions checked(const ReferenceOptions& o) {
     const auto positive = [](double v) { return std::isfinite(v) && v > 0; };
     validate(o.tracer);
     if (!positive(o.policy.limits.turnDegrees) || !positive(o.policy.limits.zoom) ||
