@@ -117,7 +117,7 @@ GltfDocument readDocument(std::span<const std::uint8_t> bytes, const std::string
                           const std::filesystem::path& folder, const ModelLimits& limits) {
     GltfDocument document{{}, name, folder, limits};
     try {
-        if (bytes.size() > limits.bytes || bytes.size() > UINT32_MAX)
+        if (bytes.size() > limits.bytes || std::uint64_t{bytes.size()} > UINT32_MAX)
             throw std::runtime_error(
                 fmt::format("has {} bytes, at most {} are read", bytes.size(), limits.bytes));
         requireSoundJson(jsonOf(bytes), limits);

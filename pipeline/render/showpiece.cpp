@@ -180,7 +180,7 @@ Model showpiece() {
     model.materials.resize(3);
     Material& brass = model.materials[kBrass];
     brass.baseColour = {0.90F, 0.66F, 0.33F, 1};
-    brass.roughness = 0.2F;
+    brass.roughness = 0.27F;
     paintGlaze(model);
     paintWalnut(model);
     Mesh jar, brassware, stand;

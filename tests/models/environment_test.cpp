@@ -92,7 +92,7 @@ TEST(EnvironmentMap, LargePicturesAreAveraged) {
     }
     const Environment e = parseEnvironment(hdr(kHeader + "-Y 2048 +X 4096\n", rows), "a");
     EXPECT_EQ(e.size, (Size{2048, 1024}));
-    for (const std::size_t i : {0UL, 2048UL, e.radiance.size() - 1})
+    for (const std::size_t i : {std::size_t{0}, std::size_t{2048}, e.radiance.size() - 1})
         expectClose(e.radiance[i], Eigen::Vector3f::Constant(1.5F * 100.5F));
 }
 
