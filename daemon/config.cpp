@@ -71,7 +71,10 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     config.recordTo = recordTo;
     file.number("status.interval_s", config.status.intervalS, 0.1, 3600);
     file.boolean("status.measure", config.status.measure);
-    readObjects(file, config.objects);
+    const std::filesystem::path folder = std::filesystem::path(fileName).parent_path();
+    readVirtual(file, config.virtualLayer);
+    readLight(file, folder, config.light);
+    readObjects(file, folder, config.objects);
     file.finish();
     return config;
 }
@@ -102,6 +105,7 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.recordTo == wanted.recordTo, "record.directory");
     // Another tag map is another world, and a tracker that starts anew has no pose for a while.
     compare(running.pose == wanted.pose, "pose");
+    compare(running.virtualLayer == wanted.virtualLayer, "virtual");
     return names;
 }
 

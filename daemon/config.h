@@ -5,6 +5,7 @@
 #include "daemon/objects_config.h"
 #include "daemon/pose_config.h"
 #include "daemon/still_policy.h"
+#include "daemon/virtual_config.h"
 #include "pipeline/pipeline.h"
 
 #include <cstdint>
@@ -49,7 +50,9 @@ struct Config {
     TriggerConfig trigger;
     PoseConfig pose;
     StatusConfig status;
-    std::vector<VirtualObject> objects;
+    VirtualOptions virtualLayer;
+    LightOptions light;
+    std::vector<PlacedObject> objects;
 };
 
 /// The configuration file is wrong. The message has one line per fault, each

@@ -1,6 +1,8 @@
 #include "daemon/objects_config.h"
 
 #include "daemon/toml_reader.h"
+#include "pipeline/render/gltf_model.h"
+#include "pipeline/render/showpiece.h"
 
 #include <array>
 #include <cmath>
@@ -13,6 +15,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, VirtualShape>, 3> kShapes = {
     {{"box", VirtualShape::Box}, {"sphere", VirtualShape::Sphere}, {"quad", VirtualShape::Quad}}};
 constexpr double kLeastSize = 0.001, kMostSize = 100, kFarthest = 1000;  // [m]
+constexpr double kLeastScale = 1e-4, kMostScale = 1e4;
 
 std::optional<std::string> lengthFault(std::span<const double> wxyz) {
     constexpr double kTolerance = 0.01;
@@ -23,16 +26,10 @@ std::optional<std::string> lengthFault(std::span<const double> wxyz) {
     return "must be a quaternion [w, x, y, z] of length 1";
 }
 
-VirtualObject readObject(TomlReader& file, const std::string& prefix) {
-    VirtualObject out;
+void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) {
     out.size.setConstant(0.1);
     file.choice<VirtualShape>(prefix + "shape", out.shape, kShapes);
     file.numbers(prefix + "size", {out.size.data(), 3}, kLeastSize, kMostSize);
-    RigidTransform& T = out.T_world_object;
-    file.numbers(prefix + "position", {T.translation.data(), 3}, -kFarthest, kFarthest);
-    std::array<double, 4> wxyz{1, 0, 0, 0};
-    file.numbers(prefix + "orientation", wxyz, -1, 1, lengthFault);
-    T.rotation = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
     // One colour alone is that of the whole.
     Eigen::Vector3d first = Eigen::Vector3d::Constant(-1);
     file.numbers(prefix + "colour", {first.data(), 3}, 0, 1);
@@ -41,14 +38,78 @@ VirtualObject readObject(TomlReader& file, const std::string& prefix) {
     file.numbers(prefix + "second_colour", {second.data(), 3}, 0, 1);
     out.colours[1] = second.cast<float>();
     file.integer(prefix + "squares", out.squares, 1, 256);
+}
+
+void readModel(TomlReader& file, const std::string& prefix, const std::filesystem::path& folder,
+               PlacedObject& out) {
+    file.text(prefix + "model", out.modelName,
+              [&](std::string_view name) -> std::optional<std::string> {
+                  try {
+                      out.model = std::make_shared<const Model>(
+                          name == "showpiece" ? showpiece() : loadGltf(folder / name));
+                      return std::nullopt;
+                  } catch (const ModelError& error) {
+                      return error.what();
+                  }
+              });
+    double scale = 1;
+    file.number(prefix + "scale", scale, kLeastScale, kMostScale);
+    out.scale = static_cast<float>(scale);
+}
+
+void readTag(TomlReader& file, const std::string& prefix, std::optional<TagKey>& tag) {
+    TagKey key{TagFamily::Tag36h11, -1};
+    constexpr std::array<std::pair<std::string_view, TagFamily>, 4> kFamilies = {
+        {{kTagFamilies[0].name, kTagFamilies[0].family},
+         {kTagFamilies[1].name, kTagFamilies[1].family},
+         {kTagFamilies[2].name, kTagFamilies[2].family},
+         {kTagFamilies[3].name, kTagFamilies[3].family}}};
+    file.choice<TagFamily>(prefix + "family", key.family, kFamilies);
+    file.integer(prefix + "tag", key.id, 0, info(key.family).count - 1);
+    if (key.id >= 0) tag = key;
+}
+
+PlacedObject readObject(TomlReader& file, const std::string& prefix,
+                        const std::filesystem::path& folder) {
+    PlacedObject out;
+    readModel(file, prefix, folder, out);
+    readShape(file, prefix, out.shape);
+    readTag(file, prefix, out.tag);
+    RigidTransform& T = out.T_anchor_object;
+    file.numbers(prefix + "position", {T.translation.data(), 3}, -kFarthest, kFarthest);
+    std::array<double, 4> wxyz{1, 0, 0, 0};
+    file.numbers(prefix + "orientation", wxyz, -1, 1, lengthFault);
+    T.rotation = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
     return out;
 }
 
 }  // namespace
 
-void readObjects(TomlReader& file, std::vector<VirtualObject>& objects) {
+void readObjects(TomlReader& file, const std::filesystem::path& folder,
+                 std::vector<PlacedObject>& objects) {
     for (const std::string& prefix : file.sections("objects", kMostObjects))
-        objects.push_back(readObject(file, prefix));
+        objects.push_back(readObject(file, prefix, folder));
+}
+
+std::optional<RigidTransform> worldPlace(const PlacedObject& object, const TagMap& tags) {
+    if (!object.tag) return object.T_anchor_object;
+    const MappedTag* tag = tags.find(*object.tag);
+    if (tag == nullptr) return std::nullopt;
+    // A tag's own frame has y down and z into the surface.
+    const RigidTransform T_tag_stand{Eigen::Quaterniond(0, 1, 0, 0), Eigen::Vector3d::Zero()};
+    return tag->T_world_tag * T_tag_stand * object.T_anchor_object;
+}
+
+std::vector<VirtualObject> placedShapes(const std::vector<PlacedObject>& objects,
+                                        const TagMap& tags) {
+    std::vector<VirtualObject> out;
+    for (const PlacedObject& object : objects) {
+        const std::optional<RigidTransform> T = worldPlace(object, tags);
+        if (object.model || !T) continue;
+        out.push_back(object.shape);
+        out.back().T_world_object = *T;
+    }
+    return out;
 }
 
 }  // namespace mfar

@@ -33,7 +33,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       policy_(config.trigger), banner_(pipeline_.outputSize()) {
     rig_.recordTags(poses_.tags());
     pipeline_.setMeasure(config.status.measure);
-    pipeline_.setObjects(config.objects);
+    pipeline_.setObjects(placedShapes(config.objects, poses_.tags()));
     description_ = {gl_->description(),  rig_.description(),
                     display_->name(),    std::string(name(config.superres.mode)),
                     rig_.videoFrames(),  std::nullopt,
@@ -81,7 +81,7 @@ void Session::apply(const Tunables& wanted) {
     pipeline_.setMode(wanted.superres.mode);
     pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
     pipeline_.setMeasure(wanted.measure);
-    pipeline_.setObjects(wanted.objects);
+    pipeline_.setObjects(placedShapes(wanted.objects, poses_.tags()));
     policy_.configure(wanted.trigger);
 }
 

@@ -26,7 +26,7 @@ struct Tunables {
     SuperResConfig superres;
     TriggerConfig trigger;
     bool measure = false;
-    std::vector<VirtualObject> objects{};
+    std::vector<PlacedObject> objects{};
 };
 
 [[nodiscard]] inline Tunables tunables(const Config& config) {

@@ -21,6 +21,10 @@ void expectSame(const Config& a, const Config& b) {
     EXPECT_EQ(a.pose, b.pose);
     EXPECT_EQ(a.cameras, b.cameras);
     EXPECT_EQ(a.status, b.status);
+    EXPECT_EQ(a.virtualLayer, b.virtualLayer);
+    EXPECT_EQ(a.light.source, b.light.source);
+    EXPECT_EQ(a.light.exposure, b.light.exposure);
+    EXPECT_EQ(a.light.sun.has_value(), b.light.sun.has_value());
 }
 
 TEST(Config, EmptyTextGivesTheDefaults) {

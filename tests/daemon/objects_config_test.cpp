@@ -1,5 +1,7 @@
 #include "daemon/config.h"
 #include "tests/daemon/config_faults.h"
+#include "tests/models/gltf_maker.h"
+#include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -30,15 +32,18 @@ colour = [0.5, 0.5, 0.5]
 )",
                                       "test.toml");
     ASSERT_EQ(config.objects.size(), 2U);
-    const VirtualObject& first = config.objects[0];
+    EXPECT_FALSE(config.objects[0].model);
+    EXPECT_FALSE(config.objects[0].tag);
+    const VirtualObject& first = config.objects[0].shape;
     EXPECT_EQ(first.shape, VirtualShape::Sphere);
     EXPECT_EQ(first.size, Eigen::Vector3d(0.1, 0.2, 0.3));
-    EXPECT_EQ(first.T_world_object.translation, Eigen::Vector3d(-1, 2.5, 0));
-    EXPECT_EQ(first.T_world_object.rotation.x(), 1);
+    const RigidTransform& place = config.objects[0].T_anchor_object;
+    EXPECT_EQ(place.translation, Eigen::Vector3d(-1, 2.5, 0));
+    EXPECT_EQ(place.rotation.x(), 1);
     EXPECT_EQ(first.colours[0], Eigen::Vector3f(0.1F, 0.2F, 0.3F));
     EXPECT_EQ(first.colours[1], Eigen::Vector3f(1, 1, 1));
     EXPECT_EQ(first.squares, 8);
-    const VirtualObject& second = config.objects[1];
+    const VirtualObject& second = config.objects[1].shape;
     EXPECT_EQ(second.shape, VirtualShape::Box);
     EXPECT_EQ(second.size, Eigen::Vector3d(0.1, 0.1, 0.1));
     EXPECT_EQ(second.colours[1], Eigen::Vector3f(0.5F, 0.5F, 0.5F)) << "one alone is the whole's";
@@ -64,6 +69,68 @@ TEST(ObjectsConfig, FaultsHaveTheirPlace) {
     EXPECT_THAT(configFaults(many), HasSubstr("at most 64"));
 }
 
+TEST(ObjectsConfig, ModelsAreRead) {
+    const test::TempFolder folder;
+    const std::vector<std::uint8_t> glb = test::oneTriangle().glb();
+    test::writeFile(folder / "thing.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+    const Config config = parseConfig(R"(
+[[objects]]
+model = "thing.glb"
+scale = 0.5
+tag = 3
+position = [0, 0.1, 0]
+[[objects]]
+model = "showpiece"
+tag = 1
+family = "tag25h9"
+)",
+                                      (folder / "test.toml").string());
+    ASSERT_EQ(config.objects.size(), 2U);
+    const PlacedObject& thing = config.objects[0];
+    ASSERT_TRUE(thing.model);
+    EXPECT_EQ(thing.model->meshes.size(), 1U);
+    EXPECT_EQ(thing.modelName, "thing.glb");
+    EXPECT_EQ(thing.scale, 0.5F);
+    EXPECT_EQ(thing.tag, (TagKey{TagFamily::Tag36h11, 3}));
+    EXPECT_EQ(thing.T_anchor_object.translation.y(), 0.1);
+    ASSERT_TRUE(config.objects[1].model);
+    EXPECT_EQ(config.objects[1].tag, (TagKey{TagFamily::Tag25h9, 1}));
+    EXPECT_TRUE(placedShapes(config.objects, {}).empty());
+}
+
+TEST(ObjectsConfig, ModelsThatCannotBeReadHaveTheirPlace) {
+    EXPECT_THAT(configFaults("[[objects]]\nmodel = \"none.glb\"\n"),
+                StartsWith("test.toml:2:9: objects[0].model = \"none.glb\": none.glb: is missing"));
+    EXPECT_THAT(configFaults("[[objects]]\nscale = 0\n"), HasSubstr("objects[0].scale must be"));
+    EXPECT_THAT(configFaults("[[objects]]\ntag = 600\n"),
+                StartsWith("test.toml:2:7: objects[0].tag must be from 0 to 586"));
+    EXPECT_THAT(configFaults("[[objects]]\nfamily = \"tag99\"\n"),
+                HasSubstr("must be one of \"tag36h11\""));
+}
+
+// The tag hangs on a wall that faces the world's -y: its x is the world's, its y the world's -z.
+TEST(ObjectsConfig, ATagCarriesWhatStandsOnIt) {
+    const TagKey key{TagFamily::Tag36h11, 5};
+    Eigen::Matrix3d R_world_tag;
+    R_world_tag << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+    const RigidTransform T_world_tag{Eigen::Quaterniond(R_world_tag), {1, 2, 3}};
+    const TagMap map({{key, 0.1, T_world_tag}});
+    PlacedObject object;
+    object.T_anchor_object.translation = {0.1, 0.2, 0.3};
+    EXPECT_EQ(worldPlace(object, map).value().translation, Eigen::Vector3d(0.1, 0.2, 0.3));
+    object.tag = key;
+    const RigidTransform T = worldPlace(object, map).value();
+    // Right along the wall, up it, and out of it.
+    EXPECT_LT((T.translation - Eigen::Vector3d(1.1, 1.7, 3.2)).norm(), 1e-9);
+    EXPECT_LT((T.rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d(0, -1, 0)).norm(), 1e-9);
+    ASSERT_EQ(placedShapes({object}, map).size(), 1U);
+    EXPECT_LT((placedShapes({object}, map)[0].T_world_object.translation - T.translation).norm(),
+              1e-12);
+    object.tag->id = 6;
+    EXPECT_FALSE(worldPlace(object, map)) << "it is not in the map";
+    EXPECT_TRUE(placedShapes({object}, map).empty());
+}
+
 // The default file shows an object in comments: as it stands there it must be right.
 TEST(ObjectsConfig, TheDefaultFilesExampleIsValid) {
     std::ifstream in(MFAR_DEFAULT_CONFIG);
@@ -76,9 +143,13 @@ TEST(ObjectsConfig, TheDefaultFilesExampleIsValid) {
     ASSERT_TRUE(inExample);
     const Config config = parseConfig(text, "example");
     ASSERT_EQ(config.objects.size(), 1U);
-    const VirtualObject plain;
-    EXPECT_EQ(config.objects[0].colours, plain.colours);
-    EXPECT_EQ(config.objects[0].squares, plain.squares);
+    const PlacedObject& object = config.objects[0];
+    const PlacedObject plain;
+    EXPECT_TRUE(object.model);
+    EXPECT_TRUE(object.tag);
+    EXPECT_EQ(object.scale, plain.scale);
+    EXPECT_EQ(object.shape.colours, plain.shape.colours);
+    EXPECT_EQ(object.shape.squares, plain.shape.squares);
 }
 
 }  // namespace

@@ -1,0 +1,94 @@
+#include "daemon/virtual_config.h"
+
+#include "daemon/toml_reader.h"
+#include "pipeline/render/environment_map.h"
+#include "pipeline/render/gltf_model.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+template <class E>
+using Meaning = std::pair<std::string_view, E>;
+
+constexpr std::array<Meaning<VirtualRendering>, 2> kRenderings = {
+    {{"path-traced", VirtualRendering::PathTraced}, {"preview", VirtualRendering::Preview}}};
+constexpr std::array<Meaning<RenderSlicing>, 2> kSlicings = {
+    {{"time", RenderSlicing::Time}, {"space", RenderSlicing::Space}}};
+constexpr std::array<Meaning<HoleFilling>, 4> kHoleFillings = {
+    {{"none", HoleFilling::None},
+     {"push-pull", HoleFilling::PushPull},
+     {"re-render", HoleFilling::ReRender},
+     {"both", HoleFilling::Both}}};
+
+std::optional<std::string> directionFault(std::span<const double> xyz) {
+    if (std::hypot(xyz[0], xyz[1], xyz[2]) > 1e-3) return std::nullopt;
+    return "must not be zero";
+}
+
+void readSun(TomlReader& file, std::optional<Sun>& sun) {
+    constexpr double kStrongest = 1e4, kLargestDeg = 45;
+    // Any of its keys makes a sun.
+    Eigen::Vector3d towards = Eigen::Vector3d::Zero(), irradiance = Eigen::Vector3d::Constant(-1);
+    double radiusDeg = 0;
+    file.numbers("light.sun.direction", {towards.data(), 3}, -1000, 1000, directionFault);
+    file.numbers("light.sun.irradiance", {irradiance.data(), 3}, 0, kStrongest);
+    file.number("light.sun.radius_deg", radiusDeg, 0.05, kLargestDeg);
+    if (towards.isZero() && irradiance.x() < 0 && radiusDeg == 0) return;
+    sun.emplace();
+    sun->towards.normalize();
+    if (!towards.isZero()) sun->towards = towards.normalized().cast<float>();
+    if (irradiance.x() >= 0) sun->irradiance = irradiance.cast<float>();
+    if (radiusDeg > 0) sun->angularRadius = static_cast<float>(radiusDeg * std::numbers::pi / 180);
+}
+
+/// A word, or else a file.
+std::optional<std::string>
+takeEnvironment(std::string_view name, const std::filesystem::path& folder, LightOptions& light) {
+    constexpr std::array<Meaning<LightSource>, 3> kSources = {{{"studio", LightSource::Studio},
+                                                               {"sky", LightSource::Sky},
+                                                               {"camera", LightSource::Camera}}};
+    for (const auto& [word, source] : kSources)
+        if (word == name) {
+            light.source = source;
+            return std::nullopt;
+        }
+    try {
+        light.environment = std::make_shared<const Environment>(loadEnvironment(folder / name));
+        light.source = LightSource::File;
+        return std::nullopt;
+    } catch (const ModelError& error) {
+        return std::string("must be \"studio\", \"sky\", \"camera\" or a picture; ") + error.what();
+    }
+}
+
+}  // namespace
+
+void readVirtual(TomlReader& file, VirtualOptions& options) {
+    file.choice<VirtualRendering>("virtual.rendering", options.rendering, kRenderings);
+    file.number("virtual.budget_ms", options.budgetMs, 0.1, 1000);
+    file.choice<RenderSlicing>("virtual.slicing", options.slicing, kSlicings);
+    file.integer("virtual.samples", options.samples, 1, 65536);
+    file.number("virtual.resolution", options.resolution, 0.05, 1);
+    file.choice<HoleFilling>("virtual.holes", options.holes, kHoleFillings);
+    file.integer("virtual.threads", options.threads, 1, 64);
+    file.number("virtual.turn_deg", options.turnDeg, 0.1, 90);
+}
+
+void readLight(TomlReader& file, const std::filesystem::path& folder, LightOptions& light) {
+    std::string name;
+    file.text("light.environment", name,
+              [&](std::string_view given) { return takeEnvironment(given, folder, light); });
+    if (light.source == LightSource::File) light.file = name;
+    readSun(file, light.sun);
+    double exposure = light.exposure;
+    file.number("light.exposure", exposure, 1e-3, 1e3);
+    light.exposure = static_cast<float>(exposure);
+}
+
+}  // namespace mfar
