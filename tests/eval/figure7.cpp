@@ -104,16 +104,6 @@ Figure7Scene ofRecording(const Figure7Request& request, const std::filesystem::p
 
 }  // namespace
 
-const std::vector<Figure7Method>& figure7Methods() {
-    static const std::vector<Figure7Method> methods{{"truth", "ground truth"},
-                                                    {"detail", "ours"},
-                                                    {"blend", "the paper's blending on our flow"},
-                                                    {"paper", "the paper's method (OpenCV DIS)"},
-                                                    {"bicubic", "bicubic"},
-                                                    {"bilinear", "bilinear"}};
-    return methods;
-}
-
 std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request) {
     SuperResFactory factory(2);  // the paper's alpha [video px]
     std::vector<Figure7Scene> out;
@@ -122,39 +112,6 @@ std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request) {
     const auto labels = labelsOf(request.recordings);
     for (std::size_t i = 0; i < labels.size(); ++i)
         out.push_back(ofRecording(request, request.recordings[i], labels[i], factory));
-    return out;
-}
-
-Report figure7Report(const std::vector<Figure7Scene>& scenes, const PictureMetrics& metrics) {
-    Report report(followedBy<Column>({{"psnr_db", 2}, {"hdrvdp_q", 2}, {"lpc_si", 4}},
-                                     furtherColumns(metrics)));
-    for (const Figure7Scene& scene : scenes)
-        for (std::size_t f = 0; f < scene.frames.size(); ++f)
-            for (std::size_t m = 0; m < scene.scores.size(); ++m) {
-                const PictureScores& s = scene.scores[m][f];
-                const auto decibels = m == 0 ? std::nullopt : s.psnr;  // the truth has no limit
-                report.add(scene.name, scene.frames[f], figure7Methods()[m].name,
-                           followedBy({decibels, s.hdrVdpQ, s.lpcSi}, furtherValues(s, metrics)));
-            }
-    report.addMeans();
-    return report;
-}
-
-std::string figure7Summary(const std::vector<Figure7Scene>& scenes) {
-    std::string out;
-    for (const Figure7Scene& scene : scenes) {
-        const auto q = [&](std::size_t method) {
-            return scene.mean(method, [](const PictureScores& s) { return *s.hdrVdpQ; });
-        };
-        const auto sharpness = [&](std::size_t method) {
-            return scene.mean(method, [](const PictureScores& s) { return *s.lpcSi; });
-        };
-        out += fmt::format("{}: HDR-VDP-2 Q {:.2f}, {:+.2f} over the paper's method, {:+.2f} over "
-                           "its blending on our flow, {:+.2f} over bilinear; LPC-SI {:.4f}, "
-                           "{:+.4f} from the truth\n",
-                           scene.name, q(1), q(1) - q(3), q(1) - q(2), q(1) - q(5), sharpness(1),
-                           sharpness(1) - sharpness(0));
-    }
     return out;
 }
 

@@ -1,4 +1,4 @@
-#include "tests/eval/figure7.h"
+#include "tests/eval/figure7_report.h"
 #include "tests/eval/svg.h"
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kFigureLeft = 64, kFigureTop = 50, kFigureHeight = 230, kFigureGap = 64;
+constexpr double kFigureLeft = 64, kFigureTop = 72, kFigureHeight = 230, kFigureGap = 64;
 constexpr double kBar = 25, kBarGap = 3, kGroupGap = 34;
 constexpr std::array<const char*, 6> kBarColours{"#444444", "#0072b2", "#56b4e9",
                                                  "#d55e00", "#009e73", "#cc79a7"};
@@ -69,15 +69,14 @@ private:
             x, std::min(zero, end), kBar, std::abs(zero - end), kBarColours[m],
             svg::escaped(scene.name), svg::escaped(figure7Methods()[m].title), mean,
             panel_.decimals);
-        double highest = end;
-        for (const PictureScores& frame : scene.scores[m]) {
-            highest = std::min(highest, y(panel_.value(frame)));
+        for (const PictureScores& frame : scene.scores[m])
             out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"#fff\" "
                                "stroke=\"#222\" stroke-width=\"0.8\"/>\n",
                                x + kBar / 2, y(panel_.value(frame)));
-        }
-        out += svg::text(x + kBar / 2, highest - 5, "middle",
-                         fmt::format("{:.{}f}", mean, panel_.decimals), 9);
+        const bool inside = zero - end > 18;  // at the foot of the bar, away from all else
+        out +=
+            svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
+                      fmt::format("{:.{}f}", mean, panel_.decimals), 10, inside ? "#fff" : "#222");
         return panel_.tiles ? out + quantiles(scene, m, x) : out;
     }
 
@@ -138,7 +137,7 @@ std::string figure7Svg(const std::vector<Figure7Scene>& scenes, const PictureMet
           [](const PictureScores& s) { return *s.hdrVdpQ; }, 0, 100, 20, 1, false},
          {"LPC-SI sharpness", [](const PictureScores& s) { return *s.lpcSi; }, 0, 1, 0.2, 2,
           true}}};
-    const double width = std::max(groupWidth() * static_cast<double>(scenes.size()), 760.0);
+    const double width = groupWidth() * static_cast<double>(scenes.size());
     std::string body =
         svg::text(kFigureLeft, 22, "start", "Quality and sharpness of super-resolved frames", 17);
     double top = kFigureTop;
@@ -155,7 +154,8 @@ std::string figure7Svg(const std::vector<Figure7Scene>& scenes, const PictureMet
         }
         top += kFigureHeight + kFigureGap;
     }
-    return svg::document(kFigureLeft + width + 20, top + 72, body + legend(top, metrics));
+    return svg::document(std::max(kFigureLeft + width + 20, 840.0), top + 72,
+                         body + legend(top, metrics));
 }
 
 }  // namespace mfar::eval
