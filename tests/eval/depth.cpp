@@ -54,10 +54,15 @@ void addRow(Report& report, const std::string& label, const FlowSample& sample,
     const auto measured = [](double value) {
         return std::isnan(value) ? std::nullopt : std::optional(value);
     };
+    Sparsification sparse{{}, {}, NAN, NAN};
+    if (!result.variance.empty())
+        sparse = depthSparsification(result.inverseDepth, result.variance, truth.visible,
+                                     truth.disparity);
     report.add(label, sample.frame, method,
                {all.completeness > 0 ? std::optional(result.ms) : std::nullopt,
                 measured(all.absrel), all.bad1, all.completeness, measured(edge.absrel),
-                measured(edge.bad1), measured(inner.absrel), measured(inner.bad1)});
+                measured(edge.bad1), measured(inner.absrel), measured(inner.bad1), all.delta[0],
+                all.delta[1], all.delta[2], measured(sparse.ause), measured(sparse.ausePerRandom)});
 }
 
 void measure(const SampleRun& run, const std::vector<std::string>& names, DepthFactory& factory,
@@ -87,7 +92,12 @@ Report evaluateDepth(const SampleRequest& request) {
                    {"edge_absrel", 4},
                    {"edge_bad1", 4},
                    {"inner_absrel", 4},
-                   {"inner_bad1", 4}});
+                   {"inner_bad1", 4},
+                   {"delta1", 4},
+                   {"delta2", 4},
+                   {"delta3", 4},
+                   {"ause", 4},
+                   {"ause_rel", 3}});
     DepthFactory factory;
     const auto labels = labelsOf(request.folders);
     for (std::size_t i = 0; i < labels.size(); ++i)

@@ -8,6 +8,7 @@
 #include <GLES3/gl31.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -79,6 +80,8 @@ public:
         Result out{cv::Mat(frame.picture.size(), CV_32F, cv::Scalar(0)), 0};
         for (std::size_t i = 0; i < field.rho.size(); ++i)
             if (field.isKnown(i)) out.inverseDepth.ptr<float>()[i] = field.rho[i];
+        out.variance = cv::Mat(frame.picture.size(), CV_32F);
+        std::copy(field.variance.begin(), field.variance.end(), out.variance.begin<float>());
         for (const StageTime& stage : pipeline_.stageTimes()) {
             const std::string_view name = stage.stage;
             if (name == "pyramid" || name == "epipolar" || name == "flow" || name == "depth")

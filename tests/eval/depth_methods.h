@@ -19,6 +19,7 @@ public:
     struct Result {
         cv::Mat inverseDepth;  ///< CV_32F [1/m] of every video pixel, 0 = unknown
         double ms = 0;         ///< wall time [ms], as of FlowMethod, with the triangulation
+        cv::Mat variance{};    ///< CV_32F of inverseDepth [1/m^2], empty where there is none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };

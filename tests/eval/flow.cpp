@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
 namespace mfar::eval {
@@ -18,10 +19,15 @@ void addRow(Report& report, const std::string& label, const FlowSample& sample,
         throw EvalError(fmt::format("{}: no vector is known", sample.truth.string()));
     // A method that had no answer was not at work either.
     const bool answered = error.coverage > 0;
+    const auto ofAnswers = [&](double value) {
+        return answered && std::isfinite(value) ? std::optional(value) : std::nullopt;
+    };
+    Sparsification sparse{{}, {}, NAN, NAN};
+    if (!result.confidence.empty())
+        sparse = flowSparsification(result.flow, truth, result.confidence);
     report.add(label, sample.frame, method,
-               {answered ? std::optional(result.ms) : std::nullopt,
-                answered ? std::optional(error.epe) : std::nullopt, error.bad1, error.bad2,
-                error.coverage});
+               {ofAnswers(result.ms), ofAnswers(error.epe), error.bad1, error.bad2, error.coverage,
+                ofAnswers(error.angular), ofAnswers(sparse.ause), ofAnswers(sparse.ausePerRandom)});
 }
 
 void measure(const SampleRun& run, const std::vector<std::string>& names, FlowFactory& factory,
@@ -44,7 +50,14 @@ void measure(const SampleRun& run, const std::vector<std::string>& names, FlowFa
 }  // namespace
 
 Report evaluateFlow(const SampleRequest& request) {
-    Report report({{"ms", 1}, {"epe_px", 3}, {"bad1", 4}, {"bad2", 4}, {"coverage", 4}});
+    Report report({{"ms", 1},
+                   {"epe_px", 3},
+                   {"bad1", 4},
+                   {"bad2", 4},
+                   {"coverage", 4},
+                   {"angular_deg", 2},
+                   {"ause", 4},
+                   {"ause_rel", 3}});
     FlowFactory factory;
     const auto labels = labelsOf(request.folders);
     for (std::size_t i = 0; i < labels.size(); ++i)

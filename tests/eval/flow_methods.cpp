@@ -27,7 +27,12 @@ cv::Mat grey(const cv::Mat& picture) {
 }
 
 /// A peer that knows nothing of cameras: from one grey picture to another of the same size.
-using PlainFlow = std::function<cv::Mat(const cv::Mat& a, const cv::Mat& b)>;
+struct PlainFlows {
+    cv::Mat flow, back;  ///< back: empty for those that go one way
+};
+using PlainFlow = std::function<PlainFlows(const cv::Mat& a, const cv::Mat& b)>;
+
+constexpr double kAlpha = 2;  // the paper's, of its confidence [px]
 
 class PlainMethod final : public FlowMethod {
 public:
@@ -37,7 +42,9 @@ public:
 
     Result run(const Shot& frame) override {
         const cv::Mat video = grey(frame.picture);
-        Result out{flow_(video, still_), 0};
+        const PlainFlows found = flow_(video, still_);
+        Result out{found.flow, 0};
+        if (!found.back.empty()) out.confidence = twoWayConfidence(found.flow, found.back, kAlpha);
         out.ms = medianOfThree([&] { return wallMs([&] { (void)flow_(video, still_); }); });
         return out;
     }
@@ -52,18 +59,18 @@ PlainFlow dis(DisPreset preset, bool fullResolution, bool bothWays) {
     auto dis = createDis(preset);
     if (fullResolution) dis->setFinestScale(0);
     return [dis, bothWays](const cv::Mat& a, const cv::Mat& b) {
-        cv::Mat flow, back;
-        dis->calc(a, b, flow);
-        if (bothWays) dis->calc(b, a, back);
-        return flow;
+        PlainFlows out;
+        dis->calc(a, b, out.flow);
+        if (bothWays) dis->calc(b, a, out.back);
+        return out;
     };
 }
 
-cv::Mat farneback(const cv::Mat& a, const cv::Mat& b) {
-    cv::Mat flow;
+PlainFlows farneback(const cv::Mat& a, const cv::Mat& b) {
+    PlainFlows out;
     // The values of OpenCV's own samples.
-    cv::calcOpticalFlowFarneback(a, b, flow, 0.5, 3, 15, 3, 5, 1.2, 0);
-    return flow;
+    cv::calcOpticalFlowFarneback(a, b, out.flow, 0.5, 3, 15, 3, 5, 1.2, 0);
+    return out;
 }
 
 PlainFlow plainFlow(const std::string& name) {
@@ -123,6 +130,8 @@ public:
         pipeline_.run(viewOf(rgba), frame.time, pose);
         std::vector<float> vectors = pipeline_.readFlow();
         Result out{cv::Mat(size_.height, size_.width, CV_32FC2, vectors.data()).clone(), 0};
+        std::vector<float> confidence = pipeline_.readConfidence();
+        out.confidence = cv::Mat(size_.height, size_.width, CV_32F, confidence.data()).clone();
         out.ms = medianOfThree([&] {
             pipeline_.run(viewOf(rgba), frame.time, pose);
             return flowMs();

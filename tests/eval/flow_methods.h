@@ -21,6 +21,7 @@ public:
         cv::Mat flow;  ///< CV_32FC2 [video px], FlowField in pipeline/results.h; NaN = no answer
         double ms =
             0;  ///< wall time [ms], median of three after the answer, work per still not in it
+        cv::Mat confidence{};  ///< CV_32F of every pixel, empty where the method has none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };

@@ -51,7 +51,10 @@ constexpr const char* kFlowHelp =
     "after one to warm up, without work per still. flow2d and dis-medium-both compute both\n"
     "directions; that of sgbm and stereobm is that of rectifying and matching.\n"
     "sgbm and stereobm need poses; they have no answer where the camera moves into the picture or\n"
-    "not at all, and fill what they leave open with the farther neighbour.";
+    "not at all, and fill what they leave open with the farther neighbour.\n"
+    "angular_deg: mean angle between both as (u, v, 1). ause: area between two curves of the mean\n"
+    "error of what is left as pixels are taken away, by confidence (eq. 2) and by error, 1 where\n"
+    "all are left; 0: the least confident are the worst. ause_rel: over what a random order gets.";
 
 constexpr const char* kDepthHelp =
     "Takes recordings with truth/inverse_depth and known poses (a scene at rest); frames, their\n"
@@ -62,7 +65,8 @@ constexpr const char* kDepthHelp =
     "pixels with known truth that are off by more than 1 px of disparity (focal length times\n"
     "baseline times inverse depth), no depth is off; completeness: share of them with a depth;\n"
     "edge_, inner_: within 4 px of an edge, where true depths side by side differ by a tenth, and\n"
-    "elsewhere.";
+    "elsewhere; delta1, 2, 3: share with both depths within a factor of 1.25, its square, its\n"
+    "cube; ause, ause_rel: as for flow, of disparities by the variance that the depth states.";
 
 std::string joined(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ", "));

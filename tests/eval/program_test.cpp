@@ -155,7 +155,12 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 9 + 9) << outcome.text;
-    EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage"));
+    EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage,angular_deg,"
+                             "ause,ause_rel"));
+    EXPECT_LT(std::stod(rows[4].at(8)), 5);  // of a method without confidence
+    EXPECT_TRUE(rows[4].at(9).empty());
+    EXPECT_EQ(rows[5][2], "dis-medium-both");
+    EXPECT_GE(std::stod(rows[5].at(10)), 0);
     EXPECT_EQ(rows[1][2], "epipolar");
     EXPECT_EQ(rows[2][2], "flow2d");
     EXPECT_EQ(rows[4][2], "dis-medium");
@@ -221,8 +226,9 @@ TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 5 + 5) << outcome.text;
-    EXPECT_EQ(rows[0], split("recording,frame,method,ms,absrel,bad1,completeness,edge_absrel,"
-                             "edge_bad1,inner_absrel,inner_bad1"));
+    EXPECT_EQ(rows[0],
+              split("recording,frame,method,ms,absrel,bad1,completeness,edge_absrel,"
+                    "edge_bad1,inner_absrel,inner_bad1,delta1,delta2,delta3,ause,ause_rel"));
     const char* names[] = {"depth", "flow", "midpoint", "sgbm", "stereobm"};
     for (std::size_t i = 0; i < 5; ++i) {
         EXPECT_EQ(rows[i + 1][2], names[i]);
@@ -231,6 +237,9 @@ TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
         EXPECT_LT(std::stod(rows[i + 1][5]), 0.2) << names[i];
         EXPECT_GT(std::stod(rows[i + 1][6]), 0.8) << names[i];
         EXPECT_TRUE(rows[i + 1][7].empty());  // a wall has no edges
+        EXPECT_GT(std::stod(rows[i + 1][11]), 0.8);
+        EXPECT_GE(std::stod(rows[i + 1][13]), std::stod(rows[i + 1][11]));
+        EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // who tells a variance
     }
     const Outcome blind = execute(
         folder, fmt::format("{0} depth {1}/wall --methods flow --poses none --csv {1}/out.csv",

@@ -24,6 +24,23 @@ TEST(DepthError, CountsWhatIsOffAndWhatIsKnown) {
     EXPECT_DOUBLE_EQ(error.completeness, 0.75);
 }
 
+TEST(DepthError, DeltaCountsRatiosEitherWay) {
+    const cv::Mat truth(1, 5, CV_32F, cv::Scalar(1));
+    const cv::Mat rho = (cv::Mat_<float>(1, 5) << 1.2F, 1 / 1.3F, 1.9F, 2, 0);
+    const DepthError error = depthError(rho, truth, 10, everywhere(truth));
+    EXPECT_DOUBLE_EQ(error.delta[0], 0.2);
+    EXPECT_DOUBLE_EQ(error.delta[1], 0.4);
+    EXPECT_DOUBLE_EQ(error.delta[2], 0.6);  // 1.25^3 = 1.95
+}
+
+TEST(DepthSparsification, OrdersByVarianceWhereBothAreKnown) {
+    const cv::Mat truth = (cv::Mat_<float>(1, 5) << 1, 1, 1, 1, kNan);
+    const cv::Mat rho = (cv::Mat_<float>(1, 5) << 1.1F, 1.2F, 1.4F, 0, 9);
+    const cv::Mat variance = (cv::Mat_<float>(1, 5) << 0.1F, 0.2F, 0.3F, kNan, kNan);
+    EXPECT_NEAR(depthSparsification(rho, variance, truth, 10).ause, 0, 1e-9);
+    EXPECT_GT(depthSparsification(rho, 1 - variance, truth, 10).ausePerRandom, 1);
+}
+
 TEST(DepthError, LooksAtTheMaskOnly) {
     const cv::Mat truth(2, 2, CV_32F, cv::Scalar(1));
     const cv::Mat rho = (cv::Mat_<float>(2, 2) << 1, 2, 2, 2);

@@ -86,6 +86,25 @@ TEST(FlowError, MeasuresDistanceAndShares) {
     EXPECT_DOUBLE_EQ(error.coverage, 1);
 }
 
+TEST(FlowError, AngleIsThatOfDirectionsInSpaceAndTime) {
+    const cv::Mat truth(1, 2, CV_32FC2, cv::Scalar(0, 0));
+    cv::Mat flow = truth.clone();
+    EXPECT_EQ(flowError(flow, truth).angular, 0);
+    flow.at<cv::Vec2f>(0, 1) = {0, -1};
+    EXPECT_NEAR(flowError(flow, truth).angular, 45 / 2.0, 1e-6);
+}
+
+TEST(FlowSparsification, LowConfidenceShouldMeanLargeErrors) {
+    const cv::Mat truth(1, 4, CV_32FC2, cv::Scalar(1, 2));
+    cv::Mat flow = truth.clone();
+    flow.at<cv::Vec2f>(0, 1) += cv::Vec2f(1, 0);
+    flow.at<cv::Vec2f>(0, 2) += cv::Vec2f(0, 3);
+    flow.at<cv::Vec2f>(0, 3) = {std::nanf(""), 0};  // no answer, no error
+    const cv::Mat right = (cv::Mat_<float>(1, 4) << 0.9F, 0.5F, 0.1F, 0);
+    EXPECT_NEAR(flowSparsification(flow, truth, right).ause, 0, 1e-9);
+    EXPECT_GT(flowSparsification(flow, truth, 1 - right).ausePerRandom, 1);
+}
+
 TEST(FlowError, UnknownTruthIsLeftOutAndMissingAnswersAreBad) {
     cv::Mat truth(1, 4, CV_32FC2, cv::Scalar(0, 0)), flow = truth.clone();
     truth.at<cv::Vec2f>(0, 0) = {1.6e9F, 1.6e9F};
