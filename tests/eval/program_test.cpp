@@ -147,6 +147,22 @@ TEST(MfarEval, MetricComparesTwoPictures) {
     EXPECT_TRUE(colour.back().empty());
 }
 
+TEST(MfarEval, Figure7OfARecordingIsToldAndDrawn) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const Outcome outcome =
+        execute(folder, fmt::format("{0} figure7 {1}/tiny --recordings-only --frames 1 --csv "
+                                    "{1}/out.csv --svg {1}/out.svg",
+                                    MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("tiny: HDR-VDP-2 Q"), std::string::npos) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    ASSERT_EQ(rows.size(), 1U + 6 + 6);
+    EXPECT_EQ(rows[1][2], "truth");
+    EXPECT_EQ(std::stod(rows[1][4]), 100);
+    EXPECT_NE(test::readFile(folder / "out.svg").find(">tiny<"), std::string::npos);
+}
+
 TEST(MfarEval, FlowMeasuresAKnownShift) {
     const TempFolder folder;
     writePair(folder / "shift");
@@ -296,6 +312,8 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"metric " + dir + "/pair/frame10.png " + dir + "/absent.png", "absent.png"},
         {"metric " + dir + "/pair/frame10.png " + dir + "/pair/frame11.png", "msssim needs"},
         {"metric a.png b.png --metrics sharpness", "sharpness"},
+        {"figure7 --recordings-only", "needs a scene"},
+        {"figure7 --scenes mars", "mars"},
         {"metric a.png b.png --ppd nan", "--ppd"},
         {"warp " + dir, ""},
     };
