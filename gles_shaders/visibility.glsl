@@ -7,7 +7,8 @@ layout(std140, binding = 0) uniform Params {
                   // likeness [1 / colour distance^2]
 };
 
-// Of a real sample: inverse depth [1/m], sigma [1/m]. False for NaN, infinity, zero and below.
+// Of a real sample: inverse depth [1/m], sigma [1/m]. False for NaN, infinity, zero and below, and for
+// denormal sigmas, which are zero to some GPUs.
 bool known(vec2 real) {
-    return real.x > 1e-6 && real.x < 1e6 && real.y > 0.0 && real.y < 1e6;
+    return real.x > 1e-6 && real.x < 1e6 && real.y > 1e-20 && real.y < 1e6;
 }

@@ -19,7 +19,7 @@ struct RealSample {
 /// A video pixel's part in what hides a virtual surface of inverse depth `inverse`; unknown hides
 /// nothing.
 inline double visibleOver(const RealSample& real, double inverse, const CompositeOptions& o) {
-    const bool known = real.rho > 1e-6 && real.rho < 1e6 && real.sigma > 0 && real.sigma < 1e6;
+    const bool known = real.rho > 1e-6 && real.rho < 1e6 && real.sigma > 1e-20 && real.sigma < 1e6;
     if (!known) return 1;
     const double sigma = std::hypot(real.sigma, o.virtualSigma * inverse);
     const double t = std::clamp(((real.rho - inverse) / sigma - o.bias) / o.softness, 0.0, 1.0);
