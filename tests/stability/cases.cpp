@@ -1,0 +1,36 @@
+#include "tests/stability/cases.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+namespace mfar::stress {
+
+std::vector<Case> allCases() {
+    std::vector<Case> out;
+    for (const auto& some : {flowCases(), triangulationCases(), pipelineCases(), pictureCases(),
+                             virtualCases(), searchCases(), depthCases(), poseCases()})
+        out.insert(out.end(), some.begin(), some.end());
+    return out;
+}
+
+std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks, GlWatch& gl,
+                             bool large) {
+    // Neighbouring seeds, and the same seed in two cases, draw nothing alike.
+    std::uint64_t mixed = seed;
+    for (const char* c = one.name; *c != '\0'; ++c)
+        mixed = (mixed ^ static_cast<unsigned char>(*c)) * 0x100000001B3ULL;
+    Context context{Hostile(mixed), checks, gl, large};
+    try {
+        one.run(context);
+        gl.frame(checks, 0);
+    } catch (const std::exception& error) {
+        checks.fail(fmt::format("threw: {}", error.what()));
+    }
+    std::vector<std::string> out;
+    for (const std::string& fault : checks.take())
+        out.push_back(fmt::format("case {}, seed {}: {}", one.name, seed, fault));
+    return out;
+}
+
+}  // namespace mfar::stress

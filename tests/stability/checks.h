@@ -1,0 +1,38 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mfar::stress {
+
+/// What the cases of a run found, and how much went through each pass.
+class Checks {
+public:
+    /// Records `what` of a case when it does not hold. The first few of a case are kept.
+    void require(bool holds, const std::string& what) {
+        if (!holds) fail(what);
+    }
+    /// NaN is never within.
+    void within(double value, double low, double high, const char* what) {
+        if (!(value >= low && value <= high)) failRange(value, low, high, what);
+    }
+    void fail(const std::string& what);
+
+    /// So many pixels of a picture went through a pass of the host.
+    void through(const char* pass, long pixels) { pixels_[pass] += pixels; }
+    void throughPass(const std::string& pass, long pixels) { pixels_[pass] += pixels; }
+
+    /// Pixels by pass.
+    [[nodiscard]] const std::map<std::string, long>& pixels() const { return pixels_; }
+    /// What failed since the last call.
+    [[nodiscard]] std::vector<std::string> take();
+
+private:
+    void failRange(double value, double low, double high, const char* what);
+
+    std::map<std::string, long> pixels_;
+    std::vector<std::string> faults_;
+};
+
+}  // namespace mfar::stress

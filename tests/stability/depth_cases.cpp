@@ -1,0 +1,139 @@
+// Real depth on the host: the filter over time, the stage with its keyframes, edges.
+#include "pipeline/depth/depth_filter.h"
+#include "pipeline/depth/depth_stage.h"
+#include "pipeline/depth/edge_snap.h"
+#include "tests/stability/cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace mfar::stress {
+namespace {
+
+std::shared_ptr<Workers> depthWorkers() {
+    static const auto shared = std::make_shared<Workers>(2);
+    return shared;
+}
+
+InverseDepthField fieldOf(Context& c, Size size, double unit, double spoilt) {
+    InverseDepthField out(size);
+    const double rho = c.hostile.logarithmic(0.1, 10) / unit;
+    for (std::size_t i = 0; i < out.rho.size(); ++i) {
+        if (c.hostile.chance(0.2)) continue;
+        out.rho[i] = static_cast<float>(rho * c.hostile.real(0.9, 1.1));
+        out.variance[i] = static_cast<float>(std::pow(rho * c.hostile.logarithmic(1e-4, 0.3), 2));
+        if (c.hostile.chance(spoilt)) out.rho[i] = static_cast<float>(c.hostile.bad());
+        if (c.hostile.chance(spoilt)) out.variance[i] = static_cast<float>(c.hostile.bad());
+    }
+    return out;
+}
+
+/// Known or not; known is finite, not negative and not surer than anything can be.
+void checkField(Context& c, const InverseDepthField& field) {
+    for (std::size_t i = 0; i < field.rho.size(); ++i) {
+        c.checks.within(field.rho[i], 0, 3.4e38, "filtered inverse depth");
+        c.checks.require(field.variance[i] >= 0, "filtered variance");
+        c.checks.require(field.filled[i] <= 1, "a pixel's mark");
+    }
+}
+
+void hostileFilter(Context& c) {
+    const CameraModel camera = c.hostile.camera(
+        c.large && c.hostile.chance(0.4) ? Size{640, 480} : c.hostile.size(1, 100));
+    DepthFilter filter(camera, depthWorkers());
+    const double unit = c.hostile.logarithmic(1e-6, 1e3);
+    const double spoilt = c.hostile.pick({0.0, 0.02, 0.5});
+    for (int frame = 0; frame < 6; ++frame) {
+        RigidTransform T = c.hostile.chance(0.7) ? c.hostile.gentle(unit) : c.hostile.motion(unit);
+        if (c.hostile.chance(0.1)) T = c.hostile.spoilt(T);
+        filter.predict(T, c.hostile.chance(0.1) ? c.hostile.bad() : 0.033);
+        checkField(c, filter.field());
+        filter.fuse(fieldOf(c, camera.size, unit, spoilt),
+                    {0, 0, camera.size.width, camera.size.height});
+        checkField(c, filter.field());
+        c.checks.through("DepthFilter", pixelsOf(camera.size));
+    }
+}
+
+// What is carried, in any unit of length, is where geometry says; there and back again.
+void carriedDepth(Context& c) {
+    const Size size{c.hostile.integer(20, 90), c.hostile.integer(20, 70)};
+    CameraModel camera = c.hostile.camera(size);
+    camera.distortion = {};
+    const double unit = c.hostile.pick({1e-3, 1.0, 1e3});
+    DepthFilter filter(camera, depthWorkers());
+    InverseDepthField plane(size);
+    const double rho = 0.5 / unit;
+    std::ranges::fill(plane.rho, static_cast<float>(rho));
+    std::ranges::fill(plane.variance, static_cast<float>(std::pow(0.01 * rho, 2)));
+    filter.predict({}, 0.03);
+    filter.fuse(plane, {0, 0, size.width, size.height});
+    RigidTransform ahead;
+    // So far that the filter does not wait for more.
+    const double way = c.hostile.real(0.15, 0.4) * c.hostile.pick({-1, 1});
+    ahead.translation = unit * Eigen::Vector3d(way, 0, way);
+    filter.predict(ahead, 0.03);
+    const double wanted = 1 / (2 * unit - ahead.translation.z());
+    const InverseDepthField& field = filter.field();
+    for (std::size_t i = 0; i < field.rho.size(); ++i) {
+        if (!field.isKnown(i)) continue;
+        c.checks.within(field.rho[i] / wanted, 1 - 2e-5, 1 + 2e-5, "carried inverse depth");
+        c.checks.within(std::sqrt(field.variance[i]) / wanted, 0.005, 0.02, "carried sigma");
+    }
+    c.checks.through("DepthFilter", pixelsOf(size));
+}
+
+void hostileStage(Context& c) {
+    const CameraModel camera = c.hostile.camera(c.hostile.size(1, 120));
+    const Size size = camera.size;
+    DepthStage stage(camera, depthWorkers());
+    const double unit = c.hostile.pick({1e-6, 1e-3, 1.0, 1.0, 1e3});
+    Pose pose{{}, c.hostile.motion(unit)};
+    for (int frame = 0; frame < 5; ++frame) {
+        pose.time = pose.time + std::chrono::milliseconds(c.hostile.pick({33, 0, -33, 1000000}));
+        pose.T_world_video = c.hostile.chance(0.8) ? pose.T_world_video * c.hostile.gentle(unit)
+                                                   : c.hostile.motion(unit);
+        Pose told = pose;
+        if (c.hostile.chance(0.15)) told.T_world_video = c.hostile.spoilt(told.T_world_video);
+        told.covariance = c.hostile.covariance();
+        const int x = c.hostile.integer(0, size.width - 1),
+                  y = c.hostile.integer(0, size.height - 1);
+        const PixelRect where{x, y, c.hostile.integer(x, size.width),
+                              c.hostile.integer(y, size.height)};
+        stage.run(c.hostile.luma(size), told, {}, where);
+        checkField(c, stage.field());
+        c.checks.through("DepthStage", pixelsOf(size));
+    }
+}
+
+void hostileEdges(Context& c) {
+    const Size half = c.hostile.size(1, c.large ? 160 : 50);
+    const Size size{2 * half.width, 2 * half.height};
+    EdgeSnap snap(size, depthWorkers());
+    for (int i = 0; i < 2; ++i) {
+        const InverseDepthField in = fieldOf(c, size, c.hostile.logarithmic(1e-6, 1e3), 0.02);
+        const int x = c.hostile.integer(0, size.width - 1),
+                  y = c.hostile.integer(0, size.height - 1);
+        const PixelRect where{x, y, c.hostile.integer(x, size.width),
+                              c.hostile.integer(y, size.height)};
+        const InverseDepthField& out = snap.run(in, c.hostile.picture(size).view(), where);
+        for (std::size_t p = 0; p < out.rho.size(); ++p)
+            if (out.isKnown(p)) {
+                c.checks.within(out.rho[p], 0, 3.4e38, "snapped inverse depth");
+                c.checks.within(out.variance[p], 0, 3.4e38, "snapped variance");
+            }
+        c.checks.through("EdgeSnap", pixelsOf(size));
+    }
+}
+
+}  // namespace
+
+std::vector<Case> depthCases() {
+    return {{"depth-filter", hostileFilter},
+            {"depth-carried", carriedDepth},
+            {"depth-stage", hostileStage},
+            {"edges", hostileEdges}};
+}
+
+}  // namespace mfar::stress

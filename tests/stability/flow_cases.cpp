@@ -1,0 +1,94 @@
+// The two-dimensional flow, with its pyramids, on the GL.
+#include "pipeline/pipeline.h"
+#include "tests/stability/cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mfar::stress {
+namespace {
+
+struct FlowSummary {
+    double median = 0, most = 0;
+};
+
+/// Distance of a flow from a shift, away from the border.
+FlowSummary errorOf(const std::vector<float>& flow, Size size, const Eigen::Vector2d& shift) {
+    constexpr int kBorder = 24;
+    std::vector<double> errors;
+    for (int y = kBorder; y < size.height - kBorder; ++y)
+        for (int x = kBorder; x < size.width - kBorder; ++x) {
+            const std::size_t i = 2 * (static_cast<std::size_t>(y) * size.width + x);
+            errors.push_back(std::hypot(flow[i] - shift.x(), flow[i + 1] - shift.y()));
+        }
+    std::sort(errors.begin(), errors.end());
+    return {errors[errors.size() / 2], errors.back()};
+}
+
+void checkFlow(Context& c, const std::vector<float>& flow, Size size) {
+    c.checks.require(flow.size() == 2UL * size.width * size.height, "the flow's size");
+    for (const float v : flow)
+        c.checks.within(v, -2e4, 2e4, "flow");
+    c.gl.frame(c.checks, pixelsOf(size));
+}
+
+void hostileFlow(Context& c) {
+    const Size size = c.large && c.hostile.chance(0.2) ? Size{640, 480} : c.hostile.size(16, 200);
+    const Picture a = c.hostile.picture(size);
+    const Picture b =
+        c.hostile.picture(size, c.hostile.chance(0.3) ? PixelFormat::Gray8 : PixelFormat::Rgba8);
+    checkFlow(c, flowBetween(a.view(), b.view()), size);
+}
+
+// Whatever the picture, nothing has moved in it.
+void samePicture(Context& c) {
+    const Size size = c.hostile.size(16, 150);
+    const Picture a = c.hostile.picture(size);
+    const auto flow = flowBetween(a.view(), a.view());
+    checkFlow(c, flow, size);
+    for (const float v : flow)
+        c.checks.within(v, -0.02, 0.02, "flow of a picture to itself");
+}
+
+Picture mirrored(const Picture& p) {
+    Picture out = p;
+    for (int y = 0; y < p.size.height; ++y)
+        for (int x = 0; x < p.size.width; ++x) {
+            const std::size_t from =
+                4 * (static_cast<std::size_t>(y) * p.size.width + p.size.width - 1 - x);
+            std::copy_n(p.bytes.begin() + static_cast<std::ptrdiff_t>(from), 4, out.at(x, y));
+        }
+    return out;
+}
+
+// Within reach of the search and of sub-pixel steps; the other way round; in a mirror.
+void shiftedPicture(Context& c) {
+    const Size size = c.large && c.hostile.chance(0.1)
+                          ? Size{640, 480}
+                          : Size{c.hostile.integer(101, 180), c.hostile.integer(101, 150)};
+    const Waves waves(static_cast<unsigned>(c.hostile.integer(1, 1 << 30)), 6, 60, 35);
+    const Eigen::Vector2d shift(c.hostile.real(-6, 6), c.hostile.real(-6, 6));
+    const double gain = c.hostile.real(0.6, 1.2), offset = c.hostile.real(-15, 15);
+    const Picture a = waves.shoot(size, {});
+    const Picture b = waves.shoot(size, {.shift = -shift, .gain = gain, .offset = offset});
+    const auto there = flowBetween(a.view(), b.view());
+    checkFlow(c, there, size);
+    c.checks.within(errorOf(there, size, shift).median, 0, 0.08, "error of a shift [px]");
+    const auto back = flowBetween(b.view(), a.view());
+    checkFlow(c, back, size);
+    c.checks.within(errorOf(back, size, -shift).median, 0, 0.08, "error of a shift back [px]");
+    const auto mirror = flowBetween(mirrored(a).view(), mirrored(b).view());
+    checkFlow(c, mirror, size);
+    c.checks.within(errorOf(mirror, size, {-shift.x(), shift.y()}).median, 0, 0.08,
+                    "error of a shift in a mirror [px]");
+}
+
+}  // namespace
+
+std::vector<Case> flowCases() {
+    return {
+        {"flow2d", hostileFlow}, {"flow2d-same", samePicture}, {"flow2d-shift", shiftedPicture}};
+}
+
+}  // namespace mfar::stress

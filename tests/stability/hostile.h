@@ -1,0 +1,64 @@
+#pragma once
+
+#include "pipeline/flow/luma_image.h"
+#include "pipeline/geometry.h"
+#include "pipeline/se3.h"
+#include "tests/shader/pictures.h"
+
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <random>
+#include <vector>
+
+namespace mfar::stress {
+
+/// Draws inputs that are hard to bear, each a function of the seed alone.
+class Hostile {
+public:
+    explicit Hostile(std::uint64_t seed) : random_(seed) {}
+
+    [[nodiscard]] int integer(int low, int high);  ///< both included
+    [[nodiscard]] double real(double low, double high);
+    [[nodiscard]] double logarithmic(double low, double high);
+    [[nodiscard]] bool chance(double probability) { return real(0, 1) < probability; }
+    template <class T>
+    [[nodiscard]] T pick(std::initializer_list<T> of) {
+        return of.begin()[integer(0, static_cast<int>(of.size()) - 1)];
+    }
+
+    /// 1x1, 1xN, primes, beside multiples of the tile, up to about `most` each way.
+    [[nodiscard]] Size size(int least, int most);
+    /// NaN, infinities, the ends of float's range, denormals, zeros.
+    [[nodiscard]] double bad();
+    /// The same without what is not finite.
+    [[nodiscard]] double extreme();
+
+    /// Constant, saturated, checkerboard and columns at Nyquist, impulse, noise, extreme gain,
+    /// ramp, photographs' like.
+    [[nodiscard]] Picture picture(Size size, PixelFormat format = PixelFormat::Rgba8);
+    [[nodiscard]] LumaImage luma(Size size);
+
+    /// A lens for such a picture, from none to a strong barrel or cushion, off centre.
+    [[nodiscard]] CameraModel camera(Size size);
+    [[nodiscard]] Eigen::Vector3d direction();
+    /// Turns from none to all the way round.
+    [[nodiscard]] Eigen::Quaterniond turn();
+    /// Small and large turns; translations from nothing to a thousand units aside, ahead, back,
+    /// with the epipole in, on and near the border.
+    [[nodiscard]] RigidTransform motion(double unit = 1);
+    /// One that a camera in the hand makes.
+    [[nodiscard]] RigidTransform gentle(double unit = 1);
+    /// A bad number in one place, or a rotation that is none.
+    [[nodiscard]] RigidTransform spoilt(RigidTransform T);
+    [[nodiscard]] Matrix6 covariance();
+
+    [[nodiscard]] std::mt19937_64& generator() { return random_; }
+
+private:
+    [[nodiscard]] int greyAt(int kind, int x, int y, Size size, int level);
+
+    std::mt19937_64 random_;
+};
+
+}  // namespace mfar::stress

@@ -1,0 +1,147 @@
+// What hostile cases found once, each by itself.
+#include "pipeline/depth/depth_filter.h"
+#include "pipeline/depth/edge_snap.h"
+#include "pipeline/flow/epipolar_flow.h"
+#include "pipeline/track/pose_filter.h"
+#include "tests/shader/pictures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace mfar::stress {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+std::shared_ptr<Workers> oneWorker() {
+    return std::make_shared<Workers>(1);
+}
+
+CameraModel smallCamera(Size size = {8, 6}) {
+    return {size, 10, 10, 0.5 * (size.width - 1), 0.5 * (size.height - 1), {}};
+}
+
+InverseDepthField fieldOf(Size size, float rho, float variance) {
+    InverseDepthField out(size);
+    out.rho.assign(out.rho.size(), rho);
+    out.variance.assign(out.variance.size(), variance);
+    return out;
+}
+
+TEST(Mended, MeasurementsThatAreNoneSayNothing) {
+    const PixelRect whole{0, 0, 8, 6};
+    for (const auto& [rho, variance] : {std::pair(kNan, 0.01F),
+                                        {kInf, 0.01F},
+                                        {-1.0F, 0.01F},
+                                        {0.5F, kNan},
+                                        {0.5F, -0.01F},
+                                        {0.5F, 0.0F}}) {
+        DepthFilter filter(smallCamera(), oneWorker());
+        filter.predict({}, 0.03);
+        filter.fuse(fieldOf({8, 6}, 0.5F, 0.01F), whole);
+        filter.fuse(fieldOf({8, 6}, rho, variance), whole);
+        filter.fuse(fieldOf({8, 6}, rho, variance), whole);
+        EXPECT_EQ(filter.field().rho[20], 0.5F) << rho << ", " << variance;
+        EXPECT_EQ(filter.field().variance[20], 0.01F);
+    }
+}
+
+TEST(Mended, APoseThatIsNoneForgetsTheDepth) {
+    for (const double bad : {double(kNan), double(kInf), 0.0}) {
+        DepthFilter filter(smallCamera(), oneWorker());
+        filter.predict({}, 0.03);
+        filter.fuse(fieldOf({8, 6}, 0.5F, 0.01F), {0, 0, 8, 6});
+        RigidTransform none;
+        none.rotation.coeffs().setConstant(bad);
+        filter.predict(none, 0.03);
+        EXPECT_FALSE(filter.field().isKnown(20)) << bad;
+        filter.predict({}, 0.03);
+        filter.fuse(fieldOf({8, 6}, 0.25F, 0.01F), {0, 0, 8, 6});
+        EXPECT_EQ(filter.field().rho[20], 0.25F);
+    }
+}
+
+TEST(Mended, ATimeThatIsNoneAddsNoDoubt) {
+    DepthFilter filter(smallCamera(), oneWorker());
+    filter.predict({}, 0.03);
+    filter.fuse(fieldOf({8, 6}, 0.5F, 0.01F), {0, 0, 8, 6});
+    RigidTransform aside;
+    aside.translation.x() = 0.4;
+    filter.predict(aside, kNan);
+    for (std::size_t i = 0; i < filter.field().rho.size(); ++i)
+        if (filter.field().isKnown(i)) {
+            EXPECT_EQ(filter.field().variance[i], 0.01F);
+        }
+}
+
+TEST(Mended, DepthThatIsNoneStaysUnknownAtEdges) {
+    EdgeSnap snap({8, 6}, oneWorker());
+    const Picture picture({8, 6});
+    for (const auto& [rho, variance] : {std::pair(kNan, 0.01F), {kInf, 0.01F}, {0.5F, -1.0F}}) {
+        const auto& out = snap.run(fieldOf({8, 6}, rho, variance), picture.view(), {0, 0, 8, 6});
+        EXPECT_FALSE(out.isKnown(20)) << rho << ", " << variance;
+        EXPECT_EQ(out.rho[20], 0);
+    }
+}
+
+// The one ray is the axis: the rim of such a lens has no radius.
+TEST(Mended, APictureOfOnePixelHasALens) {
+    const EpipolarLens lens(smallCamera({1, 1}), 0);
+    const auto p = lens.project(0, 0);
+    EXPECT_EQ(p.x, 0);
+    EXPECT_EQ(p.y, 0);
+}
+
+// A cell has no second column, or row, to look at.
+TEST(Mended, PicturesOneOrTwoPixelsWideHaveAFlow) {
+    for (const Size size : {Size{1, 1}, Size{1, 40}, Size{40, 1}, Size{2, 3}}) {
+        EpipolarFlow flow({smallCamera(size), smallCamera(size), {}}, oneWorker());
+        const Picture picture = randomPicture(size, 1);
+        Pose aside;
+        aside.T_world_video.translation.x() = 0.1;
+        flow.setStill(picture.view(), {});
+        flow.run(picture.view(), aside);
+        for (const auto& v : flow.forward())
+            EXPECT_TRUE(std::isfinite(v[0]) && std::isfinite(v[1])) << size.width;
+    }
+}
+
+TEST(Mended, APredictionThatIsNoNumberIsSearchedFromInfinity) {
+    const CameraModel camera = smallCamera({64, 48});
+    const Picture picture = randomPicture({64, 48}, 1);
+    const auto searched = [&](float predicted) {
+        EpipolarSearch search({camera, camera, {}}, oneWorker());
+        search.setStill(picture.view());
+        LumaImage luma;
+        lumaOf(picture.view(), luma);
+        const std::vector<float> cells(16UL * 12, predicted);
+        EXPECT_TRUE(search.run(luma, {Eigen::Quaterniond::Identity(), {0.1, 0, 0}}, {}, cells));
+        return search.inverseDepth();
+    };
+    EXPECT_EQ(searched(kNan), searched(-1e30F));
+    EXPECT_EQ(searched(-kInf), searched(-1e30F));
+    EXPECT_EQ(searched(kInf), searched(1e30F));
+}
+
+TEST(Mended, CovariancesThatAreNoneAreNoPose) {
+    PoseFilter filter;
+    Pose pose{Timestamp::fromSeconds(1), {}};
+    pose.covariance(2, 2) = -1;
+    EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Rejected);
+    EXPECT_FALSE(filter.predict(pose.time));
+    pose.covariance.setIdentity();
+    pose.T_world_video.rotation.coeffs().setZero();
+    EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Rejected);
+    // Not quite a rotation is one.
+    pose.T_world_video.rotation.coeffs() << 0, 0, 0, 1.001;
+    EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Started);
+    ASSERT_TRUE(filter.predict(pose.time));
+    EXPECT_NEAR(filter.predict(pose.time)->T_world_video.rotation.norm(), 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace mfar::stress

@@ -1,0 +1,203 @@
+// Passes over pictures: formats, pyramids, the plan of changes, enlargement, weights.
+#include "hal/image_layout.h"
+#include "pipeline/gpu/picture_texture.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/work_plan.h"
+#include "tests/shader/levels.h"
+#include "tests/shader/tile_pass.h"
+#include "tests/shader/twins/plan.h"
+#include "tests/shader/twins/superres.h"
+#include "tests/shader/twins/upscale.h"
+#include "tests/shader/twins/yuv.h"
+#include "tests/stability/cases.h"
+#include "tests/unit/padded_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mfar::stress {
+namespace {
+
+// Bilinear look-ups have weights of 8 bits; both chroma channels add up.
+constexpr double kFormatError = 2.7;  // [grey levels]
+
+void pictureFormats(Context& c) {
+    const auto format = c.hostile.pick({PixelFormat::Gray8, PixelFormat::Rgba8, PixelFormat::Bgra8,
+                                        PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420});
+    const Size half = c.hostile.size(1, c.large ? 300 : 60);
+    const Size size{2 * half.width, 2 * half.height};
+    const test::PaddedPicture source(format, size,
+                                     static_cast<unsigned>(c.hostile.integer(1, 1 << 30)),
+                                     c.hostile.integer(0, 9));
+    const ImageView view = source.view(c.hostile.pick({YuvMatrix::Bt601, YuvMatrix::Bt709}),
+                                       c.hostile.pick({YuvRange::Limited, YuvRange::Full}));
+    gpu::PictureTexture picture;
+    picture.upload(view);
+    const gpu::Texture copy = drawn("copy.frag", tileParams(size, size, size),
+                                    {gpu::sampler(0, picture.texture())}, size);
+    const auto pixels = copy.readRgba8();
+    c.gl.frame(c.checks, pixelsOf(size));
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const auto rgb = twin::rgbAt(view, x, y);
+            const std::size_t i = 4 * (static_cast<std::size_t>(y) * size.width + x);
+            for (std::size_t k = 0; k < 3; ++k)
+                c.checks.within(pixels[i + k] - rgb[k], -kFormatError, kFormatError,
+                                "error of a colour");
+        }
+}
+
+// Rounded twice on the way: once a level more at most.
+void lumaPyramids(Context& c) {
+    const Size size = c.hostile.size(1, c.large ? 400 : 120);
+    const Picture a = c.hostile.picture(size), b = c.hostile.picture(size);
+    const LevelPair pair(a, b);
+    const auto compare = [&](const twin::Grey& got, const twin::Grey& wanted, const char* what) {
+        for (std::size_t i = 0; i < got.values.size(); ++i)
+            c.checks.within(got.values[i] - wanted.values[i], -1.01, 1.01, what);
+    };
+    compare(pair.first(), twin::smoothed(twin::luma(a.view())), "finest luma");
+    for (int level = 1; level < static_cast<int>(pair.pyramids.video().size()); ++level) {
+        compare(pair.first(level), twin::halved(pair.first(level - 1)), "coarser luma");
+        compare(pair.second(level), twin::halved(pair.second(level - 1)), "coarser luma");
+    }
+    c.gl.frame(c.checks, pixelsOf(size));
+}
+
+void changePlan(Context& c) {
+    const Size size = c.hostile.size(1, c.large ? 400 : 120);
+    Picture before = c.hostile.picture(size);
+    Picture now = c.hostile.chance(0.3) ? c.hostile.picture(size) : before;
+    if (c.hostile.chance(0.5))
+        now.at(c.hostile.integer(0, size.width - 1), c.hostile.integer(0, size.height - 1))[1] ^=
+            64;
+    WorkPlan plan(size);
+    (void)plan.add({});
+    plan.update(uploaded(now), uploaded(before), false);
+    const Size tiles = plan.tileCount();
+    const auto got = plan.tiles().read<std::array<std::uint32_t, 2>>(
+        static_cast<std::size_t>(pixelsOf(tiles)), 8);
+    // Bounds as WorkPlan::update() sets them before anything is measured.
+    const double mean = 1 + 2 * 0.29, absolute = 1.5 + 3 * 0.29;
+    int changed = 0;
+    for (int t = 0; t < static_cast<int>(pixelsOf(tiles)); ++t) {
+        const auto wanted = twin::tileChange(now, before, t % tiles.width, t / tiles.width);
+        changed += static_cast<int>(got[t][0]);
+        const bool close =
+            std::abs(wanted.mean - mean) < 1e-3 || std::abs(wanted.absolute - absolute) < 1e-3;
+        const bool differs = wanted.mean > mean || wanted.absolute > absolute;
+        c.checks.require(close || (got[t][0] != 0) == differs, "a tile's change");
+        c.checks.within(got[t][1] / 256.0 - wanted.noise, -0.02, 0.02, "a tile's noise");
+    }
+    c.checks.require(plan.changedTiles() == changed, "the number of changed tiles");
+    c.gl.frame(c.checks, pixelsOf(size));
+}
+
+// Without a still the picture is the video, enlarged: columns are kept in 8 bits.
+void enlargement(Context& c) {
+    const Size video = c.hostile.size(1, 60);
+    const Size output{video.width * c.hostile.integer(1, 4) + c.hostile.integer(0, 3),
+                      video.height * c.hostile.integer(1, 4) + c.hostile.integer(0, 3)};
+    const Picture picture = c.hostile.picture(video);
+    PipelineOptions options;
+    options.mode = SuperResMode::Off;
+    options.output = output;
+    Pipeline pipeline(plainRig(video, {2 * video.width, 2 * video.height}), options);
+    pipeline.run(picture.view(), {});
+    const auto image = pipeline.readImage();
+    c.gl.frame(c.checks, pixelsOf(video));
+    for (int channel = 0; channel < 3; ++channel) {
+        const twin::Grey grey = twin::greyOf(video, [&](int x, int y) {
+            return double(picture.bytes[4UL * (1UL * y * video.width + x) + channel]);
+        });
+        const twin::Grey wanted = twin::upscaled(grey, output);
+        for (std::size_t i = 0; i < wanted.values.size(); ++i)
+            c.checks.within(image[4 * i + channel] - std::clamp(wanted.values[i], 0.0, 255.0), -2,
+                            2, "error of an enlarged pixel");
+    }
+}
+
+// An even picture stays what it is, whatever the still.
+void evenPicture(Context& c) {
+    const Size video = c.hostile.size(1, 60), still = c.hostile.size(8, 150);
+    const auto level = static_cast<std::uint8_t>(c.hostile.integer(0, 255));
+    PipelineOptions options;
+    options.mode = SuperResMode::Detail;
+    Pipeline pipeline(plainRig(video, still), options);
+    pipeline.setStill(c.hostile.picture(still).view(), {});
+    for (int i = 0; i < 2; ++i)
+        pipeline.run(Picture(video, PixelFormat::Rgba8, level).view(), {});
+    c.gl.frame(c.checks, pixelsOf(video));
+    for (const std::uint8_t v : pipeline.readImage())
+        if (v != 255)  // alpha
+            c.checks.within(v - level, -1, 1, "change of an even picture");
+}
+
+struct WeighParams {
+    std::int32_t cells[4];
+    float tune[4];
+};
+
+/// Statistics as two patches can have them, from nothing to the most that bytes allow.
+twin::Cells statisticsOf(Context& c, Size size) {
+    twin::Cells out{size, {}};
+    constexpr double kMost = 64 * 255.0 * 255.0 / 4;
+    for (long i = 0; i < pixelsOf(size); ++i) {
+        const double a = c.hostile.chance(0.2) ? 0 : c.hostile.logarithmic(1e-3, kMost);
+        const double b = c.hostile.chance(0.2) ? kMost : c.hostile.logarithmic(1e-3, kMost);
+        const double alike = c.hostile.real(-1, 1);
+        for (const double v : {alike * std::sqrt(a * b), a, b, c.hostile.real(0, 1)})
+            out.values.push_back(static_cast<float>(v));
+    }
+    return out;
+}
+
+twin::Cells displacementOf(Context& c, Size size) {
+    twin::Cells out{size, {}};
+    const double bend = c.hostile.logarithmic(1e-4, 1e3);
+    for (long i = 0; i < 4 * pixelsOf(size); ++i)
+        out.values.push_back(static_cast<float>(bend * c.hostile.real(-1, 1)));
+    return out;
+}
+
+void weights(Context& c) {
+    const Size size = c.hostile.size(1, 60), half{(size.width + 1) / 2, (size.height + 1) / 2};
+    const twin::Cells displacement = displacementOf(c, size);
+    const twin::Cells statistics = statisticsOf(c, size), low = statisticsOf(c, half);
+    const double sigma = c.hostile.real(0.05, 4);
+    using gpu::TexelFormat;
+    const auto put = [](const twin::Cells& cells) {
+        return floatTexture(cells.size, TexelFormat::Rgba32F, cells.values);
+    };
+    const gpu::Texture d = put(displacement), s = put(statistics), l = put(low);
+    const gpu::Texture field(size, TexelFormat::Rgba32F), weight(size, TexelFormat::Rgba8);
+    const gpu::Texture look(size, TexelFormat::Rgba16F);
+    gpu::ComputePass<WeighParams> pass("superres_weigh.comp");
+    pass.run(
+        {{size.width, size.height, half.width, half.height}, {static_cast<float>(sigma), 0, 0, 0}},
+        {gpu::sampler(0, d), gpu::sampler(1, s), gpu::sampler(2, l), gpu::imageWrite(0, field),
+         gpu::imageWrite(1, weight), gpu::imageWrite(2, look)},
+        {gpu::groupsFor(size.width, 8), gpu::groupsFor(size.height, 8), 1});
+    const twin::Cells got{size, field.readRgba32F()};
+    const auto bytes = weight.readRgba8();
+    c.gl.frame(c.checks, 16 * pixelsOf(size));
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const auto wanted = twin::weigh(displacement, statistics, low, x, y, sigma);
+            const double slack = std::max(0.005, 2e-3 * wanted.weight);
+            c.checks.within(got.at(x, y)[2] - wanted.weight, -slack, slack, "error of a weight");
+            c.checks.within(got.at(x, y)[3] - wanted.confidence, -1e-6, 1e-6, "confidence");
+            const std::size_t i = 4 * (static_cast<std::size_t>(y) * size.width + x);
+            c.checks.within(bytes[i + 2] / 255.0 - wanted.signal, -0.01, 0.01, "signal share");
+        }
+}
+
+}  // namespace
+
+std::vector<Case> pictureCases() {
+    return {{"formats", pictureFormats},  {"pyramids", lumaPyramids},    {"plan", changePlan},
+            {"enlargement", enlargement}, {"even-picture", evenPicture}, {"weights", weights}};
+}
+
+}  // namespace mfar::stress

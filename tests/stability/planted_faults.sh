@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Plants faults in shaders and host sources, one at a time, and runs the cases that have to find them.
+# Usage: planted_faults.sh BUILD-FOLDER [shaders|host]. Prints each with what found it; exit status 1
+# when one was not found. Shaders are changed as the program is handed them; a host source is changed
+# in a copy, compiled as its unity file is, and linked before the library that has the sound one.
+set -euo pipefail
+build=$(readlink -f "$1") which=${2:-all}
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
+program=$build/tests/stability/mfar-stress
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+missed=0 found=0
+
+# Arguments: program, what, cases, further arguments.
+expectFound() {
+    local run=$1 what=$2 cases=$3 said status=0
+    shift 3
+    said=$("$run" --small --first 1 --rounds 40 --minutes 5 --case "$cases" "$@" 2>&1) || status=$?
+    if [[ $status == 1 ]]; then
+        found=$((found + 1))
+        printf 'found   %s\n        %s\n' "$what" "$(grep -m1 ^FAILED <<<"$said")"
+    else
+        missed=$((missed + 1))
+        printf 'MISSED  %s (cases %s, status %s)\n' "$what" "$cases" "$status"
+    fi
+}
+
+inShaders() {
+    local index shader cases what
+    while IFS=$'\t' read -r index shader cases what; do
+        expectFound "$program" "$shader: $what" "$cases" --plant "$index"
+    done < <("$program" --list-planted)
+}
+
+# The compiler's command for a source's unity file, with the source and the object exchanged.
+compile() {
+    local source=$1 changed=$2 object=$3 unity command
+    unity=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
+        "$build"/pipeline/*/CMakeFiles/*/Unity/*.cxx | head -n 1)
+    command=$(ninja -C "$build" -t commands | grep -F -- "-c $unity" | head -n 1)
+    command=${command%% -MD*}
+    (cd "$build" && eval "$command -w -I$PWD -c $changed -o $object")
+}
+
+# Arguments: source, its text, what comes instead, what that is, cases.
+inHost() {
+    local source=$1 from=$2 to=$3 what=$4 cases=$5 link
+    if [[ $(grep -cF -- "$from" "$source") != 1 ]]; then
+        printf 'MISSED  %s does not contain once: %s\n' "$source" "$from"
+        missed=$((missed + 1))
+        return
+    fi
+    FROM=$from TO=$to perl -pe 's/\Q$ENV{FROM}\E/$ENV{TO}/' "$source" >"$scratch/changed.cpp"
+    compile "$source" "$scratch/changed.cpp" "$scratch/changed.o"
+    link=$(ninja -C "$build" -t commands mfar-stress | grep -F -- '-o tests/stability/mfar-stress ')
+    link=${link/-o tests\/stability\/mfar-stress /-Wl,--allow-multiple-definition $scratch/changed.o -o $scratch/program }
+    (cd "$build" && eval "$link")
+    expectFound "$scratch/program" "$source: $what" "$cases"
+}
+
+hostFaults() {
+    inHost pipeline/depth/depth_filter.cpp 'if (InverseDepthField::isSound(measured.rho[i], measured.variance[i]))' \
+        '' 'removed guard against measurements that are none' depth-filter
+    inHost pipeline/depth/depth_filter.cpp 'const float moved = rho / p.z();' 'const float moved = rho;' \
+        'depth not carried' depth-carried
+    inHost pipeline/depth/edge_snap.cpp 'if (isSound(in, i)) {' 'if (true) {' \
+        'removed guard against depth that is none' edges
+    inHost pipeline/flow/epipolar_flow.cpp 'if (!(p.z() > kNearPlane)) return {kNowhere, kNowhere};' '' \
+        'removed guard against points behind the still' flow-of-poses
+    inHost pipeline/flow/epipolar_search.cpp 'return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);' \
+        'return label;' 'missing clamp of a prediction' search
+    inHost pipeline/flow/relative_pose.cpp 'if (!(point.z() > kNearPlane)) return std::nullopt;' '' \
+        'removed guard against points behind the camera' refinement
+    inHost pipeline/flow/semi_global.cpp 'from + std::clamp(shift, -apart, apart)' 'from + shift' \
+        'missing clamp of a shift' aggregation
+    inHost pipeline/flow/luma_image.cpp 'out.back().firstWeight = 1;' 'out.back().firstWeight = 2;' \
+        'wrong weight' luma
+    inHost pipeline/track/pose_filter.cpp 'if (!usable) {' 'if (false) {' \
+        'removed guard against poses that are none' pose-filter
+    inHost pipeline/track/pose_refine.cpp 'pointOfMotion << skew(p),' 'pointOfMotion << -skew(p),' \
+        'wrong sign of a derivative' tag-exact
+    inHost pipeline/composite/silhouette.cpp 'tile.farthest = std::max(tile.farthest, farthest);' \
+        'tile.farthest = farthest;' 'a range that forgets' silhouette
+}
+
+if [[ $which != host ]]; then inShaders; fi
+if [[ $which != shaders ]]; then hostFaults; fi
+printf '%d found, %d missed\n' "$found" "$missed"
+[[ $missed == 0 ]]

@@ -1,0 +1,249 @@
+// The epipolar search on the host, and what stands around it.
+#include "pipeline/flow/cell_field.h"
+#include "pipeline/flow/epipolar_flow.h"
+#include "pipeline/flow/field_filters.h"
+#include "pipeline/flow/relative_pose.h"
+#include "pipeline/flow/semi_global.h"
+#include "tests/flow/flow_scene.h"
+#include "tests/stability/cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace mfar::stress {
+namespace {
+
+std::shared_ptr<Workers> workers() {
+    static const auto shared = std::make_shared<Workers>(2);
+    return shared;
+}
+
+void checkSearch(Context& c, const EpipolarSearch& search) {
+    const PixelRect area = search.area();
+    const Size size{area.x1 - area.x0, area.y1 - area.y0};
+    c.checks.through("EpipolarSearch", pixelsOf(size));
+    c.checks.require(search.inverseDepth().size() == static_cast<std::size_t>(pixelsOf(size)),
+                     "size of the searched field");
+    c.checks.within(search.pixelsPerUnit(), 0, 1e12, "pixels per unit");
+    c.checks.within(search.normalError(), 0, 1e7, "normal error");
+    for (const float s : search.inverseDepth())
+        c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4, "searched label");
+}
+
+std::vector<float> predictionFor(Context& c, Size area) {
+    std::vector<float> out;
+    if (c.hostile.chance(0.5)) return out;
+    const double unit = c.hostile.logarithmic(1e-6, 1e6);
+    for (long i = pixelsOf(cellsOf(area)); i > 0; --i)
+        out.push_back(static_cast<float>(c.hostile.chance(0.05) ? c.hostile.bad()
+                                                                : unit * c.hostile.real(-1, 1)));
+    return out;
+}
+
+void hostileSearch(Context& c) {
+    const CameraModel camera = c.hostile.camera(
+        c.large && c.hostile.chance(0.4) ? Size{640, 480} : c.hostile.size(1, 150));
+    const StereoRig rig{camera, c.hostile.camera(c.hostile.size(2, 200)), {}};
+    EpipolarOptions options;
+    options.longestParallax = c.hostile.pick({0.8, 0.1, 0.01});
+    EpipolarSearch search(rig, workers(), options);
+    search.setStill(c.hostile.picture(rig.still.size).view());
+    for (int i = 0; i < 2; ++i) {
+        if (c.hostile.chance(0.3)) {
+            const int x = c.hostile.integer(0, camera.size.width - 1);
+            const int y = c.hostile.integer(0, camera.size.height - 1);
+            search.setArea({x, y, c.hostile.integer(x + 1, camera.size.width),
+                            c.hostile.integer(y + 1, camera.size.height)});
+        }
+        const PixelRect area = search.area();
+        RigidTransform T = c.hostile.motion(c.hostile.pick({1e-6, 1.0, 1e3}));
+        if (c.hostile.chance(0.2)) T = c.hostile.spoilt(T);
+        std::optional<Matrix6> covariance;
+        if (c.hostile.chance(0.5)) covariance = c.hostile.covariance();
+        (void)search.run(c.hostile.luma(camera.size), T, covariance,
+                         predictionFor(c, {area.x1 - area.x0, area.y1 - area.y0}));
+        checkSearch(c, search);
+    }
+}
+
+/// Median distance of what was found from where the scene is [px].
+double medianErrorOf(const test::View& view) {
+    EpipolarSearch search({view.camera, view.camera, {}}, workers());
+    search.setStill(test::viewOf(view.still()));
+    if (!search.run(view.video(), view.T_still_video)) return 1e9;
+    return test::errorsOf(search, view).median;
+}
+
+// Of a plane, in any unit of length; the other way round; in a mirror.
+void planeSearch(Context& c) {
+    const Size size{c.hostile.integer(100, 160), c.hostile.integer(90, 130)};
+    CameraModel camera = c.hostile.camera(size);
+    camera.fx = camera.fy = 0.95 * size.width;
+    test::View view{camera, {{{{0, 0, 1}, 2}}, 18, 100}, c.hostile.gentle()};
+    view.T_still_video.translation *= 0.2 / view.T_still_video.translation.norm();
+    c.checks.within(medianErrorOf(view), 0, 0.45, "median error of a plane [px]");
+    const LumaImage video = view.video(), still = view.still();
+    EpipolarSearch metres({camera, camera, {}}, workers()), other = metres;
+    metres.setStill(viewOf(still));
+    other.setStill(viewOf(still));
+    RigidTransform scaled = view.T_still_video;
+    const double unit = c.hostile.pick({0x1p-20, 0x1p-10, 0x1p10});
+    scaled.translation *= unit;
+    c.checks.require(metres.run(video, view.T_still_video) == other.run(video, scaled),
+                     "a search in a scaled world");
+    checkSearch(c, metres);
+    for (std::size_t i = 0; i < metres.inverseDepth().size(); ++i)
+        c.checks.within(metres.inverseDepth()[i] - other.inverseDepth()[i] * unit, -1e-5, 1e-5,
+                        "inverse depth in a scaled world");
+    EpipolarSearch back({camera, camera, {}}, workers());
+    back.setStill(viewOf(video));
+    if (!back.run(still, view.T_still_video.inverse())) c.checks.fail("no search back");
+    checkSearch(c, back);
+    // The plane as the still's camera has it.
+    const Eigen::Vector3d normal = view.T_still_video.rotation * Eigen::Vector3d::UnitZ();
+    const double distance = 2 + normal.dot(view.T_still_video.translation);
+    const test::View turned{camera, {{{normal, distance}}, 18, 100}, view.T_still_video.inverse()};
+    const auto errors = test::errorsOf(back, turned);
+    if (errors.pixels > 2000)
+        c.checks.within(errors.median, 0, 0.45, "median error of exchanged views [px]");
+}
+
+void hostileFlowOfPoses(Context& c) {
+    const StereoRig rig{c.hostile.camera(c.hostile.size(1, 120)),
+                        c.hostile.camera(c.hostile.size(1, 200)), c.hostile.motion(0.05)};
+    EpipolarOptions options;
+    options.bothWays = c.hostile.chance(0.3);
+    EpipolarFlow flow(rig, workers(), options);
+    const auto pose = [&] {
+        Pose out{{}, c.hostile.chance(0.7) ? c.hostile.gentle() : c.hostile.motion()};
+        if (c.hostile.chance(0.2)) out.T_world_video = c.hostile.spoilt(out.T_world_video);
+        out.covariance = c.hostile.covariance();
+        return out;
+    };
+    flow.setStill(c.hostile.picture(rig.still.size).view(), pose());
+    for (int frame = 0; frame < 3; ++frame) {
+        flow.run(c.hostile.picture(rig.video.size).view(), pose());
+        checkSearch(c, flow.search());
+        c.checks.within(flow.unit(), 1e-300, 1e300, "unit of length");
+        for (const auto& v : flow.forward())
+            for (const float x : v)
+                c.checks.within(x, -2e4, 2e4, "flow of a cell");
+        for (const auto& v : flow.hidden())
+            c.checks.within(v[0], 0, 1e6, "two-way error");
+        for (const float v : flow.flow())
+            c.checks.within(v, -2e4, 2e4, "flow of a pixel");
+        for (const float s : flow.inverseDepthOf(flow.forward()))
+            c.checks.require(std::isfinite(s), "inverse depth of a cell");
+        c.checks.require(std::isfinite(flow.offLine(0, 0, 1, 1)), "distance from the line");
+        c.checks.through("EpipolarFlow", pixelsOf(rig.video.size));
+    }
+}
+
+void hostileRefinement(Context& c) {
+    std::vector<RayMatch> matches;
+    PosePrior prior{c.hostile.motion().translation, c.hostile.covariance()};
+    if (c.hostile.chance(0.1)) prior.translation.x() = c.hostile.bad();
+    const RigidTransform truth = c.hostile.gentle();
+    const bool far = c.hostile.chance(0.2);
+    for (int i = c.hostile.integer(0, 300); i > 0; --i) {
+        const Eigen::Vector2d ray(c.hostile.real(-1, 1), c.hostile.real(-1, 1));
+        const double rho = far ? 0 : c.hostile.real(0, 1);
+        const Eigen::Vector3d p = truth.rotation * ray.homogeneous() + rho * truth.translation;
+        RayMatch match{ray, p.head<2>() / p.z()};
+        if (c.hostile.chance(0.1)) match.still.x() += c.hostile.real(-1, 1);
+        if (c.hostile.chance(0.02)) match.still.y() = c.hostile.bad();
+        if (c.hostile.chance(0.02)) match.video.y() = c.hostile.bad();
+        matches.push_back(match);
+    }
+    const PoseRefinement out = refineRelativePose(matches, prior, c.hostile.logarithmic(1, 1e4));
+    c.checks.require(isFinite(out.motion), "a refined pose that is not finite");
+    c.checks.within(out.motion.rotation.norm(), 1 - 1e-9, 1 + 1e-9, "norm of a rotation");
+    c.checks.within(out.normalBefore, 0, 1e7, "distance from the lines before");
+    c.checks.within(out.normalAfter, 0, 1e7, "distance from the lines after");
+    c.checks.through("refineRelativePose", static_cast<long>(matches.size()));
+}
+
+void hostileFilters(Context& c) {
+    const Size size = c.hostile.size(1, c.large ? 640 : 130);
+    std::vector<float> in(pixelsOf(size)), out(in.size());
+    for (float& v : in)
+        v = static_cast<float>(c.hostile.chance(0.02) ? c.hostile.extreme()
+                                                      : c.hostile.real(-100, 100));
+    median3x3(in, size, *workers(), out);
+    LocalRange range;
+    localRange(in, size, c.hostile.integer(0, 8), range);
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        c.checks.require(std::ranges::find(in, out[i]) != in.end() || i > 2000,
+                         "a median that is none of the values");
+        c.checks.require(range.low[i] <= in[i] && in[i] <= range.high[i], "a local range");
+    }
+    c.checks.through("median3x3", pixelsOf(size));
+}
+
+void hostileAggregation(Context& c) {
+    const Size size = c.hostile.size(1, c.large ? 320 : 100);
+    const int vectors = c.hostile.integer(1, 3);
+    SemiGlobal matcher(static_cast<std::size_t>(vectors) * pixelsOf(size));
+    std::vector<std::int16_t> base(pixelsOf(size));
+    for (auto& b : base)
+        b = static_cast<std::int16_t>(c.hostile.chance(0.05) ? c.hostile.pick({-32768, 32000, 0})
+                                                             : c.hostile.integer(-40, 40));
+    std::vector<float> out(base.size());
+    const Smoothness smoothness{c.hostile.integer(1, 30), c.hostile.integer(1, 60),
+                                c.hostile.real(0, 300)};
+    const std::uint64_t seed = c.hostile.generator()();
+    matcher.run(
+        c.hostile.luma(size), base, vectors, smoothness,
+        [&](int y, std::uint8_t* costs) {
+            Hostile row(seed + y);
+            for (long i = 0; i < 16L * vectors * size.width; ++i)
+                costs[i] = static_cast<std::uint8_t>(row.integer(0, 24));
+        },
+        *workers(), out);
+    for (std::size_t i = 0; i < out.size(); ++i)
+        c.checks.within(out[i] - base[i], -0.5, 16 * vectors - 0.5, "label in its window");
+    c.checks.through("SemiGlobal", pixelsOf(size));
+}
+
+void hostileLuma(Context& c) {
+    const Size size = c.hostile.size(1, c.large ? 640 : 120);
+    const Picture picture = c.hostile.picture(
+        size, c.hostile.pick({PixelFormat::Gray8, PixelFormat::Rgba8, PixelFormat::Bgra8}));
+    LumaImage luma, half, soft, small;
+    lumaOf(picture.view(), luma);
+    halve(luma, half);
+    smooth(luma, static_cast<float>(c.hostile.real(0, 0.333)), soft);
+    const auto [low, high] = std::ranges::minmax(luma.pixels);
+    for (const LumaImage* one : {&half, &soft})
+        for (const std::uint8_t v : one->pixels)
+            c.checks.within(v, low - 1, high + 1, "a mean of pixels");
+    const Size to{c.hostile.integer(1, size.width), c.hostile.integer(1, size.height)};
+    shrinkLuma(picture.view(), to, *workers(), small);
+    double sum = 0, shrunk = 0;
+    for (const std::uint8_t v : luma.pixels)
+        sum += v;
+    for (const std::uint8_t v : small.pixels)
+        shrunk += v;
+    c.checks.within(shrunk / static_cast<double>(pixelsOf(to)) -
+                        sum / static_cast<double>(pixelsOf(size)),
+                    -0.6, 0.6, "mean of a smaller picture");
+    c.checks.within(noiseOf(luma), 0, 255, "noise");
+    c.checks.through("luma", pixelsOf(size));
+}
+
+}  // namespace
+
+std::vector<Case> searchCases() {
+    return {{"search", hostileSearch},
+            {"search-plane", planeSearch},
+            {"flow-of-poses", hostileFlowOfPoses},
+            {"refinement", hostileRefinement},
+            {"filters", hostileFilters},
+            {"aggregation", hostileAggregation},
+            {"luma", hostileLuma}};
+}
+
+}  // namespace mfar::stress

@@ -1,0 +1,85 @@
+// A few seeds of every case, and what no seed can show.
+#include "pipeline/depth/depth_filter.h"
+#include "tests/stability/cases.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+namespace mfar::stress {
+namespace {
+
+struct Group {
+    const char* name;
+    std::vector<Case> (*cases)();
+    int seeds;
+};
+
+void PrintTo(const Group& group, std::ostream* out) {
+    *out << group.name;
+}
+
+class HostileInput : public testing::TestWithParam<Group> {};
+
+TEST_P(HostileInput, BreaksNothing) {
+    GlWatch gl;
+    Checks checks;
+    for (int seed = 1; seed <= GetParam().seeds; ++seed)
+        for (const Case& one : GetParam().cases())
+            for (const std::string& fault :
+                 run(one, static_cast<std::uint64_t>(seed), checks, gl, false))
+                ADD_FAILURE() << fault;
+    EXPECT_FALSE(checks.pixels().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Stability, HostileInput,
+    testing::Values(Group{"flow", flowCases, 4}, Group{"triangulation", triangulationCases, 8},
+                    Group{"pipeline", pipelineCases, 2}, Group{"pictures", pictureCases, 4},
+                    Group{"virtual", virtualCases, 8}, Group{"search", searchCases, 4},
+                    Group{"depth", depthCases, 8}, Group{"pose", poseCases, 6}),
+    [](const testing::TestParamInfo<Group>& one) { return std::string(one.param.name); });
+
+TEST(HostileInput, IsAFunctionOfItsSeed) {
+    Hostile one(7), same(7), other(8);
+    const auto picture = one.picture({33, 21}).bytes;
+    EXPECT_EQ(picture, same.picture({33, 21}).bytes);
+    EXPECT_NE(one.integer(0, 1 << 30), other.integer(0, 1 << 30));
+}
+
+// The filter's recursion in double precision.
+struct DoubleFilter {
+    double rho, variance;
+    void fuse(double measured, double error, double leastShare) {
+        const double gain = variance / (variance + error);
+        rho += gain * (measured - rho);
+        variance = std::max((1 - gain) * variance, leastShare * error);
+    }
+};
+
+TEST(DepthFilterAccumulation, AMillionFramesStayAtDoublePrecision) {
+    const CameraModel camera{{1, 1}, 500, 500, 0, 0, {}};
+    DepthFilter filter(camera, std::make_shared<Workers>(1));
+    const PixelRect whole{0, 0, 1, 1};
+    Hostile random(1);
+    InverseDepthField measured(camera.size);
+    DoubleFilter twin{};
+    double worst = 0;
+    for (int frame = 0; frame < 1000000; ++frame) {
+        measured.rho[0] = static_cast<float>(0.5 + random.real(-0.04, 0.04));
+        measured.variance[0] = static_cast<float>(random.logarithmic(4e-4, 4e-2));
+        filter.predict({}, 0.033);
+        filter.fuse(measured, whole);
+        if (frame == 0)
+            twin = {measured.rho[0], measured.variance[0]};
+        else
+            twin.fuse(measured.rho[0], measured.variance[0], 0.09F);
+        worst = std::max(worst, std::abs(filter.field().rho[0] - twin.rho));
+    }
+    EXPECT_LT(worst, 1e-6);
+    EXPECT_NEAR(filter.field().variance[0] / twin.variance, 1, 1e-5);
+}
+
+}  // namespace
+}  // namespace mfar::stress

@@ -1,0 +1,234 @@
+// Depth from flow by both methods, against double precision, scaled, mirrored, exchanged.
+#include "pipeline/depth/triangulation.h"
+#include "tests/shader/twins/triangulation.h"
+#include "tests/stability/cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace mfar::stress {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Points = std::vector<TriangulatedPoint>;
+
+constexpr auto kMethods = {TriangulationMethod::Flow, TriangulationMethod::Midpoint};
+
+Points triangulate(Context& c, const twin::TwoViews& views, const std::vector<float>& flow,
+                   const TriangulationOptions& options) {
+    Triangulation stage(views.a, views.b);
+    stage.run(flow, views.T_b_a, options);
+    Points points = stage.read();
+    c.gl.frame(c.checks, pixelsOf(views.a.size));
+    for (const TriangulatedPoint& p : points) {
+        c.checks.within(p.inverseDepth, 0, 1e6, "inverse depth");
+        c.checks.within(p.sigma, 0, kUnknownSigma, "sigma");
+        c.checks.within(p.residual, -1e9, 1e9, "residual");
+        c.checks.within(p.rayDistance, 0, 1e35, "ray distance");
+        c.checks.require(p.inverseDepth > 0 || p.sigma == kUnknownSigma,
+                         "unknown depth is certain");
+    }
+    return points;
+}
+
+Size smallSize(Context& c) {
+    return c.large && c.hostile.chance(0.3) ? Size{640, 480} : c.hostile.size(1, 97);
+}
+
+void hostileTriangulation(Context& c) {
+    const double unit = c.hostile.logarithmic(1e-6, 1e3);
+    twin::TwoViews views{c.hostile.camera(smallSize(c)), c.hostile.camera(c.hostile.size(1, 97)),
+                         c.hostile.motion(unit)};
+    if (c.hostile.chance(0.3)) views.T_b_a = c.hostile.spoilt(views.T_b_a);
+    std::vector<float> flow(2UL * pixelsOf(views.a.size));
+    const int kind = c.hostile.integer(0, 3);
+    const double reach = c.hostile.logarithmic(1e-3, 100);
+    for (float& v : flow) {
+        const double drawn = kind == 0 ? 0 : reach * std::pow(c.hostile.real(-1, 1), 5);
+        v = static_cast<float>(kind == 3 || c.hostile.chance(0.02) ? c.hostile.bad() : drawn);
+    }
+    TriangulationOptions options;
+    options.method = c.hostile.pick(kMethods);
+    options.maxRayDistance = c.hostile.pick({std::numeric_limits<double>::infinity(), 0.0, 0.1});
+    triangulate(c, views, flow, options);
+}
+
+/// Two views as they are in use and the flow of a surface whose inverse depth changes over them.
+struct Scene {
+    twin::TwoViews views;
+    std::vector<float> flow;
+};
+
+double rhoAt(const Vector2d& pixel, double unit) {
+    return (0.4 + 0.3 * std::sin(0.11 * pixel.x()) + 0.2 * std::cos(0.07 * pixel.y())) / unit;
+}
+
+std::vector<float> flowOf(const twin::TwoViews& views, double unit) {
+    std::vector<float> flow;
+    for (int y = 0; y < views.a.size.height; ++y)
+        for (int x = 0; x < views.a.size.width; ++x) {
+            const Vector2d f = views.flow(Vector2d(x, y), rhoAt(Vector2d(x, y), unit));
+            flow.push_back(static_cast<float>(f.x()));
+            flow.push_back(static_cast<float>(f.y()));
+        }
+    return flow;
+}
+
+CameraModel usualLens(Hostile& hostile, Size size) {
+    CameraModel camera = hostile.camera(size);
+    for (double& d : camera.distortion)
+        d *= 0.4;
+    camera.fx = camera.fy = std::max(size.width, size.height) * hostile.real(0.8, 1.5);
+    return camera;
+}
+
+Scene usualScene(Context& c, double unit) {
+    const Size size = c.large && c.hostile.chance(0.3)
+                          ? Size{640, 480}
+                          : Size{c.hostile.integer(8, 90), c.hostile.integer(8, 70)};
+    Scene out{{usualLens(c.hostile, size), usualLens(c.hostile, size), c.hostile.gentle(unit)}, {}};
+    out.flow = flowOf(out.views, unit);
+    return out;
+}
+
+/// What an error of 2e-6 in normalised rays, a thousandth of a pixel, makes of inverse depth.
+double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double flowSigma) {
+    const double focal = std::sqrt(views.b.fx * views.b.fy);
+    return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);
+}
+
+/// Depth is told at this pixel: the point is before both cameras, seen by both, with parallax.
+bool isTold(const twin::TwoViews& views, const Vector2d& pixel, const Vector2d& flow,
+            const twin::FlowDepth& truth) {
+    const Vector2d q = pixel + flow, end(views.b.size.width - 1, views.b.size.height - 1);
+    const Vector2d e = views.line(pixel);
+    const double z = (views.T_b_a.rotation * views.rayA(pixel).homogeneous() +
+                      truth.inverseDepth * views.T_b_a.translation)
+                         .z();
+    return q.minCoeff() >= 0 && (end - q).minCoeff() >= 0 && truth.inverseDepth > 0 && z > 0.2 &&
+           e.norm() > 0.02 * views.T_b_a.translation.norm();
+}
+
+void checkAgainstTwin(Context& c, const Scene& s, const Points& points, double flowSigma) {
+    for (int y = 0; y < s.views.a.size.height; ++y)
+        for (int x = 0; x < s.views.a.size.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * s.views.a.size.width + x;
+            const Vector2d pixel(x, y), flow(s.flow[2 * i], s.flow[2 * i + 1]);
+            const auto truth = twin::depthFromFlow(s.views, pixel, flow, flowSigma);
+            if (!isTold(s.views, pixel, flow, truth)) continue;
+            const double off = points[i].inverseDepth - truth.inverseDepth;
+            c.checks.within(std::abs(off) / bound(s.views, truth, flowSigma), 0, 1,
+                            "error of inverse depth, as a share of its bound");
+            c.checks.within(points[i].sigma / truth.sigma, 0.999, 1.001, "share of sigma");
+            c.checks.within(points[i].residual - truth.residual, -5e-3, 5e-3, "error of residual");
+        }
+}
+
+void usualTriangulation(Context& c) {
+    const double unit = c.hostile.pick({1e-6, 1e-3, 1.0, 1e3});
+    const Scene s = usualScene(c, unit);
+    for (const TriangulationMethod method : kMethods) {
+        TriangulationOptions options;
+        options.method = method;
+        const Points points = triangulate(c, s.views, s.flow, options);
+        // Within the rounding of its flow the midpoint is the point.
+        if (unit >= 1e-3) checkAgainstTwin(c, s, points, options.flowSigma);
+    }
+}
+
+void scaledTriangulation(Context& c) {
+    const Scene s = usualScene(c, 1);
+    const double scale = c.hostile.pick({1e-3, 0.125, 3.7, 1e3});
+    Scene large = s;
+    large.views.T_b_a.translation *= scale;
+    TriangulationOptions options;
+    options.method = c.hostile.pick(kMethods);
+    const Points one = triangulate(c, s.views, s.flow, options);
+    const Points other = triangulate(c, large.views, large.flow, options);
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        const double rho = one[i].inverseDepth, sigma = one[i].sigma;
+        c.checks.within(other[i].inverseDepth * scale, rho * (1 - 1e-4) - 1e-6,
+                        rho * (1 + 1e-4) + 1e-6, "inverse depth in a scaled world");
+        if (rho > 0 && sigma < 1e5)
+            c.checks.within(other[i].sigma * scale / sigma, 0.999, 1.001,
+                            "sigma in a scaled world");
+        c.checks.within(other[i].residual - one[i].residual, -2e-3, 2e-3,
+                        "residual in a scaled world");
+    }
+}
+
+CameraModel mirrored(CameraModel camera) {
+    camera.cx = camera.size.width - 1 - camera.cx;
+    camera.distortion[3] = -camera.distortion[3];
+    return camera;
+}
+
+RigidTransform mirrored(RigidTransform T) {
+    T.translation.x() = -T.translation.x();
+    T.rotation.y() = -T.rotation.y();
+    T.rotation.z() = -T.rotation.z();
+    return T;
+}
+
+void mirroredTriangulation(Context& c) {
+    const Scene s = usualScene(c, 1);
+    const Size size = s.views.a.size;
+    Scene mirror{{mirrored(s.views.a), mirrored(s.views.b), mirrored(s.views.T_b_a)}, s.flow};
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const std::size_t row = static_cast<std::size_t>(y) * size.width;
+            const std::size_t i = row + x, j = row + size.width - 1 - x;
+            // Mirrored about the middles of pictures that may differ in width.
+            const double across = s.views.b.size.width - size.width;
+            mirror.flow[2 * i] = static_cast<float>(across - s.flow[2 * j]);
+            mirror.flow[2 * i + 1] = s.flow[2 * j + 1];
+        }
+    const Points one = triangulate(c, s.views, s.flow, {});
+    const Points other = triangulate(c, mirror.views, mirror.flow, {});
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        const std::size_t row = i / size.width * size.width;
+        const auto& m = other[row + size.width - 1 - (i - row)];
+        if (one[i].sigma > 1 || m.sigma > 1) continue;  // beside the epipole
+        const double slack = 1e-4 * one[i].sigma + 4e-6;
+        c.checks.within(m.inverseDepth - one[i].inverseDepth, -slack, slack, "depth in a mirror");
+        c.checks.within(m.residual + one[i].residual, -2e-3, 2e-3, "residual in a mirror");
+    }
+}
+
+// What a sees of b, and b of a, is the same point.
+void exchangedTriangulation(Context& c) {
+    const Scene s = usualScene(c, 1);
+    const twin::TwoViews back{s.views.b, s.views.a, s.views.T_b_a.inverse()};
+    const std::vector<float> flow = flowOf(back, 1);
+    const TriangulationOptions options;
+    const Points points = triangulate(c, back, flow, options);
+    for (int y = 0; y < back.a.size.height; ++y)
+        for (int x = 0; x < back.a.size.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * back.a.size.width + x;
+            const Vector2d q(x, y), f(flow[2 * i], flow[2 * i + 1]), p = q + f;
+            const auto here = twin::depthFromFlow(back, q, f, options.flowSigma);
+            if (!isTold(back, q, f, here)) continue;
+            const auto there = twin::depthFromFlow(s.views, p, -f, options.flowSigma);
+            const double z = (s.views.T_b_a.rotation * s.views.rayA(p).homogeneous() +
+                              there.inverseDepth * s.views.T_b_a.translation)
+                                 .z();
+            c.checks.within(std::abs(points[i].inverseDepth - there.inverseDepth / z) /
+                                (4 * bound(back, here, options.flowSigma)),
+                            0, 1, "difference between exchanged views, as a share of its bound");
+        }
+}
+
+}  // namespace
+
+std::vector<Case> triangulationCases() {
+    return {{"triangulation", hostileTriangulation},
+            {"triangulation-usual", usualTriangulation},
+            {"triangulation-scaled", scaledTriangulation},
+            {"triangulation-mirrored", mirroredTriangulation},
+            {"triangulation-exchanged", exchangedTriangulation}};
+}
+
+}  // namespace mfar::stress

@@ -1,0 +1,168 @@
+#include "gles_shaders/shaders.h"
+#include "pipeline/gpu/pass.h"
+#include "pipeline/gpu/validation.h"
+#include "tests/shader/pictures.h"
+#include "tests/stability/gl_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace mfar::stress {
+namespace {
+
+constexpr Size kCells{5, 3};
+
+struct WeighParams {
+    std::int32_t cells[4];
+    float tune[4];
+};
+
+/// superres_weigh.comp hands its displacement through.
+void weigh(const std::vector<float>& displacement) {
+    using gpu::TexelFormat;
+    const std::vector<float> zeros(4UL * 15);
+    const gpu::Texture d = floatTexture(kCells, TexelFormat::Rgba32F, displacement);
+    const gpu::Texture s = floatTexture(kCells, TexelFormat::Rgba32F, zeros);
+    const gpu::Texture field(kCells, TexelFormat::Rgba32F), weights(kCells, TexelFormat::Rgba8);
+    const gpu::Texture look(kCells, TexelFormat::Rgba16F);
+    gpu::ComputePass<WeighParams> pass("superres_weigh.comp");
+    pass.run({{kCells.width, kCells.height, kCells.width, kCells.height}, {1, 0, 0, 0}},
+             {gpu::sampler(0, d), gpu::sampler(1, s), gpu::sampler(2, s), gpu::imageWrite(0, field),
+              gpu::imageWrite(1, weights), gpu::imageWrite(2, look)},
+             {1, 1, 1});
+}
+
+std::vector<float> withValue(std::size_t at, float value) {
+    std::vector<float> out(4UL * 15, 1.0F);
+    out[at] = value;
+    return out;
+}
+
+class ValidationTest : public testing::Test {
+protected:
+    static std::unique_ptr<GlContext> context() { return createGlContext(); }
+};
+
+TEST_F(ValidationTest, SoundOutputsAreNoFaults) {
+    const auto gl = context();
+    gpu::Validation validation;
+    weigh(withValue(0, 3));
+    EXPECT_TRUE(validation.takeFaults().empty());
+    EXPECT_EQ(validation.counts().at("superres_weigh.comp").runs, 1);
+}
+
+TEST_F(ValidationTest, NanNamesPassOutputAndTexel) {
+    const auto gl = context();
+    gpu::Validation validation;
+    validation.nextFrame();
+    weigh(withValue(4 * 7 + 1, std::nanf("")));  // texel (2, 1), component 1
+    const auto faults = validation.takeFaults();
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].pass, "superres_weigh.comp");
+    EXPECT_EQ(faults[0].output, "cellField");
+    EXPECT_EQ(faults[0].x, 2);
+    EXPECT_EQ(faults[0].y, 1);
+    EXPECT_EQ(faults[0].component, 1);
+    EXPECT_EQ(faults[0].frame, 1);
+    EXPECT_NE(describe(faults[0]).find("superres_weigh.comp wrote cellField(2, 1)[1] = nan"),
+              std::string::npos)
+        << describe(faults[0]);
+}
+
+TEST_F(ValidationTest, ValuesOutOfTheStatedRangeAreFaults) {
+    const auto gl = context();
+    gpu::Validation validation;
+    for (const float value : {2.5e4F, -2.5e4F, std::numeric_limits<float>::infinity()}) {
+        weigh(withValue(0, value));
+        const auto faults = validation.takeFaults();
+        ASSERT_EQ(faults.size(), 1U) << value;
+        EXPECT_EQ(faults[0].range.high, 2e4);
+    }
+}
+
+TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
+    const auto gl = context();
+    gpu::Validation validation;
+    struct Params {
+        std::int32_t size[4];
+        float threshold[4];
+        std::int32_t force[4];
+    };
+    const Picture even({16, 16});
+    const gpu::Texture picture = uploaded(even);
+    const gpu::Buffer tiles(16);
+    gpu::ComputePass<Params> pass("plan_change.comp");
+    const auto run = [&] {
+        pass.run({{16, 16, 1, 1}, {1, 1, 0, 0}, {}},
+                 {gpu::sampler(0, picture), gpu::sampler(1, picture), gpu::storage(0, tiles)}, {});
+        return validation.takeFaults();
+    };
+    EXPECT_TRUE(run().empty());
+    const std::array<std::uint8_t, 4> stray{1, 2, 3, 4};
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, tiles.id());
+    glBufferSubData(GL_SHADER_STORAGE_BUFFER, 16, 4, stray.data());
+    const auto faults = run();
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].output, "guard");
+}
+
+TEST_F(ValidationTest, NothingIsWatchedOnceItIsGone) {
+    const auto gl = context();
+    {
+        const gpu::Validation validation;
+    }
+    EXPECT_EQ(gpu::Validation::active(), nullptr);
+    weigh(withValue(0, std::nanf("")));
+    EXPECT_NO_THROW(gpu::checkErrors("after validation"));
+}
+
+TEST(WatchedShaders, AnIndexOutOfRangeIsCounted) {
+    struct Params {
+        std::int32_t size[4];
+        float threshold[4];
+        std::int32_t force[4];
+    };
+    GlWatch gl;
+    Checks checks;
+    const Picture even({16, 16});
+    const gpu::Texture picture = uploaded(even);
+    const gpu::Buffer tiles(16);  // of one tile
+    gpu::ComputePass<Params> pass("plan_change.comp");
+    pass.run({{16, 16, 1, 1}, {1, 1, 0, 0}, {}},
+             {gpu::sampler(0, picture), gpu::sampler(1, picture), gpu::storage(0, tiles)},
+             {2, 1, 1});
+    gl.frame(checks, 256);
+    const auto faults = checks.take();
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0], "plan_change.comp: 1 indices out of range");
+}
+
+TEST(StatedRanges, AreReadFromTheShadersText) {
+    const auto ranges =
+        gpu::statedRanges("// a\n// Range: out -1.5..2, 0..1e6\nvoid main\n", "out");
+    ASSERT_EQ(ranges.size(), 2U);
+    EXPECT_EQ(ranges[0].low, -1.5);
+    EXPECT_EQ(ranges[0].high, 2);
+    EXPECT_EQ(ranges[1].low, 0);
+    EXPECT_EQ(ranges[1].high, 1e6);
+    EXPECT_TRUE(gpu::statedRanges("// Range: other 0..1\n", "out").empty());
+}
+
+// What a shader writes as floats of 32 or 16 bits.
+TEST(StatedRanges, EveryFloatImageAndBufferHasOne) {
+    for (const shaders::Source& shader : shaders::all()) {
+        const std::string text(shader.text);
+        for (const std::string kind : {"(rgba32f, ", "(rgba16f, ", "(r32f, "})
+            for (auto at = text.find(kind); at != std::string::npos; at = text.find(kind, at + 1)) {
+                const auto end = text.find(';', at), name = text.rfind(' ', end) + 1;
+                EXPECT_FALSE(gpu::statedRanges(text, text.substr(name, end - name)).empty())
+                    << shader.name << ": " << text.substr(name, end - name);
+            }
+    }
+}
+
+}  // namespace
+}  // namespace mfar::stress
