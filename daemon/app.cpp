@@ -49,6 +49,10 @@ App::App(const Options& options, Log& log)
       summary_(openSummary(options, config_)) {
     // A display pipe whose reader has gone is an error of that write, not the end of the process.
     signal(SIGPIPE, SIG_IGN);
+    if (options_.control)
+        control_.emplace(*options_.control, [actions = controlActions()](std::string_view request) {
+            return answerControl(actions, request);
+        });
 }
 
 ExitCode App::run() {
@@ -66,7 +70,8 @@ ExitCode App::run() {
 }
 
 std::string App::runSession(const Config& config) {
-    Session session(config, stats_, changes_, {input_.get_token(), cancel_.get_token()});
+    Session session(config, stats_, changes_, sessionCalls_,
+                    {input_.get_token(), cancel_.get_token()});
     RunDescription description = session.description();
     if (options_.frames)
         description.plannedFrames =
@@ -85,8 +90,10 @@ void App::handle(const Event& event) {
     case Event::Kind::Signal: return onSignal(event.signal);
     case Event::Kind::Deadline: return onDeadline();
     case Event::Kind::Tick: return onTick();
-    case Event::Kind::Wake: return onReady();
+    case Event::Kind::Wake: break;
     }
+    onReady();
+    calls_.runAll(*this);
 }
 
 void App::onReady() {
@@ -120,13 +127,15 @@ void App::onDeadline() {
 }
 
 bool App::writes() const {
-    return !config_.recordTo.empty() || keepsPictures(config_.display);
+    return !config_.recordTo.empty() || recordsOnDemand_ || keepsPictures(config_.display);
 }
 
 void App::leave(const std::string& why) {
     log_.endStatus();
     log_.warning(why);
     (void)writeSummary(*stopReason_, ExitCode::Ok);
+    std::error_code ignored;
+    if (options_.control) std::filesystem::remove(*options_.control, ignored);
     std::_Exit(static_cast<int>(ExitCode::Ok));
 }
 
@@ -139,7 +148,19 @@ void App::stop(const std::string& reason) {
 void App::reload() {
     if (!options_.config)
         return log_.warning("SIGHUP: started without --config, nothing to read again");
+    try {
+        (void)readAgain();
+    } catch (const Failure&) {
+        // The log has it.
+    }
+}
+
+// Returns what has changed; throws Failure when the old configuration stays.
+std::string App::readAgain() {
     if (running_) service_.reloading();
+    const std::shared_ptr<void> atEnd(nullptr, [this](void*) {
+        if (running_) service_.ready(running_->startLine);
+    });
     try {
         const Config wanted = effectiveConfig(options_);
         const std::string restart = needRestart(config_, wanted);
@@ -150,12 +171,14 @@ void App::reload() {
         changes_.put(tunables(config_));
         setTicks();
         if (running_) running_->description.mode = name(config_.superres.mode);
-        log_.notice(options_.config->string() + ": read again" +
-                    (restart.empty() ? "" : "; after a restart only: " + restart));
+        std::string said = options_.config->string() + ": read again" +
+                           (restart.empty() ? "" : "; after a restart only: " + restart);
+        log_.notice(said);
+        return said;
     } catch (const Failure& failure) {
         log_.error(fmt::format("{}\nthe old configuration stays", failure.what()));
+        throw;
     }
-    if (running_) service_.ready(running_->startLine);
 }
 
 void App::setTicks() {
@@ -202,6 +225,9 @@ void App::showStatus() {
 }
 
 ExitCode App::finish(std::future<std::string>& end) {
+    calls_.close();
+    sessionCalls_.close();
+    control_.reset();
     onReady();
     showStatus();
     log_.endStatus();

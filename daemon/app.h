@@ -1,6 +1,9 @@
 #pragma once
 
+#include "daemon/call_queue.h"
 #include "daemon/config.h"
+#include "daemon/control.h"
+#include "daemon/control_socket.h"
 #include "daemon/events.h"
 #include "daemon/exit_code.h"
 #include "daemon/log.h"
@@ -11,6 +14,7 @@
 #include "daemon/stats.h"
 #include "daemon/status.h"
 
+#include <atomic>
 #include <cstdint>
 #include <fstream>
 #include <future>
@@ -55,6 +59,11 @@ private:
     [[nodiscard]] bool writes() const;
     [[noreturn]] void leave(const std::string& why);
     void reload();
+    [[nodiscard]] std::string readAgain();
+    [[nodiscard]] ControlActions controlActions();
+    [[nodiscard]] nlohmann::ordered_json statusNow();
+    [[nodiscard]] nlohmann::ordered_json statsNow();
+    [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
     void setTicks();
     void feedWatchdog();
@@ -70,6 +79,9 @@ private:
     Events events_;
     Stats stats_;
     Mailbox<Tunables> changes_{HandOver::NewestWins};
+    CallQueue<App> calls_{[this] { events_.wake(); }};
+    CallQueue<Session> sessionCalls_;
+    std::atomic<bool> recordsOnDemand_{false};
     std::stop_source input_;
     std::stop_source cancel_;
     std::jthread stopper_;  ///< stops the devices, which may take its time
@@ -82,6 +94,8 @@ private:
 
     std::mutex mutex_;
     std::optional<Ready> ready_;  ///< guarded by the mutex; moves to running_
+
+    std::optional<ControlSocket> control_;  ///< last: its thread uses all of the above
 };
 
 }  // namespace mfar

@@ -80,6 +80,9 @@ void addOutputs(CLI::App& app, Options& options, Words& words) {
     app.add_option("--summary", options.summary,
                    "Write what the run measured to this file at the end (JSON; - prints it)")
         ->type_name("FILE");
+    app.add_option("--control", options.control,
+                   "Listen for mfarctl at this socket; the group may use it, too")
+        ->type_name("SOCKET");
     app.add_flag("--measure", options.measure,
                  "Wait for the graphics processor after each stage, for exact stage times");
 }

@@ -25,6 +25,7 @@ struct Options {
     std::optional<std::uint64_t> frames;           ///< end after that many pictures
     std::optional<double> seconds;                 ///< end after that time
     std::optional<std::filesystem::path> summary;  ///< "-" = standard output
+    std::optional<std::filesystem::path> control;  ///< socket for mfarctl
     bool measure = false;
 };
 

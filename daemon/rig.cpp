@@ -5,6 +5,7 @@
 #include "hal/device/display_auto.h"
 #include "hal/device/trigger_safe_level.h"
 #include "hal/virtual/display_files.h"
+#include "hal/virtual/gl_readback.h"
 #include "hal/virtual/recorder.h"
 #include "hal/virtual/recording_player.h"
 #include "hal/virtual/synthetic_board.h"
@@ -131,6 +132,18 @@ struct PlayedSource final : RigSource {
     RecordingPlayer player;
 };
 
+void finish(Recorder& recorder) {
+    try {
+        recorder.finish();
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::OutputFailed, error.what());
+    }
+}
+
+std::uint64_t lostBy(const Recorder& recorder) {
+    return recorder.videoCounts().dropped + recorder.stillCounts().dropped;
+}
+
 std::unique_ptr<RigSource> openSource(const Config& config) {
     if (!config.recording.empty()) return std::make_unique<PlayedSource>(config);
     if (config.source == kCameras) return std::make_unique<CamerasSource>(config.cameras);
@@ -146,12 +159,7 @@ std::unique_ptr<RigSource> openSource(const Config& config) {
 }  // namespace
 
 Rig::Rig(const Config& config) : source_(openSource(config)) {
-    if (config.recordTo.empty()) return;
-    try {
-        recorder_ = std::make_unique<Recorder>(config.recordTo, geometry(), video().info().rateHz);
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::OutputFailed, error.what());
-    }
+    if (!config.recordTo.empty()) startRecording(config.recordTo);
 }
 
 Rig::~Rig() = default;
@@ -209,44 +217,68 @@ ExitCode Rig::inputFailure() const {
     return source_->failure;
 }
 
+std::shared_ptr<Recorder> Rig::recorder() const {
+    const std::lock_guard lock(mutex_);
+    return recorder_;
+}
+
+void Rig::startRecording(const std::filesystem::path& folder) {
+    const std::lock_guard lock(mutex_);
+    if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is under way already");
+    try {
+        recorder_ = std::make_shared<Recorder>(folder, geometry(), video().info().rateHz);
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::OutputFailed, error.what());
+    }
+}
+
+std::function<Recorded()> Rig::stopRecording() {
+    const std::lock_guard lock(mutex_);
+    if (!recorder_) throw Failure(ExitCode::OutputFailed, "nothing is being recorded");
+    lostBefore_ += lostBy(*recorder_);
+    return [recorder = std::exchange(recorder_, nullptr)]() -> Recorded {
+        finish(*recorder);
+        return {recorder->videoCounts().written, recorder->stillCounts().written,
+                lostBy(*recorder)};
+    };
+}
+
 void Rig::recordVideo(const Frame& frame) {
-    if (recorder_) recorder_->video(frame.view(), frame.time());
+    if (const auto to = recorder()) to->video(frame.view(), frame.time());
 }
 
 void Rig::recordStill(const Frame& frame) {
-    if (recorder_) recorder_->still(frame.view(), frame.time());
+    if (const auto to = recorder()) to->still(frame.view(), frame.time());
 }
 
 void Rig::recordPose(const Pose& pose) {
-    if (recorder_) recorder_->pose(pose);
+    if (const auto to = recorder()) to->pose(pose);
 }
 
 void Rig::recordTags(const TagMap& tags) {
-    if (!recorder_ || tags.empty()) return;
+    const auto to = recorder();
+    if (!to || tags.empty()) return;
     try {
-        recorder_->addFile("tags.toml", tomlOf(tags));
+        to->addFile("tags.toml", tomlOf(tags));
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
     }
 }
 
 std::uint64_t Rig::notRecorded() const {
-    return recorder_ ? recorder_->videoCounts().dropped + recorder_->stillCounts().dropped : 0;
+    const std::lock_guard lock(mutex_);
+    return lostBefore_ + (recorder_ ? lostBy(*recorder_) : 0);
 }
 
 void Rig::checkRecording() const {
-    if (!recorder_) return;
-    if (const std::optional<std::string> error = recorder_->error())
+    const auto to = recorder();
+    if (!to) return;
+    if (const std::optional<std::string> error = to->error())
         throw Failure(ExitCode::OutputFailed, *error);
 }
 
 void Rig::finishRecording() {
-    if (!recorder_) return;
-    try {
-        recorder_->finish();
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::OutputFailed, error.what());
-    }
+    if (const auto to = recorder()) finish(*to);
 }
 
 void releaseTrigger(const Config& config) {
@@ -279,6 +311,13 @@ std::optional<std::string> sourceFault(std::string_view source) {
     if (words.path && !synthetic::pathNamed(*words.path))
         return fmt::format("no path \"{}\"; there are {}", *words.path, names(kPaths));
     return std::nullopt;
+}
+
+ScreenPicture copyOf(const GlImage& picture) {
+    ScreenPicture copy{picture.size, PixelFormat::Rgba8, {}};
+    copy.pixels.resize(std::size_t{4} * picture.size.width * picture.size.height);
+    readBack(picture, copy.pixels.data());
+    return copy;
 }
 
 bool keepsPictures(std::string_view display) {

@@ -12,7 +12,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -22,6 +25,13 @@ namespace mfar {
 
 class Recorder;
 class RigSource;
+
+/// Pictures of a recording, by what became of them.
+struct Recorded {
+    std::uint64_t video = 0;
+    std::uint64_t stills = 0;
+    std::uint64_t dropped = 0;
+};
 
 /// The devices of one run. This is the one place that knows which kinds exist.
 class Rig {
@@ -66,10 +76,20 @@ public:
     void checkRecording() const;
     /// Waits until everything is written. Throws Failure.
     void finishRecording();
+    /// Begins to record into this new folder. Throws Failure, also when something is recorded
+    /// already. Any thread, as stopRecording().
+    void startRecording(const std::filesystem::path& folder);
+    /// Ends the recording. What is returned waits until it is whole, and throws Failure when it
+    /// cannot be; it may outlive this. Throws Failure when nothing is recorded.
+    [[nodiscard]] std::function<Recorded()> stopRecording();
 
 private:
+    [[nodiscard]] std::shared_ptr<Recorder> recorder() const;
+
     std::unique_ptr<RigSource> source_;
-    std::unique_ptr<Recorder> recorder_;
+    mutable std::mutex mutex_;
+    std::shared_ptr<Recorder> recorder_;
+    std::uint64_t lostBefore_ = 0;  ///< not recorded, of recordings that have ended
 };
 
 /// Brings the trigger line that the configuration names to its safe level. Throws Failure.
@@ -79,6 +99,9 @@ void releaseTrigger(const Config& config);
 /// Failure.
 [[nodiscard]] std::unique_ptr<Display> openDisplay(const Config& config, double rateHz,
                                                    std::stop_token cancel);
+
+/// A copy of a picture in the current GL context. Waits for the GPU. Throws std::runtime_error.
+[[nodiscard]] ScreenPicture copyOf(const GlImage& picture);
 
 /// This display writes every picture that show() took, so its finish() is worth waiting for.
 [[nodiscard]] bool keepsPictures(std::string_view display);

@@ -25,8 +25,9 @@ std::unique_ptr<GlContext> openGl() {
 
 // The context comes after the rig: a synthetic source has its own, and this one has to be current
 // on this thread at the end.
-Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes, StopTokens stop)
-    : stats_(stats), changes_(changes), stop_(std::move(stop)), rig_(config),
+Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
+                 CallQueue<Session>& calls, StopTokens stop)
+    : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), rig_(config),
       poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl()),
       pipeline_(rig_.geometry(), {config.superres.mode, {}, config.superres.skipUnchanged}),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
@@ -57,6 +58,7 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
         std::optional<CapturedFrame> captured = mailbox.takeWithin(kFaultInterval);
         if (!captured && mailbox.over()) break;
         if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
+        calls_.runAll(*this);
         if (!captured) {
             showFault();
             continue;
@@ -64,7 +66,7 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
         // Without a clock of its own a source waits for us: only our own time is latency then.
         if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
         process(std::move(*captured));
-        enough = maxFrames && shown_ >= *maxFrames;
+        enough = maxFrames && pictures_ >= *maxFrames;
     }
     capture.stop();
     capture.join();
@@ -90,12 +92,12 @@ void Session::process(CapturedFrame captured) {
     const Timestamp time = captured.video.time();
     const FrameResult& result = pipeline_.run(captured.video.view(), time, captured.pose);
     // Before the display, which may wait: the exposure runs meanwhile.
-    askForStill(time, result.stats);
+    fireIfNeeded(time, result.stats);
     previous_ = time;
     last_ = result.image;
     const std::optional<std::string> fault = rig_.fault();
     show(fault ? banner_.over(last_, *fault) : last_, time);
-    ++shown_;
+    ++pictures_;
     std::optional<double> age;
     if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
     stats_.picture({result.stats, pipeline_.stageTimes(), captured.arrived, Timestamp::now(), age});
@@ -111,7 +113,25 @@ void Session::useStill(const CapturedStill& still) {
     stats_.stillUsed();
 }
 
-void Session::askForStill(Timestamp frame, const FrameStats& stats) {
+ScreenPicture Session::snapshot(bool ofScreen) const {
+    if (shown_.texture == 0) throw std::runtime_error("there is no picture yet");
+    if (!ofScreen) return copyOf(shown_);
+    std::optional<ScreenPicture> screen = display_->lastShown();
+    if (!screen) throw std::runtime_error("there is no screen: " + display_->name());
+    return *std::move(screen);
+}
+
+void Session::askForStill() {
+    if (rig_.trigger() == nullptr) throw std::runtime_error("there is no trigger");
+    policy_.ask();
+}
+
+void Session::startRecording(const std::filesystem::path& folder) {
+    rig_.startRecording(folder);
+    rig_.recordTags(poses_.tags());
+}
+
+void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     Trigger* trigger = rig_.trigger();
     if (trigger == nullptr) return;
     if (policy_.decide(frame, previous_.value_or(frame), stats)) {
@@ -138,6 +158,7 @@ void Session::showFault() {
 }
 
 void Session::show(const GlImage& image, Timestamp time) {
+    shown_ = image;
     try {
         display_->show(image, time);
         stats_.display(display_->name());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "daemon/banner.h"
+#include "daemon/call_queue.h"
 #include "daemon/capture.h"
 #include "daemon/config.h"
 #include "daemon/mailbox.h"
@@ -14,6 +15,8 @@
 #include "pipeline/pipeline.h"
 
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -44,7 +47,8 @@ struct StopTokens {
 class Session {
 public:
     /// Opens devices, GL and display. All references must outlive this. Throws Failure.
-    Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes, StopTokens stop);
+    Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
+            CallQueue<Session>& calls, StopTokens stop);
     ~Session();
 
     [[nodiscard]] const RunDescription& description() const { return description_; }
@@ -55,16 +59,26 @@ public:
     /// waits until they are out. Returns why it ended. Throws Failure.
     [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames);
 
+    // For the CallQueue, between two pictures. All throw std::runtime_error.
+    /// The last picture, as it went to the display or as the display's screen shows it.
+    [[nodiscard]] ScreenPicture snapshot(bool ofScreen) const;
+    /// Asks for one still, whatever the configuration says about when to.
+    void askForStill();
+    /// See Rig.
+    void startRecording(const std::filesystem::path& folder);
+    [[nodiscard]] std::function<Recorded()> stopRecording() { return rig_.stopRecording(); }
+
 private:
     void apply(const Tunables& wanted);
     void process(CapturedFrame captured);
     void useStill(const CapturedStill& still);
-    void askForStill(Timestamp frame, const FrameStats& stats);
+    void fireIfNeeded(Timestamp frame, const FrameStats& stats);
     void showFault();
     void show(const GlImage& image, Timestamp time);
 
     Stats& stats_;
     Mailbox<Tunables>& changes_;
+    CallQueue<Session>& calls_;
     StopTokens stop_;
     Rig rig_;
     PoseFinder poses_;
@@ -73,10 +87,11 @@ private:
     std::unique_ptr<Display> display_;
     StillPolicy policy_;
     Banner banner_;
-    GlImage last_;  ///< the pipeline's, without banner; no texture before the first
+    GlImage last_;   ///< the pipeline's, without banner; no texture before the first
+    GlImage shown_;  ///< what the display got last
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;
-    std::uint64_t shown_ = 0;
+    std::uint64_t pictures_ = 0;
     RunDescription description_;
 };
 

@@ -126,18 +126,30 @@ void Stats::recorderDropped(std::uint64_t total) {
 
 Counted Stats::count() {
     const std::lock_guard lock(mutex_);
+    total();
     if (firstShown_) {
-        counted_.seconds = lastShown_.seconds() - firstShown_->seconds();
-        counted_.fps = rate(counted_.frames - 1, *firstShown_, lastShown_);
         counted_.recentFps = rate(counted_.frames - framesBefore_, shownBefore_, lastShown_);
         framesBefore_ = counted_.frames;
         shownBefore_ = lastShown_;
+    }
+    return counted_;
+}
+
+Counted Stats::look() {
+    const std::lock_guard lock(mutex_);
+    total();
+    return counted_;
+}
+
+void Stats::total() {
+    if (firstShown_) {
+        counted_.seconds = lastShown_.seconds() - firstShown_->seconds();
+        counted_.fps = rate(counted_.frames - 1, *firstShown_, lastShown_);
     }
     if (confidenceFrames_ > 0)
         counted_.meanConfidence = confidenceSum_ / static_cast<double>(confidenceFrames_);
     if (epipolarErrorFrames_ > 0)
         counted_.meanEpipolarError = epipolarErrorSum_ / static_cast<double>(epipolarErrorFrames_);
-    return counted_;
 }
 
 }  // namespace mfar

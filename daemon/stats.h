@@ -91,10 +91,14 @@ public:
     void recorderDropped(std::uint64_t total);
 
     [[nodiscard]] Counted count();
+    /// The same without being a previous call: recentFps is that of the last count().
+    [[nodiscard]] Counted look();
     /// Grows as long as pictures are shown.
     [[nodiscard]] std::uint64_t progress();
 
 private:
+    void total();
+
     std::mutex mutex_;
     Counted counted_;
     double confidenceSum_ = 0;

@@ -19,7 +19,7 @@ bool StillPolicy::decide(Timestamp now, Timestamp statsOf, const FrameStats& sta
     if (changed && firedAt_ && statsOf > *firedAt_) movedSinceTrigger_ = true;
     if (changed && usedSince_ && statsOf > *usedSince_) movedInUse_ = true;
     if (config_.mode == TriggerMode::Off) arrived_ = true;
-    const bool fires = pending() ? timedOut(now) : wanted(now, statsOf, stats);
+    const bool fires = pending() ? timedOut(now) : asked_ || wanted(now, statsOf, stats);
     if (fires) fire(now);
     return fires;
 }
@@ -65,6 +65,7 @@ void StillPolicy::fire(Timestamp now) {
     due_ = due_ && now >= *due_ && now - *due_ < period ? *due_ + period : now + period;
     firedAt_ = now;
     arrived_ = false;
+    asked_ = false;
     movedSinceTrigger_ = false;
     ++fired_;
 }

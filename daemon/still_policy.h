@@ -41,6 +41,10 @@ public:
     /// `stats` may be those of an earlier one, of time `statsOf`.
     [[nodiscard]] bool decide(Timestamp now, Timestamp statsOf, const FrameStats& stats);
 
+    /// Somebody wants a still: the next decision that does not wait for one is to fire, in any
+    /// mode.
+    void ask() { asked_ = true; }
+
     /// A still has become the reference of the frame that is decided on next, and of those after
     /// it. One that was exposed before the last trigger is a late answer to the trigger before it.
     void stillArrived(Timestamp exposed);
@@ -61,7 +65,8 @@ private:
     bool arrived_ = true;                 ///< the answer to the last trigger is settled
     bool repeated_ = false;  ///< the last trigger was itself the repetition of a lost one
     bool movedSinceTrigger_ = false;
-    bool movedInUse_ = false;             ///< since the reference was first used
+    bool movedInUse_ = false;  ///< since the reference was first used
+    bool asked_ = false;
     std::optional<Timestamp> due_;        ///< mode rate: the next trigger
     std::optional<Timestamp> notBefore_;  ///< after two lost stills
     int fired_ = 0;

@@ -3,7 +3,11 @@
 #include "hal/frame.h"
 #include "hal/time.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace mfar {
 
@@ -11,6 +15,17 @@ namespace mfar {
 struct GlImage {
     unsigned texture = 0;
     Size size;
+};
+
+/// A copy of a shown picture, rows without padding, row 0 on top.
+struct ScreenPicture {
+    Size size;
+    PixelFormat format = PixelFormat::Rgba8;  ///< or Bgra8
+    std::vector<std::uint8_t> pixels;
+
+    [[nodiscard]] ImageView view() const {
+        return {pixels.data(), size, static_cast<std::size_t>(size.width) * 4, format};
+    }
 };
 
 /// Where finished pictures go. Called on the GL thread with the pipeline's context current.
@@ -23,6 +38,9 @@ public:
     virtual void show(const GlImage& image, Timestamp time) = 0;
     /// Blocks until everything shown is out (files written). Throws like show().
     virtual void finish() = 0;
+    /// What the last show() sent to a screen, screen-sized. Nothing where there is no screen. Waits
+    /// for the GPU.
+    [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const { return std::nullopt; }
     [[nodiscard]] virtual std::string name() const = 0;
 };
 

@@ -41,7 +41,7 @@ public:
     /// The picture that the last show() sent to the screen, screen-sized, black bars included; on a
     /// screen of 24 or 32 bits a screenshot shows the same to the bit, with 16 bits its upper 5, 6
     /// and 5. Nothing while there is no screen. Waits for the GPU; GL thread, context current.
-    [[nodiscard]] std::optional<ScreenPicture> lastShown() const;
+    [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
 
 private:
     [[nodiscard]] Screen* look(bool changed);

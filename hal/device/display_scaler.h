@@ -10,17 +10,6 @@
 
 namespace mfar {
 
-/// A finished screen's worth of pixels, rows without padding, row 0 on top.
-struct ScreenPicture {
-    Size size;
-    PixelFormat format = PixelFormat::Rgba8;  ///< or Bgra8
-    std::vector<std::uint8_t> pixels;
-
-    [[nodiscard]] ImageView view() const {
-        return {pixels.data(), size, static_cast<std::size_t>(size.width) * 4, format};
-    }
-};
-
 /// Gives the caller of a display back its targets: framebuffers, viewport, pack buffer. What else
 /// the classes below bind, every pass of the pipeline binds anew.
 class KeptTarget {

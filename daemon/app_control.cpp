@@ -1,0 +1,86 @@
+// What mfarctl may ask of a running mfard, each part done by the thread it belongs to.
+
+#include "daemon/app.h"
+
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Longer than the slowest picture of the slowest board.
+constexpr std::chrono::milliseconds kAnswerTime{10'000};
+
+}  // namespace
+
+ControlActions App::controlActions() {
+    const auto here = [this](auto work) { return calls_.call(std::move(work), kAnswerTime); };
+    const auto session = [this](auto work) {
+        return sessionCalls_.call(std::move(work), kAnswerTime);
+    };
+    ControlActions actions;
+    actions.status = [here] { return here([](App& app) { return app.statusNow(); }); };
+    actions.stats = [here] { return here([](App& app) { return app.statsNow(); }); };
+    actions.reload = [here] {
+        return here([](App& app) -> std::string {
+            if (!app.options_.config)
+                throw std::runtime_error("started without --config, nothing to read again");
+            return app.readAgain();
+        });
+    };
+    actions.snapshot = [session](bool screen) {
+        return session([screen](Session& s) { return s.snapshot(screen); });
+    };
+    actions.record = [this, session](const std::string& name) {
+        session([name](Session& s) { s.startRecording(name); });
+        recordsOnDemand_ = true;
+    };
+    actions.stopRecording = [this] { return stopRecording(); };
+    actions.trigger = [session] { session([](Session& s) { s.askForStill(); }); };
+    return actions;
+}
+
+ordered_json App::statusNow() {
+    const Counted counted = stats_.look();
+    const char* state = "starting";
+    if (running_) state = "running";
+    if (stopReason_) state = "ending";
+    ordered_json out = {{"state", state}, {"fault", nullptr}};
+    if (counted.fault) out["fault"] = *counted.fault;
+    if (!running_) return out;
+    const RunDescription& run = running_->description;
+    const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
+    out.update({{"seconds", elapsed},
+                {"renderer", run.renderer},
+                {"source", run.source},
+                {"poses", run.poses},
+                {"display", run.display},
+                {"mode", run.mode},
+                {"frames", counted.frames},
+                {"fps", counted.recentFps},
+                {"recording", recordsOnDemand_ || !config_.recordTo.empty()},
+                {"line", statusLine(counted, run, elapsed)}});
+    return out;
+}
+
+ordered_json App::statsNow() {
+    ordered_json out =
+        summary(stats_.look(), running_ ? running_->description : RunDescription{}, "", 0);
+    out.erase("exit_reason");
+    out.erase("exit_code");
+    return out;
+}
+
+// The session goes on while the recording is being finished.
+ordered_json App::stopRecording() {
+    const auto finish =
+        sessionCalls_.call([](Session& s) { return s.stopRecording(); }, kAnswerTime);
+    const Recorded recorded = finish();
+    recordsOnDemand_ = false;
+    return {{"video", recorded.video}, {"stills", recorded.stills}, {"dropped", recorded.dropped}};
+}
+
+}  // namespace mfar

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <functional>
+#include <future>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+namespace mfar {
+
+/// Work that one thread gives to the thread a Target belongs to, which does it when it has time.
+/// All functions may be called from any thread.
+template <class Target>
+class CallQueue {
+public:
+    /// `wake` tells the other thread that there is work; empty: it looks by itself.
+    explicit CallQueue(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
+
+    /// What `work` returns or throws when the other thread has done it. Throws std::runtime_error
+    /// when that takes longer than `limit` (it may still be done later) or will never happen.
+    template <class Work>
+    std::invoke_result_t<Work, Target&> call(Work work, std::chrono::milliseconds limit) {
+        using Result = std::invoke_result_t<Work, Target&>;
+        auto task = std::make_shared<std::packaged_task<Result(Target&)>>(std::move(work));
+        std::future<Result> result = task->get_future();
+        // The queue alone holds it: dropped there, its promise is broken and nobody waits on.
+        put([task = std::move(task)](Target& target) { (*task)(target); });
+        if (result.wait_for(limit) != std::future_status::ready)
+            throw std::runtime_error("mfard is too busy to answer");
+        return result.get();
+    }
+
+    /// Does what waits.
+    void runAll(Target& target) {
+        for (;;) {
+            std::function<void(Target&)> next;
+            {
+                const std::lock_guard lock(mutex_);
+                if (waiting_.empty()) return;
+                next = std::move(waiting_.front());
+                waiting_.pop_front();
+            }
+            next(target);
+        }
+    }
+
+    /// Nothing will be done any more.
+    void close() {
+        std::deque<std::function<void(Target&)>> left;
+        const std::lock_guard lock(mutex_);
+        closed_ = true;
+        left.swap(waiting_);
+    }
+
+private:
+    void put(std::function<void(Target&)> work) {
+        {
+            const std::lock_guard lock(mutex_);
+            if (closed_) throw std::runtime_error("mfard is ending");
+            waiting_.push_back(std::move(work));
+        }
+        if (wake_) wake_();
+    }
+
+    const std::function<void()> wake_;
+    std::mutex mutex_;
+    std::deque<std::function<void(Target&)>> waiting_;
+    bool closed_ = false;
+};
+
+}  // namespace mfar

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "daemon/events.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace mfar {
+
+/// What goes back to a client: a line, and what it announces.
+struct ControlAnswer {
+    std::string line;  ///< without the line end
+    std::vector<std::uint8_t> data{};
+};
+
+/// A Unix stream socket for requests of one line each. A connection carries one request and its
+/// answer; connections are served one after the other, and one that is slow is given up: 2 s for
+/// its request, 5 s for taking the answer. The owner and the group of this process may connect.
+class ControlSocket {
+public:
+    static constexpr std::size_t kLongestRequest = 4096;  ///< [byte], line end included
+
+    /// Called on the socket's thread with a request without its line end. Must not throw.
+    using Handler = std::function<ControlAnswer(std::string_view request)>;
+
+    /// Makes the socket and begins to listen. One that a dead process has left is replaced. Throws
+    /// Failure(Unavailable) when somebody listens there, or the path cannot be used.
+    ControlSocket(std::filesystem::path path, Handler handler);
+    ControlSocket(const ControlSocket&) = delete;
+    ControlSocket& operator=(const ControlSocket&) = delete;
+    /// Gives up what is being served.
+    ~ControlSocket();
+
+private:
+    void serve();
+    void serveOne(int client);
+    [[nodiscard]] bool isReady(int fd, short events, int timeoutMs) const;
+    [[nodiscard]] bool receive(int client, std::string& request) const;
+    void send(int client, const void* data, std::size_t bytes) const;
+
+    std::filesystem::path path_;
+    Handler handler_;
+    Fd listening_;
+    Fd stop_;
+    std::thread thread_;
+};
+
+}  // namespace mfar

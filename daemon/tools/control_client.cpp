@@ -1,0 +1,104 @@
+#include "daemon/tools/control_client.h"
+
+#include <fmt/format.h>
+
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+namespace mfar {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr timeval kPatience{15, 0};
+constexpr std::size_t kLongestLine = 1U << 20U;   // [byte]
+constexpr std::uint64_t kMostData = 1ULL << 31U;  // a picture of the largest size is 1 GiB
+
+class Connection {
+public:
+    explicit Connection(const std::filesystem::path& socket)
+        : path_(socket), fd_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        if (path_.native().size() >= sizeof address.sun_path) fail("the path is too long");
+        path_.native().copy(address.sun_path, path_.native().size());
+        setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
+        setsockopt(fd_, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
+        if (connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+            fail(reason());
+    }
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+    ~Connection() { close(fd_); }
+
+    void send(const std::string& text) const {
+        if (::send(fd_, text.data(), text.size(), MSG_NOSIGNAL) !=
+            static_cast<ssize_t>(text.size()))
+            fail(std::strerror(errno));
+    }
+    std::string line() {
+        for (;;) {
+            const std::size_t end = read_.find('\n');
+            if (end != read_.npos) {
+                std::string out = read_.substr(0, end);
+                read_.erase(0, end + 1);
+                return out;
+            }
+            if (read_.size() > kLongestLine) fail("the answer is no line");
+            more();
+        }
+    }
+    std::vector<std::uint8_t> bytes(std::uint64_t count) {
+        if (count > kMostData) fail("the answer is too long");
+        while (read_.size() < count)
+            more();
+        return {read_.begin(), read_.begin() + static_cast<std::ptrdiff_t>(count)};
+    }
+
+private:
+    void more() {
+        std::array<char, 65536> part{};
+        const ssize_t got = recv(fd_, part.data(), part.size(), 0);
+        if (got < 0) fail(errno == EAGAIN ? "no answer within 15 s" : std::strerror(errno));
+        if (got == 0) fail("the answer ends too early");
+        read_.append(part.data(), static_cast<std::size_t>(got));
+    }
+    static std::string reason() {
+        if (errno == ENOENT || errno == ECONNREFUSED) return "no mfard listens there";
+        if (errno == EACCES) return "no permission, the user must be root or in group mfar";
+        return std::strerror(errno);
+    }
+    [[noreturn]] void fail(const std::string& why) const {
+        throw NotReachable(path_.string() + ": " + why);
+    }
+
+    std::filesystem::path path_;
+    int fd_;
+    std::string read_;
+};
+
+}  // namespace
+
+Reply ask(const std::filesystem::path& socket, const nlohmann::json& request) {
+    Connection connection(socket);
+    connection.send(request.dump() + "\n");
+    Reply reply{ordered_json::parse(connection.line(), nullptr, false), {}};
+    if (!reply.body.is_object() || !reply.body.contains("ok") || !reply.body["ok"].is_boolean())
+        throw NotReachable(socket.string() + ": what listens there is no mfard");
+    if (!reply.body["ok"].get<bool>()) throw Refused(reply.body.value("error", "refused"));
+    reply.body.erase("ok");
+    if (const auto bytes = reply.body.find("bytes");
+        bytes != reply.body.end() && bytes->is_number_unsigned())
+        reply.data = connection.bytes(bytes->get<std::uint64_t>());
+    return reply;
+}
+
+}  // namespace mfar

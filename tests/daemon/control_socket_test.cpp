@@ -1,0 +1,140 @@
+#include "daemon/control_socket.h"
+#include "daemon/exit_code.h"
+#include "daemon/tools/control_client.h"
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <future>
+#include <gmock/gmock.h>
+
+namespace mfar {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+struct ControlSocketTest : testing::Test {
+    void SetUp() override {
+        std::string name =
+            (std::filesystem::temp_directory_path() / "mfar-control.XXXXXX").string();
+        ASSERT_NE(mkdtemp(name.data()), nullptr);
+        folder = name;
+        path = folder / "control";
+    }
+    void TearDown() override { std::filesystem::remove_all(folder); }
+
+    [[nodiscard]] int connected() const {
+        const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        sockaddr_un address{};
+        address.sun_family = AF_UNIX;
+        path.native().copy(address.sun_path, sizeof address.sun_path - 1);
+        EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+        return fd;
+    }
+    static ControlAnswer echo(std::string_view request) {
+        return {json{{"ok", true}, {"length", request.size()}}.dump()};
+    }
+
+    std::filesystem::path folder, path;
+};
+
+TEST_F(ControlSocketTest, AnswersWithALineAndItsData) {
+    std::vector<std::uint8_t> data(3'000'000);
+    for (std::size_t i = 0; i < data.size(); ++i)
+        data[i] = static_cast<std::uint8_t>(i * 7);
+    std::string heard;
+    const ControlSocket socket(path, [&](std::string_view request) -> ControlAnswer {
+        heard = request;
+        return {json{{"ok", true}, {"bytes", data.size()}}.dump(), data};
+    });
+    const Reply reply = ask(path, {{"command", "snapshot"}});
+    EXPECT_EQ(heard, R"({"command":"snapshot"})");
+    EXPECT_EQ(reply.data, data);
+}
+
+TEST_F(ControlSocketTest, OwnerAndGroupMayUseItAlone) {
+    const ControlSocket socket(path, echo);
+    struct stat there{};
+    ASSERT_EQ(stat(path.c_str(), &there), 0);
+    EXPECT_EQ(there.st_mode & 07777U, 0660U);
+}
+
+TEST_F(ControlSocketTest, EndlessRequestIsCutOff) {
+    const ControlSocket socket(path, echo);
+    const int client = connected();
+    const std::string flood(1'000'000, 'x');
+    // The other end closes before it has taken all.
+    std::ignore = send(client, flood.data(), flood.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    std::string answer(200, '\0');
+    const ssize_t got = recv(client, answer.data(), answer.size(), 0);
+    ASSERT_GT(got, 0);
+    answer.resize(static_cast<std::size_t>(got));
+    const auto length = json::parse(answer)["length"].get<std::size_t>();
+    EXPECT_GT(length, ControlSocket::kLongestRequest);
+    EXPECT_LT(length, 2 * ControlSocket::kLongestRequest);
+    close(client);
+}
+
+TEST_F(ControlSocketTest, ClientsThatGoAwayOrSayTooLittleDoNoHarm) {
+    const ControlSocket socket(path, echo);
+    close(connected());
+    const int half = connected();
+    EXPECT_EQ(send(half, "{", 1, MSG_NOSIGNAL), 1);
+    EXPECT_EQ(ask(path, {{"command", "status"}}).body["length"], 20);
+    close(half);
+}
+
+TEST_F(ControlSocketTest, SocketOfADeadProcessIsReplacedThatOfALivingOneIsNot) {
+    const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.native().copy(address.sun_path, sizeof address.sun_path - 1);
+    ASSERT_EQ(bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    close(fd);
+    {
+        const ControlSocket socket(path, echo);
+        EXPECT_THAT([&] { ControlSocket(path, echo); },
+                    ThrowsMessage<Failure>(HasSubstr("another process listens")));
+        EXPECT_EQ(ask(path, {{"command", "status"}}).body["length"], 20);
+    }
+    EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST_F(ControlSocketTest, PathsThatCannotBeUsedAreNamed) {
+    std::ofstream(folder / "file") << "important";
+    EXPECT_THAT([&] { ControlSocket(folder / "file", echo); },
+                ThrowsMessage<Failure>(HasSubstr("no socket")));
+    EXPECT_TRUE(std::filesystem::exists(folder / "file"));
+    EXPECT_THAT([&] { ControlSocket(folder / "none" / "control", echo); },
+                ThrowsMessage<Failure>(HasSubstr("No such file")));
+    EXPECT_THAT([&] { ControlSocket(folder / std::string(120, 'a'), echo); },
+                ThrowsMessage<Failure>(HasSubstr("longer than")));
+}
+
+TEST_F(ControlSocketTest, ClientSaysWhatIsWrong) {
+    EXPECT_THAT([&] { std::ignore = ask(path, {{"command", "status"}}); },
+                ThrowsMessage<NotReachable>(HasSubstr("no mfard listens there")));
+    const ControlSocket refusing(path, [](std::string_view) {
+        return ControlAnswer{R"({"ok": false, "error": "not today"})"};
+    });
+    EXPECT_THAT([&] { std::ignore = ask(path, {{"command", "status"}}); },
+                ThrowsMessage<Refused>(HasSubstr("not today")));
+    const ControlSocket babbling(folder / "other",
+                                 [](std::string_view) { return ControlAnswer{"hello"}; });
+    EXPECT_THAT([&] { std::ignore = ask(folder / "other", {{"command", "status"}}); },
+                ThrowsMessage<NotReachable>(HasSubstr("is no mfard")));
+    const ControlSocket lying(folder / "lying", [](std::string_view) {
+        return ControlAnswer{R"({"ok": true, "bytes": 1000})", {1, 2, 3}};
+    });
+    EXPECT_THAT([&] { std::ignore = ask(folder / "lying", {{"command", "snapshot"}}); },
+                ThrowsMessage<NotReachable>(HasSubstr("ends too early")));
+}
+
+}  // namespace
+}  // namespace mfar

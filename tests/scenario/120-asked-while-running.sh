@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# mfarctl asks a running mfard how it is, for a picture, a still, a recording.
+. "$(dirname "$0")/lib.sh"
+
+ctl="$(dirname "$sim")/mfarctl"
+# refused EXIT-CODE ARGUMENT...: mfarctl must end with this code. Its words are in answer and err.ctl.
+refused() {
+    local code=$1 got=0
+    shift
+    timeout -s KILL $((60 * patience)) "$ctl" --socket control "$@" >answer 2>err.ctl || got=$?
+    [ "$got" = "$code" ] || fail "mfarctl $* ended with $got instead of $code: $(cat err.ctl)"
+}
+asks() { refused 0 "$@"; }
+
+refused 69 status
+says err.ctl 'no mfard listens'
+refused 64 explode
+refused 64
+
+printf '[trigger]\nmode = "off"\n[superres]\nmode = "off"\n' >mfard.toml
+start --config mfard.toml --source synthetic:flat,rest --display png:frames --control control \
+    --summary summary.json
+until_true started
+asks status
+says answer '^state +running$'
+says answer '^source +synthetic'
+says answer '^fault +null$'
+run 69 --source synthetic:flat --control control --frames 1
+says err 'another process listens'
+
+echo "the picture"
+shows() { ls frames/*.png >/dev/null 2>&1; }
+until_true shows
+asks snapshot picture.png
+says answer 'picture.png: 2304x1728'
+file=$(od -An -tx1 -N8 picture.png | tr -d ' ')
+[ "$file" = 89504e470d0a1a0a ] || fail "the snapshot is no PNG"
+refused 1 snapshot --screen x.png
+says err.ctl 'there is no screen'
+
+echo "a still, which nothing else asks for"
+asks stats
+says answer '"triggered": 0'
+asks trigger
+received() { asks stats && grep -q '"received": 1' answer; }
+until_true received
+
+echo "the configuration"
+sed -i '/superres/,$s/off/detail/' mfard.toml
+asks reload
+says answer 'mfard.toml: read again'
+asks status
+says answer '^mode +detail$'
+echo 'nonsense = 1' >mfard.toml
+refused 1 reload
+says err.ctl 'mfard.toml:1:1'
+
+echo "a recording"
+refused 1 record ../outside
+asks record walk
+refused 1 record again
+says err.ctl 'under way'
+until_true grep -q png walk/cam0/data.csv
+asks record --stop
+says answer '^video +[1-9]'
+taken=$(sed -n 's/^video *//p' answer)
+[ "$(grep -vc '^#' walk/cam0/data.csv)" -ge "$taken" ] || fail "not all pictures are in the list"
+refused 1 record --stop
+
+kill -TERM "$pid"
+ends_with 0 3000
+[ ! -e control ] || fail "the socket is still there"
+run 0 --recording walk --summary summary.json

@@ -1,0 +1,38 @@
+"""Asked for a snapshot of its screen, the service gives what the display shows, pixel by pixel."""
+
+from png import read_png
+
+CONFIG = '''source = "synthetic:still,rest"
+[superres]
+mode = "off"
+[pose]
+source = "none"
+[trigger]
+mode = "off"
+[status]
+interval_s = 0.5
+'''
+TRIES = 10
+
+
+def run(bed):
+    for screen in ('kms', 'fbdev'):
+        bed.fresh_service(f'display = "{screen}"\n' + CONFIG)
+        bed.wait_for(f'mfarctl status | grep -q "^display *{screen}:"', 60)
+        compare(bed, screen)
+
+
+def compare(bed, screen):
+    for _ in range(TRIES):
+        shown = bed.guest.screen()
+        bed.run('mfarctl snapshot --screen /share/snapshot.png', 60)
+        if bed.guest.screen() == shown:
+            break
+    else:
+        raise AssertionError('the picture does not come to rest')
+    taken = read_png(bed.share / 'snapshot.png')
+    assert taken[:2] == shown[:2], f'{screen}: {taken[:2]} instead of {shown[:2]}'
+    assert len(set(taken[2])) > 50, f'{screen}: nothing is to be seen'
+    wrong = sum(1 for a, b in zip(taken[2], shown[2]) if a != b)
+    print(f'        {screen}: {shown[0]}x{shown[1]}, {wrong} bytes differ')
+    assert wrong == 0, f'{screen}: {wrong} of {len(shown[2])} bytes differ'
