@@ -1,0 +1,117 @@
+#include "daemon/governor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+constexpr double kRoom = 0.85;      // of the deadline, for a level not tried yet
+constexpr double kDownRoom = 0.95;  // of the deadline, after the one that did not keep it
+// With those that bring in a still one in twenty.
+constexpr std::size_t kMostLate = 1;
+constexpr std::uint64_t kLateWindow = 40;  // frames
+constexpr std::uint64_t kSettle = 8;       // frames before a better level is tried
+constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;  // frames until a failed one is
+// What held for so long was no mistake: another scene has come.
+constexpr std::uint64_t kHeld = 100;       // frames
+constexpr int kAtRest = 3;                 // frames in which nothing changed
+constexpr std::uint64_t kStillEvery = 40;  // frames
+
+}  // namespace
+
+Governor::Governor(std::vector<QualityLevel> levels, double deadlineMs)
+    : levels_(std::move(levels)), deadline_(deadlineMs), trials_(levels_.size()) {
+    assert(!levels_.empty() && deadlineMs > 0);
+    lateAt_.reserve(kMostLate + 1);
+    framesSinceStill_ = kStillEvery;
+    level_ = bestWithin(kRoom * deadline_);
+    next_.level = level_;
+}
+
+void Governor::add(const Frame& frame) {
+    if (!(frame.ms >= 0 && std::isfinite(frame.ms))) return;
+    if (pending_) {
+        const bool changed = frame.changedBefore > 0 && !pending_->redrawn;
+        restFrames_ = changed ? 0 : restFrames_ + 1;
+        if (changed) isPolished_ = false;
+        if (changed && pending_->counts) count(pending_->ms);
+    }
+    const bool isComplete = frame.usedStill || level().quality.mode == SuperResMode::Off;
+    const bool isTypical = isComplete && !frame.newStill && next_ == Choice{level_, false};
+    pending_ = Pending{frame.ms, isTypical, next_.redraw};
+    framesSinceStill_ = frame.newStill ? 0 : framesSinceStill_ + 1;
+    if (frame.newStill) stillMs_ = frame.ms;
+    rest();
+}
+
+void Governor::rest() {
+    const bool wanted =
+        restFrames_ >= kAtRest && !isPolished_ && !next_.redraw && level_ + 1 < levels_.size();
+    if (wanted) isPolished_ = true;
+    next_ = wanted ? Choice{levels_.size() - 1, true} : Choice{level_, false};
+}
+
+void Governor::count(double ms) {
+    ratios_[frame_ % kWindow] = ms / levels_[level_].ms;
+    ratioCount_ = std::min(ratioCount_ + 1, kWindow);
+    ++frame_;
+    std::erase_if(lateAt_, [&](std::uint64_t at) { return at + kLateWindow <= frame_; });
+    if (ms > deadline_) lateAt_.push_back(frame_);
+    if (lateAt_.size() > kMostLate)
+        goDown();
+    else if (frame_ - changedAt_ >= kSettle)
+        goUp();
+}
+
+void Governor::goDown() {
+    if (level_ == 0) return lateAt_.clear();
+    Trial& failed = trials_[level_];
+    if (frame_ - changedAt_ >= kHeld) failed.wait = 0;
+    failed.wait = std::clamp(2 * failed.wait, kFirstWait, kLongestWait);
+    failed.notBefore = frame_ + failed.wait;
+    goTo(std::min(bestWithin(kDownRoom * deadline_), level_ - 1));
+}
+
+void Governor::goUp() {
+    const std::size_t best = bestWithin(kRoom * deadline_);
+    if (best > level_) goTo(best);
+}
+
+void Governor::goTo(std::size_t level) {
+    level_ = level;
+    changedAt_ = frame_;
+    lateAt_.clear();
+    ++changes_;
+}
+
+// Of those that may be tried.
+std::size_t Governor::bestWithin(double ms) const {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < levels_.size(); ++i)
+        if (expected(i) <= ms && (i <= level_ || trials_[i].notBefore <= frame_)) best = i;
+    return best;
+}
+
+double Governor::expected(std::size_t level) const {
+    return ratio() * levels_[level].ms;
+}
+
+double Governor::ratio() const {
+    if (ratioCount_ == 0) return 1;
+    std::array<double, kWindow> sorted = ratios_;
+    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(ratioCount_);
+    const std::size_t rank = ratioCount_ < kWindow / 2 ? 0 : 1;
+    const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(sorted.begin(), at, end, std::greater<>());
+    return *at;
+}
+
+bool Governor::mayTakeStill() const {
+    if (levels_[level_].quality.mode == SuperResMode::Off) return false;
+    return framesSinceStill_ >= kStillEvery || !(stillMs_.value_or(0) > deadline_);
+}
+
+}  // namespace mfar

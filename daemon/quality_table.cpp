@@ -1,0 +1,141 @@
+#include "daemon/quality_table.h"
+
+#include "daemon/config.h"
+#include "daemon/toml_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+
+namespace mfar {
+namespace {
+
+constexpr std::size_t kMostLevels = 64;
+constexpr double kLongest = 60000;  // [ms]
+constexpr std::pair<std::string_view, SuperResMode> kModes[] = {
+    {"detail", SuperResMode::Detail}, {"blend", SuperResMode::Blend}, {"off", SuperResMode::Off}};
+
+/// A whole number of a level: where it stands in a file and in a Quality. The ranges are those of
+/// flow_options.h.
+struct LevelKey {
+    const char* name;
+    int& (*in)(Quality&);
+    int least, most;
+};
+constexpr LevelKey kLevelKeys[] = {
+    {"depth_every", [](Quality& q) -> int& { return q.depthEvery; }, 1, 60},
+    {"flow2d.search_radius", [](Quality& q) -> int& { return q.flow2d.searchRadius; }, 0, 40},
+    {"flow2d.candidates", [](Quality& q) -> int& { return q.flow2d.candidates; }, 1, 4},
+    {"flow2d.steps", [](Quality& q) -> int& { return q.flow2d.steps; }, 0, 16},
+    {"flow2d.propagations", [](Quality& q) -> int& { return q.flow2d.propagations; }, 0, 8},
+    {"flow2d.coarsest_propagations",
+     [](Quality& q) -> int& { return q.flow2d.coarsestPropagations; }, 0, 8},
+    {"flow2d.plane_fits", [](Quality& q) -> int& { return q.flow2d.planeFits; }, 0, 2},
+    {"epipolar.window_radius", [](Quality& q) -> int& { return q.epipolar.windowRadius; }, 0, 8},
+    {"epipolar.step_penalty", [](Quality& q) -> int& { return q.epipolar.stepPenalty; }, 1, 30},
+    {"epipolar.jump_penalty", [](Quality& q) -> int& { return q.epipolar.jumpPenalty; }, 1, 60},
+    {"epipolar.finest", [](Quality& q) -> int& { return q.epipolar.finest; }, 0, 1},
+    {"epipolar.most_predicted", [](Quality& q) -> int& { return q.epipolar.mostPredicted; }, 0, 60},
+};
+
+QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
+    QualityLevel out;
+    file.text(prefix + "name", out.name);
+    file.number(prefix + "ms", out.ms, 0.001, kLongest);
+    file.number(prefix + "psnr_db", out.psnrDb, 0, 200);
+    file.choice<SuperResMode>(prefix + "mode", out.quality.mode, kModes);
+    file.boolean(prefix + "along_lines", out.quality.alongLines);
+    for (const LevelKey& key : kLevelKeys)
+        file.integer(prefix + key.name, key.in(out.quality), key.least, key.most);
+    return out;
+}
+
+void requireWhole(const std::vector<QualityLevel>& levels, const std::string& file) {
+    if (levels.empty()) throw ConfigError(file + ":1:1: no [[level]]");
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const auto same = [&](const QualityLevel& other) { return other.name == levels[i].name; };
+        if (levels[i].name.empty() || !(levels[i].ms > 0))
+            throw ConfigError(fmt::format("{}:1:1: level[{}] needs a name and ms", file, i));
+        if (std::ranges::count_if(levels, same) > 1)
+            throw ConfigError(
+                fmt::format("{}:1:1: level \"{}\" is there twice", file, levels[i].name));
+    }
+}
+
+}  // namespace
+
+std::vector<QualityLevel> parseQualityLevels(std::string_view toml, const std::string& fileName) {
+    TomlReader file(toml, fileName);
+    std::vector<QualityLevel> out;
+    for (const std::string& prefix : file.sections("level", kMostLevels))
+        out.push_back(readLevel(file, prefix));
+    file.finish();
+    requireWhole(out, fileName);
+    std::ranges::stable_sort(out, {}, &QualityLevel::ms);
+    return out;
+}
+
+std::string toToml(std::span<const QualityLevel> levels) {
+    std::string out;
+    const Quality byDefault;
+    for (const QualityLevel& level : levels) {
+        Quality quality = level.quality, usual = byDefault;
+        out += fmt::format("[[level]]\nname = \"{}\"\nms = {:.1f}\npsnr_db = {:.2f}\nmode = "
+                           "\"{}\"\n",
+                           level.name, level.ms, level.psnrDb, name(quality.mode));
+        if (!quality.alongLines) out += "along_lines = false\n";
+        for (const LevelKey& key : kLevelKeys)
+            if (key.in(quality) != key.in(usual))
+                out += fmt::format("{} = {}\n", key.name, key.in(quality));
+        out += "\n";
+    }
+    return out;
+}
+
+std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels, SuperResMode best) {
+    std::vector<QualityLevel> out;
+    for (QualityLevel level : levels) {
+        if (best != SuperResMode::Detail && level.quality.mode == SuperResMode::Detail)
+            level.quality.mode = best;
+        if (best == SuperResMode::Off) level.quality = {.mode = SuperResMode::Off};
+        const auto same = [&](const QualityLevel& other) { return other.quality == level.quality; };
+        if (std::ranges::none_of(out, same)) out.push_back(level);
+    }
+    return out;
+}
+
+const std::vector<QualityLevel>& builtInQualityLevels() {
+    static const std::vector<QualityLevel> levels = parseQualityLevels(R"(
+[[level]]
+name = "off"
+ms = 24.1
+psnr_db = 27.04
+mode = "off"
+
+[[level]]
+name = "lines-half"
+ms = 101.3
+psnr_db = 30.39
+mode = "detail"
+epipolar.finest = 1
+
+[[level]]
+name = "predicted-15"
+ms = 120.6
+psnr_db = 30.59
+mode = "detail"
+epipolar.most_predicted = 15
+
+[[level]]
+name = "detail"
+ms = 128.0
+psnr_db = 30.72
+mode = "detail"
+)",
+                                                                       "built-in levels");
+    return levels;
+}
+
+}  // namespace mfar
