@@ -66,6 +66,9 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     readTrigger(file, config.trigger);
     readPose(file, config.pose);
     if (!config.pose.tags.empty()) config.pose.tags = besides(fileName, config.pose.tags);
+    readGovernor(file, config.governor);
+    if (!config.governor.table.empty())
+        config.governor.table = besides(fileName, config.governor.table);
     std::string recordTo;
     file.text("record.directory", recordTo);
     config.recordTo = recordTo;
@@ -79,7 +82,7 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     return config;
 }
 
-Config loadConfig(const std::filesystem::path& file) {
+std::string readConfigText(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::string text;
     std::array<char, 4096> part{};
@@ -88,7 +91,11 @@ Config loadConfig(const std::filesystem::path& file) {
     if (!in.is_open() || in.bad())
         throw Failure(ExitCode::NoInput,
                       file.string() + ": cannot be read: " + std::strerror(errno));
-    return parseConfig(text, file.string());
+    return text;
+}
+
+Config loadConfig(const std::filesystem::path& file) {
+    return parseConfig(readConfigText(file), file.string());
 }
 
 std::string needRestart(const Config& running, const Config& wanted) {
@@ -106,6 +113,7 @@ std::string needRestart(const Config& running, const Config& wanted) {
     // Another tag map is another world, and a tracker that starts anew has no pose for a while.
     compare(running.pose == wanted.pose, "pose");
     compare(running.virtualLayer == wanted.virtualLayer, "virtual");
+    compare(running.governor == wanted.governor, "governor");
     return names;
 }
 

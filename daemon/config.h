@@ -2,6 +2,7 @@
 
 #include "daemon/cameras_config.h"
 #include "daemon/exit_code.h"
+#include "daemon/governor_config.h"
 #include "daemon/objects_config.h"
 #include "daemon/pose_config.h"
 #include "daemon/still_policy.h"
@@ -49,6 +50,7 @@ struct Config {
     SuperResConfig superres;
     TriggerConfig trigger;
     PoseConfig pose;
+    GovernorConfig governor;
     StatusConfig status;
     VirtualOptions virtualLayer;
     LightOptions light;
@@ -69,6 +71,9 @@ public:
 
 /// Reads a file. Throws ConfigError, or Failure(NoInput) when it cannot be read.
 [[nodiscard]] Config loadConfig(const std::filesystem::path& file);
+
+/// The text of such a file. Throws Failure(NoInput) when it cannot be read.
+[[nodiscard]] std::string readConfigText(const std::filesystem::path& file);
 
 /// Names of what differs between two configurations and cannot be changed while running,
 /// "source, display"; empty when there is no such thing.

@@ -31,10 +31,13 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl()),
       pipeline_(rig_.geometry(), {config.superres.mode, {}, config.superres.skipUnchanged}),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
-      policy_(config.trigger), banner_(pipeline_.outputSize()) {
+      policy_(config.trigger), banner_(pipeline_.outputSize()),
+      deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
+      levels_(governedLevels(config.governor)) {
     rig_.recordTags(poses_.tags());
     pipeline_.setMeasure(config.status.measure);
     pipeline_.setObjects(placedShapes(config.objects, poses_.tags()));
+    setUpQuality(config.superres.mode);
     description_ = {gl_->description(),  rig_.description(),
                     display_->name(),    std::string(name(config.superres.mode)),
                     rig_.videoFrames(),  std::nullopt,
@@ -42,6 +45,17 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
 }
 
 Session::~Session() = default;
+
+void Session::setUpQuality(SuperResMode best) {
+    if (levels_.empty()) return;
+    std::vector<QualityLevel> levels = limitedTo(levels_, best);
+    choice_ = {};
+    pipeline_.setQuality(levels.front().quality);
+    stats_.quality(levels.front().name, deadlineMs_);
+    if (!(deadlineMs_ > 0)) return;
+    governor_.emplace(std::move(levels), deadlineMs_);
+    govern();
+}
 
 std::string Session::startLine() const {
     const Size out = pipeline_.outputSize();
@@ -81,6 +95,7 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
 
 void Session::apply(const Tunables& wanted) {
     pipeline_.setMode(wanted.superres.mode);
+    setUpQuality(wanted.superres.mode);
     pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
     pipeline_.setMeasure(wanted.measure);
     pipeline_.setObjects(placedShapes(wanted.objects, poses_.tags()));
@@ -88,6 +103,8 @@ void Session::apply(const Tunables& wanted) {
 }
 
 void Session::process(CapturedFrame captured) {
+    const Timestamp begun = Timestamp::now();
+    const bool newStill = captured.still.has_value();
     if (captured.still) useStill(*std::exchange(captured.still, std::nullopt));
     const Timestamp time = captured.video.time();
     const FrameResult& result = pipeline_.run(captured.video.view(), time, captured.pose);
@@ -100,10 +117,24 @@ void Session::process(CapturedFrame captured) {
     ++pictures_;
     std::optional<double> age;
     if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
-    stats_.picture({result.stats, pipeline_.stageTimes(), captured.arrived, Timestamp::now(), age});
+    const Timestamp shown = Timestamp::now();
+    const double ms = static_cast<double>((shown - begun).count()) * 1e-6;
+    stats_.picture({result.stats, pipeline_.stageTimes(), captured.arrived, shown, age, ms});
+    if (governor_) {
+        governor_->add({ms, newStill, result.stats.usedStill, result.stats.changed});
+        govern();
+    }
     stats_.recorderDropped(rig_.notRecorded());
     if (const auto matching = rig_.matching()) stats_.matching(*matching);
     rig_.checkRecording();
+}
+
+void Session::govern() {
+    if (governor_->next() == choice_) return;
+    choice_ = governor_->next();
+    pipeline_.setQuality(governor_->level().quality);
+    if (choice_.redraw) pipeline_.redraw();
+    stats_.quality(governor_->level().name, deadlineMs_);
 }
 
 void Session::useStill(const CapturedStill& still) {
@@ -133,7 +164,7 @@ void Session::startRecording(const std::filesystem::path& folder) {
 
 void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     Trigger* trigger = rig_.trigger();
-    if (trigger == nullptr) return;
+    if (trigger == nullptr || (governor_ && !governor_->mayTakeStill())) return;
     if (policy_.decide(frame, previous_.value_or(frame), stats)) {
         try {
             trigger->fire();

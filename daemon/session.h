@@ -4,6 +4,7 @@
 #include "daemon/call_queue.h"
 #include "daemon/capture.h"
 #include "daemon/config.h"
+#include "daemon/governor.h"
 #include "daemon/mailbox.h"
 #include "daemon/pose_finder.h"
 #include "daemon/rig.h"
@@ -21,6 +22,7 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <vector>
 
 namespace mfar {
 
@@ -73,6 +75,9 @@ private:
     void process(CapturedFrame captured);
     void useStill(const CapturedStill& still);
     void fireIfNeeded(Timestamp frame, const FrameStats& stats);
+    void setUpQuality(SuperResMode best);
+    /// Takes the governor's choice for the next frame.
+    void govern();
     void showFault();
     void show(const GlImage& image, Timestamp time);
 
@@ -87,8 +92,12 @@ private:
     std::unique_ptr<Display> display_;
     StillPolicy policy_;
     Banner banner_;
-    GlImage last_;   ///< the pipeline's, without banner; no texture before the first
-    GlImage shown_;  ///< what the display got last
+    double deadlineMs_;                 ///< 0: none
+    std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
+    std::optional<Governor> governor_;
+    Governor::Choice choice_{};  ///< the pipeline's
+    GlImage last_;               ///< the pipeline's, without banner; no texture before the first
+    GlImage shown_;              ///< what the display got last
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;
     std::uint64_t pictures_ = 0;

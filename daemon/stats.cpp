@@ -52,6 +52,7 @@ void Stats::picture(const Picture& picture) {
         epipolarErrorSum_ += picture.stats.epipolarError;
         ++epipolarErrorFrames_;
     }
+    if (!counted_.quality.level.empty()) counted_.quality.add(picture.ms);
     counted_.last = picture.stats;
     counted_.lastStages = picture.stages;
     counted_.stillAgeS = picture.stillAgeS;
@@ -101,6 +102,12 @@ void Stats::framePose(const std::optional<Pose>& pose, const std::optional<Track
 void Stats::stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms) {
     const std::lock_guard lock(mutex_);
     counted_.poses.addStill(pose, ms);
+}
+
+void Stats::quality(const std::string& level, double deadlineMs) {
+    const std::lock_guard lock(mutex_);
+    counted_.quality.level = level;
+    counted_.quality.deadlineMs = deadlineMs;
 }
 
 void Stats::triggers(std::uint64_t fired, std::uint64_t lost) {

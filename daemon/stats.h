@@ -2,6 +2,7 @@
 
 #include "daemon/histogram.h"
 #include "daemon/pose_counts.h"
+#include "daemon/quality_counts.h"
 #include "hal/still_matcher.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/results.h"
@@ -44,6 +45,7 @@ struct Counted {
     StillCounts stills;
     StillCounters matching;  ///< zero without a trigger line of ours
     PoseCounts poses;
+    QualityCounts quality;
     std::uint64_t epipolarFrames = 0;     ///< pictures that were matched along epipolar lines
     std::uint64_t predictedFrames = 0;    ///< of them, around what the frame before showed
     std::uint64_t refinedFrames = 0;      ///< of them, with a pose refined from the pictures
@@ -67,6 +69,7 @@ struct Picture {
     Timestamp arrived;  ///< of the video frame in the daemon, CLOCK_MONOTONIC
     Timestamp shown;    ///< CLOCK_MONOTONIC
     std::optional<double> stillAgeS;
+    double ms = 0;  ///< from the frame's begin to `shown`, with the work for a new still
 };
 
 /// Collects what the threads report. Thread-safe.
@@ -85,6 +88,8 @@ public:
     /// See PoseCounts.
     void framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker);
     void stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms);
+    /// Level of the following pictures, and their deadline [ms], 0: none.
+    void quality(const std::string& level, double deadlineMs);
     void triggers(std::uint64_t fired, std::uint64_t lost);
     void matching(const StillCounters& counters);
     void mailboxDropped(std::uint64_t total);

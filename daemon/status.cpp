@@ -55,6 +55,29 @@ std::string tracking(const PoseCounts& poses) {
     return out + fmt::format(", {:.1f} ms)", poses.tracker.lastMs);
 }
 
+// ", quality lines-2 (3% late)"; nothing where it is as configured.
+std::string quality(const QualityCounts& counts) {
+    if (counts.level.empty()) return "";
+    std::string out = ", quality " + counts.level;
+    if (counts.deadlineMs > 0 && counts.frames > 0)
+        out += fmt::format(" ({:.0f}% late)", 100.0 * static_cast<double>(counts.late) /
+                                                  static_cast<double>(counts.frames));
+    return out;
+}
+
+nlohmann::ordered_json qualitySummary(const QualityCounts& counts) {
+    nlohmann::ordered_json levels = nlohmann::ordered_json::object();
+    for (const auto& [level, frames] : counts.framesOf)
+        levels[level] = frames;
+    return {{"deadline_ms", counts.deadlineMs},
+            {"late", counts.late},
+            {"frame_ms",
+             {{"median", counts.frameMs.quantile(0.5)},
+              {"p95", counts.frameMs.quantile(0.95)},
+              {"p99", counts.frameMs.quantile(0.99)}}},
+            {"frames_of_level", levels}};
+}
+
 nlohmann::ordered_json quantiles(const Histogram& times) {
     return {{"median", times.quantile(0.5)}, {"p99", times.quantile(0.99)}};
 }
@@ -110,6 +133,7 @@ std::string statusLine(const Counted& counted, const RunDescription& run, double
     const Drops& drops = counted.drops;
     fmt::format_to(out, ", {} dropped", drops.mailbox + drops.sensor);
     if (drops.recorder > 0) fmt::format_to(out, ", {} not recorded", drops.recorder);
+    line += quality(counted.quality);
     if (counted.last.usedStill) {
         fmt::format_to(out, ", confidence {:.2f}, still {:.1f} s", counted.last.meanConfidence,
                        counted.stillAgeS.value_or(0));
@@ -159,6 +183,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
           {"received", counted.stills.received},
           {"used", counted.stills.used},
           {"lost", counted.stills.lost}}},
+        {"quality", qualitySummary(counted.quality)},
         {"trigger_line", lineSummary(counted.matching)},
         {"pose", poseSummary(counted, run.poses)},
         {"drops",

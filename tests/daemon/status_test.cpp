@@ -81,6 +81,30 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     EXPECT_EQ(json["drops"]["recorder"], 6);
 }
 
+TEST(Status, TellsHowTheDeadlineWasKept) {
+    Stats stats;
+    showPictures(stats, 2);
+    EXPECT_EQ(summary(stats.count(), {}, "", 0)["quality"]["frames_of_level"].size(), 0U);
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("quality")));
+    const auto show = [&](double ms) { stats.picture({{}, kStages, {}, {}, {}, ms}); };
+    stats.quality("fast", 33);
+    for (int i = 0; i < 18; ++i)
+        show(20);
+    stats.quality("best", 33);
+    show(30);
+    show(40);
+    const auto quality = summary(stats.count(), {}, "", 0)["quality"];
+    EXPECT_EQ(quality["deadline_ms"], 33);
+    EXPECT_EQ(quality["late"], 1);
+    EXPECT_EQ(quality["frames_of_level"]["fast"], 18);
+    EXPECT_EQ(quality["frames_of_level"]["best"], 2);
+    EXPECT_NEAR(quality["frame_ms"]["median"].get<double>(), 20, 0.3);
+    EXPECT_NEAR(quality["frame_ms"]["p95"].get<double>(), 30, 0.4);
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr(", quality best (5% late)"));
+    stats.quality("best", 0);
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr(", quality best,"));
+}
+
 Pose fromTags(int tags, double errorPx) {
     Pose pose;
     pose.tags = tags;

@@ -1,0 +1,45 @@
+#include "daemon/governor_config.h"
+
+#include "daemon/config.h"
+#include "daemon/toml_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mfar {
+namespace {
+
+constexpr double kLongestDeadline = 10000;  // [ms]
+
+std::string namesOf(const std::vector<QualityLevel>& levels) {
+    std::string out;
+    for (const QualityLevel& level : levels)
+        out += (out.empty() ? "\"" : ", \"") + level.name + "\"";
+    return out;
+}
+
+}  // namespace
+
+void readGovernor(TomlReader& file, GovernorConfig& governor) {
+    file.number("governor.deadline_ms", governor.deadlineMs, 0, kLongestDeadline);
+    file.text("governor.pin", governor.pin);
+    std::string table;
+    file.text("governor.table", table);
+    governor.table = table;
+}
+
+std::vector<QualityLevel> governedLevels(const GovernorConfig& governor) {
+    if (!governor.governs() && governor.pin.empty()) return {};
+    std::vector<QualityLevel> all = builtInQualityLevels();
+    if (!governor.table.empty())
+        all = parseQualityLevels(readConfigText(governor.table), governor.table.string());
+    if (governor.pin.empty()) return all;
+    const auto pinned = std::ranges::find(all, governor.pin, &QualityLevel::name);
+    if (pinned == all.end())
+        throw ConfigError(fmt::format("governor.pin \"{}\" is no level; there are {}", governor.pin,
+                                      namesOf(all)));
+    return {*pinned};
+}
+
+}  // namespace mfar

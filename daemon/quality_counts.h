@@ -1,0 +1,34 @@
+#pragma once
+
+#include "daemon/histogram.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mfar {
+
+/// How frames kept their deadline, and with which settings. No level: nothing was governed.
+struct QualityCounts {
+    std::string level;      ///< of the latest frame
+    double deadlineMs = 0;  ///< 0: the level is pinned
+    Histogram frameMs;      ///< from a frame's begin to its picture shown
+    std::uint64_t frames = 0, late = 0;
+    std::vector<std::pair<std::string, std::uint64_t>> framesOf;  ///< each level
+
+    void add(double ms) {
+        frameMs.add(ms);
+        ++frames;
+        if (deadlineMs > 0 && ms > deadlineMs) ++late;
+        const auto known =
+            std::ranges::find(framesOf, level, &std::pair<std::string, std::uint64_t>::first);
+        if (known == framesOf.end())
+            framesOf.emplace_back(level, 1);
+        else
+            ++known->second;
+    }
+};
+
+}  // namespace mfar
