@@ -1,6 +1,7 @@
 #include "tests/bench/curves.h"
 
 #include "pipeline/pipeline.h"
+#include "tests/bench/knobs.h"
 #include "tests/bench/summary.h"
 #include "tests/eval/metrics/flow_error.h"
 #include "tests/eval/paper_pipeline.h"
@@ -11,53 +12,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <stdexcept>
 #include <string_view>
 
 namespace mfar::bench {
 namespace {
-
-struct Knob {
-    const char* method;
-    const char* name;
-    std::vector<double> values;
-    std::function<double(const PipelineOptions&)> get;
-    std::function<void(PipelineOptions&, double)> set;
-};
-
-template <class Options, class Value>
-Knob knob(const char* method, const char* name, Options PipelineOptions::* of,
-          Value Options::* member, std::vector<double> values) {
-    return {method, name, std::move(values),
-            [=](const PipelineOptions& o) { return static_cast<double>(o.*of.*member); },
-            [=](PipelineOptions& o, double v) { o.*of.*member = static_cast<Value>(v); }};
-}
-
-std::vector<Knob> knobs() {
-    const auto flow2d = [](const char* name, int Flow2dOptions::* member,
-                           std::vector<double> values) {
-        return knob("flow2d", name, &PipelineOptions::flow2d, member, std::move(values));
-    };
-    const auto epipolar = [](const char* name, auto EpipolarOptions::* member,
-                             std::vector<double> values) {
-        return knob("epipolar", name, &PipelineOptions::epipolar, member, std::move(values));
-    };
-    return {
-        flow2d("levels", &Flow2dOptions::levels, {3, 4, 6}),
-        flow2d("searchRadius", &Flow2dOptions::searchRadius, {2, 5, 10, 20}),
-        flow2d("candidates", &Flow2dOptions::candidates, {1, 2, 4}),
-        flow2d("steps", &Flow2dOptions::steps, {1, 2, 4, 8}),
-        flow2d("propagations", &Flow2dOptions::propagations, {0, 1, 2, 4}),
-        flow2d("coarsestPropagations", &Flow2dOptions::coarsestPropagations, {0, 2, 4, 8}),
-        flow2d("planeFits", &Flow2dOptions::planeFits, {0, 1, 2}),
-        epipolar("levels", &EpipolarOptions::levels, {1, 2, 3, 4}),
-        epipolar("longestParallax", &EpipolarOptions::longestParallax, {0.1, 0.2, 0.4, 0.8}),
-        epipolar("windowRadius", &EpipolarOptions::windowRadius, {0, 1, 2, 4}),
-        epipolar("stepPenalty", &EpipolarOptions::stepPenalty, {4, 8, 12, 20, 30}),
-        epipolar("jumpPenalty", &EpipolarOptions::jumpPenalty, {15, 30, 45, 60}),
-    };
-}
 
 CurvePoint pointOf(const CurveSample& sample, const cv::Mat& flow, double ms) {
     const eval::FlowError error = eval::flowError(flow, sample.truth);
@@ -152,8 +111,8 @@ Curves measureCurves(const std::vector<CurveSample>& samples) {
         out.samples.push_back(sample.name);
     const bool anyPoses = std::ranges::any_of(samples, &CurveSample::hasPoses);
     const CurvePoint defaults[] = {mean(samples, {}, false), mean(samples, {}, true)};
-    for (const Knob& knob : knobs()) {
-        const bool alongLines = std::string_view(knob.method) == "epipolar";
+    for (const Knob& knob : flowKnobs()) {
+        const bool alongLines = knob.method == "epipolar";
         if (!alongLines || anyPoses)
             out.curves.push_back(measure(knob, samples, defaults[alongLines ? 1 : 0], alongLines));
     }

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "pipeline/pipeline.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace mfar::bench {
+
+/// A setting of the flow that trades time against error, and what to try of it, in rising order.
+struct Knob {
+    std::string method;  ///< flow2d or epipolar
+    std::string name;    ///< member of Flow2dOptions or EpipolarOptions
+    std::vector<double> values;
+    std::function<double(const PipelineOptions&)> get;
+    std::function<void(PipelineOptions&, double)> set;
+};
+
+[[nodiscard]] std::vector<Knob> flowKnobs();
+
+}  // namespace mfar::bench

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace mfar::bench {
+
+/// A logarithmic axis over all that was included: values above zero.
+class LogAxis {
+public:
+    void include(double value) {
+        least_ = std::min(least_, value);
+        most_ = std::max(most_, value);
+    }
+    /// Where a value lies, [0, 1] for what was included and a margin.
+    [[nodiscard]] double at(double value) const {
+        if (!(least_ <= most_)) return 0;
+        return (std::log(value / least_) + kMargin) / (std::log(most_ / least_) + 2 * kMargin);
+    }
+    /// Round values on the axis.
+    [[nodiscard]] std::vector<double> ticks() const {
+        const bool isShort = most_ < 10 * least_;
+        std::vector<double> out;
+        for (int power = -3; power <= 6; ++power)
+            for (const double digit : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0})
+                if (isShort || digit == 1 || digit == 2 || digit == 5) {
+                    const double v = digit * std::pow(10, power), where = at(v);
+                    if (where > 0 && where < 1) out.push_back(v);
+                }
+        return out;
+    }
+
+private:
+    static constexpr double kMargin = 0.12;
+
+    double least_ = 1e300, most_ = 0;
+};
+
+}  // namespace mfar::bench
