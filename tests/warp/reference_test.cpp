@@ -1,0 +1,99 @@
+#include "pipeline/warp/warp_reference.h"
+#include "tests/warp/cast_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace mfar {
+namespace {
+
+/// 5x4 pixels, object 1 in the left three columns before the catcher.
+RenderedPicture smallPicture() {
+    RenderedPicture p;
+    p.camera = {{5, 4}, 5, 5, 2, 1.5, {}};
+    for (int i = 0; i < 20; ++i) {
+        const bool object = i % 5 < 3, edge = i % 5 == 2;
+        p.id.push_back(object ? 1 : kCatcherId);
+        p.depth.push_back(object ? 0.5F : 0.8F);
+        p.colour.push_back(edge     ? std::array<std::uint8_t, 4>{50, 0, 0, 160}
+                           : object ? std::array<std::uint8_t, 4>{200, 100, 0, 255}
+                                    : std::array<std::uint8_t, 4>{0, 0, 0, 60});
+    }
+    return p;
+}
+
+TEST(WarpReference, EdgesTakeTheColourFromWithin) {
+    const WarpReference r = warpReference(smallPicture());
+    for (std::size_t i = 0; i < 20; ++i) {
+        const std::array<std::uint8_t, 4> object{200, 100, 0, 255}, shadow{0, 0, 0, 60};
+        EXPECT_EQ(r.colour[i], i % 5 < 3 ? object : shadow) << i;
+        EXPECT_EQ(r.surface[i].known, 1) << i;
+    }
+    EXPECT_EQ(r.picture, smallPicture().colour);
+}
+
+TEST(WarpReference, FaultyDepthIsNothing) {
+    RenderedPicture p = smallPicture();
+    p.depth[0] = std::numeric_limits<float>::quiet_NaN();
+    p.depth[1] = std::numeric_limits<float>::infinity();
+    p.depth[5] = -1;
+    p.depth[6] = 0.001F;
+    p.id[10] = 0;
+    const WarpReference r = warpReference(p);
+    for (const std::size_t i : {0, 1, 5, 6, 10}) {
+        EXPECT_EQ(r.depth[i], 0);
+        EXPECT_EQ(r.packed[i], 0U);
+        EXPECT_EQ(r.colour[i], (std::array<std::uint8_t, 4>{}));
+    }
+}
+
+TEST(WarpReference, UnsoundPicturesAreRefused) {
+    const auto refused = [](auto&& spoil) {
+        RenderedPicture p = smallPicture();
+        spoil(p);
+        EXPECT_THROW((void)warpReference(p), std::invalid_argument);
+    };
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    refused([](RenderedPicture& p) { p.depth.pop_back(); });
+    refused([](RenderedPicture& p) { p.id.push_back(0); });
+    refused([](RenderedPicture& p) { p.colour.clear(); });
+    refused([](RenderedPicture& p) { p.camera.size = {0, 4}; });
+    refused([](RenderedPicture& p) { p.camera.size = {20000, 1}; });
+    refused([&](RenderedPicture& p) { p.camera.fx = kNan; });
+    refused([](RenderedPicture& p) { p.camera.fy = 0; });
+    refused([&](RenderedPicture& p) { p.camera.distortion[2] = kNan; });
+    refused([&](RenderedPicture& p) { p.T_world_camera.translation.x() = kNan; });
+}
+
+TEST(WarpReference, MotionBoundsWhereItsPointsGo) {
+    const test::CastScene scene = test::twoBalls();
+    const RenderView view{test::bentCamera({160, 120}), test::orbit(0)};
+    const RenderedPicture picture = scene.cast(view);
+    const WarpReference r = warpReference(picture);
+    const LensProjection lens(view.camera);
+    EXPECT_LT(motionOf(r, lens, test::orbit(0)).greatest, 1e-6);
+    for (const double degrees : {1.0, 10.0, 60.0}) {
+        const WarpMotion motion = motionOf(r, lens, test::orbit(degrees));
+        const RigidTransform T = test::orbit(degrees).inverse() * test::orbit(0);
+        for (std::size_t i = 0; i < picture.id.size(); ++i) {
+            if (picture.id[i] == 0) continue;
+            const Eigen::Vector2d at(i % 160, i / 160);
+            const Eigen::Vector3d h =
+                lens(T * (picture.depth[i] * view.camera.unproject(at).homogeneous()));
+            if (!(h.z() > LensProjection::kNear)) continue;
+            const Eigen::Vector2d to = h.hnormalized();
+            EXPECT_LE((to - at).norm(), motion.greatest + 1e-3);
+            if (to.x() < 0 || to.y() < 0 || to.x() > 159 || to.y() > 119) continue;
+            EXPECT_TRUE(to.x() >= motion.bounds.x0 && to.x() < motion.bounds.x1 &&
+                        to.y() >= motion.bounds.y0 && to.y() < motion.bounds.y1)
+                << degrees << " " << to.transpose();
+        }
+    }
+    RigidTransform away = test::orbit(0);
+    away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);
+    EXPECT_TRUE(motionOf(r, lens, away).bounds.empty());
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,94 @@
+#include "pipeline/warp/surface_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+using Eigen::Vector3f;
+
+Vector3f at(const SurfaceMesh& mesh, std::uint32_t i) {
+    const float* p = mesh.vertices[i].position;
+    return {p[0], p[1], p[2]};
+}
+
+float areaOf(const SurfaceMesh& mesh) {
+    float sum = 0;
+    for (const auto& t : mesh.triangles)
+        sum +=
+            0.5F * (at(mesh, t[1]) - at(mesh, t[0])).cross(at(mesh, t[2]) - at(mesh, t[0])).norm();
+    return sum;
+}
+
+TEST(SurfaceMesh, LongEdgesAreCutAtTheSamePointsOnBothSides) {
+    const std::vector<Vector3f> corners{{0, 0, 0}, {3, 0, 0}, {3, 1, 0.5F}, {0.3F, 1, 0}};
+    const std::vector<std::array<std::uint32_t, 3>> two{{0, 1, 2}, {0, 2, 3}};
+    const SurfaceMesh mesh = surfaceMesh(corners, {}, two, 0.4F);
+    std::map<std::pair<std::array<float, 3>, std::array<float, 3>>, int> edges;
+    for (const auto& t : mesh.triangles)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vector3f a = at(mesh, t[k]), b = at(mesh, t[(k + 1) % 3]);
+            EXPECT_LE((a - b).norm(), 0.4F);
+            std::array<float, 3> from{a.x(), a.y(), a.z()}, to{b.x(), b.y(), b.z()};
+            if (to < from) std::swap(from, to);
+            ++edges[{from, to}];
+        }
+    // Inner edges have two triangles, the others lie on the outline: its length tells if any is
+    // torn.
+    double outline = 0;
+    for (const auto& [edge, triangles] : edges) {
+        EXPECT_LE(triangles, 2);
+        const Vector3f a(edge.first.data()), b(edge.second.data());
+        if (triangles == 1) outline += (a - b).norm();
+    }
+    double wanted = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        wanted += (corners[i] - corners[(i + 1) % 4]).norm();
+    EXPECT_NEAR(outline, wanted, 1e-4);
+}
+
+TEST(SurfaceMesh, FaultyTrianglesAreLeftOutAndTheNumberIsBounded) {
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    const std::vector<Vector3f> corners{{0, 0, 0}, {100, 0, 0}, {0, 100, 0}, {kNan, 0, 0}};
+    const SurfaceMesh mesh = surfaceMesh(
+        corners, {},
+        std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {0, 1, 3}, {0, 1, 9}, {1, 1, 1}},
+        0.001F, 1000);
+    EXPECT_GT(mesh.triangles.size(), 100U);
+    EXPECT_LE(mesh.triangles.size(), 1000U);
+    EXPECT_NEAR(areaOf(mesh), 5000, 1);
+    EXPECT_TRUE(surfaceMesh({}, {}, {}, 1).triangles.empty());
+}
+
+TEST(SurfaceMesh, SimplifiedStaysCloseToASmoothSurface) {
+    std::vector<Vector3f> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    constexpr std::uint32_t kSide = 200;
+    for (std::uint32_t j = 0; j <= kSide; ++j)
+        for (std::uint32_t i = 0; i <= kSide; ++i) {
+            const float x = static_cast<float>(i) / kSide, y = static_cast<float>(j) / kSide;
+            corners.emplace_back(x, y, 0.1F * std::sin(4 * x) * std::cos(3 * y));
+            if (i == kSide || j == kSide) continue;
+            const std::uint32_t a = j * (kSide + 1) + i, below = a + kSide + 1;
+            triangles.push_back({a, a + 1, below});
+            triangles.push_back({a + 1, below + 1, below});
+        }
+    const SurfaceMesh whole = surfaceMesh(corners, {}, triangles, 0);
+    const SurfaceMesh few = simplified(whole, 5000);
+    EXPECT_GT(few.triangles.size(), 1500U);
+    EXPECT_LE(few.triangles.size(), 5000U);
+    EXPECT_NEAR(areaOf(few), areaOf(whole), 0.05F);
+    for (const gpu::MeshVertex& v : few.vertices)
+        EXPECT_NEAR(v.position[2], 0.1F * std::sin(4 * v.position[0]) * std::cos(3 * v.position[1]),
+                    1e-3);
+    EXPECT_EQ(simplified(whole, 80000).triangles.size(), whole.triangles.size());
+}
+
+}  // namespace
+}  // namespace mfar
