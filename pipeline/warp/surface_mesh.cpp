@@ -129,7 +129,7 @@ SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles) {
 SurfaceMesh surfaceMesh(std::span<const Eigen::Vector3f> positions,
                         std::span<const Eigen::Vector2f> uvs, std::span<const Triangle> triangles,
                         float longest, std::size_t mostTriangles) {
-    const SurfaceMesh whole = soundPart(positions, uvs, triangles);
+    SurfaceMesh whole = soundPart(positions, uvs, triangles);
     const std::size_t most = std::max(mostTriangles, whole.triangles.size());
     for (; longest > 0 && std::isfinite(longest); longest *= 2) {
         SurfaceMesh mesh = whole;

@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-const WarpOptions& validated(const WarpOptions& options) {
+WarpOptions validated(const WarpOptions& options) {
     validate(options);
     return options;
 }
@@ -24,7 +24,7 @@ unsigned orderOf(std::uint32_t pixel, unsigned width) {
 /// At most `most` of them, evenly spread, ascending.
 void thinOut(std::vector<std::uint32_t>& pixels, std::size_t most, unsigned width) {
     if (pixels.size() <= most) return;
-    std::ranges::stable_sort(pixels, {}, [&](std::uint32_t p) { return orderOf(p, width); });
+    std::ranges::sort(pixels, {}, [&](std::uint32_t p) { return std::pair(orderOf(p, width), p); });
     // The last square's pixels that still find room are spread, too.
     std::size_t whole = most;
     while (whole > 0 && orderOf(pixels[whole - 1], width) == orderOf(pixels[most], width))
