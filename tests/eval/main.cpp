@@ -14,6 +14,7 @@
 #include "tests/eval/superres.h"
 #include "tests/eval/superres_methods.h"
 #include "tests/eval/traced_commands.h"
+#include "tests/eval/warp_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -85,6 +86,8 @@ struct Options {
     OcclusionRequest occlusion;
     MetricRequest metric;
     Figure7Request figure7;
+    WarpRequest warp;
+    WarpFiles warpFiles;
     std::string degrade;
     PoseNoise poseNoise;
     std::string csv;
@@ -168,6 +171,7 @@ int run(int argc, char** argv) {
     const CLI::App* metric = addMetricCommand(app, o.metric, o.csv);
     const CLI::App* figure7 = addFigure7Command(app, o.figure7, o.csv);
     const std::vector<TracedCommand> traced = addTracedCommands(app, o.csv);
+    const CLI::App* warp = addWarpCommand(app, o.warp, o.warpFiles, o.csv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -192,6 +196,8 @@ int run(int argc, char** argv) {
         report = evaluateMetric(o.metric);
     } else if (figure7->parsed()) {
         report = runFigure7(o.figure7);
+    } else if (warp->parsed()) {
+        report = runWarpCommand(o.warp, o.warpFiles);
     } else if (depth->parsed()) {
         report = evaluateDepth(completed(o.depth, depthMethodNames(), o));
     } else {

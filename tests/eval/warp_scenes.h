@@ -1,0 +1,31 @@
+#pragma once
+
+#include "pipeline/render/path_tracer.h"
+#include "pipeline/render/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+/// `still-life`: balls and boxes beside and behind each other; `showpiece`: the daemon's own object
+/// on a plane that catches its shadow.
+[[nodiscard]] std::vector<std::string> warpSceneNames();
+/// Of those, or of a glTF file at its own size, which stands on the plane. Throws EvalError.
+[[nodiscard]] std::shared_ptr<const Scene> warpScene(const std::string& name);
+
+/// A camera with a slightly bent lens that looks at the middle of the scene's objects from the
+/// distance that shows all of them, `degrees` around them and 35 degrees above.
+[[nodiscard]] RenderView warpView(const Scene& scene, Size size, double degrees);
+
+/// So many samples of each pixel, on all processors. Pixels not listed stay empty.
+[[nodiscard]] RenderedPicture tracePixels(const PathTracer& tracer, const RenderView& view,
+                                          std::span<const std::uint32_t> pixels, int samples);
+/// The same of all pixels that the scene reaches.
+[[nodiscard]] RenderedPicture tracePicture(const PathTracer& tracer, const RenderView& view,
+                                           int samples);
+
+}  // namespace mfar::eval
