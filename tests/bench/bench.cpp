@@ -205,6 +205,7 @@ BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode
         out.cases.push_back(measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, {}));
     }
     out.depth = measureDepth(posed);
+    out.warp = measureWarp(out.video, static_cast<int>(moving.frames.size()));
     out.triangulation = measureTriangulation(out.video);
     return out;
 }

@@ -4,6 +4,7 @@
 #include "tests/bench/depth_bench.h"
 #include "tests/bench/summary.h"
 #include "tests/bench/triangulation_bench.h"
+#include "tests/bench/warp_bench.h"
 #include "tests/bench/workload.h"
 
 #include <array>
@@ -42,6 +43,7 @@ struct BenchResult {
     std::vector<CaseResult> cases;
     std::vector<PeerResult> peers;
     DepthTimes depth;  ///< of what is hand-held
+    WarpTimes warp;    ///< at the video's size
     TriangulationTimes triangulation;
 };
 

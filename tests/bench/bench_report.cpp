@@ -32,6 +32,12 @@ nlohmann::json json(const CaseResult& result) {
             {"tile_share", tiles}};
 }
 
+nlohmann::json json(const WarpTimes& t) {
+    return {{"objects", json(t.objects)},     {"whole", json(t.whole)},
+            {"splatted", json(t.splatted)},   {"still", json(t.still)},
+            {"reference", json(t.reference)}, {"remap", json(t.remap)}};
+}
+
 std::string line(const std::string& name, const Summary& s) {
     return fmt::format("{:<28} {:>9.2f} {:>9.2f} {:>9.2f} {:>6}", name, s.median, s.p99, s.min,
                        s.runs);
@@ -68,6 +74,7 @@ nlohmann::json toJson(const BenchResult& result) {
             {"cases", cases},
             {"peers", peers},
             {"depth", {{"tenth", json(result.depth.tenth)}, {"whole", json(result.depth.whole)}}},
+            {"warp", json(result.warp)},
             {"triangulation_ns_per_point",
              {{"flow", result.triangulation.flow},
               {"midpoint", result.triangulation.midpoint},
@@ -93,6 +100,12 @@ std::string toTable(const BenchResult& result) {
     if (result.depth.whole.runs > 0)
         out += line("depth, tenth of the picture", result.depth.tenth) + '\n' +
                line("depth, whole picture", result.depth.whole) + '\n';
+    out += line("warp, objects", result.warp.objects) + '\n' +
+           line("warp, whole picture", result.warp.whole) + '\n' +
+           line("warp, objects, splatted", result.warp.splatted) + '\n' +
+           line("warp, camera at rest", result.warp.still) + '\n' +
+           line("warp, new reference", result.warp.reference) + '\n' +
+           line("peer cv::remap", result.warp.remap) + '\n';
     const TriangulationTimes& t = result.triangulation;
     out += fmt::format("triangulation [ns a point]: flow {:.1f}, midpoint {:.1f}, "
                        "cv::triangulatePoints {:.0f} = {:.0f} times flow\n",
