@@ -27,6 +27,7 @@ struct ReferenceOptions {
 };
 
 struct RenderCounters {
+    Timestamp frame;              ///< the last one that was seen
     std::uint64_t samples = 0;    ///< traced since the start
     double samplesPerSecond = 0;  ///< by the frames' times, over the last second or more
     double msPerSample = 0;       ///< processor time

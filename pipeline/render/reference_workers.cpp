@@ -267,6 +267,7 @@ bool ReferenceWorkers::tracing() const {
 }
 
 void ReferenceWorkers::publishCounters() {
+    counters_.frame = tick_.time;
     counters_.msPerSample = budget_.msPerSample();
     counters_.budget = budget_.kept();
     counters_.idle = !hasWork();
