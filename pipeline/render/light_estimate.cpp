@@ -54,15 +54,16 @@ std::size_t texelOf(const Eigen::Vector3f& direction) {
 }
 
 Eigen::Vector3f directionOf(std::size_t texel) {
-    const auto x = static_cast<float>(texel % kMap.width),
-               y = static_cast<float>(texel / kMap.width);
-    return environmentDirection((x + 0.5F) / kMap.width, (y + 0.5F) / kMap.height);
+    const std::size_t row = texel / kMap.width, column = texel % kMap.width;
+    return environmentDirection((static_cast<float>(column) + 0.5F) / kMap.width,
+                                (static_cast<float>(row) + 0.5F) / kMap.height);
 }
 
 double solidAngleOf(std::size_t texel) {
-    const double step = std::numbers::pi / kMap.height,
-                 top = static_cast<double>(texel / kMap.width);
-    return 2 * std::numbers::pi / kMap.width * (std::cos(top * step) - std::cos((top + 1) * step));
+    const double step = std::numbers::pi / kMap.height;
+    const std::size_t row = texel / kMap.width;
+    const double top = static_cast<double>(row) * step;
+    return 2 * std::numbers::pi / kMap.width * (std::cos(top) - std::cos(top + step));
 }
 
 double secondsBetween(Timestamp from, Timestamp to) {

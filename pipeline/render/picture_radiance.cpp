@@ -31,8 +31,10 @@ public:
             const std::uint8_t* uv = chromaRow(0, y) + x / 2 * 2;
             return fromYuv(row[x], uv[0], uv[1]);
         }
-        case PixelFormat::Yuv420:
-            return fromYuv(row[x], chromaRow(0, y)[x / 2], chromaRow(1, y)[x / 2]);
+        case PixelFormat::Yuv420: {
+            const int column = x / 2;
+            return fromYuv(row[x], chromaRow(0, y)[column], chromaRow(1, y)[column]);
+        }
         }
         return Eigen::Vector3f::Zero();
     }
@@ -47,7 +49,7 @@ private:
         for (std::size_t i = 0; i < 3; ++i) {
             const std::array<float, 4>& row = toRgb_[i];
             const float value = row[0] * y + row[1] * u + row[2] * v + row[3];
-            rgb[i] = static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+            rgb[i] = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 255.0F)));
         }
         return linear(rgb);
     }

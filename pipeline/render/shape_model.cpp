@@ -11,7 +11,7 @@ namespace {
 constexpr float kRoughness = 0.5F;
 
 std::uint8_t displayByte(float value) {
-    return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255 + 0.5F);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255));
 }
 
 /// The whole side once, many texels a square, so that squares have sharp edges.

@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-enum ShowpieceMaterial : int { kGlaze, kBrass, kWalnut };
+constexpr int kGlaze = 0, kBrass = 1, kWalnut = 2;  ///< materials
 
 float lengthOf(const LatheProfile& profile) {
     float length = 0;
@@ -167,7 +167,7 @@ void paintWalnut(Model& model) {
     const LatheProfile profile = standProfile(), rows = rowsOf(profile, kTexels.height);
     paint(model, model.materials[kWalnut], {kTexels, kMeanCircumference, lengthOf(profile)},
           [&](float u, float v) {
-              const Eigen::Vector2f p = rows[static_cast<int>(v * kTexels.height)];
+              const Eigen::Vector2f& p = rows[static_cast<int>(v * kTexels.height)];
               const float angle = u * 2 * std::numbers::pi_v<float>;
               return walnutAt({p.x() * std::cos(angle), p.x() * std::sin(angle), p.y()});
           });

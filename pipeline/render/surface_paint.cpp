@@ -9,7 +9,7 @@ namespace mfar {
 namespace {
 
 std::uint8_t byteOf(float share) {
-    return static_cast<std::uint8_t>(std::clamp(share, 0.0F, 1.0F) * 255 + 0.5F);
+    return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0F, 1.0F) * 255));
 }
 
 std::uint8_t srgbByteOf(float linear) {
