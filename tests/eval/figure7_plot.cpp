@@ -15,6 +15,8 @@ constexpr double kFigureLeft = 64, kFigureTop = 72, kFigureHeight = 230, kFigure
 constexpr double kBar = 25, kBarGap = 3, kGroupGap = 34;
 constexpr std::array<const char*, 6> kBarColours{"#444444", "#0072b2", "#56b4e9",
                                                  "#d55e00", "#009e73", "#cc79a7"};
+// Of the numbers in them.
+constexpr std::array<const char*, 6> kBarInk{"#fff", "#fff", "#111", "#fff", "#fff", "#111"};
 
 /// One measure of all scenes and methods.
 struct Figure7Panel {
@@ -74,9 +76,9 @@ private:
                                "stroke=\"#222\" stroke-width=\"0.8\"/>\n",
                                x + kBar / 2, y(panel_.value(frame)));
         const bool inside = zero - end > 18;  // at the foot of the bar, away from all else
-        out +=
-            svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
-                      fmt::format("{:.{}f}", mean, panel_.decimals), 10, inside ? "#fff" : "#222");
+        out += svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
+                         fmt::format("{:.{}f}", mean, panel_.decimals), 10,
+                         inside ? kBarInk[m] : "#222");
         return panel_.tiles ? out + quantiles(scene, m, x) : out;
     }
 
@@ -108,8 +110,9 @@ double leastOf(const std::vector<Figure7Scene>& scenes, const Figure7Panel& pane
 std::string legend(double top, const PictureMetrics& metrics) {
     std::string out;
     for (std::size_t m = 0; m < figure7Methods().size(); ++m) {
-        const double x = kFigureLeft + 250 * static_cast<double>(m % 3);
-        const double y = top + 20 * static_cast<double>(m / 3);
+        const std::size_t column = m % 3, row = m / 3;
+        const double x = kFigureLeft + 250 * static_cast<double>(column);
+        const double y = top + 20 * static_cast<double>(row);
         out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"12\" "
                            "fill=\"{}\"/>\n",
                            x, y - 10, kBarColours[m]);
