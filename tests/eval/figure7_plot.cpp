@@ -77,7 +77,7 @@ private:
                                x + kBar / 2, y(panel_.value(frame)));
         const bool inside = zero - end > 18;  // at the foot of the bar, away from all else
         out += svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
-                         fmt::format("{:.{}f}", mean, panel_.decimals), 10,
+                         fmt::format("{:.{}f}", mean, mean > 99.9 ? 0 : panel_.decimals), 10,
                          inside ? kBarInk[m] : "#222");
         return panel_.tiles ? out + quantiles(scene, m, x) : out;
     }
