@@ -112,7 +112,7 @@ void DepthStage::searchKeyframe(const LumaImage& luma, const Pose& pose) {
     for (const Need& need : needs_)
         if (need.choice.frame == &frame) where = around(where, need.part);
     const UnitPose relative = unitPose({}, frame.pose, pose);
-    if (relative.lengthError >= kMostLengthError) return;
+    if (!(relative.lengthError < kMostLengthError)) return;
     if (frame.number != searchedKey_) {
         search_.setStill(viewOf(frame.luma));
         searchedKey_ = frame.number;

@@ -69,7 +69,9 @@ constexpr int kEnoughPatches = 16;
 
 /// What a pose's doubt moves the lines by [px]: its rotation, as what is far shows it.
 double normalErrorOf(const Matrix6& covariance, double focal) {
-    return focal * std::sqrt(covariance.topLeftCorner<3, 3>().trace() / 3);
+    constexpr double kNoLine = 1e6;  // [px]
+    const double variance = covariance.topLeftCorner<3, 3>().trace() / 3;
+    return variance > 0 ? std::min(focal * std::sqrt(variance), kNoLine) : 0;
 }
 
 // The pixel of a level in which a pixel of the finest lies.
