@@ -127,6 +127,20 @@ TEST(Mended, APredictionThatIsNoNumberIsSearchedFromInfinity) {
     EXPECT_EQ(searched(kInf), searched(1e30F));
 }
 
+TEST(Mended, ACovarianceThatIsNoneLeavesTheSearchSound) {
+    const CameraModel camera = smallCamera({64, 48});
+    const Picture picture = randomPicture({64, 48}, 1);
+    LumaImage luma;
+    lumaOf(picture.view(), luma);
+    for (const double bad : {double(kNan), double(kInf), -1.0}) {
+        EpipolarSearch search({camera, camera, {}}, oneWorker());
+        search.setStill(picture.view());
+        const Matrix6 covariance = Matrix6::Identity() * bad;
+        EXPECT_TRUE(search.run(luma, {Eigen::Quaterniond::Identity(), {0.1, 0, 0}}, covariance));
+        EXPECT_TRUE(search.normalError() >= 0 && search.normalError() <= 1e6) << bad;
+    }
+}
+
 TEST(Mended, CovariancesThatAreNoneAreNoPose) {
     PoseFilter filter;
     Pose pose{Timestamp::fromSeconds(1), {}};

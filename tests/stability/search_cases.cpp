@@ -230,7 +230,7 @@ void hostileLuma(Context& c) {
     c.checks.within(shrunk / static_cast<double>(pixelsOf(to)) -
                         sum / static_cast<double>(pixelsOf(size)),
                     -0.6, 0.6, "mean of a smaller picture");
-    c.checks.within(noiseOf(luma), 0, 255, "noise");
+    c.checks.within(noiseOf(luma), 0, 427, "noise");
     c.checks.through("luma", pixelsOf(size));
 }
 
