@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -59,7 +60,11 @@ void exactTag(Context& c) {
     const TagObservation tag = observed(c, camera, truth, 0.12 * unit, 0);
     const auto poses = solveTagPose(std::span(&tag, 1), camera);
     c.checks.through("solveTagPose", 1);
-    if (!poses) return;  // out of the picture
+    const bool inside = std::ranges::all_of(tag.corners, [](const Eigen::Vector2d& p) {
+        return p.x() >= 0 && p.y() >= 0 && p.x() <= 639 && p.y() <= 479;
+    });
+    c.checks.require(poses.has_value() || !inside, "a tag without a pose");
+    if (!poses) return;
     const double turn = poses->best.T_world_camera.rotation.angularDistance(truth.rotation);
     const double off = (poses->best.T_world_camera.translation - truth.translation).norm() / unit;
     c.checks.within(poses->best.rms(), 0, 1e-4, "error of exact corners [px]");

@@ -166,6 +166,27 @@ void hostileRefinement(Context& c) {
     c.checks.through("refineRelativePose", static_cast<long>(matches.size()));
 }
 
+// Matches without errors give back the turn that the prior lacks.
+void exactRefinement(Context& c) {
+    const Eigen::Vector3d translation = 0.2 * c.hostile.direction();
+    const Eigen::Quaterniond turn(
+        Eigen::AngleAxisd(c.hostile.real(0.005, 0.02), c.hostile.direction()));
+    PosePrior prior{translation, Matrix6::Identity() * 1e-4};
+    prior.covariance.bottomRightCorner<3, 3>() *= 1e-2;
+    std::vector<RayMatch> matches;
+    for (int i = 0; i < 300; ++i) {
+        const Eigen::Vector2d ray(c.hostile.real(-0.5, 0.5), c.hostile.real(-0.4, 0.4));
+        const Eigen::Vector3d p = turn * ray.homogeneous() + c.hostile.real(0.2, 1) * translation;
+        matches.push_back({ray, p.head<2>() / p.z()});
+    }
+    const PoseRefinement out = refineRelativePose(matches, prior, 600);
+    c.checks.require(out.accepted, "exact matches that are not accepted");
+    c.checks.within(out.motion.rotation.angularDistance(turn), 0, 5e-4,
+                    "turn of exact matches [rad]");
+    c.checks.within(out.normalAfter, 0, 0.05, "distance of exact matches from their lines [px]");
+    c.checks.through("refineRelativePose", 300);
+}
+
 void hostileFilters(Context& c) {
     const Size size = c.hostile.size(1, c.large ? 640 : 130);
     std::vector<float> in(pixelsOf(size)), out(in.size());
@@ -241,6 +262,7 @@ std::vector<Case> searchCases() {
             {"search-plane", planeSearch},
             {"flow-of-poses", hostileFlowOfPoses},
             {"refinement", hostileRefinement},
+            {"refinement-exact", exactRefinement},
             {"filters", hostileFilters},
             {"aggregation", hostileAggregation},
             {"luma", hostileLuma}};
