@@ -83,8 +83,10 @@ std::unique_ptr<Camera> openCamera(const CameraConfig& config) {
     return std::make_unique<LibcameraCamera>(options);
 }
 
-std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const char* role) {
+std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const char* role,
+                                               std::function<bool()> busyElsewhere) {
     ReopeningOptions options;
+    if (config.driver == CameraDriver::Libcamera) options.busyElsewhere = std::move(busyElsewhere);
     // One that waits for its trigger is silent as long as it likes.
     if (config.rateHz == 0) options.silent = std::chrono::milliseconds(0);
     return std::make_unique<ReopeningCamera>(
@@ -137,11 +139,15 @@ StereoRig nominalRig(Size video, Size still) {
 }
 
 CamerasSource::CamerasSource(const CamerasConfig& config)
-    : config_(config), video_(waitingCamera(config.video, "video camera")) {
+    : config_(config), video_(waitingCamera(config.video, "video camera", [this] {
+          return config_.still.driver == CameraDriver::Libcamera && still_->absent();
+      })) {
     const RigCalibration calibration = calibrationOf(config);
     geometry_ = calibration.rig;
     stillTimeOffset = nanoseconds(calibration.stillTimeOffset * 1e3);
-    auto still = waitingCamera(config.still, "still camera");
+    auto still = waitingCamera(config.still, "still camera", [this] {
+        return config_.video.driver == CameraDriver::Libcamera && video_->absent();
+    });
     still_ = still.get();
     if (config.trigger.line.empty()) {
         freeStill_ = std::move(still);

@@ -96,12 +96,14 @@ void ReopeningCamera::sent() {
 }
 
 bool ReopeningCamera::hasStalled() {
+    // Asked before the lock is taken, as the other one may ask us.
+    const bool isExcused = options_.busyElsewhere && options_.busyElsewhere();
     const std::lock_guard lock(mutex_);
     if (options_.silent.count() == 0) {
         fault_.reset();  // it is there, and that is all that can be known
         return false;
     }
-    return Timestamp::now() - lastFrame_ >= options_.stalled;
+    return Timestamp::now() - lastFrame_ >= (isExcused ? options_.excused : options_.stalled);
 }
 
 // A device can be opened once at a time: first closed, then opened again.
@@ -140,6 +142,11 @@ std::optional<std::string> ReopeningCamera::fault() const {
     if (options_.silent.count() > 0 && Timestamp::now() - lastFrame_ > options_.silent)
         return info_.name + ": sends no pictures";
     return std::nullopt;
+}
+
+bool ReopeningCamera::absent() const {
+    const std::lock_guard lock(mutex_);
+    return camera_ == nullptr;
 }
 
 std::uint64_t ReopeningCamera::losses() const {

@@ -23,6 +23,11 @@ struct ReopeningOptions {
     /// Pause between two attempts to open it; doubles from the first to the second. A camera that
     /// is plugged in again is to be back within 3 s, of which some libraries take two to find it.
     std::chrono::milliseconds firstPause{100}, longestPause{500};
+    /// Says that frames may be late for a reason that is not this device's: libcamera looks at a
+    /// device that was plugged in from the thread that delivers every camera's frames. Meanwhile
+    /// `excused` stands for `stalled`. Empty: there is no such reason. Any thread.
+    std::function<bool()> busyElsewhere{};
+    std::chrono::milliseconds excused{6000};
 };
 
 /// A camera that outlives its device: it is opened by a thread of its own, again whenever it is
@@ -49,6 +54,8 @@ public:
 
     /// Why there are no frames, for people; nothing as long as there are.
     [[nodiscard]] std::optional<std::string> fault() const;
+    /// There is no open device at present.
+    [[nodiscard]] bool absent() const;
     /// How often it was lost since the start.
     [[nodiscard]] std::uint64_t losses() const;
 

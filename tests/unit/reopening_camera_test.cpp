@@ -113,6 +113,26 @@ TEST(ReopeningCamera, OneThatGoesSilentIsNamedAndThenOpenedAgain) {
     EXPECT_EQ(camera.fault(), std::nullopt);
 }
 
+TEST(ReopeningCamera, OneThatIsSilentBesideABusyLibraryIsLeftAloneForLonger) {
+    Socket socket;
+    std::atomic<bool> busy{true};
+    ReopeningOptions options = quick();
+    options.busyElsewhere = [&] { return busy.load(); };
+    options.excused = std::chrono::hours(1);
+    ReopeningCamera camera = cameraOn(socket, options);
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    EXPECT_FALSE(camera.absent());
+    socket.sends = false;
+    const Timestamp end = Timestamp::now() + milliseconds(300);
+    while (Timestamp::now() < end)
+        EXPECT_FALSE(camera.next(milliseconds(5)));
+    EXPECT_EQ(camera.fault(), "video camera: sends no pictures");
+    EXPECT_EQ(camera.losses(), 0U);
+    busy = false;
+    EXPECT_TRUE(drivenUntil(camera, [&](bool) { return camera.losses() > 0; }));
+}
+
 TEST(ReopeningCamera, OneOnTriggerMayBeSilent) {
     Socket socket;
     socket.sends = false;
