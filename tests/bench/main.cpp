@@ -4,6 +4,8 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/bench_report.h"
 #include "tests/bench/curve_report.h"
+#include "tests/bench/pareto_command.h"
+#include "tests/bench/skip_command.h"
 #include "tests/bench/workload.h"
 #include "tests/eval/report.h"
 
@@ -86,9 +88,7 @@ void writeJson(const std::string& file, const nlohmann::json& value) {
     if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file));
 }
 
-int run(int argc, char** argv) {
-    CLI::App app(kHelp);
-    Options o;
+void addOptions(CLI::App& app, Options& o) {
     app.add_option("--recording", o.recording, "frames and stills of a recording instead");
     app.add_option("--frames", o.frames, "frames per case (default 40, quick 4)")
         ->check(CLI::Range(1, 100000));
@@ -105,15 +105,22 @@ int run(int argc, char** argv) {
                    "with --frames samples of each (default 2). Default: the stereo pairs of "
                    "../shared/data or, where they are absent and with --quick, synthetic scenes")
         ->needs("--curves");
+}
+
+int run(int argc, char** argv) {
+    CLI::App app(kHelp);
+    Options o;
+    addOptions(app, o);
+    ParetoCommand pareto(app);
+    SkipCommand skip(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : kUsage;
     }
-    if (!o.curves.empty()) {
-        drawCurves(o);
-        return 0;
-    }
+    if (pareto.asked()) return pareto.run(), 0;
+    if (skip.asked()) return skip.run(), 0;
+    if (!o.curves.empty()) return drawCurves(o), 0;
     const auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();
     const BenchResult result =

@@ -1,3 +1,4 @@
+#include "daemon/quality_table.h"
 #include "tests/bench/xml_check.h"
 #include "tests/unit/temp_folder.h"
 
@@ -107,11 +108,67 @@ TEST(MfarBench, CurvesHaveEveryValueOfEveryKnob) {
     }
 }
 
+TEST(MfarBench, ParetoHasEveryStageAndATableThatTheDaemonReads) {
+    const mfar::test::TempFolder folder;
+    const auto csv = folder / "pareto.csv", svg = folder / "pareto.svg",
+               table = folder / "levels.toml";
+    const std::string command =
+        fmt::format("{} pareto --quick --rounds 1 --csv '{}' --svg '{}' --table '{}' >/dev/null",
+                    MFAR_BENCH, csv.string(), svg.string(), table.string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    EXPECT_TRUE(test::isWellFormed(mfar::test::readFile(svg)));
+    std::istringstream lines(mfar::test::readFile(csv));
+    std::string line;
+    std::getline(lines, line);
+    std::map<std::string, std::map<std::string, int>> kinds;
+    while (std::getline(lines, line)) {
+        const auto row = fields(line);
+        ASSERT_GE(row.size(), 7U) << line;
+        ++kinds[row[0]][row[2]];
+        EXPECT_GT(std::stod(row[3]), 0) << line;
+        EXPECT_TRUE(std::isfinite(std::stod(row[4]))) << line;
+    }
+    ASSERT_EQ(kinds.size(), 4U);
+    for (const char* stage :
+         {"flow with poses", "flow without poses", "super-resolution", "depth"}) {
+        EXPECT_EQ(kinds[stage]["default"], 1) << stage;
+        EXPECT_GE(kinds[stage]["ours"], 8) << stage;
+        EXPECT_GE(kinds[stage]["peer"], 3) << stage;
+    }
+    const auto levels = parseQualityLevels(mfar::test::readFile(table), "levels.toml");
+    EXPECT_GE(levels.size(), 2U);
+}
+
+TEST(MfarBench, SkipMeasuresWhatIsAskedFor) {
+    const mfar::test::TempFolder folder;
+    const auto csv = folder / "skip.csv";
+    const std::string command =
+        fmt::format("{} skip --cases still --skips unchanged-tiles --frames 2 --csv '{}' "
+                    ">/dev/null",
+                    MFAR_BENCH, csv.string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::istringstream lines(mfar::test::readFile(csv));
+    std::string line;
+    std::getline(lines, line);
+    std::getline(lines, line);
+    const auto row = fields(line);
+    ASSERT_EQ(row.size(), 9U) << line;
+    EXPECT_EQ(row[0] + "," + row[1], "still,unchanged-tiles");
+    EXPECT_GT(std::stod(row[2]), 0);
+    EXPECT_TRUE(std::isfinite(std::stod(row[5]))) << line;
+    EXPECT_FALSE(std::getline(lines, line));
+}
+
 TEST(MfarBench, WrongRequestsEndWithStatus2) {
     const std::string program = MFAR_BENCH;
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --recording /absent 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --mode magic 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --data /tmp 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " skip --cases none 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system((program + " pareto --stages x 2>/dev/null").c_str())), 2);
+    EXPECT_EQ(WEXITSTATUS(std::system(
+                  (program + " pareto --stages flow --table /tmp/x 2>/dev/null").c_str())),
+              2);
     EXPECT_EQ(WEXITSTATUS(
                   std::system((program + " --curves /absent --data /absent 2>/dev/null").c_str())),
               2);
