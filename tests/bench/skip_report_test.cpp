@@ -9,7 +9,7 @@ namespace mfar::bench {
 namespace {
 
 SkipReport twoSkips() {
-    return {{{"still", 1.5, 0, 0, 0, 0}, {"office", 100, 20, 300, 20, 0.98}},
+    return {{{"still", 1.5, 0, 0, 0}, {"office", 100, 300, 20, 0.98}},
             {{"tiles", "still", 1.5, 90, 0.0, {}, {}},
              {"tiles", "office", 100, 101, 0.2, {}, {}},
              {"objects", "office", 100, 120, -0.05, 0.05, -0.3}}};

@@ -16,7 +16,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <string_view>
+#include <utility>
 
 namespace mfar::bench {
 namespace {
@@ -25,8 +25,8 @@ using synthetic::Path;
 using synthetic::Scene;
 
 /// Frames before the first that counts: until a still is there and depth has settled.
-constexpr int kSettled = 8;
-constexpr int kScoredFrames = 4;  // one of so many
+constexpr std::size_t kSettled = 8;
+constexpr std::size_t kScoredFrames = 4;  // one of so many
 // Disparity is that of a camera moved by so much [m].
 constexpr double kBaseline = 0.05;
 
@@ -145,6 +145,40 @@ FrameTruth truthOf(SyntheticBoard& board, const Case& one, Timestamp time) {
     return out;
 }
 
+/// A frame and the still that comes before it, R G B A. All are made before anything is timed: the
+/// board's renderer works in threads of this program.
+struct CaseFrame {
+    cv::Mat picture, still;  ///< still: empty when there is none
+    Timestamp time;
+    std::optional<Pose> pose, stillPose;
+    std::optional<FrameTruth> truth;  ///< of frames that are scored
+};
+
+cv::Mat copyOf(const Frame& frame) {
+    const ImageView& view = frame.view();
+    return cv::Mat(view.size.height, view.size.width, CV_8UC4, const_cast<std::uint8_t*>(view.data),
+                   view.stride)
+        .clone();
+}
+
+std::vector<CaseFrame> framesOf(const Case& one, eval::SceneRun& scene, int count) {
+    std::vector<CaseFrame> out;
+    for (std::size_t i = 0; i < kSettled + static_cast<std::size_t>(count); ++i) {
+        const auto shots = scene.next();
+        if (i == 0) scene.fire();
+        CaseFrame frame;
+        frame.picture = copyOf(shots.frame);
+        if (shots.still) frame.still = copyOf(*shots.still);
+        frame.time = shots.frame.time();
+        frame.pose = shots.pose;
+        frame.stillPose = shots.stillPose;
+        if (i >= kSettled && i % kScoredFrames == 0)
+            frame.truth = truthOf(scene.board(), one, frame.time);
+        out.push_back(std::move(frame));
+    }
+    return out;
+}
+
 /// The pipeline of one way in one case.
 class SkipWay {
 public:
@@ -153,23 +187,19 @@ public:
         pipeline_.setObjects(one.objects);
     }
 
-    void run(const eval::SceneRun::Shots& shots, bool counts) {
+    void run(const CaseFrame& frame, bool counts) {
         const auto pose = [&](const std::optional<Pose>& p) {
             return case_.hasPoses ? p : std::nullopt;
         };
-        if (shots.still)
-            pipeline_.setStill(shots.still->view(), shots.still->time(), pose(shots.stillPose));
+        if (!frame.still.empty())
+            pipeline_.setStill(eval::viewOf(frame.still), {}, pose(frame.stillPose));
         glFinish();
         const double ms = msOf(clock_, [&] {
-            stats_ = pipeline_.run(shots.frame.view(), shots.frame.time(), pose(shots.pose)).stats;
+            stats_ = pipeline_.run(eval::viewOf(frame.picture), frame.time, pose(frame.pose)).stats;
             glFinish();
         });
         if (!counts) return;
         ms_.push_back(ms);
-        virtualMs_.push_back(0);
-        for (const StageTime& stage : pipeline_.stageTimes())
-            if (const std::string_view name = stage.stage; name == "depth" || name == "composite")
-                virtualMs_.back() += stage.ms;
         total_.depthTiles += stats_.depthTiles;
         total_.framesInView += stats_.objectsInView ? 1 : 0;
         total_.changed += pipeline_.readStats().changed;
@@ -200,7 +230,6 @@ public:
         SkipCase out = total_;
         out.scene = case_.name;
         out.ms = ms();
-        out.virtualMs = summarise(virtualMs_).median;
         out.changed /= static_cast<double>(std::max<std::size_t>(ms_.size(), 1));
         return out;
     }
@@ -227,7 +256,7 @@ private:
     Pipeline pipeline_;
     FrameStats stats_;
     SkipCase total_;
-    std::vector<double> ms_, virtualMs_;
+    std::vector<double> ms_;
     Errors errors_;
 };
 
@@ -245,22 +274,20 @@ void measureCase(const Case& one, const SkipRequest& request, SkipReport& report
     SyntheticOptions options;
     options.scene = one.scene;
     options.path = one.path;
-    eval::SceneRun scene(options, eval::PoseSource::Recorded);
+    const auto [rig, frames] = [&] {
+        eval::SceneRun scene(options, eval::PoseSource::Recorded);
+        return std::pair(scene.rig(), framesOf(one, scene, request.frames));
+    }();
     const std::vector<Skip> skips = chosen(allSkips(), request.skips);
     std::vector<std::unique_ptr<SkipWay>> ways;
-    ways.push_back(std::make_unique<SkipWay>(one, scene.rig(), nullptr, request.clock));
+    ways.push_back(std::make_unique<SkipWay>(one, rig, nullptr, request.clock));
     for (const Skip& skip : skips)
-        ways.push_back(std::make_unique<SkipWay>(one, scene.rig(), &skip, request.clock));
-    for (int frame = 0; frame < kSettled + request.frames; ++frame) {
-        const auto shots = scene.next();
-        if (frame == 0) scene.fire();
-        const bool counts = frame >= kSettled, scored = counts && frame % kScoredFrames == 0;
-        for (const auto& way : ways)
-            way->run(shots, counts);
-        if (!scored) continue;
-        const FrameTruth truth = truthOf(scene.board(), one, shots.frame.time());
-        for (const auto& way : ways)
-            way->score(truth);
+        ways.push_back(std::make_unique<SkipWay>(one, rig, &skip, request.clock));
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        for (const auto& way : ways) {
+            way->run(frames[i], i >= kSettled);
+            if (frames[i].truth) way->score(*frames[i].truth);
+        }
     }
     report.cases.push_back(ways[0]->summary());
     for (std::size_t i = 0; i < skips.size(); ++i)

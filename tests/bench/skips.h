@@ -24,7 +24,6 @@ struct SkipResult {
 struct SkipCase {
     std::string scene;
     double ms = 0;          ///< median frame
-    double virtualMs = 0;   ///< of it, the stages depth and composite
     long depthTiles = 0;    ///< over all frames
     long framesInView = 0;  ///< with an object in view
     double changed = 0;     ///< mean share of the tiles
