@@ -102,18 +102,22 @@ std::vector<ParetoStage> ParetoCommand::measure() const {
     const auto samples = static_cast<std::size_t>(frames_ > 0 ? frames_ : 2);
     std::vector<ParetoStage> out;
     if (wants("flow")) {
-        const auto shots =
-            given.empty() ? syntheticCurveSamples(video) : curveSamplesOf(given, samples);
+        auto shots = given.empty() ? syntheticCurveSamples(video) : curveSamplesOf(given, samples);
+        if (quick_) shots.resize(1);
         out.push_back(flowStage(shots, true, run_));
         out.push_back(flowStage(shots, false, run_));
     }
     if (wants("superres")) {
         const int frames = frames_ > 0 ? frames_ : (quick_ ? 3 : 12);
-        out.push_back(superResStage(syntheticSequences(video, still, frames), run_));
+        auto sequences = syntheticSequences(video, still, frames);
+        if (quick_) sequences.resize(1);
+        out.push_back(superResStage(sequences, run_));
     }
-    if (wants("depth"))
-        out.push_back(depthStage(
-            given.empty() ? syntheticDepthSamples(video) : depthSamplesOf(given, samples), run_));
+    if (wants("depth")) {
+        auto shots = given.empty() ? syntheticDepthSamples(video) : depthSamplesOf(given, samples);
+        if (quick_) shots.resize(1);
+        out.push_back(depthStage(shots, run_));
+    }
     std::erase_if(out, [](const ParetoStage& stage) { return stage.points.empty(); });
     return out;
 }
