@@ -8,6 +8,7 @@
 namespace mfar {
 namespace {
 
+constexpr double kEvenLight = 1e-3;  // rounding of an even picture's mean
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
 /// Turns weights into their cumulative shares, from 0 to 1, and gives their sum.
@@ -54,23 +55,36 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const Environment> environmen
             std::cos(kTurn / 2 * static_cast<float>(row) / static_cast<float>(size_.height)));
     rows_.resize(static_cast<std::size_t>(size_.height) + 1);
     texels_.resize((width + 1) * static_cast<std::size_t>(size_.height));
-    std::vector<double> rowWeights, weights(width);
-    for (int row = 0; row < size_.height; ++row) {
+    // Interpolation carries a texel's light into half its neighbours.
+    std::vector<double> brightnesses;
+    double sum = 0;
+    for (int row = 0; row < size_.height; ++row)
         for (int column = 0; column < size_.width; ++column) {
-            // Interpolation carries a texel's light into half its neighbours: the mean of the
-            // texel's four quarters.
-            float mean = 0;
-            for (const float dx : {0.25F, 0.75F})
-                for (const float dy : {0.25F, 0.75F})
-                    mean += brightness(interpolated(
-                        {static_cast<float>(column) + dx, static_cast<float>(row) + dy}));
-            weights[static_cast<std::size_t>(column)] = mean;
+            brightnesses.push_back(meanBrightness(column, row));
+            sum += brightnesses.back() * (heightOf(row) - heightOf(row + 1));
         }
-        const double sum =
-            accumulate(weights, &texels_[static_cast<std::size_t>(row) * (width + 1)]);
-        rowWeights.push_back(sum * (heightOf(row) - heightOf(row + 1)));
+    const double mean = sum / (2.0 * size_.width);
+    dark_ = !(sum > 0);
+    // What is about even is left to the surface's own samples (see the class).
+    for (double& b : brightnesses)
+        b = std::max(0.0, b - (1 + kEvenLight) * mean);
+    std::vector<double> rowWeights;
+    for (int row = 0; row < size_.height; ++row) {
+        const auto first = static_cast<std::size_t>(row) * width;
+        const double rowSum = accumulate(std::span(brightnesses).subspan(first, width),
+                                         &texels_[static_cast<std::size_t>(row) * (width + 1)]);
+        rowWeights.push_back(rowSum * (heightOf(row) - heightOf(row + 1)));
     }
-    total_ = accumulate(rowWeights, rows_.data());
+    sampled_ = accumulate(rowWeights, rows_.data()) > 0;
+}
+
+float EnvironmentLight::meanBrightness(int column, int row) const {
+    float sum = 0;
+    for (const float dx : {0.25F, 0.75F})
+        for (const float dy : {0.25F, 0.75F})
+            sum += brightness(
+                interpolated({static_cast<float>(column) + dx, static_cast<float>(row) + dy}));
+    return sum / 4;
 }
 
 LightSample EnvironmentLight::sample(const Eigen::Vector2f& u) const {
@@ -131,7 +145,7 @@ Eigen::Vector3f EnvironmentLight::radiance(const Eigen::Vector3f& direction) con
 }
 
 float EnvironmentLight::density(const Eigen::Vector3f& direction) const {
-    if (dark()) return 0;
+    if (!sampled_) return 0;
     const Eigen::Vector2f at = place(direction);
     return density(std::clamp(static_cast<int>(at.x()), 0, size_.width - 1),
                    std::clamp(static_cast<int>(at.y()), 0, size_.height - 1));

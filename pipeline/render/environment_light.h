@@ -9,14 +9,18 @@
 namespace mfar {
 
 /// Light from an environment picture, interpolated between its texels, sampled from a density that
-/// is constant on each texel and follows luminance times solid angle (Pharr, Jakob, Humphreys,
-/// Physically Based Rendering, 12.5).
+/// is constant on each texel (Pharr, Jakob, Humphreys, Physically Based Rendering, 12.5) and
+/// follows what its luminance is above the mean over all directions: the rest is better found by
+/// the surface's own samples, which go where it reflects (MIS compensation, Karlik et al. 2019). An
+/// even picture is not sampled at all.
 class EnvironmentLight {
 public:
     /// May be null: dark.
     explicit EnvironmentLight(std::shared_ptr<const Environment> environment);
 
-    [[nodiscard]] bool dark() const { return total_ == 0; }
+    [[nodiscard]] bool dark() const { return dark_; }
+    /// Whether sample() gives anything.
+    [[nodiscard]] bool sampled() const { return sampled_; }
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
     /// `direction` of unit length.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
@@ -27,6 +31,7 @@ private:
     [[nodiscard]] Eigen::Vector2f place(const Eigen::Vector3f& direction) const;
     [[nodiscard]] Eigen::Vector3f interpolated(const Eigen::Vector2f& at) const;
     [[nodiscard]] float density(int column, int row) const;
+    [[nodiscard]] float meanBrightness(int column, int row) const;
     [[nodiscard]] float heightOf(int row) const { return tops_[static_cast<std::size_t>(row)]; }
 
     std::shared_ptr<const Environment> environment_;
@@ -34,7 +39,7 @@ private:
     std::vector<float> tops_;    // world z of each row's upper edge and of the last one's lower
     std::vector<float> rows_;    // cumulative share of the rows above, 0 first, 1 last
     std::vector<float> texels_;  // and of the texels to the left, a row of width + 1 each
-    double total_ = 0;
+    bool dark_ = true, sampled_ = false;
 };
 
 }  // namespace mfar

@@ -11,7 +11,14 @@ constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kR
 constexpr std::uint32_t kPairsOfVertex = 4;
 constexpr float kLongestWalk = 0.95F;  // greatest chance to go on after the roulette's depth
 
-/// Power heuristic of one sample from each of two densities (Veach 1997, equation 9.13).
+/// Balance heuristic of one sample from each of two densities (Veach 1997, equation 9.8): the one
+/// that the environment's compensated density is made for.
+float balanceWeight(float taken, float other) {
+    return taken / (taken + other);
+}
+
+/// Power heuristic (equation 9.13), for the sun: what a broad lobe finds of it would be rare and
+/// bright.
 float powerWeight(float taken, float other) {
     const float ratio = other / taken;
     return 1 / (1 + ratio * ratio);
@@ -66,22 +73,24 @@ PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions
     : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
       environment_(scene.scene().lighting.environment) {}
 
-Eigen::Vector3f PathIntegrator::lit(const Vertex& vertex, const LightSample& light,
-                                    World& world) const {
+Eigen::Vector3f PathIntegrator::lit(const Vertex& vertex, const LightSample& light, Weight weight,
+                                    World& world) {
     if (!(light.density > 0) || !vertex.faces(light.direction)) return {0, 0, 0};
     const ScatterValue f = vertex.scatter.evaluate(vertex.frame.transpose() * light.direction);
     if (!(f.density > 0)) return {0, 0, 0};
     if (world.blocked(vertex.point.leaving(light.direction))) return {0, 0, 0};
     return f.value.cwiseProduct(light.radiance) *
-           (powerWeight(light.density, f.density) / light.density);
+           (weight(light.density, f.density) / light.density);
 }
 
 Eigen::Vector3f PathIntegrator::direct(const Vertex& vertex, const PixelSampler& sampler,
                                        std::uint32_t pair, World& world) const {
     Eigen::Vector3f sum{0, 0, 0};
-    if (!sun_.dark()) sum += lit(vertex, sun_.sample(sampler.pair(pair + kSunPair)), world);
-    if (!environment_.dark())
-        sum += lit(vertex, environment_.sample(sampler.pair(pair + kEnvironmentPair)), world);
+    if (!sun_.dark())
+        sum += lit(vertex, sun_.sample(sampler.pair(pair + kSunPair)), powerWeight, world);
+    if (environment_.sampled())
+        sum += lit(vertex, environment_.sample(sampler.pair(pair + kEnvironmentPair)),
+                   balanceWeight, world);
     return sum;
 }
 
@@ -91,7 +100,7 @@ Eigen::Vector3f PathIntegrator::escaped(const Eigen::Vector3f& direction, float 
         sum += sun_.radiance(direction) * powerWeight(density, other);
     if (!environment_.dark())
         sum += environment_.radiance(direction) *
-               powerWeight(density, environment_.density(direction));
+               balanceWeight(density, environment_.density(direction));
     return sum;
 }
 

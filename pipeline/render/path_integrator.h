@@ -37,8 +37,10 @@ private:
                                        const PixelSampler& sampler, World& world) const;
     [[nodiscard]] Eigen::Vector3f direct(const Vertex& vertex, const PixelSampler& sampler,
                                          std::uint32_t pair, World& world) const;
-    [[nodiscard]] Eigen::Vector3f lit(const Vertex& vertex, const LightSample& light,
-                                      World& world) const;
+    /// Of one strategy's sample from its density and the other's.
+    using Weight = float (*)(float taken, float other);
+    [[nodiscard]] static Eigen::Vector3f lit(const Vertex& vertex, const LightSample& light,
+                                             Weight weight, World& world);
     [[nodiscard]] Eigen::Vector3f escaped(const Eigen::Vector3f& direction, float density) const;
     [[nodiscard]] Eigen::Vector3f limited(const Eigen::Vector3f& light, int depth) const;
 

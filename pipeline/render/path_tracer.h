@@ -30,7 +30,8 @@ public:
     void trace(const RenderView& view, std::span<const std::uint32_t> pixels, int samples,
                Film& film) const;
 
-    /// Pixels that an object, or the catcher near one, may reach; may be empty.
+    /// Pixels that an object, or the catcher within shadowReach of one, may reach; may be empty.
+    /// What bounces farther is left out.
     [[nodiscard]] PixelRect bounds(const RenderView& view) const;
 
 private:

@@ -9,8 +9,8 @@ namespace {
 
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
 constexpr float kDielectricF0 = 0.04F;
-constexpr float kLeastSpecular = 0.1F, kMostSpecular = 0.98F;  // of the samples
-constexpr float kLeastPassed = 1e-4F;  // below it nothing is left to divide by
+constexpr float kMostSpecular = 0.98F;  // of the samples
+constexpr float kLeastPassed = 1e-4F;   // below it nothing is left to divide by
 constexpr float kLeastCosine = 1e-5F;
 
 float fifthPower(float x) {
@@ -50,7 +50,11 @@ SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& w
     const float specular = f0_.mean() * albedo.scale + albedo.offset;
     const float wide = manyfold.mean() * passedOut_.manyfold +
                        (1 - metallic) * look.baseColour.mean() * passedOut_.diffuse;
-    specularShare_ = std::clamp(specular / (specular + wide), kLeastSpecular, kMostSpecular);
+    // A lobe hardly higher than the broad ones about it needs no samples of its own: those would be
+    // few, and few samples are not well spread.
+    const float height = fresnel(wo_.z()).mean() / (4 * alphaOf(roughness_) * alphaOf(roughness_));
+    specularShare_ =
+        std::min(specular / (specular + wide) * std::min(1.0F, height / wide), kMostSpecular);
 }
 
 Eigen::Vector3f SurfaceScatter::fresnel(float cosH) const {
@@ -113,8 +117,8 @@ Eigen::Vector2f discPoint(const Eigen::Vector2f& u) {
 }
 
 Eigen::Vector3f cosineDirection(const Eigen::Vector2f& u) {
-    const Eigen::Vector2f p = discPoint(u);
-    return {p.x(), p.y(), std::sqrt(std::max(0.0F, 1 - p.squaredNorm()))};
+    const float phi = 2 * std::numbers::pi_v<float> * u.x(), r = std::sqrt(u.y());
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u.y())};
 }
 
 }  // namespace mfar

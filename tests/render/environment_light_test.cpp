@@ -70,16 +70,26 @@ TEST(EnvironmentLight, SamplesHaveTheDensityAndRadianceOfTheirDirection) {
     EXPECT_GE(same, 508);
 }
 
-TEST(EnvironmentLight, SamplesGiveTheIntegral) {
+TEST(EnvironmentLight, SamplesAndEvenDirectionsTogetherGiveTheIntegral) {
     const EnvironmentLight light(unevenLight());
     const Eigen::Vector3f expected =
         overSphere([&](const Eigen::Vector3f& d) { return light.radiance(d); });
+    // One sample of each, by the balance heuristic.
+    constexpr float kEven = 1 / (4 * static_cast<float>(M_PI));
     Eigen::Vector3f sum{0, 0, 0};
     for (std::uint32_t i = 0; i < 4096; ++i) {
-        const LightSample s = light.sample(PixelSampler(0, 0, i, false).pair(0));
-        sum += s.radiance / s.density / 4096;
+        const PixelSampler sampler(0, 0, i, false);
+        const LightSample s = light.sample(sampler.pair(0));
+        sum += s.radiance / (s.density + kEven) / 4096;
+        const Eigen::Vector2f u = sampler.pair(1);
+        const float z = 2 * u.y() - 1, r = std::sqrt(1 - z * z);
+        const float phi = 2 * static_cast<float>(M_PI) * u.x();
+        const Eigen::Vector3f d{r * std::cos(phi), r * std::sin(phi), z};
+        sum += light.radiance(d) / (light.density(d) + kEven) / 4096;
     }
     EXPECT_NEAR((sum - expected).norm(), 0, 0.01F * expected.norm());
+    EXPECT_EQ(light.density({0, 0, -1}), 0);
+    EXPECT_GT(light.density({0, 0, 1}), 0);
 }
 
 TEST(EnvironmentLight, NoneIsDark) {
@@ -89,15 +99,16 @@ TEST(EnvironmentLight, NoneIsDark) {
     EXPECT_EQ(EnvironmentLight(render_scenes::evenLight(0)).density({0, 0, 1}), 0);
 }
 
-TEST(EnvironmentLight, OneTexelIsEvenLight) {
+TEST(EnvironmentLight, EvenLightIsLeftToTheSurfaces) {
     auto picture = std::make_shared<Environment>();
     picture->size = {1, 1};
     picture->radiance = {{2, 2, 2}};
-    const EnvironmentLight light(picture);
-    for (std::uint32_t i = 0; i < 64; ++i) {
-        const LightSample s = light.sample(PixelSampler(0, 0, i, false).pair(0));
-        EXPECT_NEAR(s.density, 1 / (4 * M_PI), 1e-5);
-        EXPECT_NEAR((s.radiance - Eigen::Vector3f(2, 2, 2)).norm(), 0, 1e-5F);
+    for (const EnvironmentLight& light :
+         {EnvironmentLight(picture), EnvironmentLight(render_scenes::evenLight(2))}) {
+        EXPECT_FALSE(light.dark());
+        EXPECT_FALSE(light.sampled());
+        EXPECT_EQ(light.density({0, 0.6F, 0.8F}), 0);
+        EXPECT_NEAR((light.radiance({0, 0.6F, 0.8F}) - Eigen::Vector3f(2, 2, 2)).norm(), 0, 1e-5F);
     }
 }
 

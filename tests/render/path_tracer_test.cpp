@@ -226,11 +226,13 @@ TEST(PathTracer, DepthIsAlongTheCamerasAxis) {
     }
 }
 
-TEST(PathTracer, BoundsHoldAllThatIsSeen) {
+TEST(PathTracer, BoundsHoldObjectsAndShadows) {
     auto scene = sceneOf(sphere({0.1F, 0, 0.3F}, 0.3F, 16), materialOf({1, 1, 1}, 0, 1));
     scene->lighting.sun = Sun{Eigen::Vector3f(0.6F, 0, 1).normalized(), {3, 3, 3}, 0.02F};
     scene->catcher = ground(4, 0.5F);
-    const PathTracer tracer(scene);
+    PathTracerOptions directly;
+    directly.maxDepth = 1;
+    const PathTracer tracer(scene, directly);
     for (const double angle : {0.0, 1.0, 2.5}) {
         RenderView view = lookingAt({3 * std::cos(angle), 3 * std::sin(angle), 1.2},
                                     {0.3, 0.2, 0.2}, {80, 60}, 70);
