@@ -2,6 +2,7 @@
 
 #include "pipeline/pipeline.h"
 #include "tests/bench/depth_bench.h"
+#include "tests/bench/render_bench.h"
 #include "tests/bench/summary.h"
 #include "tests/bench/triangulation_bench.h"
 #include "tests/bench/warp_bench.h"
@@ -45,6 +46,7 @@ struct BenchResult {
     DepthTimes depth;  ///< of what is hand-held
     WarpTimes warp;    ///< at the video's size
     TriangulationTimes triangulation;
+    RenderFigures render;
 };
 
 /// Needs a current GL context, which `renderer` describes. The first frames warm up and do not

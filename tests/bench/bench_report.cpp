@@ -51,6 +51,34 @@ std::string tileLine(const CaseResult& result) {
     return out;
 }
 
+nlohmann::json json(const RenderFigures& render) {
+    nlohmann::json rates = nlohmann::json::array(), errors = nlohmann::json::array();
+    for (const RayRates& r : render.rates)
+        rates.push_back({{"triangles", r.triangles},
+                         {"embree_mray_s", r.bare},
+                         {"camera_mray_s", r.ours},
+                         {"share", r.ours / r.bare},
+                         {"msample_s", r.samples}});
+    for (const SamplingError& e : render.errors)
+        errors.push_back({{"scene", e.scene},
+                          {"rmse", e.ours},
+                          {"rmse_independent", e.independent},
+                          {"ratio", e.independent / e.ours}});
+    return {{"rates", rates}, {"errors_at_16_samples", errors}};
+}
+
+std::string toTable(const RenderFigures& render) {
+    std::string out;
+    for (const RayRates& r : render.rates)
+        out += fmt::format("rays [M/s], {:>6} triangles: Embree {:.2f}, camera {:.2f} = {:.0f} %; "
+                           "samples {:.2f}\n",
+                           r.triangles, r.bare, r.ours, 100 * r.ours / r.bare, r.samples);
+    for (const SamplingError& e : render.errors)
+        out += fmt::format("RMSE at 16 samples, {:<30} {:.5f}, independent {:.5f} = {:.1f} times\n",
+                           e.scene + ":", e.ours, e.independent, e.independent / e.ours);
+    return out;
+}
+
 }  // namespace
 
 nlohmann::json toJson(const BenchResult& result) {
@@ -78,7 +106,8 @@ nlohmann::json toJson(const BenchResult& result) {
             {"triangulation_ns_per_point",
              {{"flow", result.triangulation.flow},
               {"midpoint", result.triangulation.midpoint},
-              {"opencv", result.triangulation.opencv}}}};
+              {"opencv", result.triangulation.opencv}}},
+            {"render", json(result.render)}};
 }
 
 std::string toTable(const BenchResult& result) {
@@ -110,7 +139,7 @@ std::string toTable(const BenchResult& result) {
     out += fmt::format("triangulation [ns a point]: flow {:.1f}, midpoint {:.1f}, "
                        "cv::triangulatePoints {:.0f} = {:.0f} times flow\n",
                        t.flow, t.midpoint, t.opencv, t.opencv / t.flow);
-    return out;
+    return out + toTable(result.render);
 }
 
 }  // namespace mfar::bench

@@ -123,9 +123,10 @@ int run(int argc, char** argv) {
     if (!o.curves.empty()) return drawCurves(o), 0;
     const auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();
-    const BenchResult result =
+    BenchResult result =
         runBench(moving, posed, o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail,
                  context->description());
+    result.render = measureRender(o.quick);
     fmt::print("{}", toTable(result));
     if (!o.json.empty()) writeJson(o.json, toJson(result));
     return 0;
