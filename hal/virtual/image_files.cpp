@@ -1,8 +1,8 @@
 #include "hal/virtual/image_files.h"
 
+#include "hal/image_codec.h"
 #include "hal/image_layout.h"
 #include "hal/virtual/bgr_picture.h"
-#include "hal/image_codec.h"
 #include "hal/virtual/whole_file.h"
 
 #include <fmt/format.h>

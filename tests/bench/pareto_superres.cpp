@@ -6,6 +6,7 @@
 #include "tests/eval/paper_pipeline.h"
 #include "tests/eval/picture.h"
 #include "tests/eval/superres.h"
+#include "tests/eval/superres_samples.h"
 
 #include <GLES3/gl31.h>
 #include <fmt/format.h>

@@ -32,7 +32,7 @@ TEST(MfarEvalWarp, WritesARowForEachTurnAndMethodAndAPlot) {
         EXPECT_EQ(line.find("nan"), std::string::npos) << line;
     }
     EXPECT_EQ(rows, 2 * 7);
-    EXPECT_TRUE(test::isWellFormed(test::readFile(folder / "out.svg")));
+    EXPECT_TRUE(bench::test::isWellFormed(test::readFile(folder / "out.svg")));
 }
 
 TEST(MfarEvalWarp, WrongRequestsEndWithOneLineAndStatus2) {
