@@ -22,11 +22,12 @@ namespace mfar {
 namespace {
 
 using synthetic::Path;
-using synthetic::Scene;
 
 constexpr std::string_view kCameras = "cameras";
-constexpr std::array kScenes = {Scene::Office, Scene::Shelf, Scene::Outdoor,    Scene::Flat,
-                                Scene::Moving, Scene::Still, Scene::Calibration};
+constexpr std::array kScenes = {synthetic::Scene::Office,     synthetic::Scene::Shelf,
+                                synthetic::Scene::Outdoor,    synthetic::Scene::Flat,
+                                synthetic::Scene::Moving,     synthetic::Scene::Still,
+                                synthetic::Scene::Calibration};
 constexpr std::array kPaths = {Path::Handheld, Path::Pan,  Path::Orbit, Path::Forward,
                                Path::Rotate,   Path::Rest, Path::Survey};
 

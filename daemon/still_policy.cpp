@@ -6,7 +6,7 @@ namespace {
 /// A share of changed tiles below this is sensor noise, flicker or a blinking light, not motion.
 constexpr double kMovedShare = 0.05;
 
-std::chrono::nanoseconds nanoseconds(double s) {
+std::chrono::nanoseconds toNanoseconds(double s) {
     return std::chrono::nanoseconds{Timestamp::fromSeconds(s).ns};
 }
 
@@ -43,25 +43,25 @@ bool StillPolicy::wanted(Timestamp now, Timestamp statsOf, const FrameStats& sta
     if (config_.mode == TriggerMode::Off || (notBefore_ && now < *notBefore_)) return false;
     if (config_.mode == TriggerMode::Rate) return !due_ || now >= *due_;
     if (!still_) return true;
-    if (firedAt_ && now - *firedAt_ < nanoseconds(config_.minIntervalS)) return false;
-    if (movedInUse_ && now - *still_ > nanoseconds(config_.maxAgeS)) return true;
+    if (firedAt_ && now - *firedAt_ < toNanoseconds(config_.minIntervalS)) return false;
+    if (movedInUse_ && now - *still_ > toNanoseconds(config_.maxAgeS)) return true;
     // At rest a new still would show what the old one shows, however little that explains.
     return movedSinceTrigger_ && statsOf >= *usedSince_ && stats.explained < config_.explainedBelow;
 }
 
 bool StillPolicy::timedOut(Timestamp now) {
-    if (now - *firedAt_ < nanoseconds(config_.timeoutS)) return false;
+    if (now - *firedAt_ < toNanoseconds(config_.timeoutS)) return false;
     ++lost_;
     arrived_ = true;
     repeated_ = !repeated_;
     if (!repeated_ && config_.mode == TriggerMode::Demand)
-        notBefore_ = now + nanoseconds(config_.maxAgeS);
+        notBefore_ = now + toNanoseconds(config_.maxAgeS);
     return repeated_;
 }
 
 void StillPolicy::fire(Timestamp now) {
     // Counted from the due time, so that the frame clock's steps do not slow the rate down.
-    const std::chrono::nanoseconds period = nanoseconds(1 / config_.rateHz);
+    const std::chrono::nanoseconds period = toNanoseconds(1 / config_.rateHz);
     due_ = due_ && now >= *due_ && now - *due_ < period ? *due_ + period : now + period;
     firedAt_ = now;
     arrived_ = false;

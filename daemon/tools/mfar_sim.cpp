@@ -19,10 +19,11 @@ namespace mfar {
 namespace {
 
 using synthetic::Path;
-using synthetic::Scene;
 
-constexpr std::array kScenes{Scene::Office, Scene::Shelf, Scene::Outdoor,    Scene::Flat,
-                             Scene::Moving, Scene::Still, Scene::Calibration};
+constexpr std::array kScenes{synthetic::Scene::Office,     synthetic::Scene::Shelf,
+                             synthetic::Scene::Outdoor,    synthetic::Scene::Flat,
+                             synthetic::Scene::Moving,     synthetic::Scene::Still,
+                             synthetic::Scene::Calibration};
 constexpr std::array kPaths{Path::Handheld, Path::Pan,  Path::Orbit, Path::Forward,
                             Path::Rotate,   Path::Rest, Path::Survey};
 
@@ -110,7 +111,7 @@ int simulate(Arguments a) {
     const SimCounts counts = writeSimulation(board, a.sim, [&](int done) {
         if (terminal) showProgress(done, a.board.frames);
     });
-    if (a.board.scene == Scene::Calibration) writeGrid(a.sim.out / "aprilgrid.yaml");
+    if (a.board.scene == synthetic::Scene::Calibration) writeGrid(a.sim.out / "aprilgrid.yaml");
     fmt::print("{}: {} video frames, {} stills, {} flow fields\n", a.sim.out.string(), counts.video,
                counts.stills, counts.flows);
     return 0;

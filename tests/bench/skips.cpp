@@ -22,7 +22,6 @@ namespace mfar::bench {
 namespace {
 
 using synthetic::Path;
-using synthetic::Scene;
 
 /// Frames before the first that counts: until a still is there and depth has settled.
 constexpr std::size_t kSettled = 8;
@@ -59,7 +58,7 @@ const std::vector<Skip>& allSkips() {
 
 struct Case {
     const char* name;
-    Scene scene;
+    synthetic::Scene scene;
     Path path;
     bool hasPoses;
     std::vector<VirtualObject> objects;
@@ -67,7 +66,7 @@ struct Case {
 
 /// The office's own object, moved.
 std::vector<VirtualObject> officeObject(const Eigen::Vector3d& by) {
-    auto out = eval::sceneObjects(Scene::Office);
+    auto out = eval::sceneObjects(synthetic::Scene::Office);
     for (VirtualObject& object : out)
         object.T_world_object.translation += by;
     return out;
@@ -75,14 +74,14 @@ std::vector<VirtualObject> officeObject(const Eigen::Vector3d& by) {
 
 const std::vector<Case>& allCases() {
     static const std::vector<Case> cases{
-        {"still", Scene::Still, Path::Rest, true, {}},
-        {"flat", Scene::Flat, Path::Handheld, true, {}},
-        {"office", Scene::Office, Path::Handheld, true, officeObject({0, 0, 0})},
-        {"office-rest", Scene::Office, Path::Rest, true, officeObject({0, 0, 0})},
-        {"moving", Scene::Moving, Path::Handheld, true, {}},
-        {"no-tag", Scene::Office, Path::Handheld, false, officeObject({0, 0, 0})},
-        {"out-of-view", Scene::Office, Path::Handheld, true, officeObject({20, 0, 0})},
-        {"hidden", Scene::Office, Path::Handheld, true, officeObject({0, 0, -1.5})},
+        {"still", synthetic::Scene::Still, Path::Rest, true, {}},
+        {"flat", synthetic::Scene::Flat, Path::Handheld, true, {}},
+        {"office", synthetic::Scene::Office, Path::Handheld, true, officeObject({0, 0, 0})},
+        {"office-rest", synthetic::Scene::Office, Path::Rest, true, officeObject({0, 0, 0})},
+        {"moving", synthetic::Scene::Moving, Path::Handheld, true, {}},
+        {"no-tag", synthetic::Scene::Office, Path::Handheld, false, officeObject({0, 0, 0})},
+        {"out-of-view", synthetic::Scene::Office, Path::Handheld, true, officeObject({20, 0, 0})},
+        {"hidden", synthetic::Scene::Office, Path::Handheld, true, officeObject({0, 0, -1.5})},
     };
     return cases;
 }

@@ -9,7 +9,6 @@ namespace mfar::test {
 namespace {
 
 using namespace std::chrono_literals;
-using synthetic::Scene;
 
 constexpr double kGamma = 2.2;  // of the video sensor
 
@@ -19,7 +18,7 @@ cv::Mat3f linear(const cv::Mat3f& picture) {
     return out;
 }
 
-class EveryScene : public testing::TestWithParam<Scene> {};
+class EveryScene : public testing::TestWithParam<synthetic::Scene> {};
 
 /// Takes frames until the still of one pulse arrives.
 struct Pair {
@@ -73,13 +72,14 @@ TEST_P(EveryScene, HighResTruthAveragesToTheVideo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Synthetic, EveryScene,
-                         testing::Values(Scene::Office, Scene::Shelf, Scene::Outdoor, Scene::Flat,
-                                         Scene::Moving, Scene::Still),
+                         testing::Values(synthetic::Scene::Office, synthetic::Scene::Shelf,
+                                         synthetic::Scene::Outdoor, synthetic::Scene::Flat,
+                                         synthetic::Scene::Moving, synthetic::Scene::Still),
                          [](const auto& p) { return std::string(synthetic::name(p.param)); });
 
 TEST(SyntheticPicture, TheCalibrationTargetsTagsAreWhereTheyAre) {
     SyntheticOptions options;
-    options.scene = Scene::Calibration;
+    options.scene = synthetic::Scene::Calibration;
     options.path = synthetic::Path::Rest;
     options.pace = Pace::Consumer;
     SyntheticBoard board(options);
@@ -98,7 +98,7 @@ TEST(SyntheticPicture, TheCalibrationTargetsTagsAreWhereTheyAre) {
     }
 }
 
-double lostInVideo(Scene scene) {
+double lostInVideo(synthetic::Scene scene) {
     SyntheticBoard& board = sharedBoard(scene);
     const Timestamp t = board.epoch();
     const cv::Mat3f high = colour(board.highRes(t));
@@ -108,14 +108,14 @@ double lostInVideo(Scene scene) {
 }
 
 TEST(SyntheticPicture, TheStillsResolutionShowsWhatTheVideoCannot) {
-    const double office = lostInVideo(Scene::Office);
+    const double office = lostInVideo(synthetic::Scene::Office);
     EXPECT_LT(office, 27);
-    EXPECT_LT(lostInVideo(Scene::Outdoor), 28);
-    EXPECT_GT(lostInVideo(Scene::Flat), office + 6);
+    EXPECT_LT(lostInVideo(synthetic::Scene::Outdoor), 28);
+    EXPECT_GT(lostInVideo(synthetic::Scene::Flat), office + 6);
 }
 
 TEST(SyntheticPicture, NoiseIsThereAndSmall) {
-    SyntheticBoard& board = sharedBoard(Scene::Flat);
+    SyntheticBoard& board = sharedBoard(synthetic::Scene::Flat);
     board.video().start();
     const auto frame = board.video().next(10s);
     ASSERT_TRUE(frame);

@@ -110,11 +110,10 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotHideItself) {
 /// Rays through the exact world know better than the projected truth what hides what.
 TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
     using synthetic::Path;
-    using synthetic::Scene;
     StereoRig rig = synthetic::boardRig();
     rig.video = rig.video.scaledTo({160, 120});
-    for (const auto& [scene, path] :
-         {std::pair(Scene::Office, Path::Orbit), std::pair(Scene::Shelf, Path::Forward)}) {
+    for (const auto& [scene, path] : {std::pair(synthetic::Scene::Office, Path::Orbit),
+                                      std::pair(synthetic::Scene::Shelf, Path::Forward)}) {
         const synthetic::World world = makeWorld(scene, 1);
         const RigidTransform T_world_frame = cameraPose(world, path, 1, 1.5);
         const RigidTransform T_world_still =

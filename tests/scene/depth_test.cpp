@@ -18,7 +18,6 @@ namespace {
 
 using namespace eval;
 using synthetic::Path;
-using synthetic::Scene;
 
 constexpr int kSettling = 12;  // frames
 constexpr double kMostError = 0.015, kLeastKnown = 0.85;
@@ -28,11 +27,12 @@ constexpr double kMostChange = 0.0075;
 
 /// A scene with an object, and its depth in the whole picture.
 struct Watched {
-    Watched(Scene scene, Path path, double rateHz, PoseSource poses = PoseSource::Recorded)
+    Watched(synthetic::Scene scene, Path path, double rateHz,
+            PoseSource poses = PoseSource::Recorded)
         : run(optionsOf(scene, path, rateHz), poses), watch(run.board(), sceneObjects(scene).at(0)),
           pipeline(run.rig(), {.output = {}, .depthEverywhere = true}) {}
 
-    static SyntheticOptions optionsOf(Scene scene, Path path, double rateHz) {
+    static SyntheticOptions optionsOf(synthetic::Scene scene, Path path, double rateHz) {
         SyntheticOptions out;
         out.scene = scene;
         out.path = path;
@@ -75,7 +75,7 @@ private:
 
 TEST_F(DepthScenario, StaysWhileTheCameraRestsForTenSeconds) {
     constexpr std::int64_t kStep = 200'000'000;  // [ns]
-    Watched w(Scene::Shelf, Path::Handheld, 30);
+    Watched w(synthetic::Scene::Shelf, Path::Handheld, 30);
     follow(w, kSettling + 2);
     const SceneRun::Shots last = w.run.next();
     runOn(w.pipeline, last);
@@ -89,12 +89,12 @@ TEST_F(DepthScenario, StaysWhileTheCameraRestsForTenSeconds) {
 }
 
 TEST_F(DepthScenario, StaysWhileTheCameraTurnsOnTheSpot) {
-    Watched w(Scene::Shelf, Path::Rotate, 10);
+    Watched w(synthetic::Scene::Shelf, Path::Rotate, 10);
     follow(w, 28);
 }
 
 TEST_F(DepthScenario, StaysWhileTheCameraComesNearer) {
-    Watched w(Scene::Office, Path::Forward, 10);
+    Watched w(synthetic::Scene::Office, Path::Forward, 10);
     follow(w, 28);
 }
 
@@ -121,14 +121,15 @@ cv::Mat covered(const ImageView& view, const SyntheticBoard& board, Timestamp ti
 /// How far a pose is from the true one, as a share of the distance to the object.
 double errorOf(const Pose& pose, const SyntheticBoard& board) {
     const Eigen::Vector3d truth = board.pose(pose.time).T_world_video.translation;
-    const Eigen::Vector3d object = sceneObjects(Scene::Office).at(0).T_world_object.translation;
+    const Eigen::Vector3d object =
+        sceneObjects(synthetic::Scene::Office).at(0).T_world_object.translation;
     return (pose.T_world_video.translation - truth).norm() / (object - truth).norm();
 }
 
 // Lost for a second: predicted at first, then unknown.
 TEST_F(DepthScenario, StaysWhileTheTagsAreLostAndFoundAgain) {
     constexpr int kLost = kSettling + 4, kFound = kLost + 15, kEnd = kFound + 8;
-    Watched w(Scene::Office, Path::Handheld, 15, PoseSource::None);
+    Watched w(synthetic::Scene::Office, Path::Handheld, 15, PoseSource::None);
     TrackerOptions options;
     options.map = tagMapOf(w.run.board().world());
     Tracker tracker(w.run.rig(), options);

@@ -17,14 +17,13 @@ namespace {
 
 using namespace eval;
 using synthetic::Path;
-using synthetic::Scene;
 
 constexpr int kUnscored = 8;  // frames
 
 /// On the shelf the windows of the matching reach farther beside thin things than the picture's
 /// edges put right.
 struct Case {
-    Scene scene;
+    synthetic::Scene scene;
     double leastOverlap, mostBoundary;  // [px]
 };
 
@@ -138,10 +137,11 @@ TEST_P(Rest, NothingFlickersNorComesThrough) {
 }
 
 std::string nameOf(const testing::TestParamInfo<Case>& c) {
-    return c.param.scene == Scene::Office ? "Office" : "Shelf";
+    return c.param.scene == synthetic::Scene::Office ? "Office" : "Shelf";
 }
 
-const auto kCases = testing::Values(Case{Scene::Office, 0.95, 1.5}, Case{Scene::Shelf, 0.9, 1.5});
+const auto kCases = testing::Values(Case{synthetic::Scene::Office, 0.95, 1.5},
+                                    Case{synthetic::Scene::Shelf, 0.9, 1.5});
 INSTANTIATE_TEST_SUITE_P(Scenes, Occlusion, kCases, nameOf);
 INSTANTIATE_TEST_SUITE_P(Scenes, Rest, kCases, nameOf);
 

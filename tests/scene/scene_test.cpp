@@ -11,7 +11,6 @@ namespace mfar::test {
 namespace {
 
 using synthetic::Path;
-using synthetic::Scene;
 
 /// Peak signal-to-noise ratio of the pipeline's output in the tiles that `in` names [dB].
 double psnr(const Pipeline& pipeline, const StoredImage& truth, const std::vector<bool>& in) {
@@ -50,7 +49,7 @@ private:
 };
 
 TEST_F(SceneTest, WhatMovesIsSearchedInBothDimensionsAndNotSmeared) {
-    const SceneShots s(Scene::Moving, Path::Handheld, 8);
+    const SceneShots s(synthetic::Scene::Moving, Path::Handheld, 8);
     const auto moving = s.movingTiles();
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);
     const auto searched = detail.readSearchedTiles();
@@ -74,7 +73,7 @@ TEST_F(SceneTest, WhatMovesIsSearchedInBothDimensionsAndNotSmeared) {
 class Motion : public SceneTest, public testing::WithParamInterface<Path> {};
 
 TEST_P(Motion, GetsDetail) {
-    const SceneShots s(Scene::Outdoor, GetParam(), 8);
+    const SceneShots s(synthetic::Scene::Outdoor, GetParam(), 8);
     const std::vector<bool> all(s.movingTiles().size(), true);
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);
     EXPECT_LE(detail.readStats().searched2d, 0.15 * static_cast<double>(all.size()));
