@@ -93,12 +93,39 @@ void Pipeline::redraw() {
 }
 
 void Pipeline::setObjects(std::vector<VirtualObject> objects) {
-    if (!state_->objects && objects.empty()) return;
-    if (!state_->objects) {
-        state_->objects.emplace(state_->rig.video, outputSize());
-        state_->objects->setSkips(state_->options.skips);
+    State& s = *state_;
+    if (!s.objects && objects.empty()) return;
+    if (!s.objects || s.objects->traced() != nullptr) {
+        s.objects.emplace(s.rig.video, outputSize());
+        s.objects->setSkips(s.options.skips);
+        s.redraw = true;
     }
-    state_->objects->setObjects(std::move(objects));
+    s.objects->setObjects(std::move(objects));
+}
+
+void Pipeline::setScene(std::shared_ptr<const Scene> scene, const TracedLayerOptions& options) {
+    State& s = *state_;
+    if (!s.objects && !scene) return;
+    TracedLayerOptions wanted = options;
+    const Size output = outputSize();
+    if (wanted.size.width <= 0 || wanted.size.height <= 0)
+        wanted.size = {(output.width + 1) / 2, (output.height + 1) / 2};
+    if (!s.objects || s.objects->traced() == nullptr || !(s.traced == wanted)) {
+        s.objects.emplace(s.rig.video, output, wanted);
+        s.objects->setSkips(s.options.skips);
+        s.traced = wanted;
+        s.redraw = true;
+    }
+    s.objects->setScene(std::move(scene));
+}
+
+PixelRect Pipeline::objectsRegion() const {
+    return state_->objects ? state_->objects->region() : PixelRect{};
+}
+
+std::optional<TracedLayerCounters> Pipeline::tracedCounters() const {
+    if (!state_->objects || state_->objects->traced() == nullptr) return {};
+    return state_->objects->traced()->counters();
 }
 
 void Pipeline::setSkipUnchanged(bool skip) {
@@ -122,11 +149,11 @@ void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pos
     lap("assess");
 }
 
-PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose) {
+PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timestamp time) {
     PixelRect where;
     if (objects) {
-        where =
-            objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, depth.field());
+        where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
+                               depth.field());
         plan.drawnOver(objects->staleTiles(), objects->redraw());
     }
     if (options.depthEverywhere) where = {0, 0, rig.video.size.width, rig.video.size.height};
@@ -215,7 +242,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 
     s.video.upload(video);
     s.lap("upload");
-    const PixelRect where = s.placeObjects(pose);
+    const PixelRect where = s.placeObjects(pose, time);
     s.plan.update(s.video.texture(), s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;

@@ -9,6 +9,7 @@
 #include "pipeline/quality.h"
 #include "pipeline/results.h"
 #include "pipeline/skip_options.h"
+#include "pipeline/traced_layer.h"
 
 #include <memory>
 #include <optional>
@@ -70,6 +71,14 @@ public:
     /// Shown in frames with a pose, as seen from there and hidden behind what is nearer. The first
     /// call with any allocates what they need.
     void setObjects(std::vector<VirtualObject> objects);
+    /// The same, path traced; null: nothing is shown. The first call with a scene allocates what it
+    /// needs, as do later ones with other options. Throws as TracedLayer does.
+    void setScene(std::shared_ptr<const Scene> scene, const TracedLayerOptions& options);
+    /// Video pixels in and around the virtual objects and their shadows in the last frame; empty
+    /// without any in view.
+    [[nodiscard]] PixelRect objectsRegion() const;
+    /// Of the path tracer and the warp; nothing where none is used.
+    [[nodiscard]] std::optional<TracedLayerCounters> tracedCounters() const;
 
     [[nodiscard]] Size outputSize() const;
     /// CPU-side stage times of the last run. With `measure` on, each stage ends with glFinish and

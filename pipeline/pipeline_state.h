@@ -41,7 +41,7 @@ struct Pipeline::State {
 
     void matchStill(const ImageView& frame, const std::optional<Pose>& pose);
     /// Says where real depth is needed in this frame [video px].
-    PixelRect placeObjects(const std::optional<Pose>& pose);
+    PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     void measureDepth(const ImageView& frame, const Pose& pose, bool searched,
                       const PixelRect& where);
     void showObjects(const ImageView& frame, Timestamp time, const std::optional<Pose>& pose,
@@ -67,6 +67,7 @@ struct Pipeline::State {
     LumaImage luma;  // of the frame, where the search along lines did not run
     SuperRes superres;
     std::optional<VirtualView> objects;
+    TracedLayerOptions traced;  // of objects that are path traced
     bool hasStill = false;
     bool redraw = true;  // nothing of the last output may stay
     bool alongLines = true;

@@ -34,6 +34,11 @@ std::shared_ptr<const Scene> SceneFollower::set(Scene scene) {
     return std::make_shared<const Scene>(scene_);
 }
 
+std::shared_ptr<const Scene> SceneFollower::relight(Lighting lighting) {
+    scene_.lighting = std::move(lighting);
+    return std::make_shared<const Scene>(scene_);
+}
+
 bool SceneFollower::isDue(const RigidTransform& T_world_video, Timestamp time) const {
     if (frames_ < rule_.settling) return false;
     if (!caught_) return true;

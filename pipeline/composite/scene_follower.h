@@ -27,6 +27,9 @@ public:
     /// Other objects or light; its catcher is replaced. Returns what is to be shown.
     std::shared_ptr<const Scene> set(Scene scene);
 
+    /// The same scene in another light.
+    std::shared_ptr<const Scene> relight(Lighting lighting);
+
     /// After a frame: what was measured in `region` [video px] around the objects. Returns the
     /// scene when it has changed, null otherwise.
     std::shared_ptr<const Scene> follow(const InverseDepthField& field, const CameraModel& video,

@@ -11,7 +11,7 @@ namespace mfar {
 [[nodiscard]] Eigen::AlignedBox3d boundsOf(const Scene& scene);
 
 /// How far from the objects their shadows are looked for, in radii of the box around them.
-inline constexpr double kShadowReach = 2;
+inline constexpr double kShadowReach = 1;
 
 /// The plane of the tag map, z = 0 in the world, around the objects, in cells of a few centimetres
 /// or more. Empty where no object stands on it or above it, lower than kShadowReach radii.

@@ -22,41 +22,82 @@ constexpr double kLeastMotion = 0.3;
 constexpr int kMostGaps = 4;
 constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // pixels of a tile
 
-PixelRect tilesOf(const PixelRect& pixels, Size output, Size video) {
+PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
     const auto tile = [](int pixel, int from, int to) {
         return static_cast<double>(pixel) * to / from / kTileSize;
     };
-    return {static_cast<int>(std::floor(tile(pixels.x0, output.width, video.width))),
-            static_cast<int>(std::floor(tile(pixels.y0, output.height, video.height))),
-            static_cast<int>(std::ceil(tile(pixels.x1, output.width, video.width))),
-            static_cast<int>(std::ceil(tile(pixels.y1, output.height, video.height)))};
+    // Colours are interpolated: a pixel is seen beyond its own borders.
+    return {static_cast<int>(std::floor(tile(pixels.x0 - 1, layer.width, video.width))),
+            static_cast<int>(std::floor(tile(pixels.y0 - 1, layer.height, video.height))),
+            static_cast<int>(std::ceil(tile(pixels.x1 + 1, layer.width, video.width))),
+            static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
+}
+
+bool haveSameModels(const Scene& a, const Scene& b) {
+    return std::ranges::equal(a.objects, b.objects, [](const auto& x, const auto& y) {
+        return x.model == y.model && x.scale == y.scale &&
+               x.T_world_object.translation == y.T_world_object.translation &&
+               x.T_world_object.rotation.coeffs() == y.T_world_object.rotation.coeffs();
+    });
 }
 
 }  // namespace
 
 VirtualView::VirtualView(const CameraModel& video, Size output)
-    : video_(video.size), silhouette_(video, kMargin), renderer_(video, output),
-      composite_(video.size, output), depth_(video.size, gpu::TexelFormat::Rg32F),
+    : video_(video.size), silhouette_(video, kMargin), catcherSilhouette_(video, kMargin),
+      preview_(std::make_unique<PreviewRenderer>(video, output)), composite_(video.size, output),
+      depth_(video.size, gpu::TexelFormat::Rg32F),
       values_(2UL * video.size.width * video.size.height), focal_(std::max(video.fx, video.fy)),
       uploaded_{0, 0, video.size.width, video.size.height} {}
+
+VirtualView::VirtualView(const CameraModel& video, Size output, TracedLayerOptions options)
+    : video_(video.size), silhouette_(video, kMargin), catcherSilhouette_(video, kMargin),
+      traced_(std::make_unique<TracedLayer>(video, options)),
+      composite_(video.size, output, options.size), depth_(video.size, gpu::TexelFormat::Rg32F),
+      values_(2UL * video.size.width * video.size.height), focal_(std::max(video.fx, video.fy)),
+      uploaded_{0, 0, video.size.width, video.size.height} {}
+
+void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
+    // What is shown changes when there is a picture of it.
+    if (!scene || !scene_) changed_ = true;
+    if (!scene || !scene_ || !haveSameModels(*scene, *scene_))
+        boxes_ = scene ? SceneBoxes(*scene) : SceneBoxes();
+    catcherBoxes_ = scene ? SceneBoxes(scene->catcher) : SceneBoxes();
+    scene_ = scene;
+    if (scene) traced_->setScene(std::move(scene));
+}
 
 void VirtualView::setObjects(std::vector<VirtualObject> objects) {
     objects_ = std::move(objects);
     changed_ = true;
 }
 
-PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
+PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                              const InverseDepthField& known) {
     placedPose_ = T_world_video;
     region_ = {};
     hidden_ = false;
-    if (!T_world_video || objects_.empty()) return {};
-    const auto& tiles = silhouette_.run(objects_, *T_world_video);
-    const int columns = silhouette_.tileCount().width;
-    const bool relies = skips_.knownBehind && relied_ < kMostRelied;
+    if (!T_world_video || (objects_.empty() && boxes_.world().empty())) return {};
     nearest_ = 0;
     hidden_ = skips_.hiddenObjects;
     PixelRect decides;
+    if (traced_) {
+        addTiles(silhouette_.run(boxes_, *T_world_video), known, true, decides);
+        if (!region_.empty())
+            addTiles(catcherSilhouette_.run(catcherBoxes_, *T_world_video), known, false, decides);
+    } else {
+        addTiles(silhouette_.run(objects_, *T_world_video), known, true, decides);
+    }
+    hidden_ = hidden_ && !region_.empty();
+    relied_ = relied_ < kMostRelied ? relied_ + 1 : 0;
+    if (traced_ && shows()) traced_->update(*T_world_video, time);
+    return decides.empty() ? decides : common(decides, region_);
+}
+
+void VirtualView::addTiles(const std::vector<SurfaceRange>& tiles, const InverseDepthField& known,
+                           bool objects, PixelRect& decides) {
+    const int columns = silhouette_.tileCount().width;
+    const bool relies = skips_.knownBehind && relied_ < kMostRelied;
     for (int i = 0; i < static_cast<int>(tiles.size()); ++i) {
         const auto [nearest, farthest] = tiles[static_cast<std::size_t>(i)];
         if (!(farthest > 0)) continue;
@@ -64,13 +105,10 @@ PixelRect VirtualView::place(const std::optional<RigidTransform>& T_world_video,
         const int x = i % columns * kTileSize, y = i / columns * kTileSize;
         const PixelRect tile{x, y, x + kTileSize, y + kTileSize};
         region_ = around(region_, widened(tile, 0, video_));
-        hidden_ = hidden_ && isHidden(tile, nearest, known);
+        if (objects) hidden_ = hidden_ && isHidden(tile, nearest, known);
         if (!relies || mayHide(tile, farthest, known))
             decides = around(decides, widened(tile, kTileSize, video_));
     }
-    hidden_ = hidden_ && !region_.empty();
-    relied_ = relies ? relied_ + 1 : 0;
-    return decides.empty() ? decides : common(decides, region_);
 }
 
 // By three standard deviations; of what is not known it may be.
@@ -131,13 +169,15 @@ void VirtualView::draw(const InverseDepthField& real, const PixelRect& where,
     drawnPose_ = placedPose_;
     drawn_ = {};
     if (!shown_) return;
-    layer_ = renderer_.render(objects_, *placedPose_);
+    layer_ = traced_ ? traced_->render(*placedPose_) : preview_->render(objects_, *placedPose_);
     if (layer_.bounds.empty()) return;
+    const Size layer = layer_.colour->size();
     upload(real, where);
     VirtualLayer laid = layer_;
-    if (!skips_.objectBounds) laid.bounds = {0, 0, picture.size().width, picture.size().height};
+    if (!skips_.objectBounds) laid.bounds = {0, 0, layer.width, layer.height};
     composite_.run(laid, depth_, video, picture, target);
-    drawn_ = tilesOf(layer_.bounds, picture.size(), video_);
+    drawn_ = common(tilesOf(layer_.bounds, layer, video_),
+                    {0, 0, silhouette_.tileCount().width, silhouette_.tileCount().height});
 }
 
 std::vector<float> VirtualView::readShown() const {
@@ -145,10 +185,17 @@ std::vector<float> VirtualView::readShown() const {
     std::vector<float> out(static_cast<std::size_t>(size.width) * size.height);
     if (drawn_.empty()) return out;
     const auto visible = composite_.visibility().readRgba8(), colour = layer_.colour->readRgba8();
-    for (int y = layer_.bounds.y0; y < layer_.bounds.y1; ++y) {
-        for (int x = layer_.bounds.x0; x < layer_.bounds.x1; ++x) {
+    const Size layer = layer_.colour->size();
+    const PixelRect& drawn = layer_.bounds;
+    for (int y = 0; y < size.height; ++y) {
+        const int v = static_cast<int>(static_cast<std::int64_t>(y) * layer.height / size.height);
+        if (v < drawn.y0 || v >= drawn.y1) continue;
+        for (int x = 0; x < size.width; ++x) {
+            const int u = static_cast<int>(static_cast<std::int64_t>(x) * layer.width / size.width);
+            if (u < drawn.x0 || u >= drawn.x1) continue;
             const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
-            out[i] = static_cast<float>(visible[4 * i] * colour[4 * i + 3]) / (255.0F * 255.0F);
+            const std::size_t j = static_cast<std::size_t>(v) * layer.width + u;
+            out[i] = static_cast<float>(visible[4 * i] * colour[4 * j + 3]) / (255.0F * 255.0F);
         }
     }
     return out;

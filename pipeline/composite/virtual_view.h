@@ -2,11 +2,14 @@
 
 #include "pipeline/composite/composite.h"
 #include "pipeline/composite/preview_renderer.h"
+#include "pipeline/composite/scene_boxes.h"
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/skip_options.h"
+#include "pipeline/traced_layer.h"
 #include "pipeline/work_plan.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -16,21 +19,29 @@ namespace mfar {
 /// drawing over the picture.
 class VirtualView {
 public:
+    /// Objects are drawn by the preview renderer.
     VirtualView(const CameraModel& video, Size output);
+    /// They are path traced. Throws as TracedLayer does.
+    VirtualView(const CameraModel& video, Size output, TracedLayerOptions options);
 
-    /// Shown from the next place() on.
+    /// Shown from the next place() on. Of a view with preview.
     void setObjects(std::vector<VirtualObject> objects);
     void setSkips(const SkipOptions& skips) { skips_ = skips; }
+    /// Shown as soon as there is a picture of it. Of a view that is path traced; null: nothing.
+    void setScene(std::shared_ptr<const Scene> scene);
+    /// Null with preview.
+    [[nodiscard]] TracedLayer* traced() { return traced_.get(); }
 
     /// Where the objects are for a camera at this pose; nothing: they are not shown. Gives the
     /// video pixels whose real depth decides what of them is seen: empty where none is in the
     /// picture, or where all that is `known`, the real scene about as the camera sees it, surely
     /// lies behind them. From time to time that is not relied on.
-    PixelRect place(const std::optional<RigidTransform>& T_world_video,
+    PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
     /// Video pixels around all objects, as placed.
     [[nodiscard]] const PixelRect& region() const { return region_; }
-    /// Nothing of them is seen, as placed: real things are before them everywhere.
+    /// Nothing of them is seen, as placed: real things are before them everywhere. Their shadows,
+    /// where any are, do not count.
     [[nodiscard]] bool hidden() const { return hidden_; }
     /// When they have to be drawn anew: always after other objects, or when there are any after
     /// none and the other way round; with any change when the camera has moved.
@@ -47,8 +58,12 @@ public:
     [[nodiscard]] std::vector<float> readShown() const;
 
 private:
+    /// Adds tiles with virtual surfaces to the region and to `decides`.
+    void addTiles(const std::vector<SurfaceRange>& tiles, const InverseDepthField& known,
+                  bool objects, PixelRect& decides);
     [[nodiscard]] bool shows() const { return !region_.empty() && !hidden_; }
-    [[nodiscard]] bool mustRedraw() const { return changed_ || shown_ != shows(); }
+    [[nodiscard]] bool isStale() const { return shows() && traced_ && traced_->isStale(); }
+    [[nodiscard]] bool mustRedraw() const { return changed_ || shown_ != shows() || isStale(); }
     [[nodiscard]] bool mayHide(const PixelRect& tile, float farthest,
                                const InverseDepthField& known) const;
     [[nodiscard]] bool isHidden(const PixelRect& tile, float nearest,
@@ -58,8 +73,11 @@ private:
     Size video_;
     SkipOptions skips_;
     std::vector<VirtualObject> objects_;
-    Silhouette silhouette_;
-    PreviewRenderer renderer_;
+    std::shared_ptr<const Scene> scene_;
+    SceneBoxes boxes_, catcherBoxes_;
+    Silhouette silhouette_, catcherSilhouette_;
+    std::unique_ptr<PreviewRenderer> preview_;
+    std::unique_ptr<TracedLayer> traced_;  // one of the two
     Composite composite_;
     gpu::Texture depth_;
     std::vector<float> values_;

@@ -8,6 +8,7 @@ namespace mfar {
 struct Exposure {
     float scale = 1;      ///< radiance that becomes white is its inverse; finite, above 0
     bool filmic = false;  ///< bright parts are compressed instead of cut (Narkowicz, ACES fit 2015)
+    bool operator==(const Exposure&) const = default;
 };
 
 /// Linear value to sRGB's encoding (IEC 61966-2-1), both cut to [0, 1]; NaN gives 0.

@@ -19,6 +19,7 @@ struct PathTracerOptions {
     bool independentSamples = false;  ///< random numbers in place of the Sobol sequence
     float shadowReach = 3;  ///< objects' radii around them in which the catcher counts; at least 1
     int buildThreads = 1;   ///< for the search structure; [1, 64]
+    bool operator==(const PathTracerOptions&) const = default;
 };
 
 /// Throws std::invalid_argument that names the first option out of its range.

@@ -24,6 +24,7 @@ struct ReferenceOptions {
     int threads = 2;           ///< [1, 64]
     double holeShare = 0.5;    ///< of the time that holes may take while a reference waits, [0, 1]
     std::size_t mostHolePixels = 20000;  ///< of a request
+    bool operator==(const ReferenceOptions&) const = default;
 };
 
 struct RenderCounters {

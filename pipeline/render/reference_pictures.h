@@ -30,6 +30,7 @@ struct ReferencePolicy {
     /// A picture of another view takes the shown one's place with so many samples, unless that is
     /// of other objects or hopelessly far off.
     int samplesToReplace = 16;
+    bool operator==(const ReferencePolicy&) const = default;
 };
 
 /// The scene a picture is of.

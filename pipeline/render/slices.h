@@ -24,6 +24,7 @@ struct SliceOptions {
     /// the tile are below it as well: one pixel alone may be calm by luck. 0: all get all.
     float threshold = 1;
     int leastSamples = 16;  ///< before an estimated error is believed
+    bool operator==(const SliceOptions&) const = default;
 };
 
 /// A portion of work: `samples` more of each pixel. Borrowed: valid until it is done.

@@ -23,6 +23,7 @@ struct ObjectBall {
 struct ViewLimits {
     double turnDegrees = 4;  ///< of the line of sight about an object's centre, above 0
     double zoom = 0.2;       ///< change of the distance to it as a share, above 0
+    bool operator==(const ViewLimits&) const = default;
 };
 
 /// How differently two views show the objects, in units of the limits: from 1 on too differently.

@@ -11,6 +11,7 @@ namespace mfar {
 struct PredictionLimits {
     double seconds = 0.5;    ///< ahead, at most; 0: no prediction
     double turnDegrees = 4;  ///< of the camera, and of its way as seen from the objects, at most
+    bool operator==(const PredictionLimits&) const = default;
 };
 
 /// Where a camera will be that keeps turning and moving at its rate in its own frame, as measured

@@ -2,7 +2,9 @@
 
 #include "pipeline/composite/virtual_object.h"
 #include "pipeline/render/scene.h"
+#include "pipeline/render/slices.h"
 #include "pipeline/track/tag_family.h"
+#include "pipeline/warp/warp_options.h"
 
 #include <memory>
 #include <optional>
@@ -40,16 +42,12 @@ struct LightOptions {
 };
 
 enum class VirtualRendering : unsigned char { PathTraced, Preview };
-/// What a frame's share of the work is: some samples of all pixels, or all samples of some tiles.
-enum class RenderSlicing : unsigned char { Time, Space };
-/// What fills places that the warped picture does not know.
-enum class HoleFilling : unsigned char { None, PushPull, ReRender, Both };
 
 /// How the virtual layer is made.
 struct VirtualOptions {
     VirtualRendering rendering = VirtualRendering::PathTraced;
     double budgetMs = 8;  ///< of the path tracer in each frame [ms]
-    RenderSlicing slicing = RenderSlicing::Time;
+    Slicing slicing = Slicing::Time;
     int samples = 64;          ///< a pixel of a finished picture
     double resolution = 0.28;  ///< side of a path-traced picture, as a share of the output's
     HoleFilling holes = HoleFilling::Both;

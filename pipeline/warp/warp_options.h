@@ -23,6 +23,7 @@ struct WarpOptions {
     int fadeFrames = 4;
     /// A pose that moves nothing of the reference by so much shows it as it is [px], [0, 10].
     double leastMotion = 0.1;
+    bool operator==(const WarpOptions&) const = default;
 };
 
 /// Throws std::invalid_argument that names the first option out of its range.

@@ -1,0 +1,83 @@
+#include "pipeline/traced_layer.h"
+
+#include "pipeline/render/reference_renderer.h"
+#include "pipeline/warp/warp.h"
+
+#include <utility>
+
+namespace mfar {
+
+struct TracedLayer::State {
+    State(const CameraModel& video, const TracedLayerOptions& options)
+        : camera(video.scaledTo(options.size)), renderer(options.reference),
+          warp(camera, options.size, options.warp), fadeFrames(options.warp.fadeFrames) {}
+
+    /// Pictures of another scene come with their models.
+    void take(const RenderedPicture& picture) {
+        if (picture.scene != scene) {
+            scene = picture.scene;
+            warp.setScene(*scene);
+        }
+        warp.setReference(warpReference(picture));
+        shown = &picture;
+        changing = std::max(changing, 1);
+    }
+
+    CameraModel camera;
+    ReferenceRenderer renderer;
+    Warp warp;
+    int fadeFrames;
+    std::shared_ptr<const Scene> scene;      // of the picture shown
+    const RenderedPicture* shown = nullptr;  // only to be told from the next
+    int changing = 0;                        // frames in which the layer still changes by itself
+};
+
+bool TracedLayer::isAvailable() {
+    return true;
+}
+
+TracedLayer::TracedLayer(const CameraModel& video, const TracedLayerOptions& options)
+    : state_(std::make_unique<State>(video, options)) {}
+TracedLayer::~TracedLayer() = default;
+
+void TracedLayer::setScene(std::shared_ptr<const Scene> scene) {
+    state_->renderer.setScene(std::move(scene));
+}
+
+void TracedLayer::update(const RigidTransform& T_world_video, Timestamp time) {
+    State& s = *state_;
+    s.renderer.update({s.camera, T_world_video}, time);
+    if (const RenderedPicture* newest = s.renderer.newest(); newest && newest != s.shown)
+        s.take(*newest);
+    if (const HoleAnswer* answer = s.renderer.takeHoles()) {
+        s.warp.answer(*answer);
+        s.changing = s.fadeFrames + 1;
+    }
+    if (std::optional<HoleRequest> request = s.warp.takeRequest())
+        s.renderer.requestHoles(*request);
+}
+
+bool TracedLayer::isStale() const {
+    return state_->changing > 0;
+}
+
+const VirtualLayer& TracedLayer::render(const RigidTransform& T_world_video) {
+    if (state_->changing > 0) --state_->changing;
+    return state_->warp.run(T_world_video);
+}
+
+TracedLayerCounters TracedLayer::counters() const {
+    const WarpCounters& warp = state_->warp.counters();
+    return {state_->renderer.counters(),
+            warp.warped,
+            warp.unmoved,
+            warp.requested,
+            warp.answered,
+            warp.openHoles};
+}
+
+std::optional<std::string> TracedLayer::takeError() {
+    return state_->renderer.takeError();
+}
+
+}  // namespace mfar

@@ -1,0 +1,37 @@
+#include "pipeline/traced_layer.h"
+
+#include <stdexcept>
+
+// Builds without Embree.
+namespace mfar {
+
+struct TracedLayer::State {};
+
+bool TracedLayer::isAvailable() {
+    return false;
+}
+
+TracedLayer::TracedLayer(const CameraModel&, const TracedLayerOptions&) {
+    throw std::runtime_error("this build has no path tracer: virtual objects can be shown as a "
+                             "preview only");
+}
+TracedLayer::~TracedLayer() = default;
+
+// There is no object whose members could be called.
+void TracedLayer::setScene(std::shared_ptr<const Scene>) {}
+void TracedLayer::update(const RigidTransform&, Timestamp) {}
+bool TracedLayer::isStale() const {
+    return false;
+}
+const VirtualLayer& TracedLayer::render(const RigidTransform&) {
+    static const VirtualLayer kNothing;
+    return kNothing;
+}
+TracedLayerCounters TracedLayer::counters() const {
+    return {};
+}
+std::optional<std::string> TracedLayer::takeError() {
+    return {};
+}
+
+}  // namespace mfar
