@@ -30,13 +30,14 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), rig_(config),
       poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl()),
       pipeline_(rig_.geometry(), {config.superres.mode, {}, config.superres.skipUnchanged}),
+      virtual_(config.virtualLayer, pipeline_),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
       policy_(config.trigger), banner_(pipeline_.outputSize()),
       deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
       levels_(governedLevels(config.governor)) {
     rig_.recordTags(poses_.tags());
     pipeline_.setMeasure(config.status.measure);
-    pipeline_.setObjects(placedShapes(config.objects, poses_.tags()));
+    virtual_.set(config.objects, config.light, poses_.tags());
     setUpQuality(config.superres.mode);
     description_ = {gl_->description(),  rig_.description(),
                     display_->name(),    std::string(name(config.superres.mode)),
@@ -98,7 +99,7 @@ void Session::apply(const Tunables& wanted) {
     setUpQuality(wanted.superres.mode);
     pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
     pipeline_.setMeasure(wanted.measure);
-    pipeline_.setObjects(placedShapes(wanted.objects, poses_.tags()));
+    virtual_.set(wanted.objects, wanted.light, poses_.tags());
     policy_.configure(wanted.trigger);
 }
 
@@ -108,6 +109,7 @@ void Session::process(CapturedFrame captured) {
     if (captured.still) useStill(*std::exchange(captured.still, std::nullopt));
     const Timestamp time = captured.video.time();
     const FrameResult& result = pipeline_.run(captured.video.view(), time, captured.pose);
+    virtual_.follow(captured.video.view(), rig_.geometry().video, captured.pose, time);
     // Before the display, which may wait: the exposure runs meanwhile.
     fireIfNeeded(time, result.stats);
     previous_ = time;
@@ -124,6 +126,7 @@ void Session::process(CapturedFrame captured) {
         governor_->add({ms, newStill, result.stats.usedStill, result.stats.changed});
         govern();
     }
+    if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
     stats_.recorderDropped(rig_.notRecorded());
     if (const auto matching = rig_.matching()) stats_.matching(*matching);
     rig_.checkRecording();

@@ -11,6 +11,7 @@
 #include "daemon/stats.h"
 #include "daemon/status.h"
 #include "daemon/still_policy.h"
+#include "daemon/virtual_world.h"
 #include "hal/display.h"
 #include "hal/gl_context.h"
 #include "pipeline/pipeline.h"
@@ -32,10 +33,11 @@ struct Tunables {
     TriggerConfig trigger;
     bool measure = false;
     std::vector<PlacedObject> objects{};
+    LightOptions light{};
 };
 
 [[nodiscard]] inline Tunables tunables(const Config& config) {
-    return {config.superres, config.trigger, config.status.measure, config.objects};
+    return {config.superres, config.trigger, config.status.measure, config.objects, config.light};
 }
 
 /// Two ways to end a session from outside.
@@ -89,6 +91,7 @@ private:
     PoseFinder poses_;
     std::unique_ptr<GlContext> gl_;
     Pipeline pipeline_;
+    VirtualWorld virtual_;
     std::unique_ptr<Display> display_;
     StillPolicy policy_;
     Banner banner_;

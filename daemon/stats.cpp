@@ -41,6 +41,8 @@ void Stats::picture(const Picture& picture) {
     }
     if (picture.stats.usedPose) ++counted_.epipolarFrames;
     counted_.depthTiles += static_cast<std::uint64_t>(std::max(picture.stats.depthTiles, 0));
+    if (picture.stats.objectsInView) ++counted_.objectFrames;
+    if (picture.stats.objectsHidden) ++counted_.hiddenFrames;
     counted_.depthTilesSkipped +=
         static_cast<std::uint64_t>(std::max(picture.stats.depthTilesSkipped, 0));
     const DepthSource depth = picture.stats.depth;
@@ -77,6 +79,14 @@ void Stats::pictureOfFault() {
 std::uint64_t Stats::progress() {
     const std::lock_guard lock(mutex_);
     return counted_.frames + faultPictures_;
+}
+
+void Stats::traced(const TracedLayerCounters& counters, Timestamp frame) {
+    const std::lock_guard lock(mutex_);
+    counted_.traced = counters;
+    counted_.referenceAgeS.reset();
+    if (const auto since = counters.render.referenceSince)
+        counted_.referenceAgeS = static_cast<double>((frame - *since).count()) * 1e-9;
 }
 
 void Stats::videoGap(std::uint64_t frames) {

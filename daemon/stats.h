@@ -54,6 +54,10 @@ struct Counted {
     std::uint64_t depthTilesSkipped = 0;  ///< under virtual objects, known to lie behind them
     std::uint64_t keyframeSearches = 0;   ///< frames whose depth was measured against a keyframe
     std::uint64_t tilesSearched2d = 0;    ///< as the lines did not explain them
+    std::uint64_t objectFrames = 0;       ///< with virtual objects in view
+    std::uint64_t hiddenFrames = 0;       ///< of them, with all of them behind real things
+    std::optional<TracedLayerCounters> traced;  ///< of the path tracer, where there is one
+    std::optional<double> referenceAgeS;        ///< of the picture it showed, at the last frame
     FrameStats last;
     std::vector<StageTime> lastStages;
     std::optional<double> stillAgeS;   ///< at the last frame
@@ -82,6 +86,8 @@ public:
     void display(const std::string& name);
     /// A picture was shown that says what is missing, while no frames come.
     void pictureOfFault();
+    /// Of the path tracer, at a frame's time.
+    void traced(const TracedLayerCounters& counters, Timestamp frame);
     void videoGap(std::uint64_t frames);
     void stillReceived();
     void stillUsed();

@@ -114,6 +114,40 @@ nlohmann::ordered_json poseSummary(const Counted& counted, const std::string& fr
     };
 }
 
+nlohmann::ordered_json virtualSummary(const Counted& counted) {
+    nlohmann::ordered_json out = {{"frames_in_view", counted.objectFrames},
+                                  {"frames_hidden", counted.hiddenFrames}};
+    if (!counted.traced) return out;
+    const TracedLayerCounters& t = *counted.traced;
+    out["path_tracer"] = {{"samples", t.render.samples},
+                          {"samples_per_second", t.render.samplesPerSecond},
+                          {"cpu_ms", t.render.cpuMs},
+                          {"budget_kept", t.render.budget.mean},
+                          {"budget_p95_deviation", t.render.budget.deviation},
+                          {"budget_frames", t.render.budget.frames},
+                          {"pictures_finished", t.render.pictures},
+                          {"pictures_shown", t.render.shown},
+                          {"reference_age_s", counted.referenceAgeS.value_or(0)},
+                          {"frames_warped", t.warped},
+                          {"frames_unmoved", t.unmoved},
+                          {"holes_asked", t.requested},
+                          {"holes_rendered", t.answered}};
+    return out;
+}
+
+// "path traced 83%, 1.2 M samples/s, 120 holes"; nothing where nothing is path traced.
+std::string tracing(const Counted& counted) {
+    if (!counted.traced || !counted.last.objectsInView) return "";
+    if (counted.last.objectsHidden) return ", objects hidden";
+    const TracedLayerCounters& t = *counted.traced;
+    std::string out = t.render.idle
+                          ? std::string(", path traced")
+                          : fmt::format(", path tracing {:.0f}% at {:.2f} M samples/s",
+                                        t.render.progress * 100, t.render.samplesPerSecond * 1e-6);
+    if (t.openHoles > 0) out += fmt::format(", {} holes", t.openHoles);
+    return out;
+}
+
 nlohmann::ordered_json lineSummary(const StillCounters& line) {
     return {{"fired", line.fired},        {"matched", line.matched}, {"unmatched", line.unmatched},
             {"lost", line.lost},          {"late", line.late},       {"repeated", line.repeated},
@@ -143,6 +177,7 @@ std::string statusLine(const Counted& counted, const RunDescription& run, double
     line += tracking(counted.poses);
     if (counted.last.posePatches > 0)
         fmt::format_to(out, ", lines {:.2f} px", counted.last.epipolarError);
+    line += tracing(counted);
     line += " |";
     for (const StageTime& stage : counted.lastStages)
         fmt::format_to(out, " {} {:.1f}", stage.stage, stage.ms);
@@ -186,6 +221,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
         {"quality", qualitySummary(counted.quality)},
         {"trigger_line", lineSummary(counted.matching)},
         {"pose", poseSummary(counted, run.poses)},
+        {"virtual", virtualSummary(counted)},
         {"drops",
          {{"sensor", counted.drops.sensor},
           {"mailbox", counted.drops.mailbox},

@@ -18,12 +18,12 @@ using Meaning = std::pair<std::string_view, E>;
 
 constexpr std::array<Meaning<VirtualRendering>, 2> kRenderings = {
     {{"path-traced", VirtualRendering::PathTraced}, {"preview", VirtualRendering::Preview}}};
-constexpr std::array<Meaning<RenderSlicing>, 2> kSlicings = {
-    {{"time", RenderSlicing::Time}, {"space", RenderSlicing::Space}}};
+constexpr std::array<Meaning<Slicing>, 2> kSlicings = {
+    {{"time", Slicing::Time}, {"space", Slicing::Spatial}}};
 constexpr std::array<Meaning<HoleFilling>, 4> kHoleFillings = {
     {{"none", HoleFilling::None},
      {"push-pull", HoleFilling::PushPull},
-     {"re-render", HoleFilling::ReRender},
+     {"re-render", HoleFilling::Rerender},
      {"both", HoleFilling::Both}}};
 
 std::optional<std::string> directionFault(std::span<const double> xyz) {
@@ -72,7 +72,7 @@ takeEnvironment(std::string_view name, const std::filesystem::path& folder, Ligh
 void readVirtual(TomlReader& file, VirtualOptions& options) {
     file.choice<VirtualRendering>("virtual.rendering", options.rendering, kRenderings);
     file.number("virtual.budget_ms", options.budgetMs, 0.1, 1000);
-    file.choice<RenderSlicing>("virtual.slicing", options.slicing, kSlicings);
+    file.choice<Slicing>("virtual.slicing", options.slicing, kSlicings);
     file.integer("virtual.samples", options.samples, 1, 65536);
     file.number("virtual.resolution", options.resolution, 0.05, 1);
     file.choice<HoleFilling>("virtual.holes", options.holes, kHoleFillings);

@@ -230,5 +230,49 @@ TEST(Status, LineHasABarWhereTheEndIsKnown) {
     EXPECT_THAT(statusLine(stats.count(), run, 1), testing::StartsWith("[####............]  25%"));
 }
 
+TEST(Summary, VirtualLayerIsCountedWhereThereIsOne) {
+    Stats stats;
+    EXPECT_FALSE(summary(stats.count(), {}, "", 0)["virtual"].contains("path_tracer"));
+    TracedLayerCounters counters;
+    counters.render.samples = 123456;
+    counters.render.referenceSince = Timestamp::fromSeconds(3);
+    counters.warped = 7;
+    stats.traced(counters, Timestamp::fromSeconds(3.5));
+    FrameStats frame;
+    frame.objectsInView = true;
+    const std::vector<StageTime> stages;
+    stats.picture({frame, stages, {}, {}, {}});
+    frame.objectsHidden = true;
+    stats.picture({frame, stages, {}, {}, {}});
+    const auto json = summary(stats.count(), {}, "", 0)["virtual"];
+    EXPECT_EQ(json["frames_in_view"], 2);
+    EXPECT_EQ(json["frames_hidden"], 1);
+    EXPECT_EQ(json["path_tracer"]["samples"], 123456);
+    EXPECT_EQ(json["path_tracer"]["frames_warped"], 7);
+    EXPECT_NEAR(json["path_tracer"]["reference_age_s"].get<double>(), 0.5, 1e-9);
+}
+
+TEST(StatusLine, PathTracingTellsHowFarItIs) {
+    Stats stats;
+    FrameStats frame;
+    frame.objectsInView = true;
+    const std::vector<StageTime> stages;
+    stats.picture({frame, stages, {}, {}, {}});
+    TracedLayerCounters counters;
+    counters.render.idle = false;
+    counters.render.progress = 0.4;
+    counters.openHoles = 12;
+    stats.traced(counters, {});
+    const std::string busy = statusLine(stats.count(), {}, 0);
+    EXPECT_NE(busy.find("path tracing 40%"), std::string::npos) << busy;
+    EXPECT_NE(busy.find("12 holes"), std::string::npos) << busy;
+    counters.render.idle = true;
+    counters.openHoles = 0;
+    stats.traced(counters, {});
+    const std::string done = statusLine(stats.count(), {}, 0);
+    EXPECT_NE(done.find(", path traced"), std::string::npos) << done;
+    EXPECT_EQ(done.find("holes"), std::string::npos) << done;
+}
+
 }  // namespace
 }  // namespace mfar

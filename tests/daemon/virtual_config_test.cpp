@@ -28,8 +28,8 @@ turn_deg = 2
 )",
                                                "test.toml")
                                        .virtualLayer;
-    EXPECT_EQ(options, (VirtualOptions{VirtualRendering::Preview, 12.5, RenderSlicing::Space, 16,
-                                       0.5, HoleFilling::PushPull, 3, 2}));
+    EXPECT_EQ(options, (VirtualOptions{VirtualRendering::Preview, 12.5, Slicing::Spatial, 16, 0.5,
+                                       HoleFilling::PushPull, 3, 2}));
 }
 
 TEST(VirtualConfig, FaultsHaveTheirPlace) {

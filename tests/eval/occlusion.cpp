@@ -17,7 +17,6 @@ namespace mfar::eval {
 namespace {
 
 using synthetic::Path;
-using synthetic::Scene;
 
 /// Frames before the first that is scored: until a still is there and depth has settled.
 constexpr int kSettling = 8;
@@ -45,7 +44,7 @@ std::string_view nameOf(VirtualShape shape) {
 /// One object on one path through one scene.
 struct Placement {
     std::string label;
-    Scene scene;
+    synthetic::Scene scene;
     Path path;
     VirtualObject object;
 };
@@ -105,9 +104,10 @@ private:
     Pipeline pipeline_;
 };
 
-std::vector<VirtualObject> objectsFor(const OcclusionRequest& request, Scene scene) {
-    const auto out =
-        request.objects.empty() ? sceneObjects(scene) : loadConfig(request.objects).objects;
+std::vector<VirtualObject> objectsFor(const OcclusionRequest& request, synthetic::Scene scene) {
+    const auto out = request.objects.empty()
+                         ? sceneObjects(scene)
+                         : placedShapes(loadConfig(request.objects).objects, {});
     if (out.empty() && request.objects.empty())
         throw EvalError(fmt::format("no objects are known for scene {}: name a file with --objects",
                                     synthetic::name(scene)));
@@ -123,7 +123,7 @@ Report evaluateOcclusion(const OcclusionRequest& request) {
     Report report(
         {{"depth_ms", 2}, {"composite_ms", 2}, {"iou", 4}, {"boundary_px", 3}, {"flicker", 6}});
     const auto context = createGlContext();
-    for (const Scene scene : request.scenes) {
+    for (const synthetic::Scene scene : request.scenes) {
         const auto objects = objectsFor(request, scene);
         for (const Path path : request.paths) {
             for (std::size_t i = 0; i < objects.size(); ++i) {

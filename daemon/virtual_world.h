@@ -1,0 +1,48 @@
+#pragma once
+
+#include "daemon/objects_config.h"
+#include "pipeline/composite/scene_follower.h"
+#include "pipeline/pipeline.h"
+#include "pipeline/render/light_estimate.h"
+#include "pipeline/render/virtual_options.h"
+
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// Virtual objects, their light and the real surface under them, as the pipeline is to show them.
+/// Lives on the GL thread.
+class VirtualWorld {
+public:
+    VirtualWorld(const VirtualOptions& options, Pipeline& pipeline);
+
+    /// Shows these, placed by the tag map. Objects on tags that it does not have are left out.
+    void set(const std::vector<PlacedObject>& objects, const LightOptions& light,
+             const TagMap& tags);
+
+    /// After a frame: shadows follow the measured depth and, where it is asked for, light follows
+    /// the camera's pictures.
+    void follow(const ImageView& frame, const CameraModel& video, const std::optional<Pose>& pose,
+                Timestamp time);
+
+private:
+    [[nodiscard]] TracedLayerOptions layerOptions() const;
+    void show(std::shared_ptr<const Scene> scene);
+
+    VirtualOptions options_;
+    Pipeline& pipeline_;
+    bool traced_;
+    float exposure_ = 1;
+    SceneFollower follower_;
+    std::optional<LightEstimator> light_;  // of the camera's pictures
+    std::optional<Sun> sun_;
+    std::optional<Timestamp> lightSeen_;
+};
+
+/// A scene of these objects, placed by the tag map, in this light. Light that the camera is to
+/// tell is a dim studio's until it does.
+[[nodiscard]] Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& light,
+                            const TagMap& tags);
+
+}  // namespace mfar
