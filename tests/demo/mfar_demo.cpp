@@ -6,6 +6,7 @@
 #include "tests/demo/demo_video.h"
 #include "tests/demo/occlusion_pictures.h"
 #include "tests/demo/occlusion_run.h"
+#include "tests/demo/virtual_run.h"
 #include "tests/eval/picture.h"
 
 #include <CLI/CLI.hpp>
@@ -27,13 +28,15 @@ using mfar::demo::DemoRun;
 using mfar::demo::OcclusionQuality;
 using mfar::demo::OcclusionRun;
 using mfar::demo::Quality;
+using mfar::demo::VirtualRun;
 
 struct Request {
     fs::path recording;
     fs::path folder;
-    fs::path video;     ///< Y4M of the daemon, empty: none
-    fs::path objects;   ///< configuration with objects, empty: none
-    std::string scene;  ///< that was recorded; the objects' truth needs it
+    fs::path video;       ///< Y4M of the daemon, empty: none
+    fs::path objects;     ///< configuration with objects, empty: none
+    fs::path pathTraced;  ///< the same, to be path traced
+    std::string scene;    ///< that was recorded; the objects' truth needs it
 };
 
 void showProgress(int done, int all) {
@@ -76,11 +79,26 @@ void printTable(const OcclusionQuality& q) {
 void runObjects(const Request& request, const mfar::Recording& recording) {
     const auto scene = mfar::synthetic::sceneNamed(request.scene);
     if (!scene) throw std::runtime_error("there is no scene '" + request.scene + "'");
-    const auto objects = mfar::loadConfig(request.objects).objects;
+    const auto objects = mfar::placedShapes(mfar::loadConfig(request.objects).objects, {});
     const OcclusionRun run = mfar::demo::runOcclusion(recording, *scene, objects, showProgress);
     mfar::eval::savePicture(request.folder / "depth.png", mfar::demo::depthPicture(run));
     mfar::eval::savePicture(request.folder / "occlusion.png", mfar::demo::occlusionPicture(run));
     printTable(run.quality);
+}
+
+void runPathTraced(const Request& request, const mfar::Recording& recording) {
+    if (!mfar::TracedLayer::isAvailable()) {
+        fmt::print("This build has no path tracer: no virtual.png\n");
+        return;
+    }
+    const VirtualRun run =
+        mfar::demo::runVirtual(recording, mfar::loadConfig(request.pathTraced), showProgress);
+    mfar::eval::savePicture(request.folder / "virtual.png", mfar::demo::virtualPicture(run));
+    fmt::print("\n");
+    row("samples, while the camera moved", "", fmt::format("{}", run.moved.render.samples));
+    row("samples, in all", "", fmt::format("{}", run.rested.render.samples));
+    row("frames with a warped picture", "", fmt::format("{}", run.rested.warped));
+    row("pixels rendered for themselves", "", fmt::format("{}", run.rested.answered));
 }
 
 void run(const Request& request) {
@@ -97,6 +115,7 @@ void run(const Request& request) {
     if (!request.video.empty()) mfar::demo::writeVideo(request.video, request.folder / "video.avi");
     printTable(run.quality);
     if (!request.objects.empty()) runObjects(request, recording);
+    if (!request.pathTraced.empty()) runPathTraced(request, recording);
 }
 
 }  // namespace
@@ -110,6 +129,8 @@ int main(int argc, char** argv) {
     auto* scene = app.add_option("--scene", request.scene, "synthetic scene that was recorded");
     app.add_option("--objects", request.objects, "configuration whose [[objects]] are shown in it")
         ->needs(scene);
+    app.add_option("--virtual", request.pathTraced,
+                   "configuration whose [[objects]] are path traced into it");
     CLI11_PARSE(app, argc, argv);
     try {
         run(request);

@@ -1,0 +1,129 @@
+#include "tests/demo/virtual_run.h"
+
+#include "daemon/virtual_world.h"
+#include "tests/demo/picture_layout.h"
+#include "tests/demo/still_feed.h"
+#include "tests/eval/picture.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <stdexcept>
+#include <vector>
+
+namespace mfar::demo {
+namespace {
+
+constexpr std::chrono::milliseconds kFrameInterval{33};
+constexpr int kMostRestFrames = 20000;
+
+bool isSettled(const TracedLayerCounters& counters) {
+    return counters.render.idle && counters.render.progress >= 1;
+}
+
+cv::Rect outputRect(const PixelRect& video, Size frame, Size output) {
+    const auto at = [](int pixel, int from, int to) {
+        return static_cast<int>(static_cast<std::int64_t>(pixel) * to / from);
+    };
+    return {cv::Point(at(video.x0, frame.width, output.width),
+                      at(video.y0, frame.height, output.height)),
+            cv::Point(at(video.x1, frame.width, output.width),
+                      at(video.y1, frame.height, output.height))};
+}
+
+/// The window of the detail's size around the region's middle.
+cv::Rect detailOf(const cv::Rect& region, cv::Size picture) {
+    const cv::Size window = detailSize(picture);
+    const cv::Point middle = (region.tl() + region.br()) / 2;
+    return {{std::clamp(middle.x - window.width / 2, 0, picture.width - window.width),
+             std::clamp(middle.y - window.height / 2, 0, picture.height - window.height)},
+            window};
+}
+
+/// One pipeline, one recording.
+class Show {
+public:
+    Show(const Recording& recording, const Config& config)
+        : recording_(recording), poses_(recording, eval::PoseSource::Tags),
+          pipeline_(recording.rig, {}), world_(config.virtualLayer, pipeline_),
+          stills_(recording, &poses_) {
+        world_.set(config.objects, config.light, {});
+    }
+
+    void frame(const RecordedImage& image) {
+        rgba_ = eval::toRgba(eval::loadPicture(image.file));
+        pose_ = poses_.of(image.time, image.time).frame;
+        time_ = image.time;
+        stills_.feed(pipeline_, time_);
+        show();
+    }
+    /// The last frame again, a little later.
+    void again() {
+        time_ = time_ + kFrameInterval;
+        show();
+    }
+    [[nodiscard]] cv::Mat picture() const {
+        return eval::fromRgba(pipeline_.readImage(), pipeline_.outputSize());
+    }
+    [[nodiscard]] TracedLayerCounters counters() const {
+        return pipeline_.tracedCounters().value_or(TracedLayerCounters{});
+    }
+    [[nodiscard]] cv::Rect region() const {
+        return outputRect(pipeline_.objectsRegion(), recording_.rig.video.size,
+                          pipeline_.outputSize());
+    }
+
+private:
+    void show() {
+        pipeline_.run(eval::viewOf(rgba_), time_, pose_);
+        world_.follow(eval::viewOf(rgba_), recording_.rig.video, pose_, time_);
+    }
+
+    const Recording& recording_;
+    eval::KnownPoses poses_;
+    Pipeline pipeline_;
+    VirtualWorld world_;
+    StillFeed stills_;
+    cv::Mat rgba_;
+    std::optional<Pose> pose_;
+    Timestamp time_;
+};
+
+}  // namespace
+
+VirtualRun runVirtual(const Recording& recording, const Config& config,
+                      const std::function<void(int, int)>& progress) {
+    Show show(recording, config);
+    const int all = static_cast<int>(recording.video.size());
+    for (int done = 1; done <= all; ++done) {
+        show.frame(recording.video[static_cast<std::size_t>(done - 1)]);
+        progress(done, all + 1);
+    }
+    VirtualRun run;
+    run.moving = show.picture();
+    run.moved = show.counters();
+    run.region = show.region();
+    if (run.region.empty())
+        throw std::runtime_error(recording.root.string() + ": no object is in view at the end");
+    for (int i = 0; i < kMostRestFrames && !(i > 10 && isSettled(show.counters())); ++i)
+        show.again();
+    progress(all + 1, all + 1);
+    run.atRest = show.picture();
+    run.rested = show.counters();
+    return run;
+}
+
+cv::Mat virtualPicture(const VirtualRun& run) {
+    const std::array<Column, 2> columns{
+        Column{"The camera moves: an older picture, warped", run.moving},
+        Column{
+            fmt::format("At rest: {:.1f} million samples later",
+                        static_cast<double>(run.rested.render.samples - run.moved.render.samples) *
+                            1e-6),
+            run.atRest}};
+    return columnsWithDetail(columns, detailOf(run.region, run.moving.size()));
+}
+
+}  // namespace mfar::demo
