@@ -73,7 +73,7 @@ std::vector<QualityLevel> parseQualityLevels(std::string_view toml, const std::s
         out.push_back(readLevel(file, prefix));
     file.finish();
     requireWhole(out, fileName);
-    std::ranges::stable_sort(out, {}, &QualityLevel::ms);
+    std::ranges::sort(out, {}, [](const QualityLevel& l) { return std::tie(l.ms, l.name); });
     return out;
 }
 

@@ -39,14 +39,8 @@ void Stats::picture(const Picture& picture) {
         confidenceSum_ += picture.stats.meanConfidence;
         ++confidenceFrames_;
     }
+    objects(picture.stats);
     if (picture.stats.usedPose) ++counted_.epipolarFrames;
-    counted_.depthTiles += static_cast<std::uint64_t>(std::max(picture.stats.depthTiles, 0));
-    if (picture.stats.objectsInView) ++counted_.objectFrames;
-    if (picture.stats.objectsHidden) ++counted_.hiddenFrames;
-    counted_.depthTilesSkipped +=
-        static_cast<std::uint64_t>(std::max(picture.stats.depthTilesSkipped, 0));
-    const DepthSource depth = picture.stats.depth;
-    if (depth == DepthSource::Keyframe || depth == DepthSource::Both) ++counted_.keyframeSearches;
     counted_.tilesSearched2d += static_cast<std::uint64_t>(std::max(picture.stats.searched2d, 0));
     if (picture.stats.predicted) ++counted_.predictedFrames;
     if (picture.stats.refinedPose) ++counted_.refinedFrames;
@@ -58,6 +52,15 @@ void Stats::picture(const Picture& picture) {
     counted_.last = picture.stats;
     counted_.lastStages = picture.stages;
     counted_.stillAgeS = picture.stillAgeS;
+}
+
+void Stats::objects(const FrameStats& frame) {
+    counted_.depthTiles += static_cast<std::uint64_t>(std::max(frame.depthTiles, 0));
+    if (frame.objectsInView) ++counted_.objectFrames;
+    if (frame.objectsHidden) ++counted_.hiddenFrames;
+    counted_.depthTilesSkipped += static_cast<std::uint64_t>(std::max(frame.depthTilesSkipped, 0));
+    const DepthSource depth = frame.depth;
+    if (depth == DepthSource::Keyframe || depth == DepthSource::Both) ++counted_.keyframeSearches;
 }
 
 void Stats::fault(const std::optional<std::string>& fault) {

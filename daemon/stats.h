@@ -109,6 +109,8 @@ public:
 
 private:
     void total();
+    /// What virtual objects needed of a picture. Under the mutex, too.
+    void objects(const FrameStats& frame);
 
     std::mutex mutex_;
     Counted counted_;

@@ -1,5 +1,6 @@
 // One level of the pyramid of push-pull filling from the one below it; the first from the picture.
-// In: colour and state of warp_rest.comp. Out: texels[]. Variant: #define FIRST_LEVEL
+// In: colour and state of warp_rest.comp. Out: texels[].
+// Variant: #define FIRST_LEVEL
 #include "warp_hole_params.glsl"
 #include "warp_pyramid.glsl"
 

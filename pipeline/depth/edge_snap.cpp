@@ -158,19 +158,23 @@ void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
     });
 }
 
+void EdgeSnap::take(const InverseDepthField& in, std::size_t i) {
+    if (!isSound(in, i)) {
+        out_.forget(i);
+        return;
+    }
+    out_.rho[i] = in.rho[i];
+    out_.variance[i] = in.variance[i];
+    out_.filled[i] = in.filled[i];
+}
+
 void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
                        int y) {
     const int width = size_.width;
     const Colours colours(frame);
     for (int x = where.x0; x < where.x1; ++x) {
         const auto i = static_cast<std::size_t>(y) * width + x;
-        if (isSound(in, i)) {
-            out_.rho[i] = in.rho[i];
-            out_.variance[i] = in.variance[i];
-            out_.filled[i] = in.filled[i];
-        } else {
-            out_.forget(i);
-        }
+        take(in, i);
         if (open_[i] == 0) continue;
         const int x0 = nextVoter(std::max(x - kVoteRadius, where.x0));
         const int y0 = nextVoter(std::max(y - kVoteRadius, where.y0));

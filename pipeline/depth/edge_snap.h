@@ -31,6 +31,8 @@ public:
 
 private:
     void findEdges(const InverseDepthField& in, const PixelRect& where);
+    /// As it is, where it is sound.
+    void take(const InverseDepthField& in, std::size_t pixel);
     void snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
                  int y);
 

@@ -108,13 +108,13 @@ bool onEdge(const RayHit& hit) {
     return hit.found() && !(std::min({hit.u, hit.v, 1 - hit.u - hit.v}) > kEdge);
 }
 
-template <std::size_t kWidth, typename Packet>
+template <std::size_t Width, typename Packet>
 void intersectInPackets(RTCScene scene, std::span<const Ray> rays, std::span<RayHit> hits) {
-    for (std::size_t first = 0; first < rays.size(); first += kWidth) {
-        const std::size_t count = std::min(kWidth, rays.size() - first);
+    for (std::size_t first = 0; first < rays.size(); first += Width) {
+        const std::size_t count = std::min(Width, rays.size() - first);
         Packet query;
-        alignas(Packet) std::array<int, kWidth> valid{};
-        for (std::size_t i = 0; i < kWidth; ++i) {
+        alignas(Packet) std::array<int, Width> valid{};
+        for (std::size_t i = 0; i < Width; ++i) {
             valid[i] = i < count ? -1 : 0;
             setLane(query, i, rays[first + std::min(i, count - 1)]);
         }

@@ -61,7 +61,7 @@ std::vector<std::size_t> paretoFront(const std::vector<ParetoPoint>& points) {
         const auto beats = [&](const ParetoPoint& p) { return dominates(p, points[i]); };
         if (isFinite(points[i]) && std::ranges::none_of(points, beats)) out.push_back(i);
     }
-    std::ranges::stable_sort(out, {}, [&](std::size_t i) { return points[i].ms; });
+    std::ranges::sort(out, {}, [&](std::size_t i) { return std::pair(points[i].ms, i); });
     return out;
 }
 

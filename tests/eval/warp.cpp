@@ -178,7 +178,7 @@ void savePicture(const WarpRequest& request, const std::string& name, const Rgba
     constexpr int kPaper = 200;
     for (int y = 0; y < out.rows; ++y)
         for (int x = 0; x < out.cols; ++x) {
-            const auto p = premultiplied.at<cv::Vec4b>(y, x);
+            const auto& p = premultiplied.at<cv::Vec4b>(y, x);
             for (int c = 0; c < 3; ++c)
                 out(y, x)[2 - c] =
                     cv::saturate_cast<std::uint8_t>(p[c] + kPaper * (255 - p[3]) / 255);

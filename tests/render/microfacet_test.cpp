@@ -13,17 +13,17 @@ Eigen::Vector3f viewAt(float mu) {
 }
 
 /// Of f(direction) over the upper hemisphere, by midpoints.
-template <int kPhis = 256, typename F>
+template <int Phis = 256, typename F>
 double overHemisphere(F f) {
     constexpr int kThetas = 256;
     double sum = 0;
     for (int i = 0; i < kThetas; ++i)
-        for (int j = 0; j < kPhis; ++j) {
+        for (int j = 0; j < Phis; ++j) {
             // Finer towards the pole and the rim.
             const double s = (i + 0.5) / kThetas;
             const double z = s * s * (3 - 2 * s), dz = 6 * s * (1 - s) / kThetas;
-            const double phi = 2 * M_PI * (j + 0.5) / kPhis, r = std::sqrt(1 - z * z);
-            sum += dz * 2 * M_PI / kPhis *
+            const double phi = 2 * M_PI * (j + 0.5) / Phis, r = std::sqrt(1 - z * z);
+            sum += dz * 2 * M_PI / Phis *
                    f(Eigen::Vector3d(r * std::cos(phi), r * std::sin(phi), z).cast<float>());
         }
     return sum;

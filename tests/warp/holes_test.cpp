@@ -106,10 +106,10 @@ TEST_F(WarpHolesGl, MoreHolesThanMayBeAskedForAreSpreadEvenly) {
     ASSERT_EQ(some->pixels.size(), 100U);
     EXPECT_TRUE(std::ranges::includes(every->pixels, some->pixels));
     const auto meanRow = [](const std::vector<std::uint32_t>& pixels) {
-        double sum = 0;
+        std::uint64_t sum = 0;
         for (const std::uint32_t p : pixels)
-            sum += p / kHoleLayer.width;
-        return sum / static_cast<double>(pixels.size());
+            sum += p / static_cast<unsigned>(kHoleLayer.width);
+        return static_cast<double>(sum) / static_cast<double>(pixels.size());
     };
     EXPECT_NEAR(meanRow(every->pixels), meanRow(some->pixels), 8);
 }

@@ -54,10 +54,10 @@ TEST(WarpThreads, PicturesAreTheSameAtOneAndTwoThreads) {
     std::string hashes[2];
     for (int threads = 1; threads <= 2; ++threads) {
         const std::string file = testing::TempDir() + "warp_hash_" + std::to_string(::getpid());
-        const std::string command = std::string(kHashFile) + "='" + file +
-                                    "' LP_NUM_THREADS=" + std::to_string(threads) + " '" + program +
-                                    "' --gtest_filter=WarpThreadsGl.WritesItsHash >/dev/null";
-        ASSERT_EQ(std::system(command.c_str()), 0);
+        std::ostringstream command;
+        command << kHashFile << "='" << file << "' LP_NUM_THREADS=" << threads << " '" << program
+                << "' --gtest_filter=WarpThreadsGl.WritesItsHash >/dev/null";
+        ASSERT_EQ(std::system(command.str().c_str()), 0);
         std::ifstream(file) >> hashes[threads - 1];
         std::filesystem::remove(file);
     }
