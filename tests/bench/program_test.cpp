@@ -108,13 +108,13 @@ TEST(MfarBench, CurvesHaveEveryValueOfEveryKnob) {
     }
 }
 
-TEST(MfarBench, ParetoHasEveryStageAndATableThatTheDaemonReads) {
+TEST(MfarBench, ParetoHasOursAndPeersAndATableThatTheDaemonReads) {
     const mfar::test::TempFolder folder;
     const auto csv = folder / "pareto.csv", svg = folder / "pareto.svg",
                table = folder / "levels.toml";
-    const std::string command =
-        fmt::format("{} pareto --quick --rounds 1 --csv '{}' --svg '{}' --table '{}' >/dev/null",
-                    MFAR_BENCH, csv.string(), svg.string(), table.string());
+    const std::string command = fmt::format("{} pareto --quick --rounds 1 --stages superres --csv "
+                                            "'{}' --svg '{}' --table '{}' >/dev/null",
+                                            MFAR_BENCH, csv.string(), svg.string(), table.string());
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_TRUE(test::isWellFormed(mfar::test::readFile(svg)));
     std::istringstream lines(mfar::test::readFile(csv));
@@ -128,13 +128,11 @@ TEST(MfarBench, ParetoHasEveryStageAndATableThatTheDaemonReads) {
         EXPECT_GT(std::stod(row[3]), 0) << line;
         EXPECT_TRUE(std::isfinite(std::stod(row[4]))) << line;
     }
-    ASSERT_EQ(kinds.size(), 4U);
-    for (const char* stage :
-         {"flow with poses", "flow without poses", "super-resolution", "depth"}) {
-        EXPECT_EQ(kinds[stage]["default"], 1) << stage;
-        EXPECT_GE(kinds[stage]["ours"], 8) << stage;
-        EXPECT_GE(kinds[stage]["peer"], 3) << stage;
-    }
+    ASSERT_EQ(kinds.size(), 1U);
+    auto& points = kinds["super-resolution"];
+    EXPECT_EQ(points["default"], 1);
+    EXPECT_GE(points["ours"], 8);
+    EXPECT_GE(points["peer"], 3);
     const auto levels = parseQualityLevels(mfar::test::readFile(table), "levels.toml");
     EXPECT_GE(levels.size(), 2U);
 }
@@ -152,7 +150,7 @@ TEST(MfarBench, SkipMeasuresWhatIsAskedFor) {
     std::getline(lines, line);
     std::getline(lines, line);
     const auto row = fields(line);
-    ASSERT_EQ(row.size(), 9U) << line;
+    ASSERT_GE(row.size(), 6U) << line;
     EXPECT_EQ(row[0] + "," + row[1], "still,unchanged-tiles");
     EXPECT_GT(std::stod(row[2]), 0);
     EXPECT_TRUE(std::isfinite(std::stod(row[5]))) << line;
