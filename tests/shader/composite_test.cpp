@@ -142,8 +142,8 @@ TEST_F(CompositeTest, ExtremeKnownValuesAreCompared) {
         double z, visible;
     };
     for (const Case& c :
-         {Case{{1e5, 1e-30}, 2, 0}, Case{{2e-6, 1e-30}, 2, 1}, Case{{1e5, 9e5}, 2, 1},
-          Case{{1e-5, 1e-12}, 9e5, 0}, Case{{9e5, 1}, 2e-4, 0}, Case{{0.5, 1e-30}, 2, 1}}) {
+         {Case{{1e5, 1e-19}, 2, 0}, Case{{2e-6, 1e-19}, 2, 1}, Case{{1e5, 9e5}, 2, 1},
+          Case{{1e-5, 1e-12}, 9e5, 0}, Case{{9e5, 1}, 2e-4, 0}, Case{{0.5, 1e-19}, 2, 1}}) {
         run(plainScene(c.real), {.z = [&](int, int) { return c.z; }});
         EXPECT_EQ(visibleEverywhere(), c.visible) << c.real.rho << " " << c.real.sigma;
         run(plainScene(c.real), {.z = [&](int, int) { return c.z; }}, {.virtualSigma = 0});
