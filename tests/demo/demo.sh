@@ -23,13 +23,14 @@ echo "2/3  the same scene with its truth, for comparison"
 
 echo "3/3  pictures"
 "$build/tests/demo/mfar-demo" "$work/recording" "$out" --video "$work/video.y4m" \
-    --scene office --objects "$here/demo.toml"
+    --scene office --objects "$here/demo.toml" --virtual "$here/virtual.toml"
 
 cat <<EOF
 
 In $out:
   comparison.png    upscaled video, result and truth, with a magnified detail
   occlusion.png     a virtual ball behind real things: over everything, as composed, and truth
+  virtual.png       a path traced jar on the desk, while the camera moves and at rest
   depth.png         depth of the desk, truth and error
   confidence.png    how far each place of the still is trusted
   tile_classes.png  which work each tile needed
