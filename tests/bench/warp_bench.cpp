@@ -26,7 +26,7 @@ Summary timed(int runs, const std::function<void()>& call) {
 /// A scene, and its picture at no turn.
 class WarpCase {
 public:
-    WarpCase(test::CastScene scene, Size size, WarpDepth depth)
+    WarpCase(const test::CastScene& scene, Size size, WarpDepth depth)
         : warp_(test::bentCamera(size), size, {.depth = depth, .filling = HoleFilling::PushPull}) {
         warp_.setScene(scene.scene());
         picture_ = scene.cast({warp_.camera(), test::orbit(0)});

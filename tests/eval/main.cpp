@@ -157,52 +157,54 @@ const SampleRequest& completed(SampleRequest& request, const std::vector<std::st
     return request;
 }
 
+Report runSuperRes(Options& o) {
+    checkMethods(o.superres.methods, superResMethodNames());
+    o.superres.degradation = parseDegradation(o.degrade);
+    o.superres.poseNoise = o.poseNoise;
+    return evaluateSuperRes(o.superres);
+}
+
+Report runPose(const Options& o) {
+    checkMethods(o.pose.methods, poseMethodNames());
+    return evaluatePose(o.pose);
+}
+
+/// All of them; what they read is in `o`.
+std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
+    std::vector<EvalCommand> out = addTracedCommands(app, o.csv);
+    const auto add = [&](CLI::App* command, std::function<Report()> evaluate) {
+        out.push_back({command, std::move(evaluate)});
+    };
+    add(addSuperRes(app, o), [&o] { return runSuperRes(o); });
+    add(addPoseCommand(app, o.pose, o.csv), [&o] { return runPose(o); });
+    add(addSamples(app, "depth", "depth against the true one", kDepthHelp, depthMethodNames(),
+                   o.depth, o),
+        [&o] { return evaluateDepth(completed(o.depth, depthMethodNames(), o)); });
+    add(addSamples(app, "flow", "dense flow against the true one", kFlowHelp, flowMethodNames(),
+                   o.flow, o),
+        [&o] { return evaluateFlow(completed(o.flow, flowMethodNames(), o)); });
+    add(addOcclusionCommand(app, o.occlusion, o.csv),
+        [&o] { return evaluateOcclusion(o.occlusion); });
+    add(addMetricCommand(app, o.metric, o.csv), [&o] { return evaluateMetric(o.metric); });
+    add(addFigure7Command(app, o.figure7, o.csv), [&o] { return runFigure7(o.figure7); });
+    add(addWarpCommand(app, o.warp, o.warpFiles, o.csv),
+        [&o] { return runWarpCommand(o.warp, o.warpFiles); });
+    return out;
+}
+
 int run(int argc, char** argv) {
     CLI::App app("mfar-eval: accuracy and run time of this product and its peers on recordings");
     app.require_subcommand(1);
     Options o;
-    CLI::App* superres = addSuperRes(app, o);
-    CLI::App* pose = addPoseCommand(app, o.pose, o.csv);
-    const CLI::App* depth = addSamples(app, "depth", "depth against the true one", kDepthHelp,
-                                       depthMethodNames(), o.depth, o);
-    addSamples(app, "flow", "dense flow against the true one", kFlowHelp, flowMethodNames(), o.flow,
-               o);
-    const CLI::App* occlusion = addOcclusionCommand(app, o.occlusion, o.csv);
-    const CLI::App* metric = addMetricCommand(app, o.metric, o.csv);
-    const CLI::App* figure7 = addFigure7Command(app, o.figure7, o.csv);
-    const std::vector<TracedCommand> traced = addTracedCommands(app, o.csv);
-    const CLI::App* warp = addWarpCommand(app, o.warp, o.warpFiles, o.csv);
+    const std::vector<EvalCommand> commands = addCommands(app, o);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         return app.exit(e) == 0 ? 0 : kUsage;
     }
-    Report report({});
     const auto used = std::ranges::find_if(
-        traced, [](const TracedCommand& command) { return command.command->parsed(); });
-    if (used != traced.end()) {
-        report = used->evaluate();
-    } else if (superres->parsed()) {
-        checkMethods(o.superres.methods, superResMethodNames());
-        o.superres.degradation = parseDegradation(o.degrade);
-        o.superres.poseNoise = o.poseNoise;
-        report = evaluateSuperRes(o.superres);
-    } else if (pose->parsed()) {
-        checkMethods(o.pose.methods, poseMethodNames());
-        report = evaluatePose(o.pose);
-    } else if (occlusion->parsed()) {
-        report = evaluateOcclusion(o.occlusion);
-    } else if (metric->parsed()) {
-        report = evaluateMetric(o.metric);
-    } else if (figure7->parsed()) {
-        report = runFigure7(o.figure7);
-    } else if (warp->parsed()) {
-        report = runWarpCommand(o.warp, o.warpFiles);
-    } else if (depth->parsed()) {
-        report = evaluateDepth(completed(o.depth, depthMethodNames(), o));
-    } else {
-        report = evaluateFlow(completed(o.flow, flowMethodNames(), o));
-    }
+        commands, [](const EvalCommand& command) { return command.command->parsed(); });
+    const Report report = used->evaluate();
     fmt::print("{}", report.table());
     if (!o.csv.empty()) report.writeCsv(o.csv);
     return 0;

@@ -6,11 +6,11 @@
 
 namespace mfar::eval {
 
-std::vector<TracedCommand> addTracedCommands(CLI::App& app, std::string& csv) {
+std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv) {
     const auto slicing = std::make_shared<SlicingRequest>();
-    std::vector<TracedCommand> out{
+    std::vector<EvalCommand> out{
         {addSlicingCommand(app, *slicing), [slicing] { return evaluateSlicing(*slicing); }}};
-    for (const TracedCommand& traced : out)
+    for (const EvalCommand& traced : out)
         traced.command->add_option("--csv", csv, "file for the table");
     return out;
 }

@@ -11,12 +11,12 @@
 namespace mfar::eval {
 
 /// A subcommand and what it does.
-struct TracedCommand {
+struct EvalCommand {
     CLI::App* command;
     std::function<Report()> evaluate;
 };
 
 /// What needs the path tracer; nothing where it is not built. `csv` is filled like that of others.
-[[nodiscard]] std::vector<TracedCommand> addTracedCommands(CLI::App& app, std::string& csv);
+[[nodiscard]] std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv);
 
 }  // namespace mfar::eval

@@ -2,7 +2,7 @@
 
 namespace mfar::eval {
 
-std::vector<TracedCommand> addTracedCommands(CLI::App& /*app*/, std::string& /*csv*/) {
+std::vector<EvalCommand> addTracedCommands(CLI::App& /*app*/, std::string& /*csv*/) {
     return {};
 }
 

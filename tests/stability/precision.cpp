@@ -74,7 +74,8 @@ void triangulation(TriangulationMethod method, const char* what) {
     ErrorTable table(what, "px");
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!(points[i].inverseDepth > 0)) continue;
-        const Vector2d pixel(static_cast<double>(i % 640), static_cast<double>(i / 640));
+        const std::size_t column = i % 640, row = i / 640;
+        const Vector2d pixel(static_cast<double>(column), static_cast<double>(row));
         const auto truth = twin::depthFromFlow(views, pixel, Vector2d(flow[2 * i], flow[2 * i + 1]),
                                                options.flowSigma);
         const double off = std::abs(points[i].inverseDepth - truth.inverseDepth);

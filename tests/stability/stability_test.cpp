@@ -16,8 +16,8 @@ struct Group {
     int seeds;
 };
 
-void PrintTo(const Group& group, std::ostream* out) {
-    *out << group.name;
+std::ostream& operator<<(std::ostream& out, const Group& group) {
+    return out << group.name;
 }
 
 class HostileInput : public testing::TestWithParam<Group> {};
