@@ -106,7 +106,7 @@ SequenceWay paperWay(const Workload& work, Size output, eval::DisPreset preset) 
             [out](std::size_t) { return *out; }};
 }
 
-constexpr const char* kPictures[] = {"bicubic", "paper", "paper, DIS fast"};
+constexpr const char* kPictures[] = {"bicubic", "paper", "paper with DIS fast"};
 
 void measureSequence(const SequenceSample& sample, const std::vector<QualitySetting>& settings,
                      const ParetoRun& run, std::vector<WayTimes>& times) {
