@@ -57,8 +57,6 @@ TracedLayerOptions VirtualWorld::layerOptions() const {
     out.reference.slices.samplesPerTurn = 1;  // something is to be seen soon
     out.reference.tracer.shadowReach = kShadowReach;
     out.reference.tracer.fireflyClamp = kBrightestCaustic;
-    out.reference.slices.leastSamples =
-        std::min(out.reference.slices.leastSamples, options_.samples);
     out.reference.budgetMs = options_.budgetMs;
     out.reference.threads = options_.threads;
     out.reference.exposure.scale = exposure_;
