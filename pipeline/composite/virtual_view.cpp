@@ -33,14 +33,6 @@ PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
             static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
 }
 
-bool haveSameModels(const Scene& a, const Scene& b) {
-    return std::ranges::equal(a.objects, b.objects, [](const auto& x, const auto& y) {
-        return x.model == y.model && x.scale == y.scale &&
-               x.T_world_object.translation == y.T_world_object.translation &&
-               x.T_world_object.rotation.coeffs() == y.T_world_object.rotation.coeffs();
-    });
-}
-
 }  // namespace
 
 VirtualView::VirtualView(const CameraModel& video, Size output)
@@ -60,7 +52,7 @@ VirtualView::VirtualView(const CameraModel& video, Size output, TracedLayerOptio
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
     // What is shown changes when there is a picture of it.
     if (!scene || !scene_) changed_ = true;
-    if (!scene || !scene_ || !haveSameModels(*scene, *scene_))
+    if (!scene || !scene_ || scene->objects != scene_->objects)
         boxes_ = scene ? SceneBoxes(*scene) : SceneBoxes();
     catcherBoxes_ = scene ? SceneBoxes(scene->catcher) : SceneBoxes();
     scene_ = scene;

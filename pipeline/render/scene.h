@@ -75,6 +75,13 @@ struct SceneObject {
     std::shared_ptr<const Model> model;
     RigidTransform T_world_object;
     float scale = 1;  ///< above 0
+
+    /// The same model at the same place, to the bit.
+    friend bool operator==(const SceneObject& a, const SceneObject& b) {
+        return a.model == b.model && a.scale == b.scale &&
+               a.T_world_object.rotation == b.T_world_object.rotation &&
+               a.T_world_object.translation == b.T_world_object.translation;
+    }
 };
 
 /// The real surface that catches shadows and bounced light: triangles in the world, diffuse.

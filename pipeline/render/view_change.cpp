@@ -86,10 +86,6 @@ LightMoments momentsOf(const Lighting& light) {
     return out;
 }
 
-bool sameTransform(const RigidTransform& a, const RigidTransform& b) {
-    return a.rotation.coeffs() == b.rotation.coeffs() && a.translation == b.translation;
-}
-
 }  // namespace
 
 std::vector<ObjectBall> objectBalls(const Scene& scene) {
@@ -139,12 +135,7 @@ double lightChange(const Lighting& a, const Lighting& b) {
 }
 
 bool sameObjects(const Scene& a, const Scene& b) {
-    const auto same = [](const SceneObject& x, const SceneObject& y) {
-        return x.model == y.model && x.scale == y.scale &&
-               sameTransform(x.T_world_object, y.T_world_object);
-    };
-    return std::ranges::equal(a.objects, b.objects, same) &&
-           a.catcher.positions == b.catcher.positions &&
+    return a.objects == b.objects && a.catcher.positions == b.catcher.positions &&
            a.catcher.triangles == b.catcher.triangles && a.catcher.albedo == b.catcher.albedo;
 }
 
