@@ -1,5 +1,5 @@
-#include "tests/bench/log_axis.h"
 #include "tests/bench/pareto.h"
+#include "tests/eval/log_axis.h"
 #include "tests/eval/svg.h"
 
 #include <fmt/format.h>
@@ -97,7 +97,7 @@ private:
 
     const ParetoStage& stage_;
     double left_;
-    LogAxis time_, error_;
+    eval::LogAxis time_, error_;
 };
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-namespace mfar::bench {
+namespace mfar::eval {
 
 /// A logarithmic axis over all that was included: values above zero.
 class LogAxis {
@@ -20,11 +20,11 @@ public:
     }
     /// Round values on the axis.
     [[nodiscard]] std::vector<double> ticks() const {
-        const bool isShort = most_ < 10 * least_;
+        const bool isShort = most_ < 10 * least_, isLong = most_ > 1000 * least_;
         std::vector<double> out;
-        for (int power = -3; power <= 6; ++power)
+        for (int power = -9; power <= 9; ++power)
             for (const double digit : {1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0})
-                if (isShort || digit == 1 || digit == 2 || digit == 5) {
+                if (isShort || digit == 1 || (!isLong && (digit == 2 || digit == 5))) {
                     const double v = digit * std::pow(10, power), where = at(v);
                     if (where > 0 && where < 1) out.push_back(v);
                 }
@@ -37,4 +37,4 @@ private:
     double least_ = 1e300, most_ = 0;
 };
 
-}  // namespace mfar::bench
+}  // namespace mfar::eval
