@@ -168,6 +168,7 @@ std::string App::readAgain() {
         config_.trigger = wanted.trigger;
         config_.status = wanted.status;
         config_.objects = wanted.objects;
+        config_.light = wanted.light;
         changes_.put(tunables(config_));
         setTicks();
         if (running_) running_->description.mode = name(config_.superres.mode);
@@ -219,6 +220,8 @@ void App::showStatus() {
         running_->description.display = counted.display;
         log_.notice("display " + counted.display);
     }
+    for (const std::string& text : stats_.takeWarnings())
+        log_.warning(text);
     const std::string line = statusLine(counted, running_->description, elapsed);
     log_.status(line);
     if (!stopReason_) service_.status(line);

@@ -4,6 +4,8 @@
 #include "pipeline/render/gltf_model.h"
 #include "pipeline/render/showpiece.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <string>
@@ -95,9 +97,24 @@ std::optional<RigidTransform> worldPlace(const PlacedObject& object, const TagMa
     if (!object.tag) return object.T_anchor_object;
     const MappedTag* tag = tags.find(*object.tag);
     if (tag == nullptr) return std::nullopt;
-    // A tag's own frame has y down and z into the surface.
-    const RigidTransform T_tag_stand{Eigen::Quaterniond(0, 1, 0, 0), Eigen::Vector3d::Zero()};
-    return tag->T_world_tag * T_tag_stand * object.T_anchor_object;
+    return tag->T_world_tag * standOnTag() * object.T_anchor_object;
+}
+
+std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects, const TagMap& tags,
+                                 std::string_view shapesAlone) {
+    std::vector<std::string> out;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        const PlacedObject& object = objects[i];
+        const std::string who = fmt::format("objects[{}] is not shown: ", i);
+        if (object.tag && tags.find(*object.tag) == nullptr)
+            out.push_back(who +
+                          fmt::format("it stands on tag {} of {}, which is not in the tag map",
+                                      object.tag->id, info(object.tag->family).name));
+        else if (object.model && !shapesAlone.empty())
+            out.push_back(who +
+                          fmt::format("{} is a model, and {}", object.modelName, shapesAlone));
+    }
+    return out;
 }
 
 std::vector<VirtualObject> placedShapes(const std::vector<PlacedObject>& objects,

@@ -44,6 +44,7 @@ std::optional<Pose> PoseFinder::ofVideo(const Frame& video) {
     if (!tracker_) return std::nullopt;
     std::optional<Pose> pose = tracker_->track(video.view(), video.time());
     if (pose && pose->tags > 0) history_.add(*pose);
+    if (pose && mayFindTags() && !std::exchange(foundTags_, true)) found_.put(tracker_->map());
     stats_.framePose(pose, tracker_->stats());
     return pose;
 }

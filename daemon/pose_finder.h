@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/mailbox.h"
 #include "daemon/pose_config.h"
 #include "daemon/pose_history.h"
 #include "daemon/stats.h"
@@ -23,7 +24,7 @@ struct PoseInputs {
 };
 
 /// Gives frames and stills the video camera's pose at their time, from where the configuration
-/// says. Used by one thread, which is not the GL thread.
+/// says. Used by one thread, which is not the GL thread, where nothing else is said.
 class PoseFinder {
 public:
     /// `stats` must outlive this. Throws Failure when there is no such thing as configured.
@@ -37,8 +38,12 @@ public:
 
     /// Not only predicted.
     [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }
-    /// Where the tags are; empty: unknown.
+    /// Where the tags are, as known at the start; empty: unknown.
     [[nodiscard]] const TagMap& tags() const { return tags_; }
+    /// Without such a map: the one of the tag that has become the world, once. From any thread.
+    [[nodiscard]] std::optional<TagMap> takeFoundTags() { return found_.tryTake(); }
+    /// A map may still come that way.
+    [[nodiscard]] bool mayFindTags() const { return tracker_ && tags_.empty(); }
     /// "poses from 12 tags"
     [[nodiscard]] const std::string& description() const { return description_; }
 
@@ -48,6 +53,8 @@ private:
     std::string description_;
     std::function<std::optional<Pose>(Timestamp)> recorded_;
     std::optional<Tracker> tracker_;
+    bool foundTags_ = false;
+    Mailbox<TagMap> found_{HandOver::NewestWins};
     PoseHistory history_;  ///< of frames whose own tags were seen
 };
 

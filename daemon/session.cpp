@@ -34,10 +34,11 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
       policy_(config.trigger), banner_(pipeline_.outputSize()),
       deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
-      levels_(governedLevels(config.governor)) {
-    rig_.recordTags(poses_.tags());
+      levels_(governedLevels(config.governor)), objects_(config.objects), light_(config.light),
+      tags_(poses_.tags()) {
+    rig_.recordTags(tags_);
     pipeline_.setMeasure(config.status.measure);
-    virtual_.set(config.objects, config.light, poses_.tags());
+    placeObjects();
     setUpQuality(config.superres.mode);
     description_ = {gl_->description(),  rig_.description(),
                     display_->name(),    std::string(name(config.superres.mode)),
@@ -99,14 +100,28 @@ void Session::apply(const Tunables& wanted) {
     setUpQuality(wanted.superres.mode);
     pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
     pipeline_.setMeasure(wanted.measure);
-    virtual_.set(wanted.objects, wanted.light, poses_.tags());
+    objects_ = wanted.objects;
+    light_ = wanted.light;
+    placeObjects();
     policy_.configure(wanted.trigger);
+}
+
+void Session::placeObjects() {
+    virtual_.set(objects_, light_, tags_);
+    if (tags_.empty() && poses_.mayFindTags()) return;
+    for (std::string& text : leftOut(objects_, tags_, virtual_.shapesAlone()))
+        stats_.warn(std::move(text));
 }
 
 void Session::process(CapturedFrame captured) {
     const Timestamp begun = Timestamp::now();
     const bool newStill = captured.still.has_value();
     if (captured.still) useStill(*std::exchange(captured.still, std::nullopt));
+    if (std::optional<TagMap> found = poses_.takeFoundTags()) {
+        tags_ = *std::move(found);
+        rig_.recordTags(tags_);
+        placeObjects();
+    }
     const Timestamp time = captured.video.time();
     const FrameResult& result = pipeline_.run(captured.video.view(), time, captured.pose);
     virtual_.follow(captured.video.view(), rig_.geometry().video, captured.pose, time);
@@ -127,6 +142,7 @@ void Session::process(CapturedFrame captured) {
         govern();
     }
     if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
+    if (auto error = pipeline_.takeSceneError()) stats_.warn("objects: " + *error);
     stats_.recorderDropped(rig_.notRecorded());
     if (const auto matching = rig_.matching()) stats_.matching(*matching);
     rig_.checkRecording();
@@ -162,7 +178,7 @@ void Session::askForStill() {
 
 void Session::startRecording(const std::filesystem::path& folder) {
     rig_.startRecording(folder);
-    rig_.recordTags(poses_.tags());
+    rig_.recordTags(tags_);
 }
 
 void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {

@@ -74,6 +74,7 @@ public:
 
 private:
     void apply(const Tunables& wanted);
+    void placeObjects();
     void process(CapturedFrame captured);
     void useStill(const CapturedStill& still);
     void fireIfNeeded(Timestamp frame, const FrameStats& stats);
@@ -103,6 +104,9 @@ private:
     GlImage shown_;              ///< what the display got last
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;
+    std::vector<PlacedObject> objects_;
+    LightOptions light_;
+    TagMap tags_;
     std::uint64_t pictures_ = 0;
     RunDescription description_;
 };

@@ -69,6 +69,16 @@ void Stats::fault(const std::optional<std::string>& fault) {
     counted_.fault = fault;
 }
 
+void Stats::warn(std::string text) {
+    const std::lock_guard lock(mutex_);
+    warnings_.push_back(std::move(text));
+}
+
+std::vector<std::string> Stats::takeWarnings() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(warnings_, {});
+}
+
 void Stats::display(const std::string& name) {
     const std::lock_guard lock(mutex_);
     if (counted_.display != name) counted_.display = name;

@@ -82,6 +82,9 @@ public:
     void picture(const Picture& picture);
     /// What is missing, as the picture says it; nothing when all is well.
     void fault(const std::optional<std::string>& fault);
+    /// The log is to say this, once.
+    void warn(std::string text);
+    [[nodiscard]] std::vector<std::string> takeWarnings();
     /// What is shown where, as Display::name() says it now.
     void display(const std::string& name);
     /// A picture was shown that says what is missing, while no frames come.
@@ -121,6 +124,7 @@ private:
     std::optional<Timestamp> firstShown_;
     Timestamp lastShown_;
     std::uint64_t faultPictures_ = 0;
+    std::vector<std::string> warnings_;
     std::uint64_t framesBefore_ = 0;  ///< at the previous count()
     Timestamp shownBefore_;
 };

@@ -65,6 +65,12 @@ TracedLayerOptions VirtualWorld::layerOptions() const {
     return out;
 }
 
+std::string_view VirtualWorld::shapesAlone() const {
+    if (traced_) return "";
+    if (!TracedLayer::isAvailable()) return "this build has no path tracer";
+    return "virtual.rendering = \"preview\" shows simple shapes alone";
+}
+
 void VirtualWorld::show(std::shared_ptr<const Scene> scene) {
     if (scene) pipeline_.setScene(std::move(scene), layerOptions());
 }

@@ -7,6 +7,7 @@
 #include "pipeline/render/virtual_options.h"
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace mfar {
@@ -17,9 +18,11 @@ class VirtualWorld {
 public:
     VirtualWorld(const VirtualOptions& options, Pipeline& pipeline);
 
-    /// Shows these, placed by the tag map. Objects on tags that it does not have are left out.
+    /// Shows these, placed by the tag map, without those that are leftOut().
     void set(const std::vector<PlacedObject>& objects, const LightOptions& light,
              const TagMap& tags);
+    /// Why models are not shown; empty when they are.
+    [[nodiscard]] std::string_view shapesAlone() const;
 
     /// After a frame: shadows follow the measured depth and, where it is asked for, light follows
     /// the camera's pictures.

@@ -128,6 +128,11 @@ std::optional<TracedLayerCounters> Pipeline::tracedCounters() const {
     return state_->objects->traced()->counters();
 }
 
+std::optional<std::string> Pipeline::takeSceneError() {
+    if (!state_->objects || state_->objects->traced() == nullptr) return {};
+    return state_->objects->traced()->takeError();
+}
+
 void Pipeline::setSkipUnchanged(bool skip) {
     state_->options.skipUnchanged = skip;
 }

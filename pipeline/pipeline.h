@@ -79,6 +79,8 @@ public:
     [[nodiscard]] PixelRect objectsRegion() const;
     /// Of the path tracer and the warp; nothing where none is used.
     [[nodiscard]] std::optional<TracedLayerCounters> tracedCounters() const;
+    /// What was wrong with a scene that could not be shown, once.
+    [[nodiscard]] std::optional<std::string> takeSceneError();
 
     [[nodiscard]] Size outputSize() const;
     /// CPU-side stage times of the last run. With `measure` on, each stage ends with glFinish and

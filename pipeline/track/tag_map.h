@@ -24,6 +24,12 @@ struct MappedTag {
     RigidTransform T_world_tag;  ///< tag frame: x right, y down, z into the surface
 };
 
+/// The frame of what stands on a tag, x to the right and y up in its print, z out of it -> the
+/// tag's.
+[[nodiscard]] inline RigidTransform standOnTag() {
+    return {Eigen::Quaterniond(0, 1, 0, 0), Eigen::Vector3d::Zero()};
+}
+
 /// Where the tags of a world are. Its frame is the world of every pose.
 class TagMap {
 public:

@@ -106,7 +106,7 @@ void Tracker::adoptWorld(const std::vector<TagDetection>& tags) {
         tags.begin(), tags.end(),
         [](const TagDetection& a, const TagDetection& b) { return areaOf(a) < areaOf(b); });
     if (largest == tags.end()) return;
-    map_ = TagMap({{largest->tag, options_.tagSize, {}}});
+    map_ = TagMap({{largest->tag, options_.tagSize, standOnTag().inverse()}});
 }
 
 std::vector<TagObservation> Tracker::placed(const std::vector<TagDetection>& tags) const {
@@ -169,6 +169,11 @@ TrackStats Tracker::stats() const {
     out.rejected = estimator_.rejected();
     out.jumps = estimator_.jumps();
     return out;
+}
+
+TagMap Tracker::map() const {
+    const std::scoped_lock lock(mutex_);
+    return map_;
 }
 
 }  // namespace mfar

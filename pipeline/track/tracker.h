@@ -15,7 +15,8 @@ namespace mfar {
 
 struct TrackerOptions {
     /// Where the tags are; their frame is the world, and only their families are sought. Empty: the
-    /// largest tag of the first picture with one is the world, and `families` are sought.
+    /// largest tag of the first picture with one becomes the map, and `families` are sought. The
+    /// world then stands on it: x to the right and y up in its print, z out of it.
     TagMap map;
     std::vector<TagFamily> families{TagFamily::Tag36h11};
     double tagSize = 0.1;         ///< of the tag that becomes the world without a map [m]
@@ -65,6 +66,8 @@ public:
     /// thread of track(), until its next call.
     [[nodiscard]] const std::vector<TagDetection>& detections() const { return detections_; }
     [[nodiscard]] TrackStats stats() const;
+    /// As it was given, or with the tag that became the world; empty before that.
+    [[nodiscard]] TagMap map() const;
 
 private:
     /// One sensor's way from a picture to detections.

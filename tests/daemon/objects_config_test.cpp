@@ -152,5 +152,21 @@ TEST(ObjectsConfig, TheDefaultFilesExampleIsValid) {
     EXPECT_EQ(object.shape.squares, plain.shape.squares);
 }
 
+TEST(ObjectsConfig, WhatIsLeftOutIsTold) {
+    const TagMap map({{{TagFamily::Tag36h11, 5}, 0.1, {}}});
+    PlacedObject shape, onTag, model;
+    onTag.tag = TagKey{TagFamily::Tag25h9, 6};
+    model.model = std::make_shared<const Model>();
+    model.modelName = "jar.glb";
+    EXPECT_THAT(leftOut({shape, onTag, model}, map, ""),
+                testing::ElementsAre("objects[1] is not shown: it stands on tag 6 of tag25h9, "
+                                     "which is not in the tag map"));
+    EXPECT_THAT(leftOut({model}, map, "there is no tracer"),
+                testing::ElementsAre(
+                    "objects[0] is not shown: jar.glb is a model, and there is no tracer"));
+    onTag.tag = TagKey{TagFamily::Tag36h11, 5};
+    EXPECT_TRUE(leftOut({shape, onTag}, map, "there is no tracer").empty());
+}
+
 }  // namespace
 }  // namespace mfar

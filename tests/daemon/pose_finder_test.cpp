@@ -109,7 +109,16 @@ TEST(PoseFinder, WithoutAMapTheFirstTagIsTheWorld) {
     unknown.tags = {};
     PoseFinder finder({}, unknown, stats);
     EXPECT_EQ(finder.description(), "poses from the first tag, 0.1 m");
-    EXPECT_LT(rotationError(video(finder, 0).value(), 0), 0.01);
+    EXPECT_TRUE(finder.mayFindTags());
+    EXPECT_FALSE(video(finder, 0, false));
+    EXPECT_FALSE(finder.takeFoundTags());
+    const Pose pose = video(finder, 1).value();
+    EXPECT_LT(angleBetween(standOnTag() * pose.T_world_video, view(1)), 0.01);
+    const std::optional<TagMap> found = finder.takeFoundTags();
+    ASSERT_TRUE(found);
+    EXPECT_NE(found->find(kPlacedTag.tag), nullptr);
+    (void)video(finder, 2);
+    EXPECT_FALSE(finder.takeFoundTags()) << "once";
 }
 
 TEST(PoseFinder, RecordedPosesAreTakenAsTheyAre) {

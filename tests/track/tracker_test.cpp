@@ -115,14 +115,19 @@ TEST(Tracker, WithoutAMapTheLargestTagIsTheWorld) {
     Tracker tracker(kRig, options);
     std::vector<PlacedTag> tags = world();
     EXPECT_FALSE(tracker.track(picture(0, {}).view(), frameTime(0)));
+    EXPECT_TRUE(tracker.map().empty());
     for (int i = 1; i < 4; ++i) {
         const auto pose = tracker.track(picture(i).view(), frameTime(i));
         ASSERT_TRUE(pose);
         EXPECT_EQ(pose->tags, 1);
-        const RigidTransform truth = tags[0].T_world_tag.inverse() * view(i);
+        const RigidTransform truth = (tags[0].T_world_tag * standOnTag()).inverse() * view(i);
         EXPECT_LT(angleBetween(pose->T_world_video, truth), 1.5 * kDegree);
         EXPECT_LT((pose->T_world_video.translation - truth.translation).norm(), 0.02);
+        EXPECT_GT(pose->T_world_video.translation.z(), 0) << "z is out of the tag";
     }
+    const TagMap map = tracker.map();
+    ASSERT_EQ(map.tags().size(), 1U);
+    EXPECT_EQ(map.find(tags[0].tag)->size, 0.07);
 }
 
 TEST(Tracker, AStillIsMeasuredInItself) {
