@@ -49,30 +49,35 @@ uvec2 fetchShort(Level l, int wx, int y, uint shift) {
     return uvec2((w.x >> shift) | (w.y << (32u - shift)), w.y >> shift);
 }
 
-// compare() with a flow that changes by dx and dy per pixel over the patch. Four pixels a time have their
-// own place; within them, columns stay less than half a pixel off it.
-Match compareBent(Template t, Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
+// Four pixels of the patch from `first` on, where a flow that changes by dx and dy per pixel moves them.
+// They have one place of their own; columns stay less than half a pixel off it.
+vec4 bentRow(Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
+    vec2 middle = first - vec2(2.0, 3.5);
+    vec2 origin = vec2(4 * cell - 2) + first + u + middle.x * dx + middle.y * dy;
+    origin = clamp(origin, vec2(-7.0), vec2(l.width + 2, l.height + 2));
+    vec2 whole = floor(origin);
+    ivec2 at = ivec2(whole);
+    int wx = (at.x >> 2) + kMarginWords;
+    uint shift = uint(at.x & 3) * 8u;
+    uvec2 w0 = fetchShort(l, wx, at.y, shift), w1 = fetchShort(l, wx, at.y + 1, shift);
+    vec4 fx = origin.x - whole.x + dx.x * along, fy = origin.y - whole.y + dx.y * along;
+    vec4 q0 = unpackPixels(w0.x), q1 = unpackPixels(w1.x);
+    vec4 upper = q0 + (vec4(q0.yzw, float(w0.y & 255u)) - q0) * fx;
+    vec4 lower = q1 + (vec4(q1.yzw, float(w1.y & 255u)) - q1) * fx;
+    return upper + (lower - upper) * fy;
+}
+
+// compare() with a flow that changes by dx and dy per pixel over the patch.
+Match compareBent(Template t, Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
-    for (int i = 0; i < 16; ++i) {
-        vec2 first = vec2(4 * (i & 1), i >> 1);
-        vec2 middle = first - vec2(2.0, 3.5);
-        vec2 origin = vec2(4 * cell - 2) + first + u + middle.x * dx + middle.y * dy;
-        origin = clamp(origin, vec2(-7.0), vec2(l.width + 2, l.height + 2));
-        vec2 whole = floor(origin);
-        ivec2 at = ivec2(whole);
-        int wx = (at.x >> 2) + kMarginWords;
-        uint shift = uint(at.x & 3) * 8u;
-        uvec2 w0 = fetchShort(l, wx, at.y, shift), w1 = fetchShort(l, wx, at.y + 1, shift);
-        vec4 fx = origin.x - whole.x + dx.x * along, fy = origin.y - whole.y + dx.y * along;
-        vec4 q0 = unpackPixels(w0.x), q1 = unpackPixels(w1.x);
-        vec4 upper = q0 + (vec4(q0.yzw, float(w0.y & 255u)) - q0) * fx;
-        vec4 lower = q1 + (vec4(q1.yzw, float(w1.y & 255u)) - q1) * fx;
-        vec4 b = upper + (lower - upper) * fy;
-        sums.b += dot(b, vec4(1.0));
-        sums.bb += dot(b, b);
-        sums.ab += dot(t.a[i], b);
-        sums.gb += vec2(dot(t.gx[i], b), dot(t.gy[i], b));
+    for (int r = 0; r < 8; ++r) {
+        vec4 b0 = bentRow(l, cell, u, dx, dy, vec2(0.0, r));
+        vec4 b1 = bentRow(l, cell, u, dx, dy, vec2(4.0, r));
+        sums.b += dot(b0 + b1, vec4(1.0));
+        sums.bb += dot(b0, b0) + dot(b1, b1);
+        sums.ab += dot(t.a0[r], b0) + dot(t.a1[r], b1);
+        sums.gb += vec2(dot(t.gx0[r], b0) + dot(t.gx1[r], b1), dot(t.gy0[r], b0) + dot(t.gy1[r], b1));
     }
     return matchOf(t, sums);
 }
@@ -85,14 +90,15 @@ void main() {
     vec2 dx = slopeAt(cell, ivec2(1, 0)), dy = slopeAt(cell, ivec2(0, 1));
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
+    // Without leaving the loop early, which costs vector processors more than the repetition does: where
+    // nothing got better, the same place is looked at again.
     for (int k = 0; k <= search.x; ++k) {
         Match m = compareBent(t, lb, cell, u, dx, dy);
-        if (!(m.cost < cost)) break;
-        cost = m.cost;
-        best = u;
         vec2 s = stepOf(t, m.descent);
-        if (!(dot(s, s) > 2.5e-5)) break;
-        u += s;
+        bool better = m.cost < cost;
+        cost = better ? m.cost : cost;
+        best = better ? u : best;
+        u = better && dot(s, s) > 2.5e-5 ? u + s : best;
     }
     patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, cost, t.variance);
 }

@@ -9,9 +9,9 @@ const float kNoise = 128.0;
 const float kDamping = 64.0;
 
 struct Template {
-    vec4 a[16];   // pixels, two vec4 a row
-    vec4 gx[16];  // central differences
-    vec4 gy[16];
+    vec4 a0[8], a1[8];    // pixels, two vec4 a row
+    vec4 gx0[8], gx1[8];  // central differences
+    vec4 gy0[8], gy1[8];
     float mean;
     float variance;  // sum of squared deviations
     vec2 sumG;
@@ -43,40 +43,42 @@ uvec3 fetchRow(Level l, int wx, int y, uint shift) {
     return uvec3((w.x >> shift) | (w.y << up), (w.y >> shift) | (w.z << up), w.z >> shift);
 }
 
+// A row of the patch and its horizontal gradient.
+struct TemplateRow {
+    vec4 a0, a1, gx0, gx1;
+};
+
+TemplateRow templateRow(Level l, ivec2 cell, int r) {
+    // From one pixel left of the patch on, which sits one byte into its word.
+    uvec3 w = fetchRow(l, cell.x - 1 + kMarginWords, 4 * cell.y - 2 + r, 8u);
+    vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y), q2 = unpackPixels(w.z);
+    return TemplateRow(vec4(q0.yzw, q1.x), vec4(q1.yzw, q2.x), 0.5 * (vec4(q0.zw, q1.xy) - q0),
+                       0.5 * (vec4(q1.zw, q2.xy) - q1));
+}
+
 Template loadTemplate(Level l, ivec2 cell) {
     Template t;
-    vec4 above0 = vec4(0.0), above1 = vec4(0.0), row0 = vec4(0.0), row1 = vec4(0.0);
-    vec4 rowGx0 = vec4(0.0), rowGx1 = vec4(0.0);
+    TemplateRow above = templateRow(l, cell, -1), row = templateRow(l, cell, 0);
     float sum = 0.0, sumSquares = 0.0;
     vec2 sumG = vec2(0.0), sumAG = vec2(0.0);
     vec3 h = vec3(0.0);
-    for (int r = 0; r < 10; ++r) {
-        // The row from one pixel left of the patch on, which sits one byte into its word.
-        uvec3 w = fetchRow(l, cell.x - 1 + kMarginWords, 4 * cell.y - 3 + r, 8u);
-        vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y), q2 = unpackPixels(w.z);
-        vec4 below0 = vec4(q0.yzw, q1.x), below1 = vec4(q1.yzw, q2.x);
-        if (r >= 2) {
-            int i = 2 * (r - 2);
-            vec4 gy0 = 0.5 * (below0 - above0), gy1 = 0.5 * (below1 - above1);
-            t.a[i] = row0;
-            t.a[i + 1] = row1;
-            t.gx[i] = rowGx0;
-            t.gx[i + 1] = rowGx1;
-            t.gy[i] = gy0;
-            t.gy[i + 1] = gy1;
-            sum += dot(row0 + row1, vec4(1.0));
-            sumSquares += dot(row0, row0) + dot(row1, row1);
-            sumG += vec2(dot(rowGx0 + rowGx1, vec4(1.0)), dot(gy0 + gy1, vec4(1.0)));
-            sumAG += vec2(dot(row0, rowGx0) + dot(row1, rowGx1), dot(row0, gy0) + dot(row1, gy1));
-            h += vec3(dot(rowGx0, rowGx0) + dot(rowGx1, rowGx1),
-                      dot(rowGx0, gy0) + dot(rowGx1, gy1), dot(gy0, gy0) + dot(gy1, gy1));
-        }
-        above0 = row0;
-        above1 = row1;
-        row0 = below0;
-        row1 = below1;
-        rowGx0 = 0.5 * (vec4(q0.zw, q1.xy) - q0);
-        rowGx1 = 0.5 * (vec4(q1.zw, q2.xy) - q1);
+    for (int r = 0; r < 8; ++r) {
+        TemplateRow below = templateRow(l, cell, r + 1);
+        vec4 gy0 = 0.5 * (below.a0 - above.a0), gy1 = 0.5 * (below.a1 - above.a1);
+        t.a0[r] = row.a0;
+        t.a1[r] = row.a1;
+        t.gx0[r] = row.gx0;
+        t.gx1[r] = row.gx1;
+        t.gy0[r] = gy0;
+        t.gy1[r] = gy1;
+        sum += dot(row.a0 + row.a1, vec4(1.0));
+        sumSquares += dot(row.a0, row.a0) + dot(row.a1, row.a1);
+        sumG += vec2(dot(row.gx0 + row.gx1, vec4(1.0)), dot(gy0 + gy1, vec4(1.0)));
+        sumAG += vec2(dot(row.a0, row.gx0) + dot(row.a1, row.gx1), dot(row.a0, gy0) + dot(row.a1, gy1));
+        h += vec3(dot(row.gx0, row.gx0) + dot(row.gx1, row.gx1), dot(row.gx0, gy0) + dot(row.gx1, gy1),
+                  dot(gy0, gy0) + dot(gy1, gy1));
+        above = row;
+        row = below;
     }
     t.mean = sum / kPixels;
     t.variance = max(sumSquares - sum * t.mean, 0.0);
@@ -99,6 +101,14 @@ Match matchOf(Template t, Sums sums) {
     return m;
 }
 
+// Row y of a patch, a share f of a pixel right of the shift.
+void rowBetween(Level l, int wx, int y, uint shift, float f, out vec4 left, out vec4 right) {
+    uvec3 w = fetchRow(l, wx, y, shift);
+    vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y);
+    left = q0 + (vec4(q0.yzw, q1.x) - q0) * f;
+    right = q1 + (vec4(q1.yzw, float(w.z & 255u)) - q1) * f;
+}
+
 // The template against level l, displaced by u pixels. Positions outside are held at the border.
 Match compare(Template t, Level l, ivec2 cell, vec2 u) {
     vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
@@ -107,24 +117,19 @@ Match compare(Template t, Level l, ivec2 cell, vec2 u) {
     ivec2 at = ivec2(whole);
     int wx = (at.x >> 2) + kMarginWords;
     uint shift = uint(at.x & 3) * 8u;
-    vec4 above0 = vec4(0.0), above1 = vec4(0.0);
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
-    for (int r = 0; r < 9; ++r) {
-        uvec3 w = fetchRow(l, wx, at.y + r, shift);
-        vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y);
-        vec4 row0 = q0 + (vec4(q0.yzw, q1.x) - q0) * f.x;
-        vec4 row1 = q1 + (vec4(q1.yzw, float(w.z & 255u)) - q1) * f.x;
-        if (r >= 1) {
-            int i = 2 * (r - 1);
-            vec4 b0 = above0 + (row0 - above0) * f.y, b1 = above1 + (row1 - above1) * f.y;
-            sums.b += dot(b0 + b1, vec4(1.0));
-            sums.bb += dot(b0, b0) + dot(b1, b1);
-            sums.ab += dot(t.a[i], b0) + dot(t.a[i + 1], b1);
-            sums.gb += vec2(dot(t.gx[i], b0) + dot(t.gx[i + 1], b1),
-                            dot(t.gy[i], b0) + dot(t.gy[i + 1], b1));
-        }
-        above0 = row0;
-        above1 = row1;
+    vec4 above0, above1;
+    rowBetween(l, wx, at.y, shift, f.x, above0, above1);
+    for (int r = 0; r < 8; ++r) {
+        vec4 below0, below1;
+        rowBetween(l, wx, at.y + r + 1, shift, f.x, below0, below1);
+        vec4 b0 = above0 + (below0 - above0) * f.y, b1 = above1 + (below1 - above1) * f.y;
+        sums.b += dot(b0 + b1, vec4(1.0));
+        sums.bb += dot(b0, b0) + dot(b1, b1);
+        sums.ab += dot(t.a0[r], b0) + dot(t.a1[r], b1);
+        sums.gb += vec2(dot(t.gx0[r], b0) + dot(t.gx1[r], b1), dot(t.gy0[r], b0) + dot(t.gy1[r], b1));
+        above0 = below0;
+        above1 = below1;
     }
     return matchOf(t, sums);
 }
