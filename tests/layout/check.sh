@@ -20,37 +20,39 @@ fault() {
     faults=$((faults + 1))
 }
 
-# What the files of a room may include from the project, as a regular expression.
+# These two set a variable: to print it would cost a process for each include.
+# `allowed`: what the files of a room may include from the project, as a regular expression.
 allowedFrom() {
     case $1 in
-    tests/*) echo '.+' ;;
-    daemon/rig.* | daemon/rig_*) echo 'daemon/.+|pipeline/.+|hal/.+' ;;
-    daemon/tools/*) echo "daemon/.+|pipeline/.+|$halTop|hal/virtual/.+" ;;
-    daemon/*) echo "daemon/.+|pipeline/.+|$halTop" ;;
-    pipeline/geometry.* | pipeline/calibration/* | pipeline/gpu/*) echo "$leaves|$halTop" ;;
-    pipeline/*) echo "pipeline/.+|gles_shaders/.+|$halTop" ;;
-    gles_shaders/*) echo 'gles_shaders/.+' ;;
-    hal/device/*) echo "hal/device/.+|$halTop|$leaves" ;;
-    hal/virtual/*) echo "hal/virtual/.+|$halTop|$leaves" ;;
-    hal/*) echo "$halTop" ;;
+    tests/*) allowed='.+' ;;
+    daemon/rig.* | daemon/rig_*) allowed='daemon/.+|pipeline/.+|hal/.+' ;;
+    daemon/tools/*) allowed="daemon/.+|pipeline/.+|$halTop|hal/virtual/.+" ;;
+    daemon/*) allowed="daemon/.+|pipeline/.+|$halTop" ;;
+    pipeline/geometry.* | pipeline/calibration/* | pipeline/gpu/*) allowed="$leaves|$halTop" ;;
+    pipeline/*) allowed="pipeline/.+|gles_shaders/.+|$halTop" ;;
+    gles_shaders/*) allowed='gles_shaders/.+' ;;
+    hal/device/*) allowed="hal/device/.+|$halTop|$leaves" ;;
+    hal/virtual/*) allowed="hal/virtual/.+|$halTop|$leaves" ;;
+    hal/*) allowed="$halTop" ;;
     esac
 }
 
-# The only places of a third-party header, as a regular expression; nothing: anywhere.
+# `home`: the only places of a third-party header, as a regular expression; nothing: anywhere.
 homeOf() {
+    home=''
     case $1 in
-    apriltag/* | apriltag.h | tag36h11.h) echo 'pipeline/track/|tests/' ;;
-    embree*) echo 'pipeline/render/|tests/' ;;
-    EGL/* | libcamera/* | gpiod* | xf86drm* | drm/* | libdrm/* | gbm.h) echo 'hal/device/|tests/device/' ;;
-    GL/osmesa.h) echo 'hal/virtual/' ;;
+    apriltag/* | apriltag.h | tag36h11.h) home='pipeline/track/|tests/' ;;
+    embree*) home='pipeline/render/|tests/' ;;
+    EGL/* | libcamera/* | gpiod* | xf86drm* | drm/* | libdrm/* | gbm.h) home='hal/device/|tests/device/' ;;
+    GL/osmesa.h) home='hal/virtual/' ;;
     esac
 }
 
 checkInclude() {
-    local file=$1 line=$2 name=$3 allowed home
+    local file=$1 line=$2 name=$3 allowed='' home
     if [[ $name == \"* ]]; then
         name=${name//\"/}
-        allowed=$(allowedFrom "$file")
+        allowedFrom "$file"
         if [[ ! -f $name && $name == */* ]] || [[ $name != */* ]]; then
             fault "$file:$line: \"$name\" is not a path from the top of the tree"
         elif [[ ! $name =~ ^($allowed)$ ]]; then
@@ -59,7 +61,7 @@ checkInclude() {
         return
     fi
     name=${name//[<>]/}
-    home=$(homeOf "$name")
+    homeOf "$name"
     if [[ -n $home && ! $file =~ ^($home) ]]; then
         fault "$file:$line: <$name> belongs into ${home//|/ or } alone"
     fi
