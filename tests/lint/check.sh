@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# clang-tidy with a plugin must find what is planted in planted.h and planted.cpp, and nothing else
+# there. Usage: check.sh PLUGIN. Prints the difference, exit status 1 when there is one.
+set -euo pipefail
+plugin=$(readlink -f "$1")
+cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
+
+# Each fault as FILE:LINE CHECK, the check as it stands behind the line.
+planted() {
+    sed -nE 's|^(.*):([0-9]+):.*// ([a-z]+-[a-z-]+)$|\1:\2 \3|p' < <(grep -n '' tests/lint/planted.*)
+}
+
+found() {
+    { clang-tidy-19 --load "$plugin" --quiet tests/lint/planted.cpp -- -std=c++20 -I"$PWD" -Wunused-variable 2>/dev/null || true; } |
+        sed -nE "s|^$PWD/([^:]+):([0-9]+):.*\[([a-z-]+).*\]\$|\1:\2 \3|p"
+}
+
+diff --label planted --label found <(planted | sort) <(found | sort -u)
