@@ -21,20 +21,18 @@ float visibleOver(vec2 real, float inverse) {
 
 void main() {
     float z = layerDepth(virtualDepth);
-    visibility = 0.0;
-    if (!(z > 0.0)) return;
-    float inverse = 1.0 / z;
+    bool there = z > 0.0;
+    float inverse = 1.0 / (there ? z : 1.0);
     vec2 at = gl_FragCoord.xy * scale.xy - 0.5;
     ivec2 base = ivec2(floor(at));
     vec2 range = texelFetch(rangeField, clamp(base, ivec2(0), video.xy - 1), 0).rg;
-    visibility = 1.0;
-    if (inverse >= range.x) return;
-    visibility = 0.0;
-    if (inverse * (1.0 + (tune.x + tune.y) * tune.z) <= range.y) return;
-
+    bool before = inverse >= range.x;
+    bool behind = inverse * (1.0 + (tune.x + tune.y) * tune.z) <= range.y;
+    // A software renderer executes both sides of a branch, but leaves a loop that no pixel is in.
+    int samples = there && !before && !behind ? 16 : 0;
     vec3 here = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb;
     float sum = 0.0, weights = 0.0;
-    for (int i = 0; i < 16; ++i) {
+    for (int i = 0; i < samples; ++i) {
         ivec2 q = base + ivec2(i & 3, i >> 2) - 1;
         vec2 tent = 2.0 - abs(vec2(q) - at);
         q = clamp(q, ivec2(0), video.xy - 1);
@@ -45,5 +43,5 @@ void main() {
         sum += w * visibleOver(texelFetch(realDepth, q, 0).rg, inverse);
         weights += w;
     }
-    visibility = sum / weights;
+    visibility = samples > 0 ? sum / weights : there && before ? 1.0 : 0.0;
 }

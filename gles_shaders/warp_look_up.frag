@@ -49,6 +49,6 @@ void main() {
     bool plain = whole && !empty && at.z > 0.0 && inner && (same || bare);
     vec4 found = textureLod(colours, (at.xy + 0.5) / vec2(sizes.xy), 0.0);
     colour = plain ? found : vec4(0.0);
-    depth = plain && found.a > 0.0 ? z : 0.0;
+    depth = plain && found.a > 0.0 ? (id == kCatcher ? (1.0 - kShadowLift) * z : z) : 0.0;
     state = empty ? vec4(0.0) : plain ? vec4(0.0, 0.0, 0.0, float(id) / 255.0) : vec4(0.0, 1.0, 0.0, 0.0);
 }

@@ -133,7 +133,7 @@ void main() {
     bool nowhere = objectKnown == 0.0 || catcherKnown == 0.0;
     // Rendered for itself, an edge would show a mixture: it takes after its neighbours, which are.
     bool edge = (missed ? covered : below) < 1.0;
-    float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? catcher.z : 0.0;
+    float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
     float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? 255.0 : 0.0;
     float missing = missed ? float(id) : hole ? 255.0 : 0.0;
     float part = missed ? covered * (1.0 - objectKnown) : below * (1.0 - catcherKnown);

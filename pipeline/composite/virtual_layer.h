@@ -5,12 +5,18 @@
 
 namespace mfar {
 
+/// A shadow on the real scene is laid over that as if it were so much nearer [share of its z]: what
+/// depth cannot tell from the surface that it lies on does not hide it, and what lies on that is in
+/// the shadow as well.
+inline constexpr float kShadowLift = 0.02F;
+
 /// Picture of the virtual objects alone, seen by the video camera at the output's resolution.
 /// Borrowed: valid until its maker's next run.
 struct VirtualLayer {
     const gpu::Texture* colour = nullptr;  ///< RGBA8, premultiplied by coverage
-    const gpu::Texture* depth = nullptr;   ///< R32F: z [m] along the camera's axis, 0 = nothing
-    PixelRect bounds;                      ///< covered pixels, empty = nothing
+    const gpu::Texture* depth =
+        nullptr;       ///< R32F: z [m] along the camera's axis, 0 = nothing; of shadows lifted
+    PixelRect bounds;  ///< covered pixels, empty = nothing
 };
 
 }  // namespace mfar

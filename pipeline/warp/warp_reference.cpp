@@ -1,5 +1,6 @@
 #include "pipeline/warp/warp_reference.h"
 
+#include "pipeline/composite/virtual_layer.h"
 #include "pipeline/se3.h"
 #include "pipeline/warp/warp_params.h"
 
@@ -207,6 +208,8 @@ WarpReference warpReference(const RenderedPicture& picture) {
     for (int y = 0; y < size.height; y += kReferenceTile)
         for (int x = 0; x < size.width; x += kReferenceTile)
             addTile(grid, r, x, y);
+    for (std::size_t i = 0; i < count; ++i)
+        if (picture.id[i] == kCatcherId) r.depth[i] *= 1 - kShadowLift;
     return r;
 }
 

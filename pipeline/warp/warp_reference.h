@@ -28,7 +28,8 @@ struct WarpReference {
     CameraModel camera;
     RigidTransform T_world_camera;
     std::vector<std::array<std::uint8_t, 4>> picture;  ///< as rendered
-    std::vector<float> depth;                          ///< as rendered, sound: z [m], 0 = nothing
+    std::vector<float> depth;                          ///< as shown: z [m], that of shadows
+                                                       ///< lifted; 0 = nothing
     /// Colours of single surfaces: where an edge runs through the pixel, that of the nearest pixels
     /// within. Of an object opaque, of the catcher premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;

@@ -1,3 +1,4 @@
+#include "pipeline/composite/virtual_layer.h"
 #include "pipeline/warp/warp_reference.h"
 #include "tests/warp/cast_scene.h"
 
@@ -31,6 +32,17 @@ TEST(WarpReference, EdgesTakeTheColourFromWithin) {
         EXPECT_EQ(r.surface[i].known, 1) << i;
     }
     EXPECT_EQ(r.picture, smallPicture().colour);
+}
+
+TEST(WarpReference, ShadowsAreShownLiftedAndMovedAsTheyAre) {
+    const RenderedPicture p = smallPicture();
+    const WarpReference r = warpReference(p);
+    for (std::size_t i = 0; i < 20; ++i) {
+        const bool object = i % 5 < 3;
+        EXPECT_FLOAT_EQ(r.depth[i], object ? 0.5F : 0.8F * (1 - kShadowLift)) << i;
+        EXPECT_EQ(r.surface[i].z, p.depth[i]) << i;
+    }
+    EXPECT_EQ(r.tiles.at(0).farthest, 0.8F);
 }
 
 TEST(WarpReference, FaultyDepthIsNothing) {
