@@ -60,9 +60,9 @@ struct Environment {
 
 /// A disc of light, far away.
 struct Sun {
-    Eigen::Vector3f towards{0.4F, -0.3F, 0.85F};  ///< world direction to it, unit length
-    Eigen::Vector3f irradiance{1, 1, 1};          ///< on a surface that faces it
-    float angularRadius = 0.02F;                  ///< [rad], above 0
+    Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};  ///< world direction to it, unit length
+    Eigen::Vector3f irradiance{1, 1, 1};                     ///< on a surface that faces it
+    float angularRadius = 0.02F;                             ///< [rad], above 0
 };
 
 struct Lighting {

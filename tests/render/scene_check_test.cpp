@@ -33,6 +33,7 @@ TEST(SceneCheck, SoundScenesPass) {
     Scene scene;
     scene.objects.push_back(objectOf(modelOf(square(1, 0), {})));
     scene.catcher = ground(1, 1);
+    scene.lighting.sun = Sun{};
     EXPECT_NO_THROW(validate(scene));
 }
 
