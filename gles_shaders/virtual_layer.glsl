@@ -40,14 +40,14 @@ float layerDepth(highp sampler2D depths) {
 #ifdef SCALED_LAYER
     ivec2 base;
     vec2 f = layerAt(base);
+    vec4 z = textureGather(depths, vec2(base + 1) / vec2(layer.xy));
+    vec4 left = vec4(1.0 - f.x, f.x, f.x, 1.0 - f.x), w = left * vec4(f.y, f.y, 1.0 - f.y, 1.0 - f.y);
+    // In the order of textureGather: the lower row first, the left one last.
     float best = 0.0, depth = 0.0;
     for (int i = 0; i < 4; ++i) {
-        float z = texelFetch(depths, layerPixel(base, i), 0).r;
-        float w = cornerWeight(f, i);
-        if (w > best && isVirtual(z)) {
-            best = w;
-            depth = z;
-        }
+        bool better = w[i] > best && isVirtual(z[i]);
+        best = better ? w[i] : best;
+        depth = better ? z[i] : depth;
     }
     return depth;
 #else

@@ -1,15 +1,15 @@
-// How much of a virtual pixel is in front of the real scene, [0, 1]: the mean over the 4x4 nearest depth
+// How much of a virtual pixel is in front of the real scene, [0, 1], where visibility_decide.frag leaves that open:
+// the mean over the 4x4 nearest depth
 // samples of each one's answer, weighed by distance and by likeness of the picture here to the video
 // there, so that depth edges follow image edges (joint bilateral upsampling, Kopf et al. 2007).
-// In: virtual z [m], range (visibility_range.frag), real depth, video, picture. Out: R8.
+// In: virtual z [m], real depth, video, picture. Out: R8.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
 
 layout(binding = 0) uniform sampler2D virtualDepth;
-layout(binding = 1) uniform sampler2D rangeField;
-layout(binding = 2) uniform sampler2D realDepth;
-layout(binding = 3) uniform sampler2D videoPicture;
-layout(binding = 4) uniform sampler2D picture;
+layout(binding = 1) uniform sampler2D realDepth;
+layout(binding = 2) uniform sampler2D videoPicture;
+layout(binding = 3) uniform sampler2D picture;
 layout(location = 0) out float visibility;
 
 // Unknown depth hides nothing.
@@ -21,18 +21,12 @@ float visibleOver(vec2 real, float inverse) {
 
 void main() {
     float z = layerDepth(virtualDepth);
-    bool there = z > 0.0;
-    float inverse = 1.0 / (there ? z : 1.0);
+    float inverse = 1.0 / (z > 0.0 ? z : 1.0);
     vec2 at = gl_FragCoord.xy * scale.xy - 0.5;
     ivec2 base = ivec2(floor(at));
-    vec2 range = texelFetch(rangeField, clamp(base, ivec2(0), video.xy - 1), 0).rg;
-    bool before = inverse >= range.x;
-    bool behind = inverse * (1.0 + (tune.x + tune.y) * tune.z) <= range.y;
-    // A software renderer executes both sides of a branch, but leaves a loop that no pixel is in.
-    int samples = there && !before && !behind ? 16 : 0;
     vec3 here = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb;
     float sum = 0.0, weights = 0.0;
-    for (int i = 0; i < samples; ++i) {
+    for (int i = 0; i < 16; ++i) {
         ivec2 q = base + ivec2(i & 3, i >> 2) - 1;
         vec2 tent = 2.0 - abs(vec2(q) - at);
         q = clamp(q, ivec2(0), video.xy - 1);
@@ -43,5 +37,5 @@ void main() {
         sum += w * visibleOver(texelFetch(realDepth, q, 0).rg, inverse);
         weights += w;
     }
-    visibility = samples > 0 ? sum / weights : there && before ? 1.0 : 0.0;
+    visibility = sum / weights;
 }

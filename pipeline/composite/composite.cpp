@@ -3,6 +3,7 @@
 #include "pipeline/gpu/scoped_state.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <stdexcept>
@@ -25,8 +26,11 @@ void require(const char* name, double value, double least) {
 
 Composite::Composite(Size video, Size output, Size layer, const CompositeOptions& options)
     : video_(video), layer_(layer), options_(options), range_(video, gpu::TexelFormat::Rg32F),
-      visibility_(output, gpu::TexelFormat::R8), rangeTarget_(range_),
-      visibilityTarget_(visibility_), rangePass_("visibility_range.frag"),
+      visibility_(output, gpu::TexelFormat::R8), open_(output, gpu::TexelFormat::Depth24),
+      rangeTarget_(range_),
+      visibilityTarget_(std::array<const gpu::Texture*, 1>{&visibility_}, &open_),
+      rangePass_("visibility_range.frag"),
+      decidePass_("visibility_decide.frag", layer == output ? "" : kScaled),
       samplePass_("visibility_sample.frag", layer == output ? "" : kScaled),
       blendPass_("visibility_blend.frag", layer == output ? "" : kScaled) {
     require("bias", options.bias, 0);
@@ -98,10 +102,18 @@ void Composite::run(const VirtualLayer& layer, const gpu::Texture& realDepth,
         rangePass_.run(p, {gpu::sampler(0, realDepth)}, rangeTarget_);
     }
     const gpu::Scissor scissor(bounds);
-    samplePass_.run(p,
-                    {gpu::sampler(0, *layer.depth), gpu::sampler(1, range_),
-                     gpu::sampler(2, realDepth), gpu::sampler(3, video), gpu::sampler(4, picture)},
-                    visibilityTarget_);
+    {
+        const gpu::DepthWritten open;
+        decidePass_.run(p, {gpu::sampler(0, *layer.depth), gpu::sampler(1, range_)},
+                        visibilityTarget_);
+    }
+    {
+        const gpu::DepthTest left;
+        samplePass_.run(p,
+                        {gpu::sampler(0, *layer.depth), gpu::sampler(1, realDepth),
+                         gpu::sampler(2, video), gpu::sampler(3, picture)},
+                        visibilityTarget_);
+    }
     const gpu::PremultipliedBlend blend;
     blendPass_.run(p, {gpu::sampler(0, *layer.colour), gpu::sampler(1, visibility_)}, target);
 }

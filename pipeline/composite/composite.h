@@ -66,9 +66,9 @@ private:
 
     Size video_, layer_;
     CompositeOptions options_;
-    gpu::Texture range_, visibility_;
+    gpu::Texture range_, visibility_, open_;  // open_: depth, see visibility_decide.frag
     gpu::Framebuffer rangeTarget_, visibilityTarget_;
-    gpu::DrawPass<Params> rangePass_, samplePass_, blendPass_;
+    gpu::DrawPass<Params> rangePass_, decidePass_, samplePass_, blendPass_;
 };
 
 }  // namespace mfar

@@ -33,6 +33,15 @@ private:
     Enabled<GL_DEPTH_TEST> test_;
 };
 
+/// Whatever is drawn leaves its depth.
+class DepthWritten {
+public:
+    DepthWritten() { glDepthFunc(GL_ALWAYS); }
+
+private:
+    Enabled<GL_DEPTH_TEST> test_;
+};
+
 /// Triangles whose corners run counter-clockwise in a picture with row 0 on top, as those of a
 /// solid do where its inside is seen, are not drawn.
 class InsidesCulled {

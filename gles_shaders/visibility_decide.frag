@@ -1,0 +1,21 @@
+// Where a virtual pixel is surely before the real scene or behind it. In: virtual z [m], range
+// (visibility_range.frag). Out: R8, 1 or 0; fragment depth 1 where visibility_sample.frag has to weigh, 0
+// elsewhere, so that the depth test leaves out what is decided, which no branch would do on a software renderer.
+#include "visibility.glsl"
+#include "virtual_layer.glsl"
+
+layout(binding = 0) uniform sampler2D virtualDepth;
+layout(binding = 1) uniform sampler2D rangeField;
+layout(location = 0) out float visibility;
+
+void main() {
+    float z = layerDepth(virtualDepth);
+    bool there = z > 0.0;
+    float inverse = 1.0 / (there ? z : 1.0);
+    ivec2 base = ivec2(floor(gl_FragCoord.xy * scale.xy - 0.5));
+    vec2 range = texelFetch(rangeField, clamp(base, ivec2(0), video.xy - 1), 0).rg;
+    bool before = inverse >= range.x;
+    bool behind = inverse * (1.0 + (tune.x + tune.y) * tune.z) <= range.y;
+    visibility = there && before ? 1.0 : 0.0;
+    gl_FragDepth = there && !before && !behind ? 1.0 : 0.0;
+}
