@@ -12,24 +12,11 @@ vec2 layerAt(out ivec2 base) {
     base = ivec2(floor(at));
     return at - vec2(base);
 }
-
-ivec2 layerPixel(ivec2 base, int corner) {
-    return clamp(base + ivec2(corner & 1, corner >> 1), ivec2(0), layer.xy - 1);
-}
-
-float cornerWeight(vec2 f, int corner) {
-    return ((corner & 1) == 1 ? f.x : 1.0 - f.x) * ((corner >> 1) == 1 ? f.y : 1.0 - f.y);
-}
 #endif
 
 vec4 layerColour(highp sampler2D colours) {
 #ifdef SCALED_LAYER
-    ivec2 base;
-    vec2 f = layerAt(base);
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 4; ++i)
-        sum += cornerWeight(f, i) * texelFetch(colours, layerPixel(base, i), 0);
-    return sum;
+    return textureLod(colours, gl_FragCoord.xy / vec2(video.zw), 0.0);
 #else
     return texelFetch(colours, min(ivec2(gl_FragCoord.xy), video.zw - 1), 0);
 #endif

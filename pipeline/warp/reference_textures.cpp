@@ -24,7 +24,7 @@ gpu::Texture rayTexture(const CameraModel& camera) {
 void ReferenceTextures::upload(const WarpReference& reference) {
     const Size size = reference.camera.size;
     if (!lens_ || !(picture_.size() == size)) {
-        picture_ = gpu::Texture(size, gpu::TexelFormat::Rgba8);
+        picture_ = gpu::Texture(size, gpu::TexelFormat::Rgba8, gpu::Filter::Linear);
         depth_ = gpu::Texture(size, gpu::TexelFormat::R32F);
         colour_ = gpu::Texture(size, gpu::TexelFormat::Rgba8, gpu::Filter::Linear);
         surface_ = gpu::Texture(size, gpu::TexelFormat::Rgba32F);

@@ -32,7 +32,7 @@ Eigen::Vector4d planeIn(const Eigen::Vector4d& world, const RigidTransform& T_wo
 
 ViewLookUp::ViewLookUp(const LensProjection& layer, WarpDepth depth)
     : layer_(layer), depthFrom_(depth), rays_(rayTexture(layer.camera)),
-      colour_(layer.camera.size, gpu::TexelFormat::Rgba8),
+      colour_(layer.camera.size, gpu::TexelFormat::Rgba8, gpu::Filter::Linear),
       depth_(layer.camera.size, gpu::TexelFormat::R32F),
       state_(layer.camera.size, gpu::TexelFormat::Rgba8),
       target_(std::array<const gpu::Texture*, 3>{&colour_, &depth_, &state_}),

@@ -21,7 +21,8 @@ protected:
 
     template <class F>
     void run(Size layerSize, F texelAt, const PixelRect& bounds) {
-        gpu::Texture colour(layerSize, TexelFormat::Rgba8), depth(layerSize, TexelFormat::R32F);
+        gpu::Texture colour(layerSize, TexelFormat::Rgba8, gpu::Filter::Linear);
+        gpu::Texture depth(layerSize, TexelFormat::R32F);
         gpu::Texture real(kVideoOf, TexelFormat::Rg32F), video(kVideoOf, TexelFormat::Rgba8);
         Picture p(layerSize);
         std::vector<float> z;
