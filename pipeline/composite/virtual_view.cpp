@@ -98,7 +98,8 @@ void VirtualView::addTiles(const std::vector<SurfaceRange>& tiles, const Inverse
         const PixelRect tile{x, y, x + kTileSize, y + kTileSize};
         region_ = around(region_, widened(tile, 0, video_));
         if (objects) hidden_ = hidden_ && isHidden(tile, nearest, known);
-        if (!relies || mayHide(tile, farthest, known))
+        if (!relies ||
+            (objects ? mayHide(tile, farthest, known) : mayHideShadow(tile, nearest, known)))
             decides = around(decides, widened(tile, kTileSize, video_));
     }
 }
@@ -118,6 +119,25 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
         }
     }
     return unknown > kMostUnknown;
+}
+
+// The surface that a shadow lies on is always close to it and need not be searched for anew each
+// time: that is left to things before it, and to what kShadowLift does not make up for.
+bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
+                                const InverseDepthField& known) const {
+    const float before = 1 / nearest;
+    int unknown = 0, things = 0;
+    for (int y = tile.y0; y < std::min(tile.y1, video_.height); ++y) {
+        for (int x = tile.x0; x < std::min(tile.x1, video_.width); ++x) {
+            const auto i = static_cast<std::size_t>(y) * video_.width + x;
+            const float sigma = std::sqrt(known.variance[i]);
+            if (!(sigma < kShadowLift * known.rho[i]))
+                ++unknown;
+            else if (known.rho[i] - 3 * sigma > before)
+                ++things;
+        }
+    }
+    return things > kMostGaps || unknown > kMostUnknown;
 }
 
 // The surfaces of a tile are those around it as well, so its samples are all that decide.

@@ -66,6 +66,8 @@ private:
     [[nodiscard]] bool mustRedraw() const { return changed_ || shown_ != shows() || isStale(); }
     [[nodiscard]] bool mayHide(const PixelRect& tile, float farthest,
                                const InverseDepthField& known) const;
+    [[nodiscard]] bool mayHideShadow(const PixelRect& tile, float nearest,
+                                     const InverseDepthField& known) const;
     [[nodiscard]] bool isHidden(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const;
     void upload(const InverseDepthField& real, const PixelRect& where);
