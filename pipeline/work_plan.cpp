@@ -14,6 +14,10 @@ constexpr double kInitialNoise = 0.29;
 constexpr double kMaxNoise = 4.0;
 // Drawing by tiles costs 2.2 times as much an area as one full-screen draw (llvmpipe).
 constexpr double kWholeShare = 0.45;
+// How fast the grain of the noise follows what a frame shows, by frame.
+constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
+constexpr double kRestingShare = 0.75;  // of the tiles: the others may be misjudged
+constexpr double kMaxGrain = 8;
 
 }  // namespace
 
@@ -28,6 +32,7 @@ WorkPlan::WorkPlan(Size video)
                                 (video.height + kTileSize - 1) / kTileSize},
       noise_(kInitialNoise), wholeShare_(kWholeShare),
       tiles_(sizeof(std::uint32_t) * 2 * (1 + tileCount_.width * tileCount_.height)),
+      measuredTiles_(sizeof(float) * 8 * tileCount_.width * tileCount_.height),
       change_("plan_change.comp"), dispatch_("plan_dispatch.comp") {}
 
 WorkPlan::Dispatch WorkPlan::add(gpu::Groups groups) {
@@ -61,39 +66,56 @@ bool WorkPlan::redraws() const {
     return plan_.read<std::uint32_t>(4)[3] != 0;
 }
 
+void WorkPlan::followNoise() {
+    if (!std::exchange(measured_, true)) return;
+    const auto summary = plan_.read<std::uint32_t>(4);
+    noise_ = std::min(0.8 * noise_ + 0.2 * summary[1] / 256.0, kMaxNoise);
+    const auto grain = plan_.read<std::uint32_t>(4, kPlanHeader - 16);
+    if (grain[1] == 0) return;
+    // What moves has structure, too: more is believed slowly, but where all is at rest.
+    const bool atRest = grain[1] > kRestingShare * tileCount_.width * tileCount_.height;
+    const double now = grain[0] / 1024.0, risen = atRest ? kGrainAtRest : kGrainMoving;
+    grain_ += (now - grain_) * (now < grain_ ? kGrainFalls : risen);
+    grain_ = std::clamp(grain_, 1.0, kMaxGrain);
+}
+
 void WorkPlan::update(const gpu::Texture& now, const gpu::Texture& drawn, bool force) {
     if (plan_.bytes() == 0) upload();
-    if (measured_) {
-        const double quiet = plan_.read<std::uint32_t>(4)[1] / 256.0;
-        noise_ = std::min(0.8 * noise_ + 0.2 * quiet, kMaxNoise);
-    }
-    measured_ = true;
+    followNoise();
     // A cell's mean of 16 differences has a deviation of 0.35 s, its mean absolute difference 0.21
     // s around 1.13 s; both bounds leave room for brighter, noisier regions.
+    const double noise = noise_ * std::sqrt(grain_);
     ChangeParams params{};
     params.size[0] = video_.width;
     params.size[1] = video_.height;
     params.size[2] = tileCount_.width;
     params.size[3] = tileCount_.height;
-    params.threshold[0] = static_cast<float>(1.0 + 2.0 * noise_);
-    params.threshold[1] = static_cast<float>(1.5 + 3.0 * noise_);
-    params.force[0] = force ? 1 : 0;
-    change_.run(params, {gpu::sampler(0, now), gpu::sampler(1, drawn), gpu::storage(0, tiles_)},
+    params.threshold[0] = static_cast<float>(1.0 + 2.0 * noise);
+    params.threshold[1] = static_cast<float>(1.5 + 3.0 * noise);
+    params.threshold[2] = static_cast<float>(grain_);
+    change_.run(params,
+                {gpu::sampler(0, now), gpu::sampler(1, drawn), gpu::storage(0, measuredTiles_)},
                 {static_cast<GLuint>(tileCount_.width), static_cast<GLuint>(tileCount_.height), 1});
-    DispatchParams counts{};
-    counts.counts[0] = tileCount_.width * tileCount_.height;
-    counts.counts[1] = static_cast<std::int32_t>(wanted_.size());
-    counts.counts[2] =
-        std::max(1, static_cast<std::int32_t>(std::ceil(wholeShare_ * counts.counts[0])));
-    counts.counts[3] = tileCount_.width;
-    counts.drawnOver[0] = drawnOver_.x0;
-    counts.drawnOver[1] = drawnOver_.y0;
-    counts.drawnOver[2] = drawnOver_.x1;
-    counts.drawnOver[3] = drawnOver_.y1;
-    counts.redraw[0] = static_cast<std::int32_t>(std::exchange(redraw_, Redraw::WithThem));
-    dispatch_.run(counts,
-                  {gpu::storage(0, tiles_), gpu::storage(1, wantedBuffer_), gpu::storage(2, plan_)},
+    dispatch_.run(dispatchParams(force),
+                  {gpu::storage(0, tiles_), gpu::storage(1, wantedBuffer_), gpu::storage(2, plan_),
+                   gpu::storage(3, measuredTiles_)},
                   {});
+}
+
+WorkPlan::DispatchParams WorkPlan::dispatchParams(bool force) {
+    DispatchParams p{};
+    p.counts[0] = tileCount_.width * tileCount_.height;
+    p.counts[1] = static_cast<std::int32_t>(wanted_.size());
+    p.counts[2] = std::max(1, static_cast<std::int32_t>(std::ceil(wholeShare_ * p.counts[0])));
+    p.counts[3] = tileCount_.width;
+    p.drawnOver[0] = drawnOver_.x0;
+    p.drawnOver[1] = drawnOver_.y0;
+    p.drawnOver[2] = drawnOver_.x1;
+    p.drawnOver[3] = drawnOver_.y1;
+    p.redraw[0] = static_cast<std::int32_t>(std::exchange(redraw_, Redraw::WithThem));
+    p.redraw[1] = force ? 1 : 0;
+    p.noise[0] = static_cast<float>(grain_);
+    return p;
 }
 
 }  // namespace mfar

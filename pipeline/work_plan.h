@@ -15,6 +15,11 @@ namespace mfar {
 /// Decides on the GPU what a frame has to compute: compares the video with what was last drawn,
 /// tile by tile, and opens or shuts the frame's dispatches. A frame without any changed tile costs
 /// one comparison; the CPU never waits to know.
+///
+/// A tile is left alone where its difference to what was drawn is noise: where it passes tests of
+/// its own, and where all such tiles, and those of each block of 8x8, together show no more than
+/// the noise that their pixels have. What the picture is off by stays below some 3 % of the noise's
+/// variance on the mean, however slowly it came; at rest nothing is drawn.
 class WorkPlan {
 public:
     /// Handle of a dispatch whose group counts the plan controls.
@@ -52,7 +57,7 @@ public:
     }
 
     /// uvec2 header: whole frame drawn at once, changed tiles; then uvec2 per tile, row-major:
-    /// changed, noise [1/256 grey level].
+    /// changed, -.
     [[nodiscard]] const gpu::Buffer& tiles() const { return tiles_; }
     /// The command of the full-screen draws: one instance when so much changed that drawing
     /// everything beats drawing tiles, none otherwise.
@@ -61,33 +66,42 @@ public:
     [[nodiscard]] int changedTiles() const;
     /// Is what was drawn over tiles to be drawn anew, as of the last update()? Waits for the GPU.
     [[nodiscard]] bool redraws() const;
+    /// What plan_change.comp tells of each tile, two vec4, and whether it changed in the first.
+    [[nodiscard]] const gpu::Buffer& measured() const { return measuredTiles_; }
     [[nodiscard]] Size tileCount() const { return tileCount_; }
     /// Standard deviation of the video's noise [grey levels], from the quietest tiles; follows
     /// update() a frame late, so that nothing waits. Before that: that of 8-bit rounding.
     [[nodiscard]] double noise() const { return noise_; }
+    /// Variance of the noise in means of 2x2 pixels, in quarters of a pixel's: 1 where it is white,
+    /// more where a sensor's processing has smoothed it. From the difference of tiles that surely
+    /// did not change; likewise late.
+    [[nodiscard]] double grain() const { return grain_; }
 
 private:
-    static constexpr std::size_t kPlanHeader = 32;  // summary, whole draw
+    static constexpr std::size_t kPlanHeader = 48;  // summary, whole draw, grain
 
     void upload();
+    /// Takes over what the last frame's plan says of the noise.
+    void followNoise();
 
     struct ChangeParams {
         std::int32_t size[4];
         float threshold[4];
-        std::int32_t force[4];
     };
     struct DispatchParams {
         std::int32_t counts[4], drawnOver[4], redraw[4];
+        float noise[4];
     };
+    [[nodiscard]] DispatchParams dispatchParams(bool force);
 
     Size video_;
     Size tileCount_;
-    double noise_, wholeShare_;
+    double noise_, grain_ = 1, wholeShare_;
     PixelRect drawnOver_;  // tiles
     Redraw redraw_ = Redraw::WithThem;
     bool measured_ = false;  // plan_ holds the summary of an earlier frame
     std::vector<std::array<std::uint32_t, 4>> wanted_;
-    gpu::Buffer tiles_, wantedBuffer_, plan_;
+    gpu::Buffer tiles_, measuredTiles_, wantedBuffer_, plan_;
     gpu::ComputePass<ChangeParams> change_;
     gpu::ComputePass<DispatchParams> dispatch_;
 };

@@ -76,20 +76,25 @@ void changePlan(Context& c) {
     (void)plan.add({});
     plan.update(uploaded(now), uploaded(before), false);
     const Size tiles = plan.tileCount();
-    const auto got = plan.tiles().read<std::array<std::uint32_t, 2>>(
-        static_cast<std::size_t>(pixelsOf(tiles)), 8);
-    // Bounds as WorkPlan::update() sets them before anything is measured.
-    const double mean = 1 + 2 * 0.29, absolute = 1.5 + 3 * 0.29;
+    const auto count = static_cast<std::size_t>(pixelsOf(tiles));
+    const auto got = plan.tiles().read<std::array<std::uint32_t, 2>>(count, 8);
+    const auto measured = plan.measured().read<std::array<float, 8>>(count);
+    std::vector<twin::TileChange> twins;
     int changed = 0;
-    for (int t = 0; t < static_cast<int>(pixelsOf(tiles)); ++t) {
-        const auto wanted = twin::tileChange(now, before, t % tiles.width, t / tiles.width);
+    for (int t = 0; t < static_cast<int>(count); ++t) {
+        const auto& twin =
+            twins.emplace_back(twin::tileChange(now, before, t % tiles.width, t / tiles.width));
         changed += static_cast<int>(got[t][0]);
-        const bool close =
-            std::abs(wanted.mean - mean) < 1e-3 || std::abs(wanted.absolute - absolute) < 1e-3;
-        const bool differs = wanted.mean > mean || wanted.absolute > absolute;
-        c.checks.require(close || (got[t][0] != 0) == differs, "a tile's change");
-        c.checks.within(got[t][1] / 256.0 - wanted.noise, -0.02, 0.02, "a tile's noise");
+        c.checks.within(measured[t][1] - twin.noise, -0.02, 0.02, "a tile's noise");
+        for (int k = 0; k < 3; ++k)
+            c.checks.within(measured[t][4 + k] / (1 + twin.energy[k]) -
+                                twin.energy[k] / (1 + twin.energy[k]),
+                            -1e-3, 1e-3, "what a tile's difference varies by");
     }
+    // Bounds as WorkPlan::update() sets them before anything is measured.
+    const auto wanted = twin::changedTiles(twins, tiles.width, {1 + 2 * 0.29, 1.5 + 3 * 0.29});
+    for (std::size_t t = 0; t < count; ++t)
+        c.checks.require(!wanted[t] || (got[t][0] != 0) == *wanted[t], "a tile's change");
     c.checks.require(plan.changedTiles() == changed, "the number of changed tiles");
     c.gl.frame(c.checks, pixelsOf(size));
 }

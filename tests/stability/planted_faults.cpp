@@ -12,7 +12,7 @@ constexpr PlantedFault kPlanted[] = {
     {"luma_from_still.comp", "clamp(4 * (at.x - kMarginWords) + i, 0, target.z - 1)", "1 << 30",
      "a place far outside of the picture", "pipeline-truth"},
     {"plan_change.comp", "p = min(p, size.xy - 1);", "", "missing clamp in the last tiles", "plan"},
-    {"plan_dispatch.comp", "changed += t.x;", "changed += 1u;", "every tile counted", "plan"},
+    {"plan_dispatch.comp", "changed += uint(t.x);", "changed += 1u;", "every tile counted", "plan"},
     {"flow_search.comp",
      "clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2))",
      "vec2(4 * cell - 2) + u", "missing clamp of a patch", "flow2d,pipeline"},

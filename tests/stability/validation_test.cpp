@@ -89,21 +89,20 @@ TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
     struct Params {
         std::int32_t size[4];
         float threshold[4];
-        std::int32_t force[4];
     };
     const Picture even({16, 16});
     const gpu::Texture picture = uploaded(even);
-    const gpu::Buffer tiles(16);
+    const gpu::Buffer tiles(32);
     gpu::ComputePass<Params> pass("plan_change.comp");
     const auto run = [&] {
-        pass.run({{16, 16, 1, 1}, {1, 1, 0, 0}, {}},
+        pass.run({{16, 16, 1, 1}, {1, 1, 1, 0}},
                  {gpu::sampler(0, picture), gpu::sampler(1, picture), gpu::storage(0, tiles)}, {});
         return validation.takeFaults();
     };
     EXPECT_TRUE(run().empty());
     const std::array<std::uint8_t, 4> stray{1, 2, 3, 4};
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, tiles.id());
-    glBufferSubData(GL_SHADER_STORAGE_BUFFER, 16, 4, stray.data());
+    glBufferSubData(GL_SHADER_STORAGE_BUFFER, 32, 4, stray.data());
     const auto faults = run();
     ASSERT_EQ(faults.size(), 1U);
     EXPECT_EQ(faults[0].output, "guard");
@@ -123,21 +122,20 @@ TEST(WatchedShaders, AnIndexOutOfRangeIsCounted) {
     struct Params {
         std::int32_t size[4];
         float threshold[4];
-        std::int32_t force[4];
     };
     GlWatch gl;
     Checks checks;
     const Picture even({16, 16});
     const gpu::Texture picture = uploaded(even);
-    const gpu::Buffer tiles(16);  // of one tile
+    const gpu::Buffer tiles(32);  // of one tile
     gpu::ComputePass<Params> pass("plan_change.comp");
-    pass.run({{16, 16, 1, 1}, {1, 1, 0, 0}, {}},
+    pass.run({{16, 16, 1, 1}, {1, 1, 1, 0}},
              {gpu::sampler(0, picture), gpu::sampler(1, picture), gpu::storage(0, tiles)},
              {2, 1, 1});
     gl.frame(checks, 256);
     const auto faults = checks.take();
     ASSERT_EQ(faults.size(), 1U);
-    EXPECT_EQ(faults[0], "plan_change.comp: 1 indices out of range");
+    EXPECT_EQ(faults[0], "plan_change.comp: 2 indices out of range");
 }
 
 TEST(StatedRanges, AreReadFromTheShadersText) {
