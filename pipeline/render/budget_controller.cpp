@@ -12,10 +12,11 @@ constexpr std::int64_t kFirstSamples = 64;
 // Fewer are not worth a call; what they take too much is paid back.
 constexpr std::int64_t kLeastSamples = 16;
 constexpr double kPortionsPerFrame = 16;
-// A budget that was not used up for want of processor time is made up for once, not for ever.
-constexpr double kMostSaved = 0.5;
-// A picture's conversion may take the budget of a few frames.
-constexpr double kMostDebt = 10;
+// What was not used up for want of processor time is made up for a little, once.
+constexpr double kMostSaved = 0.08;
+// A picture's conversion may take the budget of a few frames. What is paid back in one: of the
+// budget, and of the debt, so that a large one does not last.
+constexpr double kMostDebt = 10, kRepaid = 0.08;
 
 double valid(double ms) {
     return std::isfinite(ms) && ms > 0 ? ms : 0;
@@ -29,15 +30,26 @@ BudgetController::BudgetController(double msPerFrame) : budget_(msPerFrame), bal
 }
 
 void BudgetController::beginFrame(bool workWaits) {
-    if (workWaits) shares_[frames_++ % kFrames] = static_cast<float>(used_ / budget_);
+    if (workWaits && (usedUp_ || used_ > budget_))
+        shares_[frames_++ % kFrames] = static_cast<float>(used_ / budget_);
     const double most = workWaits ? kMostSaved * budget_ : 0;
-    balance_ = budget_ + std::clamp(balance_, -kMostDebt * budget_, most);
+    const double repaid = repayment(workWaits);
+    balance_ = budget_ - repaid + std::clamp(balance_, -kMostDebt * budget_, most);
+    debt_ = std::min(debt_ - repaid, kMostDebt * budget_);
     used_ = 0;
+    usedUp_ = false;
+}
+
+double BudgetController::repayment(bool workWaits) const {
+    return std::min(debt_, workWaits ? kRepaid * std::max(budget_, debt_) : budget_);
 }
 
 BudgetGrant BudgetController::grant() {
     const double left = balance_ - reserved_;
-    if (!(left > 0)) return {};
+    if (!(left > 0)) {
+        usedUp_ = true;
+        return {};
+    }
     BudgetGrant out{kFirstSamples, 0};
     if (msPerSample_ > 0) {
         const double ms = std::min(left, budget_ / kPortionsPerFrame);
@@ -52,13 +64,16 @@ BudgetGrant BudgetController::grant() {
 
 void BudgetController::spent(const BudgetGrant& grant, std::int64_t samples, double ms) {
     reserved_ = std::max(0.0, reserved_ - grant.reservedMs);
-    spentElsewhere(ms);
+    used_ += valid(ms);
+    balance_ -= valid(ms);
     if (samples > 0 && valid(ms) > 0) learn(ms / static_cast<double>(samples));
 }
 
 void BudgetController::spentElsewhere(double ms) {
+    const double left = std::clamp(balance_ - reserved_, 0.0, valid(ms));
     used_ += valid(ms);
-    balance_ -= valid(ms);
+    balance_ -= left;
+    debt_ += valid(ms) - left;
 }
 
 void BudgetController::learn(double msPerSample) {

@@ -12,7 +12,8 @@ struct BudgetGrant {
     double reservedMs = 0;
 };
 
-/// How well a budget was kept in the last frames that had work from begin to end.
+/// How well a budget was kept in the last frames that had work from begin to end and either used it
+/// up or more: one that threads of low priority got no processor time for is no fault of it.
 struct BudgetKept {
     int frames = 0;        ///< at most BudgetController::kFrames
     double mean = 0;       ///< time used by budget, over all of them; 0 without frames
@@ -22,8 +23,8 @@ struct BudgetKept {
 /// Keeps work to a number of milliseconds a frame. It knows the cost of a sample as the median of
 /// the last few portions, which no single outlier moves and a lasting change does within a few
 /// portions, and hands out portions of at most a sixteenth of the budget, the last of a frame so
-/// that it fits. What a frame took too much, the next ones have less. One caller at a time; no
-/// allocation.
+/// that it fits. What a frame took too much, the next one has less; other work that a frame had no
+/// room for is paid back in small parts by many. One caller at a time; no allocation.
 class BudgetController {
 public:
     static constexpr int kFrames = 300;
@@ -51,11 +52,15 @@ public:
 
 private:
     void learn(double msPerSample);
+    /// Of the debt, in a frame that begins.
+    [[nodiscard]] double repayment(bool workWaits) const;
 
     static constexpr std::size_t kCosts = 9;
 
     const double budget_;
     double balance_, reserved_ = 0, used_ = 0;  // [ms]
+    double debt_ = 0;                           // [ms], not in the balance
+    bool usedUp_ = false;                       // work was refused in this frame
     double msPerSample_ = 0;
     std::array<double, kCosts> costs_{};  // of the last portions, a ring
     std::size_t learned_ = 0;

@@ -44,8 +44,12 @@ Film::Film(Size size)
     : size_(size),
       pixels_(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height)) {}
 
-void Film::clear() {
-    std::ranges::fill(pixels_, Pixel{});
+void Film::clear(const PixelRect& pixels) {
+    const PixelRect r = common(pixels, {0, 0, size_.width, size_.height});
+    for (int y = r.y0; y < r.y1; ++y) {
+        const auto row = pixels_.begin() + static_cast<std::ptrdiff_t>(y) * size_.width;
+        std::fill(row + r.x0, row + r.x1, Pixel{});
+    }
 }
 
 void Film::clear(std::size_t pixel) {
@@ -154,11 +158,13 @@ FirstHit Film::firstHit(const Pixel& p, bool changed) {
 }
 
 Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const {
-    const Shown s = shown(meansOf(pixels_[pixel]), exposure);
+    const Pixel& p = pixels_[pixel];
+    if (p.objectHits == 0 && p.with == p.without) return {};  // most of a picture
+    const Shown s = shown(meansOf(p), exposure);
     Resolved out;
     out.colour = {quantised(s.colour.x()), quantised(s.colour.y()), quantised(s.colour.z()),
                   quantised(s.coverage)};
-    out.hit = firstHit(pixels_[pixel], out.colour != std::array<std::uint8_t, 4>{});
+    out.hit = firstHit(p, out.colour != std::array<std::uint8_t, 4>{});
     return out;
 }
 

@@ -33,7 +33,7 @@ public:
     explicit Film(Size size);
 
     [[nodiscard]] Size size() const { return size_; }
-    void clear();
+    void clear(const PixelRect& pixels);
     void clear(std::size_t pixel);
 
     /// Taken so far, those that were dropped too: the next one's number.

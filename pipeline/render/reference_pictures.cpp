@@ -64,10 +64,11 @@ void ReferencePictures::begin() {
     picture.shownSamples = 0;
     picture.wasShown = picture.counted = false;
     if (picture.film && picture.film->size() == wanted_.camera.size)
-        picture.film->clear();
+        picture.film->clear(picture.traced);
     else
         picture.film = std::make_unique<Film>(wanted_.camera.size);
-    picture.slices.begin(scene_->tracer->bounds(wanted_), wanted_.camera.size);
+    picture.traced = scene_->tracer->bounds(wanted_);
+    picture.slices.begin(picture.traced, wanted_.camera.size);
     toBegin_ = false;
 }
 

@@ -94,6 +94,7 @@ private:
         RenderView view;
         Timestamp chosen;
         std::unique_ptr<Film> film;
+        PixelRect traced;  // there is nothing elsewhere in the film
         Slices slices;
         int portions = 0;                        // out
         int shownSamples = 0;                    // when it was shown last

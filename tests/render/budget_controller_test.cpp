@@ -135,18 +135,50 @@ TEST(BudgetController, WhatIdleFramesLeaveIsNotSaved) {
     EXPECT_EQ(budget.kept().frames, 9) << "idle frames do not count";
 }
 
-TEST(BudgetController, AConversionIsPaidBackByTheFollowingFrames) {
+TEST(BudgetController, AConversionIsPaidBackALittleInEachFrame) {
+    BudgetController budget(kBudget);
+    const auto cheap = [](int) { return 0.001; };
+    (void)usedIn(budget, 2, 1000, cheap);
+    std::vector<double> used;
+    for (int picture = 0; picture < 10; ++picture) {
+        budget.beginFrame(true);
+        budget.spentElsewhere(2 * kBudget);
+        EXPECT_EQ(budget.grant().samples, 0) << "the frame's own is used up";
+        used.push_back(budget.used());
+        for (int i = 0; i < 29; ++i) {
+            budget.beginFrame(true);
+            for (BudgetGrant g = budget.grant(); g.samples > 0; g = budget.grant())
+                budget.spent(g, g.samples, 0.001 * static_cast<double>(g.samples));
+            used.push_back(budget.used());
+        }
+    }
+    EXPECT_EQ(framesOff(used, 0.1), 10) << "the conversions themselves";
+    EXPECT_NEAR(meanShare(used), 1, 0.01);
+    budget.beginFrame(true);
+    EXPECT_LE(budget.kept().deviation, 0.1);
+}
+
+TEST(BudgetController, AtRestADebtIsPaidBackAtOnce) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);
-    budget.spentElsewhere(3 * kBudget);
-    EXPECT_EQ(budget.grant().samples, 0);
+    budget.spentElsewhere(4 * kBudget);
+    for (int i = 0; i < 4; ++i)
+        budget.beginFrame(false);
+    EXPECT_NEAR(usedIn(budget, 1, 1000, [](int) { return 0.001; })[0], kBudget, 0.05 * kBudget);
+}
+
+TEST(BudgetController, FramesWithoutProcessorTimeAreNotCounted) {
+    BudgetController budget(kBudget);
+    (void)usedIn(budget, 10, 1000, [](int) { return 0.001; });
+    for (int i = 0; i < 50; ++i) {
+        budget.beginFrame(true);
+        const BudgetGrant grant = budget.grant();
+        budget.spent(grant, grant.samples, grant.reservedMs);  // and nobody asks for more
+    }
     budget.beginFrame(true);
-    EXPECT_EQ(budget.grant().samples, 0);
-    budget.beginFrame(true);
-    EXPECT_EQ(budget.grant().samples, 0);
-    budget.beginFrame(true);
-    EXPECT_GT(budget.grant().samples, 0);
+    EXPECT_EQ(budget.kept().frames, 10);
+    EXPECT_LE(budget.kept().deviation, 0.02);
 }
 
 TEST(BudgetController, TimesThatAreNoNumbersChangeNothing) {

@@ -162,8 +162,11 @@ TEST(Film, ClearForgets) {
     EXPECT_EQ(film.samples(0), 0U);
     EXPECT_EQ(film.samples(1), 1U);
     EXPECT_EQ(pictureOf(film).id[0], 0);
-    film.clear();
+    film.add(0, objectSample(0.5F));
+    film.clear(PixelRect{1, -3, 7, 9});
+    EXPECT_EQ(film.samples(0), 1U);
     EXPECT_EQ(film.samples(1), 0U);
+    EXPECT_EQ(pictureOf(film).id[1], 0);
 }
 
 TEST(Exposure, SrgbIsTheStandards) {
