@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t kMostLevels = 64;
 constexpr double kLongest = 60000;  // [ms]
+constexpr double kLeastShare = 0.001;
 constexpr std::pair<std::string_view, SuperResMode> kModes[] = {
     {"detail", SuperResMode::Detail}, {"blend", SuperResMode::Blend}, {"off", SuperResMode::Off}};
 
@@ -36,7 +37,7 @@ constexpr LevelKey kLevelKeys[] = {
     {"epipolar.window_radius", [](Quality& q) -> int& { return q.epipolar.windowRadius; }, 0, 8},
     {"epipolar.step_penalty", [](Quality& q) -> int& { return q.epipolar.stepPenalty; }, 1, 30},
     {"epipolar.jump_penalty", [](Quality& q) -> int& { return q.epipolar.jumpPenalty; }, 1, 60},
-    {"epipolar.finest", [](Quality& q) -> int& { return q.epipolar.finest; }, 0, 1},
+    {"epipolar.finest", [](Quality& q) -> int& { return q.epipolar.finest; }, 0, 2},
     {"epipolar.most_predicted", [](Quality& q) -> int& { return q.epipolar.mostPredicted; }, 0, 60},
 };
 
@@ -47,6 +48,7 @@ QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
     file.number(prefix + "psnr_db", out.psnrDb, 0, 200);
     file.choice<SuperResMode>(prefix + "mode", out.quality.mode, kModes);
     file.boolean(prefix + "along_lines", out.quality.alongLines);
+    file.number(prefix + "detail_share", out.quality.detailShare, kLeastShare, 1);
     for (const LevelKey& key : kLevelKeys)
         file.integer(prefix + key.name, key.in(out.quality), key.least, key.most);
     return out;
@@ -86,6 +88,8 @@ std::string toToml(std::span<const QualityLevel> levels) {
                            "\"{}\"\n",
                            level.name, level.ms, level.psnrDb, name(quality.mode));
         if (!quality.alongLines) out += "along_lines = false\n";
+        if (quality.detailShare != usual.detailShare)
+            out += fmt::format("detail_share = {:.3f}\n", quality.detailShare);
         for (const LevelKey& key : kLevelKeys)
             if (key.in(quality) != key.in(usual))
                 out += fmt::format("{} = {}\n", key.name, key.in(quality));

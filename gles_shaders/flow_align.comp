@@ -2,7 +2,7 @@
 // patch that bends as the field around the cell does. On a surface that the other camera sees from
 // another side, a patch that only shifts fits beside the right place.
 // In, out: two areas of patches[]. Out: flow (x, y) [px], cost, texture (energy of the patch). One
-// invocation a cell.
+// invocation a cell. Tiles that are not matched keep their vectors.
 // After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
@@ -20,6 +20,11 @@ layout(std430, binding = 0) readonly buffer Luma {
 };
 layout(std430, binding = 1) buffer Patches {
     vec4 patches[];
+};
+
+layout(std430, binding = 2) readonly buffer Tiles {
+    uvec2 header;
+    uvec2 tiles[];  // changed, matched; a workgroup each
 };
 
 #include "patch.glsl"
@@ -85,6 +90,10 @@ Match compareBent(Template t, Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, cells.xy))) return;
+    if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y == 0u) {
+        patches[offsets.x + cell.y * cells.x + cell.x] = vec4(flowAt(cell), 0.0, 0.0);
+        return;
+    }
     Level lb = levelOf(to);
     Template t = loadTemplate(levelOf(from), cell);
     vec2 dx = slopeAt(cell, ivec2(1, 0)), dy = slopeAt(cell, ivec2(0, 1));

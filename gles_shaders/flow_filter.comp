@@ -1,16 +1,20 @@
 // Robust clean-up of a cell field: the median of each component over 3x3 cells, then the plane through
 // what agrees with it in 5x5. Larger medians measured worse on photographs: they flatten slanted and
 // curved surfaces.
-// In, out: two areas of patches[]. One invocation a cell.
+// In, out: two areas of patches[]. One invocation a cell. Tiles that are not matched keep their vectors.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 cells;    // cells a row, rows, rounds of plane fits, -
+    ivec4 cells;    // cells a row, rows, rounds of plane fits, 1 = a workgroup is a tile
     ivec4 offsets;  // in patches[]: output, input, -, -
 };
 layout(std430, binding = 1) buffer Patches {
     vec4 patches[];
+};
+layout(std430, binding = 2) readonly buffer Tiles {
+    uvec2 header;
+    uvec2 tiles[];  // changed, matched
 };
 
 vec4 cellIn(ivec2 c) {
@@ -75,6 +79,10 @@ void order(inout vec2 a, inout vec2 b) {
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, cells.xy))) return;
+    if (cells.w != 0 && tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y == 0u) {
+        patches[offsets.x + cell.y * cells.x + cell.x] = cellIn(cell);
+        return;
+    }
     vec2 v[9];
     for (int i = 0; i < 9; ++i) v[i] = cellIn(cell + ivec2(i % 3 - 1, i / 3 - 1)).xy;
     // Sorts the columns, then takes the middle of (largest low, middle middle, smallest high).

@@ -4,33 +4,39 @@
 // the difference's 2x2 means vary by more than the noise of its pixels explains, over all tiles that did
 // not surely change or over a block of 8x8, those are drawn anew. So what tiles left alone are off by stays
 // a small share of the noise's variance.
+// Tiles with structure beyond noise, and those beside them, are matched with the still; where there are too
+// many, those with the most.
 // Tiles that something was drawn over count as changed, all of them, once one of them or beside them has,
 // the whole frame is drawn, or they are told to. In: measured[] of plan_change.comp.
-// Out: header = whole frame drawn at once (1 or 0), changed tiles; tiles[] = changed (1 or 0), -;
-// dispatches[] = group counts, 0 when nothing changed; summary = changed tiles, quietest decile of the noise
+// Out: header = whole frame drawn at once (0: no, 1: yes, 2: enlarged, with a list of tiles with detail),
+// changed tiles; tiles[] = changed, matched (1 or 0); dispatches[] = group counts, 0 when nothing changed or
+// none of what did is matched; summary = changed tiles, quietest decile of the noise
 // [1/256 grey level], whole, what was drawn over is drawn anew (1 or 0); wholeDraw = command of the
-// full-screen draws; grain = of the tiles that did not surely change: a 2x2 mean's noise variance in
-// quarters of a pixel's [1/1024], their number.
-// Range: tiles 0..1, 0..0
+// full-screen draws, detail = of those that add detail, enlarged = of those that do not; grain = of the tiles that did not surely change: a 2x2 mean's noise variance in
+// quarters of a pixel's [1/1024], their number, changed tiles that are matched.
+// Range: tiles 0..1, 0..1
 
 layout(local_size_x = 1) in;
 layout(std140, binding = 0) uniform Params {
     ivec4 counts;    // tiles, dispatches, changed tiles from which on the whole frame is drawn, tiles a row
     ivec4 drawnOver; // columns and rows of tiles: x0 <= x < x1, y0 <= y < y1
     ivec4 redraw;    // x = 1: they count with any other, 2: whatever happens; y = 1: every tile counts as changed
-    vec4 noise;      // a 2x2 mean's variance in quarters of a pixel's, -, -, -
+    vec4 noise;      // a 2x2 mean's variance in quarters of a pixel's; structure that is none (below 0: all is), -, -
+    ivec4 matched;   // at most so many tiles; at most so many for a list instead of the whole frame, -, -
 };
-layout(std430, binding = 0) writeonly buffer Tiles {
+layout(std430, binding = 0) buffer Tiles {
     uvec2 header;
     uvec2 tiles[];
 };
 layout(std430, binding = 1) readonly buffer Wanted {
-    uvec4 wanted[];  // group counts of each dispatch
+    uvec4 wanted[];  // group counts of each dispatch, 1 when it is for matched tiles alone
 };
 layout(std430, binding = 2) buffer Plan {
     uvec4 summary;
     uvec4 wholeDraw;  // vertices, instances, first vertex, reserved
     uvec4 grain;
+    uvec4 detail;
+    uvec4 enlarged;
     uvec4 dispatches[];
 };
 layout(std430, binding = 3) buffer Measured {
@@ -67,6 +73,8 @@ void markAll(ivec2 first, ivec2 end) {
         for (int x = first.x; x < end.x; ++x) measured[2 * (y * counts.w + x)].x = 1.0;
 }
 
+#include "plan_structure.glsl"
+
 void main() {
     int rows = counts.x / counts.w;
     ivec2 end = ivec2(counts.w, rows);
@@ -78,13 +86,16 @@ void main() {
             if (drifted(sumOver(first, last))) markAll(first, last);
         }
     }
-    uint changed = 0u;
+    int least = leastStructure();
+    uint changed = 0u, listed = 0u;
     uint histogram[kBins];
     for (int i = 0; i < kBins; ++i) histogram[i] = 0u;
     for (int i = 0; i < counts.x; ++i) {
         vec2 t = measured[2 * i].xy;
         changed += uint(t.x);
-        tiles[i] = uvec2(uint(t.x), 0u);
+        float around = measured[2 * i].w;
+        bool isMatched = around > noise.y && structureBin(around) >= least;
+        tiles[i] = uvec2(uint(t.x), isMatched ? 1u : 0u);
         histogram[clamp(int(t.y * 16.0), 0, kBins - 1)]++;
     }
     bool under = redraw.x == 2 || (redraw.x == 1 && changed > 0u) || changed >= uint(counts.z);
@@ -106,12 +117,16 @@ void main() {
         below += histogram[bin];
         if (below * 10u >= uint(counts.x)) break;
     }
+    for (int i = 0; i < counts.x; ++i) listed += tiles[i].x * tiles[i].y;
     uint whole = changed >= uint(counts.z) ? 1u : 0u;
+    bool listsDetail = whole != 0u && int(listed) <= matched.y;
+    detail = uvec4(3u, listsDetail ? 0u : whole, 0u, 0u);
+    enlarged = uvec4(3u, listsDetail ? whole : 0u, 0u, 0u);
     summary = uvec4(changed, uint(bin) * 16u + 8u, whole, under ? 1u : 0u);
     wholeDraw = uvec4(3u, whole, 0u, 0u);
     float ratio = all.w / max(all.y, 1e-3);
-    grain = uvec4(uint(clamp(ratio, 0.0, 64.0) * 1024.0), uint(all.x), 0u, 0u);
-    header = uvec2(whole, changed);
+    grain = uvec4(uint(clamp(ratio, 0.0, 64.0) * 1024.0), uint(all.x), listed, 0u);
+    header = uvec2(listsDetail ? 2u : whole, changed);
     for (int i = 0; i < counts.y; ++i)
-        dispatches[i] = changed > 0u ? wanted[i] : uvec4(0u, 1u, 1u, 0u);
+        dispatches[i] = (wanted[i].w != 0u ? listed : changed) > 0u ? uvec4(wanted[i].xyz, 0u) : uvec4(0u, 1u, 1u, 0u);
 }

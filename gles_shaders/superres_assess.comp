@@ -3,7 +3,7 @@
 // errors in patches[], both pictures' finest luma.
 // Out: displacement image = flow (x, y) [video px], its end in the still less the scaled cell centre
 // [still px]; statistics image = covariance, variance of the video and of the still in the patch,
-// confidence. Source: paper, eq. 2 with lambda(x) = min(x, 1).
+// confidence; none of the first three in tiles that are not matched. Source: paper, eq. 2 with lambda(x) = min(x, 1).
 // Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1
 #include "luma.glsl"
@@ -25,6 +25,10 @@ layout(std430, binding = 0) readonly buffer Luma {
 };
 layout(std430, binding = 1) readonly buffer Patches {
     vec4 patches[];
+};
+layout(std430, binding = 2) readonly buffer Tiles {
+    uvec2 header;
+    uvec2 tiles[];  // changed, matched; a workgroup each
 };
 layout(rgba32f, binding = 0) uniform writeonly highp image2D displacement;
 layout(rgba32f, binding = 1) uniform writeonly highp image2D statistics;
@@ -53,8 +57,12 @@ void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(cell, cells.xy))) return;
     vec2 u = patches[offsets.x + cell.y * cells.x + cell.x].xy;
-    Template t = loadTemplate(levelOf(video), cell);
-    Match m = compare(t, levelOf(still), cell, u);
+    vec3 alike = vec3(0.0);
+    if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u) {
+        Template t = loadTemplate(levelOf(video), cell);
+        Match m = compare(t, levelOf(still), cell, u);
+        alike = vec3(m.covariance, t.variance, m.varianceB);
+    }
 
     vec2 centre = 4.0 * vec2(cell) + 1.5;
     vec2 q = centre + u;
@@ -68,5 +76,5 @@ void main() {
 
     vec2 offset = clamp(inStill - (centre + 0.5) * stillSize.zw + 0.5, vec2(-4e3), vec2(4e3));
     imageStore(displacement, cell, vec4(u, offset));
-    imageStore(statistics, cell, vec4(m.covariance, t.variance, m.varianceB, confidence));
+    imageStore(statistics, cell, vec4(alike, confidence));
 }

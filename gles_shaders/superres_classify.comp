@@ -11,8 +11,8 @@ layout(std140, binding = 0) uniform Params {
     vec4 tune;      // least weight that draws detail, flow spread of a plain tile [video px], weight spread, 1 = no still
 };
 layout(std430, binding = 0) readonly buffer Changed {
-    uvec2 header;  // whole frame drawn at once, changed tiles
-    uvec2 changed[];
+    uvec2 header;  // whole frame drawn at once (2: with detail in listed tiles), changed tiles
+    uvec2 changed[];  // changed, matched
 };
 layout(std430, binding = 1) buffer Classes {
     uvec2 classes[];  // class this frame, unexplained cells when last drawn
@@ -68,7 +68,7 @@ void main() {
         confidence += cellAt(4 * tile + ivec2(i & 3, i >> 2)).w;
     bool whole = header.x != 0u;
     if (whole || changed[index].x != 0u) {
-        kind = tune.w > 0.5 ? kUpscaled : classOf(4 * tile);
+        kind = tune.w > 0.5 || changed[index].y == 0u ? kUpscaled : classOf(4 * tile);
         unexplained = tune.w > 0.5 ? 16u : 0u;
         if (tune.w < 0.5) {
             for (int i = 0; i < 16; ++i) {
@@ -76,10 +76,8 @@ void main() {
                 unexplained += uint(texelFetch(weightField, c, 0).w + 0.5);
             }
         }
-        if (!whole) {
-            append(0u, packTile(tile));
-            append(kind, packTile(tile));
-        }
+        if (!whole) append(0u, packTile(tile));
+        if (!whole || (header.x == 2u && kind != kUpscaled)) append(kind, packTile(tile));
     }
     classes[index] = uvec2(kind, unexplained);
     atomicAdd(counts[kind], 1u);

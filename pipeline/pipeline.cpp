@@ -42,7 +42,8 @@ int tilesIn(const PixelRect& videoPixels) {
 Size Pipeline::State::outputSize(const StereoRig& rig, Size wanted) {
     if (wanted.width > 0 && wanted.height > 0) return wanted;
     const double scale = static_cast<double>(rig.still.size.width) / rig.video.size.width;
-    return {rig.still.size.width, static_cast<int>(std::lround(rig.video.size.height * scale))};
+    const auto height = static_cast<int>(std::lround(rig.video.size.height * scale));
+    return {rig.still.size.width, std::max(height, 1)};
 }
 
 Pipeline::Pipeline(const StereoRig& rig, const PipelineOptions& options)
@@ -85,6 +86,7 @@ void Pipeline::setQuality(const Quality& quality) {
     s.flow.setOptions(quality.flow2d);
     s.epipolar.setOptions(quality.epipolar);
     s.alongLines = quality.alongLines;
+    s.detailShare = quality.detailShare;
     s.depthEvery = quality.depthEvery;
 }
 
@@ -137,13 +139,21 @@ void Pipeline::setSkipUnchanged(bool skip) {
     state_->options.skipUnchanged = skip;
 }
 
+void Pipeline::State::limitMatching() {
+    if (options.mode == SuperResMode::Blend || !options.skips.smoothTiles)
+        plan.matchEverything();
+    else
+        plan.matchStructured(detailShare);
+}
+
 // Along epipolar lines where the frame's pose is known, and the still's.
 void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pose>& pose) {
     pyramids.buildVideo(video.texture(), plan);
     lap("pyramid");
     if (pose) {
         // The search runs on the processor, so that has to know whether it is needed.
-        if (plan.changedTiles() > 0) epipolar.run(frame, *pose);
+        const bool forDepth = objects.has_value() || options.depthEverywhere;
+        if ((forDepth ? plan.changedTiles() : plan.matchedTiles()) > 0) epipolar.run(frame, *pose);
         lap("epipolar");
         flow.refine(pyramids, plan, epipolar.forward(), epipolar.hidden());
     } else {
@@ -248,6 +258,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.video.upload(video);
     s.lap("upload");
     const PixelRect where = s.placeObjects(pose, time);
+    s.limitMatching();
     s.plan.update(s.video.texture(), s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;

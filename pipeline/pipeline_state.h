@@ -39,6 +39,8 @@ struct Pipeline::State {
         lastLap = now;
     }
 
+    /// Tells the plan which tiles the frame is to match.
+    void limitMatching();
     void matchStill(const ImageView& frame, const std::optional<Pose>& pose);
     /// Says where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
@@ -71,6 +73,7 @@ struct Pipeline::State {
     bool hasStill = false;
     bool redraw = true;  // nothing of the last output may stay
     bool alongLines = true;
+    double detailShare = 1;
     int depthEvery = 1, depthAge = 0;  // frames; since depth was measured
     bool hasPrior = false;             // the flow field of the last frame belongs to this still
     bool measure = false;

@@ -18,6 +18,9 @@ struct Quality {
     bool alongLines = true;
     Flow2dOptions flow2d{};      ///< but for what changed() in flow_options.h leaves
     EpipolarOptions epipolar{};  ///< likewise
+    /// Tiles that are matched with the still, at most, as a share of all; (0, 1]. Those with the
+    /// least structure are enlarged alone. Not in mode Blend, which fades all of the still over.
+    double detailShare = 1;
     /// Real depth is measured in one of so many frames, and carried on in between; [1, 60].
     int depthEvery = 1;
 

@@ -8,6 +8,7 @@ namespace mfar {
 /// KeyframeOptions and DepthOptions.
 struct SkipOptions {
     bool upscaledTiles = true;  ///< tiles to which the still adds nothing are enlarged alone
+    bool smoothTiles = true;    ///< tiles without structure are not matched, but enlarged alone
     bool plainTiles = true;     ///< tiles of one smooth flow are drawn with a quad's corners
     bool tileLists = true;      ///< the whole picture is drawn only when most tiles changed
     bool knownFlow = true;      ///< the 2-D flow starts from the last frame's

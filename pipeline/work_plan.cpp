@@ -14,6 +14,14 @@ constexpr double kInitialNoise = 0.29;
 constexpr double kMaxNoise = 4.0;
 // Drawing by tiles costs 2.2 times as much an area as one full-screen draw (llvmpipe).
 constexpr double kWholeShare = 0.45;
+// Detail likewise, where all else is enlarged at once, which costs 0.4 times as much.
+constexpr double kListedShare = 0.27;
+// What structure adds up to, in the variance of a mean: 13 by noise alone (16 means less the
+// plane's three), the rest by what gives detail a tenth of its weight in superres_weigh.comp (a
+// signal of 0.44 of the noise; 16 / 4 as much in the variance of a mean).
+constexpr double kStructure = 13 + 16 * 4 * 0.44;
+constexpr double kRoundingVariance = 1.0 / 12;  // of a pixel [grey levels^2]
+constexpr std::size_t kGrain = 32;              // bytes before it in the plan
 // How fast the grain of the noise follows what a frame shows, by frame.
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
 constexpr double kRestingShare = 0.75;  // of the tiles: the others may be misjudged
@@ -35,8 +43,8 @@ WorkPlan::WorkPlan(Size video)
       measuredTiles_(sizeof(float) * 8 * tileCount_.width * tileCount_.height),
       change_("plan_change.comp"), dispatch_("plan_dispatch.comp") {}
 
-WorkPlan::Dispatch WorkPlan::add(gpu::Groups groups) {
-    wanted_.push_back({groups.x, groups.y, groups.z, 0});
+WorkPlan::Dispatch WorkPlan::add(gpu::Groups groups, For what) {
+    wanted_.push_back({groups.x, groups.y, groups.z, what == For::Matched ? 1U : 0U});
     return {static_cast<int>(wanted_.size()) - 1};
 }
 
@@ -50,6 +58,8 @@ void WorkPlan::upload() {
 void WorkPlan::openAll() {
     if (plan_.bytes() == 0) upload();
     plan_.write(std::span<const std::array<std::uint32_t, 4>>(wanted_), kPlanHeader);
+    const std::vector<std::uint32_t> all(tiles_.bytes() / sizeof(std::uint32_t), 1);
+    tiles_.write(std::span<const std::uint32_t>(all));
 }
 
 void WorkPlan::drawnOver(const PixelRect& tiles, Redraw redraw) {
@@ -66,11 +76,15 @@ bool WorkPlan::redraws() const {
     return plan_.read<std::uint32_t>(4)[3] != 0;
 }
 
+int WorkPlan::matchedTiles() const {
+    return static_cast<int>(plan_.read<std::uint32_t>(3, kGrain)[2]);
+}
+
 void WorkPlan::followNoise() {
     if (!std::exchange(measured_, true)) return;
     const auto summary = plan_.read<std::uint32_t>(4);
     noise_ = std::min(0.8 * noise_ + 0.2 * summary[1] / 256.0, kMaxNoise);
-    const auto grain = plan_.read<std::uint32_t>(4, kPlanHeader - 16);
+    const auto grain = plan_.read<std::uint32_t>(4, kGrain);
     if (grain[1] == 0) return;
     // What moves has structure, too: more is believed slowly, but where all is at rest.
     const bool atRest = grain[1] > kRestingShare * tileCount_.width * tileCount_.height;
@@ -114,7 +128,15 @@ WorkPlan::DispatchParams WorkPlan::dispatchParams(bool force) {
     p.drawnOver[3] = drawnOver_.y1;
     p.redraw[0] = static_cast<std::int32_t>(std::exchange(redraw_, Redraw::WithThem));
     p.redraw[1] = force ? 1 : 0;
+    const double ofMean = grain_ * (noise_ * noise_ + kRoundingVariance) / 4;
+    const bool everything = !(matchedShare_ > 0);
     p.noise[0] = static_cast<float>(grain_);
+    p.noise[1] = everything ? -1.0F : static_cast<float>(kStructure * ofMean);
+    p.matched[0] =
+        everything ? p.counts[0] : static_cast<int>(std::ceil(matchedShare_ * p.counts[0]));
+    // Where nothing is drawn by tiles, detail is not, either.
+    p.matched[1] =
+        everything || !(wholeShare_ > 0) ? -1 : static_cast<int>(kListedShare * p.counts[0]);
     return p;
 }
 

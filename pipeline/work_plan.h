@@ -29,8 +29,13 @@ public:
 
     explicit WorkPlan(Size video);
 
+    /// What a dispatch is for.
+    enum class For : std::uint8_t {
+        Changed,  ///< tiles that changed
+        Matched,  ///< those of them that are matched with the still
+    };
     /// Registers a dispatch. Before the first update() only.
-    [[nodiscard]] Dispatch add(gpu::Groups groups);
+    [[nodiscard]] Dispatch add(gpu::Groups groups, For what = For::Matched);
 
     /// Compares `now` with `drawn` (RGBA8, video size). `force` counts every tile as changed.
     void update(const gpu::Texture& now, const gpu::Texture& drawn, bool force);
@@ -46,6 +51,11 @@ public:
     void drawnOver(const PixelRect& tiles, Redraw redraw);
     /// The whole frame is drawn at once when so many tiles changed, [0, 1] of all; 0: when any did.
     void drawWholeFrom(double share) { wholeShare_ = share; }
+    /// Matches tiles with the still where they have structure that noise does not explain, and
+    /// those beside them, but at most this share of all, (0, 1]: those with the most structure.
+    /// The others are for enlarging alone. At first, and with everything, all are matched.
+    void matchStructured(double mostShare) { matchedShare_ = mostShare; }
+    void matchEverything() { matchedShare_ = 0; }
     /// Opens every dispatch without comparing anything.
     void openAll();
 
@@ -56,14 +66,19 @@ public:
         pass.runIndirect(params, bindings, plan_, kPlanHeader + 16u * dispatch.index);
     }
 
-    /// uvec2 header: whole frame drawn at once, changed tiles; then uvec2 per tile, row-major:
-    /// changed, -.
+    /// uvec2 header: whole frame drawn at once (0: no, 1: yes, 2: all enlarged, and a list of tiles
+    /// gets detail), changed tiles; then uvec2 per tile, row-major: changed, matched.
     [[nodiscard]] const gpu::Buffer& tiles() const { return tiles_; }
     /// The command of the full-screen draws: one instance when so much changed that drawing
     /// everything beats drawing tiles, none otherwise.
     [[nodiscard]] gpu::IndirectDraw wholeDraw() const { return {plan_, 16}; }
+    /// The same for what adds detail, and for what enlarges alone: one of both at most.
+    [[nodiscard]] gpu::IndirectDraw wholeDetailDraw() const { return {plan_, 48}; }
+    [[nodiscard]] gpu::IndirectDraw wholeEnlargedDraw() const { return {plan_, 64}; }
     /// Number of tiles that the last update() found changed. Waits for the GPU.
     [[nodiscard]] int changedTiles() const;
+    /// Number of those that are matched with the still. Waits for the GPU.
+    [[nodiscard]] int matchedTiles() const;
     /// Is what was drawn over tiles to be drawn anew, as of the last update()? Waits for the GPU.
     [[nodiscard]] bool redraws() const;
     /// What plan_change.comp tells of each tile, two vec4, and whether it changed in the first.
@@ -78,7 +93,7 @@ public:
     [[nodiscard]] double grain() const { return grain_; }
 
 private:
-    static constexpr std::size_t kPlanHeader = 48;  // summary, whole draw, grain
+    static constexpr std::size_t kPlanHeader = 80;  // summary, draws, grain
 
     void upload();
     /// Takes over what the last frame's plan says of the noise.
@@ -91,12 +106,13 @@ private:
     struct DispatchParams {
         std::int32_t counts[4], drawnOver[4], redraw[4];
         float noise[4];
+        std::int32_t matched[4];
     };
     [[nodiscard]] DispatchParams dispatchParams(bool force);
 
     Size video_;
     Size tileCount_;
-    double noise_, grain_ = 1, wholeShare_;
+    double noise_, grain_ = 1, wholeShare_, matchedShare_ = 0;
     PixelRect drawnOver_;  // tiles
     Redraw redraw_ = Redraw::WithThem;
     bool measured_ = false;  // plan_ holds the summary of an earlier frame

@@ -170,15 +170,19 @@ void Flow2d::align(int in, const LumaPyramids& pyramids, const WorkPlan& plan) {
     const Stage& stage = forwardStages_[0];
     const LevelParams p = levelParams(pyramids.video()[0], pyramids.still()[0], stage.cells,
                                       stage.area[0], in, kAlignSteps);
-    plan.run(align_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
+    plan.run(align_, p,
+             {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_),
+              gpu::storage(2, plan.tiles())},
              stage.dispatch);
 }
 
 void Flow2d::filter(const Stage& stage, const Field& out, const WorkPlan& plan) {
     FilterParams p{};
-    put(p.cells, stage.cells.width, stage.cells.height, options_.planeFits, 0);
+    // The cells of a coarser level are not those of a tile.
+    put(p.cells, stage.cells.width, stage.cells.height, options_.planeFits, out.level == 0 ? 1 : 0);
     put(p.offsets, out.offset, stage.area[0], 0, 0);
-    plan.run(filter_, p, {gpu::storage(1, patches_)}, stage.dispatch);
+    plan.run(filter_, p, {gpu::storage(1, patches_), gpu::storage(2, plan.tiles())},
+             stage.dispatch);
 }
 
 }  // namespace mfar

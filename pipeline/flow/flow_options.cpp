@@ -32,7 +32,7 @@ void validate(const EpipolarOptions& o) {
     require(isWithin(o.windowRadius, 0, 8), "windowRadius", "[0, 8]");
     require(isWithin(o.stepPenalty, 1, 30), "stepPenalty", "[1, 30]");
     require(isWithin(o.jumpPenalty, 1, 60), "jumpPenalty", "[1, 60]");
-    require(isWithin(o.finest, 0, 1), "finest", "[0, 1]");
+    require(isWithin(o.finest, 0, 2), "finest", "[0, 2]");
     require(isWithin(o.mostPredicted, 0, 60), "mostPredicted", "[0, 60]");
 }
 

@@ -37,11 +37,13 @@ SuperRes::SuperRes(const StereoRig& rig, Size output, SuperResMode mode,
       lists_(16 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
       draws_{gpu::Buffer(sizeof(DrawBlock)), gpu::Buffer(sizeof(DrawBlock))},
       assessDispatch_(
-          plan.add({gpu::groupsFor(cells_.width, 4), gpu::groupsFor(cells_.height, 4), 1})),
+          plan.add({gpu::groupsFor(cells_.width, 4), gpu::groupsFor(cells_.height, 4), 1},
+                   WorkPlan::For::Changed)),
       gainDispatch_(
           plan.add({gpu::groupsFor(halfCells_.width, 4), gpu::groupsFor(halfCells_.height, 4), 1})),
       weighDispatch_(
-          plan.add({gpu::groupsFor(cells_.width, 8), gpu::groupsFor(cells_.height, 8), 1})),
+          plan.add({gpu::groupsFor(cells_.width, 8), gpu::groupsFor(cells_.height, 8), 1},
+                   WorkPlan::For::Changed)),
       assess_("superres_assess.comp"), gain_("superres_gain.comp"), weigh_("superres_weigh.comp"),
       classify_("superres_classify.comp"), sharpen_("superres_sharpen.frag"),
       vertical_("superres_vertical.frag"), copy_("copy.frag"),
@@ -74,7 +76,8 @@ void SuperRes::assess(const LumaPyramids& pyramids, const Flow2d& flow, const Wo
     p.stillSize[3] = static_cast<float>(rig_.still.fy / rig_.video.fy);
     plan.run(assess_, p,
              {gpu::storage(0, pyramids.words()), gpu::storage(1, flow.patches()),
-              gpu::imageWrite(0, displacement_), gpu::imageWrite(1, statistics_)},
+              gpu::storage(2, plan.tiles()), gpu::imageWrite(0, displacement_),
+              gpu::imageWrite(1, statistics_)},
              assessDispatch_);
     measureGain(pyramids, flow, plan);
     weigh(plan);
@@ -89,9 +92,10 @@ void SuperRes::measureGain(const LumaPyramids& pyramids, const Flow2d& flow, con
     g.cells[2] = cells_.width;
     g.cells[3] = cells_.height;
     g.offsets[0] = flow.forward().offset;
+    g.offsets[1] = tiles_.width;
     plan.run(gain_, g,
              {gpu::storage(0, pyramids.words()), gpu::storage(1, flow.patches()),
-              gpu::imageWrite(0, halfStatistics_)},
+              gpu::storage(2, plan.tiles()), gpu::imageWrite(0, halfStatistics_)},
              gainDispatch_);
 }
 
@@ -173,7 +177,10 @@ void SuperRes::draw(const gpu::Texture& video, const StillReference* still, cons
         const gpu::Bindings from{gpu::sampler(0, columns_),
                                  gpu::sampler(1, blend ? still->picture() : still->detail()),
                                  gpu::sampler(2, lookupField_)};
-        (blend ? wholeBlend_ : wholeDetail_).runIndirect(p, from, outputTarget_, plan.wholeDraw());
+        wholeUpscale_.runIndirect(p, {gpu::sampler(0, columns_)}, outputTarget_,
+                                  plan.wholeEnlargedDraw());
+        (blend ? wholeBlend_ : wholeDetail_)
+            .runIndirect(p, from, outputTarget_, plan.wholeDetailDraw());
         (blend ? plainBlend_ : plainDetail_).runTiles(p, from, outputTarget_, list(List::Trusted));
         (blend ? blend_ : detail_).runTiles(p, from, outputTarget_, list(List::Blended));
     } else {

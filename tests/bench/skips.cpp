@@ -42,6 +42,7 @@ const std::vector<Skip>& allSkips() {
     static const std::vector<Skip> skips{
         {"unchanged-tiles", [](PipelineOptions& o) { o.skipUnchanged = false; }},
         optional("upscaled-tiles", &SkipOptions::upscaledTiles),
+        optional("smooth-tiles", &SkipOptions::smoothTiles),
         optional("plain-tiles", &SkipOptions::plainTiles),
         optional("tile-lists", &SkipOptions::tileLists),
         optional("known-flow", &SkipOptions::knownFlow),

@@ -41,7 +41,7 @@ TEST(FlowOptions, ValuesOutOfRangeAreRefused) {
     expectRange(&EpipolarOptions::windowRadius, 0, 8);
     expectRange(&EpipolarOptions::stepPenalty, 1, 30);
     expectRange(&EpipolarOptions::jumpPenalty, 1, 60);
-    expectRange(&EpipolarOptions::finest, 0, 1);
+    expectRange(&EpipolarOptions::finest, 0, 2);
     expectRange(&EpipolarOptions::mostPredicted, 0, 60);
     for (const double share : {0.0, -1.0, 1.01, std::numeric_limits<double>::quiet_NaN()})
         EXPECT_THROW(validate(EpipolarOptions{.longestParallax = share}), std::invalid_argument);

@@ -72,7 +72,8 @@ Assessed assess(const LevelPair& pair, const StereoRig& rig, const Fields& field
     gpu::ComputePass<AssessParams> pass("superres_assess.comp");
     pass.run(p,
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
-              gpu::imageWrite(0, displacement), gpu::imageWrite(1, statistics)},
+              gpu::storage(2, pair.plan.tiles()), gpu::imageWrite(0, displacement),
+              gpu::imageWrite(1, statistics)},
              {4, 3, 1});
     return {{kGrid, displacement.readRgba32F()}, {kGrid, statistics.readRgba32F()}};
 }
@@ -180,13 +181,13 @@ TEST_F(Assess, GainStatisticsMatchTwin) {
     patches.write(std::span<const float>(field.values));
     const gpu::Texture out(cells, gpu::TexelFormat::Rgba32F);
     gpu::ComputePass<GainParams> pass("superres_gain.comp");
-    pass.run(
-        {pair.pyramids.video()[1],
-         pair.pyramids.still()[1],
-         {cells.width, cells.height, forward.width, forward.height},
-         {0, 0, 0, 0}},
-        {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches), gpu::imageWrite(0, out)},
-        {4, 3, 1});
+    pass.run({pair.pyramids.video()[1],
+              pair.pyramids.still()[1],
+              {cells.width, cells.height, forward.width, forward.height},
+              {0, pair.plan.tileCount().width, 0, 0}},
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
+              gpu::storage(2, pair.plan.tiles()), gpu::imageWrite(0, out)},
+             {4, 3, 1});
     ASSERT_EQ(a.size, half);
     const twin::Cells got{cells, out.readRgba32F()};
     for (int y = 0; y < cells.height; ++y)

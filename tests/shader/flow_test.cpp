@@ -142,7 +142,9 @@ std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int 
               {kCells.width, kCells.height, 0, 0},
               {0, kArea, 0, 0},
               {steps, 0, 0, 0}},
-             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
+              gpu::storage(2, pair.plan.tiles())},
+             {4, 3, 1});
     return patches.read<Cell>(kArea);
 }
 

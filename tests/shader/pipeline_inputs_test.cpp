@@ -56,6 +56,15 @@ TEST_F(PipelineInputs, FlowHasTheLevelsAskedFor) {
     EXPECT_LT(errorWith(3), 0.5);
 }
 
+TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoHasAnOutputOfARow) {
+    const Picture video({160, 40}, PixelFormat::Rgba8, 90), still({1, 7}, PixelFormat::Rgba8, 90);
+    Pipeline p(plainRig(video.size, still.size), {});
+    EXPECT_EQ(p.outputSize(), (Size{1, 1}));
+    p.setStill(still.view(), {});
+    p.run(video.view(), {});
+    EXPECT_EQ(p.readImage().size(), 4U);
+}
+
 TEST_F(PipelineInputs, OddSizesWork) {
     for (const Size size : {Size{641, 479}, Size{648, 432}, Size{100, 60}, Size{61, 45}}) {
         const PipelineCase c(size);

@@ -11,11 +11,11 @@ using Plan = GlTest;
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut
 // Thresholds of a frame without measured noise (0.29 grey levels).
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
-constexpr std::size_t kDispatches = 48;  // bytes before them in the plan's buffer
+constexpr std::size_t kDispatches = 80;  // bytes before them in the plan's buffer
 
 struct TileState {
-    std::uint32_t changed;
-    double noise;
+    std::uint32_t changed, matched;
+    double noise, structure;
     std::array<double, 3> energy;  // of the difference: pixels, 2x2 means, their twist
 };
 
@@ -25,8 +25,11 @@ std::vector<TileState> tilesOf(const WorkPlan& plan) {
     const auto measured = plan.measured().read<std::array<float, 8>>(count);
     std::vector<TileState> out;
     for (std::size_t i = 0; i < count; ++i)
-        out.push_back(
-            {flags[i][0], measured[i][1], {measured[i][4], measured[i][5], measured[i][6]}});
+        out.push_back({flags[i][0],
+                       flags[i][1],
+                       measured[i][1],
+                       measured[i][2],
+                       {measured[i][4], measured[i][5], measured[i][6]}});
     return out;
 }
 
@@ -65,6 +68,7 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
     for (int i = 0; i < 28; ++i) {
         const twin::TileChange& t = twins.emplace_back(twin::tileChange(now, drawn, i % 7, i / 7));
         EXPECT_NEAR(tiles[i].noise, t.noise, 0.005) << "tile " << i;
+        EXPECT_NEAR(tiles[i].structure, t.structure, 1e-3 * (1 + t.structure)) << "tile " << i;
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(tiles[i].energy[k], t.energy[k], 1e-3 * (1 + t.energy[k]))
                 << "tile " << i << ", energy " << k;
@@ -179,6 +183,103 @@ TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
         EXPECT_EQ(plan.tiles().read<std::uint32_t>(2),
                   (std::vector<std::uint32_t>{whole, static_cast<std::uint32_t>(tiles)}));
         EXPECT_EQ(fourAt(plan, kDispatches)[0], 1U);
+    }
+}
+
+/// A slope and noise, with as many columns of dots as the contrasts that are told, two tiles apart.
+Picture dotted(Size size, const std::vector<int>& contrasts) {
+    Picture out(size);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                out.at(x, y)[c] = static_cast<std::uint8_t>(60 + x / 4);
+    addNoise(out, 1.5, 4);
+    for (std::size_t i = 0; i < contrasts.size(); ++i)
+        for (int y = 4; y < size.height; y += 8)
+            for (int k = 0; k < 16; ++k) {
+                const int x = static_cast<int>(64 * i) + 24 + k % 4;
+                if (y + k / 4 < size.height)
+                    for (int c = 0; c < 3; ++c)
+                        out.at(x, y + k / 4)[c] += static_cast<std::uint8_t>(contrasts[i]);
+            }
+    return out;
+}
+
+/// Columns of tiles of which all are matched; -1: some column has tiles of both kinds.
+std::vector<int> matchedColumns(const WorkPlan& plan) {
+    const auto tiles = tilesOf(plan);
+    const Size count = plan.tileCount();
+    std::vector<int> out;
+    for (int x = 0; x < count.width; ++x) {
+        int matched = 0;
+        for (int y = 0; y < count.height; ++y)
+            matched += static_cast<int>(tiles[y * count.width + x].matched);
+        if (matched == count.height)
+            out.push_back(x);
+        else if (matched > 0)
+            return {-1};
+    }
+    return out;
+}
+
+TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
+    constexpr Size size{256, 96};  // 16 columns
+    const Picture picture = dotted(size, {20, 60, 0, 40});
+    WorkPlan plan(size);
+    static_cast<void>(plan.add({1, 1, 1}));
+    const auto update = [&] {
+        for (int i = 0; i < 20; ++i)  // until the noise is known
+            plan.update(uploaded(picture), uploaded(picture), true);
+        return matchedColumns(plan);
+    };
+    EXPECT_EQ(update().size(), 16U) << "at first everything";
+    plan.matchStructured(1);
+    EXPECT_EQ(update(), (std::vector<int>{0, 1, 2, 4, 5, 6, 12, 13, 14}));
+    EXPECT_EQ(plan.matchedTiles(), 9 * 6);
+    plan.matchStructured(6.5 / 16);
+    EXPECT_EQ(update(), (std::vector<int>{4, 5, 6, 12, 13, 14})) << "the most structure";
+    plan.matchStructured(0.05);
+    EXPECT_EQ(plan.matchedTiles(), 6 * 6) << "with the next update";
+    EXPECT_TRUE(update().empty());
+    plan.matchEverything();
+    EXPECT_EQ(update().size(), 16U);
+}
+
+TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
+    constexpr Size size{256, 96};
+    const Picture drawn = dotted(size, {60});
+    WorkPlan plan(size);
+    const auto matching = plan.add({3, 1, 1});
+    const auto drawing = plan.add({5, 1, 1}, WorkPlan::For::Changed);
+    plan.matchStructured(1);
+    for (const bool inStructure : {false, true}) {
+        for (int i = 0; i < 20; ++i)
+            plan.update(uploaded(drawn), uploaded(drawn), false);
+        Picture now = drawn;
+        for (int i = 0; i < 256; ++i)  // a tile, evenly
+            now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
+        plan.update(uploaded(now), uploaded(drawn), false);
+        EXPECT_EQ(plan.changedTiles(), 1);
+        EXPECT_EQ(plan.matchedTiles(), inStructure ? 1 : 0);
+        EXPECT_EQ(fourAt(plan, kDispatches + 16UL * matching.index)[0], inStructure ? 3U : 0U);
+        EXPECT_EQ(fourAt(plan, kDispatches + 16UL * drawing.index)[0], 5U);
+    }
+}
+
+// A whole frame in which few tiles get detail is enlarged, and those are listed.
+TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
+    constexpr Size size{256, 96};
+    for (const bool structured : {false, true}) {
+        const Picture picture = structured ? randomPicture(size, 1) : dotted(size, {60});
+        WorkPlan plan(size);
+        static_cast<void>(plan.add({1, 1, 1}));
+        plan.matchStructured(1);
+        for (int i = 0; i < 20; ++i)
+            plan.update(uploaded(picture), uploaded(picture), true);
+        const auto detail = plan.wholeDetailDraw(), enlarged = plan.wholeEnlargedDraw();
+        EXPECT_EQ(fourAt(plan, detail.offset)[1], structured ? 1U : 0U);
+        EXPECT_EQ(fourAt(plan, enlarged.offset)[1], structured ? 0U : 1U);
+        EXPECT_EQ(plan.tiles().read<std::uint32_t>(1)[0], structured ? 1U : 2U);
     }
 }
 

@@ -90,11 +90,29 @@ TEST_F(QualityTest, SettingsOutOfRangeAreRefusedAndChangeNothing) {
     Pipeline p(c.rig, {}), untouched(c.rig, {});
     EXPECT_TRUE(pictureOf(p, c, true) == pictureOf(untouched, c, true));
     for (const Quality& wrong :
-         {Quality{.flow2d = {.steps = 17}}, Quality{.epipolar = {.finest = 2}},
+         {Quality{.flow2d = {.steps = 17}}, Quality{.epipolar = {.finest = 3}},
+          Quality{.detailShare = 0}, Quality{.detailShare = 1.01},
+          Quality{.detailShare = std::numeric_limits<double>::quiet_NaN()},
           Quality{.depthEvery = 0}, Quality{.depthEvery = std::numeric_limits<int>::max()},
           Quality{.mode = SuperResMode::Off, .epipolar = {.windowRadius = -1}}})
         EXPECT_THROW(p.setQuality(wrong), std::invalid_argument);
     EXPECT_TRUE(pictureOf(p, c, true) == pictureOf(untouched, c, true));
+}
+
+TEST_F(QualityTest, AShareOfTheTilesGetsDetail) {
+    const PipelineCase c;
+    std::size_t before = 0;
+    for (const double share : {0.3, 1.0}) {
+        Pipeline p(c.rig, {});
+        p.setQuality({.detailShare = share});
+        (void)pictureOf(p, c, true);
+        const std::vector<TileClass> classes = p.readTileClasses();
+        const auto detailed = static_cast<std::size_t>(
+            classes.size() - std::ranges::count(classes, TileClass::Upscaled));
+        EXPECT_LE(static_cast<double>(detailed), share * static_cast<double>(classes.size()) + 1);
+        EXPECT_GT(detailed, before);
+        before = detailed;
+    }
 }
 
 int mostDifference(const Image& a, const Image& b) {
@@ -108,8 +126,8 @@ TEST_F(QualityTest, WorkThatIsNotLeftOutDrawsTheSamePicture) {
     const PipelineCase c;
     Pipeline usual(c.rig, {});
     const Image wanted = pictureOf(usual, c, false);
-    for (bool SkipOptions::* skip :
-         {&SkipOptions::upscaledTiles, &SkipOptions::plainTiles, &SkipOptions::tileLists}) {
+    for (bool SkipOptions::* skip : {&SkipOptions::upscaledTiles, &SkipOptions::smoothTiles,
+                                     &SkipOptions::plainTiles, &SkipOptions::tileLists}) {
         PipelineOptions options;
         options.skips.*skip = false;
         Pipeline p(c.rig, options);

@@ -86,6 +86,9 @@ void changePlan(Context& c) {
             twins.emplace_back(twin::tileChange(now, before, t % tiles.width, t / tiles.width));
         changed += static_cast<int>(got[t][0]);
         c.checks.within(measured[t][1] - twin.noise, -0.02, 0.02, "a tile's noise");
+        c.checks.within(measured[t][2] / (1 + twin.structure) -
+                            twin.structure / (1 + twin.structure),
+                        -1e-2, 1e-2, "a tile's structure");
         for (int k = 0; k < 3; ++k)
             c.checks.within(measured[t][4 + k] / (1 + twin.energy[k]) -
                                 twin.energy[k] / (1 + twin.energy[k]),

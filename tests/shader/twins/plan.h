@@ -22,6 +22,8 @@ struct TileChange {
     /// Of the luma's difference: mean squares of its pixels' twist, of 2x2 means, of their twist;
     /// of white noise all the variance of a pixel.
     std::array<double, 3> energy{};
+    /// What planes through 8x8 pixels leave of the luma's 2x2 means: mean sum of squares.
+    double structure = 0;
 };
 
 /// Difference of two pictures, none beyond their border.
@@ -78,12 +80,40 @@ inline void driftOf(const Difference& d, int x0, int y0, double grain, TileChang
         out.energy[2] += 4 * std::pow(d.twist(x0 + 4 * (i % 4), y0 + 4 * (i / 4), 2, 1), 2) / 16;
 }
 
+/// By plain least squares on 4x4 means.
+inline double besidePlane(const std::array<double, 16>& v) {
+    double mean = 0, dx = 0, dy = 0, out = 0;
+    for (int i = 0; i < 16; ++i) {
+        mean += v[i] / 16;
+        dx += (i % 4 - 1.5) * v[i] / 20;
+        dy += (i / 4 - 1.5) * v[i] / 20;
+    }
+    for (int i = 0; i < 16; ++i)
+        out += std::pow(v[i] - mean - (i % 4 - 1.5) * dx - (i / 4 - 1.5) * dy, 2);
+    return out;
+}
+
+inline double structureOf(const Grey& grey, int x0, int y0) {
+    double out = 0;
+    for (int place = 0; place < 9; ++place) {
+        std::array<double, 16> v{};
+        for (int i = 0; i < 64; ++i) {
+            const int x = i % 8, y = i / 8;
+            v[y / 2 * 4 + x / 2] +=
+                grey.at(x0 + 4 * (place % 3) + x, y0 + 4 * (place / 3) + y) / 4.0;
+        }
+        out += besidePlane(v) / 9;
+    }
+    return out;
+}
+
 inline TileChange tileChange(Picture now, const Picture& drawn, int tileX, int tileY,
                              double grain = 1) {
     const Grey grey = luma(now.view());
     TileChange out;
     const Difference d{now, drawn};
     driftOf(d, 16 * tileX, 16 * tileY, grain, out);
+    out.structure = structureOf(grey, 16 * tileX, 16 * tileY);
     for (int cell = 0; cell < 16; ++cell) {
         const int x0 = 16 * tileX + 4 * (cell % 4), y0 = 16 * tileY + 4 * (cell / 4);
         for (int channel = 0; channel < 3; ++channel) {
