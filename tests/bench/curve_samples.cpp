@@ -44,11 +44,12 @@ std::vector<CurveSample> curveSamplesOf(const std::vector<std::filesystem::path>
     return out;
 }
 
-std::vector<CurveSample> syntheticCurveSamples(Size video) {
+std::vector<CurveSample> syntheticCurveSamples(Size video, std::size_t most) {
     using View = SyntheticBoard::View;
     const Size still{video.width * 18 / 5, video.height * 18 / 5};
     std::vector<CurveSample> out;
     for (const synthetic::Scene scene : {synthetic::Scene::Office, synthetic::Scene::Shelf}) {
+        if (out.size() == most) break;
         SyntheticBoard board(
             {.scene = scene, .path = synthetic::Path::Handheld, .pace = Pace::Consumer});
         const Workload work = handheldWorkload(board, video, still, 3);

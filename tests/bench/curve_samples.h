@@ -23,8 +23,8 @@ struct CurveSample {
 [[nodiscard]] std::vector<CurveSample>
 curveSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
 
-/// A frame each of the synthetic office and shelf, hand-held, at the video size asked for (a
-/// fraction of 640x480). Repeatable.
-[[nodiscard]] std::vector<CurveSample> syntheticCurveSamples(Size video);
+/// A frame each of the first `most` of the synthetic office and shelf, hand-held, at the video size
+/// asked for (a fraction of 640x480). Repeatable.
+[[nodiscard]] std::vector<CurveSample> syntheticCurveSamples(Size video, std::size_t most = 2);
 
 }  // namespace mfar::bench

@@ -70,7 +70,8 @@ std::vector<CurveSample> curveSamplesFor(const Options& o) {
         for (const char* name : {"motorcycle", "books", "dolls", "teddy"})
             if (const fs::path folder = fs::path(MFAR_SHARED_DATA) / name; fs::exists(folder))
                 folders.push_back(folder);
-    if (folders.empty()) return syntheticCurveSamples(o.quick ? Size{160, 120} : Size{640, 480});
+    if (folders.empty())
+        return o.quick ? syntheticCurveSamples({160, 120}, 1) : syntheticCurveSamples({640, 480});
     return curveSamplesOf(folders, o.frames > 0 ? static_cast<std::size_t>(o.frames) : 2);
 }
 

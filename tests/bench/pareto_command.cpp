@@ -99,22 +99,23 @@ std::vector<ParetoStage> ParetoCommand::measure() const {
     const Size video = quick_ ? Size{160, 120} : Size{640, 480};
     const Size still = quick_ ? Size{576, 432} : Size{2304, 1728};
     const auto given = folders();
+    const std::size_t scenes = quick_ ? 1 : 2;
     const auto samples = static_cast<std::size_t>(frames_ > 0 ? frames_ : 2);
     std::vector<ParetoStage> out;
     if (wants("flow")) {
-        auto shots = given.empty() ? syntheticCurveSamples(video) : curveSamplesOf(given, samples);
+        auto shots =
+            given.empty() ? syntheticCurveSamples(video, scenes) : curveSamplesOf(given, samples);
         if (quick_) shots.resize(1);
         out.push_back(flowStage(shots, true, run_));
         out.push_back(flowStage(shots, false, run_));
     }
     if (wants("superres")) {
         const int frames = frames_ > 0 ? frames_ : (quick_ ? 3 : 12);
-        auto sequences = syntheticSequences(video, still, frames);
-        if (quick_) sequences.resize(1);
-        out.push_back(superResStage(sequences, run_));
+        out.push_back(superResStage(syntheticSequences(video, still, frames, scenes), run_));
     }
     if (wants("depth")) {
-        auto shots = given.empty() ? syntheticDepthSamples(video) : depthSamplesOf(given, samples);
+        auto shots =
+            given.empty() ? syntheticDepthSamples(video, scenes) : depthSamplesOf(given, samples);
         if (quick_) shots.resize(1);
         out.push_back(depthStage(shots, run_));
     }

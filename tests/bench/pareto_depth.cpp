@@ -145,9 +145,9 @@ std::vector<DepthSample> depthSamplesOf(const std::vector<std::filesystem::path>
     return out;
 }
 
-std::vector<DepthSample> syntheticDepthSamples(Size video) {
+std::vector<DepthSample> syntheticDepthSamples(Size video, std::size_t most) {
     std::vector<DepthSample> out;
-    for (CurveSample& shots : syntheticCurveSamples(video)) {
+    for (CurveSample& shots : syntheticCurveSamples(video, most)) {
         SyntheticBoard board({.scene = *synthetic::sceneNamed(shots.name),
                               .path = synthetic::Path::Handheld,
                               .pace = Pace::Consumer});

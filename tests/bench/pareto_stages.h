@@ -36,7 +36,7 @@ struct DepthSample {
 [[nodiscard]] std::vector<DepthSample>
 depthSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
 /// A frame each of the synthetic office and shelf, as syntheticCurveSamples().
-[[nodiscard]] std::vector<DepthSample> syntheticDepthSamples(Size video);
+[[nodiscard]] std::vector<DepthSample> syntheticDepthSamples(Size video, std::size_t most = 2);
 
 /// Depth of single frames against bad-1, and OpenCV's stereo matchers with the triangulation of
 /// their flow.
@@ -48,8 +48,10 @@ struct SequenceSample {
     std::vector<cv::Mat>
         truth;  ///< luma of the output's size, CV_64F, of each frame; empty: unknown
 };
-/// The synthetic office and shelf, hand-held. Every third frame's truth is known.
-[[nodiscard]] std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frames);
+/// The first `most` of the synthetic office and shelf, hand-held. Every third frame's truth is
+/// known.
+[[nodiscard]] std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frames,
+                                                             std::size_t most = 2);
 
 /// Whole frames against the root mean square error of their luma: the modes, settings of their flow
 /// and combinations, and bicubic enlargement and the paper's method on OpenCV. The first frame

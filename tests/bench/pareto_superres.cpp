@@ -126,9 +126,11 @@ void measureSequence(const SequenceSample& sample, const std::vector<QualitySett
 
 }  // namespace
 
-std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frames) {
+std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frames,
+                                               std::size_t most) {
     std::vector<SequenceSample> out;
     for (const synthetic::Scene scene : {synthetic::Scene::Office, synthetic::Scene::Shelf}) {
+        if (out.size() == most) break;
         SyntheticBoard board(
             {.scene = scene, .path = synthetic::Path::Handheld, .pace = Pace::Consumer});
         SequenceSample sample{handheldWorkload(board, video, still, frames), {}};
