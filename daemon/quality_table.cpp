@@ -114,28 +114,56 @@ const std::vector<QualityLevel>& builtInQualityLevels() {
     static const std::vector<QualityLevel> levels = parseQualityLevels(R"(
 [[level]]
 name = "off"
-ms = 24.1
+ms = 24.6
 psnr_db = 27.04
 mode = "off"
 
 [[level]]
+name = "lines-quarter-tiles-5"
+ms = 45.0
+psnr_db = 27.23
+mode = "detail"
+detail_share = 0.050
+flow2d.plane_fits = 1
+epipolar.finest = 2
+
+[[level]]
+name = "lines-quarter-tiles-12"
+ms = 48.3
+psnr_db = 27.38
+mode = "detail"
+detail_share = 0.120
+flow2d.plane_fits = 1
+epipolar.finest = 2
+
+[[level]]
+name = "lines-quarter-tiles-25"
+ms = 59.4
+psnr_db = 27.73
+mode = "detail"
+detail_share = 0.250
+flow2d.plane_fits = 1
+epipolar.finest = 2
+
+[[level]]
+name = "lines-quarter-tiles-70"
+ms = 84.9
+psnr_db = 29.69
+mode = "detail"
+detail_share = 0.700
+epipolar.finest = 2
+
+[[level]]
 name = "lines-half"
-ms = 101.3
-psnr_db = 30.39
+ms = 99.4
+psnr_db = 30.25
 mode = "detail"
 epipolar.finest = 1
 
 [[level]]
-name = "predicted-15"
-ms = 120.6
-psnr_db = 30.59
-mode = "detail"
-epipolar.most_predicted = 15
-
-[[level]]
 name = "detail"
-ms = 128.0
-psnr_db = 30.72
+ms = 116.5
+psnr_db = 30.63
 mode = "detail"
 )",
                                                                        "built-in levels");
