@@ -19,7 +19,7 @@ namespace {
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
 // A triangle costs a software renderer 0.2 us: what a scene has beyond is simplified, each mesh in
 // proportion, but for so many.
-constexpr double kMostTriangles = 40000;
+constexpr double kMostTriangles = 20000;
 constexpr std::size_t kLeastTriangles = 2000;
 constexpr int kEdgePoints = 8;    // of a box, along each edge
 constexpr int kBoundsMargin = 2;  // [px]

@@ -22,7 +22,7 @@ public:
     /// `layer`: the camera at the layer's resolution. Throws GlError without R32UI targets.
     explicit ModelSilhouette(const CameraModel& layer);
 
-    /// Uploads the meshes; of a scene of more than 40000 triangles simplified ones. Surfaces whose
+    /// Uploads the meshes; of a scene of more than 20000 triangles simplified ones. Surfaces whose
     /// alpha is masked have their holes.
     void setScene(const Scene& scene);
 
