@@ -175,38 +175,42 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
     return where;
 }
 
-void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose, bool searched,
+void Pipeline::State::prepareDepth(bool hasPose, bool searched, const PixelRect& where) {
+    const bool inView = objects && !objects->region().empty();
+    const bool isNeeded =
+        options.depthEverywhere ? plan.changedTiles() > 0 : objects && plan.redraws();
+    matches.reset();
+    measures = hasPose && isNeeded && (!where.empty() || inView);
+    depthIsDue = measures && ++depthAge >= depthEvery && !where.empty();
+    if (!depthIsDue) return;
+    depthAge = 0;
+    if (searched) matches = {flow.readForward(), flow.searched().read()};
+}
+
+void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose,
                                    const PixelRect& where) {
-    const bool isDue = ++depthAge >= depthEvery;
-    if (isDue && !where.empty()) depthAge = 0;
-    if (isDue && searched && !where.empty()) {
-        measureAlongLines(pose, where);
+    if (matches) {
+        const DepthStage::StillSearch still{epipolar.search(), epipolar.rotation(), epipolar.unit(),
+                                            epipolar.lengthError(),
+                                            epipolar.inverseDepthOf(matches->vectors)};
+        depth.run(epipolar.luma(), pose, still, where);
+        forgetMoving(*matches);
     } else {
         lumaOf(frame, luma);
-        depth.run(luma, pose, {}, isDue ? where : PixelRect{});
+        depth.run(luma, pose, {}, depthIsDue ? where : PixelRect{});
     }
     snap.run(depth.field(), frame, where);
 }
 
-void Pipeline::State::measureAlongLines(const Pose& pose, const PixelRect& where) {
-    const EpipolarFlow::Cells vectors = flow.readForward();
-    depth.run(epipolar.luma(), pose,
-              DepthStage::StillSearch{epipolar.search(), epipolar.rotation(), epipolar.unit(),
-                                      epipolar.lengthError(), epipolar.inverseDepthOf(vectors)},
-              where);
-    forgetMoving(vectors);
-}
-
 // Where the flow leaves the epipolar lines, the scene is not at rest.
-void Pipeline::State::forgetMoving(const EpipolarFlow::Cells& vectors) {
+void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     const Size tiles = plan.tileCount(), frame = rig.video.size;
-    const std::vector<bool> listed = flow.searched().read();
     for (int t = 0; t < tiles.width * tiles.height; ++t) {
-        if (!listed[static_cast<std::size_t>(t)]) continue;
+        if (!matches.searched2d[static_cast<std::size_t>(t)]) continue;
         const int x = t % tiles.width * kTileSize, y = t / tiles.width * kTileSize;
         const PixelRect tile{x, y, std::min(x + kTileSize, frame.width),
                              std::min(y + kTileSize, frame.height)};
-        if (leavesLines(tile, vectors)) depth.forget(tile);
+        if (leavesLines(tile, matches.vectors)) depth.forget(tile);
     }
 }
 
@@ -226,15 +230,13 @@ bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cel
 // Depth and what it decides about. Where nothing is measured, what is known goes on with the
 // camera.
 void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
-                                  const std::optional<Pose>& pose, bool searched,
-                                  const PixelRect& where) {
+                                  const std::optional<Pose>& pose, const PixelRect& where) {
     const bool inView = objects && !objects->region().empty();
     const bool draws = objects && plan.redraws();
     result.stats.objectsInView = inView;
     result.stats.objectsHidden = inView && objects->hidden();
-    const bool measures = options.depthEverywhere ? plan.changedTiles() > 0 : draws;
-    if (pose && measures && (!where.empty() || inView)) {
-        measureDepth(frame, {time, pose->T_world_video, pose->covariance}, searched, where);
+    if (measures) {
+        measureDepth(frame, {time, pose->T_world_video, pose->covariance}, where);
         result.stats.depthTiles = tilesIn(where);
         if (inView)
             result.stats.depthTilesSkipped =
@@ -264,11 +266,12 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
     const bool usePose = useStill && s.alongLines && pose && s.epipolar.hasStill();
     if (useStill) s.matchStill(video, usePose ? pose : std::nullopt);
+    s.prepareDepth(pose.has_value(), usePose, where);
     s.superres.draw(s.video.texture(), useStill ? &s.still : nullptr, s.plan);
     glFlush();
     s.lap("superres");
     s.result.stats = s.superres.statsBefore();
-    s.showObjects(video, time, pose, usePose, where);
+    s.showObjects(video, time, pose, where);
     s.redraw = false;
     s.hasPrior = useStill;
 

@@ -16,6 +16,12 @@ namespace mfar {
 /// A flow vector so far from its pixel's epipolar line is not that of a point at rest [px].
 inline constexpr float kOffLine = 3;
 
+/// What depth takes from a frame's flow.
+struct DepthMatches {
+    EpipolarFlow::Cells vectors;
+    std::vector<bool> searched2d;  ///< tiles
+};
+
 /// What Pipeline keeps; shared by pipeline.cpp (the frame path) and readback.cpp.
 struct Pipeline::State {
     State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
@@ -44,12 +50,13 @@ struct Pipeline::State {
     void matchStill(const ImageView& frame, const std::optional<Pose>& pose);
     /// Says where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
-    void measureDepth(const ImageView& frame, const Pose& pose, bool searched,
-                      const PixelRect& where);
+    /// Decides whether depth is measured `where` it is needed, and takes from the flow what it is
+    /// measured by: a read after the frame's drawing has begun would wait for that.
+    void prepareDepth(bool hasPose, bool searched, const PixelRect& where);
+    void measureDepth(const ImageView& frame, const Pose& pose, const PixelRect& where);
     void showObjects(const ImageView& frame, Timestamp time, const std::optional<Pose>& pose,
-                     bool searched, const PixelRect& where);
-    void measureAlongLines(const Pose& pose, const PixelRect& where);
-    void forgetMoving(const EpipolarFlow::Cells& vectors);
+                     const PixelRect& where);
+    void forgetMoving(const DepthMatches& matches);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
 
     /// The size asked for, or the still's width at the video's aspect ratio.
@@ -75,7 +82,9 @@ struct Pipeline::State {
     bool alongLines = true;
     double detailShare = 1;
     int depthEvery = 1, depthAge = 0;  // frames; since depth was measured
-    bool hasPrior = false;             // the flow field of the last frame belongs to this still
+    bool measures = false, depthIsDue = false;
+    std::optional<DepthMatches> matches;  // of this frame, found along lines
+    bool hasPrior = false;                // the flow field of the last frame belongs to this still
     bool measure = false;
     FrameResult result;
     std::vector<StageTime> stageTimes;
