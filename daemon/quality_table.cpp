@@ -66,52 +66,8 @@ void requireWhole(const std::vector<QualityLevel>& levels, const std::string& fi
     }
 }
 
-}  // namespace
-
-std::vector<QualityLevel> parseQualityLevels(std::string_view toml, const std::string& fileName) {
-    TomlReader file(toml, fileName);
-    std::vector<QualityLevel> out;
-    for (const std::string& prefix : file.sections("level", kMostLevels))
-        out.push_back(readLevel(file, prefix));
-    file.finish();
-    requireWhole(out, fileName);
-    std::ranges::sort(out, {}, [](const QualityLevel& l) { return std::tie(l.ms, l.name); });
-    return out;
-}
-
-std::string toToml(std::span<const QualityLevel> levels) {
-    std::string out;
-    const Quality byDefault;
-    for (const QualityLevel& level : levels) {
-        Quality quality = level.quality, usual = byDefault;
-        out += fmt::format("[[level]]\nname = \"{}\"\nms = {:.1f}\npsnr_db = {:.2f}\nmode = "
-                           "\"{}\"\n",
-                           level.name, level.ms, level.psnrDb, name(quality.mode));
-        if (!quality.alongLines) out += "along_lines = false\n";
-        if (quality.detailShare != usual.detailShare)
-            out += fmt::format("detail_share = {:.3f}\n", quality.detailShare);
-        for (const LevelKey& key : kLevelKeys)
-            if (key.in(quality) != key.in(usual))
-                out += fmt::format("{} = {}\n", key.name, key.in(quality));
-        out += "\n";
-    }
-    return out;
-}
-
-std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels, SuperResMode best) {
-    std::vector<QualityLevel> out;
-    for (QualityLevel level : levels) {
-        if (best != SuperResMode::Detail && level.quality.mode == SuperResMode::Detail)
-            level.quality.mode = best;
-        if (best == SuperResMode::Off) level.quality = {.mode = SuperResMode::Off};
-        const auto same = [&](const QualityLevel& other) { return other.quality == level.quality; };
-        if (std::ranges::none_of(out, same)) out.push_back(level);
-    }
-    return out;
-}
-
-const std::vector<QualityLevel>& builtInQualityLevels() {
-    static const std::vector<QualityLevel> levels = parseQualityLevels(R"(
+// What `mfar-bench pareto --table FILE` writes.
+constexpr std::string_view kBuiltInLevels = R"(
 [[level]]
 name = "off"
 ms = 24.6
@@ -165,8 +121,55 @@ name = "detail"
 ms = 116.5
 psnr_db = 30.63
 mode = "detail"
-)",
-                                                                       "built-in levels");
+)";
+
+}  // namespace
+
+std::vector<QualityLevel> parseQualityLevels(std::string_view toml, const std::string& fileName) {
+    TomlReader file(toml, fileName);
+    std::vector<QualityLevel> out;
+    for (const std::string& prefix : file.sections("level", kMostLevels))
+        out.push_back(readLevel(file, prefix));
+    file.finish();
+    requireWhole(out, fileName);
+    std::ranges::sort(out, {}, [](const QualityLevel& l) { return std::tie(l.ms, l.name); });
+    return out;
+}
+
+std::string toToml(std::span<const QualityLevel> levels) {
+    std::string out;
+    const Quality byDefault;
+    for (const QualityLevel& level : levels) {
+        Quality quality = level.quality, usual = byDefault;
+        out += fmt::format("[[level]]\nname = \"{}\"\nms = {:.1f}\npsnr_db = {:.2f}\nmode = "
+                           "\"{}\"\n",
+                           level.name, level.ms, level.psnrDb, name(quality.mode));
+        if (!quality.alongLines) out += "along_lines = false\n";
+        if (quality.detailShare != usual.detailShare)
+            out += fmt::format("detail_share = {:.3f}\n", quality.detailShare);
+        for (const LevelKey& key : kLevelKeys)
+            if (key.in(quality) != key.in(usual))
+                out += fmt::format("{} = {}\n", key.name, key.in(quality));
+        out += "\n";
+    }
+    return out;
+}
+
+std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels, SuperResMode best) {
+    std::vector<QualityLevel> out;
+    for (QualityLevel level : levels) {
+        if (best != SuperResMode::Detail && level.quality.mode == SuperResMode::Detail)
+            level.quality.mode = best;
+        if (best == SuperResMode::Off) level.quality = {.mode = SuperResMode::Off};
+        const auto same = [&](const QualityLevel& other) { return other.quality == level.quality; };
+        if (std::ranges::none_of(out, same)) out.push_back(level);
+    }
+    return out;
+}
+
+const std::vector<QualityLevel>& builtInQualityLevels() {
+    static const std::vector<QualityLevel> levels =
+        parseQualityLevels(kBuiltInLevels, "built-in levels");
     return levels;
 }
 

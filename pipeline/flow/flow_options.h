@@ -25,7 +25,7 @@ struct EpipolarOptions {
     int stepPenalty = 12;   ///< Smoothness::step without noise; [1, 30]
     int jumpPenalty = 60;   ///< Smoothness::jump; [1, 60]
     bool bothWays = false;  ///< eq. 2's error from a search back, not from the z-test
-    int finest = 0;         ///< level the search ends at: 1, 2: a half, a quarter of the pixels; [0, 2]
+    int finest = 0;  ///< level the search ends at: 1, 2: a half, a quarter of the pixels; [0, 2]
     /// Of EpipolarFlow: frames in a row searched around what the one before showed; [0, 60].
     int mostPredicted = 7;
 

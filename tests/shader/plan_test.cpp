@@ -223,7 +223,7 @@ std::vector<int> matchedColumns(const WorkPlan& plan) {
 }
 
 TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
-    constexpr Size size{256, 96};  // 16 columns
+    const Size size{256, 96};  // 16 columns
     const Picture picture = dotted(size, {20, 60, 0, 40});
     WorkPlan plan(size);
     static_cast<void>(plan.add({1, 1, 1}));
@@ -246,7 +246,7 @@ TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
 }
 
 TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
-    constexpr Size size{256, 96};
+    const Size size{256, 96};
     const Picture drawn = dotted(size, {60});
     WorkPlan plan(size);
     const auto matching = plan.add({3, 1, 1});
@@ -268,7 +268,7 @@ TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
 
 // A whole frame in which few tiles get detail is enlarged, and those are listed.
 TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
-    constexpr Size size{256, 96};
+    const Size size{256, 96};
     for (const bool structured : {false, true}) {
         const Picture picture = structured ? randomPicture(size, 1) : dotted(size, {60});
         WorkPlan plan(size);

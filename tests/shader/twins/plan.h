@@ -62,10 +62,11 @@ inline void driftOf(const Difference& d, int x0, int y0, double grain, TileChang
         for (int i = 0; i < 64; ++i)
             variance += std::pow(d.twist(x0 + 2 * (i % 8), y0 + 2 * (i / 8), 1, channel), 2) / 64;
         for (int i = 0; i < 16; ++i) {
-            const double cell = d.mean(x0 + 4 * (i % 4), y0 + 4 * (i / 4), 4, channel);
+            const int x = i % 4, y = i / 4;
+            const double cell = d.mean(x0 + 4 * x, y0 + 4 * y, 4, channel);
             sum += cell;
-            slopeX += (i % 4 - 1.5) * cell;
-            slopeY += (i / 4 - 1.5) * cell;
+            slopeX += (x - 1.5) * cell;
+            slopeY += (y - 1.5) * cell;
         }
         const double squares = sum * sum / 16 + (slopeX * slopeX + slopeY * slopeY) / 20;
         out.cellNoise = std::max(out.cellNoise, variance / 16 * grain);
@@ -84,12 +85,15 @@ inline void driftOf(const Difference& d, int x0, int y0, double grain, TileChang
 inline double besidePlane(const std::array<double, 16>& v) {
     double mean = 0, dx = 0, dy = 0, out = 0;
     for (int i = 0; i < 16; ++i) {
+        const int x = i % 4, y = i / 4;
         mean += v[i] / 16;
-        dx += (i % 4 - 1.5) * v[i] / 20;
-        dy += (i / 4 - 1.5) * v[i] / 20;
+        dx += (x - 1.5) * v[i] / 20;
+        dy += (y - 1.5) * v[i] / 20;
     }
-    for (int i = 0; i < 16; ++i)
-        out += std::pow(v[i] - mean - (i % 4 - 1.5) * dx - (i / 4 - 1.5) * dy, 2);
+    for (int i = 0; i < 16; ++i) {
+        const int x = i % 4, y = i / 4;
+        out += std::pow(v[i] - mean - (x - 1.5) * dx - (y - 1.5) * dy, 2);
+    }
     return out;
 }
 
@@ -107,7 +111,7 @@ inline double structureOf(const Grey& grey, int x0, int y0) {
     return out;
 }
 
-inline TileChange tileChange(Picture now, const Picture& drawn, int tileX, int tileY,
+inline TileChange tileChange(const Picture& now, const Picture& drawn, int tileX, int tileY,
                              double grain = 1) {
     const Grey grey = luma(now.view());
     TileChange out;
