@@ -36,6 +36,16 @@ echo "$near bytes differ with the object in front, $far with the one behind"
 # What is not known hides nothing: specks at the edges of things.
 [ "$far" -lt $((near / 50)) ] || fail "the wall does not hide what is behind it"
 
+echo "without a map, what stands on a tag is shown as soon as one is the world"
+cp -r run mapless
+rm mapless/tags.toml
+for id in 0 1 2 3 4 5; do printf '[[objects]]\nsize = [0.1, 0.1, 0.1]\ntag = %d\n' "$id"; done >tags.toml
+{ head -n 2 near.toml; cat tags.toml; } >standing.toml
+run 0 --recording mapless --config standing.toml --display y4m:standing.y4m
+tail -c $((2304 * 1728 * 3 / 2)) standing.y4m >standing.raw
+[ "$(differing standing)" -gt 20000 ] || fail "nothing stands on the tag"
+[ "$(grep -c 'is not shown: it stands on tag' err)" = 5 ] || fail "the others are not told"
+
 echo "with nothing in it the configuration costs nothing"
 head -n 2 near.toml >none.toml
 last none --config none.toml
