@@ -55,6 +55,7 @@ struct Config {
     VirtualOptions virtualLayer;
     LightOptions light;
     std::vector<PlacedObject> objects;
+    bool validate = false;  ///< check what every pass writes; not in the file, as it is slow
 };
 
 /// The configuration file is wrong. The message has one line per fault, each

@@ -85,6 +85,9 @@ void addOutputs(CLI::App& app, Options& options, Words& words) {
         ->type_name("SOCKET");
     app.add_flag("--measure", options.measure,
                  "Wait for the graphics processor after each stage, for exact stage times");
+    app.add_flag("--validate", options.validate,
+                 "Check all that is written on the graphics processor for NaN, infinity and\n"
+                 "range, about ten times as slow; what is wrong is told in the log");
 }
 
 }  // namespace
@@ -132,6 +135,7 @@ Config effectiveConfig(const Options& options) {
     if (options.pose) config.pose.source = *options.pose;
     if (options.seed) config.seed = *options.seed;
     if (options.measure) config.status.measure = true;
+    config.validate = options.validate;
     if (config.pose.source == PoseOrigin::Recorded && config.recording.empty())
         throw Failure(ExitCode::BadConfig, "pose.source = \"recorded\" needs a recording");
     (void)configuredTags(config.pose);

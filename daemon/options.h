@@ -27,6 +27,7 @@ struct Options {
     std::optional<std::filesystem::path> summary;  ///< "-" = standard output
     std::optional<std::filesystem::path> control;  ///< socket for mfarctl
     bool measure = false;
+    bool validate = false;
 };
 
 /// What the command line asks for: a run, or only a text to be printed.

@@ -29,6 +29,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), rig_(config),
       poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl()),
+      validation_(config.validate ? std::make_unique<gpu::Validation>() : nullptr),
       pipeline_(rig_.geometry(), {config.superres.mode, {}, config.superres.skipUnchanged}),
       virtual_(config.virtualLayer, pipeline_),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
@@ -146,6 +147,19 @@ void Session::process(CapturedFrame captured) {
     stats_.recorderDropped(rig_.notRecorded());
     if (const auto matching = rig_.matching()) stats_.matching(*matching);
     rig_.checkRecording();
+    if (validation_) tellFaultyPasses();
+}
+
+void Session::tellFaultyPasses() {
+    for (const gpu::ValidationFault& fault : validation_->takeFaults()) {
+        ++validated_.faults;
+        stats_.warn("validation: " + describe(fault));
+    }
+    validated_.values = 0;
+    for (const auto& [pass, count] : validation_->counts())
+        validated_.values += static_cast<std::uint64_t>(count.values);
+    stats_.validation(validated_);
+    validation_->nextFrame();
 }
 
 void Session::govern() {

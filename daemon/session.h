@@ -14,6 +14,7 @@
 #include "daemon/virtual_world.h"
 #include "hal/display.h"
 #include "hal/gl_context.h"
+#include "pipeline/gpu/validation.h"
 #include "pipeline/pipeline.h"
 
 #include <cstdint>
@@ -82,6 +83,7 @@ private:
     /// Takes the governor's choice for the next frame.
     void govern();
     void showFault();
+    void tellFaultyPasses();
     void show(const GlImage& image, Timestamp time);
 
     Stats& stats_;
@@ -91,6 +93,7 @@ private:
     Rig rig_;
     PoseFinder poses_;
     std::unique_ptr<GlContext> gl_;
+    std::unique_ptr<gpu::Validation> validation_;  ///< of all that the pipeline writes
     Pipeline pipeline_;
     VirtualWorld virtual_;
     std::unique_ptr<Display> display_;
@@ -108,6 +111,7 @@ private:
     LightOptions light_;
     TagMap tags_;
     std::uint64_t pictures_ = 0;
+    ValidationCounts validated_{};
     RunDescription description_;
 };
 

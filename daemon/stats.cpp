@@ -79,6 +79,11 @@ std::vector<std::string> Stats::takeWarnings() {
     return std::exchange(warnings_, {});
 }
 
+void Stats::validation(const ValidationCounts& counts) {
+    const std::lock_guard lock(mutex_);
+    counted_.validation = counts;
+}
+
 void Stats::display(const std::string& name) {
     const std::lock_guard lock(mutex_);
     if (counted_.display != name) counted_.display = name;

@@ -31,6 +31,12 @@ struct StillCounts {
     std::uint64_t lost = 0;  ///< triggered and not received in time
 };
 
+/// What was checked of what passes wrote.
+struct ValidationCounts {
+    std::uint64_t values = 0;
+    std::uint64_t faults = 0;  ///< outputs that held a bad one
+};
+
 /// Everything counted since the start, and the latest frame. A copy, free of locks.
 struct Counted {
     std::uint64_t frames = 0;
@@ -60,10 +66,11 @@ struct Counted {
     std::optional<double> referenceAgeS;        ///< of the picture it showed, at the last frame
     FrameStats last;
     std::vector<StageTime> lastStages;
-    std::optional<double> stillAgeS;   ///< at the last frame
-    std::optional<std::string> fault;  ///< of a device, as the picture says it
-    std::string display;               ///< what is shown where
-    std::uint64_t faults = 0;          ///< times that there was none before
+    std::optional<double> stillAgeS;             ///< at the last frame
+    std::optional<std::string> fault;            ///< of a device, as the picture says it
+    std::string display;                         ///< what is shown where
+    std::uint64_t faults = 0;                    ///< times that there was none before
+    std::optional<ValidationCounts> validation;  ///< where it is asked for
 };
 
 /// One finished picture.
@@ -89,6 +96,8 @@ public:
     void display(const std::string& name);
     /// A picture was shown that says what is missing, while no frames come.
     void pictureOfFault();
+    /// Totals so far.
+    void validation(const ValidationCounts& counts);
     /// Of the path tracer, at a frame's time.
     void traced(const TracedLayerCounters& counters, Timestamp frame);
     void videoGap(std::uint64_t frames);

@@ -198,7 +198,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
     const auto tileShares = shares(counted.tiles);
     for (std::size_t i = 0; i < kTileClasses; ++i)
         tiles[kTileNames[i]] = tileShares[i];
-    return {
+    nlohmann::ordered_json out{
         {"version", MFAR_VERSION},
         {"exit_reason", exitReason},
         {"exit_code", exitCode},
@@ -228,6 +228,10 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
           {"recorder", counted.drops.recorder}}},
         {"faults", counted.faults},
     };
+    if (counted.validation)
+        out["validation"] = {{"values_checked", counted.validation->values},
+                             {"faulty_outputs", counted.validation->faults}};
+    return out;
 }
 
 }  // namespace mfar

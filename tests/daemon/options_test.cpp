@@ -43,7 +43,7 @@ TEST(Options, EveryOptionIsRead) {
                "new",         "--mode",    "blend",     "--pace",    "consumer",
                "--seed",      "7",         "--frames",  "12",        "--seconds",
                "2.5",         "--summary", "-",         "--measure", "--check-config",
-               "--pose",      "recorded"})
+               "--pose",      "recorded",  "--validate"})
             .options;
     EXPECT_TRUE(options.checkConfig);
     EXPECT_EQ(options.frames, 12U);
@@ -58,6 +58,7 @@ TEST(Options, EveryOptionIsRead) {
     EXPECT_EQ(config.pose.source, PoseOrigin::Recorded);
     EXPECT_EQ(config.seed, 7U);
     EXPECT_TRUE(config.status.measure);
+    EXPECT_TRUE(config.validate);
 }
 
 TEST(Options, TheCommandLineComesBeforeTheFile) {
