@@ -1,8 +1,8 @@
 // What tells whether a tile of 16x16 pixels differs from the picture it was last drawn from.
 // In: video now, video as last drawn. Out: two vec4 a tile: (1 when it surely changed or 0, standard
-// deviation of the video's noise in grey levels, structure, -) and mean squares of the luma's difference, scaled so
-// that all of white noise are its variance: of its pixels, of 2x2 means, of their twist. One invocation 4x4
-// pixels, 16 a tile.
+// deviation of the video's noise in grey levels, structure, -) and mean squares of the luma's difference,
+// scaled so that all of white noise are its variance: of its pixels, of 2x2 means, of their twist. One
+// invocation 4x4 pixels, 16 a tile.
 // Surely changed: a cell's mean difference is beyond its noise, or its mean absolute difference, which shows
 // fine structure that moved, or the tile's mean and slopes are, in units of the difference's own noise.
 // Colour counts by its largest channel. What is too weak for one tile shows in many: that is left to
@@ -17,7 +17,8 @@
 layout(local_size_x = 16) in;
 layout(std140, binding = 0) uniform Params {
     ivec4 size;        // video width, height, tiles a row, rows
-    vec4 threshold;    // of a cell's mean and of its mean absolute difference [grey levels]; a 2x2 mean's noise variance in quarters of a pixel's
+    vec4 threshold;    // of a cell's mean and of its mean absolute difference [grey levels]; a 2x2 mean's
+                       // noise variance in quarters of a pixel's
 };
 layout(binding = 0) uniform sampler2D now;
 layout(binding = 1) uniform sampler2D drawn;

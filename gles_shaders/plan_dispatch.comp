@@ -12,8 +12,9 @@
 // changed tiles; tiles[] = changed, matched (1 or 0); dispatches[] = group counts, 0 when nothing changed or
 // none of what did is matched; summary = changed tiles, quietest decile of the noise
 // [1/256 grey level], whole, what was drawn over is drawn anew (1 or 0); wholeDraw = command of the
-// full-screen draws, detail = of those that add detail, enlarged = of those that do not; grain = of the tiles that did not surely change: a 2x2 mean's noise variance in
-// quarters of a pixel's [1/1024], their number, changed tiles that are matched.
+// full-screen draws, detail = of those that add detail, enlarged = of those that do not; grain = of the tiles
+// that did not surely change: a 2x2 mean's noise variance in quarters of a pixel's [1/1024], their number,
+// changed tiles that are matched.
 // Range: tiles 0..1, 0..1
 
 layout(local_size_x = 1) in;
