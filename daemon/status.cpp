@@ -154,6 +154,20 @@ nlohmann::ordered_json lineSummary(const StillCounters& line) {
             {"relearned", line.relearned}};
 }
 
+nlohmann::ordered_json tileSummary(const Counted& counted) {
+    nlohmann::ordered_json out;
+    const auto tileShares = shares(counted.tiles);
+    for (std::size_t i = 0; i < kTileClasses; ++i)
+        out[kTileNames[i]] = tileShares[i];
+    return out;
+}
+
+/// Null where nothing is validated.
+nlohmann::ordered_json validationSummary(const std::optional<ValidationCounts>& counts) {
+    if (!counts) return nullptr;
+    return {{"values_checked", counts->values}, {"faulty_outputs", counts->faults}};
+}
+
 }  // namespace
 
 // The most important first: what does not fit on the terminal is cut off.
@@ -194,11 +208,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
     nlohmann::ordered_json stages = nlohmann::ordered_json::object();
     for (const auto& [stage, times] : counted.stageMs)
         stages[stage] = quantiles(times);
-    nlohmann::ordered_json tiles;
-    const auto tileShares = shares(counted.tiles);
-    for (std::size_t i = 0; i < kTileClasses; ++i)
-        tiles[kTileNames[i]] = tileShares[i];
-    nlohmann::ordered_json out{
+    return {
         {"version", MFAR_VERSION},
         {"exit_reason", exitReason},
         {"exit_code", exitCode},
@@ -211,7 +221,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
         {"fps", counted.fps},
         {"latency_ms", quantiles(counted.latencyMs)},
         {"stage_ms", stages},
-        {"tile_share", tiles},
+        {"tile_share", tileSummary(counted)},
         {"mean_confidence", counted.meanConfidence},
         {"stills",
          {{"triggered", counted.stills.triggered},
@@ -227,11 +237,8 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
           {"mailbox", counted.drops.mailbox},
           {"recorder", counted.drops.recorder}}},
         {"faults", counted.faults},
+        {"validation", validationSummary(counted.validation)},
     };
-    if (counted.validation)
-        out["validation"] = {{"values_checked", counted.validation->values},
-                             {"faulty_outputs", counted.validation->faults}};
-    return out;
 }
 
 }  // namespace mfar
