@@ -1,6 +1,7 @@
 // Class of every tile and the draw lists of the frame.
-// In: change flags, cell field. Out: lists[] = four lists of changed tiles (all, upscaled, trusted,
-// blended; empty when the whole frame is drawn at once), draws[] = their indirect commands and the counts of the frame, classes[] per tile.
+// In: change flags, cell field. Out: lists[] = four lists of changed tiles (all, upscaled, trusted, blended;
+// empty when the whole frame is drawn at once, the first two when it is enlarged at once), draws[] = their
+// indirect commands and the counts of the frame, classes[] per tile.
 // One invocation a tile; draws[] is zeroed before.
 // Range: classes 0..3, 0..16
 #include "tiles.glsl"

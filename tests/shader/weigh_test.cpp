@@ -177,12 +177,19 @@ twin::Cells mixedField() {
     return out;
 }
 
-/// Header (whole, changed tiles), then changed and noise of each tile: every third unchanged.
+/// Header (whole, changed tiles), then changed and matched of each tile: every third unchanged,
+/// every fifth not matched.
 std::vector<std::uint32_t> changes(std::uint32_t whole) {
     std::vector<std::uint32_t> out{whole, 0};
     for (unsigned i = 0; i < kTileCount; ++i)
-        out.insert(out.end(), {i % 3 == 0 ? 0U : 1U, 0U});
+        out.insert(out.end(), {i % 3 == 0 ? 0U : 1U, i % 5 == 0 ? 0U : 1U});
     return out;
+}
+
+/// Of a tile of mixedField() that changed.
+unsigned classIn(const twin::Cells& field, int tile) {
+    if (tile % 5 == 0) return 1;
+    return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width, {});
 }
 
 TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
@@ -192,7 +199,7 @@ TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
     std::array<unsigned, 4> counts{};
     for (int i = 0; i < static_cast<int>(kTileCount); ++i) {
         const int x = i % kClassified.width, y = i / kClassified.width;
-        const unsigned kind = i % 3 == 0 ? 0 : twin::tileClass(field, x, y, {});
+        const unsigned kind = i % 3 == 0 ? 0 : classIn(field, i);
         EXPECT_EQ(got.classes[i][0], kind) << "tile " << i;
         ++counts[kind];
         const auto packed = static_cast<std::uint32_t>(x | (y << 16));
@@ -216,6 +223,21 @@ TEST_F(Classify, AWholeFrameListsNothing) {
     EXPECT_EQ(got.draws.counts[0], 0U);
     for (const auto& command : got.draws.commands)
         EXPECT_EQ(command[1], 0U);
+}
+
+TEST_F(Classify, AnEnlargedFrameListsTheTilesWithDetail) {
+    const twin::Cells field = mixedField();
+    const Classified got = classify(field, changes(2), true);
+    std::array<unsigned, 4> counts{};
+    for (int i = 0; i < static_cast<int>(kTileCount); ++i)
+        ++counts[classIn(field, i)];
+    EXPECT_EQ(got.draws.commands[0][1], 0U);
+    EXPECT_EQ(got.draws.commands[1][1], 0U);
+    for (const unsigned k : {2U, 3U}) {
+        EXPECT_GT(counts[k], 0U);
+        EXPECT_EQ(got.draws.commands[k][1], counts[k]);
+        EXPECT_EQ(got.draws.counts[k], counts[k]);
+    }
 }
 
 TEST_F(Classify, WithoutAStillChangedTilesAreUpscaledAndUnexplained) {
