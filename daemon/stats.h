@@ -66,11 +66,11 @@ struct Counted {
     std::optional<double> referenceAgeS;        ///< of the picture it showed, at the last frame
     FrameStats last;
     std::vector<StageTime> lastStages;
-    std::optional<double> stillAgeS;             ///< at the last frame
-    std::optional<std::string> fault;            ///< of a device, as the picture says it
-    std::string display;                         ///< what is shown where
-    std::uint64_t faults = 0;                    ///< times that there was none before
-    std::optional<ValidationCounts> validation;  ///< where it is asked for
+    std::optional<double> stillAgeS;   ///< at the last frame
+    std::optional<std::string> fault;  ///< of a device, as the picture says it
+    std::string display;               ///< what is shown where
+    std::uint64_t faults = 0;          ///< times that there was none before
+    ValidationCounts validation{};     ///< zero where it is not asked for
 };
 
 /// One finished picture.

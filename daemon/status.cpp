@@ -162,10 +162,8 @@ nlohmann::ordered_json tileSummary(const Counted& counted) {
     return out;
 }
 
-/// Null where nothing is validated.
-nlohmann::ordered_json validationSummary(const std::optional<ValidationCounts>& counts) {
-    if (!counts) return nullptr;
-    return {{"values_checked", counts->values}, {"faulty_outputs", counts->faults}};
+nlohmann::ordered_json validationSummary(const ValidationCounts& counts) {
+    return {{"values_checked", counts.values}, {"faulty_outputs", counts.faults}};
 }
 
 }  // namespace
