@@ -97,7 +97,8 @@ void WorkPlan::update(const gpu::Texture& now, const gpu::Texture& drawn, bool f
     if (plan_.bytes() == 0) upload();
     followNoise();
     // A cell's mean of 16 differences has a deviation of 0.35 s, its mean absolute difference 0.21
-    // s around 1.13 s; both bounds leave room for brighter, noisier regions.
+    // s around 1.13 s; both bounds leave room for brighter, noisier regions and for single colours,
+    // whose noise is up to 1.5 times the luma's.
     const double noise = noise_ * std::sqrt(grain_);
     ChangeParams params{};
     params.size[0] = video_.width;
@@ -105,7 +106,7 @@ void WorkPlan::update(const gpu::Texture& now, const gpu::Texture& drawn, bool f
     params.size[2] = tileCount_.width;
     params.size[3] = tileCount_.height;
     params.threshold[0] = static_cast<float>(1.0 + 2.0 * noise);
-    params.threshold[1] = static_cast<float>(1.5 + 3.0 * noise);
+    params.threshold[1] = static_cast<float>(1.5 + 4.0 * noise);
     params.threshold[2] = static_cast<float>(grain_);
     change_.run(params,
                 {gpu::sampler(0, now), gpu::sampler(1, drawn), gpu::storage(0, measuredTiles_)},
