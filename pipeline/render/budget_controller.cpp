@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 namespace mfar {
@@ -30,8 +31,9 @@ BudgetController::BudgetController(double msPerFrame) : budget_(msPerFrame), bal
 }
 
 void BudgetController::beginFrame(bool workWaits) {
-    if (workWaits && (usedUp_ || used_ > budget_))
-        shares_[frames_++ % kFrames] = static_cast<float>(used_ / budget_);
+    const auto share = static_cast<float>(used_ / budget_);
+    if (workWaits) waited_[framesWaited_++ % kFrames] = share;
+    if (workWaits && (usedUp_ || share > 1)) shares_[frames_++ % kFrames] = share;
     const double most = workWaits ? kMostSaved * budget_ : 0;
     const double repaid = repayment(workWaits);
     balance_ = budget_ - repaid + std::clamp(balance_, -kMostDebt * budget_, most);
@@ -89,15 +91,15 @@ BudgetKept BudgetController::kept() const {
     const std::size_t known = std::min<std::size_t>(frames_, kFrames);
     if (known == 0) return {};
     std::array<float, kFrames> off{};
-    double sum = 0;
-    for (std::size_t i = 0; i < known; ++i) {
-        sum += shares_[i];
+    for (std::size_t i = 0; i < known; ++i)
         off[i] = std::abs(shares_[i] - 1);
-    }
+    const std::size_t all = std::min<std::size_t>(framesWaited_, kFrames);
+    const double sum =
+        std::accumulate(waited_.begin(), waited_.begin() + static_cast<std::ptrdiff_t>(all), 0.0);
     const auto end = off.begin() + static_cast<std::ptrdiff_t>(known);
     const auto p95 = off.begin() + static_cast<std::ptrdiff_t>(known * 95 / 100);
     std::nth_element(off.begin(), std::min(p95, end - 1), end);
-    return {static_cast<int>(known), sum / static_cast<double>(known),
+    return {static_cast<int>(known), sum / static_cast<double>(all),
             static_cast<double>(*std::min(p95, end - 1))};
 }
 

@@ -16,8 +16,8 @@ struct BudgetGrant {
 /// up or more: one that threads of low priority got no processor time for is no fault of it.
 struct BudgetKept {
     int frames = 0;        ///< at most BudgetController::kFrames
-    double mean = 0;       ///< time used by budget, over all of them; 0 without frames
-    double deviation = 0;  ///< 95th percentile of the frames' |used / budget - 1|
+    double mean = 0;       ///< time used by budget, also of frames that got too little of it
+    double deviation = 0;  ///< 95th percentile of |used / budget - 1| of those that could use it up
 };
 
 /// Keeps work to a number of milliseconds a frame. It knows the cost of a sample as the median of
@@ -64,8 +64,10 @@ private:
     double msPerSample_ = 0;
     std::array<double, kCosts> costs_{};  // of the last portions, a ring
     std::size_t learned_ = 0;
-    std::array<float, kFrames> shares_{};  // used / budget of the last frames, a ring
-    std::size_t frames_ = 0;
+    /// used / budget of the last frames, a ring: of those that could use it up, and in which work
+    /// waited.
+    std::array<float, kFrames> shares_{}, waited_{};
+    std::size_t frames_ = 0, framesWaited_ = 0;
 };
 
 }  // namespace mfar
