@@ -106,7 +106,7 @@ std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects, const
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const PlacedObject& object = objects[i];
         const std::string who = fmt::format("objects[{}] is not shown: ", i);
-        if (object.tag && tags.find(*object.tag) == nullptr)
+        if (!worldPlace(object, tags))
             out.push_back(who +
                           fmt::format("it stands on tag {} of {}, which is not in the tag map",
                                       object.tag->id, info(object.tag->family).name));
