@@ -176,11 +176,10 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
 }
 
 void Pipeline::State::prepareDepth(bool hasPose, bool searched, const PixelRect& where) {
-    const bool inView = objects && !objects->region().empty();
-    const bool isNeeded =
-        options.depthEverywhere ? plan.changedTiles() > 0 : objects && plan.redraws();
+    draws = objects && plan.redraws();
+    const bool isNeeded = options.depthEverywhere ? plan.changedTiles() > 0 : draws;
     matches.reset();
-    measures = hasPose && isNeeded && (!where.empty() || inView);
+    measures = hasPose && isNeeded && (!where.empty() || inView());
     depthIsDue = measures && ++depthAge >= depthEvery && !where.empty();
     if (!depthIsDue) return;
     depthAge = 0;
@@ -231,14 +230,12 @@ bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cel
 // camera.
 void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
                                   const std::optional<Pose>& pose, const PixelRect& where) {
-    const bool inView = objects && !objects->region().empty();
-    const bool draws = objects && plan.redraws();
-    result.stats.objectsInView = inView;
-    result.stats.objectsHidden = inView && objects->hidden();
+    result.stats.objectsInView = inView();
+    result.stats.objectsHidden = inView() && objects->hidden();
     if (measures) {
         measureDepth(frame, {time, pose->T_world_video, pose->covariance}, where);
         result.stats.depthTiles = tilesIn(where);
-        if (inView)
+        if (inView())
             result.stats.depthTilesSkipped =
                 std::max(tilesIn(objects->region()) - tilesIn(where), 0);
         if (!where.empty()) result.stats.depth = depth.source();

@@ -50,8 +50,10 @@ struct Pipeline::State {
     void matchStill(const ImageView& frame, const std::optional<Pose>& pose);
     /// Says where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
-    /// Decides whether depth is measured `where` it is needed, and takes from the flow what it is
-    /// measured by: a read after the frame's drawing has begun would wait for that.
+    [[nodiscard]] bool inView() const { return objects && !objects->region().empty(); }
+    /// Decides whether objects are drawn and depth is measured `where` it is needed, and takes from
+    /// the flow what it is measured by: a read after the frame's drawing has begun would wait for
+    /// that.
     void prepareDepth(bool hasPose, bool searched, const PixelRect& where);
     void measureDepth(const ImageView& frame, const Pose& pose, const PixelRect& where);
     void showObjects(const ImageView& frame, Timestamp time, const std::optional<Pose>& pose,
@@ -82,7 +84,7 @@ struct Pipeline::State {
     bool alongLines = true;
     double detailShare = 1;
     int depthEvery = 1, depthAge = 0;  // frames; since depth was measured
-    bool measures = false, depthIsDue = false;
+    bool draws = false, measures = false, depthIsDue = false;
     std::optional<DepthMatches> matches;  // of this frame, found along lines
     bool hasPrior = false;                // the flow field of the last frame belongs to this still
     bool measure = false;
