@@ -17,7 +17,7 @@
 // changed tiles that are matched.
 // Range: tiles 0..1, 0..1
 
-layout(local_size_x = 1) in;
+layout(local_size_x = 64) in;
 layout(std140, binding = 0) uniform Params {
     ivec4 counts;    // tiles, dispatches, changed tiles from which on the whole frame is drawn, tiles a row
     ivec4 drawnOver; // columns and rows of tiles: x0 <= x < x1, y0 <= y < y1
@@ -25,14 +25,14 @@ layout(std140, binding = 0) uniform Params {
     vec4 noise;      // a 2x2 mean's variance in quarters of a pixel's; structure that is none (below 0: all is), -, -
     ivec4 matched;   // at most so many tiles; at most so many for a list instead of the whole frame, -, -
 };
-layout(std430, binding = 0) buffer Tiles {
+layout(std430, binding = 0) writeonly buffer Tiles {
     uvec2 header;
     uvec2 tiles[];
 };
 layout(std430, binding = 1) readonly buffer Wanted {
     uvec4 wanted[];  // group counts of each dispatch, 1 when it is for matched tiles alone
 };
-layout(std430, binding = 2) buffer Plan {
+layout(std430, binding = 2) writeonly buffer Plan {
     uvec4 summary;
     uvec4 wholeDraw;  // vertices, instances, first vertex, reserved
     uvec4 grain;
@@ -40,94 +40,104 @@ layout(std430, binding = 2) buffer Plan {
     uvec4 enlarged;
     uvec4 dispatches[];
 };
-layout(std430, binding = 3) buffer Measured {
+layout(std430, binding = 3) coherent buffer Measured {
     vec4 measured[];
 };
 
+const int kWorkers = 64;
 const int kBins = 64;  // of 1/16 grey level
-const int kBlock = 8;  // tiles
-// Standard deviation of a tile's sum of squares over its mean, and how many of them are no accident.
-const float kSpread = 0.27;
-const float kSignificant = 5.0;
-// Share of the noise that a change may always hide in: what 8-bit steps are off from white noise.
-const float kLeast = 0.03;
 
-/// Of tiles that did not surely change: number, mean squares of pixels, of 2x2 means and of their twist.
-vec4 sumOver(ivec2 first, ivec2 end) {
-    vec4 sum = vec4(0.0);
-    for (int y = first.y; y < end.y; ++y) {
-        for (int x = first.x; x < end.x; ++x) {
-            int at = 2 * (y * counts.w + x);
-            if (measured[at].x == 0.0) sum += vec4(1.0, measured[at + 1].xyz);
-        }
-    }
-    return sum;
+shared uint noiseBins[kBins];
+shared uint measuredChanges, drawnChanges, listed;  // tiles
+shared uint besideChange;  // 1: a tile that was drawn over, or one beside them, changed
+
+// What all of them have written is seen by all.
+void meet() {
+    memoryBarrierBuffer();
+    memoryBarrierShared();
+    barrier();
 }
 
-bool drifted(vec4 sum) {
-    float room = max(kSignificant * kSpread * inversesqrt(max(sum.x, 1.0)), kLeast);
-    return sum.z > (1.0 + room) * noise.x * sum.y + 0.01 * sum.x;
-}
-
-void markAll(ivec2 first, ivec2 end) {
-    for (int y = first.y; y < end.y; ++y)
-        for (int x = first.x; x < end.x; ++x) measured[2 * (y * counts.w + x)].x = 1.0;
-}
-
+#include "plan_drift.glsl"
 #include "plan_structure.glsl"
 
-void main() {
-    int rows = counts.x / counts.w;
-    ivec2 end = ivec2(counts.w, rows);
-    vec4 all = sumOver(ivec2(0), end);
-    if (redraw.y != 0 || drifted(all)) markAll(ivec2(0), end);
-    for (int y = 0; y < rows; y += kBlock) {
-        for (int x = 0; x < counts.w; x += kBlock) {
-            ivec2 first = ivec2(x, y), last = min(first + kBlock, end);
-            if (drifted(sumOver(first, last))) markAll(first, last);
-        }
+void clearShared(int worker) {
+    for (int i = worker; i < kBins; i += kWorkers) noiseBins[i] = 0u;
+    for (int i = worker; i < kStructureBins; i += kWorkers) structureBins[i] = 0u;
+    if (worker == 0) {
+        measuredChanges = 0u;
+        drawnChanges = 0u;
+        listed = 0u;
+        besideChange = 0u;
     }
-    int least = leastStructure();
-    uint changed = 0u, listed = 0u;
-    uint histogram[kBins];
-    for (int i = 0; i < kBins; ++i) histogram[i] = 0u;
-    for (int i = 0; i < counts.x; ++i) {
+}
+
+bool isDrawnOver(int tile, int margin) {
+    ivec2 at = ivec2(tile % counts.w, tile / counts.w);
+    return all(greaterThanEqual(at, drawnOver.xy - margin)) && all(lessThan(at, drawnOver.zw + margin));
+}
+
+void countChanges(int worker) {
+    uint changed = 0u;
+    for (int i = worker; i < counts.x; i += kWorkers) {
         vec2 t = measured[2 * i].xy;
         changed += uint(t.x);
+        if (t.x != 0.0 && isDrawnOver(i, 1)) atomicMax(besideChange, 1u);
+        atomicAdd(noiseBins[clamp(int(t.y * 16.0), 0, kBins - 1)], 1u);
+    }
+    atomicAdd(measuredChanges, changed);
+}
+
+void writeTiles(int worker, bool under, int least) {
+    for (int i = worker; i < counts.x; i += kWorkers) {
         float around = measured[2 * i].w;
         bool isMatched = around > noise.y && structureBin(around) >= least;
-        tiles[i] = uvec2(uint(t.x), isMatched ? 1u : 0u);
-        histogram[clamp(int(t.y * 16.0), 0, kBins - 1)]++;
+        bool changes = measured[2 * i].x != 0.0 || (under && isDrawnOver(i, 0));
+        tiles[i] = uvec2(changes ? 1u : 0u, isMatched ? 1u : 0u);
+        if (changes) atomicAdd(drawnChanges, 1u);
+        if (changes && isMatched) atomicAdd(listed, 1u);
     }
-    bool under = redraw.x == 2 || (redraw.x == 1 && changed > 0u) || changed >= uint(counts.z);
-    for (int y = max(drawnOver.y - 1, 0); y < min(drawnOver.w + 1, rows); ++y)
-        for (int x = max(drawnOver.x - 1, 0); x < min(drawnOver.z + 1, counts.w); ++x)
-            under = under || measured[2 * (y * counts.w + x)].x != 0.0;
-    if (under) {
-        for (int y = drawnOver.y; y < drawnOver.w; ++y) {
-            for (int x = drawnOver.x; x < drawnOver.z; ++x) {
-                int i = y * counts.w + x;
-                changed += 1u - uint(measured[2 * i].x);
-                tiles[i].x = 1u;
-            }
-        }
-    }
+}
+
+int quietestDecile() {
     uint below = 0u;
     int bin = 0;
     for (; bin < kBins - 1; ++bin) {
-        below += histogram[bin];
+        below += noiseBins[bin];
         if (below * 10u >= uint(counts.x)) break;
     }
-    for (int i = 0; i < counts.x; ++i) listed += tiles[i].x * tiles[i].y;
-    uint whole = changed >= uint(counts.z) ? 1u : 0u;
+    return bin;
+}
+
+void writePlan(vec4 total, bool under) {
+    uint whole = drawnChanges >= uint(counts.z) ? 1u : 0u;
     bool listsDetail = whole != 0u && int(listed) <= matched.y;
     detail = uvec4(3u, listsDetail ? 0u : whole, 0u, 0u);
     enlarged = uvec4(3u, listsDetail ? whole : 0u, 0u, 0u);
-    summary = uvec4(changed, uint(bin) * 16u + 8u, whole, under ? 1u : 0u);
+    summary = uvec4(drawnChanges, uint(quietestDecile()) * 16u + 8u, whole, under ? 1u : 0u);
     wholeDraw = uvec4(3u, whole, 0u, 0u);
-    float ratio = all.w / max(all.y, 1e-3);
-    grain = uvec4(uint(clamp(ratio, 0.0, 64.0) * 1024.0), uint(all.x), listed, 0u);
-    header = uvec2(listsDetail ? 2u : whole, changed);
-    for (int i = 0; i < counts.y; ++i)
-        dispatches[i] = (wanted[i].w != 0u ? listed : changed) > 0u ? uvec4(wanted[i].xyz, 0u) : uvec4(0u, 1u, 1u, 0u);
+    float ratio = total.w / max(total.y, 1e-3);
+    grain = uvec4(uint(clamp(ratio, 0.0, 64.0) * 1024.0), uint(total.x), listed, 0u);
+    header = uvec2(listsDetail ? 2u : whole, drawnChanges);
+}
+
+void main() {
+    int worker = int(gl_LocalInvocationIndex);
+    clearShared(worker);
+    vec4 total = energyOfAll(worker);
+    markDrifted(worker, ivec2(counts.w, counts.x / counts.w), redraw.y != 0 || drifted(total));
+    countStructure(worker);
+    meet();
+    int least = leastStructure();
+    countChanges(worker);
+    meet();
+    bool under = redraw.x == 2 || (redraw.x == 1 && measuredChanges > 0u) ||
+                 measuredChanges >= uint(counts.z) || besideChange != 0u;
+    writeTiles(worker, under, least);
+    meet();
+    if (worker == 0) writePlan(total, under);
+    for (int i = worker; i < counts.y; i += kWorkers) {
+        bool opens = (wanted[i].w != 0u ? listed : drawnChanges) > 0u;
+        dispatches[i] = opens ? uvec4(wanted[i].xyz, 0u) : uvec4(0u, 1u, 1u, 0u);
+    }
 }

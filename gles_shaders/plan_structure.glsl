@@ -1,6 +1,9 @@
-// Which tiles have most structure. Needs counts, noise, matched and measured[] of plan_dispatch.comp.
+// Which tiles have most structure. Needs counts, noise, matched, measured[] and kWorkers of
+// plan_dispatch.comp.
 
 const int kStructureBins = 84;  // a quarter of an octave
+
+shared uint structureBins[kStructureBins];  // tiles
 
 // Of the tile and those beside it, as the weight of a cell looks beyond its tile.
 float structureAround(int x, int y) {
@@ -15,16 +18,19 @@ int structureBin(float structure) {
     return clamp(int(4.0 * log2(structure + 1.0)), 0, kStructureBins - 1);
 }
 
-// Marks tiles in w; the least bin of structure that leaves at most as many as are wanted.
-int leastStructure() {
-    int histogram[kStructureBins];
-    for (int i = 0; i < kStructureBins; ++i) histogram[i] = 0;
-    for (int i = 0; i < counts.x; ++i) {
+// Marks tiles in w.
+void countStructure(int worker) {
+    for (int i = worker; i < counts.x; i += kWorkers) {
         float around = structureAround(i % counts.w, i / counts.w);
         measured[2 * i].w = around;
-        if (around > noise.y) histogram[structureBin(around)]++;
+        if (around > noise.y) atomicAdd(structureBins[structureBin(around)], 1u);
     }
-    int above = 0, bin = kStructureBins;
-    while (bin > 0 && above + histogram[bin - 1] <= matched.x) above += histogram[--bin];
+}
+
+// The least bin of structure that leaves at most as many as are wanted.
+int leastStructure() {
+    uint above = 0u;
+    int bin = kStructureBins;
+    while (bin > 0 && above + structureBins[bin - 1] <= uint(matched.x)) above += structureBins[--bin];
     return bin;
 }
