@@ -33,6 +33,28 @@ PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
             static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
 }
 
+/// What a pixel's real surface says to a question about its tile.
+enum class Surface { Unknown, Finding, Other };
+
+struct TileBounds {
+    int findings, unknown;  // pixels
+};
+
+/// Whether a tile's pixels in the picture, asked one by one by their place in it, exceed one of
+/// the bounds.
+template <typename Ask>
+bool holdsMore(const TileBounds& most, const PixelRect& tile, Size video, const Ask& ask) {
+    TileBounds found{};
+    for (int y = tile.y0; y < std::min(tile.y1, video.height); ++y) {
+        for (int x = tile.x0; x < std::min(tile.x1, video.width); ++x) {
+            const Surface surface = ask(static_cast<std::size_t>(y) * video.width + x);
+            if (surface == Surface::Unknown && ++found.unknown > most.unknown) return true;
+            if (surface == Surface::Finding && ++found.findings > most.findings) return true;
+        }
+    }
+    return false;
+}
+
 }  // namespace
 
 VirtualView::VirtualView(const CameraModel& video, Size output)
@@ -108,17 +130,11 @@ void VirtualView::addTiles(const std::vector<SurfaceRange>& tiles, const Inverse
 bool VirtualView::mayHide(const PixelRect& tile, float farthest,
                           const InverseDepthField& known) const {
     const float behind = 1 / farthest;
-    int unknown = 0;
-    for (int y = tile.y0; y < std::min(tile.y1, video_.height); ++y) {
-        for (int x = tile.x0; x < std::min(tile.x1, video_.width); ++x) {
-            const auto i = static_cast<std::size_t>(y) * video_.width + x;
-            if (!known.isKnown(i))
-                ++unknown;
-            else if (known.rho[i] + 3 * std::sqrt(known.variance[i]) >= behind)
-                return true;
-        }
-    }
-    return unknown > kMostUnknown;
+    return holdsMore({.findings = 0, .unknown = kMostUnknown}, tile, video_, [&](std::size_t i) {
+        if (!known.isKnown(i)) return Surface::Unknown;
+        const bool before = known.rho[i] + 3 * std::sqrt(known.variance[i]) >= behind;
+        return before ? Surface::Finding : Surface::Other;
+    });
 }
 
 // The surface that a shadow lies on is always close to it and need not be searched for anew each
@@ -126,34 +142,24 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
 bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const {
     const float before = 1 / nearest;
-    int unknown = 0, things = 0;
-    for (int y = tile.y0; y < std::min(tile.y1, video_.height); ++y) {
-        for (int x = tile.x0; x < std::min(tile.x1, video_.width); ++x) {
-            const auto i = static_cast<std::size_t>(y) * video_.width + x;
-            const float sigma = std::sqrt(known.variance[i]);
-            if (!(sigma < kShadowLift * known.rho[i]))
-                ++unknown;
-            else if (known.rho[i] - 3 * sigma > before)
-                ++things;
-        }
-    }
-    return things > kMostGaps || unknown > kMostUnknown;
+    const TileBounds most{.findings = kMostGaps, .unknown = kMostUnknown};
+    return holdsMore(most, tile, video_, [&](std::size_t i) {
+        const float sigma = std::sqrt(known.variance[i]);
+        if (!(sigma < kShadowLift * known.rho[i])) return Surface::Unknown;
+        return known.rho[i] - 3 * sigma > before ? Surface::Finding : Surface::Other;
+    });
 }
 
 // The surfaces of a tile are those around it as well, so its samples are all that decide.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
-    int gaps = 0;
-    for (int y = tile.y0; y < std::min(tile.y1, video_.height); ++y) {
-        for (int x = tile.x0; x < std::min(tile.x1, video_.width); ++x) {
-            const auto i = static_cast<std::size_t>(y) * video_.width + x;
-            if (!known.isKnown(i))
-                ++gaps;
-            else if (!composite_.hides(known.rho[i], std::sqrt(known.variance[i]), 1 / nearest))
-                return false;
-        }
-    }
-    return gaps <= kMostGaps;
+    const TileBounds most{.findings = 0, .unknown = kMostGaps};
+    return !holdsMore(most, tile, video_, [&](std::size_t i) {
+        if (!known.isKnown(i)) return Surface::Unknown;
+        const float sigma = std::sqrt(known.variance[i]);
+        return composite_.hides(known.rho[i], sigma, 1 / nearest) ? Surface::Other
+                                                                  : Surface::Finding;
+    });
 }
 
 WorkPlan::Redraw VirtualView::redraw() const {
