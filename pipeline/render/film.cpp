@@ -12,8 +12,9 @@ constexpr float kGreyLevels = 255;
 // Of an unknown background to an object's value: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 
-float luminanceOf(const Eigen::Vector3f& rgb) {
-    return 0.2126F * rgb.x() + 0.7152F * rgb.y() + 0.0722F * rgb.z();
+template <typename Number>
+Number luminanceOf(const Eigen::Vector3<Number>& rgb) {
+    return rgb.dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722).cast<Number>());
 }
 
 bool isLight(const Eigen::Vector3f& rgb) {
@@ -25,9 +26,9 @@ void keepNearest(FirstHit& kept, const FirstHit& hit) {
 }
 
 /// Of the mean of n samples, from their sum and the sum of their squares.
-float varianceOfMean(float sum, float squares, float n) {
+double varianceOfMean(double sum, double squares, double n) {
     if (n < 2) return 0;
-    return std::max(0.0F, squares - sum * sum / n) / (n * (n - 1));
+    return std::max(0.0, squares - sum * sum / n) / (n * (n - 1));
 }
 
 float slopeAt(const Eigen::Vector3f& radiance, const Exposure& exposure) {
@@ -70,15 +71,16 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
         ++p.lost;
     } else if (sample.hit.id == kCatcherId) {
         ++p.catcherHits;
-        p.with += sample.radiance;
-        p.without += sample.without;
-        const float change = luminanceOf(sample.radiance - sample.without);
+        p.with += sample.radiance.cast<double>();
+        p.without += sample.without.cast<double>();
+        const double change =
+            luminanceOf<double>((sample.radiance - sample.without).cast<double>());
         p.changeSquares += change * change;
         keepNearest(p.catcher, sample.hit);
     } else if (sample.hit.id != 0) {
         ++p.objectHits;
-        p.object += sample.radiance;
-        const float y = luminanceOf(sample.radiance);
+        p.object += sample.radiance.cast<double>();
+        const double y = luminanceOf<double>(sample.radiance.cast<double>());
         p.objectSquares += y * y;
         keepNearest(p.nearest, sample.hit);
     }
@@ -90,23 +92,23 @@ void Film::setCentre(std::size_t pixel, const FirstHit& hit) {
 
 float Film::error(std::size_t pixel, const Exposure& exposure) const {
     const Pixel& p = pixels_[pixel];
-    const auto n = static_cast<float>(p.taken - p.lost);
+    const auto n = static_cast<double>(p.taken - p.lost);
     if (n < 2) return std::numeric_limits<float>::infinity();
-    const auto objects = static_cast<float>(p.objectHits);
-    const auto catchers = static_cast<float>(p.catcherHits);
-    float variance = 0;
+    const auto objects = static_cast<double>(p.objectHits);
+    const auto catchers = static_cast<double>(p.catcherHits);
+    double variance = 0;
     if (objects > 0) {
-        const float slope = slopeAt(p.object / objects, exposure) * objects / n;
+        const double slope = slopeAt((p.object / objects).cast<float>(), exposure) * objects / n;
         variance += slope * slope * varianceOfMean(luminanceOf(p.object), p.objectSquares, objects);
     }
     if (catchers > 0) {
-        const float slope = slopeAt(p.without / catchers, exposure) * catchers / n;
-        const float change = luminanceOf(p.with - p.without);
+        const double slope = slopeAt((p.without / catchers).cast<float>(), exposure) * catchers / n;
+        const double change = luminanceOf<double>(p.with - p.without);
         variance += slope * slope * varianceOfMean(change, p.changeSquares, catchers);
     }
-    const float covered = objects / n;
-    const float edge = kEdgeContrast * kEdgeContrast * covered * (1 - covered);
-    return std::sqrt(variance + edge / (n * std::sqrt(n)));
+    const double covered = objects / n;
+    const double edge = kEdgeContrast * kEdgeContrast * covered * (1 - covered);
+    return static_cast<float>(std::sqrt(variance + edge / (n * std::sqrt(n))));
 }
 
 Film::Means Film::meansOf(const Pixel& p) {
@@ -114,13 +116,13 @@ Film::Means Film::meansOf(const Pixel& p) {
     const auto n = static_cast<float>(p.taken - p.lost);
     if (p.objectHits > 0) {
         const auto hits = static_cast<float>(p.objectHits);
-        out.object = p.object / hits;
+        out.object = (p.object / double(p.objectHits)).cast<float>();
         out.objectShare = hits / n;
     }
     if (p.catcherHits > 0) {
         const auto hits = static_cast<float>(p.catcherHits);
-        out.with = p.with / hits;
-        out.without = p.without / hits;
+        out.with = (p.with / double(p.catcherHits)).cast<float>();
+        out.without = (p.without / double(p.catcherHits)).cast<float>();
         out.catcherShare = hits / n;
     }
     return out;

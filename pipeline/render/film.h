@@ -72,9 +72,10 @@ public:
 
 private:
     struct Pixel {
-        Eigen::Vector3f object{0, 0, 0}, with{0, 0, 0}, without{0, 0, 0};
-        float objectSquares = 0;  // of luminance
-        float changeSquares = 0;  // of the luminance's change on the catcher
+        // In single precision a million samples would be a percent off, and a variance nothing.
+        Eigen::Vector3d object{0, 0, 0}, with{0, 0, 0}, without{0, 0, 0};
+        double objectSquares = 0;  // of luminance
+        double changeSquares = 0;  // of the luminance's change on the catcher
         std::uint32_t taken = 0, lost = 0, objectHits = 0, catcherHits = 0;
         FirstHit centre, nearest, catcher;
     };

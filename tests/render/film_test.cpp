@@ -56,6 +56,25 @@ TEST(Film, ObjectIsItsMeanPremultiplied) {
     EXPECT_EQ(picture.samples, 4);
 }
 
+TEST(Film, AMillionSamplesAreAtDoublePrecision) {
+    Film film({2, 1});
+    double sum = 0, squares = 0;
+    constexpr int kSamples = 1000000;
+    for (int i = 0; i < kSamples; ++i) {
+        const float value = 0.1F + 1e-4F * static_cast<float>(i % 3 - 1);
+        film.add(0, objectSample(value));
+        film.add(1, catcherSample(Eigen::Vector3f::Constant(value), Eigen::Vector3f::Ones()));
+        sum += value;
+        squares += double(value) * value;
+    }
+    const double mean = sum / kSamples;
+    EXPECT_NEAR(film.means(0).object.x(), mean, 1e-8);
+    EXPECT_NEAR(film.means(1).with.x(), mean, 1e-8);
+    const double deviation = std::sqrt((squares - sum * mean) / kSamples / (kSamples - 1));
+    const double slope = 255 * srgbSlope(static_cast<float>(mean));
+    EXPECT_NEAR(film.error(0) / (slope * deviation), 1, 1e-3);
+}
+
 TEST(Film, CentreDecidesDepth) {
     Film film({1, 1});
     film.setCentre(0, {1.5F, 2});

@@ -6,21 +6,28 @@
 
 namespace mfar::stress {
 
+Size Context::size(int least, int most) {
+    const bool isVideo = scale == Scale::Product || (scale == Scale::Mixed && hostile.chance(0.15));
+    if (!isVideo) return hostile.size(least, most);
+    return {640 + hostile.integer(-1, 1), 480 + hostile.integer(-1, 1)};
+}
+
 std::vector<Case> allCases() {
     std::vector<Case> out;
-    for (const auto& some : {flowCases(), triangulationCases(), pipelineCases(), pictureCases(),
-                             virtualCases(), searchCases(), depthCases(), poseCases()})
+    for (const auto& some :
+         {flowCases(), triangulationCases(), pipelineCases(), pictureCases(), virtualCases(),
+          searchCases(), depthCases(), poseCases(), warpCases(), tracerCases()})
         out.insert(out.end(), some.begin(), some.end());
     return out;
 }
 
 std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks, GlWatch& gl,
-                             bool large) {
+                             Scale scale) {
     // Neighbouring seeds, and the same seed in two cases, draw nothing alike.
     std::uint64_t mixed = seed;
     for (const char* c = one.name; *c != '\0'; ++c)
         mixed = (mixed ^ static_cast<unsigned char>(*c)) * 0x100000001B3ULL;
-    Context context{Hostile(mixed), checks, gl, large};
+    Context context{Hostile(mixed), checks, gl, scale};
     try {
         one.run(context);
         gl.frame(checks, 0);

@@ -15,16 +15,24 @@
 /// or exchanging the views changes nothing else.
 namespace mfar::stress {
 
+/// How large the pictures are: small ones, as in the tests; some of the product's size among them;
+/// of the product's size alone.
+enum class Scale { Tests, Mixed, Product };
+
 struct Context {
     Hostile hostile;
     Checks& checks;
     GlWatch& gl;
-    bool large = false;  ///< pictures of the product's size may come
+    Scale scale = Scale::Tests;
+
+    /// Of the video; hostile.size(least, most) where it is small.
+    [[nodiscard]] Size size(int least, int most);
 };
 
 struct Case {
     const char* name;
     void (*run)(Context& context);
+    bool atProductSize = false;  ///< quick enough to be run again and again at that
 };
 
 [[nodiscard]] std::vector<Case> allCases();
@@ -38,10 +46,18 @@ struct Case {
 [[nodiscard]] std::vector<Case> searchCases();
 [[nodiscard]] std::vector<Case> depthCases();
 [[nodiscard]] std::vector<Case> poseCases();
+[[nodiscard]] std::vector<Case> warpCases();
+#ifdef MFAR_PATH_TRACING
+[[nodiscard]] std::vector<Case> tracerCases();
+#else
+[[nodiscard]] inline std::vector<Case> tracerCases() {
+    return {};
+}
+#endif
 
 /// Runs a case; what is thrown is a fault as well. The faults, each with the case and the seed.
 [[nodiscard]] std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks,
-                                           GlWatch& gl, bool large);
+                                           GlWatch& gl, Scale scale);
 
 [[nodiscard]] inline long pixelsOf(Size size) {
     return static_cast<long>(size.width) * size.height;

@@ -19,19 +19,22 @@ public:
     }
     void fail(const std::string& what);
 
-    /// So many pixels of a picture went through a pass of the host.
-    void through(const char* pass, long pixels) { pixels_[pass] += pixels; }
-    void throughPass(const std::string& pass, long pixels) { pixels_[pass] += pixels; }
+    /// So many pixels of a picture went through a pass.
+    void through(const std::string& pass, long pixels) { pixels_[pass] += pixels; }
+    /// What is no pass over a picture had so many tags, matches or points.
+    void tried(const std::string& part, long inputs) { inputs_[part] += inputs; }
 
     /// Pixels by pass.
     [[nodiscard]] const std::map<std::string, long>& pixels() const { return pixels_; }
+    /// Inputs of the parts that have no pixels.
+    [[nodiscard]] const std::map<std::string, long>& inputs() const { return inputs_; }
     /// What failed since the last call.
     [[nodiscard]] std::vector<std::string> take();
 
 private:
     void failRange(double value, double low, double high, const char* what);
 
-    std::map<std::string, long> pixels_;
+    std::map<std::string, long> pixels_, inputs_;
     std::vector<std::string> faults_;
 };
 

@@ -39,8 +39,7 @@ void checkField(Context& c, const InverseDepthField& field) {
 }
 
 void hostileFilter(Context& c) {
-    const CameraModel camera = c.hostile.camera(
-        c.large && c.hostile.chance(0.4) ? Size{640, 480} : c.hostile.size(1, 100));
+    const CameraModel camera = c.hostile.camera(c.size(1, 100));
     DepthFilter filter(camera, depthWorkers());
     const double unit = c.hostile.logarithmic(1e-6, 1e3);
     const double spoilt = c.hostile.pick({0.0, 0.02, 0.5});
@@ -85,7 +84,7 @@ void carriedDepth(Context& c) {
 }
 
 void hostileStage(Context& c) {
-    const CameraModel camera = c.hostile.camera(c.hostile.size(1, 120));
+    const CameraModel camera = c.hostile.camera(c.size(1, 120));
     const Size size = camera.size;
     DepthStage stage(camera, depthWorkers());
     const double unit = c.hostile.pick({1e-6, 1e-3, 1.0, 1.0, 1e3});
@@ -108,7 +107,7 @@ void hostileStage(Context& c) {
 }
 
 void hostileEdges(Context& c) {
-    const Size half = c.hostile.size(1, c.large ? 160 : 50);
+    const Size half = c.size(1, 50);
     const Size size{2 * half.width, 2 * half.height};
     EdgeSnap snap(size, depthWorkers());
     for (int i = 0; i < 2; ++i) {
@@ -130,10 +129,10 @@ void hostileEdges(Context& c) {
 }  // namespace
 
 std::vector<Case> depthCases() {
-    return {{"depth-filter", hostileFilter},
+    return {{"depth-filter", hostileFilter, true},
             {"depth-carried", carriedDepth},
-            {"depth-stage", hostileStage},
-            {"edges", hostileEdges}};
+            {"depth-stage", hostileStage, true},
+            {"edges", hostileEdges, true}};
 }
 
 }  // namespace mfar::stress

@@ -34,7 +34,7 @@ void checkFlow(Context& c, const std::vector<float>& flow, Size size) {
 }
 
 void hostileFlow(Context& c) {
-    const Size size = c.large && c.hostile.chance(0.2) ? Size{640, 480} : c.hostile.size(16, 200);
+    const Size size = c.size(16, 200);
     const Picture a = c.hostile.picture(size);
     const Picture b =
         c.hostile.picture(size, c.hostile.chance(0.3) ? PixelFormat::Gray8 : PixelFormat::Rgba8);
@@ -64,9 +64,7 @@ Picture mirrored(const Picture& p) {
 
 // Within reach of the search and of sub-pixel steps; the other way round; in a mirror.
 void shiftedPicture(Context& c) {
-    const Size size = c.large && c.hostile.chance(0.1)
-                          ? Size{640, 480}
-                          : Size{c.hostile.integer(101, 180), c.hostile.integer(101, 150)};
+    const Size size = c.size(101, 180);
     const Waves waves(static_cast<unsigned>(c.hostile.integer(1, 1 << 30)), 6, 60, 35);
     const Eigen::Vector2d shift(c.hostile.real(-6, 6), c.hostile.real(-6, 6));
     const double gain = c.hostile.real(0.6, 1.2), offset = c.hostile.real(-15, 15);
@@ -87,8 +85,9 @@ void shiftedPicture(Context& c) {
 }  // namespace
 
 std::vector<Case> flowCases() {
-    return {
-        {"flow2d", hostileFlow}, {"flow2d-same", samePicture}, {"flow2d-shift", shiftedPicture}};
+    return {{"flow2d", hostileFlow, true},
+            {"flow2d-same", samePicture},
+            {"flow2d-shift", shiftedPicture}};
 }
 
 }  // namespace mfar::stress

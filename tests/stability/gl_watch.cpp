@@ -3,6 +3,7 @@
 #include "pipeline/gpu/gl.h"
 #include "tests/stability/watched_shaders.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -25,8 +26,11 @@ GlWatch::~GlWatch() {
 void GlWatch::frame(Checks& checks, long pixels) {
     for (const auto& fault : validation_.takeFaults())
         checks.fail(describe(fault));
-    for (const auto& [pass, count] : validation_.counts())
-        if (count.runs > std::exchange(runs_[pass], count.runs)) checks.throughPass(pass, pixels);
+    for (const auto& [pass, count] : validation_.counts()) {
+        const Counted before = std::exchange(counted_[pass], {count.runs, count.pixels});
+        if (count.runs > before.runs)
+            checks.through(pass, std::max(pixels, count.pixels - before.pixels));
+    }
     std::vector<std::uint32_t> counts(kMostWatched);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_COPY_READ_BUFFER, outOfRange_);

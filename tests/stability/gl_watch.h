@@ -19,15 +19,18 @@ public:
     GlWatch(const GlWatch&) = delete;
     GlWatch& operator=(const GlWatch&) = delete;
 
-    /// All passes since the last call worked on pictures of so many pixels; what is wrong with them
-    /// is a fault.
+    /// All passes since the last call worked on pictures of so many pixels, or on as many as they
+    /// wrote where those are more; what is wrong with them is a fault.
     void frame(Checks& checks, long pixels);
 
 private:
     std::unique_ptr<GlContext> context_;
     gpu::Validation validation_;
     GLuint outOfRange_ = 0;
-    std::map<std::string, long> runs_;
+    struct Counted {
+        long runs = 0, pixels = 0;
+    };
+    std::map<std::string, Counted> counted_;
 };
 
 }  // namespace mfar::stress

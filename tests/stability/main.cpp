@@ -1,4 +1,5 @@
 // mfar-stress: hostile cases with new seeds until the time is over or one of them fails.
+#include "tests/stability/balance.h"
 #include "tests/stability/cases.h"
 #include "tests/stability/precision.h"
 #include "tests/stability/watched_shaders.h"
@@ -28,7 +29,8 @@ struct Options {
     int rounds = 0;
     std::vector<std::string> cases;
     int plant = -1;
-    bool small = false, keepGoing = false, precision = false, listPlanted = false,
+    long pixels = 100000000;
+    bool small = false, full = false, keepGoing = false, precision = false, listPlanted = false,
          listCases = false;
 };
 
@@ -43,6 +45,10 @@ Options parse(int argc, char** argv) {
     app.add_option("--case", o.cases, "these cases alone")->delimiter(',');
     app.add_option("--plant", o.plant, "plants a fault of --list-planted first");
     app.add_flag("--small", o.small, "small pictures alone, as in the tests");
+    app.add_flag("--full", o.full, "pictures of the product's size alone")->excludes("--small");
+    app.add_option("--pixels", o.pixels,
+                   "three quarters of the time bring as many through each pass (default 10^8)")
+        ->check(CLI::NonNegativeNumber);
     app.add_flag("--keep-going", o.keepGoing, "goes on after a failure");
     app.add_flag("--precision", o.precision, "prints the errors of single and half precision");
     app.add_flag("--list-planted", o.listPlanted, "prints the faults that can be planted");
@@ -64,57 +70,101 @@ std::vector<Case> chosen(const Options& o) {
     return out;
 }
 
-void printPixels(const Checks& checks) {
+void printCounts(const Checks& checks) {
     fmt::print("{:<28} {:>16}\n", "pass", "pixels");
     for (const auto& [pass, pixels] : checks.pixels())
         fmt::print("{:<28} {:>16}\n", pass, pixels);
+    fmt::print("{:<28} {:>16}\n", "part", "inputs");
+    for (const auto& [part, inputs] : checks.inputs())
+        fmt::print("{:<28} {:>16}\n", part, inputs);
 }
 
-/// Seeds, cases, failures.
-struct Totals {
-    long seeds = 0, cases = 0, failures = 0;
+/// Runs cases with one seed after the other.
+class Run {
+public:
+    explicit Run(const Options& options)
+        : options_(options), cases_(chosen(options)), balance_(cases_) {}
+
+    int drawSeeds();
+
+private:
+    [[nodiscard]] double minutes() const {
+        return std::chrono::duration<double>(Clock::now() - begin_).count() / 60;
+    }
+    [[nodiscard]] bool stops() const { return failures_ > 0 && !options_.keepGoing; }
+    void runCase(const Case& one, std::uint64_t seed, Scale scale);
+    void fillUp(std::uint64_t seed, double until);
+    void progress(std::uint64_t seed) const;
+
+    Options options_;
+    std::vector<Case> cases_;
+    Balance balance_;
+    GlWatch gl_;
+    Checks checks_;
+    Clock::time_point begin_ = Clock::now();
+    long seeds_ = 0, ran_ = 0, failures_ = 0;
 };
 
-void progress(const Totals& totals, std::uint64_t seed, double minutes) {
-    fmt::print("{:6.1f} min, {} cases of {} seeds, the last {}, {} failures\n", minutes,
-               totals.cases, totals.seeds, seed, totals.failures);
+void Run::runCase(const Case& one, std::uint64_t seed, Scale scale) {
+    const auto before = checks_.pixels();
+    const double start = minutes();
+    const auto faults = run(one, seed, checks_, gl_, scale);
+    if (scale == Scale::Product)
+        balance_.ran(one, before, checks_.pixels(), 60 * (minutes() - start));
+    ++ran_;
+    for (const std::string& fault : faults)
+        fmt::print("FAILED {}\n", fault);
+    failures_ += faults.empty() ? 0 : 1;
+    if (!faults.empty())
+        fmt::print("repeat: ./run stress --seed {} --case {}{}\n", seed, one.name,
+                   scale == Scale::Product ? " --full" : "");
+}
+
+// Each case with a seed of its own, as one may come again at once.
+void Run::fillUp(std::uint64_t seed, double until) {
+    constexpr std::uint64_t kFarOff = 1000000007;
+    while (!stops() && minutes() < until) {
+        const Case* one = balance_.next(checks_, options_.pixels);
+        if (one == nullptr) return;
+        runCase(*one, seed, Scale::Product);
+        seed += kFarOff;
+    }
+}
+
+void Run::progress(std::uint64_t seed) const {
+    fmt::print("{:6.1f} min, {} cases of {} seeds, the last {}, {} failures\n", minutes(), ran_,
+               seeds_, seed, failures_);
     std::fflush(stdout);
 }
 
-int drawSeeds(const Options& o) {
-    GlWatch gl;
-    Checks checks;
-    const auto cases = chosen(o);
-    const auto begin = Clock::now();
-    const auto minutes = [&] {
-        return std::chrono::duration<double>(Clock::now() - begin).count() / 60;
-    };
-    std::uint64_t seed = o.seed ? *o.seed : o.first;
+int Run::drawSeeds() {
+    std::uint64_t seed = options_.seed ? *options_.seed : options_.first;
     if (seed == 0)
         seed = static_cast<std::uint64_t>(
             std::chrono::system_clock::now().time_since_epoch().count() / 1000000000);
-    Totals totals;
+    const bool repeats = options_.seed.has_value();
+    const Scale scale = options_.full    ? Scale::Product
+                        : options_.small ? Scale::Tests
+                                         : Scale::Mixed;
     double told = 0;
     for (bool more = true; more; ++seed) {
-        for (const Case& one : cases) {
-            const auto faults = run(one, seed, checks, gl, !o.small);
-            ++totals.cases;
-            for (const std::string& fault : faults)
-                fmt::print("FAILED {}\n", fault);
-            totals.failures += faults.empty() ? 0 : 1;
-            if (!faults.empty())
-                fmt::print("repeat: ./run stress --seed {} --case {}\n", seed, one.name);
-            if (!faults.empty() && !o.keepGoing) break;
+        const double start = minutes();
+        for (const Case& one : cases_) {
+            runCase(one, seed, scale);
+            if (stops()) break;
         }
-        ++totals.seeds;
-        more = !o.seed && minutes() < o.minutes && (o.rounds == 0 || totals.seeds < o.rounds) &&
-               (totals.failures == 0 || o.keepGoing);
+        // Three times as long as the seed took.
+        if (scale == Scale::Mixed && !repeats)
+            fillUp(seed, std::min(4 * minutes() - 3 * start, options_.minutes));
+        ++seeds_;
+        more = !repeats && !stops() && minutes() < options_.minutes &&
+               (options_.rounds == 0 || seeds_ < options_.rounds);
         if (minutes() < told && more) continue;
         told = minutes() + 0.25;
-        progress(totals, seed, minutes());
+        progress(seed);
     }
-    printPixels(checks);
-    return totals.failures == 0 ? 0 : 1;
+    printCounts(checks_);
+    return failures_ == 0 ? 0 : 1;
 }
 
 int listPlanted() {
@@ -140,7 +190,7 @@ int main(int argc, char** argv) {
             printPrecision();
             return 0;
         }
-        return drawSeeds(o);
+        return Run(o).drawSeeds();
     } catch (const std::exception& error) {
         fmt::print(stderr, "mfar-stress: {}\n", error.what());
         return 2;

@@ -12,7 +12,8 @@ namespace mfar::stress {
 namespace {
 
 StereoRig rigFor(Context& c) {
-    if (c.large && c.hostile.chance(0.3)) return bentRig({640, 480}, {1152, 864});
+    if (c.scale == Scale::Product) return bentRig(c.size(1, 1), {2304, 1728});
+    if (c.scale == Scale::Mixed && c.hostile.chance(0.3)) return bentRig({640, 480}, {1152, 864});
     const Size video = c.hostile.size(1, 150), still = c.hostile.size(1, 260);
     StereoRig rig{c.hostile.camera(video), c.hostile.camera(still), c.hostile.gentle(0.05)};
     if (c.hostile.chance(0.2)) rig.T_still_video = c.hostile.motion(0.1);
@@ -70,7 +71,7 @@ void frames(Context& c) {
     options.depthEverywhere = c.hostile.chance(0.5);
     options.epipolar.bothWays = c.hostile.chance(0.2);
     // A still narrower than the video has no output of its own.
-    if (c.large || rig.still.size.width < rig.video.size.width)
+    if (c.scale == Scale::Mixed || rig.still.size.width < rig.video.size.width)
         options.output = {2 * rig.video.size.width, 2 * rig.video.size.height};
     Pipeline pipeline(rig, options);
     if (c.hostile.chance(0.7)) {
@@ -100,7 +101,7 @@ double shiftError(const std::vector<float>& flow, const Eigen::Vector2d& shift) 
 
 // What the still has of detail comes into the picture, wherever the video has moved to since.
 void knownTruth(Context& c) {
-    const Size video = c.large && c.hostile.chance(0.1)
+    const Size video = c.scale == Scale::Mixed && c.hostile.chance(0.1)
                            ? Size{640, 480}
                            : Size{c.hostile.integer(110, 170), c.hostile.integer(100, 130)};
     const StereoRig rig = plainRig(video, {video.width * 18 / 5, video.height * 18 / 5});
@@ -155,7 +156,9 @@ void scaledWorld(Context& c) {
 }  // namespace
 
 std::vector<Case> pipelineCases() {
-    return {{"pipeline", frames}, {"pipeline-truth", knownTruth}, {"pipeline-scaled", scaledWorld}};
+    return {{"pipeline", frames, true},
+            {"pipeline-truth", knownTruth},
+            {"pipeline-scaled", scaledWorld}};
 }
 
 }  // namespace mfar::stress

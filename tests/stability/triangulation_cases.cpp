@@ -34,13 +34,9 @@ Points triangulate(Context& c, const twin::TwoViews& views, const std::vector<fl
     return points;
 }
 
-Size smallSize(Context& c) {
-    return c.large && c.hostile.chance(0.3) ? Size{640, 480} : c.hostile.size(1, 97);
-}
-
 void hostileTriangulation(Context& c) {
     const double unit = c.hostile.logarithmic(1e-6, 1e3);
-    twin::TwoViews views{c.hostile.camera(smallSize(c)), c.hostile.camera(c.hostile.size(1, 97)),
+    twin::TwoViews views{c.hostile.camera(c.size(1, 97)), c.hostile.camera(c.hostile.size(1, 97)),
                          c.hostile.motion(unit)};
     if (c.hostile.chance(0.3)) views.T_b_a = c.hostile.spoilt(views.T_b_a);
     std::vector<float> flow(2UL * pixelsOf(views.a.size));
@@ -57,7 +53,7 @@ void hostileTriangulation(Context& c) {
 }
 
 /// Two views as they are in use and the flow of a surface whose inverse depth changes over them.
-struct Scene {
+struct SurfaceScene {
     twin::TwoViews views;
     std::vector<float> flow;
 };
@@ -85,11 +81,10 @@ CameraModel usualLens(Hostile& hostile, Size size) {
     return camera;
 }
 
-Scene usualScene(Context& c, double unit) {
-    const Size size = c.large && c.hostile.chance(0.3)
-                          ? Size{640, 480}
-                          : Size{c.hostile.integer(8, 90), c.hostile.integer(8, 70)};
-    Scene out{{usualLens(c.hostile, size), usualLens(c.hostile, size), c.hostile.gentle(unit)}, {}};
+SurfaceScene usualScene(Context& c, double unit) {
+    const Size size = c.size(8, 90);
+    SurfaceScene out{
+        {usualLens(c.hostile, size), usualLens(c.hostile, size), c.hostile.gentle(unit)}, {}};
     out.flow = flowOf(out.views, unit);
     return out;
 }
@@ -112,7 +107,7 @@ bool isTold(const twin::TwoViews& views, const Vector2d& pixel, const Vector2d& 
            e.norm() > 0.02 * views.T_b_a.translation.norm();
 }
 
-void checkAgainstTwin(Context& c, const Scene& s, const Points& points, double flowSigma) {
+void checkAgainstTwin(Context& c, const SurfaceScene& s, const Points& points, double flowSigma) {
     for (int y = 0; y < s.views.a.size.height; ++y)
         for (int x = 0; x < s.views.a.size.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * s.views.a.size.width + x;
@@ -129,7 +124,7 @@ void checkAgainstTwin(Context& c, const Scene& s, const Points& points, double f
 
 void usualTriangulation(Context& c) {
     const double unit = c.hostile.pick({1e-6, 1e-3, 1.0, 1e3});
-    const Scene s = usualScene(c, unit);
+    const SurfaceScene s = usualScene(c, unit);
     for (const TriangulationMethod method : kMethods) {
         TriangulationOptions options;
         options.method = method;
@@ -140,9 +135,9 @@ void usualTriangulation(Context& c) {
 }
 
 void scaledTriangulation(Context& c) {
-    const Scene s = usualScene(c, 1);
+    const SurfaceScene s = usualScene(c, 1);
     const double scale = c.hostile.pick({1e-3, 0.125, 3.7, 1e3});
-    Scene large = s;
+    SurfaceScene large = s;
     large.views.T_b_a.translation *= scale;
     TriangulationOptions options;
     options.method = c.hostile.pick(kMethods);
@@ -174,9 +169,10 @@ RigidTransform mirrored(RigidTransform T) {
 }
 
 void mirroredTriangulation(Context& c) {
-    const Scene s = usualScene(c, 1);
+    const SurfaceScene s = usualScene(c, 1);
     const Size size = s.views.a.size;
-    Scene mirror{{mirrored(s.views.a), mirrored(s.views.b), mirrored(s.views.T_b_a)}, s.flow};
+    SurfaceScene mirror{{mirrored(s.views.a), mirrored(s.views.b), mirrored(s.views.T_b_a)},
+                        s.flow};
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const std::size_t row = static_cast<std::size_t>(y) * size.width;
@@ -200,7 +196,7 @@ void mirroredTriangulation(Context& c) {
 
 // What a sees of b, and b of a, is the same point.
 void exchangedTriangulation(Context& c) {
-    const Scene s = usualScene(c, 1);
+    const SurfaceScene s = usualScene(c, 1);
     const twin::TwoViews back{s.views.b, s.views.a, s.views.T_b_a.inverse()};
     const std::vector<float> flow = flowOf(back, 1);
     const TriangulationOptions options;
@@ -224,7 +220,7 @@ void exchangedTriangulation(Context& c) {
 }  // namespace
 
 std::vector<Case> triangulationCases() {
-    return {{"triangulation", hostileTriangulation},
+    return {{"triangulation", hostileTriangulation, true},
             {"triangulation-usual", usualTriangulation},
             {"triangulation-scaled", scaledTriangulation},
             {"triangulation-mirrored", mirroredTriangulation},

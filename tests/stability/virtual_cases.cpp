@@ -57,7 +57,7 @@ std::vector<twin::RealSample> realOf(Context& c, Size video, double unit) {
 }
 
 void compositing(Context& c) {
-    const Size video = c.hostile.size(1, c.large ? 320 : 60);
+    const Size video = c.size(1, 60);
     const Size output{video.width * c.hostile.integer(1, 3) + c.hostile.integer(0, 2),
                       video.height * c.hostile.integer(1, 3) + c.hostile.integer(0, 2)};
     const double unit = c.hostile.pick({1e-3, 1.0, 1.0, 1e3});
@@ -119,7 +119,7 @@ bool isCast(const VirtualObject& o) {
 }
 
 void preview(Context& c) {
-    const CameraModel camera = c.hostile.camera(c.hostile.size(1, c.large ? 640 : 120));
+    const CameraModel camera = c.hostile.camera(c.size(1, 120));
     const Size size = camera.size;
     PreviewRenderer renderer(camera, size);
     std::vector<VirtualObject> objects;
@@ -151,7 +151,7 @@ void preview(Context& c) {
 
 // Every pixel that an object is drawn in lies in a tile whose range holds its depth.
 void silhouettes(Context& c) {
-    const CameraModel camera = c.hostile.camera(c.hostile.size(1, c.large ? 320 : 120));
+    const CameraModel camera = c.hostile.camera(c.size(1, 120));
     Silhouette silhouette(camera, 0);
     PreviewRenderer renderer(camera, camera.size);
     const std::vector<VirtualObject> objects{objectOf(c), objectOf(c)};
@@ -175,7 +175,9 @@ void silhouettes(Context& c) {
 }  // namespace
 
 std::vector<Case> virtualCases() {
-    return {{"composite", compositing}, {"preview", preview}, {"silhouette", silhouettes}};
+    return {{"composite", compositing, true},
+            {"preview", preview, true},
+            {"silhouette", silhouettes, true}};
 }
 
 }  // namespace mfar::stress

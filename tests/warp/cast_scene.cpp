@@ -123,7 +123,7 @@ RenderedPicture emptyPicture(const RenderView& view) {
 
 }  // namespace
 
-Scene CastScene::scene(int segments) const {
+mfar::Scene CastScene::scene(int segments) const {
     Scene out;
     for (const Ball& ball : balls)
         out.objects.push_back({std::make_shared<Model>(ballModel(ball.radius, segments)),

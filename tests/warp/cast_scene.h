@@ -22,7 +22,7 @@ struct CastScene {
     double contrast = 1;  ///< of the balls' pattern
 
     /// The same as triangles, round to `segments` around.
-    [[nodiscard]] Scene scene(int segments = 192) const;
+    [[nodiscard]] mfar::Scene scene(int segments = 192) const;
     /// `grid`^2 rays a pixel for the colour, one through its centre for depth and number.
     [[nodiscard]] RenderedPicture cast(const RenderView& view, int grid = 1) const;
     /// Of these pixels alone; the others are empty.
