@@ -70,6 +70,13 @@ constexpr PlantedFault kPlanted[] = {
      "composite"},
     {"preview.frag", "1.0 / gl_FragCoord.w", "gl_FragCoord.w", "inverse depth for depth",
      "preview"},
+    {"warp_look_up.frag", "(at.xy + 0.5) / vec2(sizes.xy)", "(at.xy + 2.0) / vec2(sizes.xy)",
+     "a pixel and a half off", "warp-truth"},
+    {"warp_look_up.frag", "(1.0 - kShadowLift) * z : z)", "(1.0 - kShadowLift) * z : -z)",
+     "wrong sign of a depth", "warp"},
+    {"warp_splat.comp", " || any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, sizes.xy))", "",
+     "missing test of a pixel", "warp"},
+    {"warp_rest.comp", "clamp(t, ivec2(0), size - 1)", "t", "missing clamp of a texel", "warp"},
 };
 
 }  // namespace

@@ -110,7 +110,7 @@ void knownWarp(Context& c) {
     const RigidTransform now = test::orbit(from + by);
     const VirtualLayer& layer = warp.run(now);
     const RenderedPicture truth = balls.cast({camera, now}, 3);
-    c.checks.within(test::psnrInside(layer.colour->readRgba8(), truth), 28, 200,
+    c.checks.within(test::psnrInside(layer.colour->readRgba8(), truth), 33.5, 200,
                     "a warped picture against truth [dB]");
     checkLayer(c, layer);
     c.gl.frame(c.checks, pixelsOf(camera.size));
