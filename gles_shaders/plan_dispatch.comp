@@ -5,7 +5,7 @@
 // not surely change or over a block of 8x8, those are drawn anew. So what tiles left alone are off by stays
 // a small share of the noise's variance.
 // Tiles with structure beyond noise, and those beside them, are matched with the still; where there are too
-// many, those with the most.
+// many, those with the most, and rather those that were.
 // Tiles that something was drawn over count as changed, all of them, once one of them or beside them has,
 // the whole frame is drawn, or they are told to. In: measured[] of plan_change.comp.
 // Out: header = whole frame drawn at once (0: no, 1: yes, 2: enlarged, with a list of tiles with detail),
@@ -25,7 +25,7 @@ layout(std140, binding = 0) uniform Params {
     vec4 noise;      // a 2x2 mean's variance in quarters of a pixel's; structure that is none (below 0: all is), -, -
     ivec4 matched;   // at most so many tiles; at most so many for a list instead of the whole frame, -, -
 };
-layout(std430, binding = 0) writeonly buffer Tiles {
+layout(std430, binding = 0) buffer Tiles {
     uvec2 header;
     uvec2 tiles[];
 };

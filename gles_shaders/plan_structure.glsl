@@ -1,7 +1,8 @@
-// Which tiles have most structure. Needs counts, noise, matched, measured[] and kWorkers of
+// Which tiles have most structure. Needs counts, noise, matched, tiles[], measured[] and kWorkers of
 // plan_dispatch.comp.
 
 const int kStructureBins = 84;  // a quarter of an octave
+const float kKept = 1.19;
 
 shared uint structureBins[kStructureBins];  // tiles
 
@@ -18,10 +19,10 @@ int structureBin(float structure) {
     return clamp(int(4.0 * log2(structure + 1.0)), 0, kStructureBins - 1);
 }
 
-// Marks tiles in w.
+// Marks tiles in w. Those that were matched count as a bin more: noise must not make detail come and go.
 void countStructure(int worker) {
     for (int i = worker; i < counts.x; i += kWorkers) {
-        float around = structureAround(i % counts.w, i / counts.w);
+        float around = structureAround(i % counts.w, i / counts.w) * (tiles[i].y != 0u ? kKept : 1.0);
         measured[2 * i].w = around;
         if (around > noise.y) atomicAdd(structureBins[structureBin(around)], 1u);
     }

@@ -2,6 +2,7 @@
 #include "tests/shader/twins/plan.h"
 
 #include <array>
+#include <random>
 
 namespace mfar {
 namespace {
@@ -243,6 +244,36 @@ TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
     EXPECT_TRUE(update().empty());
     plan.matchEverything();
     EXPECT_EQ(update().size(), 16U);
+}
+
+TEST_F(Plan, NoiseMakesNoDetailComeAndGo) {
+    const Size size{512, 256};  // 32x16 tiles
+    Picture quiet(size, PixelFormat::Rgba8, 90);
+    std::mt19937 random(5);
+    for (int tile = 0; tile < 512; ++tile) {
+        const int contrast = std::uniform_int_distribution(4, 24)(random);
+        for (int k = 0; k < 16; ++k)
+            for (int c = 0; c < 3; ++c)
+                quiet.at(16 * (tile % 32) + 6 + k % 4, 16 * (tile / 32) + 6 + k / 4)[c] +=
+                    static_cast<std::uint8_t>(contrast);
+    }
+    WorkPlan plan(size);
+    static_cast<void>(plan.add({1, 1, 1}));
+    plan.matchStructured(0.5);
+    std::vector<TileState> last;
+    int turns = 0;
+    for (unsigned frame = 0; frame < 40; ++frame) {
+        Picture now = quiet;
+        addNoise(now, 1.5, frame);
+        plan.update(uploaded(now), uploaded(now), true);
+        const auto tiles = tilesOf(plan);
+        for (std::size_t i = 0; frame > 20 && i < tiles.size(); ++i)
+            turns += tiles[i].matched != last[i].matched ? 1 : 0;
+        last = tiles;
+    }
+    EXPECT_GT(plan.matchedTiles(), 512 / 5);
+    EXPECT_LE(plan.matchedTiles(), 512 / 2);
+    EXPECT_LT(turns, 19 * 512 / 100) << "one tile of a hundred a frame";
 }
 
 TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
