@@ -75,13 +75,16 @@ void EpipolarFlow::search(const UnitPose& relative) {
     search_.run(luma_, relative.T_other_frame, relative.covariance, predicted);
 }
 
-// Where the still, at the video's geometry, shows a ray's point; far outside when it is behind.
+// Where the still, at the video's geometry, shows a ray's point; far outside when it is behind, or
+// so close to beside the camera that no number of pixels means anything.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
     const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),
                                                           rayY + s * (t.y() - rayY * t.z()), 1);
     if (!(p.z() > kNearPlane)) return {kNowhere, kNowhere};
-    return lens_.project(p.x() / p.z(), p.y() / p.z());
+    const auto q = lens_.project(p.x() / p.z(), p.y() / p.z());
+    const bool isNear = std::abs(q.x) < kNowhere && std::abs(q.y) < kNowhere;
+    return isNear ? q : EpipolarLens::Point{kNowhere, kNowhere};
 }
 
 std::vector<float> EpipolarFlow::flow() const {
