@@ -183,7 +183,7 @@ void EpipolarFlow::testDepth() {
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
             const auto to = landing(i, j);
             const float error = to ? (nearest_[*to] - nearness_[cell]) * pixels - kSlope : kNowhere;
-            hidden_[cell] = {std::max(error, 0.0F), 0, 0, 0};
+            hidden_[cell] = {std::clamp(error, 0.0F, kNowhere), 0, 0, 0};
         }
     }
 }
@@ -195,7 +195,8 @@ void EpipolarFlow::testBothWays(const ImageView& video) {
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
             const Eigen::Vector2d centre = Eigen::Vector2d(i, j) * kCell;
             const Eigen::Vector2d ray = rig_.video.unproject(centre.array() + 0.5 * (kCell - 1));
-            hidden_[cell] = {twoWay_->error(ray, nearness_[cell]).value_or(kNowhere), 0, 0, 0};
+            const float error = twoWay_->error(ray, nearness_[cell]).value_or(kNowhere);
+            hidden_[cell] = {std::min(error, kNowhere), 0, 0, 0};
         }
     }
 }

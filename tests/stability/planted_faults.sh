@@ -66,8 +66,8 @@ hostFaults() {
         'depth not carried' depth-carried
     inHost pipeline/depth/edge_snap.cpp 'if (isSound(in, i)) {' 'if (true) {' \
         'removed guard against depth that is none' edges
-    inHost pipeline/flow/epipolar_flow.cpp 'hidden_[cell] = {std::max(error, 0.0F), 0, 0, 0};' \
-        'hidden_[cell] = {error, 0, 0, 0};' 'missing clamp of the two-way error' flow-of-poses
+    inHost pipeline/flow/epipolar_flow.cpp 'std::clamp(error, 0.0F, kNowhere)' 'error' \
+        'missing clamp of the two-way error' flow-of-poses
     inHost pipeline/flow/epipolar_search.cpp 'return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);' \
         'return label;' 'missing clamp of a prediction' search
     inHost pipeline/flow/relative_pose.cpp 'out.error = ray - seen;' 'out.error = seen - ray;' \

@@ -131,7 +131,7 @@ void hostileFlowOfPoses(Context& c) {
             for (const float x : v)
                 c.checks.within(x, -2e4, 2e4, "flow of a cell");
         for (const auto& v : flow.hidden())
-            c.checks.within(v[0], 0, 1e6, "two-way error");
+            c.checks.within(v[0], 0, 1e4, "two-way error");
         for (const float v : flow.flow())
             c.checks.within(v, -2e4, 2e4, "flow of a pixel");
         for (const float s : flow.inverseDepthOf(flow.forward()))
