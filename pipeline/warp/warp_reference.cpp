@@ -195,7 +195,7 @@ WarpReference warpReference(const RenderedPicture& picture) {
         const float z = picture.depth[i];
         const bool is = picture.id[i] != 0 && z > LensProjection::kNear && z < kFarthestSurface;
         r.depth[i] = is ? z : 0;
-        if (!is) r.colour[i] = {};
+        if (!is) r.picture[i] = r.colour[i] = {};
         r.surface[i] = {r.depth[i], is ? static_cast<float>(picture.id[i]) : 0, 0, 0};
     }
     const PictureGrid grid(r);

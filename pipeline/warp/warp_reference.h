@@ -27,7 +27,7 @@ struct WarpSurface {
 struct WarpReference {
     CameraModel camera;
     RigidTransform T_world_camera;
-    std::vector<std::array<std::uint8_t, 4>> picture;  ///< as rendered
+    std::vector<std::array<std::uint8_t, 4>> picture;  ///< as rendered, where there is depth
     std::vector<float> depth;                          ///< as shown: z [m], that of shadows
                                                        ///< lifted; 0 = nothing
     /// Colours of single surfaces: where an edge runs through the pixel, that of the nearest pixels
