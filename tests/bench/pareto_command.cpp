@@ -52,11 +52,11 @@ std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
 ParetoCommand::ParetoCommand(CLI::App& app)
     : command_(app.add_subcommand("pareto",
                                   "run time against error: every setting of flow, "
-                                  "super-resolution and depth and every peer as a point (median "
-                                  "time, error), measured in turn in one run")) {
-    command_->add_option("--stages", stages_, "of flow, superres, depth")
+                                  "super-resolution, depth, slicing and warp and every peer as a "
+                                  "point (median time, error), measured in turn in one run")) {
+    command_->add_option("--stages", stages_, fmt::format("of {}", fmt::join(stages_, ", ")))
         ->delimiter(',')
-        ->check(CLI::IsMember({"flow", "superres", "depth"}));
+        ->check(CLI::IsMember(stages_));
     command_->add_option("--data", data_,
                          "what flow and depth are measured on: recordings or pairs as for "
                          "mfar-eval depth. Default: the stereo pairs of ../shared/data or, where "
@@ -119,6 +119,8 @@ std::vector<ParetoStage> ParetoCommand::measure() const {
         if (quick_) shots.resize(1);
         out.push_back(depthStage(shots, run_));
     }
+    if (wants("slicing")) out.push_back(slicingStage(quick_));
+    if (wants("warp")) out.push_back(warpStage(quick_));
     std::erase_if(out, [](const ParetoStage& stage) { return stage.points.empty(); });
     return out;
 }

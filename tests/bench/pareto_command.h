@@ -26,7 +26,7 @@ private:
     CLI::App* command_;
     ParetoRun run_;
     std::vector<std::filesystem::path> data_;
-    std::vector<std::string> stages_{"flow", "superres", "depth"};
+    std::vector<std::string> stages_{"flow", "superres", "depth", "slicing", "warp"};
     std::filesystem::path csv_, svg_, table_;
     int frames_ = 0;
     bool quick_ = false;

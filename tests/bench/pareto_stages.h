@@ -59,6 +59,15 @@ struct SequenceSample {
 [[nodiscard]] ParetoStage superResStage(const std::vector<SequenceSample>& samples,
                                         const ParetoRun& run);
 
+/// A path-traced picture seen from elsewhere against the error inside the silhouette: what fills
+/// its holes, with OpenCV's inpainting and a picture that is traced anew. Throws EvalError where
+/// there is no path tracer.
+[[nodiscard]] ParetoStage warpStage(bool quick);
+
+/// A path-traced picture after some samples a pixel, in slices of both kinds and as a whole,
+/// against its error. Throws as warpStage(); needs no GL.
+[[nodiscard]] ParetoStage slicingStage(bool quick);
+
 /// Settings of superResStage() by their names: what the levels of a quality table are made of.
 struct QualitySetting {
     std::string name;

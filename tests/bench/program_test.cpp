@@ -108,6 +108,40 @@ TEST(MfarBench, CurvesHaveEveryValueOfEveryKnob) {
     }
 }
 
+/// By stage, how many points of each kind a table has.
+std::map<std::string, std::map<std::string, int>> paretoKinds(const std::filesystem::path& csv) {
+    std::istringstream lines(mfar::test::readFile(csv));
+    std::string line;
+    std::getline(lines, line);
+    std::map<std::string, std::map<std::string, int>> kinds;
+    while (std::getline(lines, line)) {
+        const auto row = fields(line);
+        EXPECT_GE(row.size(), 7U) << line;
+        if (row.size() < 7) continue;
+        ++kinds[row[0]][row[2]];
+        EXPECT_GT(std::stod(row[3]), 0) << line;
+        EXPECT_TRUE(std::isfinite(std::stod(row[4]))) << line;
+    }
+    return kinds;
+}
+
+TEST(MfarBench, ParetoOfTheVirtualLayerHasOursAndPeers) {
+    if (!MFAR_PATH_TRACING) GTEST_SKIP() << "built without a path tracer";
+    const mfar::test::TempFolder folder;
+    const auto csv = folder / "pareto.csv";
+    const std::string command =
+        fmt::format("{} pareto --quick --rounds 1 --stages slicing,warp --csv '{}' >/dev/null",
+                    MFAR_BENCH, csv.string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    auto kinds = paretoKinds(csv);
+    ASSERT_EQ(kinds.size(), 2U);
+    for (auto& [stage, points] : kinds) {
+        EXPECT_EQ(points["default"], 1) << stage;
+        EXPECT_GE(points["ours"], 4) << stage;
+        EXPECT_GE(points["peer"], 2) << stage;
+    }
+}
+
 TEST(MfarBench, ParetoHasOursAndPeersAndATableThatTheDaemonReads) {
     const mfar::test::TempFolder folder;
     const auto csv = folder / "pareto.csv", svg = folder / "pareto.svg",
@@ -117,17 +151,7 @@ TEST(MfarBench, ParetoHasOursAndPeersAndATableThatTheDaemonReads) {
                                             MFAR_BENCH, csv.string(), svg.string(), table.string());
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_TRUE(test::isWellFormed(mfar::test::readFile(svg)));
-    std::istringstream lines(mfar::test::readFile(csv));
-    std::string line;
-    std::getline(lines, line);
-    std::map<std::string, std::map<std::string, int>> kinds;
-    while (std::getline(lines, line)) {
-        const auto row = fields(line);
-        ASSERT_GE(row.size(), 7U) << line;
-        ++kinds[row[0]][row[2]];
-        EXPECT_GT(std::stod(row[3]), 0) << line;
-        EXPECT_TRUE(std::isfinite(std::stod(row[4]))) << line;
-    }
+    auto kinds = paretoKinds(csv);
     ASSERT_EQ(kinds.size(), 1U);
     auto& points = kinds["super-resolution"];
     EXPECT_EQ(points["default"], 1);

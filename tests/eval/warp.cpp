@@ -1,6 +1,5 @@
 #include "tests/eval/warp.h"
 
-#include "hal/gl_context.h"
 #include "pipeline/warp/warp.h"
 #include "tests/eval/stopwatch.h"
 #include "tests/eval/warp_scenes.h"
@@ -197,7 +196,6 @@ std::vector<std::string> warpMethodNames() {
 
 Report evaluateWarp(const WarpRequest& request) {
     Report report({{"psnr_db", 2}, {"hole_share", 4}, {"reray_share", 4}, {"ms", 2}});
-    const auto context = createGlContext();
     for (const std::string& scene : request.scenes) {
         const WarpRun run(request, scene);
         const std::string stem = std::filesystem::path(scene).stem().string();

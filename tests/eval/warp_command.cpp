@@ -1,5 +1,6 @@
 #include "tests/eval/warp_command.h"
 
+#include "hal/gl_context.h"
 #include "tests/eval/warp_scenes.h"
 
 #include <fmt/format.h>
@@ -62,6 +63,7 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files, 
 }
 
 Report runWarpCommand(const WarpRequest& request, const WarpFiles& files) {
+    const auto context = createGlContext();
     Report report = evaluateWarp(request);
     if (!files.svg.empty()) {
         std::ofstream out(files.svg);
