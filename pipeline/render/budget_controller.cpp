@@ -88,19 +88,22 @@ void BudgetController::learn(double msPerSample) {
 }
 
 BudgetKept BudgetController::kept() const {
+    BudgetKept out;
+    const std::size_t all = std::min<std::size_t>(framesWaited_, kFrames);
+    if (all == 0) return out;
+    const auto last = waited_.begin() + static_cast<std::ptrdiff_t>(all);
+    out.mean = std::accumulate(waited_.begin(), last, 0.0) / static_cast<double>(all);
     const std::size_t known = std::min<std::size_t>(frames_, kFrames);
-    if (known == 0) return {};
+    if (known == 0) return out;
     std::array<float, kFrames> off{};
     for (std::size_t i = 0; i < known; ++i)
         off[i] = std::abs(shares_[i] - 1);
-    const std::size_t all = std::min<std::size_t>(framesWaited_, kFrames);
-    const double sum =
-        std::accumulate(waited_.begin(), waited_.begin() + static_cast<std::ptrdiff_t>(all), 0.0);
     const auto end = off.begin() + static_cast<std::ptrdiff_t>(known);
     const auto p95 = off.begin() + static_cast<std::ptrdiff_t>(known * 95 / 100);
-    std::nth_element(off.begin(), std::min(p95, end - 1), end);
-    return {static_cast<int>(known), sum / static_cast<double>(all),
-            static_cast<double>(*std::min(p95, end - 1))};
+    std::nth_element(off.begin(), p95, end);
+    out.frames = static_cast<int>(known);
+    out.deviation = static_cast<double>(*p95);
+    return out;
 }
 
 }  // namespace mfar

@@ -181,6 +181,18 @@ TEST(BudgetController, FramesWithoutProcessorTimeAreNotCounted) {
     EXPECT_LE(budget.kept().deviation, 0.02);
 }
 
+TEST(BudgetController, TheMeanIsThatOfAllFramesInWhichWorkWaited) {
+    BudgetController budget(kBudget);
+    EXPECT_EQ(budget.kept().mean, 0);
+    budget.beginFrame(true);
+    for (int i = 0; i < 20; ++i) {
+        budget.spent(budget.grant(), 1000, 0.25 * kBudget);
+        budget.beginFrame(true);
+    }
+    EXPECT_EQ(budget.kept().frames, 0) << "none used it up";
+    EXPECT_NEAR(budget.kept().mean, 0.25 * 20 / 21, 1e-6);
+}
+
 TEST(BudgetController, TimesThatAreNoNumbersChangeNothing) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
