@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <span>
 
 namespace mfar::eval {
 namespace {
@@ -50,8 +51,7 @@ constexpr std::array<double, 20> kDiagonal{
     0.002086560009,   -0.002329879906,  0.0044814897701,   -0.014917500317,  0.012145539746,
     0.024427289143,   -0.050797060132,  -0.032785870135,   0.1510555595,     0.082495503128};
 
-template <std::size_t N>
-cv::Mat fromOctant(const std::array<double, N>& octant, int reach) {
+cv::Mat fromOctant(std::span<const double> octant, int reach) {
     cv::Mat out(2 * reach + 1, 2 * reach + 1, CV_64F);
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x) {
