@@ -55,6 +55,26 @@ bool readFile(std::vector<unsigned char>* out, std::string* error, const std::st
     }
 }
 
+/// All of them: tinygltf falls back to its own where one is missing. Paths are ours: the first that
+/// it tries, the URI itself, is the one.
+template <typename Callbacks>
+Callbacks callbacksFor(FolderAccess& access) {
+    Callbacks out{};
+    out.FileExists = [](const std::string&, void*) { return true; };
+    out.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    out.ReadWholeFile = readFile;
+    out.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                            void*) { return false; };
+    // Of newer releases. What may be read is limited as it is read.
+    if constexpr (requires { out.GetFileSizeInBytes; })
+        out.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+            *size = 0;
+            return true;
+        };
+    out.user_data = &access;
+    return out;
+}
+
 /// Keeps the bytes of a picture in a data URI. Those in a bufferView stay there.
 bool keepImage(tinygltf::Image* image, int /*index*/, std::string* /*error*/,
                std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* bytes,
@@ -75,10 +95,7 @@ void parse(std::span<const std::uint8_t> bytes, GltfDocument& document) {
     FolderAccess access{document.folder, document.limits.bytes};
     tinygltf::TinyGLTF parser;
     parser.SetImageLoader(keepImage, nullptr);
-    // Paths are ours: the first that tinygltf tries, the URI itself, is the one.
-    parser.SetFsCallbacks({[](const std::string&, void*) { return true; },
-                           [](const std::string& path, void*) { return path; }, readFile, nullptr,
-                           &access});
+    parser.SetFsCallbacks(callbacksFor<tinygltf::FsCallbacks>(access));
     const auto size = static_cast<unsigned>(bytes.size());
     std::string error, warning;
     const bool good =
