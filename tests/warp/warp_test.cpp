@@ -25,7 +25,7 @@ struct Shown {
         return {warp.camera(), test::orbit(degrees)};
     }
     [[nodiscard]] double psnrAt(double degrees) {
-        const VirtualLayer& layer = test::settled(warp, scene, test::orbit(degrees));
+        const VirtualLayer layer = test::settled(warp, scene, test::orbit(degrees));
         return psnrInside(layer.colour->readRgba8(), scene.cast(view(degrees), 3));
     }
     CastScene scene;
@@ -173,7 +173,7 @@ TEST_F(WarpGl, OddSizesWork) {
         Warp warp(test::bentCamera(kLayer), size);
         warp.setScene(scene.scene(16));
         warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)})));
-        const VirtualLayer& layer = test::settled(warp, scene, test::orbit(10), 3);
+        const VirtualLayer layer = test::settled(warp, scene, test::orbit(10), 3);
         EXPECT_TRUE(layer.bounds.x1 <= size.width && layer.bounds.y1 <= size.height);
     }
 }
