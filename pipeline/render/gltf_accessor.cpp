@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <type_traits>
 
 namespace mfar {
 namespace {
@@ -130,20 +129,12 @@ void copyFloats(const ElementView& from, bool normalized, std::size_t element, f
         to[i] = floatAt(p, from.componentType, normalized);
 }
 
-/// Of a number whose type has a sign in some releases of tinygltf.
-template <typename Number>
-bool isNegative(Number value) {
-    if constexpr (std::is_signed_v<Number>) return value < 0;
-    return false;
-}
-
 /// glTF 2.0, 3.6.2.3: some elements stand elsewhere.
 void replaceSparse(const GltfDocument& document, const Accessor& accessor, int components,
                    std::string_view place, std::vector<float>& out) {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 1 || static_cast<std::size_t>(sparse.count) > accessor.count ||
-        !isIndexType(sparse.indices.componentType) || isNegative(sparse.indices.byteOffset) ||
-        isNegative(sparse.values.byteOffset))
+        !isIndexType(sparse.indices.componentType))
         document.refuse(place, "sparse elements are not sound");
     const auto count = static_cast<std::size_t>(sparse.count);
     const ElementView indices = elementsIn(document, sparse.indices.bufferView,

@@ -94,6 +94,20 @@ void checkViews(const json& views, const json& buffers) {
     }
 }
 
+/// A sparse accessor's offsets: releases of tinygltf differ in what they make of a negative one.
+void checkSparse(const json& accessors) {
+    for (std::size_t i = 0; i < accessors.size(); ++i) {
+        const auto sparse = accessors[i].find("sparse");
+        if (sparse == accessors[i].end()) continue;
+        for (const char* part : {"indices", "values"}) {
+            const std::string place = fmt::format("accessors[{}].sparse.{}", i, part);
+            if (!sparse->is_object() || !sparse->contains(part) || !(*sparse)[part].is_object())
+                wrong(place, "is no object");
+            static_cast<void>(bytesAt((*sparse)[part], "byteOffset", 0, place));
+        }
+    }
+}
+
 void checkImages(const json& images, const json& views) {
     for (std::size_t i = 0; i < images.size(); ++i) {
         const auto it = images[i].find("bufferView");
@@ -112,6 +126,7 @@ void requireSoundJson(std::string_view text, const ModelLimits& limits) {
     checkLists(root, limits);
     checkBuffers(listOf(root, "buffers"), limits);
     checkViews(listOf(root, "bufferViews"), listOf(root, "buffers"));
+    checkSparse(listOf(root, "accessors"));
     checkImages(listOf(root, "images"), listOf(root, "bufferViews"));
 }
 

@@ -132,7 +132,10 @@ TEST(GltfFaults, SparseAccessors) {
     EXPECT_THAT(sparse("/count", 1), HasSubstr("sparse index 9 of 3"));
     EXPECT_THAT(sparse("/count", 2), HasSubstr("needs 2 bytes"));
     EXPECT_THAT(sparse("/count", -1), HasSubstr("not sound"));
-    EXPECT_THAT(sparse("/indices/byteOffset", -1), HasSubstr("not sound"));
+    EXPECT_THAT(sparse("/indices/byteOffset", -1),
+                saysAt("accessors[0].sparse.indices", "byteOffset is no count of bytes"));
+    EXPECT_THAT(sparse("/values/byteOffset", "8"), HasSubstr("no count of bytes"));
+    EXPECT_THAT(sparse("/values", 3), HasSubstr("is no object"));
     EXPECT_THAT(sparse("/values/byteOffset", 8), HasSubstr("needs 12 bytes from 8"));
     EXPECT_THAT(sparse("/indices/bufferView", 77), HasSubstr("index 77"));
     EXPECT_THAT(sparse("/indices/componentType", 5126), HasSubstr("not sound"));
