@@ -150,16 +150,17 @@ TEST(ReferenceRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     Frames frames(options);
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
-    ASSERT_TRUE(
-        frames.until(view, [&] { return frames.renderer.counters().budget.frames >= 100; }));
     // A machine that is busy may give less time, never more.
+    int shown = 0;
+    ASSERT_TRUE(frames.until(
+        view, [&] { return ++shown > 300 && frames.renderer.counters().budget.mean > 0; }));
     EXPECT_LE(frames.renderer.counters().budget.mean, 1.1);
-    EXPECT_GT(frames.renderer.counters().budget.mean, 0);
     const double used = frames.renderer.counters().cpuMs;
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
     frames.frame(view);  // its counters tell of the time before
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_LE(frames.renderer.counters().cpuMs - used, 6 * options.budgetMs);
+    // Of a few frames, whose end the counters had not told of yet; awake, it were hundreds.
+    EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
 
 TEST(ReferenceRenderer, StopsInTheMidstOfWork) {
