@@ -11,9 +11,14 @@ set(mfar_emulated
 )
 
 function(gtest_discover_tests target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_FILTER" "")
-    add_test(NAME ${target} COMMAND ${target} --gtest_filter=${arg_TEST_FILTER})
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_FILTER;TEST_LIST" "")
+    # Tests of one program in two parts tell them apart by their lists.
+    set(name ${target})
+    if(arg_TEST_LIST)
+        set(name ${arg_TEST_LIST})
+    endif()
+    add_test(NAME ${name} COMMAND ${target} --gtest_filter=${arg_TEST_FILTER})
     if(target IN_LIST mfar_emulated)
-        set_tests_properties(${target} PROPERTIES LABELS emulated TIMEOUT 1200)
+        set_tests_properties(${name} PROPERTIES LABELS emulated TIMEOUT 1200)
     endif()
 endfunction()
