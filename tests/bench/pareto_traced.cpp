@@ -3,6 +3,7 @@
 #include "tests/bench/pareto_stages.h"
 #include "tests/eval/slicing.h"
 #include "tests/eval/warp.h"
+#include "tests/eval/warp_scenes.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ bool isPeer(const std::string& method) {
 ParetoStage warpStage(bool quick) {
     eval::WarpRequest request;
     request.degrees = {10};
-    request.scenes = {"still-life", "showpiece"};
+    request.scenes = eval::warpSceneNames();
     request.methods = eval::warpMethodNames();
     if (quick) {
         request.size = {96, 72};

@@ -14,7 +14,6 @@
 #include "tests/eval/superres.h"
 #include "tests/eval/superres_methods.h"
 #include "tests/eval/traced_commands.h"
-#include "tests/eval/warp_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -86,8 +85,6 @@ struct Options {
     OcclusionRequest occlusion;
     MetricRequest metric;
     Figure7Request figure7;
-    WarpRequest warp;
-    WarpFiles warpFiles;
     std::string degrade;
     PoseNoise poseNoise;
     std::string csv;
@@ -187,8 +184,6 @@ std::vector<EvalCommand> addCommands(CLI::App& app, Options& o) {
         [&o] { return evaluateOcclusion(o.occlusion); });
     add(addMetricCommand(app, o.metric, o.csv), [&o] { return evaluateMetric(o.metric); });
     add(addFigure7Command(app, o.figure7, o.csv), [&o] { return runFigure7(o.figure7); });
-    add(addWarpCommand(app, o.warp, o.warpFiles, o.csv),
-        [&o] { return runWarpCommand(o.warp, o.warpFiles); });
     return out;
 }
 

@@ -1,6 +1,7 @@
 #include "tests/eval/traced_commands.h"
 
 #include "tests/eval/slicing_command.h"
+#include "tests/eval/warp_command.h"
 
 #include <memory>
 
@@ -8,8 +9,11 @@ namespace mfar::eval {
 
 std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv) {
     const auto slicing = std::make_shared<SlicingRequest>();
+    const auto warp = std::make_shared<WarpRequest>();
+    const auto files = std::make_shared<WarpFiles>();
     std::vector<EvalCommand> out{
-        {addSlicingCommand(app, *slicing), [slicing] { return evaluateSlicing(*slicing); }}};
+        {addSlicingCommand(app, *slicing), [slicing] { return evaluateSlicing(*slicing); }},
+        {addWarpCommand(app, *warp, *files), [=] { return runWarpCommand(*warp, *files); }}};
     for (const EvalCommand& traced : out)
         traced.command->add_option("--csv", csv, "file for the table");
     return out;

@@ -30,7 +30,7 @@ std::string isTurn(const std::string& text) {
 
 }  // namespace
 
-CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files, std::string& csv) {
+CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) {
     CLI::App* sub = app.add_subcommand("warp", "a path-traced picture, seen from elsewhere");
     sub->footer(kWarpHelp);
     request.scenes = warpSceneNames();
@@ -58,7 +58,6 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files, 
         ->check(CLI::Range(1, 256));
     sub->add_option("--save", request.save, "folder for the pictures of every method and truth");
     sub->add_option("--svg", files.svg, "file for a plot");
-    sub->add_option("--csv", csv, "file for the table");
     return sub;
 }
 

@@ -15,7 +15,7 @@ struct WarpFiles {
 };
 
 /// The subcommand `warp` with its options.
-CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files, std::string& csv);
+CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files);
 /// Evaluates, and writes the plot.
 [[nodiscard]] Report runWarpCommand(const WarpRequest& request, const WarpFiles& files);
 
