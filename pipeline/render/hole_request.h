@@ -8,12 +8,13 @@
 
 namespace mfar {
 
-/// Pixels of a view that no older picture shows, to be rendered for themselves.
+/// Pixels of a view that no older picture shows, or shows blurred, to be rendered for themselves.
 struct HoleRequest {
     RenderView view;
     std::vector<std::uint32_t> pixels;  ///< row-major indices, in any order
     int samples = 4;                    ///< of each
     std::uint64_t scene = 0;            ///< whatever the answer is to be recognised by
+    bool edges = false;                 ///< those that are blurred
 };
 
 /// What is seen through them: as RenderedPicture, for each of `pixels`.
@@ -25,6 +26,7 @@ struct HoleAnswer {
     std::vector<std::uint8_t> id;
     int samples = 0;          ///< of each
     std::uint64_t scene = 0;  ///< the request's
+    bool edges = false;       ///< the request's
 };
 
 }  // namespace mfar

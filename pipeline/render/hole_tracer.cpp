@@ -46,6 +46,7 @@ void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
     out.view = request_.view;
     out.samples = request_.samples;
     out.scene = request_.scene;
+    out.edges = request_.edges;
     out.pixels = request_.pixels;
     out.colour.clear();
     out.depth.clear();

@@ -10,6 +10,9 @@
 namespace mfar {
 namespace {
 
+constexpr int kRestFrames = 5;      // without motion: the camera rests
+constexpr double kSamePose = 1e-3;  // [px]: rounding of a pose that is given again
+
 WarpOptions validated(const WarpOptions& options) {
     validate(options);
     return options;
@@ -45,6 +48,9 @@ Warp::Warp(const CameraModel& video, Size output, const WarpOptions& options)
       lookUp_(lens_, options.depth), filler_(output),
       patches_(output, options.filling == HoleFilling::Both ? options.fadeFrames : 0) {
     if (options.depth == WarpDepth::Splatted) splat_.emplace(lens_);
+    if (rerenders() && options.sharpenShare > 0)
+        refiner_.emplace(output, options.sharpenShare,
+                         options.filling == HoleFilling::Both ? options.fadeFrames : 0);
 }
 
 void Warp::setScene(const Scene& scene) {
@@ -64,6 +70,7 @@ void Warp::dropReference() {
     patches_.clear();
     lastRequest_ = {};
     filler_.drop();
+    rested({});
     asked_ = false;
 }
 
@@ -77,14 +84,17 @@ const VirtualLayer& Warp::run(const RigidTransform& T_world_camera) {
     }
     if (bounds.empty()) {
         ++counters_.empty;
+        rested({});
         return layer_;
     }
     if (!reference_->tiles.empty() && motion.greatest < options_.leastMotion) {
         ++counters_.unmoved;
+        rested({});
         layer_ = {&textures_.picture(), &textures_.depth(), reference_->bounds};
         return layer_;
     }
     ++counters_.warped;
+    rested(T_world_camera);
     warp(T_world_camera, bounds);
     layer_.bounds = bounds;
     return layer_;
@@ -108,35 +118,68 @@ void Warp::warp(const RigidTransform& T_world_camera, const PixelRect& bounds) {
     filler_.fill(lookUp_.colour(), lookUp_.state(), wantList);
     if (wantList) listPose_ = T_world_camera;
     patches_.age();
+    if (refiner_) refiner_->show(lookUp_.colour());
+}
+
+void Warp::rested(const std::optional<RigidTransform>& T_world_camera) {
+    if (T_world_camera && warpedTo_ && isUnmoved(*warpedTo_, *T_world_camera)) return;
+    warpedTo_ = T_world_camera;
+    restFrames_ = 0;
+    if (refiner_) refiner_->drop();
 }
 
 std::optional<HoleRequest> Warp::takeRequest() {
     if (asked_ || !reference_) return {};
+    auto out = takeHoles();
+    return out ? std::move(out) : takeEdges();
+}
+
+std::optional<HoleRequest> Warp::takeHoles() {
     auto holes = filler_.poll();
     if (!holes) return {};
     counters_.openHoles = static_cast<int>(holes->open.size());
     counters_.cracks = holes->cracks;
-    if (!rerenders() || holes->open.empty()) return {};
+    if (!rerenders()) return {};
     dropRefused(holes->open);
-    if (holes->open.empty()) return {};
-    thinOut(holes->open, static_cast<std::size_t>(options_.mostRequested),
-            static_cast<unsigned>(lens_.camera.size.width));
-    counters_.requested += holes->open.size();
-    asked_ = true;
-    lastRequest_ = HoleRequest{
-        {lens_.camera, listPose_}, std::move(holes->open), options_.holeSamples, scene_};
-    return lastRequest_;
+    return request(std::move(holes->open), false, listPose_);
 }
 
-// What was rendered for this very view and still is open will not be known by rendering it again.
-void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
-    const RigidTransform T = lastRequest_.view.T_world_camera.inverse() * listPose_;
+std::optional<HoleRequest> Warp::takeEdges() {
+    if (!refiner_ || !warpedTo_) return {};
+    if (restFrames_ <= kRestFrames && ++restFrames_ > kRestFrames)
+        refiner_->list(lookUp_.colour(), lookUp_.state(), drawn_);
+    auto edges = refiner_->poll();
+    return edges ? request(std::move(*edges), true, *warpedTo_) : std::nullopt;
+}
+
+std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool edges,
+                                         const RigidTransform& T_world_camera) {
+    if (pixels.empty()) return {};
+    thinOut(pixels, static_cast<std::size_t>(options_.mostRequested),
+            static_cast<unsigned>(lens_.camera.size.width));
+    const int samples = edges ? options_.sharpenSamples : options_.holeSamples;
+    counters_.requested += pixels.size();
+    counters_.rays += pixels.size() * static_cast<unsigned>(samples);
+    asked_ = true;
+    HoleRequest out{{lens_.camera, T_world_camera}, std::move(pixels), samples, scene_, edges};
+    if (!edges) lastRequest_ = out;
+    return out;
+}
+
+/// No point of the reference moves by leastMotion or more.
+bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const {
+    const RigidTransform T = from.inverse() * to;
     float nearest = kFarthestSurface;
     for (const WarpReference::Tile& tile : reference_->tiles)
         nearest = std::min(nearest, tile.nearest);
     const double turn = 2 * T.rotation.vec().norm();
-    const double motion = lens_.camera.fx * (turn + T.translation.norm() / nearest);
-    if (!(motion < options_.leastMotion)) return;
+    return lens_.camera.fx * (turn + T.translation.norm() / nearest) <
+           std::max(options_.leastMotion, kSamePose);
+}
+
+// What was rendered for this very view and still is open will not be known by rendering it again.
+void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
+    if (!isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
     std::erase_if(pixels, [&](std::uint32_t p) {
         return std::ranges::binary_search(lastRequest_.pixels, p);
     });
@@ -156,7 +199,10 @@ void Warp::answer(const HoleAnswer& answer) {
     if (answer.scene != scene_ || pixels.empty()) return;
     asked_ = false;
     counters_.answered += pixels.size();
-    patches_.add(answer);
+    if (!answer.edges)
+        patches_.add(answer);
+    else if (refiner_ && warpedTo_ && isUnmoved(answer.view.T_world_camera, *warpedTo_))
+        refiner_->answer(answer);
 }
 
 }  // namespace mfar

@@ -3,6 +3,7 @@
 #include "pipeline/composite/virtual_layer.h"
 #include "pipeline/render/hole_request.h"
 #include "pipeline/warp/depth_splat.h"
+#include "pipeline/warp/edge_refiner.h"
 #include "pipeline/warp/hole_filler.h"
 #include "pipeline/warp/model_silhouette.h"
 #include "pipeline/warp/patch_pictures.h"
@@ -24,6 +25,7 @@ struct WarpCounters {
     std::uint64_t empty = 0;      ///< frames with nothing in view
     std::uint64_t requested = 0;  ///< pixels asked to be rendered for themselves
     std::uint64_t answered = 0;   ///< pixels that came back
+    std::uint64_t rays = 0;       ///< samples of the pixels asked for
     int openHoles = 0;            ///< pixels known nowhere, of the frame last read
     int cracks = 0;               ///< of the same frame
 };
@@ -49,9 +51,11 @@ public:
     /// the next call of any member.
     const VirtualLayer& run(const RigidTransform& T_world_camera);
 
+    /// To be called once a frame, also where none is drawn as the camera rests.
     /// Pixels to be rendered for themselves: of a frame or two ago, at most mostRequested of them,
-    /// spread evenly where there are more. Nothing while none are known, and none again until the
-    /// one taken is answered, or a new reference comes. Never waits.
+    /// spread evenly where there are more; once the camera rests, those at edges. Nothing while
+    /// none are known, and none again until the one taken is answered, or a new reference comes.
+    /// Never waits.
     [[nodiscard]] std::optional<HoleRequest> takeRequest();
     /// Shown from the next run on. An answer of another scene is left out. Throws
     /// std::invalid_argument for fields of unequal length or a pixel outside of the layer.
@@ -67,7 +71,13 @@ private:
     [[nodiscard]] bool rerenders() const {
         return options_.filling == HoleFilling::Rerender || options_.filling == HoleFilling::Both;
     }
+    [[nodiscard]] bool isUnmoved(const RigidTransform& from, const RigidTransform& to) const;
     void dropRefused(std::vector<std::uint32_t>& pixels) const;
+    void rested(const std::optional<RigidTransform>& T_world_camera);
+    std::optional<HoleRequest> request(std::vector<std::uint32_t> pixels, bool edges,
+                                       const RigidTransform& T_world_camera);
+    std::optional<HoleRequest> takeHoles();
+    std::optional<HoleRequest> takeEdges();
     void warp(const RigidTransform& T_world_camera, const PixelRect& bounds);
 
     LensProjection lens_;
@@ -78,12 +88,15 @@ private:
     HoleFiller filler_;
     PatchPictures patches_;
     std::optional<DepthSplat> splat_;
+    std::optional<EdgeRefiner> refiner_;
     std::optional<WarpReference> reference_;
     std::uint64_t scene_ = 0;
     bool asked_ = false;  // a request waits for its answer
     HoleRequest lastRequest_;
-    RigidTransform listPose_;  // of the frame whose holes are under way
-    PixelRect drawn_;          // where the look-up's pictures are not empty
+    RigidTransform listPose_;                 // of the frame whose holes are under way
+    PixelRect drawn_;                         // where the look-up's pictures are not empty
+    std::optional<RigidTransform> warpedTo_;  // what is shown; none: not warped
+    int restFrames_ = 0;                      // since then
     WarpCounters counters_;
     VirtualLayer layer_;
 };

@@ -21,6 +21,8 @@ void validate(const WarpOptions& options) {
     requireOption("filling", static_cast<int>(options.filling), 0, 3);
     requireOption("mostRequested", options.mostRequested, 1, kMostPixels);
     requireOption("holeSamples", options.holeSamples, 1, 4096);
+    requireOption("sharpenShare", options.sharpenShare, 0, 1);
+    requireOption("sharpenSamples", options.sharpenSamples, 1, 4096);
     requireOption("fadeFrames", options.fadeFrames, 0, 100);
     requireOption("leastMotion", options.leastMotion, 0, 10);
 }

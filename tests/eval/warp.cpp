@@ -18,7 +18,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kMostRequests = 3;  // of one view, until its holes are answered
+constexpr int kFrames = 12;  // of one view, in which its holes and its edges are answered
 constexpr double kInpaintRadius = 3;
 
 bool showsObject(const RenderedPicture& picture, std::size_t pixel) {
@@ -95,7 +95,8 @@ private:
     [[nodiscard]] HoleAnswer answered(const HoleRequest& request) const {
         const RenderedPicture picture =
             tracePixels(tracer_, request.view, request.pixels, request.samples);
-        HoleAnswer out{request.view, request.pixels, {}, {}, {}, request.samples, request.scene};
+        HoleAnswer out{request.view,    request.pixels, {},           {}, {},
+                       request.samples, request.scene,  request.edges};
         for (const std::uint32_t pixel : request.pixels) {
             out.colour.push_back(picture.colour[pixel]);
             out.depth.push_back(picture.depth[pixel]);
@@ -112,7 +113,7 @@ private:
             glFinish();
         };
         Warped out;
-        for (int i = 0; i < kMostRequests; ++i) {
+        for (int i = 0; i < kFrames; ++i) {
             frame();
             const auto request = warp.takeRequest();
             if (i == 0) out.holeShare = warp.counters().openHoles;
@@ -124,8 +125,8 @@ private:
         out.rgba = warp.run(shot.view.T_world_camera).colour->readRgba8();
         const auto pixels = static_cast<double>(objectPixels(shot.truth));
         *out.holeShare /= pixels;
-        out.rerayShare = static_cast<double>(warp.counters().requested) * request_.holeSamples /
-                         (pixels * request_.referenceSamples);
+        out.rerayShare =
+            static_cast<double>(warp.counters().rays) / (pixels * request_.referenceSamples);
         return out;
     }
 

@@ -35,7 +35,7 @@ std::uint64_t hashOfWarps() {
         warp.setScene(scene.scene());
         warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)})));
         for (const double degrees : {1.0, 7.0, 25.0}) {
-            const VirtualLayer layer = test::settled(warp, scene, test::orbit(degrees), 4);
+            const VirtualLayer layer = test::settled(warp, scene, test::orbit(degrees));
             hash = hashed(hash, layer.colour->readRgba8());
             hash = hashed(hash, layer.depth->readRgba32F());
         }

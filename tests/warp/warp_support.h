@@ -29,6 +29,7 @@ inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, i
     out.view = request.view;
     out.pixels = request.pixels;
     out.scene = request.scene;
+    out.edges = request.edges;
     for (const std::uint32_t pixel : request.pixels) {
         out.colour.push_back(picture.colour[pixel]);
         out.depth.push_back(picture.depth[pixel]);

@@ -1,0 +1,71 @@
+// Lists the pixels in which a warped picture is least to be trusted: those with the most contrast to
+// their neighbours, where a surface's own pixels are mixtures that the look-up mixes again.
+// First (COUNT) how many there are of each level, then those of the highest levels that make up the share of the
+// objects' pixels, of the highest one at least: the same pixels whatever the order of the threads. In: colour (RGBA8
+// premultiplied) and state of the look-up. Out: count[] of each level, of the objects' pixels, of the list; list[] =
+// row-major index, colour.
+// Variant: #define COUNT
+#include "warp_edge_params.glsl"
+
+const uint kLevels = 64u;  // EdgeRefiner::kLevels
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0) uniform sampler2D colour;
+layout(binding = 1) uniform sampler2D state;
+layout(std430, binding = 0) buffer Counts {
+    uint count[];
+};
+#ifdef COUNT
+shared uint own[kLevels], objects;
+#else
+layout(std430, binding = 1) writeonly buffer List {
+    uvec2 list[];
+};
+shared uint least;
+#endif
+
+// The largest difference of a colour in the 3x3 pixels around p. Outlines count as little as the objects shine: the
+// silhouette knows them already.
+uint levelAt(ivec2 p) {
+    vec3 low = vec3(1.0), high = vec3(0.0);
+    for (int i = 0; i < 9; ++i) {
+        ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, bounds.xy, bounds.zw - 1);
+        vec3 c = texelFetch(colour, q, 0).rgb;
+        low = min(low, c);
+        high = max(high, c);
+    }
+    vec3 d = high - low;
+    return min(uint(max(max(d.r, d.g), d.b) * float(kLevels)), kLevels - 1u);
+}
+
+void main() {
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy) + bounds.xy;
+    bool inside = all(lessThan(p, bounds.zw));
+    uint level = inside ? levelAt(p) : 0u;
+    uint i = gl_LocalInvocationIndex;
+#ifdef COUNT
+    own[i] = 0u;
+    if (i == 0u) objects = 0u;
+    barrier();
+    if (level >= uint(limits.z)) atomicAdd(own[level], 1u);
+    float id = inside ? texelFetch(state, p, 0).a : 0.0;
+    if (id > 0.0 && id < 1.0) atomicAdd(objects, 1u);
+    barrier();
+    if (own[i] > 0u) atomicAdd(count[i], own[i]);
+    if (i == 0u && objects > 0u) atomicAdd(count[kLevels], objects);
+#else
+    if (i == 0u) {
+        least = kLevels - 1u;
+        uint sum = count[least], most = uint(share.y * float(count[kLevels]));
+        for (uint l = least; l-- > uint(limits.z);) {
+            sum += count[l];
+            if (sum > most) break;
+            least = l;
+        }
+    }
+    barrier();
+    if (!inside || level < least) return;
+    list[atomicAdd(count[kLevels + 1u], 1u)] =
+        uvec2(uint(p.y * limits.x + p.x), packUnorm4x8(texelFetch(colour, p, 0)));
+#endif
+}

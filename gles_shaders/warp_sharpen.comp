@@ -1,0 +1,17 @@
+// Shows pixels that were rendered for themselves in place of what was looked up. In: list[] = row-major index,
+// colour before, colour rendered (RGBA8 premultiplied). Out: the pixels.
+#include "warp_edge_params.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0, rgba8) writeonly uniform image2D colour;
+layout(std430, binding = 0) readonly buffer List {
+    uvec4 list[];
+};
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= uint(limits.y)) return;
+    uvec4 entry = list[i];
+    ivec2 p = ivec2(int(entry.x) % limits.x, int(entry.x) / limits.x);
+    imageStore(colour, p, mix(unpackUnorm4x8(entry.y), unpackUnorm4x8(entry.z), share.x));
+}

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "pipeline/gpu/fence.h"
+#include "pipeline/gpu/pass.h"
+#include "pipeline/render/hole_request.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// Replaces what a look-up blurs: where an older picture's pixel mixes two surfaces, or has detail
+/// as fine as a pixel, a warped picture is wrong by far the most. While the camera rests, those
+/// pixels are listed by their contrast, rendered for themselves like holes, and shown until it
+/// moves.
+class EdgeRefiner {
+public:
+    static constexpr int kLevels = 64;  ///< of contrast
+
+    /// See WarpOptions.
+    EdgeRefiner(Size layer, double share, int fadeFrames);
+
+    /// Lists the pixels of a look-up's `colour` (RGBA8 premultiplied) and `state` within `where`.
+    /// Forgets the list and the answer before.
+    void list(const gpu::Texture& colour, const gpu::Texture& state, const PixelRect& where);
+    /// Row-major indices, ascending, once the GPU has finished them: never waits.
+    std::optional<std::vector<std::uint32_t>> poll();
+    /// To pixels that poll() gave; others are left out.
+    void answer(const HoleAnswer& answer);
+    /// Replaces the pixels, a little more with each frame, in a `colour` of the same pose.
+    void show(const gpu::Texture& colour);
+    /// The camera has moved, or what it sees has changed.
+    void drop();
+
+private:
+    struct Params {  // warp_edge_params.glsl
+        std::int32_t bounds[4], limits[4];
+        float share[4];
+    };
+    struct Entry {
+        std::uint32_t pixel, before, rendered, unused;
+    };
+
+    Size layer_;
+    double share_, step_;
+    gpu::Buffer counts_, list_, entries_;
+    std::optional<gpu::Fence> fence_;                   // of the list
+    std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel, colour; ascending
+    Params params_{};
+    double shown_ = 0;  // share of the answer, 0: there is none
+    gpu::ComputePass<Params> count_, choose_, sharpen_;
+};
+
+}  // namespace mfar

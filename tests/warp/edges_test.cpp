@@ -1,0 +1,110 @@
+#include "tests/shader/gl_test.h"
+#include "tests/warp/warp_support.h"
+
+#include <algorithm>
+
+namespace mfar {
+namespace {
+
+using test::CastScene;
+using WarpEdgesGl = GlTest;
+
+constexpr Size kEdgeLayer{200, 150};
+constexpr int kLongEnough = 12;  // frames until all has been asked for and faded in
+
+struct Resting {
+    explicit Resting(const WarpOptions& options)
+        : scene(test::twoBalls()), warp(test::bentCamera(kEdgeLayer), kEdgeLayer, options) {
+        warp.setScene(scene.scene());
+        warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)}, 2)));
+    }
+    std::vector<std::uint8_t> rest(double degrees) {
+        return test::settled(warp, scene, test::orbit(degrees), 2 * kLongEnough)
+            .colour->readRgba8();
+    }
+    /// The first one for edges, all others answered.
+    std::optional<HoleRequest> edgesAt(double degrees) {
+        for (int i = 0; i < kLongEnough; ++i) {
+            warp.run(test::orbit(degrees));
+            glFinish();
+            auto request = warp.takeRequest();
+            if (request && request->edges) return request;
+            if (request) warp.answer(test::answered(scene, *request));
+        }
+        return {};
+    }
+    RenderedPicture truthAt(double degrees) const {
+        return scene.cast({warp.camera(), test::orbit(degrees)}, 2);
+    }
+    CastScene scene;
+    Warp warp;
+};
+
+TEST_F(WarpEdgesGl, ArePutRightWhileTheCameraRests) {
+    Resting sharpened({}), plain({.sharpenShare = 0});
+    const RenderedPicture truth = sharpened.truthAt(2);
+    EXPECT_GT(test::psnrInside(sharpened.rest(2), truth),
+              test::psnrInside(plain.rest(2), truth) + 3);
+}
+
+TEST_F(WarpEdgesGl, AreAskedForOncePerPoseAndAreAShareOfTheObjects) {
+    Resting s({.sharpenShare = 0.1});
+    const auto request = s.edgesAt(2);
+    ASSERT_TRUE(request);
+    EXPECT_TRUE(std::ranges::is_sorted(request->pixels));
+    EXPECT_EQ(request->samples, WarpOptions{}.sharpenSamples);
+    const RenderedPicture truth = s.truthAt(2);
+    const auto objects = std::ranges::count_if(
+        truth.id, [](std::uint8_t id) { return id != 0 && id != kCatcherId; });
+    EXPECT_GT(request->pixels.size(), 100U);
+    EXPECT_LE(static_cast<double>(request->pixels.size()), 0.1 * static_cast<double>(objects));
+    s.warp.answer(test::answered(s.scene, *request));
+    EXPECT_FALSE(s.edgesAt(2)) << "they are known";
+    EXPECT_TRUE(s.edgesAt(3));
+}
+
+TEST_F(WarpEdgesGl, AppearOverTheirFramesAndGoWithTheFirstMotion) {
+    Resting s({.fadeFrames = 4});
+    const auto request = s.edgesAt(2);
+    ASSERT_TRUE(request);
+    HoleAnswer white = test::answered(s.scene, *request);
+    std::ranges::fill(white.colour, std::array<std::uint8_t, 4>{255, 255, 255, 255});
+    const auto meanAt = [&](double degrees) {
+        const auto rgba = s.warp.run(test::orbit(degrees)).colour->readRgba8();
+        double sum = 0;
+        for (const std::uint32_t pixel : request->pixels)
+            sum += rgba[4UL * pixel + 1];
+        return sum / static_cast<double>(request->pixels.size());
+    };
+    const double before = meanAt(2);
+    s.warp.answer(white);
+    double last = before;
+    for (int i = 1; i <= 4; ++i) {
+        const double now = meanAt(2);
+        EXPECT_GT(now, last + 3) << i;
+        last = now;
+    }
+    EXPECT_NEAR(meanAt(2), 255, 0.5);
+    EXPECT_NEAR(meanAt(2.2), before, 10);
+    EXPECT_NEAR(meanAt(2), before, 10) << "what was asked for another rest is forgotten";
+}
+
+TEST_F(WarpEdgesGl, AnAnswerThatComesAfterAMotionIsLeftOut) {
+    Resting s({});
+    const auto request = s.edgesAt(2);
+    ASSERT_TRUE(request);
+    const auto moved = s.warp.run(test::orbit(3)).colour->readRgba8();
+    s.warp.answer(test::answered(s.scene, *request));
+    EXPECT_EQ(s.warp.run(test::orbit(3)).colour->readRgba8(), moved);
+    EXPECT_TRUE(s.edgesAt(3)) << "and does not keep the next ones from being asked for";
+}
+
+TEST_F(WarpEdgesGl, AreLeftAloneWhereNothingIsRendered) {
+    for (const HoleFilling filling : {HoleFilling::None, HoleFilling::PushPull}) {
+        Resting s({.filling = filling});
+        EXPECT_FALSE(s.edgesAt(2));
+    }
+}
+
+}  // namespace
+}  // namespace mfar
