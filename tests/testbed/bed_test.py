@@ -66,6 +66,8 @@ class Pictures(unittest.TestCase):
             shown = [(a(t, 1)[0], b(t, 1)[0]) for t in (0, 0.11, 0.29, 0.31, 0.52, 0.6, 0.61, 0.9)]
             self.assertEqual(shown, [(0, 0), (1, 0), (3, 1), (3, 1), (1, 0), (0, 0), (0, 0),
                                      (3, 1)])
+            a.held = True
+            self.assertEqual([a(t, 1)[0] for t in (0, 0.11, 0.29)], [0, 0, 0])
 
     def test_numbered_film_keeps_the_picture_below(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -76,6 +76,11 @@ class Bed:
         for picture in self._pictures:
             picture.numbered = on
 
+    def held(self, on):
+        """Whether films stand still."""
+        for picture in self._pictures:
+            picture.held = on
+
     def journal(self, since=None):
         """What mfard.service has said, without times."""
         return self.run('journalctl --no-pager -q -u mfard -o cat'

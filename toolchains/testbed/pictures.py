@@ -35,7 +35,10 @@ class Pattern:
 class Film:
     """Pictures of a file, one after the other without gaps, and their times [s], as mfar-film writes
     them. They are shown forwards and backwards in turn, up to the time `span`, so that nothing ever
-    jumps; films with the same span stay together. `numbered`: the number is drawn in."""
+    jumps; films with the same span stay together. `numbered`: the number is drawn in. `held`: the
+    film stands at its first picture."""
+
+    held = False
 
     def __init__(self, path, width, height, span, numbered=False):
         self.size = (width, height)
@@ -57,7 +60,7 @@ class Film:
         return min(near, key=lambda i: abs(self._times[i] - moment))
 
     def __call__(self, time, number):
-        start = self.index(time) * self._bytes
+        start = self.index(0 if self.held else time) * self._bytes
         picture = self._data[start:start + self._bytes]
         if not self.numbered:
             return picture

@@ -2,12 +2,7 @@
 
 from png import read_png
 
-CONFIG = '''source = "synthetic:still,rest"
-[superres]
-mode = "off"
-[pose]
-source = "none"
-[trigger]
+CONFIG = '''[superres]
 mode = "off"
 [status]
 interval_s = 0.5
@@ -16,10 +11,14 @@ TRIES = 10
 
 
 def run(bed):
-    for screen in ('kms', 'fbdev'):
-        bed.fresh_service(f'display = "{screen}"\n' + CONFIG)
-        bed.wait_for(f'mfarctl status | grep -q "^display *{screen}:"', 60)
-        compare(bed, screen)
+    bed.held(True)
+    try:
+        for screen in ('kms', 'fbdev'):
+            bed.fresh_service(f'display = "{screen}"\n' + bed.cameras + CONFIG)
+            bed.wait_for(f'mfarctl status | grep -q "^display *{screen}:"', 60)
+            compare(bed, screen)
+    finally:
+        bed.held(False)
 
 
 def compare(bed, screen):
