@@ -18,13 +18,13 @@ bool StillPolicy::decide(Timestamp now, Timestamp statsOf, const FrameStats& sta
     const bool changed = stats.changed > kMovedShare && statsOf != usedSince_;
     if (changed && firedAt_ && statsOf > *firedAt_) movedSinceTrigger_ = true;
     if (changed && usedSince_ && statsOf > *usedSince_) movedInUse_ = true;
-    if (config_.mode == TriggerMode::Off) arrived_ = true;
     const bool fires = pending() ? timedOut(now) : asked_ || wanted(now, statsOf, stats);
     if (fires) fire(now);
     return fires;
 }
 
 void StillPolicy::configure(const TriggerConfig& config) {
+    if (config.mode == TriggerMode::Off && config_.mode != TriggerMode::Off) arrived_ = true;
     config_ = config;
     usedSince_.reset();
 }

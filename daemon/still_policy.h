@@ -29,12 +29,12 @@ struct TriggerConfig {
 /// frame, by one thread.
 ///
 /// A lost still is counted and asked for once more at once. When that one is lost too, the policy
-/// waits for maxAgeS (mode demand) or the next period (mode rate).
+/// waits for maxAgeS (mode demand), the next period (mode rate), or somebody to ask (mode off).
 class StillPolicy {
 public:
     explicit StillPolicy(const TriggerConfig& config) : config_(config) {}
 
-    /// Takes effect with the next decision; a pending still stays pending unless the mode is off.
+    /// Takes effect with the next decision; a pending still stays pending unless the mode turns off.
     void configure(const TriggerConfig& config);
 
     /// True: fire now (and the policy counts on that). `now` is the time of the newest frame,

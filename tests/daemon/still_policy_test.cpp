@@ -217,6 +217,32 @@ TEST(StillPolicy, OffNeverFires) {
     EXPECT_EQ(board.run(30, kMovingUnexplained), 0);
 }
 
+TEST(StillPolicy, OffRepeatsAStillThatWasAskedForAndLost) {
+    TriggerConfig config;
+    config.mode = TriggerMode::Off;
+    Simulation board(config);
+    board.answers = false;
+    board.policy.ask();
+    EXPECT_EQ(board.run(30, kRest), 2);
+    EXPECT_EQ(board.policy.lost(), 2);
+    board.answers = true;
+    board.policy.ask();
+    EXPECT_EQ(board.run(30, kRest), 1);
+    EXPECT_EQ(board.policy.lost(), 2);
+}
+
+TEST(StillPolicy, ReloadToOffForgetsAPendingStill) {
+    Simulation board({});
+    board.answers = false;
+    board.run(0.1, kRest);
+    ASSERT_TRUE(board.policy.pending());
+    TriggerConfig config;
+    config.mode = TriggerMode::Off;
+    board.policy.configure(config);
+    EXPECT_EQ(board.run(30, kRest), 0);
+    EXPECT_EQ(board.policy.lost(), 0);
+}
+
 TEST(StillPolicy, ReloadFromOffToDemandFires) {
     TriggerConfig config;
     config.mode = TriggerMode::Off;
