@@ -105,6 +105,11 @@ class Bed:
         self.run('systemctl start mfard', 120)
         return self.guest.clock() - begin
 
+    def wait_for_pictures(self, count, limit=120):
+        """Until the service has shown so many. The first ones, for which shaders are compiled, take
+        up to half a minute here, in which it answers nothing."""
+        self.wait_for(f'(( $(mfarctl status | sed -n "s/^frames *//p") >= {count} ))', limit)
+
     def write(self, path, text):
         """Writes a file in the guest."""
         Path(self.share, 'written').write_text(text, encoding='utf-8')

@@ -15,6 +15,7 @@ def run(bed):
     try:
         for screen in ('kms', 'fbdev'):
             bed.fresh_service(f'display = "{screen}"\n' + bed.cameras + CONFIG)
+            bed.wait_for_pictures(5)
             bed.wait_for(f'mfarctl status | grep -q "^display *{screen}:"', 60)
             compare(bed, screen)
     finally:

@@ -17,33 +17,50 @@ arrival_ms = 1500
 mode = "off"
 [pose]
 source = "none"
-[trigger]
-mode = "off"
+[status]
+interval_s = 0.5
 '''
-GOOD = 3
+GOOD = 3  # the first one is asked for by the service itself
 LIMIT = 60  # s
 
 
 def run(bed):
-    bed.fresh_service(CONFIG)
-    bed.wait_for("systemctl show mfard --value -p StatusText | grep -q fps", LIMIT)
-    for good in range(1, GOOD + 1):
-        trigger(bed, fired=good, matched=good, lost=0)
-
-    bed.still.fault('missing')
-    trigger(bed, fired=GOOD + 2, matched=GOOD + 1, lost=1, repeated=1)
-
-    bed.still.fault('late', 3)
-    counts = trigger(bed, fired=GOOD + 4, lost=2, late=1, repeated=2)
+    bed.held(True)  # what rests needs no still but those that are asked for here
+    try:
+        counts = lose_stills(bed)
+    finally:
+        bed.held(False)
     print(f'        {counts}')
     assert counts['unmatched'] == 0, counts
     assert bed.property('NRestarts') == '0'
     assert bed.guest.edges.level() == 0, 'the trigger line is high'
 
 
-def trigger(bed, **wanted):
-    """Asks for a still: the counters, once they are as wanted."""
-    bed.run('mfarctl trigger')
+def lose_stills(bed):
+    bed.fresh_service(CONFIG)
+    bed.wait_for_pictures(1)
+    counted(bed, fired=1, matched=1, lost=0)
+    bed.wait_for_pictures(8)  # some of them with that still
+    for good in range(2, GOOD + 1):
+        ask(bed)
+        counted(bed, fired=good, matched=good, lost=0)
+
+    bed.still.fault('missing')
+    ask(bed)
+    counted(bed, fired=GOOD + 2, matched=GOOD + 1, lost=1, repeated=1)
+
+    bed.still.fault('late', 3)
+    ask(bed)
+    return counted(bed, fired=GOOD + 4, lost=2, late=1, repeated=2)
+
+
+def ask(bed):
+    # In the guest a picture may take longer than mfarctl waits; the still is taken all the same.
+    bed.run('mfarctl trigger', check=False)
+
+
+def counted(bed, **wanted):
+    """The counters, once they are as wanted."""
     end = time.monotonic() + LIMIT
     while True:
         counts = json.loads(bed.run('mfarctl stats'))['trigger_line']
