@@ -24,25 +24,57 @@ debianSources() {
 # Arguments: what a folder is made from. Prints a name part that is the same for the same.
 inputHash() { printf '%s\n' "$@" | sha256sum | cut -c 1-12; }
 
-# Arguments: architecture, new folder, packages. Extracts them with all they depend on and keeps
-# dpkg's records of them, as installed. No maintainer script is run.
-extractPackages() {
-    local architecture=$1 root=$2 log sources
+# Argument: a new folder. Copies the package sources there but for security updates; prints the files.
+sourcesWithoutSecurity() {
+    local file copy
+    while IFS= read -r file; do
+        copy=$1/${file##*/}
+        case $file in
+        *.sources) awk 'BEGIN { RS = ""; ORS = "\n\n" } !/\nSuites:[^\n]*-security/' "$file" >"$copy" ;;
+        *) grep -v -- '-security' "$file" >"$copy" || true ;;
+        esac
+        echo "$copy"
+    done < <(debianSources)
+}
+
+# Arguments: as of extractPackages, "--", files of sources.
+tryExtracting() {
+    local architecture=$1 root=$2 packages=()
     shift 2
-    log=$(mktemp)
-    mapfile -t sources < <(debianSources)
+    for (( ; $# > 0; )); do
+        [[ $1 != -- ]] || { shift; break; }
+        packages+=("$1")
+        shift
+    done
     # shellcheck disable=SC2016 # mmdebstrap expands $1
-    if ! mmdebstrap --quiet --mode=root --variant=extract --architectures="$architecture" \
+    mmdebstrap --quiet --mode=root --variant=extract --architectures="$architecture" \
         --aptopt='APT::Install-Recommends "false"' \
         --dpkgopt='path-exclude=/usr/share/doc/*' --dpkgopt='path-exclude=/usr/share/man/*' \
         --dpkgopt='path-exclude=/usr/share/locale/*' --dpkgopt='path-exclude=/usr/share/info/*' \
         --setup-hook='for d in bin sbin lib; do mkdir -p "$1/usr/$d"; ln -s "usr/$d" "$1/$d"; done' \
         --skip=check/qemu,download/cleanup,cleanup/apt,output/dev \
-        --include="$(IFS=,; echo "$*")" "$(debianSuite)" "$root" "${sources[@]}" >"$log" 2>&1; then
-        tail -n 20 "$log" >&2
-        die "the $architecture packages could not be extracted"
+        --include="$(IFS=,; echo "${packages[*]}")" "$(debianSuite)" "$root" "$@"
+}
+
+# Arguments: architecture, new folder, packages. Extracts them with all they depend on and keeps
+# dpkg's records of them, as installed. No maintainer script is run. Mirrors do not always have the
+# security updates of every architecture in order; what is built against the packages without them
+# runs with them.
+extractPackages() {
+    local architecture=$1 root=$2 work sources
+    shift 2
+    work=$(mktemp -d)
+    mapfile -t sources < <(debianSources)
+    if ! tryExtracting "$architecture" "$root" "$@" -- "${sources[@]}" >"$work/log" 2>&1; then
+        printf 'Failed for %s; once more without security updates\n' "$architecture" >&2
+        rm -rf "$root"
+        mapfile -t sources < <(sourcesWithoutSecurity "$work")
+        tryExtracting "$architecture" "$root" "$@" -- "${sources[@]}" >>"$work/log" 2>&1 || {
+            tail -n 20 "$work/log" >&2
+            die "the $architecture packages could not be extracted"
+        }
     fi
-    rm "$log"
+    rm -r "$work"
     recordPackages "$root"
     rm -rf "${root:?}"/var/lib/apt/lists/* "${root:?}"/var/cache/apt/*
 }

@@ -68,7 +68,10 @@ public:
         : text_(address.text), taken_(request(address, GPIOD_LINE_REQUEST_EVENT_BOTH_EDGES)) {}
 
     std::optional<Timestamp> next(std::chrono::microseconds timeout) override {
-        const timespec wait{timeout.count() / 1'000'000, timeout.count() % 1'000'000 * 1000};
+        // Both fields are narrower on 32 bits.
+        timespec wait{};
+        wait.tv_sec = static_cast<time_t>(timeout.count() / 1'000'000);
+        wait.tv_nsec = static_cast<decltype(wait.tv_nsec)>(timeout.count() % 1'000'000 * 1000);
         const int ready = gpiod_line_event_wait(taken_.line, &wait);
         if (ready == 0) return std::nullopt;
         gpiod_line_event event{};
