@@ -34,7 +34,8 @@ class StillPolicy {
 public:
     explicit StillPolicy(const TriggerConfig& config) : config_(config) {}
 
-    /// Takes effect with the next decision; a pending still stays pending unless the mode turns off.
+    /// Takes effect with the next decision; a pending still stays pending unless the mode turns
+    /// off.
     void configure(const TriggerConfig& config);
 
     /// True: fire now (and the policy counts on that). `now` is the time of the newest frame,
