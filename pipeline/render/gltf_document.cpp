@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 namespace mfar {
@@ -134,9 +136,10 @@ GltfDocument readDocument(std::span<const std::uint8_t> bytes, const std::string
                           const std::filesystem::path& folder, const ModelLimits& limits) {
     GltfDocument document{{}, name, folder, limits};
     try {
-        if (bytes.size() > limits.bytes || std::uint64_t{bytes.size()} > UINT32_MAX)
+        const auto most = std::min<std::uint64_t>(limits.bytes, UINT32_MAX);
+        if (bytes.size() > most)
             throw std::runtime_error(
-                fmt::format("has {} bytes, at most {} are read", bytes.size(), limits.bytes));
+                fmt::format("has {} bytes, at most {} are read", bytes.size(), most));
         requireSoundJson(jsonOf(bytes), limits);
         parse(bytes, document);
     } catch (const std::exception& error) {
