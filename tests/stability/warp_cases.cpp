@@ -45,6 +45,7 @@ WarpOptions warpOptions(Context& c) {
     out.filling = c.hostile.pick({HoleFilling::None, HoleFilling::PushPull, HoleFilling::Rerender,
                                   HoleFilling::Both, HoleFilling::Both});
     out.mostRequested = c.hostile.pick({1, 100, 15360});
+    out.sharpenShare = c.hostile.pick({0.0, 0.15, 1.0});
     out.fadeFrames = c.hostile.integer(0, 5);
     out.leastMotion = c.hostile.pick({0.0, 0.1});
     return out;
@@ -65,6 +66,19 @@ void checkLayer(Context& c, const VirtualLayer& layer) {
         }
 }
 
+/// One frame, in which what is asked for is answered.
+void showFrame(Context& c, Warp& warp, const test::CastScene& balls, const RigidTransform& pose,
+               double spoilt) {
+    checkLayer(c, warp.run(pose));
+    c.gl.frame(c.checks, pixelsOf(warp.camera().size));
+    const auto request = warp.takeRequest();
+    if (!request) return;
+    c.checks.require(isFinite(request->view.T_world_camera), "a view that is not finite");
+    HoleAnswer answer = test::answered(balls, *request, 1);
+    spoilPicture(c, answer.depth, answer.id, answer.colour, spoilt);
+    warp.answer(answer);
+}
+
 void hostileWarp(Context& c) {
     const test::CastScene balls = ballsOf(c);
     const Size size = c.size(1, 90), output = c.hostile.chance(0.5) ? size : c.size(1, 90);
@@ -83,17 +97,14 @@ void hostileWarp(Context& c) {
         RigidTransform pose = c.hostile.chance(0.6) ? from * c.hostile.gentle(0.3) : around(c);
         if (c.hostile.chance(0.1)) pose = from * c.hostile.motion();
         if (c.hostile.chance(0.1)) pose = c.hostile.spoilt(pose);
-        checkLayer(c, warp.run(pose));
-        c.gl.frame(c.checks, pixelsOf(output));
-        if (const auto request = warp.takeRequest()) {
-            c.checks.require(isFinite(request->view.T_world_camera), "a view that is not finite");
-            HoleAnswer answer = test::answered(balls, *request, 1);
-            spoilPicture(c, answer.depth, answer.id, answer.colour, spoilt);
-            warp.answer(answer);
-        }
+        showFrame(c, warp, balls, pose, spoilt);
         if (c.hostile.chance(0.1)) warp.setReference(shoot());
         if (c.hostile.chance(0.1)) warp.dropReference();
     }
+    if (c.hostile.chance(0.5)) return;
+    const RigidTransform rest = from * c.hostile.gentle(0.3);  // edges are sharpened there
+    for (int frame = 0; frame < 12; ++frame)
+        showFrame(c, warp, balls, rest, spoilt);
 }
 
 // What an older picture shows of the scene is where the scene has it.
