@@ -37,15 +37,10 @@ sourcesWithoutSecurity() {
     done < <(debianSources)
 }
 
-# Arguments: as of extractPackages, "--", files of sources.
+# Arguments: architecture, new folder, packages with commas between them, files of sources.
 tryExtracting() {
-    local architecture=$1 root=$2 packages=()
-    shift 2
-    for (( ; $# > 0; )); do
-        [[ $1 != -- ]] || { shift; break; }
-        packages+=("$1")
-        shift
-    done
+    local architecture=$1 root=$2 packages=$3
+    shift 3
     # shellcheck disable=SC2016 # mmdebstrap expands $1
     mmdebstrap --quiet --mode=root --variant=extract --architectures="$architecture" \
         --aptopt='APT::Install-Recommends "false"' \
@@ -53,7 +48,7 @@ tryExtracting() {
         --dpkgopt='path-exclude=/usr/share/locale/*' --dpkgopt='path-exclude=/usr/share/info/*' \
         --setup-hook='for d in bin sbin lib; do mkdir -p "$1/usr/$d"; ln -s "usr/$d" "$1/$d"; done' \
         --skip=check/qemu,download/cleanup,cleanup/apt,output/dev \
-        --include="$(IFS=,; echo "${packages[*]}")" "$(debianSuite)" "$root" "$@"
+        --include="$packages" "$(debianSuite)" "$root" "$@"
 }
 
 # Arguments: architecture, new folder, packages. Extracts them with all they depend on and keeps
@@ -61,15 +56,16 @@ tryExtracting() {
 # security updates of every architecture in order; what is built against the packages without them
 # runs with them.
 extractPackages() {
-    local architecture=$1 root=$2 work sources
+    local architecture=$1 root=$2 packages work sources
     shift 2
+    packages=$(IFS=,; echo "$*")
     work=$(mktemp -d)
     mapfile -t sources < <(debianSources)
-    if ! tryExtracting "$architecture" "$root" "$@" -- "${sources[@]}" >"$work/log" 2>&1; then
+    if ! tryExtracting "$architecture" "$root" "$packages" "${sources[@]}" >"$work/log" 2>&1; then
         printf 'Failed for %s; once more without security updates\n' "$architecture" >&2
         rm -rf "$root"
         mapfile -t sources < <(sourcesWithoutSecurity "$work")
-        tryExtracting "$architecture" "$root" "$@" -- "${sources[@]}" >>"$work/log" 2>&1 || {
+        tryExtracting "$architecture" "$root" "$packages" "${sources[@]}" >>"$work/log" 2>&1 || {
             tail -n 20 "$work/log" >&2
             die "the $architecture packages could not be extracted"
         }
