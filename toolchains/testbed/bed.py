@@ -19,8 +19,8 @@ from pictures import Film, Pattern, film_times
 HERE = Path(__file__).resolve().parent
 VIDEO, STILL = (640, 480), (2304, 1728)
 
-# For mfard: the board's own devices. Stills are not asked for unless a scenario wants them.
-CAMERAS = '''source = "cameras"
+# For mfard: the board's own devices; more keys of the trigger's line may follow.
+DEVICES = '''source = "cameras"
 [cameras.video]
 camera = "Bed video"
 [cameras.still]
@@ -28,7 +28,10 @@ camera = "Bed still"
 [cameras.trigger]
 chip = "/dev/gpiochip0"
 line = "5"
-[pose]
+'''
+
+# Stills are not asked for unless a scenario wants them.
+CAMERAS = DEVICES + '''[pose]
 source = "none"
 [trigger]
 mode = "off"
@@ -47,7 +50,7 @@ def pictures(options):
 class Bed:
     """What a scenario gets: the guest, and the world around it."""
 
-    cameras = CAMERAS
+    devices, cameras = DEVICES, CAMERAS
 
     def __init__(self, options, boot):
         self.work = tempfile.mkdtemp(prefix='mfar-bed.')

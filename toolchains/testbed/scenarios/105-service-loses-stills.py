@@ -3,15 +3,7 @@
 import json
 import time
 
-CONFIG = '''source = "cameras"
-[cameras.video]
-camera = "Bed video"
-[cameras.still]
-camera = "Bed still"
-[cameras.trigger]
-chip = "gpiochip0"
-line = "5"
-jitter_ms = 100
+CONFIG = '''jitter_ms = 100
 arrival_ms = 1500
 [superres]
 mode = "off"
@@ -37,7 +29,7 @@ def run(bed):
 
 
 def lose_stills(bed):
-    bed.fresh_service(CONFIG)
+    bed.fresh_service(bed.devices + CONFIG)
     bed.wait_for_pictures(1)
     counted(bed, fired=1, matched=1, lost=0)
     bed.wait_for_pictures(8)  # some of them with that still

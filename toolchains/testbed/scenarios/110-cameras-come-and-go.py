@@ -1,15 +1,6 @@
 """The service on the board's cameras: pictures flow, and each camera may be unplugged and comes back."""
 
-CONFIG = '''source = "cameras"
-display = "auto"
-[cameras.video]
-camera = "Bed video"
-[cameras.still]
-camera = "Bed still"
-[cameras.trigger]
-chip = "gpiochip0"
-line = "5"
-jitter_ms = 100
+CONFIG = '''jitter_ms = 100
 [superres]
 mode = "off"
 [pose]
@@ -23,7 +14,7 @@ BACK_LIMIT = 3  # s
 
 
 def run(bed):
-    seconds = bed.fresh_service(CONFIG, 'WatchdogSec=120\n')
+    seconds = bed.fresh_service('display = "auto"\n' + bed.devices + CONFIG, 'WatchdogSec=120\n')
     print(f'        ready after {seconds:.1f} s')
     bed.wait_for(status('fps'), 60)
     before = None
