@@ -67,17 +67,11 @@ TEST_F(WarpEdgesGl, AppearOverTheirFramesAndGoWithTheFirstMotion) {
     Resting s({.fadeFrames = 4});
     const auto request = s.edgesAt(2);
     ASSERT_TRUE(request);
-    HoleAnswer white = test::answered(s.scene, *request);
-    std::ranges::fill(white.colour, std::array<std::uint8_t, 4>{255, 255, 255, 255});
     const auto meanAt = [&](double degrees) {
-        const auto rgba = s.warp.run(test::orbit(degrees)).colour->readRgba8();
-        double sum = 0;
-        for (const std::uint32_t pixel : request->pixels)
-            sum += rgba[4UL * pixel + 1];
-        return sum / static_cast<double>(request->pixels.size());
+        return test::meanGreen(s.warp, test::orbit(degrees), request->pixels);
     };
     const double before = meanAt(2);
-    s.warp.answer(white);
+    s.warp.answer(test::answeredInWhite(s.scene, *request));
     double last = before;
     for (int i = 1; i <= 4; ++i) {
         const double now = meanAt(2);

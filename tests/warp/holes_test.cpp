@@ -79,17 +79,9 @@ TEST_F(WarpHolesGl, AnswersAppearOverTheirFrames) {
     Turned s({.fadeFrames = 4});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);
-    HoleAnswer white = test::answered(s.scene, *request);
-    std::ranges::fill(white.colour, std::array<std::uint8_t, 4>{255, 255, 255, 255});
-    const auto mean = [&] {
-        const auto rgba = s.warp.run(test::orbit(15)).colour->readRgba8();
-        double sum = 0;
-        for (const std::uint32_t pixel : request->pixels)
-            sum += rgba[4UL * pixel + 1];
-        return sum / static_cast<double>(request->pixels.size());
-    };
+    const auto mean = [&] { return test::meanGreen(s.warp, test::orbit(15), request->pixels); };
     const double filled = mean();
-    s.warp.answer(white);
+    s.warp.answer(test::answeredInWhite(s.scene, *request));
     double last = filled;
     for (int i = 1; i <= 4; ++i) {
         const double now = mean();

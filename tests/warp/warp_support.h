@@ -3,6 +3,8 @@
 #include "pipeline/warp/warp.h"
 #include "tests/warp/cast_scene.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -36,6 +38,23 @@ inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, i
         out.id.push_back(picture.id[pixel]);
     }
     return out;
+}
+
+/// The same in plain white.
+inline HoleAnswer answeredInWhite(const CastScene& scene, const HoleRequest& request) {
+    HoleAnswer out = answered(scene, request);
+    std::ranges::fill(out.colour, std::array<std::uint8_t, 4>{255, 255, 255, 255});
+    return out;
+}
+
+/// Of the next frame at this pose, over these pixels.
+inline double meanGreen(Warp& warp, const RigidTransform& pose,
+                        const std::vector<std::uint32_t>& pixels) {
+    const auto rgba = warp.run(pose).colour->readRgba8();
+    double sum = 0;
+    for (const std::uint32_t pixel : pixels)
+        sum += rgba[4UL * pixel + 1];
+    return sum / static_cast<double>(pixels.size());
 }
 
 /// Runs until the holes of this pose are rendered and shown in full, or there are none.
