@@ -6,10 +6,14 @@
 in vec3 point;
 in vec3 facing;
 in vec2 square;
+in vec3 place;
 layout(location = 0) out vec4 shown;
 layout(location = 1) out float depth;
 
 void main() {
+    // A triangle seen edge on is thinner than the grid its corners are rounded to: a pixel's centre may be
+    // in the rounded one and far beyond the true one, where there is neither colour nor depth.
+    if (any(greaterThan(abs(place), vec3(target.z))) || dot(place, place) > target.w) discard;
     vec3 n = normalize(facing);
     if (dot(n, point) > 0.0) n = -n;
     float lit = mix(max(dot(n, light.xyz), 0.0), 1.0, light.w);
@@ -19,5 +23,5 @@ void main() {
     vec2 wave = 2.0 * abs(fract(0.5 * inner + 0.25) - 0.5) - 0.5;
     vec2 side = clamp(wave / max(fwidth(square), 1e-6), vec2(-0.5), vec2(0.5));
     shown = vec4(lit * mix(colour[0].rgb, colour[1].rgb, 0.5 - 2.0 * side.x * side.y), 1.0);
-    depth = 1.0 / gl_FragCoord.w;
+    depth = max(1.0 / gl_FragCoord.w, lens.w);
 }

@@ -7,5 +7,5 @@ layout(std140, binding = 0) uniform Params {
     vec4 lens;        // k3, radius of the rim, radial factor there, near plane [m]
     vec4 colour[2];   // of the squares, display values
     vec4 light;       // unit vector towards it, camera frame; w: share of the ambient light
-    vec4 target;      // width, height [px]
+    vec4 target;      // width, height [px]; of the unit shape: largest coordinate, largest square of the radius
 };

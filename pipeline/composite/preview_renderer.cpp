@@ -11,6 +11,8 @@ namespace {
 
 using gpu::TexelFormat;
 
+constexpr double kReach = 0.505;  // of a unit shape from its centre, with what rounding adds
+
 static_assert(sizeof(ShapeMesh::Vertex) == sizeof(gpu::MeshVertex));
 
 void store(float* to, const Eigen::Vector3d& xyz, double w) {
@@ -67,8 +69,10 @@ PreviewRenderer::Params PreviewRenderer::params(const VirtualObject& object,
     store(p.colour[1], object.colours[1].cast<double>(), 1);
     store(p.light, T_world_video.rotation.conjugate() * light_.towards.normalized(),
           light_.ambient);
+    const double radius = object.shape == VirtualShape::Sphere ? kReach : std::sqrt(3) * kReach;
     store(p.target,
-          {static_cast<double>(camera.size.width), static_cast<double>(camera.size.height), 0}, 0);
+          {static_cast<double>(camera.size.width), static_cast<double>(camera.size.height), kReach},
+          radius * radius);
     return p;
 }
 

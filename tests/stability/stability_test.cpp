@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 namespace mfar::stress {
 namespace {
@@ -42,6 +44,20 @@ INSTANTIATE_TEST_SUITE_P(
                     Group{"depth", depthCases, 8}, Group{"pose", poseCases, 6},
                     Group{"tracer", tracerCases, 12}, Group{"warp", warpCases, 6}),
     [](const testing::TestParamInfo<Group>& one) { return std::string(one.param.name); });
+
+// Found by long runs: triangles seen edge on, whose depth ran away beyond them.
+TEST(HostileInput, SeedsThatFailedOnceBreakNothing) {
+    GlWatch gl;
+    Checks checks;
+    const std::vector<Case> all = virtualCases();
+    const auto one =
+        std::ranges::find(all, std::string_view("silhouette"), [](const Case& c) { return c.name; });
+    ASSERT_NE(one, all.end());
+    for (const auto& [seed, scale] : {std::pair(std::uint64_t{36795390859}, Scale::Product),
+                                      {std::uint64_t{36795394867}, Scale::Mixed},
+                                      {std::uint64_t{78921}, Scale::Mixed}})
+        EXPECT_EQ(run(*one, seed, checks, gl, scale), std::vector<std::string>());
+}
 
 TEST(HostileInput, IsAFunctionOfItsSeed) {
     Hostile one(7), same(7), other(8);

@@ -149,6 +149,8 @@ void preview(Context& c) {
                     "pixels off their ray");
 }
 
+constexpr double kInterpolation = 0x1p-20;  // of the largest value, a few roundings
+
 // Every pixel that an object is drawn in lies in a tile whose range holds its depth.
 void silhouettes(Context& c) {
     const CameraModel camera = c.hostile.camera(c.size(1, 120));
@@ -168,7 +170,10 @@ void silhouettes(Context& c) {
             const SurfaceRange& tile =
                 tiles[static_cast<std::size_t>(y / kTileSize) * columns + x / kTileSize];
             if (!(z > 0)) continue;
-            c.checks.within(z, tile.nearest * 0.999, tile.farthest * 1.001, "depth in its tile");
+            // The renderer interpolates 1 / z in single precision.
+            const double rounding = kInterpolation / tile.nearest;
+            c.checks.within(1 / z, 0.999 / tile.farthest - rounding,
+                            1.001 / tile.nearest + rounding, "inverse depth in its tile");
         }
 }
 
