@@ -2,6 +2,7 @@
 #include "tests/stability/balance.h"
 #include "tests/stability/cases.h"
 #include "tests/stability/precision.h"
+#include "tests/stability/processes.h"
 #include "tests/stability/watched_shaders.h"
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -30,6 +32,7 @@ struct Options {
     std::vector<std::string> cases;
     int plant = -1;
     long pixels = 100000000;
+    int jobs = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
     bool small = false, full = false, keepGoing = false, precision = false, listPlanted = false,
          listCases = false;
 };
@@ -49,6 +52,8 @@ Options parse(int argc, char** argv) {
     app.add_option("--pixels", o.pixels,
                    "three quarters of the time bring as many through each pass (default 10^8)")
         ->check(CLI::NonNegativeNumber);
+    app.add_option("--jobs", o.jobs, "processes, each with seeds of its own (default: one a core)")
+        ->check(CLI::Range(1, 1024));
     app.add_flag("--keep-going", o.keepGoing, "goes on after a failure");
     app.add_flag("--precision", o.precision, "prints the errors of single and half precision");
     app.add_flag("--list-planted", o.listPlanted, "prints the faults that can be planted");
@@ -70,13 +75,14 @@ std::vector<Case> chosen(const Options& o) {
     return out;
 }
 
-void printCounts(const Checks& checks) {
+void print(const Tally& tally) {
     fmt::print("{:<28} {:>16}\n", "pass", "pixels");
-    for (const auto& [pass, pixels] : checks.pixels())
+    for (const auto& [pass, pixels] : tally.pixels)
         fmt::print("{:<28} {:>16}\n", pass, pixels);
     fmt::print("{:<28} {:>16}\n", "part", "inputs");
-    for (const auto& [part, inputs] : checks.inputs())
+    for (const auto& [part, inputs] : tally.inputs)
         fmt::print("{:<28} {:>16}\n", part, inputs);
+    fmt::print("{} cases of {} seeds, {} failures\n", tally.cases, tally.seeds, tally.failures);
 }
 
 /// Runs cases with one seed after the other.
@@ -85,7 +91,7 @@ public:
     explicit Run(const Options& options)
         : options_(options), cases_(chosen(options)), balance_(cases_) {}
 
-    int drawSeeds();
+    [[nodiscard]] Tally drawSeeds(std::uint64_t first);
 
 private:
     [[nodiscard]] double minutes() const {
@@ -137,11 +143,8 @@ void Run::progress(std::uint64_t seed) const {
     std::fflush(stdout);
 }
 
-int Run::drawSeeds() {
-    std::uint64_t seed = options_.seed ? *options_.seed : options_.first;
-    if (seed == 0)
-        seed = static_cast<std::uint64_t>(
-            std::chrono::system_clock::now().time_since_epoch().count() / 1000000000);
+Tally Run::drawSeeds(std::uint64_t first) {
+    std::uint64_t seed = first;
     const bool repeats = options_.seed.has_value();
     const Scale scale = options_.full    ? Scale::Product
                         : options_.small ? Scale::Tests
@@ -163,8 +166,21 @@ int Run::drawSeeds() {
         told = minutes() + 0.25;
         progress(seed);
     }
-    printCounts(checks_);
-    return failures_ == 0 ? 0 : 1;
+    return {checks_.pixels(), checks_.inputs(), ran_, seeds_, failures_};
+}
+
+Tally runAll(Options o) {
+    constexpr std::uint64_t kNextJob = 1000000000000;
+    if (o.seed) return Run(o).drawSeeds(*o.seed);
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const std::uint64_t first =
+        o.first != 0 ? o.first
+                     : static_cast<std::uint64_t>(
+                           std::chrono::duration_cast<std::chrono::seconds>(now).count());
+    o.pixels /= o.jobs;
+    return inProcesses(o.jobs, o.keepGoing, [&](int job) {
+        return Run(o).drawSeeds(first + static_cast<std::uint64_t>(job) * kNextJob);
+    });
 }
 
 int listPlanted() {
@@ -190,7 +206,9 @@ int main(int argc, char** argv) {
             printPrecision();
             return 0;
         }
-        return Run(o).drawSeeds();
+        const Tally tally = runAll(o);
+        print(tally);
+        return tally.failures == 0 ? 0 : 1;
     } catch (const std::exception& error) {
         fmt::print(stderr, "mfar-stress: {}\n", error.what());
         return 2;
