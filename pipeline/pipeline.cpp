@@ -40,7 +40,10 @@ int tilesIn(const PixelRect& videoPixels) {
 }  // namespace
 
 Size Pipeline::State::outputSize(const StereoRig& rig, Size wanted) {
-    if (wanted.width > 0 && wanted.height > 0) return wanted;
+    return wanted.width > 0 && wanted.height > 0 ? wanted : fullSize(rig);
+}
+
+Size Pipeline::fullSize(const StereoRig& rig) {
     const double scale = static_cast<double>(rig.still.size.width) / rig.video.size.width;
     const auto height = static_cast<int>(std::lround(rig.video.size.height * scale));
     return {rig.still.size.width, std::max(height, 1)};
@@ -59,7 +62,7 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
     s.epipolar.dropStill();
     if (pose) s.epipolar.setStill(still, *pose);
     s.depth.renew();
-    s.pyramids.buildStill(s.still.picture(), s.rig);
+    s.pyramids.buildStill(s.still.whole(), s.rig);
     s.hasStill = true;
     s.redraw = true;
     s.hasPrior = false;

@@ -19,7 +19,8 @@ namespace mfar {
 
 struct PipelineOptions {
     SuperResMode mode = SuperResMode::Detail;
-    /// Output size; 0x0 = the still's width at the video's aspect ratio.
+    /// Output size; 0x0 = Pipeline::fullSize(). Of a smaller one every pixel still comes from all
+    /// that the sensors saw of it.
     Size output;
     /// Leaves tiles alone that did not change. Off: every tile is computed each frame.
     bool skipUnchanged = true;
@@ -83,6 +84,8 @@ public:
     [[nodiscard]] std::optional<std::string> takeSceneError();
 
     [[nodiscard]] Size outputSize() const;
+    /// Where no other size is asked for: the still's width at the video's aspect ratio.
+    [[nodiscard]] static Size fullSize(const StereoRig& rig);
     /// CPU-side stage times of the last run. With `measure` on, each stage ends with glFinish and
     /// the times are those of the work; off (default), the frame path is not disturbed.
     [[nodiscard]] const std::vector<StageTime>& stageTimes() const;

@@ -27,9 +27,9 @@ struct Pipeline::State {
     State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
         : rig(rigIn), options(optionsIn), plan(rig.video.size), pyramids(rig.video.size, plan),
           flow(pyramids, plan, options.flow2d), workers(std::make_shared<Workers>()),
-          epipolar(rig, workers, options.epipolar), still(rig),
+          epipolar(rig, workers, options.epipolar), still(rig, outputSize(rig, options.output)),
           depth(rig.video, workers, options.depth), snap(rig.video.size, workers),
-          superres(rig, outputSize(rig, options.output), options.mode, pyramids, plan) {
+          superres(still.rig(), outputSize(rig, options.output), options.mode, pyramids, plan) {
         superres.setSkips(options.skips);
         if (!options.skips.tileLists) plan.drawWholeFrom(0);
         stageTimes.reserve(8);
@@ -61,7 +61,7 @@ struct Pipeline::State {
     void forgetMoving(const DepthMatches& matches);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
 
-    /// The size asked for, or the still's width at the video's aspect ratio.
+    /// The size asked for, or the full one.
     static Size outputSize(const StereoRig& rig, Size wanted);
 
     StereoRig rig;

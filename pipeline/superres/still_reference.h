@@ -3,21 +3,31 @@
 #include "pipeline/geometry.h"
 #include "pipeline/gpu/pass.h"
 #include "pipeline/gpu/picture_texture.h"
+#include "pipeline/superres/still_reducer.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace mfar {
 
 /// The newest still and everything about it that is computed once: its picture and what it shows
-/// beyond the video's resolution, detail = luma - up(down(luma)), on its own pixel grid.
+/// beyond the video's resolution, detail = luma - up(down(luma)), on its own pixel grid. Where the
+/// output shows the still's pixels smaller than its own, the still is reduced to the output's.
 class StillReference {
 public:
-    explicit StillReference(const StereoRig& rig);
+    /// `output`: size of what is made of the video's whole picture.
+    StillReference(const StereoRig& rig, Size output);
 
     /// Size must be the still camera's; the pixel format may change from one still to the next.
     void set(const ImageView& still);
 
-    [[nodiscard]] const gpu::Texture& picture() const { return picture_.texture(); }
+    /// The rig with the still camera as picture() has it: the same lens, maybe fewer pixels.
+    [[nodiscard]] const StereoRig& rig() const { return rig_; }
+    /// The picture as it came.
+    [[nodiscard]] const gpu::Texture& whole() const { return picture_.texture(); }
+    [[nodiscard]] const gpu::Texture& picture() const {
+        return reducer_ ? reducer_->picture() : picture_.texture();
+    }
     [[nodiscard]] const gpu::Texture& detail() const { return detail_; }  ///< R8, 128 = none
 
 private:
@@ -29,7 +39,9 @@ private:
         float scale[4];
     };
 
-    gpu::PictureTexture picture_{gpu::Filter::Linear};
+    StereoRig rig_;
+    gpu::PictureTexture picture_;
+    std::optional<StillReducer> reducer_;
     gpu::Texture low_, detail_;
     gpu::Framebuffer lowTarget_, detailTarget_;
     gpu::DrawPass<LowParams> lowPass_;

@@ -239,7 +239,7 @@ TEST_F(Draw, StillLowMatchesTwin) {
 
 TEST_F(Draw, StillDetailIsWhatTheVideoCannotShow) {
     const StereoRig rig = plainRig({50, 35}, kSmallStill);
-    StillReference reference(rig);
+    StillReference reference(rig, kSmallStill);
     for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
         const Picture still = Waves(5, 4, 60, 30).shoot(kSmallStill, {.format = format});
         reference.set(still.view());
@@ -256,7 +256,7 @@ TEST_F(Draw, StillDetailIsWhatTheVideoCannotShow) {
 }
 
 TEST_F(Draw, AConstantStillHasNoDetail) {
-    StillReference reference(plainRig({50, 35}, kSmallStill));
+    StillReference reference(plainRig({50, 35}, kSmallStill), kSmallStill);
     for (const std::uint8_t level : {0, 90, 255}) {
         reference.set(Picture(kSmallStill, PixelFormat::Rgba8, level).view());
         for (const double v : channelOf(reference.detail(), 0).values)

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pipeline/gpu/pass.h"
+
+#include <array>
+#include <cstdint>
+
+namespace mfar {
+
+/// Stills with fewer pixels, without aliasing. Needs a current context for its whole life.
+class StillReducer {
+public:
+    /// `to` has at least one pixel and at most `from` in each direction.
+    StillReducer(Size from, Size to);
+
+    /// A picture of `from` pixels.
+    void run(const gpu::Texture& picture);
+    /// Of the last run. RGBA8, linear filter.
+    [[nodiscard]] const gpu::Texture& picture() const { return reduced_; }
+
+private:
+    struct Params {
+        std::int32_t axis[4];
+        float scale[4];
+    };
+
+    std::array<float, 2> scale_;  // pixels of the picture per pixel of the result
+    gpu::Texture narrow_, reduced_;
+    gpu::Framebuffer narrowTarget_, reducedTarget_;
+    gpu::DrawPass<Params> across_, down_;
+};
+
+}  // namespace mfar
