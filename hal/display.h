@@ -41,6 +41,8 @@ public:
     /// What the last show() sent to a screen, screen-sized. Nothing where there is no screen. Waits
     /// for the GPU.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const { return std::nullopt; }
+    /// Of the screen that pictures go to, looked for if need be; nothing where there is none now.
+    [[nodiscard]] virtual std::optional<Size> screenSize() { return std::nullopt; }
     [[nodiscard]] virtual std::string name() const = 0;
 };
 

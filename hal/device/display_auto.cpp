@@ -30,16 +30,25 @@ ScreenDisplay::~ScreenDisplay() {
     scaler_.reset();
 }
 
-void ScreenDisplay::show(const GlImage& image, Timestamp) {
-    const KeptTarget kept;
+void ScreenDisplay::refresh() {
     const bool changed = changed_();
     const Timestamp now = clock_();
-    if (changed || !lookedAt_ || now - *lookedAt_ >= kLookEvery) {
-        lookedAt_ = now;
-        Screen* found = look(changed);
-        if (found != active_) shown_ = false;
-        active_ = found;
-    }
+    if (!changed && lookedAt_ && now - *lookedAt_ < kLookEvery) return;
+    lookedAt_ = now;
+    Screen* found = look(changed);
+    if (found != active_) shown_ = false;
+    active_ = found;
+}
+
+std::optional<Size> ScreenDisplay::screenSize() {
+    refresh();
+    if (active_ == nullptr) return std::nullopt;
+    return active_->size();
+}
+
+void ScreenDisplay::show(const GlImage& image, Timestamp) {
+    const KeptTarget kept;
+    refresh();
     if (active_ == nullptr) {
         if (scaler_) scaler_->warmUp(image);
         glFinish();  // without a screen nothing else would hold the renderer back

@@ -36,6 +36,7 @@ public:
 
     void show(const GlImage& image, Timestamp time) override;
     void finish() override {}
+    [[nodiscard]] std::optional<Size> screenSize() override;
     [[nodiscard]] std::string name() const override;
 
     /// The picture that the last show() sent to the screen, screen-sized, black bars included; on a
@@ -44,6 +45,7 @@ public:
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
 
 private:
+    void refresh();
     [[nodiscard]] Screen* look(bool changed);
     void lose(const std::string& why);
 

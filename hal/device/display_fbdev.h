@@ -41,6 +41,7 @@ public:
     ~FbdevScreen() override;
 
     Presence look(bool thorough) override;
+    [[nodiscard]] Size size() const override { return geometry_.size; }
     void show(const GlImage& image) override;
     void close() override;
     [[nodiscard]] std::string status() const override;

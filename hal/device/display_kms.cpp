@@ -102,6 +102,10 @@ Screen::Presence KmsScreen::look(bool thorough) {
     }
 }
 
+Size KmsScreen::size() const {
+    return output_ ? output_->size() : Size{};
+}
+
 void KmsScreen::show(const GlImage& image) {
     if (!buffers_) {
         startOutput(image);

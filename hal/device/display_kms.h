@@ -18,6 +18,7 @@ public:
     ~KmsScreen() override;
 
     Presence look(bool thorough) override;
+    [[nodiscard]] Size size() const override;
     void show(const GlImage& image) override;
     void close() override;
     [[nodiscard]] std::string status() const override;

@@ -23,6 +23,8 @@ public:
     /// takes a while (reading a monitor's data), to be done only when something has changed. Never
     /// throws for a device: what is missing is in status().
     virtual Presence look(bool thorough) = 0;
+    /// In pixels. Only after look() said Ready.
+    [[nodiscard]] virtual Size size() const = 0;
     /// Shows a picture, at the pace of the screen. Only after look() said Ready.
     /// Throws std::runtime_error when the screen is lost; close() it then.
     virtual void show(const GlImage& image) = 0;

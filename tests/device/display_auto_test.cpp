@@ -17,6 +17,7 @@ struct Device {
     bool refuses = false;  // show() throws
     int shown = 0, looks = 0, thoroughLooks = 0;
     bool held = false;
+    Size size{640, 400};
 };
 
 class FakeScreen final : public Screen {
@@ -29,6 +30,7 @@ public:
         device_.held = device_.presence != Presence::Absent;
         return device_.presence;
     }
+    [[nodiscard]] Size size() const override { return device_.size; }
     void show(const GlImage&) override {
         if (device_.refuses || device_.presence != Presence::Ready)
             throw std::runtime_error(name_ + " is broken");
@@ -82,6 +84,22 @@ TEST_F(AutoDisplay, RunsWithoutAScreenAndSaysSo) {
     EXPECT_FALSE(display_->lastShown());
     EXPECT_LE(kms_.looks, 5);  // twice a second
     EXPECT_NO_THROW(display_->finish());
+}
+
+TEST_F(AutoDisplay, KnowsTheSizeOfTheScreenThatIsThere) {
+    EXPECT_FALSE(display_->screenSize());
+    fbdev_.presence = Presence::Ready;
+    changed_ = true;
+    EXPECT_EQ(display_->screenSize(), (Size{640, 400}));
+    kms_.presence = Presence::Ready;
+    kms_.size = {1280, 720};
+    changed_ = true;
+    EXPECT_EQ(display_->screenSize(), (Size{1280, 720}));
+    run(kSecond);
+    EXPECT_EQ(kms_.shown, 20);
+    kms_.presence = fbdev_.presence = Presence::Absent;
+    changed_ = true;
+    EXPECT_FALSE(display_->screenSize());
 }
 
 TEST_F(AutoDisplay, ShowsWithinASecondAfterADeviceAppears) {
