@@ -56,6 +56,9 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     file.text("recording", recording);
     config.recording = recording;
     file.text("display", config.display, displayFault);
+    std::string size;
+    file.text("size", size, pictureSizeFault);
+    if (!size.empty()) config.size = *pictureSize(size);
     file.choice<SourcePace>("pace", config.pace, kPaces);
     file.integer("seed", config.seed);
     file.choice<SuperResMode>("superres.mode", config.superres.mode, kSuperResModes);
@@ -107,6 +110,7 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.recording == wanted.recording, "recording");
     compare(running.cameras == wanted.cameras, "cameras");
     compare(running.display == wanted.display, "display");
+    compare(running.size == wanted.size, "size");
     compare(running.pace == wanted.pace, "pace");
     compare(running.seed == wanted.seed, "seed");
     compare(running.recordTo == wanted.recordTo, "record.directory");

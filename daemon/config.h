@@ -4,6 +4,7 @@
 #include "daemon/exit_code.h"
 #include "daemon/governor_config.h"
 #include "daemon/objects_config.h"
+#include "daemon/picture_size.h"
 #include "daemon/pose_config.h"
 #include "daemon/still_policy.h"
 #include "daemon/virtual_config.h"
@@ -43,6 +44,7 @@ struct Config {
     std::string source = "cameras";   ///< not used when `recording` is set
     std::filesystem::path recording;  ///< empty: none
     std::string display = "auto";
+    PictureSize size;
     SourcePace pace = SourcePace::Auto;
     std::uint64_t seed = 1;          ///< of the synthetic board
     std::filesystem::path recordTo;  ///< empty: nothing is recorded

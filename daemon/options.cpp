@@ -26,6 +26,7 @@ struct Words {
     std::string mode;
     std::string pace;
     std::string pose;
+    std::string size;
 };
 
 void addInputs(CLI::App& app, Options& options, Words& words) {
@@ -66,6 +67,11 @@ void addOutputs(CLI::App& app, Options& options, Words& words) {
                    "png:DIR (one file per frame) or y4m:FILE (one video file or named pipe)")
         ->check(accepts(displayFault, "display"))
         ->type_name("DISPLAY");
+    app.add_option("--size", words.size,
+                   "Of the pictures: screen (default; as large as the screen that is there at\n"
+                   "the start shows them), still (the still's resolution), or WxH to fit into")
+        ->check(accepts(pictureSizeFault, "size"))
+        ->type_name("SIZE");
     app.add_option("--mode", words.mode,
                    "Super-resolution: detail (default; the still's detail as far as the\n"
                    "video confirms it), blend (fades the still over), off (enlarges)")
@@ -117,6 +123,7 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
         throw Failure(ExitCode::Usage, "--seconds must be more than 0 and at most 1e7");
     if (!words.mode.empty()) line.options.mode = superResMode(words.mode);
     if (!words.pace.empty()) line.options.pace = sourcePace(words.pace);
+    if (!words.size.empty()) line.options.size = pictureSize(words.size);
     if (!words.pose.empty()) line.options.pose = poseOrigin(words.pose);
     return line;
 }
@@ -129,6 +136,7 @@ Config effectiveConfig(const Options& options) {
     }
     if (options.recording) config.recording = *options.recording;
     if (options.display) config.display = *options.display;
+    if (options.size) config.size = *options.size;
     if (options.recordTo) config.recordTo = *options.recordTo;
     if (options.mode) config.superres.mode = *options.mode;
     if (options.pace) config.pace = *options.pace;

@@ -17,6 +17,7 @@ struct Options {
     std::optional<std::string> source;
     std::optional<std::filesystem::path> recording;
     std::optional<std::string> display;
+    std::optional<PictureSize> size;
     std::optional<std::filesystem::path> recordTo;
     std::optional<SuperResMode> mode;
     std::optional<SourcePace> pace;

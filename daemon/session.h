@@ -94,9 +94,9 @@ private:
     PoseFinder poses_;
     std::unique_ptr<GlContext> gl_;
     std::unique_ptr<gpu::Validation> validation_;  ///< of all that the pipeline writes
+    std::unique_ptr<Display> display_;
     Pipeline pipeline_;
     VirtualWorld virtual_;
-    std::unique_ptr<Display> display_;
     StillPolicy policy_;
     Banner banner_;
     double deadlineMs_;                 ///< 0: none

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <sys/wait.h>
+#include <system_error>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,7 +15,6 @@
 #include <exception>
 #include <sstream>
 #include <stdexcept>
-#include <system_error>
 #include <vector>
 
 namespace mfar::stress {

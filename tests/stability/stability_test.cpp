@@ -50,8 +50,8 @@ TEST(HostileInput, SeedsThatFailedOnceBreakNothing) {
     GlWatch gl;
     Checks checks;
     const std::vector<Case> all = virtualCases();
-    const auto one =
-        std::ranges::find(all, std::string_view("silhouette"), [](const Case& c) { return c.name; });
+    const auto one = std::ranges::find(all, std::string_view("silhouette"),
+                                       [](const Case& c) { return c.name; });
     ASSERT_NE(one, all.end());
     for (const auto& [seed, scale] : {std::pair(std::uint64_t{36795390859}, Scale::Product),
                                       {std::uint64_t{36795394867}, Scale::Mixed},
