@@ -41,17 +41,17 @@ Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& ligh
     return scene;
 }
 
-VirtualWorld::VirtualWorld(const VirtualOptions& options, Pipeline& pipeline)
-    : options_(options), pipeline_(pipeline),
+VirtualWorld::VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline)
+    : options_(options), fullSize_(Pipeline::fullSize(rig)), pipeline_(pipeline),
       traced_(options.rendering == VirtualRendering::PathTraced && TracedLayer::isAvailable()) {}
 
 TracedLayerOptions VirtualWorld::layerOptions() const {
     const Size output = pipeline_.outputSize();
-    const auto scaled = [&](int length) {
-        return std::max(static_cast<int>(std::lround(length * options_.resolution)), 1);
+    const auto scaled = [&](int full, int shown) {
+        return std::clamp(static_cast<int>(std::lround(full * options_.resolution)), 1, shown);
     };
     TracedLayerOptions out;
-    out.size = {scaled(output.width), scaled(output.height)};
+    out.size = {scaled(fullSize_.width, output.width), scaled(fullSize_.height, output.height)};
     out.reference.slices.slicing = options_.slicing;
     out.reference.slices.samples = options_.samples;
     out.reference.slices.samplesPerTurn = 1;  // something is to be seen soon

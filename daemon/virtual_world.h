@@ -16,7 +16,7 @@ namespace mfar {
 /// Lives on the GL thread.
 class VirtualWorld {
 public:
-    VirtualWorld(const VirtualOptions& options, Pipeline& pipeline);
+    VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline);
 
     /// Shows these, placed by the tag map, without those that are leftOut().
     void set(const std::vector<PlacedObject>& objects, const LightOptions& light,
@@ -34,6 +34,7 @@ private:
     void show(std::shared_ptr<const Scene> scene);
 
     VirtualOptions options_;
+    Size fullSize_;  // of the still's resolution
     Pipeline& pipeline_;
     bool traced_;
     float exposure_ = 1;

@@ -49,7 +49,7 @@ struct VirtualOptions {
     double budgetMs = 8;  ///< of the path tracer in each frame [ms]
     Slicing slicing = Slicing::Time;
     int samples = 64;          ///< a pixel of a finished picture
-    double resolution = 0.28;  ///< side of a path-traced picture, as a share of the output's
+    double resolution = 0.28;  ///< side of a path-traced picture, as a share of the still's
     HoleFilling holes = HoleFilling::Both;
     int threads = 1;     ///< of the path tracer
     double turnDeg = 4;  ///< view angle after which a new picture is made at the latest [degrees]

@@ -47,7 +47,7 @@ class Show {
 public:
     Show(const Recording& recording, const Config& config)
         : recording_(recording), poses_(recording, eval::PoseSource::Tags),
-          pipeline_(recording.rig, {}), world_(config.virtualLayer, pipeline_),
+          pipeline_(recording.rig, {}), world_(config.virtualLayer, recording.rig, pipeline_),
           stills_(recording, &poses_) {
         world_.set(config.objects, config.light, {});
     }
