@@ -77,6 +77,7 @@ void readVirtual(TomlReader& file, VirtualOptions& options) {
     file.number("virtual.resolution", options.resolution, 0.05, 1);
     file.choice<HoleFilling>("virtual.holes", options.holes, kHoleFillings);
     file.integer("virtual.threads", options.threads, 1, 64);
+    file.boolean("virtual.filter", options.filter);
     file.number("virtual.turn_deg", options.turnDeg, 0.1, 90);
 }
 

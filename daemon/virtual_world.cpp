@@ -61,6 +61,7 @@ TracedLayerOptions VirtualWorld::layerOptions() const {
     out.reference.threads = options_.threads;
     out.reference.exposure.scale = exposure_;
     out.reference.policy.limits.turnDegrees = options_.turnDeg;
+    out.reference.policy.filter = options_.filter;
     out.warp.filling = options_.holes;
     return out;
 }

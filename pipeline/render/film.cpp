@@ -80,6 +80,7 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     } else if (sample.hit.id != 0) {
         ++p.objectHits;
         p.object += sample.radiance.cast<double>();
+        p.baseColour += sample.baseColour;
         const double y = luminanceOf<double>(sample.radiance.cast<double>());
         p.objectSquares += y * y;
         keepNearest(p.nearest, sample.hit);
@@ -159,10 +160,17 @@ FirstHit Film::firstHit(const Pixel& p, bool changed) {
     return objects ? p.nearest : FirstHit{};
 }
 
+Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
+    if (p.objectHits == 0 && p.with == p.without) return {};
+    return shown(meansOf(p), exposure);
+}
+
 Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const {
     const Pixel& p = pixels_[pixel];
-    if (p.objectHits == 0 && p.with == p.without) return {};  // most of a picture
-    const Shown s = shown(meansOf(p), exposure);
+    return resolved(p, shown(p, exposure));
+}
+
+Film::Resolved Film::resolved(const Pixel& p, const Shown& s) {
     Resolved out;
     out.colour = {quantised(s.colour.x()), quantised(s.colour.y()), quantised(s.colour.z()),
                   quantised(s.coverage)};
@@ -170,7 +178,40 @@ Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const
     return out;
 }
 
-void Film::resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out) const {
+// A pixel that only one surface is in; what others see of two is an edge.
+NoisyPixel Film::noisy(std::size_t pixel, const Exposure& exposure) const {
+    // Fewer samples say nothing of their spread.
+    constexpr std::uint32_t kFew = 4;
+    const Pixel& p = pixels_[pixel];
+    const Shown s = shown(p, exposure);
+    NoisyPixel out;
+    out.value << s.colour.array(), s.coverage;
+    const std::uint32_t n = p.taken - p.lost;
+    if (n == 0 || (p.objectHits != n && p.catcherHits != n)) return out;
+    const FirstHit hit = p.objectHits == n ? firstHit(p, true) : p.catcher;
+    const float error = this->error(pixel, exposure) / kGreyLevels;
+    out.variance = n < kFew ? -1 : error * error;
+    out.depth = hit.depth;
+    out.id = hit.id;
+    if (p.objectHits == n) out.baseColour = p.baseColour.array() / static_cast<float>(n);
+    // A real surface without change stays without.
+    out.kept = p.catcherHits == n && p.with == p.without;
+    return out;
+}
+
+std::vector<NoisyPixel> Film::smoothed(const Exposure& exposure, NoiseFilter& filter) const {
+    std::vector<NoisyPixel> out;
+    out.reserve(pixels_.size());
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        out.push_back(noisy(i, exposure));
+    filter(size_, out);
+    return out;
+}
+
+void Film::resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out,
+                   NoiseFilter* filter) const {
+    const std::vector<NoisyPixel> smooth =
+        filter != nullptr ? smoothed(exposure, *filter) : std::vector<NoisyPixel>();
     out.camera = view.camera;
     out.T_world_camera = view.T_world_camera;
     out.colour.resize(pixels_.size());
@@ -178,12 +219,15 @@ void Film::resolve(const RenderView& view, const Exposure& exposure, RenderedPic
     out.id.resize(pixels_.size());
     double taken = 0, seen = 0;
     for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const auto [colour, hit] = resolved(i, exposure);
+        const Pixel& p = pixels_[i];
+        const auto [colour, hit] = resolved(
+            p, smooth.empty() ? shown(p, exposure)
+                              : Shown{smooth[i].value.head<3>().matrix(), smooth[i].value[3]});
         out.colour[i] = colour;
         out.depth[i] = hit.depth;
         out.id[i] = hit.id;
         if (hit.id == 0) continue;
-        taken += pixels_[i].taken;
+        taken += p.taken;
         seen += 1;
     }
     out.samples = seen > 0 ? taken / seen : 0;

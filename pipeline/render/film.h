@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/render/exposure.h"
+#include "pipeline/render/noise_filter.h"
 #include "pipeline/render/render_view.h"
 #include "pipeline/render/rendered_picture.h"
 
@@ -22,8 +23,9 @@ struct FirstHit {
 /// What one sample of a pixel saw.
 struct FilmSample {
     FirstHit hit;
-    Eigen::Vector3f radiance{0, 0, 0};  ///< of the object or, with the objects there, the catcher
-    Eigen::Vector3f without{0, 0, 0};   ///< of the catcher if the objects were not there
+    Eigen::Vector3f radiance{0, 0, 0};    ///< of the object or, with the objects there, the catcher
+    Eigen::Vector3f without{0, 0, 0};     ///< of the catcher if the objects were not there
+    Eigen::Vector3f baseColour{0, 0, 0};  ///< of the object, where it was hit
 };
 
 /// Sums of the samples of one view, a pixel each, row-major. Calls for different pixels may run at
@@ -61,8 +63,9 @@ public:
     /// The picture of what there is. Shadow and bounced light change the real surface's value by
     /// the ratio of its modelled light with the objects to without (differential rendering, Debevec
     /// 1998): black of coverage 1 - ratio^(1/2.2) in the darkest channel, and what the others are
-    /// brighter as added colour. `out` keeps its memory.
-    void resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out) const;
+    /// brighter as added colour. `out` keeps its memory. With a filter its noise is smoothed.
+    void resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out,
+                 NoiseFilter* filter = nullptr) const;
     /// One pixel of that picture.
     struct Resolved {
         std::array<std::uint8_t, 4> colour{};
@@ -74,8 +77,9 @@ private:
     struct Pixel {
         // In single precision a million samples would be a percent off, and a variance nothing.
         Eigen::Vector3d object{0, 0, 0}, with{0, 0, 0}, without{0, 0, 0};
-        double objectSquares = 0;  // of luminance
-        double changeSquares = 0;  // of the luminance's change on the catcher
+        Eigen::Vector3f baseColour{0, 0, 0};  // of the objects
+        double objectSquares = 0;             // of luminance
+        double changeSquares = 0;             // of the luminance's change on the catcher
         std::uint32_t taken = 0, lost = 0, objectHits = 0, catcherHits = 0;
         FirstHit centre, nearest, catcher;
     };
@@ -85,7 +89,13 @@ private:
     };
 
     [[nodiscard]] static Means meansOf(const Pixel& p);
+    /// Nothing where objects neither are nor change the light, as in most of a picture.
+    [[nodiscard]] static Shown shown(const Pixel& p, const Exposure& exposure);
     [[nodiscard]] static Shown shown(const Means& m, const Exposure& exposure);
+    [[nodiscard]] static Resolved resolved(const Pixel& p, const Shown& shown);
+    [[nodiscard]] NoisyPixel noisy(std::size_t pixel, const Exposure& exposure) const;
+    [[nodiscard]] std::vector<NoisyPixel> smoothed(const Exposure& exposure,
+                                                   NoiseFilter& filter) const;
     [[nodiscard]] static FirstHit firstHit(const Pixel& p, bool changed);
 
     Size size_;

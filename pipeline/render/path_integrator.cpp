@@ -145,10 +145,12 @@ Eigen::Vector3f PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo,
     }
 }
 
-Eigen::Vector3f PathIntegrator::ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
-                                         const PixelSampler& sampler) const {
+PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
+                                                  const Eigen::Vector3f& direction,
+                                                  const PixelSampler& sampler) const {
+    const SurfacePoint point = scene_.objectPoint(hit, direction);
     World all{scene_, true};
-    return walk(scene_.objectPoint(hit, direction), -direction.normalized(), sampler, all);
+    return {walk(point, -direction.normalized(), sampler, all), point.look.baseColour};
 }
 
 PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,

@@ -18,9 +18,12 @@ public:
     PathIntegrator(const TracedScene& scene, const PathTracerOptions& options);
 
     /// Radiance that leaves an object's point against `direction`, which is that of the ray that
-    /// found it, of any length.
-    [[nodiscard]] Eigen::Vector3f ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
-                                           const PixelSampler& sampler) const;
+    /// found it, of any length; and the point's base colour.
+    struct OfObject {
+        Eigen::Vector3f radiance, baseColour;
+    };
+    [[nodiscard]] OfObject ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
+                                    const PixelSampler& sampler) const;
 
     /// Radiance of the catcher with the objects there and without them, from the same random
     /// numbers: equal to the bit where no object was met.

@@ -117,7 +117,9 @@ private:
         }
         const PixelSampler sampler = samplerOf(sample);
         if (object.found()) {
-            out.radiance = parts_.integrator.ofObject(object, ray.direction, sampler);
+            const auto light = parts_.integrator.ofObject(object, ray.direction, sampler);
+            out.radiance = light.radiance;
+            out.baseColour = light.baseColour;
         } else if (real.found()) {
             const auto light = parts_.integrator.ofCatcher(real, ray.direction, sampler);
             out.radiance = light.with;

@@ -113,7 +113,7 @@ bool ReferencePictures::toShow() const {
 
 void ReferencePictures::resolve(const Exposure& exposure, RenderedPicture& out) {
     Picture& picture = pictures_[working()];
-    picture.film->resolve(picture.view, exposure, out);
+    picture.film->resolve(picture.view, exposure, out, policy_.filter ? &filter_ : nullptr);
     out.scene = picture.scene->source;
     picture.shownSamples = picture.slices.samples();
     picture.wasShown = true;

@@ -52,6 +52,7 @@ struct VirtualOptions {
     double resolution = 0.28;  ///< side of a path-traced picture, as a share of the still's
     HoleFilling holes = HoleFilling::Both;
     int threads = 1;     ///< of the path tracer
+    bool filter = true;  ///< smooths the noise of pictures with few samples
     double turnDeg = 4;  ///< view angle after which a new picture is made at the latest [degrees]
 
     bool operator==(const VirtualOptions&) const = default;

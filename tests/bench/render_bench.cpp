@@ -168,6 +168,7 @@ std::vector<SamplingError> errors(bool quick) {
     return {errorOf("sun, surfaces alone", scene, 1, close, quick),
             errorOf("sun, whole picture", scene, 1, wide, quick),
             errorOf("sun, indirect", scene, 5, wide, quick),
+            errorOf("sun, indirect, surfaces alone", scene, 5, close, quick),
             errorOf("sun and environment", outside, 1, wide, quick),
             errorOf("sun and environment, indirect", outside, 5, wide, quick)};
 }

@@ -24,12 +24,13 @@ samples = 16
 resolution = 0.5
 holes = "push-pull"
 threads = 3
+filter = false
 turn_deg = 2
 )",
                                                "test.toml")
                                        .virtualLayer;
     EXPECT_EQ(options, (VirtualOptions{VirtualRendering::Preview, 12.5, Slicing::Spatial, 16, 0.5,
-                                       HoleFilling::PushPull, 3, 2}));
+                                       HoleFilling::PushPull, 3, false, 2}));
 }
 
 TEST(VirtualConfig, FaultsHaveTheirPlace) {

@@ -38,7 +38,9 @@ public:
     }
     [[nodiscard]] ErrorAt state() const {
         const auto pixels = static_cast<double>(std::max<std::size_t>(slices.pixels(), 1));
-        return {static_cast<double>(slices.traced()) / pixels, ms, scene_.error(film)};
+        NoiseFilter filter;
+        return {static_cast<double>(slices.traced()) / pixels, ms, scene_.error(film),
+                scene_.error(film, &filter)};
     }
 
     Film film;
@@ -73,9 +75,9 @@ SlicedScene::SlicedScene(Size size, int truthSamples, int threads)
     film.resolve(view, {}, truth);
 }
 
-double SlicedScene::error(const Film& film) const {
+double SlicedScene::error(const Film& film, NoiseFilter* filter) const {
     RenderedPicture picture;
-    film.resolve(view, {}, picture);
+    film.resolve(view, {}, picture, filter);
     double squares = 0, count = 0;
     for (int y = bounds.y0; y < bounds.y1; ++y)
         for (int x = bounds.x0; x < bounds.x1; ++x) {

@@ -21,13 +21,14 @@ struct SlicedScene {
     /// Of the few balls and boxes of the tests. `threads` trace the truth.
     SlicedScene(Size size, int truthSamples, int threads);
     /// Root mean square of the difference to the truth inside the bounds [grey levels].
-    [[nodiscard]] double error(const Film& film) const;
+    [[nodiscard]] double error(const Film& film, NoiseFilter* filter = nullptr) const;
 };
 
 /// After so much processor time the picture was so far off.
 struct ErrorAt {
     double samples = 0;  ///< of a pixel in the mean
     double ms = 0, rmse = 0;
+    double filtered = 0;  ///< rmse of the picture whose noise is smoothed
 };
 
 /// The picture on its way: after 1, 2, 4, ... samples (time slices), after 1, 2, 4, ... of 16 parts

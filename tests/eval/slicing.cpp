@@ -44,7 +44,7 @@ void addErrors(Report& report, const char* method, const std::vector<ErrorAt>& e
     PlotLine line{method, {}};
     for (const ErrorAt& e : errors) {
         report.add(kSceneName, fmt::format("{:.4g}", e.samples), method,
-                   {e.ms, e.rmse, {}, {}, {}, {}, {}});
+                   {e.ms, e.rmse, e.filtered, {}, {}, {}, {}, {}});
         line.points.push_back({e.ms,
                                e.rmse,
                                fmt::format("{}, {:.4g} samples a pixel: {:.0f} ms, {:.2f} grey "
@@ -65,8 +65,9 @@ void addFrames(Report& report, const char* method, std::vector<double> ms) {
         squares += (v - mean) * (v - mean);
     std::ranges::sort(ms);
     const double p95 = ms[ms.size() * 95 / 100];
-    report.add(kSceneName, "frames", method,
-               {mean, {}, std::sqrt(squares / count) / mean, p95 / mean, ms.back() / mean, {}, {}});
+    report.add(
+        kSceneName, "frames", method,
+        {mean, {}, {}, std::sqrt(squares / count) / mean, p95 / mean, ms.back() / mean, {}, {}});
 }
 
 }  // namespace
@@ -74,6 +75,7 @@ void addFrames(Report& report, const char* method, std::vector<double> ms) {
 Report evaluateSlicing(const SlicingRequest& request) {
     Report report({{"ms", 2},
                    {"rmse", 3},
+                   {"rmse_filtered", 3},
                    {"frame_cv", 3},
                    {"frame_p95", 3},
                    {"frame_max", 3},
@@ -98,7 +100,7 @@ Report evaluateSlicing(const SlicingRequest& request) {
             budgetRun(slicesOf(method, request.samples, 2), request.size, request.budgetMs,
                       request.threads, request.frames, kTurnPerSecond);
         report.add(kSceneName, "budget", method.name,
-                   {run.mean * request.budgetMs, {}, {}, {}, {}, run.mean, run.deviation});
+                   {run.mean * request.budgetMs, {}, {}, {}, {}, {}, run.mean, run.deviation});
     }
     if (!request.plot.empty())
         writePlot(

@@ -42,8 +42,9 @@ TEST(MfarEvalSlicing, MeasuresEachWayAndDrawsIt) {
                             MFAR_EVAL, dir, dir));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const std::string csv = test::readFile(folder / "out.csv");
-    EXPECT_TRUE(csv.starts_with("recording,frame,method,ms,rmse,frame_cv,frame_p95,frame_max,"
-                                "budget_mean,budget_p95_off\n"))
+    EXPECT_TRUE(
+        csv.starts_with("recording,frame,method,ms,rmse,rmse_filtered,frame_cv,frame_p95,frame_max,"
+                        "budget_mean,budget_p95_off\n"))
         << csv;
     const auto rows = rowsOf(csv);
     const auto error = [&](const std::string& row) {
@@ -53,6 +54,7 @@ TEST(MfarEvalSlicing, MeasuresEachWayAndDrawsIt) {
         EXPECT_EQ(error(fmt::format("{} 16", way)), error("time 16")) << "the same samples\n"
                                                                       << csv;
     EXPECT_GT(error("time 1"), error("time 16"));
+    EXPECT_LT(std::stod(rows.at("time 4")[5]), 0.95 * error("time 4")) << "filtered";
     EXPECT_EQ(error("time 1"), error("full 1"));
     EXPECT_GT(error("spatial 1"), error("time 1")) << "most of it is not there yet";
     for (const char* row :

@@ -91,7 +91,8 @@ TEST(ReferenceRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
     Film film(kRenderSize);
     tracer.trace(view, all, 16, film);
     RenderedPicture truth;
-    film.resolve(view, {}, truth);
+    NoiseFilter filter;
+    film.resolve(view, {}, truth, &filter);
     for (const Slicing slicing : {Slicing::Time, Slicing::Spatial})
         for (const int threads : {1, 2, 5}) {
             ReferenceOptions options = quick();

@@ -1,0 +1,125 @@
+#include "pipeline/render/noise_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace mfar {
+namespace {
+
+constexpr Size kNoisySize{40, 32};
+constexpr float kSigma = 0.05F;
+
+using Pixels = std::vector<NoisyPixel>;
+
+template <class Value>
+Pixels noisyPicture(Value value, float sigma = kSigma) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> noise(0, 1);
+    Pixels out;
+    for (int y = 0; y < kNoisySize.height; ++y)
+        for (int x = 0; x < kNoisySize.width; ++x) {
+            NoisyPixel p;
+            p.value = Eigen::Array4f::Constant(value(x, y) + sigma * noise(random));
+            p.variance = kSigma * kSigma;
+            p.depth = 1;
+            p.id = 1;
+            p.baseColour = Eigen::Array3f::Constant(0.5F);
+            out.push_back(p);
+        }
+    return out;
+}
+
+template <class Value>
+double errorOf(const Pixels& pixels, Value value) {
+    double squares = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const double off = pixels[i].value[0] - value(static_cast<int>(i % kNoisySize.width),
+                                                      static_cast<int>(i / kNoisySize.width));
+        squares += off * off;
+    }
+    return std::sqrt(squares / static_cast<double>(pixels.size()));
+}
+
+float flat(int, int) {
+    return 0.5F;
+}
+float step(int x, int) {
+    return x < kNoisySize.width / 2 ? 0.4F : 0.5F;
+}
+
+TEST(NoiseFilter, SmoothsNoise) {
+    Pixels pixels = noisyPicture(flat);
+    NoiseFilter()(kNoisySize, pixels);
+    EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
+}
+
+TEST(NoiseFilter, FindsVariancesThatAreNotKnown) {
+    Pixels pixels = noisyPicture(flat);
+    for (NoisyPixel& p : pixels)
+        p.variance = -1;
+    NoiseFilter()(kNoisySize, pixels);
+    EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
+}
+
+TEST(NoiseFilter, LeavesWhatIsMoreThanNoise) {
+    const auto edge = [](int x, int) { return x < kNoisySize.width / 2 ? 0.1F : 0.9F; };
+    Pixels pixels = noisyPicture(edge);
+    NoiseFilter()(kNoisySize, pixels);
+    EXPECT_LT(errorOf(pixels, edge), kSigma / 2);
+    Pixels known = noisyPicture(flat);
+    for (NoisyPixel& p : known)
+        p.variance = 0;
+    NoiseFilter()(kNoisySize, known);
+    EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
+}
+
+// A step of two standard errors and no noise: nothing but a guide tells the step from noise.
+template <class Mark>
+double errorAtStep(Mark mark) {
+    Pixels pixels = noisyPicture(step, 0);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        mark(pixels[i], static_cast<int>(i % kNoisySize.width) < kNoisySize.width / 2);
+    NoiseFilter()(kNoisySize, pixels);
+    return errorOf(pixels, step);
+}
+
+TEST(NoiseFilter, KeepsToItsSurface) {
+    EXPECT_GT(errorAtStep([](NoisyPixel&, bool) {}), 1e-3);
+    EXPECT_LT(errorAtStep([](NoisyPixel& p, bool left) { p.id = left ? 1 : 2; }), 1e-6);
+    EXPECT_LT(errorAtStep([](NoisyPixel& p, bool left) { p.depth = left ? 1.0F : 1.2F; }), 1e-6);
+    EXPECT_LT(errorAtStep([](NoisyPixel& p, bool left) {
+                  p.baseColour = Eigen::Array3f::Constant(left ? 0.2F : 0.5F);
+              }),
+              1e-6);
+}
+
+TEST(NoiseFilter, ChangesNothingElse) {
+    Pixels pixels = noisyPicture(flat);
+    for (std::size_t i = 0; i < pixels.size(); i += 3) {
+        pixels[i].id = i % 2 == 0 ? 0 : 1;
+        pixels[i].kept = pixels[i].id == 1;
+    }
+    const Pixels before = pixels;
+    NoiseFilter()(kNoisySize, pixels);
+    for (std::size_t i = 0; i < pixels.size(); i += 3)
+        ASSERT_TRUE((pixels[i].value == before[i].value).all()) << i;
+}
+
+TEST(NoiseFilter, TakesAnySize) {
+    for (const Size size : {Size{0, 0}, Size{1, 1}, Size{1, 9}, Size{9, 1}}) {
+        Pixels pixels(static_cast<std::size_t>(size.width) * size.height);
+        for (NoisyPixel& p : pixels) {
+            p.value.setConstant(0.5F);
+            p.variance = -1;
+            p.id = 1;
+        }
+        NoiseFilter()(size, pixels);
+        for (const NoisyPixel& p : pixels)
+            ASSERT_NEAR(p.value[2], 0.5F, 1e-6);
+    }
+}
+
+}  // namespace
+}  // namespace mfar
