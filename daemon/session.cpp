@@ -148,7 +148,11 @@ void Session::process(CapturedFrame captured) {
     if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
     if (auto error = pipeline_.takeSceneError()) stats_.warn("objects: " + *error);
     stats_.recorderDropped(rig_.notRecorded());
-    if (const auto matching = rig_.matching()) stats_.matching(*matching);
+    if (auto matching = rig_.matching()) {
+        // It is the policy that repeats.
+        matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
+        stats_.matching(*matching);
+    }
     rig_.checkRecording();
     if (validation_) tellFaultyPasses();
 }

@@ -54,6 +54,7 @@ bool StillPolicy::timedOut(Timestamp now) {
     ++lost_;
     arrived_ = true;
     repeated_ = !repeated_;
+    repetitions_ += repeated_ ? 1 : 0;
     if (!repeated_ && config_.mode == TriggerMode::Demand)
         notBefore_ = now + toNanoseconds(config_.maxAgeS);
     return repeated_;

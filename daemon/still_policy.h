@@ -53,6 +53,8 @@ public:
     [[nodiscard]] bool pending() const { return firedAt_ && !arrived_; }
     [[nodiscard]] int fired() const { return fired_; }
     [[nodiscard]] int lost() const { return lost_; }
+    /// Of fired(), those in place of a lost one.
+    [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:
     [[nodiscard]] bool wanted(Timestamp now, Timestamp statsOf, const FrameStats& stats) const;
@@ -72,6 +74,7 @@ private:
     std::optional<Timestamp> notBefore_;  ///< after two lost stills
     int fired_ = 0;
     int lost_ = 0;
+    int repetitions_ = 0;
 };
 
 }  // namespace mfar

@@ -172,6 +172,7 @@ TEST(StillPolicy, LostStillIsCountedAndRepeatedOnce) {
     board.answers = false;
     EXPECT_EQ(board.run(25, kRest), 2);
     EXPECT_EQ(board.policy.lost(), 2);
+    EXPECT_EQ(board.policy.repetitions(), 1);
     EXPECT_NEAR(board.firedAt[1] - board.firedAt[0], 1, 2 * kFrame);
 }
 
