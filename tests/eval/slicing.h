@@ -19,10 +19,11 @@ struct SlicingRequest {
 
 /// A picture of a few balls and boxes on a plane by time slices, spatial slices and as a whole.
 /// Columns: ms of processor time, and rmse [grey levels, premultiplied RGBA inside the objects'
-/// bounds] of the picture as it is and with its noise smoothed, after so many samples a pixel (rows are named after them); the frames' times for an
-/// equal share of the samples each, as a coefficient of variation, 95th percentile and most by the
-/// mean (row `frames`); what the budget's frames used of it in the mean and their 95th percentile
-/// of deviation (row `budget`). Throws EvalError for a plot that cannot be written.
+/// bounds] of the picture as it is and with its noise smoothed, after so many samples a pixel (rows
+/// are named after them); the frames' times for an equal share of the samples each, as a
+/// coefficient of variation, 95th percentile and most by the mean (row `frames`); what the budget's
+/// frames used of it in the mean and their 95th percentile of deviation (row `budget`). Throws
+/// EvalError for a plot that cannot be written.
 [[nodiscard]] Report evaluateSlicing(const SlicingRequest& request);
 
 }  // namespace mfar::eval
