@@ -250,6 +250,17 @@ void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
     lap("composite");
 }
 
+void Pipeline::State::keepDrawn() {
+    if (plan.drawsWhole()) {
+        std::swap(now, drawn);
+        return;
+    }
+    const Size tiles = plan.tileCount();
+    for (int row = 0, i = 0; row < tiles.height; ++row)
+        for (int column = 0; column < tiles.width; ++column, ++i)
+            if (plan.draws(i)) drawn.takeTile(now, column, row);
+}
+
 const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
                                  const std::optional<Pose>& pose) {
     State& s = *state_;
@@ -261,13 +272,15 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.lap("upload");
     const PixelRect where = s.placeObjects(pose, time);
     s.limitMatching();
-    s.plan.update(s.video.texture(), s.superres.drawn(), s.redraw || !s.options.skipUnchanged);
+    s.now.take(video);
+    s.plan.update(s.now, s.drawn, s.redraw || !s.options.skipUnchanged);
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
     const bool usePose = useStill && s.alongLines && pose && s.epipolar.hasStill();
     if (useStill) s.matchStill(video, usePose ? pose : std::nullopt);
     s.prepareDepth(pose.has_value(), usePose, where);
     s.superres.draw(s.video.texture(), useStill ? &s.still : nullptr, s.plan);
+    s.keepDrawn();
     glFlush();
     s.lap("superres");
     s.result.stats = s.superres.statsBefore();

@@ -25,10 +25,11 @@ struct DepthMatches {
 /// What Pipeline keeps; shared by pipeline.cpp (the frame path) and readback.cpp.
 struct Pipeline::State {
     State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
-        : rig(rigIn), options(optionsIn), plan(rig.video.size), pyramids(rig.video.size, plan),
-          flow(pyramids, plan, options.flow2d), workers(std::make_shared<Workers>()),
-          epipolar(rig, workers, options.epipolar), still(rig, outputSize(rig, options.output)),
-          depth(rig.video, workers, options.depth), snap(rig.video.size, workers),
+        : rig(rigIn), options(optionsIn), workers(std::make_shared<Workers>()), now(rig.video.size),
+          drawn(rig.video.size), plan(rig.video.size, workers), pyramids(rig.video.size, plan),
+          flow(pyramids, plan, options.flow2d), epipolar(rig, workers, options.epipolar),
+          still(rig, outputSize(rig, options.output)), depth(rig.video, workers, options.depth),
+          snap(rig.video.size, workers),
           superres(still.rig(), outputSize(rig, options.output), options.mode, pyramids, plan) {
         superres.setSkips(options.skips);
         if (!options.skips.tileLists) plan.drawWholeFrom(0);
@@ -47,6 +48,8 @@ struct Pipeline::State {
 
     /// Tells the plan which tiles the frame is to match.
     void limitMatching();
+    /// After drawing.
+    void keepDrawn();
     void matchStill(const ImageView& frame, const std::optional<Pose>& pose);
     /// Says where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
@@ -66,11 +69,12 @@ struct Pipeline::State {
 
     StereoRig rig;
     PipelineOptions options;
+    std::shared_ptr<Workers> workers;
     gpu::PictureTexture video;
+    RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
     WorkPlan plan;
     LumaPyramids pyramids;
     Flow2d flow;
-    std::shared_ptr<Workers> workers;
     EpipolarFlow epipolar;
     StillReference still;
     DepthStage depth;

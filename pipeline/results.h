@@ -3,6 +3,7 @@
 #include "hal/display.h"
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/gpu/buffer.h"
+#include "pipeline/plan/tiles.h"
 
 #include <array>
 #include <cstddef>
@@ -18,7 +19,6 @@ enum class TileClass : unsigned {
     Hidden,     ///< behind an opaque virtual object
 };
 inline constexpr std::size_t kTileClasses = 5;
-inline constexpr int kTileSize = 16;  ///< video pixels
 
 /// Dense 2-D flow from video to still, in video pixels at the video's geometry: video pixel p looks
 /// like still pyramid pixel p + flow(p). Row-major vec2, one per cell of `stride` video pixels.

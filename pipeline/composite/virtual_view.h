@@ -7,7 +7,7 @@
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/skip_options.h"
 #include "pipeline/traced_layer.h"
-#include "pipeline/work_plan.h"
+#include "pipeline/plan/work_plan.h"
 
 #include <memory>
 #include <optional>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/geometry.h"
-#include "pipeline/work_plan.h"
+#include "pipeline/plan/work_plan.h"
 
 #include <array>
 #include <cstdint>

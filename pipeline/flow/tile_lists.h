@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/work_plan.h"
+#include "pipeline/plan/work_plan.h"
 
 #include <cstdint>
 #include <vector>

@@ -127,11 +127,6 @@ void drawFullScreen() {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void drawFullScreen(const IndirectDraw& command) {
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command.commands.id());
-    glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(command.offset));
-}
-
 void drawTiles(const InstanceList& tiles) {
     glBindBuffer(GL_ARRAY_BUFFER, tiles.instances.id());
     glEnableVertexAttribArray(0);

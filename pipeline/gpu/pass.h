@@ -84,12 +84,6 @@ private:
     Buffer params_;
 };
 
-/// A draw command in a buffer, written by a compute pass: vertices, instances, first vertex, 0.
-struct IndirectDraw {
-    const Buffer& commands;
-    std::size_t offset;  ///< bytes
-};
-
 /// The tiles of an instanced draw, written by a compute pass.
 struct InstanceList {
     const Buffer& commands;  ///< one DrawArraysIndirect command at `commandOffset`
@@ -111,7 +105,6 @@ struct MeshVertex {
 namespace detail {
 void drawMesh(const Mesh& mesh);
 void drawFullScreen();
-void drawFullScreen(const IndirectDraw& command);
 void drawTiles(const InstanceList& tiles);
 }  // namespace detail
 
@@ -165,14 +158,6 @@ public:
         target.bind();
         program_.use(&params, sizeof(P), bindings);
         detail::drawFullScreen();
-        detail::ran(program_, bindings, &target);
-    }
-    /// The same, if the command in the buffer says so.
-    void runIndirect(const P& params, Bindings bindings, const Framebuffer& target,
-                     const IndirectDraw& command) {
-        target.bind();
-        program_.use(&params, sizeof(P), bindings);
-        detail::drawFullScreen(command);
         detail::ran(program_, bindings, &target);
     }
     /// Draws one quad per instance of the list; the vertex shader places it.

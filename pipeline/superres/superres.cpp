@@ -31,9 +31,9 @@ SuperRes::SuperRes(const StereoRig& rig, Size output, SuperResMode mode,
       lookupField_(cells_, gpu::TexelFormat::Rgba16F, gpu::Filter::Linear),
       sharpened_(video_, gpu::TexelFormat::Rgba8),
       columns_({video_.width, output.height}, gpu::TexelFormat::Rgba8),
-      output_(output, gpu::TexelFormat::Rgba8), drawn_(video_, gpu::TexelFormat::Rgba8),
-      sharpenedTarget_(sharpened_), columnsTarget_(columns_), outputTarget_(output_),
-      drawnTarget_(drawn_), classes_(8 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
+      output_(output, gpu::TexelFormat::Rgba8), sharpenedTarget_(sharpened_),
+      columnsTarget_(columns_), outputTarget_(output_),
+      classes_(8 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
       lists_(16 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
       draws_{gpu::Buffer(sizeof(DrawBlock)), gpu::Buffer(sizeof(DrawBlock))},
       assessDispatch_(
@@ -46,9 +46,9 @@ SuperRes::SuperRes(const StereoRig& rig, Size output, SuperResMode mode,
                    WorkPlan::For::Changed)),
       assess_("superres_assess.comp"), gain_("superres_gain.comp"), weigh_("superres_weigh.comp"),
       classify_("superres_classify.comp"), sharpen_("superres_sharpen.frag"),
-      vertical_("superres_vertical.frag"), copy_("copy.frag"),
-      wholeUpscale_("composite_upscale.frag"), wholeDetail_("composite_detail.frag"),
-      wholeBlend_("composite_blend.frag"), upscale_("tile_rect.vert", "composite_upscale.frag", ""),
+      vertical_("superres_vertical.frag"), wholeUpscale_("composite_upscale.frag"),
+      wholeDetail_("composite_detail.frag"), wholeBlend_("composite_blend.frag"),
+      upscale_("tile_rect.vert", "composite_upscale.frag", ""),
       detail_("tile_rect.vert", "composite_detail.frag", ""),
       plainDetail_("tile_rect.vert", "composite_detail.frag", kPlain),
       blend_("tile_rect.vert", "composite_blend.frag", ""),
@@ -159,8 +159,10 @@ SuperRes::TileParams SuperRes::tileParams(bool useStill) const {
 
 void SuperRes::drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
                         const gpu::Framebuffer& target, const WorkPlan& plan) {
-    pass.whole.runIndirect(params, bindings, target, plan.wholeDraw());
-    pass.tiles.runTiles(params, bindings, target, list(List::All));
+    if (plan.drawsWhole())
+        pass.whole.run(params, bindings, target);
+    else
+        pass.tiles.runTiles(params, bindings, target, list(List::All));
 }
 
 void SuperRes::draw(const gpu::Texture& video, const StillReference* still, const WorkPlan& plan) {
@@ -177,16 +179,15 @@ void SuperRes::draw(const gpu::Texture& video, const StillReference* still, cons
         const gpu::Bindings from{gpu::sampler(0, columns_),
                                  gpu::sampler(1, blend ? still->picture() : still->detail()),
                                  gpu::sampler(2, lookupField_)};
-        wholeUpscale_.runIndirect(p, {gpu::sampler(0, columns_)}, outputTarget_,
-                                  plan.wholeEnlargedDraw());
-        (blend ? wholeBlend_ : wholeDetail_)
-            .runIndirect(p, from, outputTarget_, plan.wholeDetailDraw());
+        if (plan.drawsWholeEnlarged())
+            wholeUpscale_.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
+        if (plan.drawsWholeDetail())
+            (blend ? wholeBlend_ : wholeDetail_).run(p, from, outputTarget_);
         (blend ? plainBlend_ : plainDetail_).runTiles(p, from, outputTarget_, list(List::Trusted));
         (blend ? blend_ : detail_).runTiles(p, from, outputTarget_, list(List::Blended));
-    } else {
-        wholeUpscale_.runIndirect(p, {gpu::sampler(0, columns_)}, outputTarget_, plan.wholeDraw());
+    } else if (plan.drawsWhole()) {
+        wholeUpscale_.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
     }
-    drawBoth(copy_, p, {gpu::sampler(0, video)}, drawnTarget_, plan);
 }
 
 FrameStats SuperRes::stats(int which) const {

@@ -27,8 +27,6 @@ public:
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
     /// Draws into output(), for what comes over it.
     [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
-    /// The video each tile was last drawn from.
-    [[nodiscard]] const gpu::Texture& drawn() const { return drawn_; }
     /// Per cell: flow (x, y) [video px], weight of the detail, eq. 2 confidence. Rgba32F.
     [[nodiscard]] const gpu::Texture& cellField() const { return cellField_; }
 
@@ -89,8 +87,8 @@ private:
     SkipOptions skips_;
     Size video_, cells_, halfCells_, tiles_;
     gpu::Texture displacement_, statistics_, halfStatistics_, cellField_, weightField_,
-        lookupField_, sharpened_, columns_, output_, drawn_;
-    gpu::Framebuffer sharpenedTarget_, columnsTarget_, outputTarget_, drawnTarget_;
+        lookupField_, sharpened_, columns_, output_;
+    gpu::Framebuffer sharpenedTarget_, columnsTarget_, outputTarget_;
     gpu::Buffer classes_, lists_;
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0;
@@ -99,7 +97,7 @@ private:
     gpu::ComputePass<GainParams> gain_;
     gpu::ComputePass<WeighParams> weigh_;
     gpu::ComputePass<ClassifyParams> classify_;
-    TilePass sharpen_, vertical_, copy_;
+    TilePass sharpen_, vertical_;
     gpu::DrawPass<TileParams> wholeUpscale_, wholeDetail_, wholeBlend_;
     gpu::DrawPass<TileParams> upscale_, detail_, plainDetail_, blend_, plainBlend_;
 };

@@ -45,13 +45,6 @@ gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
     return uploaded(p, Filter::Linear);
 }
 
-TEST_F(Draw, CopyIsExact) {
-    const Picture p = randomPicture(kSmallVideo, 1);
-    const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
-    EXPECT_EQ(drawn("copy.frag", params, {gpu::sampler(0, uploaded(p))}, kSmallVideo).readRgba8(),
-              p.bytes);
-}
-
 TEST_F(Draw, SharpeningMatchesTwin) {
     const Picture p = Waves(1, 4, 40, 30).shoot(kSmallVideo, {});
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);

@@ -17,20 +17,6 @@ constexpr double kConverted = 0.501;
 // A grey level that a bilinear filter of 8-bit weights may lose in both chroma channels.
 constexpr double kChroma = kConverted + 2.2;
 
-/// What shaders sample, swizzled and filtered as it is.
-std::vector<std::uint8_t> sampled(const gpu::Texture& texture) {
-    struct Params {
-        std::int32_t video[4];
-        float scale[4], tune[4];
-    };
-    const Size size = texture.size();
-    const gpu::Texture out(size, gpu::TexelFormat::Rgba8);
-    const gpu::Framebuffer target(out);
-    gpu::DrawPass<Params> copy("copy.frag");
-    copy.run({{size.width, size.height, 0, 0}, {}, {}}, {gpu::sampler(0, texture)}, target);
-    return out.readRgba8();
-}
-
 void expectTwin(const gpu::PictureTexture& picture, const ImageView& view, double tolerance) {
     const auto pixels = sampled(picture.texture());
     ASSERT_EQ(picture.texture().size(), view.size);

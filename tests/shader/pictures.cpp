@@ -1,6 +1,7 @@
 #include "tests/shader/pictures.h"
 
 #include "pipeline/gpu/gl.h"
+#include "pipeline/gpu/pass.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,6 +117,27 @@ gpu::Texture uploaded(const Picture& p, gpu::Filter f) {
     gpu::Texture t(p.size, grey ? gpu::TexelFormat::R8 : gpu::TexelFormat::Rgba8, f);
     t.upload(PlaneView{p.view().data, p.view().stride});
     return t;
+}
+
+RgbPlanes planesOf(const Picture& p) {
+    RgbPlanes out(p.size);
+    out.take(p.view());
+    return out;
+}
+
+std::vector<std::uint8_t> sampled(const gpu::Texture& texture) {
+    struct Params {
+        std::int32_t target[4];
+        float scaleFootprint[4];
+        std::int32_t source[4];
+    };
+    const Size size = texture.size();
+    const gpu::Texture out(size, gpu::TexelFormat::Rgba8);
+    const gpu::Framebuffer target(out);
+    gpu::DrawPass<Params> copy("display_scale.frag");
+    copy.run({{0, 0, size.width, size.height}, {1, 1, 1, 1}, {size.width, size.height, 0, 0}},
+             {gpu::sampler(0, texture)}, target);
+    return out.readRgba8();
 }
 
 gpu::Texture floatTexture(Size size, gpu::TexelFormat format, const std::vector<float>& values,

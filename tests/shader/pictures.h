@@ -2,6 +2,7 @@
 
 #include "pipeline/geometry.h"
 #include "pipeline/gpu/texture.h"
+#include "pipeline/plan/rgb_planes.h"
 
 #include <Eigen/Core>
 
@@ -69,6 +70,9 @@ void addNoise(Picture& picture, double sigma, unsigned seed);
 [[nodiscard]] StereoRig bentRig(Size video, Size still);
 
 [[nodiscard]] gpu::Texture uploaded(const Picture& p, gpu::Filter f = gpu::Filter::Nearest);
+[[nodiscard]] RgbPlanes planesOf(const Picture& p);
+/// What shaders sample, swizzled as it is: RGBA8.
+[[nodiscard]] std::vector<std::uint8_t> sampled(const gpu::Texture& texture);
 /// Four floats a texel.
 [[nodiscard]] gpu::Texture floatTexture(Size size, gpu::TexelFormat format,
                                         const std::vector<float>& values,

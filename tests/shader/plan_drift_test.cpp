@@ -1,6 +1,6 @@
 // What is left of a scene that changes slowly, and of one that rests, however the sensor's noise
 // is.
-#include "pipeline/work_plan.h"
+#include "pipeline/plan/work_plan.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/pictures.h"
 
@@ -83,7 +83,7 @@ DriftOutcome watch(const DriftScene& scene, NoisySensor sensor, int settled, int
     for (int frame = 1; frame <= settled + frames; ++frame) {
         light = lightOf(scene, frame);
         const Picture now = sensor.shoot(light);
-        plan.update(uploaded(now), uploaded(drawn), false);
+        plan.update(planesOf(now), planesOf(drawn), false);
         const auto tiles = plan.tiles().read<std::array<std::uint32_t, 2>>(
             static_cast<std::size_t>(plan.tileCount().width) * plan.tileCount().height, 8);
         double stale = 0;

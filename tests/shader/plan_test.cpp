@@ -12,7 +12,6 @@ using Plan = GlTest;
 constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut
 // Thresholds of a frame without measured noise (0.29 grey levels).
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
-constexpr std::size_t kDispatches = 80;  // bytes before them in the plan's buffer
 
 struct TileState {
     std::uint32_t changed, matched;
@@ -23,20 +22,13 @@ struct TileState {
 std::vector<TileState> tilesOf(const WorkPlan& plan) {
     const auto count = static_cast<std::size_t>(plan.tileCount().width) * plan.tileCount().height;
     const auto flags = plan.tiles().read<std::array<std::uint32_t, 2>>(count, 8);
-    const auto measured = plan.measured().read<std::array<float, 8>>(count);
     std::vector<TileState> out;
-    for (std::size_t i = 0; i < count; ++i)
-        out.push_back({flags[i][0],
-                       flags[i][1],
-                       measured[i][1],
-                       measured[i][2],
-                       {measured[i][4], measured[i][5], measured[i][6]}});
+    for (std::size_t i = 0; i < count; ++i) {
+        const TileMeasure& m = plan.measured()[i];
+        out.push_back(
+            {flags[i][0], flags[i][1], m.noise, m.structure, {m.pixels, m.means, m.bends}});
+    }
     return out;
-}
-
-std::array<std::uint32_t, 4> fourAt(const WorkPlan& plan, std::size_t bytes) {
-    const auto v = plan.wholeDraw().commands.read<std::uint32_t>(4, bytes);
-    return {v[0], v[1], v[2], v[3]};
 }
 
 /// `base` with the first `tiles` tiles turned by some grey levels.
@@ -62,7 +54,7 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
                 now.at(x, y)[tile % 3] += static_cast<std::uint8_t>(random() % (1 + tile / 3));
         }
     WorkPlan plan(kSize);
-    plan.update(uploaded(now), uploaded(drawn), false);
+    plan.update(planesOf(now), planesOf(drawn), false);
     const auto tiles = tilesOf(plan);
     std::vector<twin::TileChange> twins;
     int changed = 0, decided = 0;
@@ -92,12 +84,12 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
     WorkPlan plan(kSize);
     const WorkPlan::Dispatch dispatch = plan.add({5, 2, 1});
     plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::WithOthers);
-    plan.update(uploaded(base), uploaded(base), false);
+    plan.update(planesOf(base), planesOf(base), false);
     EXPECT_EQ(plan.changedTiles(), 0);
     EXPECT_FALSE(plan.redraws());
     plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::WithOthers);
-    EXPECT_EQ(fourAt(plan, kDispatches + 16UL * dispatch.index)[0], 0U);
-    plan.update(uploaded(oneTile), uploaded(base), false);
+    EXPECT_FALSE(plan.opens(dispatch));
+    plan.update(planesOf(oneTile), planesOf(base), false);
     EXPECT_EQ(plan.changedTiles(), 1 + 2 * 3);
     const auto tiles = tilesOf(plan);
     for (int i = 0; i < 28; ++i) {
@@ -106,13 +98,13 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
     }
     EXPECT_TRUE(plan.redraws());
     plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::Always);
-    plan.update(uploaded(base), uploaded(base), false);
+    plan.update(planesOf(base), planesOf(base), false);
     EXPECT_EQ(plan.changedTiles(), 6);
     EXPECT_TRUE(plan.redraws());
-    EXPECT_EQ(fourAt(plan, kDispatches + 16UL * dispatch.index)[0], 5U);
-    plan.update(uploaded(base), uploaded(base), false);
+    EXPECT_TRUE(plan.opens(dispatch));
+    plan.update(planesOf(base), planesOf(base), false);
     EXPECT_EQ(plan.changedTiles(), 0) << "redrawn once";
-    plan.update(uploaded(base), uploaded(base), true);
+    plan.update(planesOf(base), planesOf(base), true);
     EXPECT_EQ(plan.changedTiles(), 28) << "none counts twice";
 }
 
@@ -121,14 +113,14 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithItsTilesOrTheWhole) {
     const Picture oneTile = changedIn(base, 1, 64);  // the first
     WorkPlan plan(kSize);
     plan.drawnOver({2, 0, 4, 2}, WorkPlan::Redraw::WithThem);
-    plan.update(uploaded(oneTile), uploaded(base), false);
+    plan.update(planesOf(oneTile), planesOf(base), false);
     EXPECT_EQ(plan.changedTiles(), 1);
     EXPECT_FALSE(plan.redraws());
     plan.drawnOver({1, 0, 4, 2}, WorkPlan::Redraw::WithThem);
-    plan.update(uploaded(oneTile), uploaded(base), false);
+    plan.update(planesOf(oneTile), planesOf(base), false);
     EXPECT_EQ(plan.changedTiles(), 1 + 3 * 2) << "beside them";
     EXPECT_TRUE(plan.redraws());
-    plan.update(uploaded(base), uploaded(base), true);
+    plan.update(planesOf(base), planesOf(base), true);
     EXPECT_TRUE(plan.redraws());
 }
 
@@ -138,7 +130,7 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
         for (unsigned i = 0; i < 24; ++i) {
             Picture noisy = Waves(5, 40, 300, 30).shoot({320, 240}, {});
             addNoise(noisy, sigma, i);
-            plan.update(uploaded(noisy), uploaded(noisy), false);
+            plan.update(planesOf(noisy), planesOf(noisy), false);
         }
         EXPECT_NEAR(plan.noise(), sigma, 0.15 * sigma);
     }
@@ -147,27 +139,27 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
 TEST_F(Plan, NothingChangedShutsEveryDispatch) {
     const Picture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
-    static_cast<void>(plan.add({3, 2, 1}));
-    plan.update(uploaded(p), uploaded(p), false);
+    const auto dispatch = plan.add({3, 2, 1});
+    plan.update(planesOf(p), planesOf(p), false);
     for (const TileState& t : tilesOf(plan))
         EXPECT_EQ(t.changed, 0U);
-    EXPECT_EQ(fourAt(plan, 0)[0], 0U);
-    EXPECT_EQ(fourAt(plan, 16), (std::array<std::uint32_t, 4>{3, 0, 0, 0}));
-    EXPECT_EQ(fourAt(plan, kDispatches)[0], 0U);
+    EXPECT_EQ(plan.changedTiles(), 0);
+    EXPECT_FALSE(plan.drawsWhole());
+    EXPECT_FALSE(plan.opens(dispatch));
 }
 
 TEST_F(Plan, AForcedFrameOpensEverything) {
     const Picture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
-    static_cast<void>(plan.add({3, 2, 1}));
-    static_cast<void>(plan.add({5, 4, 2}));
-    plan.update(uploaded(p), uploaded(p), true);
+    const auto matching = plan.add({3, 2, 1});
+    const auto drawing = plan.add({5, 4, 2}, WorkPlan::For::Changed);
+    plan.update(planesOf(p), planesOf(p), true);
     for (const TileState& t : tilesOf(plan))
         EXPECT_EQ(t.changed, 1U);
-    EXPECT_EQ(fourAt(plan, 0)[0], 28U);
-    EXPECT_EQ(fourAt(plan, 16), (std::array<std::uint32_t, 4>{3, 1, 0, 0}));
-    EXPECT_EQ(fourAt(plan, kDispatches), (std::array<std::uint32_t, 4>{3, 2, 1, 0}));
-    EXPECT_EQ(fourAt(plan, kDispatches + 16), (std::array<std::uint32_t, 4>{5, 4, 2, 0}));
+    EXPECT_EQ(plan.changedTiles(), 28);
+    EXPECT_TRUE(plan.drawsWhole());
+    EXPECT_TRUE(plan.opens(matching));
+    EXPECT_TRUE(plan.opens(drawing));
 }
 
 TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
@@ -175,15 +167,14 @@ TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
     const int last = 12;  // 0.45 of 28 tiles are 12.6
     for (const int tiles : {1, last, last + 1, 28}) {
         WorkPlan plan(kSize);
-        static_cast<void>(plan.add({1, 1, 1}));
-        plan.update(uploaded(changedIn(base, tiles, 64)), uploaded(base), false);
+        const auto dispatch = plan.add({1, 1, 1});
+        plan.update(planesOf(changedIn(base, tiles, 64)), planesOf(base), false);
         const std::uint32_t whole = tiles > last ? 1 : 0;
-        EXPECT_EQ(fourAt(plan, 0)[0], static_cast<std::uint32_t>(tiles));
-        EXPECT_EQ(fourAt(plan, 0)[2], whole);
-        EXPECT_EQ(fourAt(plan, 16)[1], whole);
+        EXPECT_EQ(plan.changedTiles(), tiles);
+        EXPECT_EQ(plan.drawsWhole(), whole == 1);
         EXPECT_EQ(plan.tiles().read<std::uint32_t>(2),
                   (std::vector<std::uint32_t>{whole, static_cast<std::uint32_t>(tiles)}));
-        EXPECT_EQ(fourAt(plan, kDispatches)[0], 1U);
+        EXPECT_TRUE(plan.opens(dispatch));
     }
 }
 
@@ -230,7 +221,7 @@ TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
     static_cast<void>(plan.add({1, 1, 1}));
     const auto update = [&] {
         for (int i = 0; i < 20; ++i)  // until the noise is known
-            plan.update(uploaded(picture), uploaded(picture), true);
+            plan.update(planesOf(picture), planesOf(picture), true);
         return matchedColumns(plan);
     };
     EXPECT_EQ(update().size(), 16U) << "at first everything";
@@ -265,7 +256,7 @@ TEST_F(Plan, NoiseMakesNoDetailComeAndGo) {
     for (unsigned frame = 0; frame < 40; ++frame) {
         Picture now = quiet;
         addNoise(now, 1.5, frame);
-        plan.update(uploaded(now), uploaded(now), true);
+        plan.update(planesOf(now), planesOf(now), true);
         const auto tiles = tilesOf(plan);
         for (std::size_t i = 0; frame > 20 && i < tiles.size(); ++i)
             turns += tiles[i].matched != last[i].matched ? 1 : 0;
@@ -285,15 +276,15 @@ TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
     plan.matchStructured(1);
     for (const bool inStructure : {false, true}) {
         for (int i = 0; i < 20; ++i)
-            plan.update(uploaded(drawn), uploaded(drawn), false);
+            plan.update(planesOf(drawn), planesOf(drawn), false);
         Picture now = drawn;
         for (int i = 0; i < 256; ++i)  // a tile, evenly
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
-        plan.update(uploaded(now), uploaded(drawn), false);
+        plan.update(planesOf(now), planesOf(drawn), false);
         EXPECT_EQ(plan.changedTiles(), 1);
         EXPECT_EQ(plan.matchedTiles(), inStructure ? 1 : 0);
-        EXPECT_EQ(fourAt(plan, kDispatches + 16UL * matching.index)[0], inStructure ? 3U : 0U);
-        EXPECT_EQ(fourAt(plan, kDispatches + 16UL * drawing.index)[0], 5U);
+        EXPECT_EQ(plan.opens(matching), inStructure);
+        EXPECT_TRUE(plan.opens(drawing));
     }
 }
 
@@ -306,10 +297,9 @@ TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
         static_cast<void>(plan.add({1, 1, 1}));
         plan.matchStructured(1);
         for (int i = 0; i < 20; ++i)
-            plan.update(uploaded(picture), uploaded(picture), true);
-        const auto detail = plan.wholeDetailDraw(), enlarged = plan.wholeEnlargedDraw();
-        EXPECT_EQ(fourAt(plan, detail.offset)[1], structured ? 1U : 0U);
-        EXPECT_EQ(fourAt(plan, enlarged.offset)[1], structured ? 0U : 1U);
+            plan.update(planesOf(picture), planesOf(picture), true);
+        EXPECT_EQ(plan.drawsWholeDetail(), structured);
+        EXPECT_EQ(plan.drawsWholeEnlarged(), !structured);
         EXPECT_EQ(plan.tiles().read<std::uint32_t>(1)[0], structured ? 1U : 2U);
     }
 }

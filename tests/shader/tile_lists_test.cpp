@@ -145,7 +145,7 @@ TEST_F(TileListsGl, AShutPlanListsNothing) {
     lists.find({patches, 0, kCount}, plan);
     const int before = lists.count();
     const Picture same(kVideoSize, PixelFormat::Rgba8, 90);
-    plan.update(uploaded(same), uploaded(same), false);
+    plan.update(planesOf(same), planesOf(same), false);
     lists.find({patches, 0, kCount}, plan);
     EXPECT_GT(before, 0);
     EXPECT_EQ(lists.countBefore(), before);

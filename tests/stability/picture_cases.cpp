@@ -2,7 +2,7 @@
 #include "hal/image_layout.h"
 #include "pipeline/gpu/picture_texture.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/work_plan.h"
+#include "pipeline/plan/work_plan.h"
 #include "tests/shader/levels.h"
 #include "tests/shader/tile_pass.h"
 #include "tests/shader/twins/plan.h"
@@ -34,10 +34,10 @@ void pictureFormats(Context& c) {
                                        c.hostile.pick({YuvRange::Limited, YuvRange::Full}));
     gpu::PictureTexture picture;
     picture.upload(view);
-    const gpu::Texture copy = drawn("copy.frag", tileParams(size, size, size),
-                                    {gpu::sampler(0, picture.texture())}, size);
-    const auto pixels = copy.readRgba8();
+    const auto pixels = sampled(picture.texture());
     c.gl.frame(c.checks, pixelsOf(size));
+    RgbPlanes planes(size);
+    planes.take(view);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const auto rgb = twin::rgbAt(view, x, y);
@@ -45,6 +45,9 @@ void pictureFormats(Context& c) {
             for (std::size_t k = 0; k < 3; ++k)
                 c.checks.within(pixels[i + k] - rgb[k], -kFormatError, kFormatError,
                                 "error of a colour");
+            for (int k = 0; k < 3; ++k)
+                c.checks.within(planes.row(k, y)[x] - rgb[k], -kFormatError, kFormatError,
+                                "error of a colour on the host");
         }
 }
 
@@ -74,23 +77,24 @@ void changePlan(Context& c) {
             64;
     WorkPlan plan(size);
     (void)plan.add({});
-    plan.update(uploaded(now), uploaded(before), false);
+    plan.update(planesOf(now), planesOf(before), false);
     const Size tiles = plan.tileCount();
     const auto count = static_cast<std::size_t>(pixelsOf(tiles));
     const auto got = plan.tiles().read<std::array<std::uint32_t, 2>>(count, 8);
-    const auto measured = plan.measured().read<std::array<float, 8>>(count);
     std::vector<twin::TileChange> twins;
     int changed = 0;
     for (int t = 0; t < static_cast<int>(count); ++t) {
         const auto& twin =
             twins.emplace_back(twin::tileChange(now, before, t % tiles.width, t / tiles.width));
         changed += static_cast<int>(got[t][0]);
-        c.checks.within(measured[t][1] - twin.noise, -0.02, 0.02, "a tile's noise");
-        c.checks.within(measured[t][2] / (1 + twin.structure) -
+        const TileMeasure& measured = plan.measured()[t];
+        c.checks.within(measured.noise - twin.noise, -0.02, 0.02, "a tile's noise");
+        c.checks.within(measured.structure / (1 + twin.structure) -
                             twin.structure / (1 + twin.structure),
                         -1e-2, 1e-2, "a tile's structure");
-        for (int k = 0; k < 3; ++k)
-            c.checks.within(measured[t][4 + k] / (1 + twin.energy[k]) -
+        const std::array energy{measured.pixels, measured.means, measured.bends};
+        for (std::size_t k = 0; k < 3; ++k)
+            c.checks.within(energy[k] / (1 + twin.energy[k]) -
                                 twin.energy[k] / (1 + twin.energy[k]),
                             -1e-3, 1e-3, "what a tile's difference varies by");
     }

@@ -76,6 +76,10 @@ hostFaults() {
         'missing clamp of a shift' aggregation
     inHost pipeline/flow/luma_image.cpp 'out.back().firstWeight = 1;' 'out.back().firstWeight = 2;' \
         'wrong weight' luma
+    inHost pipeline/plan/tile_measure.cpp 'const int width = inside ? width_ : 0;' \
+        'const int width = inside ? width_ : static_cast<int>(2 * pitch_);' \
+        'noise beyond the border' plan
+    inHost pipeline/plan/tile_choice.cpp 'if (tile.changed) return;' '' 'changed tiles taken for noise' plan
     inHost pipeline/track/pose_filter.cpp 'if (!usable) {' 'if (false) {' \
         'removed guard against poses that are none' pose-filter
     inHost pipeline/track/tag_pose.cpp 'tag.T_world_tag * T_camera_tag.inverse();' \

@@ -83,26 +83,28 @@ TEST_F(ValidationTest, ValuesOutOfTheStatedRangeAreFaults) {
     }
 }
 
+struct LumaParams {
+    std::int32_t target[4];
+    float smoothing[4];
+};
+// A picture of 16x8 pixels: eight words a row.
+constexpr LumaParams kLuma{{0, 8, 16, 8}, {0.25F, 0, 0, 0}};
+constexpr std::size_t kLumaBytes = std::size_t{4} * 8 * 8;
+
 TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
     const auto gl = context();
     gpu::Validation validation;
-    struct Params {
-        std::int32_t size[4];
-        float threshold[4];
-    };
-    const Picture even({16, 16});
-    const gpu::Texture picture = uploaded(even);
-    const gpu::Buffer tiles(32);
-    gpu::ComputePass<Params> pass("plan_change.comp");
+    const gpu::Texture picture = uploaded(Picture({16, 8}));
+    const gpu::Buffer words(kLumaBytes);
+    gpu::ComputePass<LumaParams> pass("luma_from_video.comp");
     const auto run = [&] {
-        pass.run({{16, 16, 1, 1}, {1, 1, 1, 0}},
-                 {gpu::sampler(0, picture), gpu::sampler(1, picture), gpu::storage(0, tiles)}, {});
+        pass.run(kLuma, {gpu::sampler(0, picture), gpu::storage(0, words)}, {});
         return validation.takeFaults();
     };
     EXPECT_TRUE(run().empty());
     const std::array<std::uint8_t, 4> stray{1, 2, 3, 4};
-    glBindBuffer(GL_SHADER_STORAGE_BUFFER, tiles.id());
-    glBufferSubData(GL_SHADER_STORAGE_BUFFER, 32, 4, stray.data());
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, words.id());
+    glBufferSubData(GL_SHADER_STORAGE_BUFFER, kLumaBytes, 4, stray.data());
     const auto faults = run();
     ASSERT_EQ(faults.size(), 1U);
     EXPECT_EQ(faults[0].output, "guard");
@@ -119,23 +121,16 @@ TEST_F(ValidationTest, NothingIsWatchedOnceItIsGone) {
 }
 
 TEST(WatchedShaders, AnIndexOutOfRangeIsCounted) {
-    struct Params {
-        std::int32_t size[4];
-        float threshold[4];
-    };
     GlWatch gl;
     Checks checks;
-    const Picture even({16, 16});
-    const gpu::Texture picture = uploaded(even);
-    const gpu::Buffer tiles(32);  // of one tile
-    gpu::ComputePass<Params> pass("plan_change.comp");
-    pass.run({{16, 16, 1, 1}, {1, 1, 1, 0}},
-             {gpu::sampler(0, picture), gpu::sampler(1, picture), gpu::storage(0, tiles)},
-             {2, 1, 1});
-    gl.frame(checks, 256);
+    const gpu::Texture picture = uploaded(Picture({16, 8}));
+    const gpu::Buffer words(kLumaBytes - 8);
+    gpu::ComputePass<LumaParams> pass("luma_from_video.comp");
+    pass.run(kLuma, {gpu::sampler(0, picture), gpu::storage(0, words)}, {});
+    gl.frame(checks, 128);
     const auto faults = checks.take();
     ASSERT_EQ(faults.size(), 1U);
-    EXPECT_EQ(faults[0], "plan_change.comp: 2 indices out of range");
+    EXPECT_EQ(faults[0], "luma_from_video.comp: 2 indices out of range");
 }
 
 TEST(StatedRanges, AreReadFromTheShadersText) {

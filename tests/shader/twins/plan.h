@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-/// Scalar twins of plan_change.comp and of what plan_dispatch.comp makes of many tiles.
+/// Scalar twins of measureTiles() and markDrifted().
 namespace mfar::twin {
 
 struct TileChange {

@@ -2,9 +2,12 @@
 
 #include "pipeline/geometry.h"
 #include "pipeline/gpu/pass.h"
+#include "pipeline/plan/tile_choice.h"
+#include "pipeline/workers.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace mfar {
@@ -12,9 +15,10 @@ namespace mfar {
 /// The tiles that video pixels lie in.
 [[nodiscard]] PixelRect tilesAround(const PixelRect& videoPixels);
 
-/// Decides on the GPU what a frame has to compute: compares the video with what was last drawn,
-/// tile by tile, and opens or shuts the frame's dispatches. A frame without any changed tile costs
-/// one comparison; the CPU never waits to know.
+/// Decides what a frame has to compute: compares the video with what was last drawn, tile by tile,
+/// and opens or shuts the frame's dispatches. A frame without any changed tile costs one
+/// comparison, on the host, where the video lies: nothing waits for the GPU, and what is shut is
+/// not even called.
 ///
 /// A tile is left alone where its difference to what was drawn is noise: where it passes tests of
 /// its own, and where all such tiles, and those of each block of 8x8, together show no more than
@@ -27,7 +31,8 @@ public:
         int index;
     };
 
-    explicit WorkPlan(Size video);
+    /// `workers` share the comparison.
+    explicit WorkPlan(Size video, std::shared_ptr<Workers> workers = nullptr);
 
     /// What a dispatch is for.
     enum class For : std::uint8_t {
@@ -37,8 +42,8 @@ public:
     /// Registers a dispatch. Before the first update() only.
     [[nodiscard]] Dispatch add(gpu::Groups groups, For what = For::Matched);
 
-    /// Compares `now` with `drawn` (RGBA8, video size). `force` counts every tile as changed.
-    void update(const gpu::Texture& now, const gpu::Texture& drawn, bool force);
+    /// Compares `now` with `drawn` (both video size). `force` counts every tile as changed.
+    void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
     /// When what was drawn over tiles of the output has to be drawn anew.
     enum class Redraw : std::uint8_t {
         WithThem,    ///< one of the tiles has changed, or one beside them
@@ -63,63 +68,69 @@ public:
     template <class P>
     void run(gpu::ComputePass<P>& pass, const P& params, gpu::Bindings bindings,
              Dispatch dispatch) const {
-        pass.runIndirect(params, bindings, plan_, kPlanHeader + 16u * dispatch.index);
+        if (opens(dispatch)) pass.run(params, bindings, wantedOf(dispatch).groups);
+    }
+    [[nodiscard]] bool opens(Dispatch dispatch) const {
+        return opensAll_ || (wantedOf(dispatch).what == For::Matched ? matched_ : changed_) > 0;
     }
 
     /// uvec2 header: whole frame drawn at once (0: no, 1: yes, 2: all enlarged, and a list of tiles
     /// gets detail), changed tiles; then uvec2 per tile, row-major: changed, matched.
-    [[nodiscard]] const gpu::Buffer& tiles() const { return tiles_; }
-    /// The command of the full-screen draws: one instance when so much changed that drawing
-    /// everything beats drawing tiles, none otherwise.
-    [[nodiscard]] gpu::IndirectDraw wholeDraw() const { return {plan_, 16}; }
-    /// The same for what adds detail, and for what enlarges alone: one of both at most.
-    [[nodiscard]] gpu::IndirectDraw wholeDetailDraw() const { return {plan_, 48}; }
-    [[nodiscard]] gpu::IndirectDraw wholeEnlargedDraw() const { return {plan_, 64}; }
-    /// Number of tiles that the last update() found changed. Waits for the GPU.
-    [[nodiscard]] int changedTiles() const;
-    /// Number of those that are matched with the still. Waits for the GPU.
-    [[nodiscard]] int matchedTiles() const;
-    /// Is what was drawn over tiles to be drawn anew, as of the last update()? Waits for the GPU.
-    [[nodiscard]] bool redraws() const;
-    /// What plan_change.comp tells of each tile, two vec4, and whether it changed in the first.
-    [[nodiscard]] const gpu::Buffer& measured() const { return measuredTiles_; }
+    [[nodiscard]] const gpu::Buffer& tiles() const { return buffer_; }
+    /// What the full-screen draws draw: everything, as so much changed that this beats drawing
+    /// tiles; what adds detail and what enlarges alone: one of both at most.
+    [[nodiscard]] bool drawsWhole() const { return whole_; }
+    [[nodiscard]] bool drawsWholeDetail() const { return whole_ && !listsDetail_; }
+    [[nodiscard]] bool drawsWholeEnlarged() const { return whole_ && listsDetail_; }
+    /// Number of tiles that the last update() found changed.
+    [[nodiscard]] int changedTiles() const { return changed_; }
+    /// Number of those that are matched with the still.
+    [[nodiscard]] int matchedTiles() const { return matched_; }
+    /// Is what was drawn over tiles to be drawn anew, as of the last update()?
+    [[nodiscard]] bool redraws() const { return redraws_; }
+    [[nodiscard]] const std::vector<TileMeasure>& measured() const { return measured_; }
+    /// After the last update() a tile is drawn, as it changed or everything is.
+    [[nodiscard]] bool draws(std::size_t tile) const {
+        return whole_ || plan_[kHeader + tile][0] != 0;
+    }
     [[nodiscard]] Size tileCount() const { return tileCount_; }
-    /// Standard deviation of the video's noise [grey levels], from the quietest tiles; follows
-    /// update() a frame late, so that nothing waits. Before that: that of 8-bit rounding.
+    /// Standard deviation of the video's noise [grey levels], from the quietest tiles of the frames
+    /// before. Before the first: that of 8-bit rounding.
     [[nodiscard]] double noise() const { return noise_; }
     /// Variance of the noise in means of 2x2 pixels, in quarters of a pixel's: 1 where it is white,
     /// more where a sensor's processing has smoothed it. From the difference of tiles that surely
-    /// did not change; likewise late.
+    /// did not change, of the frames before.
     [[nodiscard]] double grain() const { return grain_; }
 
 private:
-    static constexpr std::size_t kPlanHeader = 80;  // summary, draws, grain
+    struct Wanted {
+        gpu::Groups groups;
+        For what;
+    };
+    static constexpr std::size_t kHeader = 1;  // entries of plan_ before the tiles
 
+    [[nodiscard]] const Wanted& wantedOf(Dispatch dispatch) const {
+        return wanted_[static_cast<std::size_t>(dispatch.index)];
+    }
+    void chooseMatched();
+    /// Of what update() has measured, says which tiles changed.
+    void chooseChanged(Redraw redraw);
     void upload();
-    /// Takes over what the last frame's plan says of the noise.
-    void followNoise();
+    [[nodiscard]] double quietestDecile() const;
+    void followNoise(const TileEnergy& unchanged);
 
-    struct ChangeParams {
-        std::int32_t size[4];
-        float threshold[4];
-    };
-    struct DispatchParams {
-        std::int32_t counts[4], drawnOver[4], redraw[4];
-        float noise[4];
-        std::int32_t matched[4];
-    };
-    [[nodiscard]] DispatchParams dispatchParams(bool force);
-
-    Size video_;
     Size tileCount_;
+    std::shared_ptr<Workers> workers_;
     double noise_, grain_ = 1, wholeShare_, matchedShare_ = 0;
     PixelRect drawnOver_;  // tiles
     Redraw redraw_ = Redraw::WithThem;
-    bool measured_ = false;  // plan_ holds the summary of an earlier frame
-    std::vector<std::array<std::uint32_t, 4>> wanted_;
-    gpu::Buffer tiles_, measuredTiles_, wantedBuffer_, plan_;
-    gpu::ComputePass<ChangeParams> change_;
-    gpu::ComputePass<DispatchParams> dispatch_;
+    std::vector<Wanted> wanted_;
+    std::vector<TileMeasure> measured_;
+    StructuredTiles structured_;
+    int changed_ = 0, matched_ = 0;
+    bool opensAll_ = false, whole_ = false, listsDetail_ = false, redraws_ = false;
+    std::vector<std::array<std::uint32_t, 2>> plan_, uploaded_;  // header and tiles
+    gpu::Buffer buffer_;
 };
 
 }  // namespace mfar

@@ -1,0 +1,88 @@
+#include "pipeline/plan/tile_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+constexpr int kTileBlock = 8;  // tiles
+// Standard deviation of a tile's sum of squares over its mean, and how many of them are no
+// accident.
+constexpr double kSpread = 0.27;
+constexpr double kSignificant = 5;
+// Share of the noise that a change may always hide in: what 8-bit steps are off from white noise.
+constexpr double kLeast = 0.03;
+
+constexpr int kStructureBins = 84;  // a quarter of an octave
+constexpr float kKept = 1.19F;
+
+int structureBin(float structure) {
+    return std::clamp(static_cast<int>(4 * std::log2(structure + 1)), 0, kStructureBins - 1);
+}
+
+float structureAround(std::span<const TileMeasure> tiles, int columns, int at) {
+    const int x = at % columns, y = at / columns;
+    const int lastRow = static_cast<int>(tiles.size()) / columns - 1;
+    float most = 0;
+    for (int j = std::max(y - 1, 0); j <= std::min(y + 1, lastRow); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, columns - 1); ++i)
+            most = std::max(most, tiles[static_cast<std::size_t>(j) * columns + i].structure);
+    return most;
+}
+
+}  // namespace
+
+void TileEnergy::add(const TileMeasure& tile) {
+    if (tile.changed) return;
+    ++tiles;
+    pixels += tile.pixels;
+    means += tile.means;
+    bends += tile.bends;
+}
+
+bool TileEnergy::drifted(double grain) const {
+    const double room = std::max(kSignificant * kSpread / std::sqrt(std::max(tiles, 1)), kLeast);
+    return means > (1 + room) * grain * pixels + 0.01 * tiles;
+}
+
+TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all) {
+    TileEnergy total;
+    for (const TileMeasure& tile : tiles)
+        total.add(tile);
+    all = all || total.drifted(grain);
+    const int rows = static_cast<int>(tiles.size()) / columns;
+    const auto forBlock = [&](int left, int top, const auto& body) {
+        for (int y = top; y < std::min(top + kTileBlock, rows); ++y)
+            for (int x = left; x < std::min(left + kTileBlock, columns); ++x)
+                body(tiles[static_cast<std::size_t>(y) * columns + x]);
+    };
+    for (int top = 0; top < rows; top += kTileBlock)
+        for (int left = 0; left < columns; left += kTileBlock) {
+            TileEnergy block;
+            forBlock(left, top, [&](const TileMeasure& tile) { block.add(tile); });
+            if (all || block.drifted(grain))
+                forBlock(left, top, [](TileMeasure& tile) { tile.changed = true; });
+        }
+    return total;
+}
+
+void StructuredTiles::choose(std::span<const TileMeasure> tiles, int columns, double none,
+                             int most) {
+    chosen_.resize(tiles.size());
+    around_.resize(tiles.size());
+    std::array<int, kStructureBins> bins{};
+    for (std::size_t i = 0; i < tiles.size(); ++i) {
+        const float kept = chosen_[i] ? kKept : 1;
+        around_[i] = kept * structureAround(tiles, columns, static_cast<int>(i));
+        if (around_[i] > none) ++bins[structureBin(around_[i])];
+    }
+    int above = 0, least = kStructureBins;
+    while (least > 0 && above + bins[least - 1] <= most)
+        above += bins[--least];
+    for (std::size_t i = 0; i < tiles.size(); ++i)
+        chosen_[i] = around_[i] > none && structureBin(around_[i]) >= least;
+}
+
+}  // namespace mfar

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "hal/frame.h"
+
+namespace mfar {
+
+inline constexpr int kTileSize = 16;  ///< video pixels
+
+/// Columns and rows of the tiles that cover a picture.
+[[nodiscard]] constexpr Size tilesOf(Size pixels) {
+    return {(pixels.width + kTileSize - 1) / kTileSize,
+            (pixels.height + kTileSize - 1) / kTileSize};
+}
+
+}  // namespace mfar

@@ -1,0 +1,150 @@
+#include "pipeline/plan/work_plan.h"
+
+#include "pipeline/plan/tiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+constexpr double kInitialNoise = 0.29;
+// A picture without any smooth tile looks noisy: the most that is believed.
+constexpr double kMaxNoise = 4.0;
+// Drawing by tiles costs 2.2 times as much an area as one full-screen draw (llvmpipe).
+constexpr double kWholeShare = 0.45;
+// Detail likewise, where all else is enlarged at once, which costs 0.4 times as much.
+constexpr double kListedShare = 0.27;
+// What structure adds up to, in the variance of a mean: 13 by noise alone (16 means less the
+// plane's three), the rest by what gives detail a tenth of its weight in superres_weigh.comp (a
+// signal of 0.44 of the noise; 16 / 4 as much in the variance of a mean).
+constexpr double kStructure = 13 + 16 * 4 * 0.44;
+constexpr double kRoundingVariance = 1.0 / 12;  // of a pixel [grey levels^2]
+// How fast the grain of the noise follows what a frame shows, by frame.
+constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
+constexpr double kRestingShare = 0.75;  // of the tiles: the others may be misjudged
+constexpr double kMaxGrain = 8;
+// Of 2x2 means against pixels in one frame: what divides by hardly any noise.
+constexpr double kMostRatio = 64;
+constexpr int kNoiseBins = 64;  // of 1/16 grey level
+
+}  // namespace
+
+PixelRect tilesAround(const PixelRect& videoPixels) {
+    const auto upwards = [](int pixel) { return (pixel + kTileSize - 1) / kTileSize; };
+    return {videoPixels.x0 / kTileSize, videoPixels.y0 / kTileSize, upwards(videoPixels.x1),
+            upwards(videoPixels.y1)};
+}
+
+WorkPlan::WorkPlan(Size video, std::shared_ptr<Workers> workers)
+    : tileCount_(tilesOf(video)), workers_(std::move(workers)), noise_(kInitialNoise),
+      wholeShare_(kWholeShare),
+      plan_(kHeader + static_cast<std::size_t>(tileCount_.width) * tileCount_.height),
+      buffer_(sizeof(plan_.front()) * plan_.size()) {}
+
+WorkPlan::Dispatch WorkPlan::add(gpu::Groups groups, For what) {
+    wanted_.push_back({groups, what});
+    return {static_cast<int>(wanted_.size()) - 1};
+}
+
+void WorkPlan::openAll() {
+    opensAll_ = true;
+    std::ranges::fill(plan_, std::array{1U, 1U});
+    upload();
+}
+
+void WorkPlan::upload() {
+    if (plan_ == uploaded_) return;
+    buffer_.write(std::span<const std::array<std::uint32_t, 2>>(plan_));
+    uploaded_ = plan_;
+}
+
+void WorkPlan::drawnOver(const PixelRect& tiles, Redraw redraw) {
+    drawnOver_ = {std::max(tiles.x0, 0), std::max(tiles.y0, 0),
+                  std::min(tiles.x1, tileCount_.width), std::min(tiles.y1, tileCount_.height)};
+    redraw_ = redraw;
+}
+
+void WorkPlan::update(const RgbPlanes& now, const RgbPlanes& drawn, bool force) {
+    // A cell's mean of 16 differences has a deviation of 0.35 s, its mean absolute difference 0.21
+    // s around 1.13 s; both bounds leave room for brighter, noisier regions and for single colours,
+    // whose noise is up to 1.5 times the luma's.
+    const double noise = noise_ * std::sqrt(grain_);
+    measureTiles(now, drawn,
+                 {static_cast<float>(1.0 + 2.0 * noise), static_cast<float>(1.5 + 4.0 * noise),
+                  static_cast<float>(grain_)},
+                 workers_.get(), measured_);
+    const TileEnergy unchanged = markDrifted(measured_, tileCount_.width, grain_, force);
+    chooseMatched();
+    chooseChanged(std::exchange(redraw_, Redraw::WithThem));
+    upload();
+    followNoise(unchanged);
+}
+
+void WorkPlan::chooseMatched() {
+    const bool everything = !(matchedShare_ > 0);
+    const auto tiles = static_cast<double>(measured_.size());
+    const double ofMean = grain_ * (noise_ * noise_ + kRoundingVariance) / 4;
+    structured_.choose(measured_, tileCount_.width, everything ? -1 : kStructure * ofMean,
+                       static_cast<int>(std::ceil(everything ? tiles : matchedShare_ * tiles)));
+}
+
+void WorkPlan::chooseChanged(Redraw redraw) {
+    const auto isDrawnOver = [&](std::size_t tile, int margin) {
+        const int x = static_cast<int>(tile) % tileCount_.width,
+                  y = static_cast<int>(tile) / tileCount_.width;
+        return x >= drawnOver_.x0 - margin && x < drawnOver_.x1 + margin &&
+               y >= drawnOver_.y0 - margin && y < drawnOver_.y1 + margin;
+    };
+    const auto count = static_cast<int>(measured_.size());
+    const int wholeFrom = std::max(1, static_cast<int>(std::ceil(wholeShare_ * count)));
+    int changes = 0;
+    bool beside = false;
+    for (std::size_t i = 0; i < measured_.size(); ++i) {
+        if (!measured_[i].changed) continue;
+        ++changes;
+        beside = beside || isDrawnOver(i, 1);
+    }
+    redraws_ = redraw == Redraw::Always || (redraw == Redraw::WithOthers && changes > 0) ||
+               changes >= wholeFrom || beside;
+    changed_ = 0;
+    matched_ = 0;
+    for (std::size_t i = 0; i < measured_.size(); ++i) {
+        const bool changed = measured_[i].changed || (redraws_ && isDrawnOver(i, 0));
+        changed_ += changed ? 1 : 0;
+        matched_ += changed && structured_[i] ? 1 : 0;
+        plan_[kHeader + i] = {changed ? 1U : 0U, structured_[i] ? 1U : 0U};
+    }
+    whole_ = changed_ >= wholeFrom;
+    // Where nothing is drawn by tiles, detail is not, either.
+    const bool mayList = matchedShare_ > 0 && wholeShare_ > 0;
+    listsDetail_ = whole_ && mayList && matched_ <= static_cast<int>(kListedShare * count);
+    plan_[0] = {whole_ ? (listsDetail_ ? 2U : 1U) : 0U, static_cast<std::uint32_t>(changed_)};
+    opensAll_ = false;
+}
+
+double WorkPlan::quietestDecile() const {
+    std::array<std::size_t, kNoiseBins> bins{};
+    for (const TileMeasure& tile : measured_)
+        ++bins[static_cast<std::size_t>(std::clamp(tile.noise * 16, 0.0F, kNoiseBins - 1.0F))];
+    std::size_t below = 0, bin = 0;
+    for (; bin < kNoiseBins - 1; ++bin) {
+        below += bins[bin];
+        if (10 * below >= measured_.size()) break;
+    }
+    return (static_cast<double>(bin) + 0.5) / 16;
+}
+
+void WorkPlan::followNoise(const TileEnergy& unchanged) {
+    noise_ = std::min(0.8 * noise_ + 0.2 * quietestDecile(), kMaxNoise);
+    if (unchanged.tiles == 0) return;
+    const double now = std::min(unchanged.bends / std::max(unchanged.pixels, 1e-3), kMostRatio);
+    // What moves has structure, too: more is believed slowly, but where all is at rest.
+    const bool atRest = unchanged.tiles > kRestingShare * static_cast<double>(measured_.size());
+    const double risen = atRest ? kGrainAtRest : kGrainMoving;
+    grain_ += (now - grain_) * (now < grain_ ? kGrainFalls : risen);
+    grain_ = std::clamp(grain_, 1.0, kMaxGrain);
+}
+
+}  // namespace mfar
