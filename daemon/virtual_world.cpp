@@ -37,7 +37,7 @@ Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& ligh
             scene.objects.push_back(
                 {std::make_shared<const Model>(shapeModel(object.shape)), *place, 1});
     }
-    scene.lighting = {environmentOf(light), light.sun};
+    if (!scene.objects.empty()) scene.lighting = {environmentOf(light), light.sun};
     return scene;
 }
 

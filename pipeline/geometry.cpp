@@ -6,6 +6,10 @@
 namespace mfar {
 namespace {
 
+// Determinant of the distortion's derivative from which on the model counts as folded.
+constexpr double kFold = 0.05;
+constexpr double kSquaredError = 1e-24;
+
 struct Distorted {
     Eigen::Vector2d point;
     Eigen::Matrix2d jacobian;
@@ -26,6 +30,11 @@ Distorted distort(const Eigen::Vector2d& ray, const std::array<double, 5>& d) {
     return out;
 }
 
+/// What the pixel's ray would be without distortion.
+Eigen::Vector2d pinholeRay(const CameraModel& c, const Eigen::Vector2d& pixel) {
+    return {(pixel.x() - c.cx) / c.fx, (pixel.y() - c.cy) / c.fy};
+}
+
 }  // namespace
 
 Eigen::Vector2d CameraModel::project(const Eigen::Vector2d& ray) const {
@@ -38,20 +47,37 @@ Eigen::Matrix2d CameraModel::projectJacobian(const Eigen::Vector2d& ray) const {
 }
 
 Eigen::Vector2d CameraModel::unproject(const Eigen::Vector2d& pixel) const {
-    const Eigen::Vector2d target{(pixel.x() - cx) / fx, (pixel.y() - cy) / fy};
+    const Eigen::Vector2d target = pinholeRay(*this, pixel);
+    if (distortion == std::array<double, 5>{}) return target;
     Eigen::Vector2d ray = target;
     for (int i = 0; i < 20; ++i) {
         const Distorted d = distort(ray, distortion);
         const Eigen::Vector2d error = target - d.point;
         const double det = d.jacobian.determinant();
         // The fold of the model is where the determinant reaches zero: never step across it.
-        if (!(det > 0.05) || !(error.squaredNorm() > 1e-24)) break;
+        if (!(det > kFold) || !(error.squaredNorm() > kSquaredError)) break;
         Eigen::Vector2d step = d.jacobian.inverse() * error;
         const double limit = 0.5 * std::max(0.2, ray.norm());
         if (step.norm() > limit) step *= limit / step.norm();
         ray += step;
     }
     return ray;
+}
+
+Eigen::Vector2d CameraModel::unproject(const Eigen::Vector2d& pixel,
+                                       const Eigen::Vector2d& close) const {
+    const Eigen::Vector2d target = pinholeRay(*this, pixel);
+    if (distortion == std::array<double, 5>{}) return target;
+    Eigen::Vector2d ray = close;
+    for (int i = 0; i < 3; ++i) {
+        const Distorted d = distort(ray, distortion);
+        const Eigen::Vector2d error = target - d.point;
+        const double det = d.jacobian.determinant();
+        if (!(det > kFold)) break;
+        if (!(error.squaredNorm() > kSquaredError)) return ray;
+        ray += d.jacobian.inverse() * error;
+    }
+    return unproject(pixel);
 }
 
 CameraModel CameraModel::scaledTo(Size to) const {

@@ -52,6 +52,9 @@ struct CameraModel {
     /// Pixel to normalised ray; Newton iterations undo the distortion. Far outside the lens's valid
     /// circle, where the model folds over, the result is the ray of the nearest valid radius.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;
+    /// The same, sooner where a ray is known that is close, such as that of the pixel beside it.
+    [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel,
+                                            const Eigen::Vector2d& close) const;
     /// The same lens in front of a sensor of another resolution: c -> (c + 0.5) s - 0.5.
     [[nodiscard]] CameraModel scaledTo(Size to) const;
 };

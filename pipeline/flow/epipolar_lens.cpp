@@ -1,5 +1,7 @@
 #include "pipeline/flow/epipolar_lens.h"
 
+#include <utility>
+
 namespace mfar {
 namespace {
 
@@ -49,9 +51,13 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
     rays_.reserve(2UL * size_.width * size_.height);
     double rim = 0;  // of the picture's corners, squared
     for (int y = 0; y < size_.height; ++y) {
+        // Going on as from the last pixel to this is off by the lens's curvature alone.
+        Eigen::Vector2d before, ray(0, 0);
         for (int x = 0; x < size_.width; ++x) {
             const Eigen::Vector2d fine((x + 0.5) / scale - 0.5, (y + 0.5) / scale - 0.5);
-            const Eigen::Vector2d ray = camera.unproject(fine);
+            const Eigen::Vector2d next =
+                x < 2 ? camera.unproject(fine) : camera.unproject(fine, 2 * ray - before);
+            before = std::exchange(ray, next);
             rays_.push_back(static_cast<float>(ray.x()));
             rays_.push_back(static_cast<float>(ray.y()));
             rim = std::max(rim, ray.squaredNorm());

@@ -40,7 +40,12 @@ TEST(SyntheticRig, LensesCanBeUndoneOverTheWholePicture) {
         for (const double u : {-0.01, 0.25, 0.6, 1.01}) {
             for (const double v : {-0.01, 0.3, 0.7, 1.01}) {
                 const Eigen::Vector2d p{u * camera.size.width, v * camera.size.height};
-                EXPECT_LT((camera.project(camera.unproject(p)) - p).norm(), 1e-6);
+                const Eigen::Vector2d ray = camera.unproject(p);
+                EXPECT_LT((camera.project(ray) - p).norm(), 1e-6);
+                // From wherever, as far as from the other side of the picture.
+                for (const double off : {0.0, 1e-3, 0.2, 2.0})
+                    EXPECT_LT((camera.unproject(p, ray - Eigen::Vector2d(off, off)) - ray).norm(),
+                              1e-9);
             }
         }
     }
