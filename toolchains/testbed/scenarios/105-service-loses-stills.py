@@ -1,4 +1,4 @@
-"""In the service, too, a still that is missing is asked for once more, and one that is late is told."""
+"""In the service, too, a still that is missing is asked for once more, and one that is late is not used."""
 
 import json
 import time
@@ -23,7 +23,6 @@ def run(bed):
     finally:
         bed.held(False)
     print(f'        {counts}')
-    assert counts['unmatched'] == 0, counts
     assert bed.property('NRestarts') == '0'
     assert bed.guest.edges.level() == 0, 'the trigger line is high'
 
@@ -39,11 +38,12 @@ def lose_stills(bed):
 
     bed.still.fault('missing')
     ask(bed)
-    counted(bed, fired=GOOD + 2, matched=GOOD + 1, lost=1, repeated=1)
+    counted(bed, fired=GOOD + 2, matched=GOOD + 1, lost=1, repeated=1, unmatched=0)
 
     bed.still.fault('late', 3)
     ask(bed)
-    return counted(bed, fired=GOOD + 4, lost=2, late=1, repeated=2)
+    # A USB picture is timed on arrival: when it comes at last, its repetition has a still already.
+    return counted(bed, fired=GOOD + 4, matched=GOOD + 2, lost=2, repeated=2, unmatched=1)
 
 
 def ask(bed):
