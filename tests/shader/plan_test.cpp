@@ -57,9 +57,11 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
     plan.update(planesOf(now), planesOf(drawn), false);
     const auto tiles = tilesOf(plan);
     std::vector<twin::TileChange> twins;
+    const twin::Grey grey = twin::luma(now.view());
     int changed = 0, decided = 0;
     for (int i = 0; i < 28; ++i) {
-        const twin::TileChange& t = twins.emplace_back(twin::tileChange(now, drawn, i % 7, i / 7));
+        const twin::TileChange& t =
+            twins.emplace_back(twin::tileChange(now, drawn, grey, i % 7, i / 7));
         EXPECT_NEAR(tiles[i].noise, t.noise, 0.005) << "tile " << i;
         EXPECT_NEAR(tiles[i].structure, t.structure, 1e-3 * (1 + t.structure)) << "tile " << i;
         for (int k = 0; k < 3; ++k)

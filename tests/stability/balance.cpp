@@ -4,10 +4,15 @@
 #include <string_view>
 
 namespace mfar::stress {
+namespace {
+
+constexpr double kTrial = 60;  // of a case for a pass that it has not brought at this size [s]
+
+}  // namespace
 
 Balance::Balance(const std::vector<Case>& cases) {
     for (const Case& one : cases)
-        if (one.atProductSize) cases_.push_back({one, 0, {}});
+        if (one.atProductSize) cases_.push_back({one, 0, {}, {}});
 }
 
 const Balance::Known* Balance::quickest(const std::string& pass) const {
@@ -18,7 +23,11 @@ const Balance::Known* Balance::quickest(const std::string& pass) const {
     };
     for (const Known& known : cases_)
         if (rate(known) > (out != nullptr ? rate(*out) : 0)) out = &known;
-    return out;
+    if (out != nullptr) return out;
+    const auto untried = std::ranges::find_if(cases_, [&](const Known& known) {
+        return known.passes.contains(pass) && known.seconds < kTrial;
+    });
+    return untried == cases_.end() ? nullptr : &*untried;
 }
 
 const Case* Balance::next(const Checks& checks, long enough) const {
@@ -36,14 +45,17 @@ const Case* Balance::next(const Checks& checks, long enough) const {
 }
 
 void Balance::ran(const Case& one, const std::map<std::string, long>& before,
-                  const std::map<std::string, long>& after, double seconds) {
+                  const std::map<std::string, long>& after, double seconds, Scale scale) {
     const auto known = std::ranges::find_if(
         cases_, [&](const Known& k) { return std::string_view(k.one.name) == one.name; });
     if (known == cases_.end()) return;
-    known->seconds += seconds;
+    if (scale == Scale::Product) known->seconds += seconds;
     for (const auto& [pass, pixels] : after) {
         const auto was = before.find(pass);
-        known->pixels[pass] += pixels - (was == before.end() ? 0 : was->second);
+        const long brought = pixels - (was == before.end() ? 0 : was->second);
+        if (brought == 0) continue;
+        known->passes.insert(pass);
+        if (scale == Scale::Product) known->pixels[pass] += brought;
     }
 }
 

@@ -115,8 +115,7 @@ void Run::runCase(const Case& one, std::uint64_t seed, Scale scale) {
     const auto before = checks_.pixels();
     const double start = minutes();
     const auto faults = run(one, seed, checks_, gl_, scale);
-    if (scale == Scale::Product)
-        balance_.ran(one, before, checks_.pixels(), 60 * (minutes() - start));
+    balance_.ran(one, before, checks_.pixels(), 60 * (minutes() - start), scale);
     ++ran_;
     for (const std::string& fault : faults)
         fmt::print("FAILED {}\n", fault);

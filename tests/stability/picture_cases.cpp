@@ -82,10 +82,11 @@ void changePlan(Context& c) {
     const auto count = static_cast<std::size_t>(pixelsOf(tiles));
     const auto got = plan.tiles().read<std::array<std::uint32_t, 2>>(count, 8);
     std::vector<twin::TileChange> twins;
+    const twin::Grey grey = twin::luma(now.view());
     int changed = 0;
     for (int t = 0; t < static_cast<int>(count); ++t) {
-        const auto& twin =
-            twins.emplace_back(twin::tileChange(now, before, t % tiles.width, t / tiles.width));
+        const auto& twin = twins.emplace_back(
+            twin::tileChange(now, before, grey, t % tiles.width, t / tiles.width));
         changed += static_cast<int>(got[t][0]);
         const TileMeasure& measured = plan.measured()[t];
         c.checks.within(measured.noise - twin.noise, -0.02, 0.02, "a tile's noise");
@@ -103,6 +104,7 @@ void changePlan(Context& c) {
     for (std::size_t t = 0; t < count; ++t)
         c.checks.require(!wanted[t] || (got[t][0] != 0) == *wanted[t], "a tile's change");
     c.checks.require(plan.changedTiles() == changed, "the number of changed tiles");
+    c.checks.through("TileMeasure", pixelsOf(size));
     c.gl.frame(c.checks, pixelsOf(size));
 }
 

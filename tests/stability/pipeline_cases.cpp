@@ -70,6 +70,8 @@ void frames(Context& c) {
         c.hostile.pick({SuperResMode::Detail, SuperResMode::Detail, SuperResMode::Blend});
     options.depthEverywhere = c.hostile.chance(0.5);
     options.epipolar.bothWays = c.hostile.chance(0.2);
+    if (c.scale == Scale::Product)
+        options.output = c.hostile.pick({rig.still.size, Size{1440, 1080}, Size{1067, 800}});
     // A still narrower than the video has no output of its own.
     if (c.scale == Scale::Mixed || rig.still.size.width < rig.video.size.width)
         options.output = {2 * rig.video.size.width, 2 * rig.video.size.height};
@@ -81,7 +83,9 @@ void frames(Context& c) {
         pipeline.setObjects(objects);
     }
     Timestamp time{};
-    for (int frame = 0; frame < 5; ++frame) {
+    // Making a pipeline takes as long as some frames of the product's size.
+    const int count = c.scale == Scale::Product ? 12 : 5;
+    for (int frame = 0; frame < count; ++frame) {
         if (frame == 0 || c.hostile.chance(0.3))
             pipeline.setStill(c.hostile.picture(rig.still.size).view(), time, poseFor(c, unit));
         time = time + std::chrono::milliseconds(c.hostile.pick({33, 0, -33, 100000}));

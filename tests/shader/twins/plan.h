@@ -111,9 +111,9 @@ inline double structureOf(const Grey& grey, int x0, int y0) {
     return out;
 }
 
-inline TileChange tileChange(const Picture& now, const Picture& drawn, int tileX, int tileY,
-                             double grain = 1) {
-    const Grey grey = luma(now.view());
+/// `grey`: luma of `now`.
+inline TileChange tileChange(const Picture& now, const Picture& drawn, const Grey& grey, int tileX,
+                             int tileY, double grain = 1) {
     TileChange out;
     const Difference d{now, drawn};
     driftOf(d, 16 * tileX, 16 * tileY, grain, out);
