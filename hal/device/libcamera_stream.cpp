@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <stdexcept>
@@ -14,6 +15,8 @@ namespace {
 
 /// One with the camera, one with the user.
 constexpr std::size_t kLeastBuffers = 2;
+/// For libcamera to learn that a device is gone.
+constexpr std::chrono::seconds kVerdictTime{3};
 
 void check(const LibcameraOptions& options) {
     const auto sound = [](const std::optional<double>& value, double least, double most) {
@@ -76,7 +79,20 @@ void LibcameraCamera::Stream::allocate() {
     }
 }
 
+// Given up while it runs, it may be unplugged, which libcamera learns late, from udev. To stop a
+// device that is gone with requests in it ends the process; once it knows, stopping does nothing.
+void LibcameraCamera::Stream::awaitVerdict() {
+    std::unique_lock lock(mutex_);
+    const std::uint64_t frames = counters_.frames;
+    changed_.wait_for(lock, kVerdictTime, [&] {
+        const auto isQueued = [](const Slot& slot) { return slot.state == State::Queued; };
+        return !running_ || unplugged_ || counters_.frames != frames ||
+               std::ranges::none_of(slots_, isQueued);
+    });
+}
+
 void LibcameraCamera::Stream::close() {
+    awaitVerdict();
     stop();
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);
@@ -171,6 +187,7 @@ void LibcameraCamera::Stream::giveBack(std::size_t index) {
 /// In libcamera's thread.
 void LibcameraCamera::Stream::disconnected() {
     std::lock_guard lock(mutex_);
+    unplugged_ = true;
     lose(fmt::format("camera '{}' has been unplugged", camera_->id()));
 }
 
@@ -181,6 +198,7 @@ void LibcameraCamera::Stream::completed(libcamera::Request* request) {
     if (index >= slots_.size()) return;  // closed
     Slot& slot = slots_[index];
     slot.state = State::Idle;
+    changed_.notify_all();
     if (!running_ || request->status() == libcamera::Request::RequestCancelled) return;
     const libcamera::FrameMetadata& metadata = request->findBuffer(stream_)->metadata();
     if (!isSound(metadata)) {
@@ -190,7 +208,6 @@ void LibcameraCamera::Stream::completed(libcamera::Request* request) {
     }
     slot.state = State::Ready;
     ready_.push_back(describe(index, *request, metadata));
-    changed_.notify_all();
 }
 
 bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) {

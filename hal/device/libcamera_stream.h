@@ -57,6 +57,7 @@ private:
     void queue(Slot& slot);
     void giveBack(std::size_t slot);
     void lose(const std::string& why);
+    void awaitVerdict();
 
     LibcameraOptions options_;
     std::shared_ptr<libcamera::CameraManager> manager_;
@@ -72,6 +73,7 @@ private:
     std::vector<Slot> slots_;
     std::deque<Done> ready_;
     bool running_ = false;
+    bool unplugged_ = false;
     bool viewChecked_ = false;
     std::string lost_;       ///< why the device is gone; empty: it is not
     std::string viewFault_;  ///< frames show a part of the field

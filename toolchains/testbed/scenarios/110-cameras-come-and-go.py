@@ -1,5 +1,7 @@
 """The service on the board's cameras: pictures flow, and each camera may be unplugged and comes back."""
 
+import time
+
 CONFIG = '''jitter_ms = 100
 [superres]
 mode = "off"
@@ -14,14 +16,22 @@ BACK_LIMIT = 3  # s
 
 
 def run(bed):
+    bed.held(True)  # so that the picture shows nothing new but what is said
+    try:
+        come_and_go(bed)
+    finally:
+        bed.held(False)
+
+
+def come_and_go(bed):
     seconds = bed.fresh_service('display = "auto"\n' + bed.devices + CONFIG, 'WatchdogSec=120\n')
     print(f'        ready after {seconds:.1f} s')
     bed.wait_for(status('fps'), 60)
     before = None
     for round_ in range(TIMES):
         for camera, role in ((bed.video, 'video camera'), (bed.still, 'still camera')):
-            camera.unplug()
-            said = bed.wait_for(status(role), 20)
+            said = told_after(bed, camera.unplug)
+            bed.wait_for(status(role), 20)
             camera.plug()
             bed.wait_for("lsusb -t >/dev/null; ls /dev/v4l/by-id | grep -c Bed | grep -q '[24]'", 20)
             back = bed.wait_for(f'! {status(role)}', 20)
@@ -34,6 +44,22 @@ def run(bed):
     print(f'        descriptors and threads {before} -> {after}')
     assert after <= before, f'descriptors and threads grew from {before} to {after}'
     assert bed.property('NRestarts') == '0'
+
+
+def told_after(bed, event):
+    """The seconds until the screen shows something else."""
+    before = bed.guest.screen()
+    begin = time.monotonic()
+    event()
+    while time.monotonic() < begin + 20:
+        if differ(before[2], bed.guest.screen()[2]):
+            return time.monotonic() - begin
+    raise AssertionError('the picture says nothing')
+
+
+def differ(a, b):
+    """In a thousandth of the bytes at least."""
+    return a != b and sum(x != y for x, y in zip(a[::97], b[::97])) > len(a) / 97 / 1000
 
 
 def status(words):
