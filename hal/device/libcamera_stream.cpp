@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
@@ -15,8 +16,8 @@ namespace {
 
 /// One with the camera, one with the user.
 constexpr std::size_t kLeastBuffers = 2;
-/// For libcamera to learn that a device is gone.
-constexpr std::chrono::seconds kVerdictTime{3};
+/// For libcamera to learn that a device is gone, on a board that has no time for udev.
+constexpr std::chrono::seconds kUdevTime{30};
 
 void check(const LibcameraOptions& options) {
     const auto sound = [](const std::optional<double>& value, double least, double most) {
@@ -32,6 +33,18 @@ void check(const LibcameraOptions& options) {
                                  "100 s, its gain in 0 to 1000, its focus in 0 to 100 dioptres");
     if (options.buffers < kLeastBuffers || options.buffers > 64)
         throw std::runtime_error("a camera takes 2 to 64 buffers");
+}
+
+/// Does this process hold a video device whose node is gone? The kernel takes that away with the
+/// device, before anyone is told.
+bool hasLostVideoNode() {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator("/proc/self/fd", error)) {
+        const std::string file = fs::read_symlink(entry.path(), error).string();
+        if (file.starts_with("/dev/video") && file.ends_with(" (deleted)")) return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -81,10 +94,11 @@ void LibcameraCamera::Stream::allocate() {
 
 // Given up while it runs, it may be unplugged, which libcamera learns late, from udev. To stop a
 // device that is gone with requests in it ends the process; once it knows, stopping does nothing.
-void LibcameraCamera::Stream::awaitVerdict() {
+void LibcameraCamera::Stream::awaitUnplugged() {
+    if (!hasLostVideoNode()) return;
     std::unique_lock lock(mutex_);
     const std::uint64_t frames = counters_.frames;
-    changed_.wait_for(lock, kVerdictTime, [&] {
+    changed_.wait_for(lock, kUdevTime, [&] {
         const auto isQueued = [](const Slot& slot) { return slot.state == State::Queued; };
         return !running_ || unplugged_ || counters_.frames != frames ||
                std::ranges::none_of(slots_, isQueued);
@@ -92,7 +106,7 @@ void LibcameraCamera::Stream::awaitVerdict() {
 }
 
 void LibcameraCamera::Stream::close() {
-    awaitVerdict();
+    awaitUnplugged();
     stop();
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);

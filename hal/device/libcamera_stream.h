@@ -57,7 +57,7 @@ private:
     void queue(Slot& slot);
     void giveBack(std::size_t slot);
     void lose(const std::string& why);
-    void awaitVerdict();
+    void awaitUnplugged();
 
     LibcameraOptions options_;
     std::shared_ptr<libcamera::CameraManager> manager_;

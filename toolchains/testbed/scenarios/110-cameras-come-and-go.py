@@ -26,7 +26,7 @@ def run(bed):
 def come_and_go(bed):
     seconds = bed.fresh_service('display = "auto"\n' + bed.devices + CONFIG, 'WatchdogSec=120\n')
     print(f'        ready after {seconds:.1f} s')
-    bed.wait_for(status('fps'), 60)
+    bed.wait_for_pictures(10)  # the first ones take long, as shaders are compiled
     before = None
     for round_ in range(TIMES):
         for camera, role in ((bed.video, 'video camera'), (bed.still, 'still camera')):
