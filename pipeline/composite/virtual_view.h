@@ -5,9 +5,9 @@
 #include "pipeline/composite/scene_boxes.h"
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/plan/work_plan.h"
 #include "pipeline/skip_options.h"
 #include "pipeline/traced_layer.h"
-#include "pipeline/plan/work_plan.h"
 
 #include <memory>
 #include <optional>
