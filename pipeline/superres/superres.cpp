@@ -168,21 +168,28 @@ void SuperRes::drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings 
 void SuperRes::draw(const gpu::Texture& video, const StillReference* still, const WorkPlan& plan) {
     const bool useStill = still != nullptr && mode_ != SuperResMode::Off;
     const bool blend = mode_ == SuperResMode::Blend;
-    classify(plan, useStill);
+    // Both counts of a frame at rest are there after two of them.
+    restingFrames_ = plan.changedTiles() == 0 ? restingFrames_ + 1 : 0;
+    if (restingFrames_ <= 2) classify(plan, useStill);
+    // A draw of no tiles would have its shader compiled all the same.
+    if (restingFrames_ > 0) return;
 
     const TileParams p = tileParams(useStill);
     drawBoth(sharpen_, p, {gpu::sampler(0, video), gpu::sampler(1, weightField_)}, sharpenedTarget_,
              plan);
     drawBoth(vertical_, p, {gpu::sampler(0, sharpened_)}, columnsTarget_, plan);
-    upscale_.runTiles(p, {gpu::sampler(0, columns_)}, outputTarget_, list(List::Upscaled));
+    if (!plan.drawsWhole())
+        upscale_.runTiles(p, {gpu::sampler(0, columns_)}, outputTarget_, list(List::Upscaled));
     if (useStill) {
         const gpu::Bindings from{gpu::sampler(0, columns_),
                                  gpu::sampler(1, blend ? still->picture() : still->detail()),
                                  gpu::sampler(2, lookupField_)};
         if (plan.drawsWholeEnlarged())
             wholeUpscale_.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
-        if (plan.drawsWholeDetail())
+        if (plan.drawsWholeDetail()) {
             (blend ? wholeBlend_ : wholeDetail_).run(p, from, outputTarget_);
+            return;
+        }
         (blend ? plainBlend_ : plainDetail_).runTiles(p, from, outputTarget_, list(List::Trusted));
         (blend ? blend_ : detail_).runTiles(p, from, outputTarget_, list(List::Blended));
     } else if (plan.drawsWhole()) {

@@ -91,7 +91,7 @@ private:
     gpu::Framebuffer sharpenedTarget_, columnsTarget_, outputTarget_;
     gpu::Buffer classes_, lists_;
     std::array<gpu::Buffer, 2> draws_;
-    int current_ = 0;
+    int current_ = 0, restingFrames_ = 0;
     WorkPlan::Dispatch assessDispatch_, gainDispatch_, weighDispatch_;
     gpu::ComputePass<AssessParams> assess_;
     gpu::ComputePass<GainParams> gain_;
