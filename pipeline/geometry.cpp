@@ -47,7 +47,7 @@ Eigen::Matrix2d CameraModel::projectJacobian(const Eigen::Vector2d& ray) const {
 }
 
 Eigen::Vector2d CameraModel::unproject(const Eigen::Vector2d& pixel) const {
-    const Eigen::Vector2d target = pinholeRay(*this, pixel);
+    Eigen::Vector2d target = pinholeRay(*this, pixel);
     if (distortion == std::array<double, 5>{}) return target;
     Eigen::Vector2d ray = target;
     for (int i = 0; i < 20; ++i) {
@@ -66,7 +66,7 @@ Eigen::Vector2d CameraModel::unproject(const Eigen::Vector2d& pixel) const {
 
 Eigen::Vector2d CameraModel::unproject(const Eigen::Vector2d& pixel,
                                        const Eigen::Vector2d& close) const {
-    const Eigen::Vector2d target = pinholeRay(*this, pixel);
+    Eigen::Vector2d target = pinholeRay(*this, pixel);
     if (distortion == std::array<double, 5>{}) return target;
     Eigen::Vector2d ray = close;
     for (int i = 0; i < 3; ++i) {

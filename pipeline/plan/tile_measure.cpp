@@ -177,8 +177,9 @@ float momentsOf(const CellsOf<T>& sums, float variance) {
     for (int i = 0; i < static_cast<int>(sums.size()); ++i) {
         const float mean = static_cast<float>(sums[i]) / 16;
         sum += mean;
-        slopeX += (static_cast<float>(i % kCells) - 1.5F) * mean;
-        slopeY += (static_cast<float>(i / kCells) - 1.5F) * mean;
+        const int row = i / kCells, column = i % kCells;
+        slopeX += (static_cast<float>(column) - 1.5F) * mean;
+        slopeY += (static_cast<float>(row) - 1.5F) * mean;
     }
     return (sum * sum / 16 + (slopeX * slopeX + slopeY * slopeY) / 20) / variance;
 }
