@@ -39,9 +39,10 @@ void check(const LibcameraOptions& options) {
 /// device, before anyone is told.
 bool hasLostVideoNode() {
     namespace fs = std::filesystem;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator("/proc/self/fd", error)) {
-        const std::string file = fs::read_symlink(entry.path(), error).string();
+    std::error_code ended, closed;  // nothing throws, as this is part of a destructor
+    for (fs::directory_iterator fd("/proc/self/fd", ended);
+         !ended && fd != fs::directory_iterator(); fd.increment(ended)) {
+        const std::string file = fs::read_symlink(fd->path(), closed).string();
         if (file.starts_with("/dev/video") && file.ends_with(" (deleted)")) return true;
     }
     return false;
