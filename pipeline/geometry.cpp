@@ -35,6 +35,31 @@ Eigen::Vector2d pinholeRay(const CameraModel& c, const Eigen::Vector2d& pixel) {
     return {(pixel.x() - c.cx) / c.fx, (pixel.y() - c.cy) / c.fy};
 }
 
+struct Undistorted {
+    Eigen::Vector2d ray;
+    bool isExact;
+};
+
+/// By Newton iterations from `start` on, `most` at most.
+Undistorted undistorted(const Eigen::Vector2d& target, const Eigen::Vector2d& start,
+                        const std::array<double, 5>& distortion, int most) {
+    if (distortion == std::array<double, 5>{}) return {target, true};
+    Eigen::Vector2d ray = start;
+    for (int i = 0; i < most; ++i) {
+        const Distorted d = distort(ray, distortion);
+        const Eigen::Vector2d error = target - d.point;
+        const double det = d.jacobian.determinant();
+        // The fold of the model is where the determinant reaches zero: never step across it.
+        if (!(det > kFold)) break;
+        if (!(error.squaredNorm() > kSquaredError)) return {ray, true};
+        Eigen::Vector2d step = d.jacobian.inverse() * error;
+        const double limit = 0.5 * std::max(0.2, ray.norm());
+        if (step.norm() > limit) step *= limit / step.norm();
+        ray += step;
+    }
+    return {ray, false};
+}
+
 }  // namespace
 
 Eigen::Vector2d CameraModel::project(const Eigen::Vector2d& ray) const {
@@ -47,37 +72,14 @@ Eigen::Matrix2d CameraModel::projectJacobian(const Eigen::Vector2d& ray) const {
 }
 
 Eigen::Vector2d CameraModel::unproject(const Eigen::Vector2d& pixel) const {
-    Eigen::Vector2d target = pinholeRay(*this, pixel);
-    if (distortion == std::array<double, 5>{}) return target;
-    Eigen::Vector2d ray = target;
-    for (int i = 0; i < 20; ++i) {
-        const Distorted d = distort(ray, distortion);
-        const Eigen::Vector2d error = target - d.point;
-        const double det = d.jacobian.determinant();
-        // The fold of the model is where the determinant reaches zero: never step across it.
-        if (!(det > kFold) || !(error.squaredNorm() > kSquaredError)) break;
-        Eigen::Vector2d step = d.jacobian.inverse() * error;
-        const double limit = 0.5 * std::max(0.2, ray.norm());
-        if (step.norm() > limit) step *= limit / step.norm();
-        ray += step;
-    }
-    return ray;
+    const Eigen::Vector2d target = pinholeRay(*this, pixel);
+    return undistorted(target, target, distortion, 20).ray;
 }
 
 Eigen::Vector2d CameraModel::unproject(const Eigen::Vector2d& pixel,
                                        const Eigen::Vector2d& close) const {
-    Eigen::Vector2d target = pinholeRay(*this, pixel);
-    if (distortion == std::array<double, 5>{}) return target;
-    Eigen::Vector2d ray = close;
-    for (int i = 0; i < 3; ++i) {
-        const Distorted d = distort(ray, distortion);
-        const Eigen::Vector2d error = target - d.point;
-        const double det = d.jacobian.determinant();
-        if (!(det > kFold)) break;
-        if (!(error.squaredNorm() > kSquaredError)) return ray;
-        ray += d.jacobian.inverse() * error;
-    }
-    return unproject(pixel);
+    const Undistorted found = undistorted(pinholeRay(*this, pixel), close, distortion, 3);
+    return found.isExact ? found.ray : unproject(pixel);
 }
 
 CameraModel CameraModel::scaledTo(Size to) const {

@@ -25,14 +25,13 @@ Split split(double value) {
 gpu::Texture raysOf(const CameraModel& camera) {
     std::vector<float> rays;
     rays.reserve(4UL * camera.size.width * camera.size.height);
-    for (int y = 0; y < camera.size.height; ++y) {
-        Eigen::Vector2d ray = camera.unproject({0, y});
+    Eigen::Vector2d ray(0, 0);
+    for (int y = 0; y < camera.size.height; ++y)
         for (int x = 0; x < camera.size.width; ++x) {
             ray = camera.unproject({x, y}, ray);
             const Split u = split(ray.x()), v = split(ray.y());
             rays.insert(rays.end(), {u.head, v.head, u.tail, v.tail});
         }
-    }
     gpu::Texture out(camera.size, gpu::TexelFormat::Rgba32F);
     out.upload(rays);
     return out;

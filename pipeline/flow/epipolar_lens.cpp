@@ -1,7 +1,5 @@
 #include "pipeline/flow/epipolar_lens.h"
 
-#include <utility>
-
 namespace mfar {
 namespace {
 
@@ -50,14 +48,11 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
     lens_.k3 = static_cast<float>(d[4]);
     rays_.reserve(2UL * size_.width * size_.height);
     double rim = 0;  // of the picture's corners, squared
+    Eigen::Vector2d ray(0, 0);
     for (int y = 0; y < size_.height; ++y) {
-        // Going on as from the last pixel to this is off by the lens's curvature alone.
-        Eigen::Vector2d before, ray(0, 0);
         for (int x = 0; x < size_.width; ++x) {
             const Eigen::Vector2d fine((x + 0.5) / scale - 0.5, (y + 0.5) / scale - 0.5);
-            const Eigen::Vector2d next =
-                x < 2 ? camera.unproject(fine) : camera.unproject(fine, 2 * ray - before);
-            before = std::exchange(ray, next);
+            ray = camera.unproject(fine, ray);
             rays_.push_back(static_cast<float>(ray.x()));
             rays_.push_back(static_cast<float>(ray.y()));
             rim = std::max(rim, ray.squaredNorm());
