@@ -18,8 +18,7 @@ void channelInto(std::vector<float>& out, int stride, int at, const std::vector<
 }
 
 std::size_t tileAt(int x, int y, Size video) {
-    const int columns = (video.width + kTileSize - 1) / kTileSize;
-    return static_cast<std::size_t>(y / kTileSize) * columns + x / kTileSize;
+    return static_cast<std::size_t>(y / kTileSize) * tilesOf(video).width + x / kTileSize;
 }
 
 }  // namespace

@@ -11,15 +11,10 @@ namespace {
 // What triangles leave of a sphere's and the lens's curves, and the pixel's own extent [px].
 constexpr double kSlack = 1;
 
-int tilesFor(int pixels) {
-    return (pixels + kTileSize - 1) / kTileSize;
-}
-
 }  // namespace
 
 Silhouette::Silhouette(const CameraModel& video, int margin)
-    : projection_(video), margin_(margin + kSlack),
-      tileCount_{tilesFor(video.size.width), tilesFor(video.size.height)},
+    : projection_(video), margin_(margin + kSlack), tileCount_(tilesOf(video.size)),
       tiles_(static_cast<std::size_t>(tileCount_.width) * tileCount_.height) {}
 
 const std::vector<SurfaceRange>& Silhouette::run(std::span<const VirtualObject> objects,

@@ -20,8 +20,10 @@ constexpr float kByteRounding = 0.17F;  // variance of the difference of two pix
 constexpr int kBlocks = kTileSize / 2;  // of 2x2 pixels, a side of a tile
 constexpr int kCells = 4;               // of 4x4 pixels, likewise
 
+constexpr std::array<float, 3> kLuma{0.299F, 0.587F, 0.114F};  // Rec. 601
+
 float lumaOf(float red, float green, float blue) {
-    return 0.299F * red + 0.587F * green + 0.114F * blue;
+    return kLuma[0] * red + kLuma[1] * green + kLuma[2] * blue;
 }
 
 /// Blocks of 2x2 pixels: a channel's sums and twists times two, and sums of absolute values.
@@ -31,8 +33,9 @@ struct Blocks {
 };
 
 /// Of two rows.
-void addBlocks(const std::int16_t* top, const std::int16_t* bottom, std::size_t count,
-               std::int16_t* sum, std::int16_t* twist) {
+template <class Pixel>
+void sumBlocks(const Pixel* top, const Pixel* bottom, std::size_t count, std::int16_t* sum,
+               std::int16_t* twist) {
     for (std::size_t i = 0; i < count; ++i) {
         const int a = top[2 * i], b = top[2 * i + 1], c = bottom[2 * i], d = bottom[2 * i + 1];
         sum[i] = static_cast<std::int16_t>(a + b + c + d);
@@ -40,7 +43,7 @@ void addBlocks(const std::int16_t* top, const std::int16_t* bottom, std::size_t 
     }
 }
 
-void addAbsolute(const std::int16_t* top, const std::int16_t* bottom, std::size_t count,
+void sumAbsolute(const std::int16_t* top, const std::int16_t* bottom, std::size_t count,
                  std::int16_t* to) {
     for (std::size_t i = 0; i < count; ++i)
         to[i] = static_cast<std::int16_t>(std::abs(top[2 * i]) + std::abs(top[2 * i + 1]) +
@@ -55,7 +58,8 @@ public:
           pitch_(static_cast<std::size_t>(like.pitch()) / 2),
           difference_{Blocks(kBlocks * pitch_), Blocks(kBlocks * pitch_), Blocks(kBlocks * pitch_)},
           light_(kBlocks * pitch_), rough_(kBlocks * pitch_), lumaSum_(kBlocks * pitch_),
-          lumaTwist_(kBlocks * pitch_), top_(2 * pitch_), bottom_(2 * pitch_), now_(pitch_) {}
+          lumaTwist_(kBlocks * pitch_), top_(2 * pitch_), bottom_(2 * pitch_), sum_(pitch_),
+          twist_(pitch_) {}
 
     void read(const RgbPlanes& now, const RgbPlanes& drawn, int tileRow) {
         std::ranges::fill(light_, 0.0F);
@@ -91,7 +95,8 @@ private:
     std::vector<float> light_;                // 2x2 means of the video's luma
     std::vector<float> rough_;                // its twist, without sign
     std::vector<float> lumaSum_, lumaTwist_;  // of the difference
-    std::vector<std::int16_t> top_, bottom_, now_;
+    std::vector<std::int16_t> top_, bottom_;  // differences of two rows
+    std::vector<std::int16_t> sum_, twist_;   // of the video, in one channel
 };
 
 // Beyond the border there is no difference: repeated noise would look like a change.
@@ -105,18 +110,17 @@ void BlockRow::subtract(const std::uint8_t* now, const std::uint8_t* drawn, bool
 
 void BlockRow::readRows(const RgbPlanes& now, const RgbPlanes& drawn, int channel, int y,
                         std::size_t first) {
-    constexpr float kWeights[] = {0.299F, 0.587F, 0.114F};
     const std::uint8_t *upper = now.row(channel, y), *lower = now.row(channel, y + 1);
     subtract(upper, drawn.row(channel, y), y < height_, top_.data());
     subtract(lower, drawn.row(channel, y + 1), y + 1 < height_, bottom_.data());
     Blocks& to = difference_[static_cast<std::size_t>(channel)];
-    addBlocks(top_.data(), bottom_.data(), pitch_, &to.sum[first], &to.twist[first]);
-    addAbsolute(top_.data(), bottom_.data(), pitch_, &to.absolute[first]);
-    const float mean = kWeights[channel] / 4, twist = kWeights[channel] / 2;
+    sumBlocks(top_.data(), bottom_.data(), pitch_, &to.sum[first], &to.twist[first]);
+    sumAbsolute(top_.data(), bottom_.data(), pitch_, &to.absolute[first]);
+    sumBlocks(upper, lower, pitch_, sum_.data(), twist_.data());
+    const float share = kLuma[static_cast<std::size_t>(channel)];
     for (std::size_t i = 0; i < pitch_; ++i) {
-        const int a = upper[2 * i], b = upper[2 * i + 1], c = lower[2 * i], d = lower[2 * i + 1];
-        light_[first + i] += mean * static_cast<float>(a + b + c + d);
-        rough_[first + i] += twist * static_cast<float>(a - b - c + d);
+        light_[first + i] += share / 4 * static_cast<float>(sum_[i]);
+        rough_[first + i] += share / 2 * static_cast<float>(twist_[i]);
     }
 }
 

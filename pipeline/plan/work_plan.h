@@ -39,7 +39,7 @@ public:
         Changed,  ///< tiles that changed
         Matched,  ///< those of them that are matched with the still
     };
-    /// Registers a dispatch. Before the first update() only.
+    /// Registers a dispatch.
     [[nodiscard]] Dispatch add(gpu::Groups groups, For what = For::Matched);
 
     /// Compares `now` with `drawn` (both video size). `force` counts every tile as changed.

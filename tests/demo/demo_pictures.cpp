@@ -35,7 +35,7 @@ std::string withPsnr(const char* what, const cv::Mat& picture, const cv::Mat& tr
 }
 
 cv::Mat classColours(const Shown& shown) {
-    const int columns = (shown.video.width + kTileSize - 1) / kTileSize;
+    const int columns = tilesOf(shown.video).width;
     cv::Mat colours(shown.video.height, shown.video.width, CV_8UC3);
     for (std::size_t i = 0; i < shown.classes.size(); ++i) {
         const int x = static_cast<int>(i) % columns * kTileSize;

@@ -60,8 +60,7 @@ std::vector<bool> SceneShots::movingTiles() const {
     const Eigen::Matrix3d unturn = T_still_video.rotation.toRotationMatrix().transpose();
     const RigidTransform T_then_now =
         board->pose(still.time()).T_world_video.inverse() * board->pose(frame.time()).T_world_video;
-    const int columns = (size.width + kTileSize - 1) / kTileSize;
-    const int rows = (size.height + kTileSize - 1) / kTileSize;
+    const auto [columns, rows] = tilesOf(size);
     std::vector<int> moved(static_cast<std::size_t>(columns) * rows);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
