@@ -1,5 +1,6 @@
 // Fills listed holes from the pyramid: what the levels from fine to coarse know, each as far as the finer ones do
-// not. A hole is a crack if it is at an edge or most of its neighbours show the same surface; then it is filled in any
+// not. An object of which nothing is known looks like the others around: one that just comes out from behind them
+// is neither a hole in them nor transparent. A hole is a crack if it is at an edge or most of its neighbours show the same surface; then it is filled in any
 // case, from what is close. In: list[] and state of warp_rest.comp, pyramid. Out: the pixels, RGBA8 premultiplied; bit 30 of
 // list[] = crack.
 #include "warp_hole_params.glsl"
@@ -18,6 +19,8 @@ layout(std430, binding = 2) readonly buffer Pyramid {
     uvec4 texels[];
 };
 
+const uint kAnyObject = 254u;
+
 // Bilinear at a pixel: colour times weight, weight.
 void sampleLevel(int l, ivec2 p, uint id, out vec4 sum, out float weights) {
     ivec4 level = levels[l - 1];
@@ -33,7 +36,8 @@ void sampleLevel(int l, ivec2 p, uint id, out vec4 sum, out float weights) {
         Area area = unpackArea(texels[level.x + q.y * level.y + q.x]);
         vec2 near = mix(1.0 - f, f, vec2(side));
         bool catcher = id == 255u;
-        float w = near.x * near.y * (catcher ? area.weights.y : area.id == id ? area.weights.x : 0.0);
+        bool shown = area.id == id || id == kAnyObject;
+        float w = near.x * near.y * (catcher ? area.weights.y : shown ? area.weights.x : 0.0);
         sum += w * (catcher ? area.catcher : area.object);
         weights += w;
     }
@@ -50,6 +54,19 @@ bool isCrack(ivec2 p, float id) {
     return same >= 5;
 }
 
+// What the levels up to `last` know: colour times weight, weight.
+void gather(ivec2 p, uint id, int last, out vec4 sum, out float weight) {
+    sum = vec4(0.0);
+    weight = 0.0;
+    for (int l = 1; l <= last && weight < 0.99; ++l) {
+        vec4 c;
+        float w;
+        sampleLevel(l, p, id, c, w);
+        sum += (1.0 - weight) * c;
+        weight += (1.0 - weight) * w;
+    }
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= commands[0].w) return;
@@ -61,15 +78,10 @@ void main() {
     bool crack = (entry.x & (1u << 30)) != 0u || isCrack(p, own.r);
     if (crack) list[i].x = entry.x | (1u << 30);
     if (!crack && layer.y == 0) return;
-    vec4 sum = vec4(0.0);
-    float weight = 0.0;
+    vec4 sum;
+    float weight;
     int last = crack && layer.y == 0 ? min(kCrackLevels, layer.w) : layer.w;
-    for (int l = 1; l <= last && weight < 0.99; ++l) {
-        vec4 c;
-        float w;
-        sampleLevel(l, p, id, c, w);
-        sum += (1.0 - weight) * c;
-        weight += (1.0 - weight) * w;
-    }
+    gather(p, id, last, sum, weight);
+    if (weight == 0.0 && id != 255u) gather(p, kAnyObject, last, sum, weight);
     if (weight > 0.0) imageStore(colour, p, min(unpackUnorm4x8(entry.y) + own.g * sum / weight, vec4(1.0)));
 }

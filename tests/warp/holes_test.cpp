@@ -114,6 +114,26 @@ TEST_F(WarpHolesGl, ModesThatDoNotRenderDoNotAsk) {
     }
 }
 
+// The small ball is behind the big one, comes out a little, and is opaque at once.
+TEST_F(WarpHolesGl, AnObjectThatComesOutFromBehindAnotherIsNoHole) {
+    const CastScene scene = test::twoBalls();
+    Warp warp(test::bentCamera(kHoleLayer), kHoleLayer, {.filling = HoleFilling::PushPull});
+    warp.setScene(scene.scene());
+    const RenderedPicture before = scene.cast({warp.camera(), test::orbit(200)}, 2);
+    ASSERT_EQ(std::ranges::count(before.id, 2), 0);
+    warp.setReference(warpReference(before));
+    const RigidTransform now = test::orbit(190);
+    const auto rgba = warp.run(now).colour->readRgba8();
+    const RenderedPicture truth = scene.cast({warp.camera(), now}, 2);
+    int uncovered = 0;
+    for (std::size_t i = 0; i < truth.id.size(); ++i) {
+        if (truth.id[i] != 2 || truth.colour[i][3] < 255) continue;
+        ++uncovered;
+        EXPECT_GT(rgba[4 * i + 3], 240) << "pixel " << i;
+    }
+    EXPECT_GT(uncovered, 20);
+}
+
 TEST_F(WarpHolesGl, FaultyAnswersAreRefusedAndThoseOfAnotherSceneLeftOut) {
     Turned s({});
     const auto request = s.requestAt(15);
