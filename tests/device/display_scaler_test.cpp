@@ -1,6 +1,7 @@
 #include "hal/device/display_scaler.h"
 #include "hal/device/display_spec.h"
 #include "tests/shader/gl_test.h"
+#include "tests/shader/twins/area_mean.h"
 
 #include <algorithm>
 #include <array>
@@ -59,24 +60,6 @@ Colour noise(int x, int y) {
             static_cast<int>(h * 69069U >> 16 & 255U)};
 }
 
-// The mean of the picture over [lo, hi) in x and y, pixels beyond the edge repeating it.
-std::array<double, 3> areaMean(Size size, const std::function<Colour(int, int)>& colour,
-                               std::array<double, 2> lo, std::array<double, 2> hi) {
-    std::array<double, 3> sum{};
-    for (int y = static_cast<int>(std::floor(lo[1])); y < hi[1]; ++y)
-        for (int x = static_cast<int>(std::floor(lo[0])); x < hi[0]; ++x) {
-            const double w = (std::min(hi[0], x + 1.0) - std::max(lo[0], double(x))) *
-                             (std::min(hi[1], y + 1.0) - std::max(lo[1], double(y)));
-            const Colour c =
-                colour(std::clamp(x, 0, size.width - 1), std::clamp(y, 0, size.height - 1));
-            for (std::size_t k = 0; k < 3; ++k)
-                sum[k] += w * c[k];
-        }
-    for (double& s : sum)
-        s /= (hi[0] - lo[0]) * (hi[1] - lo[1]);
-    return sum;
-}
-
 TEST_F(DisplayScaler, EqualSizeIsACopy) {
     const Size size{321, 97};
     const auto pixels = shown(picture(size, noise), size);
@@ -96,15 +79,10 @@ TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
                                       {{9, 9}, {9, 5}}}) {
         const auto pixels = shown(picture(from, noise), screen);
         const ScreenRect r = letterbox(from, screen);
-        const double sx = double(from.width) / r.size.width,
-                     sy = double(from.height) / r.size.height;
-        const double fx = std::max(sx, 1.0), fy = std::max(sy, 1.0);
         double worst = 0;
         for (int y = 0; y < r.size.height; ++y)
             for (int x = 0; x < r.size.width; ++x) {
-                const double cx = (x + 0.5) * sx, cy = (y + 0.5) * sy;
-                const auto mean =
-                    areaMean(from, noise, {cx - fx / 2, cy - fy / 2}, {cx + fx / 2, cy + fy / 2});
+                const auto mean = twin::scaledPixel(from, noise, r, x, y);
                 const Colour& got =
                     pixels[static_cast<std::size_t>(y + r.y) * screen.width + x + r.x];
                 for (std::size_t k = 0; k < 3; ++k)
