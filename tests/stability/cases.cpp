@@ -16,7 +16,7 @@ std::vector<Case> allCases() {
     std::vector<Case> out;
     for (const auto& some :
          {flowCases(), triangulationCases(), pipelineCases(), pictureCases(), virtualCases(),
-          searchCases(), depthCases(), poseCases(), warpCases(), tracerCases()})
+          searchCases(), depthCases(), poseCases(), warpCases(), screenCases(), tracerCases()})
         out.insert(out.end(), some.begin(), some.end());
     return out;
 }

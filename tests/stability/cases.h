@@ -47,6 +47,7 @@ struct Case {
 [[nodiscard]] std::vector<Case> depthCases();
 [[nodiscard]] std::vector<Case> poseCases();
 [[nodiscard]] std::vector<Case> warpCases();
+[[nodiscard]] std::vector<Case> screenCases();
 #ifdef MFAR_PATH_TRACING
 [[nodiscard]] std::vector<Case> tracerCases();
 #else
@@ -61,6 +62,9 @@ struct Case {
 
 [[nodiscard]] inline long pixelsOf(Size size) {
     return static_cast<long>(size.width) * size.height;
+}
+[[nodiscard]] inline long pixelsOf(const PixelRect& rect) {
+    return pixelsOf(Size{rect.x1 - rect.x0, rect.y1 - rect.y0});
 }
 
 }  // namespace mfar::stress

@@ -1,9 +1,11 @@
 // The warp of the virtual layer: pictures that are spoilt, poses they were not made for.
+#include "pipeline/warp/edge_refiner.h"
 #include "tests/stability/cases.h"
 #include "tests/warp/warp_support.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <vector>
 
 namespace mfar::stress {
@@ -127,10 +129,118 @@ void knownWarp(Context& c) {
     c.gl.frame(c.checks, pixelsOf(camera.size));
 }
 
+using Pixels = std::vector<std::array<std::uint8_t, 4>>;
+
+Pixels unpacked(const Picture& picture) {
+    Pixels out;
+    for (std::size_t i = 0; i < picture.bytes.size(); i += 4)
+        out.push_back(
+            {picture.bytes[i], picture.bytes[i + 1], picture.bytes[i + 2], picture.bytes[i + 3]});
+    return out;
+}
+
+gpu::Texture textureOf(Size size, const Pixels& pixels) {
+    gpu::Texture out(size, gpu::TexelFormat::Rgba8);
+    out.uploadRows(pixels);
+    return out;
+}
+
+/// warp_edges.comp: the largest difference of a colour in the 3x3 pixels around, of kLevels.
+int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, int y) {
+    int most = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        int low = 255, high = 0;
+        for (int v = std::max(y - 1, where.y0); v <= std::min(y + 1, where.y1 - 1); ++v)
+            for (int u = std::max(x - 1, where.x0); u <= std::min(x + 1, where.x1 - 1); ++u) {
+                const int value = pixels[static_cast<std::size_t>(v) * size.width + u][c];
+                low = std::min(low, value);
+                high = std::max(high, value);
+            }
+        most = std::max(most, high - low);
+    }
+    return std::min(most * EdgeRefiner::kLevels / 255, EdgeRefiner::kLevels - 1);
+}
+
+/// The highest levels that make up the share of the objects' pixels; the highest one at least.
+std::vector<std::uint32_t> edgesOf(const Pixels& colour, const Pixels& state, Size size,
+                                   const PixelRect& where, double share) {
+    std::array<std::vector<std::uint32_t>, EdgeRefiner::kLevels> byLevel;
+    int objects = 0;
+    for (int y = where.y0; y < where.y1; ++y)
+        for (int x = where.x0; x < where.x1; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
+            byLevel[contrastAt(colour, size, where, x, y)].push_back(static_cast<unsigned>(i));
+            objects += state[i][3] > 0 && state[i][3] < 255 ? 1 : 0;
+        }
+    const auto most =
+        static_cast<std::size_t>(static_cast<float>(share) * static_cast<float>(objects));
+    std::vector<std::uint32_t> out = byLevel.back();
+    for (int l = EdgeRefiner::kLevels - 2; l >= 3; --l) {
+        if (out.size() + byLevel[l].size() > most) break;
+        out.insert(out.end(), byLevel[l].begin(), byLevel[l].end());
+    }
+    std::ranges::sort(out);
+    return out;
+}
+
+PixelRect partOf(Context& c, Size size) {
+    if (c.hostile.chance(0.5)) return {0, 0, size.width, size.height};
+    const int x = c.hostile.integer(0, size.width - 1), y = c.hostile.integer(0, size.height - 1);
+    return {x, y, c.hostile.integer(x + 1, size.width), c.hostile.integer(y + 1, size.height)};
+}
+
+/// Colours for what was listed, and for some that were not.
+HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size size) {
+    HoleAnswer out;
+    for (const std::uint32_t pixel : listed)
+        if (c.hostile.chance(0.9)) out.pixels.push_back(pixel);
+    const long count = static_cast<long>(size.width) * size.height;
+    for (int i = c.hostile.integer(0, 5); i > 0; --i)
+        out.pixels.push_back(static_cast<std::uint32_t>(c.hostile.integer(0, int(count) - 1)));
+    std::ranges::sort(out.pixels);
+    out.pixels.erase(std::ranges::unique(out.pixels).begin(), out.pixels.end());
+    for (std::size_t i = 0; i < out.pixels.size(); ++i) {
+        const auto byte = [&] { return static_cast<std::uint8_t>(c.hostile.integer(0, 255)); };
+        out.colour.push_back({byte(), byte(), byte(), byte()});
+    }
+    return out;
+}
+
+// The edges of pictures that no surface shows.
+void edges(Context& c) {
+    const Size size = c.size(1, 90);
+    const double share = c.hostile.pick({0.01, 0.15, 1.0});
+    const int fade = c.hostile.integer(0, 3);
+    EdgeRefiner refiner(size, share, fade);
+    for (int round = 0; round < 4; ++round) {
+        const Pixels before = unpacked(c.hostile.picture(size));
+        const Pixels numbers = unpacked(c.hostile.picture(size));
+        const gpu::Texture colour = textureOf(size, before), state = textureOf(size, numbers);
+        const PixelRect where = partOf(c, size);
+        refiner.list(colour, state, where);
+        glFinish();
+        const auto listed = refiner.poll();
+        const auto wanted = edgesOf(before, numbers, size, where, share);
+        c.checks.require(listed && *listed == wanted, "the pixels at edges");
+        const HoleAnswer answer = answerOf(c, wanted, size);
+        refiner.answer(answer);
+        for (int frame = 0; frame <= fade; ++frame)
+            refiner.show(colour);
+        Pixels after = before;
+        for (std::size_t i = 0; i < answer.pixels.size(); ++i)
+            if (std::ranges::binary_search(wanted, answer.pixels[i]))
+                after[answer.pixels[i]] = answer.colour[i];
+        const auto shown = colour.readRgba8();
+        for (std::size_t i = 0; i < shown.size(); ++i)
+            c.checks.within(shown[i] - after[i / 4][i % 4], -1, 1, "error of a sharpened edge");
+        c.gl.frame(c.checks, pixelsOf(where));
+    }
+}
+
 }  // namespace
 
 std::vector<Case> warpCases() {
-    return {{"warp", hostileWarp, true}, {"warp-truth", knownWarp}};
+    return {{"warp", hostileWarp, true}, {"warp-truth", knownWarp}, {"warp-edges", edges, true}};
 }
 
 }  // namespace mfar::stress

@@ -1,0 +1,61 @@
+// The picture on a screen: sizes that hardly fit, from a pixel to many times the screen.
+#include "hal/device/display_scaler.h"
+#include "tests/shader/twins/area_mean.h"
+#include "tests/stability/cases.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mfar::stress {
+namespace {
+
+// A linear sampler has at least 8 bits between two pixels, cut off along both axes; and half a
+// level of rounding.
+constexpr double kSampling = 2.5;  // [grey levels]
+
+/// So many times as wide and high as the screen, or as often smaller.
+Size sizeFor(Context& c, Size screen) {
+    const auto side = [&](int pixels) {
+        const double times = c.hostile.pick({1.0, c.hostile.real(0.2, 1), c.hostile.real(1, 4)});
+        return std::max(1, static_cast<int>(std::lround(pixels * times)));
+    };
+    return {side(screen.width), side(screen.height)};
+}
+
+// Each pixel is the mean of what it covers; beside the picture there is black.
+void screens(Context& c) {
+    const Size screen = c.size(1, 120), size = sizeFor(c, screen);
+    const Picture picture = c.hostile.picture(size);
+    const gpu::Texture texture = uploaded(picture);
+    ScreenScaler scaler;
+    ScreenReader reader(screen, scaler);
+    reader.begin({texture.id(), size});
+    const ScreenPicture shown = reader.last();
+    const ScreenRect to = letterbox(size, screen);
+    const auto colour = [&](int x, int y) {
+        const auto* p = &picture.bytes[4 * (static_cast<std::size_t>(y) * size.width + x)];
+        return std::array<int, 3>{p[0], p[1], p[2]};
+    };
+    for (int y = 0; y < screen.height; ++y)
+        for (int x = 0; x < screen.width; ++x) {
+            const int u = x - to.x, v = y - to.y;
+            const bool inside = u >= 0 && v >= 0 && u < to.size.width && v < to.size.height;
+            const auto wanted =
+                inside ? twin::scaledPixel(size, colour, to, u, v) : std::array<double, 3>{};
+            const auto* got = &shown.pixels[4 * (static_cast<std::size_t>(y) * screen.width + x)];
+            for (std::size_t k = 0; k < 3; ++k)
+                c.checks.within(got[2 - k] - wanted[k], -kSampling, kSampling,
+                                "error of a pixel on the screen");
+        }
+    c.checks.through("display_scale.frag", pixelsOf(screen));
+    c.gl.frame(c.checks, pixelsOf(screen));
+}
+
+}  // namespace
+
+std::vector<Case> screenCases() {
+    return {{"screen", screens, true}};
+}
+
+}  // namespace mfar::stress
