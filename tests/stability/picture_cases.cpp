@@ -68,13 +68,25 @@ void lumaPyramids(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
+/// Another picture, or one that differs by a pixel, by a few pixels, or not at all.
+Picture changed(Context& c, const Picture& before) {
+    const Size size = before.size;
+    if (c.hostile.chance(0.3)) return c.hostile.picture(size);
+    Picture out = before;
+    const int x0 = c.hostile.integer(0, size.width - 1), y0 = c.hostile.integer(0, size.height - 1);
+    if (c.hostile.chance(0.5)) out.at(x0, y0)[1] ^= 64;
+    if (c.hostile.chance(0.5)) return out;
+    const int side = c.hostile.integer(1, 12), step = c.hostile.pick({2, 8, 40});
+    for (int y = y0; y < std::min(y0 + side, size.height); ++y)
+        for (int x = x0; x < std::min(x0 + side, size.width); ++x)
+            for (int k = 0; k < 3; ++k)
+                out.at(x, y)[k] = static_cast<std::uint8_t>(std::min(out.at(x, y)[k] + step, 255));
+    return out;
+}
+
 void changePlan(Context& c) {
     const Size size = c.size(1, 120);
-    Picture before = c.hostile.picture(size);
-    Picture now = c.hostile.chance(0.3) ? c.hostile.picture(size) : before;
-    if (c.hostile.chance(0.5))
-        now.at(c.hostile.integer(0, size.width - 1), c.hostile.integer(0, size.height - 1))[1] ^=
-            64;
+    const Picture before = c.hostile.picture(size), now = changed(c, before);
     WorkPlan plan(size);
     (void)plan.add({});
     plan.update(planesOf(now), planesOf(before), false);

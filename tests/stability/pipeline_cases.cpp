@@ -117,6 +117,7 @@ void knownTruth(Context& c) {
     };
     PipelineOptions options;
     options.mode = c.hostile.pick({SuperResMode::Detail, SuperResMode::Blend});
+    options.output = c.hostile.pick({rig.still.size, Size{2 * video.width, 2 * video.height}});
     Pipeline pipeline(rig, options);
     const Picture frame = waves.shoot(video, {.shift = shift});
     const auto truth = fine(pipeline.outputSize(), shift).bytes;

@@ -64,7 +64,7 @@ hostFaults() {
         '' 'removed guard against measurements that are none' depth-filter
     inHost pipeline/depth/depth_filter.cpp 'const float moved = rho / p.z();' 'const float moved = rho;' \
         'depth not carried' depth-carried
-    inHost pipeline/depth/edge_snap.cpp 'if (isSound(in, i)) {' 'if (true) {' \
+    inHost pipeline/depth/edge_snap.cpp 'if (!isSound(in, i)) {' 'if (false) {' \
         'removed guard against depth that is none' edges
     inHost pipeline/flow/epipolar_flow.cpp 'std::clamp(error, 0.0F, kNowhere)' 'error' \
         'missing clamp of the two-way error' flow-of-poses
