@@ -14,11 +14,13 @@ namespace mfar {
 /// What a piece of surface covers of the picture, and of the space before the camera.
 struct SurfaceExtent {
     Eigen::AlignedBox2d pixels;
-    double nearest = std::numeric_limits<double>::max();  ///< z [m], from LensProjection::kNear on
+    double nearest = std::numeric_limits<double>::max();  ///< z [m]
     double farthest = 0;
 
+    /// By a point before the near plane, as LensProjection gives it: (w u, w v, w).
+    void extend(const Eigen::Vector3d& point);
     /// By the part of a straight line that lies before the near plane, as the rasteriser clips it.
-    /// Both ends as LensProjection gives them: (w u, w v, w).
+    /// Both ends likewise.
     void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 
@@ -28,7 +30,8 @@ class ObjectProjection {
 public:
     explicit ObjectProjection(const CameraModel& camera);
 
-    /// Of every triangle that reaches before the near plane, within the picture or not. Nothing
+    /// Of every triangle that reaches before the near plane, within the picture or not, with the
+    /// depth that a renderer may give its pixels: corners are rounded to 1/256 px there. Nothing
     /// for an object with a pose or size that is not finite or above 100 km, or a negative size.
     /// Valid until the next call.
     const std::vector<SurfaceExtent>& operator()(const VirtualObject& object,
