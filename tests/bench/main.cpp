@@ -4,6 +4,7 @@
 #include "tests/bench/bench.h"
 #include "tests/bench/bench_report.h"
 #include "tests/bench/curve_report.h"
+#include "tests/bench/governor_command.h"
 #include "tests/bench/pareto_command.h"
 #include "tests/bench/skip_command.h"
 #include "tests/bench/workload.h"
@@ -114,6 +115,7 @@ int run(int argc, char** argv) {
     addOptions(app, o);
     ParetoCommand pareto(app);
     SkipCommand skip(app);
+    GovernorCommand governor(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -121,6 +123,7 @@ int run(int argc, char** argv) {
     }
     if (pareto.asked()) return pareto.run(), 0;
     if (skip.asked()) return skip.run(), 0;
+    if (governor.asked()) return governor.run(), 0;
     if (!o.curves.empty()) return drawCurves(o), 0;
     const auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();

@@ -1,5 +1,6 @@
 #include "tests/bench/skips.h"
 
+#include "tests/bench/scene_frames.h"
 #include "tests/bench/summary.h"
 #include "tests/eval/metrics/depth_error.h"
 #include "tests/eval/metrics/luma.h"
@@ -145,35 +146,18 @@ FrameTruth truthOf(SyntheticBoard& board, const Case& one, Timestamp time) {
     return out;
 }
 
-/// A frame and the still that comes before it, R G B A. All are made before anything is timed: the
-/// board's renderer works in threads of this program.
 struct CaseFrame {
-    cv::Mat picture, still;  ///< still: empty when there is none
-    Timestamp time;
-    std::optional<Pose> pose, stillPose;
+    SceneFrame shots;
     std::optional<FrameTruth> truth;  ///< of frames that are scored
 };
-
-cv::Mat copyOf(const Frame& frame) {
-    const ImageView& view = frame.view();
-    return cv::Mat(view.size.height, view.size.width, CV_8UC4, const_cast<std::uint8_t*>(view.data),
-                   view.stride)
-        .clone();
-}
 
 std::vector<CaseFrame> framesOf(const Case& one, eval::SceneRun& scene, int count) {
     std::vector<CaseFrame> out;
     for (std::size_t i = 0; i < kSettled + static_cast<std::size_t>(count); ++i) {
-        const auto shots = scene.next();
+        CaseFrame frame{nextFrame(scene), {}};
         if (i == 0) scene.fire();
-        CaseFrame frame;
-        frame.picture = copyOf(shots.frame);
-        if (shots.still) frame.still = copyOf(*shots.still);
-        frame.time = shots.frame.time();
-        frame.pose = shots.pose;
-        frame.stillPose = shots.stillPose;
         if (i >= kSettled && i % kScoredFrames == 0)
-            frame.truth = truthOf(scene.board(), one, frame.time);
+            frame.truth = truthOf(scene.board(), one, frame.shots.time);
         out.push_back(std::move(frame));
     }
     return out;
@@ -187,7 +171,7 @@ public:
         pipeline_.setObjects(one.objects);
     }
 
-    void run(const CaseFrame& frame, bool counts) {
+    void run(const SceneFrame& frame, bool counts) {
         const auto pose = [&](const std::optional<Pose>& p) {
             return case_.hasPoses ? p : std::nullopt;
         };
@@ -285,7 +269,7 @@ void measureCase(const Case& one, const SkipRequest& request, SkipReport& report
         ways.push_back(std::make_unique<SkipWay>(one, rig, &skip, request.clock));
     for (std::size_t i = 0; i < frames.size(); ++i) {
         for (const auto& way : ways) {
-            way->run(frames[i], i >= kSettled);
+            way->run(frames[i].shots, i >= kSettled);
             if (frames[i].truth) way->score(*frames[i].truth);
         }
     }
