@@ -9,38 +9,70 @@ namespace {
 
 constexpr double kNoSlack = 0.5;  // [px of a level]
 
-/// How far along a way of one label the pixel nearest to a point lies [labels]; none where the way
-/// is too short to tell.
-float footOf(EpipolarLens::Point p, EpipolarLens::Point way) {
-    constexpr float kLeast = 0.1F;  // [px^2]
-    const float square = way.x * way.x + way.y * way.y;
-    const float x = std::floor(p.x + 0.5F) - p.x, y = std::floor(p.y + 0.5F) - p.y;
-    return square > kLeast ? (x * way.x + y * way.y) / square : 0.0F;
+constexpr float kLeastWay = 0.1F;  // of one label, squared [px^2]
+
+/// A label's pixel: where its costs are from.
+struct LabelPixel {
+    float x, y;
+    float foot;  ///< the label whose point is nearest to it [labels from the best]
+};
+
+/// The next pixel on one side of the best label's.
+struct Side {
+    float foot = 0;
+    int rise = Valley::kUnknown;
+};
+
+/// The pixel nearest to the point of the label `k` from the best, which lies at `p`.
+LabelPixel pixelOf(EpipolarLens::Point p, EpipolarLens::Point way, int k) {
+    const auto from = static_cast<float>(k);
+    const float x = std::floor(p.x + from * way.x + 0.5F);
+    const float y = std::floor(p.y + from * way.y + 0.5F);
+    return {x, y, ((x - p.x) * way.x + (y - p.y) * way.y) / (way.x * way.x + way.y * way.y)};
+}
+
+/// The valley's bottom [labels from the best]. Costs belong to pixels: two labels that are nearest
+/// to the same one tell no more than one of them, and it counts where its foot is on the line.
+float bottomOf(const Valley& valley, EpipolarLens::Point p, EpipolarLens::Point way) {
+    const LabelPixel best = pixelOf(p, way, 0);
+    const auto beside = [&](int side) {
+        for (const int k : {side, 2 * side}) {
+            const LabelPixel pixel = pixelOf(p, way, k);
+            if (pixel.x != best.x || pixel.y != best.y)
+                return Side{pixel.foot, valley.rise[k < 0 ? k + 2 : k + 1]};
+        }
+        return Side{};
+    };
+    const Side left = beside(-1), right = beside(1);
+    if (left.rise == Valley::kUnknown || right.rise == Valley::kUnknown) return best.foot;
+    const auto leftRise = static_cast<float>(left.rise), rightRise = static_cast<float>(right.rise);
+    const float leftSlope = leftRise / (best.foot - left.foot);
+    const float rightSlope = rightRise / (right.foot - best.foot);
+    if (!(std::max(leftSlope, rightSlope) > 0)) return best.foot;
+    return rightSlope > leftSlope ? 0.5F * (left.foot + best.foot + leftRise / rightSlope)
+                                  : 0.5F * (right.foot + best.foot - rightRise / leftSlope);
 }
 
 }  // namespace
 
-// The costs of a label are those of the pixel nearest to its point, up to 0.7 px beside it. So the
-// label that fits is the one whose point is the foot of that pixel on the line.
-void EpipolarSearch::undoRounding(int index) {
+// The costs of a label are those of the pixel nearest to its point, up to 0.7 px beside it.
+void EpipolarSearch::placeLabels(int index) {
     Level& level = levels_[index];
     const int width = level.lens.size().width;
     const auto perLabel = static_cast<float>((1 << index) / pixelsPerUnit_);
     workers_->forRange(level.lens.size().height, 8, [&](int firstRow, int lastRow) {
-        std::vector<float> whole(width);
         std::vector<EpipolarLens::Point> here(width), next(width);
         for (int y = firstRow; y < lastRow; ++y) {
             const auto first = static_cast<std::size_t>(y) * width;
-            float* label = level.labels.data() + first;
-            for (int x = 0; x < width; ++x)
-                whole[x] = std::floor(label[x]);
-            const auto labelAt = [&](int x) { return whole[x]; };
-            placeRow(level, first, perLabel, labelAt, here);
-            placeRow(level, first, perLabel, [&](int x) { return labelAt(x) + 1; }, next);
+            const Valley* valleys = valleys_.data() + first;
+            const auto bestAt = [&](int x) { return static_cast<float>(valleys[x].label); };
+            placeRow(level, first, perLabel, bestAt, here);
+            placeRow(level, first, perLabel, [&](int x) { return bestAt(x) + 1; }, next);
             for (int x = 0; x < width; ++x) {
-                const float part = label[x] - whole[x];
                 const EpipolarLens::Point way{next[x].x - here[x].x, next[x].y - here[x].y};
-                label[x] += (1 - part) * footOf(here[x], way) + part * footOf(next[x], way);
+                const bool tells = way.x * way.x + way.y * way.y > kLeastWay;
+                level.labels[first + x] =
+                    tells ? bestAt(x) + bottomOf(valleys[x], here[x], way) : vertexOf(valleys[x]);
             }
         }
     });

@@ -134,6 +134,7 @@ void EpipolarSearch::setArea(const PixelRect& pixels) {
     }
     inverseDepth_.resize(levels_[0].labels.size());
     scratch_.resize(inverseDepth_.size());
+    valleys_.resize(inverseDepth_.size());
 }
 
 void EpipolarSearch::setStill(const ImageView& still) {
@@ -174,7 +175,6 @@ int EpipolarSearch::finestLevel() const {
 void EpipolarSearch::readInverseDepth() {
     const int finest = finestLevel();
     const Level& level = levels_[finest];
-    undoRounding(finest);
     std::vector<float>& smooth = finest > 0 ? scratch_ : inverseDepth_;
     median3x3(level.labels, level.lens.size(), *workers_, smooth);
     const auto perLabel = static_cast<float>((1 << finest) / pixelsPerUnit_);
@@ -338,7 +338,12 @@ void EpipolarSearch::match(int index, int vectors) {
         level.video, level.base, vectors,
         smoothnessFor(std::max(videoNoise_, stillNoise_), options_),
         [&](int y, std::uint8_t* out) { costRow(level, index, vectors, y, out); }, *workers_,
-        level.labels);
+        std::span(valleys_).first(level.labels.size()));
+    if (index > finestLevel())
+        std::ranges::transform(std::span(valleys_).first(level.labels.size()), level.labels.begin(),
+                               vertexOf);
+    else
+        placeLabels(index);
 }
 
 // The window of a pixel covers what the coarser level found around it, with room on both sides.

@@ -108,7 +108,7 @@ private:
     template <class LabelAt>
     void placeRow(const Level& level, std::size_t first, float perLabel, LabelAt labelAt,
                   std::vector<EpipolarLens::Point>& out) const;
-    void undoRounding(int index);
+    void placeLabels(int index);
 
     EpipolarOptions options_;
     CameraModel whole_, video_, still_;  // the area's is video_; the still's: atScaleOf()
@@ -119,6 +119,7 @@ private:
     std::vector<Level> levels_;
     LumaImage picture_;  // of the still
     SemiGlobal matcher_;
+    std::vector<Valley> valleys_;
     RigidTransform pose_;  // T_still_video
     PoseRefinement refinement_;
     double stillNoise_ = 0, videoNoise_ = 0, normalError_ = 0;

@@ -74,9 +74,7 @@ int leastSum(Bytes16 a, Bytes16 b) {
     return std::min(v[0], v[1]);
 }
 
-/// Best of the summed costs, with the vertex of the two straight lines through it and its
-/// neighbours (a parabola would lock to whole labels on such costs).
-float bestOf(const std::uint8_t* sums, const std::uint8_t* path, int vectors) {
+Valley valleyOf(const std::uint8_t* sums, const std::uint8_t* path, int vectors) {
     static_assert(kLanes == 16);
     int best = 0, least = 1 << 30;
     for (int v = 0; v < vectors; ++v) {
@@ -85,15 +83,22 @@ float bestOf(const std::uint8_t* sums, const std::uint8_t* path, int vectors) {
         least = found / kLanes;
         best = kLanes * v + found % kLanes;
     }
-    if (best == 0 || best + 1 == kLanes * vectors) return static_cast<float>(best);
-    const int left = sums[best - 1] + path[best - 1], right = sums[best + 1] + path[best + 1];
-    const int rise = std::max(left, right) - least;
-    if (rise <= 0) return static_cast<float>(best);
-    return static_cast<float>(best) +
-           0.5F * static_cast<float>(left - right) / static_cast<float>(rise);
+    const auto riseOf = [&](int label) {
+        if (label < 0 || label >= kLanes * vectors) return Valley::kUnknown;
+        return static_cast<std::uint8_t>(
+            std::min(sums[label] + path[label] - least, Valley::kUnknown - 1));
+    };
+    return {best, {riseOf(best - 2), riseOf(best - 1), riseOf(best + 1), riseOf(best + 2)}};
 }
 
 }  // namespace
+
+float vertexOf(const Valley& valley) {
+    const int left = valley.rise[1], right = valley.rise[2], rise = std::max(left, right);
+    const auto label = static_cast<float>(valley.label);
+    if (rise == 0 || rise == Valley::kUnknown) return label;
+    return label + 0.5F * static_cast<float>(left - right) / static_cast<float>(rise);
+}
 
 struct SemiGlobal::Task {
     const LumaImage& guide;
@@ -101,7 +106,7 @@ struct SemiGlobal::Task {
     int vectors;
     Bytes16 step;
     const CostRow& costs;
-    std::vector<float>& out;
+    std::span<Valley> out;
 
     [[nodiscard]] std::size_t pixel(int x, int y) const {
         return static_cast<std::size_t>(y) * guide.size.width + x;
@@ -113,7 +118,7 @@ SemiGlobal::SemiGlobal(std::size_t vectors) : costs_(kLanes * vectors), sums_(kL
 
 void SemiGlobal::run(const LumaImage& guide, const std::vector<std::int16_t>& base, int vectors,
                      const Smoothness& smoothness, const CostRow& costs, Workers& workers,
-                     std::vector<float>& out) {
+                     std::span<Valley> out) {
     for (int d = 0; d < 256; ++d) {
         const double edge = std::max(0.0, d - smoothness.noise);
         const double jump = std::max<double>(smoothness.step + 3, smoothness.jump * 8 / (8 + edge));
@@ -226,8 +231,8 @@ void SemiGlobal::alongColumns(const Task& task, int x0, int x1) {
         for (int x = x0; x < x1; ++x) {
             const std::uint8_t* path = columns.advance(x, y, std::min(y + 1, height - 1));
             const std::size_t i = task.pixel(x, y);
-            task.out[i] = static_cast<float>(task.base[i]) +
-                          bestOf(sums_.data() + i * labels, path, task.vectors);
+            task.out[i] = valleyOf(sums_.data() + i * labels, path, task.vectors);
+            task.out[i].label += task.base[i];
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace mfar {
@@ -16,6 +17,19 @@ struct Smoothness {
     int jump = 60;     ///< penalty of more, where the picture is even; at most 60
     double noise = 0;  ///< difference between neighbours that is no edge [grey levels]
 };
+
+/// The cheapest of a pixel's labels, and by how much those beside it are dearer.
+struct Valley {
+    static constexpr std::uint8_t kUnknown = 255;  ///< outside the window
+
+    int label = 0;
+    /// Of label - 2, label - 1, label + 1 and label + 2: at most 254, or kUnknown.
+    std::array<std::uint8_t, 4> rise{};
+};
+
+/// The label with its sub-label part: the vertex of the two straight lines through it and its
+/// neighbours (a parabola would lock to whole labels on such costs).
+float vertexOf(const Valley& valley);
 
 /// Semi-global matching over a window of labels that each pixel has for itself: four paths (left,
 /// right, up, down). Path costs stay below 85, so that they fit in bytes.
@@ -31,11 +45,11 @@ public:
     /// Allocates for pictures whose pixels have up to so many vectors of labels together.
     explicit SemiGlobal(std::size_t vectors);
 
-    /// `base`: first label of every pixel. `out`: best label of every pixel with its sub-label
-    /// part. `guide`: the picture whose edges allow jumps; its size is that of the fields.
+    /// `base`: first label of every pixel. `guide`: the picture whose edges allow jumps; its size
+    /// is that of the fields. `out`: as many.
     void run(const LumaImage& guide, const std::vector<std::int16_t>& base, int vectors,
              const Smoothness& smoothness, const CostRow& costs, Workers& workers,
-             std::vector<float>& out);
+             std::span<Valley> out);
 
 private:
     struct Task;

@@ -67,6 +67,17 @@ TEST(EpipolarSearch, FindsAWallSideways) {
     expectErrors({plain(), flatScene(), motion({0, 0, 0}, {0, 0.15, 0})}, kAlongAxis, 0.02);
 }
 
+// Two labels in a row are nearest to the same pixel, and the two pixels beside the match differ
+// from it as much: between those two is where it lies.
+TEST(EpipolarSearch, FindsAWallHalfAPixelAlongADiagonal) {
+    const CameraModel camera = plain();
+    for (const double pixels : {5.4, 5.5, 5.6, -8.5}) {
+        const double t = 2 * pixels / camera.fx;
+        expectErrors({camera, flatScene(), motion({0, 0, 0}, {t, t, 0})}, kAcross, 0.02);
+        expectErrors({camera, flatScene(), motion({0, 0, 0}, {-t, t, 0})}, kAcross, 0.02);
+    }
+}
+
 TEST(EpipolarSearch, FindsASlantedWall) {
     expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {-0.2, 0, 0})}, kAlongAxis, 0.02);
     expectErrors({plain(), slantedScene(), motion({0, 0, 0}, {-0.2, 0.05, 0})}, kAcross, 0.02);

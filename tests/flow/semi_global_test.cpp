@@ -42,14 +42,16 @@ Problem randomProblem(Size size, int vectors, int reach, unsigned seed, int grea
 }
 
 std::vector<float> solve(const Problem& p, SemiGlobal& matcher, Workers& workers) {
-    std::vector<float> out(p.guide.pixels.size());
+    std::vector<Valley> found(p.guide.pixels.size());
     const std::size_t row = static_cast<std::size_t>(p.guide.size.width) * p.labels();
     matcher.run(
         p.guide, p.base, p.vectors, p.smoothness,
         [&](int y, std::uint8_t* costs) {
             std::copy_n(p.costs.begin() + static_cast<std::ptrdiff_t>(y * row), row, costs);
         },
-        workers, out);
+        workers, found);
+    std::vector<float> out(found.size());
+    std::ranges::transform(found, out.begin(), vertexOf);
     return out;
 }
 
@@ -103,14 +105,14 @@ std::vector<float> twin(const Problem& p) {
     for (std::size_t i = 0; i < p.guide.pixels.size(); ++i) {
         const int* s = sums.data() + i * labels;
         const int best = static_cast<int>(std::min_element(s, s + labels) - s);
-        float label = static_cast<float>(best);
+        float label = static_cast<float>(p.base[i] + best);
         if (best > 0 && best + 1 < labels) {
             const int rise = std::max(s[best - 1], s[best + 1]) - s[best];
             if (rise > 0)
                 label +=
                     0.5F * static_cast<float>(s[best - 1] - s[best + 1]) / static_cast<float>(rise);
         }
-        out.push_back(static_cast<float>(p.base[i]) + label);
+        out.push_back(label);
     }
     return out;
 }

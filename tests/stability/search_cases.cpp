@@ -212,7 +212,7 @@ void hostileAggregation(Context& c) {
     for (auto& b : base)
         b = static_cast<std::int16_t>(c.hostile.chance(0.05) ? c.hostile.pick({-32768, 32000, 0})
                                                              : c.hostile.integer(-40, 40));
-    std::vector<float> out(base.size());
+    std::vector<Valley> out(base.size());
     const Smoothness smoothness{c.hostile.integer(1, 30), c.hostile.integer(1, 60),
                                 c.hostile.real(0, 300)};
     const std::uint64_t seed = c.hostile.generator()();
@@ -225,7 +225,8 @@ void hostileAggregation(Context& c) {
         },
         *workers(), out);
     for (std::size_t i = 0; i < out.size(); ++i)
-        c.checks.within(out[i] - base[i], -0.5, 16 * vectors - 0.5, "label in its window");
+        c.checks.within(vertexOf(out[i]) - base[i], -0.5, 16 * vectors - 0.5,
+                        "label in its window");
     c.checks.through("SemiGlobal", pixelsOf(size));
 }
 
