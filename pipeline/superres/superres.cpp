@@ -165,6 +165,15 @@ void SuperRes::drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings 
         pass.tiles.runTiles(params, bindings, target, list(List::All));
 }
 
+// Tiles beside those that are drawn are looked at, too: after frames without, all are made.
+void SuperRes::sharpen(const TileParams& params, const gpu::Texture& video, const WorkPlan& plan) {
+    const gpu::Bindings from{gpu::sampler(0, video), gpu::sampler(1, weightField_)};
+    if (sharpenedIsOld_)
+        sharpen_.whole.run(params, from, sharpenedTarget_);
+    else
+        drawBoth(sharpen_, params, from, sharpenedTarget_, plan);
+}
+
 void SuperRes::draw(const gpu::Texture& video, const StillReference* still, const WorkPlan& plan) {
     const bool useStill = still != nullptr && mode_ != SuperResMode::Off;
     const bool blend = mode_ == SuperResMode::Blend;
@@ -175,9 +184,10 @@ void SuperRes::draw(const gpu::Texture& video, const StillReference* still, cons
     if (restingFrames_ > 0) return;
 
     const TileParams p = tileParams(useStill);
-    drawBoth(sharpen_, p, {gpu::sampler(0, video), gpu::sampler(1, weightField_)}, sharpenedTarget_,
-             plan);
-    drawBoth(vertical_, p, {gpu::sampler(0, sharpened_)}, columnsTarget_, plan);
+    const bool sharpens = p.tune[0] > 0;
+    if (sharpens) sharpen(p, video, plan);
+    sharpenedIsOld_ = !sharpens;
+    drawBoth(vertical_, p, {gpu::sampler(0, sharpens ? sharpened_ : video)}, columnsTarget_, plan);
     if (!plan.drawsWhole())
         upscale_.runTiles(p, {gpu::sampler(0, columns_)}, outputTarget_, list(List::Upscaled));
     if (useStill) {

@@ -78,6 +78,7 @@ private:
     void measureGain(const LumaPyramids& pyramids, const Flow2d& flow, const WorkPlan& plan);
     void weigh(const WorkPlan& plan);
     void classify(const WorkPlan& plan, bool hasStill);
+    void sharpen(const TileParams& params, const gpu::Texture& video, const WorkPlan& plan);
     void drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
                   const gpu::Framebuffer& target, const WorkPlan& plan);
     [[nodiscard]] TileParams tileParams(bool useStill) const;
@@ -92,6 +93,7 @@ private:
     gpu::Buffer classes_, lists_;
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
+    bool sharpenedIsOld_ = true;  // of a frame before the last
     WorkPlan::Dispatch assessDispatch_, gainDispatch_, weighDispatch_;
     gpu::ComputePass<AssessParams> assess_;
     gpu::ComputePass<GainParams> gain_;
