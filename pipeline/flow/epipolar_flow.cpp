@@ -13,6 +13,17 @@ constexpr float kNowhere = 1e4F;
 constexpr float kLeastWay = 0.05F;  // of a pixel, when the others' longest is one [px]
 // Neighbours on one slanted surface that land on the same cell differ by this much [px].
 constexpr float kSlope = 1.0F;
+// What is searched around what is asked for: room for census windows, paths, and a frame's motion.
+constexpr int kRoom = 16;  // [px]
+
+/// What is searched for `where`, in whole cells of 4x4 pixels but at the picture's end.
+PixelRect searchedFor(const PixelRect& where, Size video) {
+    const auto down = [](int x) { return std::max(x - kRoom, 0) / kRoom * kRoom; };
+    const auto up = [](int x, int most) {
+        return std::min((x + 2 * kRoom - 1) / kRoom * kRoom, most);
+    };
+    return {down(where.x0), down(where.y0), up(where.x1, video.width), up(where.y1, video.height)};
+}
 
 }  // namespace
 
@@ -45,12 +56,12 @@ void EpipolarFlow::dropStill() {
     prediction_.forget();
 }
 
-void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
+void EpipolarFlow::run(const ImageView& video, const Pose& pose, const PixelRect& where) {
     lumaOf(video, luma_);
     const UnitPose relative = unitPose(rig_.T_still_video, *stillPose_, pose);
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
-    search(relative);
+    search(relative, where);
     // At the video's geometry the still keeps the video's orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
@@ -66,13 +77,38 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose) {
         prediction_.forget();
 }
 
-void EpipolarFlow::search(const UnitPose& relative) {
+void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
+    const PixelRect wanted = searchedFor(where, rig_.video.size);
     // What comes into the picture, or moves by itself, is found by a search from coarse to fine.
-    const auto predicted = predictedFrames_ < mostPredicted_
+    const bool isNew = around(search_.area(), wanted) != search_.area();
+    const auto predicted = predictedFrames_ < mostPredicted_ && !isNew
                                ? prediction_.in(relative.T_other_frame, relative.unit)
                                : std::span<const float>();
     predictedFrames_ = predicted.empty() ? 0 : predictedFrames_ + 1;
-    search_.run(luma_, relative.T_other_frame, relative.covariance, predicted);
+    if (predicted.empty()) search_.setArea(wanted);
+    search_.run(luma_, relative.T_other_frame, relative.covariance, ofArea(predicted));
+}
+
+// The cells of the search's area, of all.
+std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
+    if (cells.empty()) return cells;
+    const PixelRect& area = search_.area();
+    const auto cell = [](int pixel) { return (pixel + kCell - 1) / kCell; };
+    predicted_.clear();
+    for (int j = cell(area.y0); j < cell(area.y1); ++j) {
+        const auto row = cells.subspan(static_cast<std::size_t>(j) * cells_.width, cells_.width);
+        predicted_.insert(predicted_.end(), row.begin() + cell(area.x0),
+                          row.begin() + cell(area.x1));
+    }
+    return predicted_;
+}
+
+// Where nothing was searched, as beside it.
+float EpipolarFlow::nearnessAt(int x, int y) const {
+    const PixelRect& area = search_.area();
+    const int column = std::clamp(x, area.x0, area.x1 - 1) - area.x0;
+    const int row = std::clamp(y, area.y0, area.y1 - 1) - area.y0;
+    return search_.inverseDepth()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
 }
 
 // Where the still, at the video's geometry, shows a ray's point; far outside when it is behind, or
@@ -94,7 +130,7 @@ std::vector<float> EpipolarFlow::flow() const {
     for (int y = 0; y < size.height; ++y) {
         for (int x = 0; x < size.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
-            const auto q = endOf(lens_.rayX(i), lens_.rayY(i), search_.inverseDepth()[i]);
+            const auto q = endOf(lens_.rayX(i), lens_.rayY(i), nearnessAt(x, y));
             out.push_back(q.x - static_cast<float>(x));
             out.push_back(q.y - static_cast<float>(y));
         }
@@ -122,7 +158,7 @@ const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
 
 float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
     const std::size_t i = static_cast<std::size_t>(y) * rig_.video.size.width + x;
-    const float s = search_.inverseDepth()[i];
+    const float s = nearnessAt(x, y);
     const auto on = endOf(lens_.rayX(i), lens_.rayY(i), s);
     const float dx = static_cast<float>(x) + flowX - on.x,
                 dy = static_cast<float>(y) + flowY - on.y;
@@ -138,19 +174,19 @@ float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
 // The middle two of a cell's four central pixels: an edge between them does not pull it off.
 void EpipolarFlow::fillForward() {
     const Size video = rig_.video.size;
-    const auto& field = search_.inverseDepth();
     for (int j = 0; j < cells_.height; ++j) {
         for (int i = 0; i < cells_.width; ++i) {
             const int x = std::clamp(kCell * i + 1, 0, std::max(video.width - 2, 0));
             const int y = std::clamp(kCell * j + 1, 0, std::max(video.height - 2, 0));
             const int right = video.width > 1 ? 1 : 0, below = video.height > 1 ? 1 : 0;
             const std::size_t p = static_cast<std::size_t>(y) * video.width + x;
-            const std::size_t across = p + right, down = p + static_cast<long>(below) * video.width;
-            std::array<float, 4> s{field[p], field[across], field[down], field[down + right]};
+            const std::size_t last = p + static_cast<long>(below) * video.width + right;
+            std::array<float, 4> s{nearnessAt(x, y), nearnessAt(x + right, y),
+                                   nearnessAt(x, y + below), nearnessAt(x + right, y + below)};
             std::sort(s.begin(), s.end());
             const float nearness = 0.5F * (s[1] + s[2]);
-            const float rx = 0.5F * (lens_.rayX(p) + lens_.rayX(down + right));
-            const float ry = 0.5F * (lens_.rayY(p) + lens_.rayY(down + right));
+            const float rx = 0.5F * (lens_.rayX(p) + lens_.rayX(last));
+            const float ry = 0.5F * (lens_.rayY(p) + lens_.rayY(last));
             const auto q = endOf(rx, ry, nearness);
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
             nearness_[cell] = nearness;

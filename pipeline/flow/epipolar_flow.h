@@ -31,8 +31,12 @@ public:
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
     /// Refines the relative pose and searches; needs a still. Then forward(), hidden() and
-    /// search() are of this frame.
-    void run(const ImageView& video, const Pose& pose);
+    /// search() are of this frame. What is not in `where` [video px], or a little beside it, may
+    /// not be searched: it counts as far away as what is next to it and was. Must not be empty.
+    void run(const ImageView& video, const Pose& pose, const PixelRect& where);
+    void run(const ImageView& video, const Pose& pose) {
+        run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});
+    }
 
     /// Video -> still: flow x, y [video px at the video's geometry], -, -.
     [[nodiscard]] const Cells& forward() const { return forward_; }
@@ -63,7 +67,9 @@ public:
 
 private:
     [[nodiscard]] EpipolarLens::Point endOf(float rayX, float rayY, float s) const;
-    void search(const UnitPose& relative);
+    void search(const UnitPose& relative, const PixelRect& where);
+    [[nodiscard]] std::span<const float> ofArea(std::span<const float> cells);
+    [[nodiscard]] float nearnessAt(int x, int y) const;
     void fillForward();
     void testDepth();
     void testBothWays(const ImageView& video);
@@ -82,6 +88,7 @@ private:
     std::optional<Pose> stillPose_;
     LumaImage luma_;
     Cells forward_, hidden_;
+    std::vector<float> predicted_;
     std::vector<float> nearness_, aligned_,
         nearest_;  // s per cell of the video, and landed per cell of the still
 };

@@ -27,7 +27,9 @@ void checkSearch(Context& c, const EpipolarSearch& search) {
     c.checks.through("EpipolarSearch", pixelsOf(size));
     c.checks.require(search.inverseDepth().size() == static_cast<std::size_t>(pixelsOf(size)),
                      "size of the searched field");
-    c.checks.within(search.pixelsPerUnit(), 0, 1e12, "pixels per unit");
+    // However long the unit: a spoilt pose may make it 1e18.
+    c.checks.within(search.pixelsPerUnit(), 0, 1e9 * search.translation().cast<double>().norm(),
+                    "pixels per unit");
     c.checks.within(search.normalError(), 0, 1e7, "normal error");
     for (const float s : search.inverseDepth())
         c.checks.within(s * search.pixelsPerUnit(), -2e4, 2e4, "searched label");
@@ -124,7 +126,15 @@ void hostileFlowOfPoses(Context& c) {
     };
     flow.setStill(c.hostile.picture(rig.still.size).view(), pose());
     for (int frame = 0; frame < 3; ++frame) {
-        flow.run(c.hostile.picture(rig.video.size).view(), pose());
+        const int left = c.hostile.integer(0, rig.video.size.width - 1);
+        const int top = c.hostile.integer(0, rig.video.size.height - 1);
+        const PixelRect where{left, top, c.hostile.integer(left + 1, rig.video.size.width),
+                              c.hostile.integer(top + 1, rig.video.size.height)};
+        const Picture video = c.hostile.picture(rig.video.size);
+        if (c.hostile.chance(0.5))
+            flow.run(video.view(), pose());
+        else
+            flow.run(video.view(), pose(), where);
         checkSearch(c, flow.search());
         c.checks.within(flow.unit(), 1e-300, 1e300, "unit of length");
         for (const auto& v : flow.forward())
