@@ -149,14 +149,23 @@ void Pipeline::State::limitMatching() {
         plan.matchStructured(detailShare);
 }
 
+// The pixels of the video in these tiles.
+PixelRect Pipeline::State::pixelsOf(const PixelRect& tiles) const {
+    const auto [width, height] = rig.video.size;
+    return {tiles.x0 * kTileSize, tiles.y0 * kTileSize, std::min(tiles.x1 * kTileSize, width),
+            std::min(tiles.y1 * kTileSize, height)};
+}
+
 // Along epipolar lines where the frame's pose is known, and the still's.
-void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pose>& pose) {
+void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pose>& pose,
+                                 const PixelRect& forDepth) {
     pyramids.buildVideo(video.texture(), plan);
     lap("pyramid");
     if (pose) {
         // The search runs on the processor, so that has to know whether it is needed.
-        const bool forDepth = objects.has_value() || options.depthEverywhere;
-        if ((forDepth ? plan.changedTiles() : plan.matchedTiles()) > 0) epipolar.run(frame, *pose);
+        const PixelRect where = around(pixelsOf(plan.detailTiles()), forDepth);
+        const int tiles = forDepth.empty() ? plan.matchedTiles() : plan.changedTiles();
+        if (tiles > 0 && !where.empty()) epipolar.run(frame, *pose, where);
         lap("epipolar");
         flow.refine(pyramids, plan, epipolar.forward(), epipolar.hidden());
     } else {
@@ -277,7 +286,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.lap("plan");
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
     const bool usePose = useStill && s.alongLines && pose && s.epipolar.hasStill();
-    if (useStill) s.matchStill(video, usePose ? pose : std::nullopt);
+    if (useStill) s.matchStill(video, usePose ? pose : std::nullopt, where);
     s.prepareDepth(pose.has_value(), usePose, where);
     s.superres.draw(s.video.texture(), useStill ? &s.still : nullptr, s.plan);
     s.keepDrawn();

@@ -50,7 +50,10 @@ struct Pipeline::State {
     void limitMatching();
     /// After drawing.
     void keepDrawn();
-    void matchStill(const ImageView& frame, const std::optional<Pose>& pose);
+    [[nodiscard]] PixelRect pixelsOf(const PixelRect& tiles) const;
+    /// `forDepth`: where depth is measured by it [video px].
+    void matchStill(const ImageView& frame, const std::optional<Pose>& pose,
+                    const PixelRect& forDepth);
     /// Says where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     [[nodiscard]] bool inView() const { return objects && !objects->region().empty(); }

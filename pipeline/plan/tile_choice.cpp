@@ -85,4 +85,17 @@ void StructuredTiles::choose(std::span<const TileMeasure> tiles, int columns, do
         chosen_[i] = around_[i] > none && structureBin(around_[i]) >= least;
 }
 
+int StructuredTiles::count() const {
+    return static_cast<int>(std::ranges::count(chosen_, true));
+}
+
+PixelRect StructuredTiles::bounds(int columns) const {
+    PixelRect out;
+    for (int i = 0; i < static_cast<int>(chosen_.size()); ++i) {
+        const int x = i % columns, y = i / columns;
+        if (chosen_[static_cast<std::size_t>(i)]) out = around(out, {x, y, x + 1, y + 1});
+    }
+    return out;
+}
+
 }  // namespace mfar

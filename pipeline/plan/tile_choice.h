@@ -32,6 +32,9 @@ public:
     /// Structure up to `none` is noise; below 0 nothing is. `most`: at most so many tiles.
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
+    [[nodiscard]] int count() const;
+    /// The least rectangle with all in it.
+    [[nodiscard]] PixelRect bounds(int columns) const;
 
 private:
     std::vector<bool> chosen_;

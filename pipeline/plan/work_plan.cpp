@@ -14,7 +14,8 @@ constexpr double kInitialNoise = 0.29;
 constexpr double kMaxNoise = 4.0;
 // Drawing by tiles costs 2.2 times as much an area as one full-screen draw (llvmpipe).
 constexpr double kWholeShare = 0.45;
-// Detail likewise, where all else is enlarged at once, which costs 0.4 times as much.
+// Detail likewise, where all else is enlarged at once, which costs 0.4 times as much: of the tiles
+// in the rectangle that would get it at once.
 constexpr double kListedShare = 0.27;
 // What structure adds up to, in the variance of a mean: 13 by noise alone (16 means less the
 // plane's three), the rest by what gives detail a tenth of its weight in superres_weigh.comp (a
@@ -88,6 +89,8 @@ void WorkPlan::chooseMatched() {
     const double ofMean = grain_ * (noise_ * noise_ + kRoundingVariance) / 4;
     structured_.choose(measured_, tileCount_.width, everything ? -1 : kStructure * ofMean,
                        static_cast<int>(std::ceil(everything ? tiles : matchedShare_ * tiles)));
+    detailTiles_ = mayList() ? structured_.bounds(tileCount_.width)
+                             : PixelRect{0, 0, tileCount_.width, tileCount_.height};
 }
 
 void WorkPlan::chooseChanged(Redraw redraw) {
@@ -117,9 +120,8 @@ void WorkPlan::chooseChanged(Redraw redraw) {
         plan_[kHeader + i] = {changed ? 1U : 0U, structured_[i] ? 1U : 0U};
     }
     whole_ = changed_ >= wholeFrom;
-    // Where nothing is drawn by tiles, detail is not, either.
-    const bool mayList = matchedShare_ > 0 && wholeShare_ > 0;
-    listsDetail_ = whole_ && mayList && matched_ <= static_cast<int>(kListedShare * count);
+    const int inside = (detailTiles_.x1 - detailTiles_.x0) * (detailTiles_.y1 - detailTiles_.y0);
+    listsDetail_ = whole_ && mayList() && structured_.count() <= kListedShare * inside;
     plan_[0] = {whole_ ? (listsDetail_ ? 2U : 1U) : 0U, static_cast<std::uint32_t>(changed_)};
     opensAll_ = false;
 }

@@ -82,6 +82,9 @@ public:
     [[nodiscard]] bool drawsWhole() const { return whole_; }
     [[nodiscard]] bool drawsWholeDetail() const { return whole_ && !listsDetail_; }
     [[nodiscard]] bool drawsWholeEnlarged() const { return whole_ && listsDetail_; }
+    /// The tiles of a whole frame that detail is drawn in: the least rectangle with all in it that
+    /// are matched. Around it all is enlarged.
+    [[nodiscard]] const PixelRect& detailTiles() const { return detailTiles_; }
     /// Number of tiles that the last update() found changed.
     [[nodiscard]] int changedTiles() const { return changed_; }
     /// Number of those that are matched with the still.
@@ -112,6 +115,8 @@ private:
     [[nodiscard]] const Wanted& wantedOf(Dispatch dispatch) const {
         return wanted_[static_cast<std::size_t>(dispatch.index)];
     }
+    /// Where nothing is drawn by tiles, detail is not, either.
+    [[nodiscard]] bool mayList() const { return matchedShare_ > 0 && wholeShare_ > 0; }
     void chooseMatched();
     /// Of what update() has measured, says which tiles changed.
     void chooseChanged(Redraw redraw);
@@ -122,7 +127,7 @@ private:
     Size tileCount_;
     std::shared_ptr<Workers> workers_;
     double noise_, grain_ = 1, wholeShare_, matchedShare_ = 0;
-    PixelRect drawnOver_;  // tiles
+    PixelRect drawnOver_, detailTiles_;  // tiles
     Redraw redraw_ = Redraw::WithThem;
     std::vector<Wanted> wanted_;
     std::vector<TileMeasure> measured_;

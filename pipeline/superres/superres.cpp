@@ -1,6 +1,7 @@
 #include "pipeline/superres/superres.h"
 
 #include "pipeline/flow/cell_field.h"
+#include "pipeline/gpu/scoped_state.h"
 
 #include <algorithm>
 
@@ -174,6 +175,32 @@ void SuperRes::sharpen(const TileParams& params, const gpu::Texture& video, cons
         drawBoth(sharpen_, params, from, sharpenedTarget_, plan);
 }
 
+void SuperRes::drawDetail(gpu::DrawPass<TileParams>& detail, const TileParams& params,
+                          gpu::Bindings bindings, const WorkPlan& plan) {
+    const PixelRect in = outputOf(plan.detailTiles());
+    const auto [width, height] = output_.size();
+    for (const PixelRect& part :
+         {PixelRect{0, 0, width, in.y0}, PixelRect{0, in.y1, width, height},
+          PixelRect{0, in.y0, in.x0, in.y1}, PixelRect{in.x1, in.y0, width, in.y1}}) {
+        if (part.empty()) continue;
+        const gpu::Scissor scissor(part);
+        wholeUpscale_.run(params, {gpu::sampler(0, columns_)}, outputTarget_);
+    }
+    const gpu::Scissor scissor(in);
+    detail.run(params, bindings, outputTarget_);
+}
+
+// The pixels of the output that show these tiles, or parts of them.
+PixelRect SuperRes::outputOf(const PixelRect& tiles) const {
+    const auto [width, height] = output_.size();
+    const auto at = [](int tile, int video, int out, int rest) {
+        const long pixels = std::min(tile * kTileSize, video) * static_cast<long>(out);
+        return static_cast<int>((pixels + rest * (video - 1)) / video);
+    };
+    return {at(tiles.x0, video_.width, width, 0), at(tiles.y0, video_.height, height, 0),
+            at(tiles.x1, video_.width, width, 1), at(tiles.y1, video_.height, height, 1)};
+}
+
 void SuperRes::draw(const gpu::Texture& video, const StillReference* still, const WorkPlan& plan) {
     const bool useStill = still != nullptr && mode_ != SuperResMode::Off;
     const bool blend = mode_ == SuperResMode::Blend;
@@ -197,7 +224,7 @@ void SuperRes::draw(const gpu::Texture& video, const StillReference* still, cons
         if (plan.drawsWholeEnlarged())
             wholeUpscale_.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
         if (plan.drawsWholeDetail()) {
-            (blend ? wholeBlend_ : wholeDetail_).run(p, from, outputTarget_);
+            drawDetail(blend ? wholeBlend_ : wholeDetail_, p, from, plan);
             return;
         }
         (blend ? plainBlend_ : plainDetail_).runTiles(p, from, outputTarget_, list(List::Trusted));

@@ -81,6 +81,9 @@ private:
     void sharpen(const TileParams& params, const gpu::Texture& video, const WorkPlan& plan);
     void drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
                   const gpu::Framebuffer& target, const WorkPlan& plan);
+    void drawDetail(gpu::DrawPass<TileParams>& detail, const TileParams& params,
+                    gpu::Bindings bindings, const WorkPlan& plan);
+    [[nodiscard]] PixelRect outputOf(const PixelRect& tiles) const;
     [[nodiscard]] TileParams tileParams(bool useStill) const;
 
     StereoRig rig_;

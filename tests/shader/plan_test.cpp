@@ -290,20 +290,40 @@ TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
     }
 }
 
-// A whole frame in which few tiles get detail is enlarged, and those are listed.
+/// Of a picture all of which changed, after the noise is known.
+void planWhole(WorkPlan& plan, const Picture& picture) {
+    for (int i = 0; i < 20; ++i)
+        plan.update(planesOf(picture), planesOf(picture), true);
+}
+
+// Tiles far apart would have a rectangle around them of which they are a small part.
 TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
-    const Size size{256, 96};
+    const Size size{512, 96};
     for (const bool structured : {false, true}) {
-        const Picture picture = structured ? randomPicture(size, 1) : dotted(size, {60});
         WorkPlan plan(size);
-        static_cast<void>(plan.add({1, 1, 1}));
         plan.matchStructured(1);
-        for (int i = 0; i < 20; ++i)
-            plan.update(planesOf(picture), planesOf(picture), true);
+        planWhole(plan,
+                  structured ? randomPicture(size, 1) : dotted(size, {60, 0, 0, 0, 0, 0, 0, 60}));
         EXPECT_EQ(plan.drawsWholeDetail(), structured);
         EXPECT_EQ(plan.drawsWholeEnlarged(), !structured);
         EXPECT_EQ(plan.tiles().read<std::uint32_t>(1)[0], structured ? 1U : 2U);
     }
+}
+
+TEST_F(Plan, DetailIsDrawnInARectangleAroundTheStructure) {
+    const Size size{256, 96};
+    WorkPlan plan(size);
+    plan.matchStructured(1);
+    planWhole(plan, dotted(size, {0, 60}));
+    EXPECT_TRUE(plan.drawsWholeDetail());
+    EXPECT_EQ(plan.detailTiles(), (PixelRect{4, 0, 7, 6}));
+    plan.matchEverything();
+    planWhole(plan, randomPicture(size, 1));
+    EXPECT_EQ(plan.detailTiles(), (PixelRect{0, 0, 16, 6}));
+    plan.matchStructured(1);
+    plan.drawWholeFrom(0);
+    planWhole(plan, dotted(size, {0, 60}));
+    EXPECT_EQ(plan.detailTiles(), (PixelRect{0, 0, 16, 6}));
 }
 
 }  // namespace

@@ -135,6 +135,43 @@ TEST_F(QualityTest, WorkThatIsNotLeftOutDrawsTheSamePicture) {
     }
 }
 
+/// All but a patch in the middle of this grey.
+Picture evenButForAPatch(Picture picture, int grey) {
+    const Size size = picture.view().size;
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            if (5 * x < size.width || 2 * x > size.width || 3 * y < size.height ||
+                4 * y > 3 * size.height)
+                std::fill_n(picture.at(x, y), 3, static_cast<std::uint8_t>(grey));
+    return picture;
+}
+
+// The search along lines covers the patch, detail is drawn in it.
+TEST_F(QualityTest, APatchIsDrawnAsWellAsAWholePicture) {
+    const PipelineCase c;
+    const auto frame = [&](double shift) {
+        return evenButForAPatch(c.video({shift, 0}), 90 + static_cast<int>(4 * shift));
+    };
+    for (const bool withPoses : {false, true}) {
+        const auto qualityWith = [&](bool lists) {
+            PipelineOptions options;
+            options.skips.tileLists = lists;
+            Pipeline p(c.rig, options);
+            const auto pose = [&](double x) {
+                return withPoses ? std::optional(posed(x)) : std::nullopt;
+            };
+            p.setStill(evenButForAPatch(c.still(), 96).view(), {}, pose(0));
+            for (const double shift : {2.0, 3.0, 4.0, 3.0, 2.0})
+                p.run(frame(shift).view(), {}, pose(0.01 * shift));
+            const auto classes = p.readTileClasses();
+            EXPECT_GT(std::ranges::count(classes, TileClass::Blended), 2);
+            EXPECT_GT(std::ranges::count(classes, TileClass::Upscaled), 20);
+            return psnr(p.readImage(), evenButForAPatch(c.fine(p.outputSize(), {2, 0}), 98).bytes);
+        };
+        EXPECT_GT(qualityWith(true), std::max(37.0, qualityWith(false) - 0.1));
+    }
+}
+
 /// A small change in one corner: what is drawn by tiles, of which classes.
 std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     const PipelineCase c;
