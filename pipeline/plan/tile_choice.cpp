@@ -68,6 +68,31 @@ TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, 
     return total;
 }
 
+void markBeside(std::span<TileMeasure> tiles, int columns) {
+    struct Side {
+        unsigned cells;
+        int x, y;
+    };
+    constexpr std::array<Side, 8> kSides{{{0x1111, -1, 0},
+                                          {0x8888, 1, 0},
+                                          {0x000F, 0, -1},
+                                          {0xF000, 0, 1},
+                                          {0x0001, -1, -1},
+                                          {0x0008, 1, -1},
+                                          {0x1000, -1, 1},
+                                          {0x8000, 1, 1}}};
+    const int rows = static_cast<int>(tiles.size()) / columns;
+    for (int i = 0; i < static_cast<int>(tiles.size()); ++i) {
+        const unsigned cells = tiles[static_cast<std::size_t>(i)].changedCells;
+        if (cells == 0) continue;
+        for (const Side& side : kSides) {
+            const int x = i % columns + side.x, y = i / columns + side.y;
+            if ((cells & side.cells) != 0 && x >= 0 && y >= 0 && x < columns && y < rows)
+                tiles[static_cast<std::size_t>(y) * columns + x].changed = true;
+        }
+    }
+}
+
 void StructuredTiles::choose(std::span<const TileMeasure> tiles, int columns, double none,
                              int most) {
     chosen_.resize(tiles.size());

@@ -24,6 +24,10 @@ struct TileEnergy {
 /// to be. Row-major, `columns` a row. The energy of all before that.
 TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all);
 
+/// Marks tiles as changed beside whose border cells surely changed: enlarging looks two pixels
+/// beyond a tile.
+void markBeside(std::span<TileMeasure> tiles, int columns);
+
 /// Chooses tiles with structure beyond noise, and those beside them, as the weight of a cell looks
 /// beyond its tile; where there are too many, those with the most, and rather those that were
 /// chosen before: noise must not make detail come and go.

@@ -86,8 +86,9 @@ private:
 
     [[nodiscard]] float structureOf(std::size_t first) const;
     [[nodiscard]] std::array<float, 3> noiseOf(std::size_t first) const;
-    [[nodiscard]] bool changes(std::size_t first, const std::array<float, 3>& variance,
-                               const ChangeBounds& bounds) const;
+    [[nodiscard]] std::uint16_t changedCells(std::size_t first, const std::array<float, 3>& ofCell,
+                                             const ChangeBounds& bounds) const;
+    [[nodiscard]] bool leans(std::size_t first, const std::array<float, 3>& ofCell) const;
 
     int width_, height_;
     std::size_t pitch_;  // blocks
@@ -188,33 +189,46 @@ float momentsOf(const CellsOf<T>& sums, float variance) {
     return (sum * sum / 16 + (slopeX * slopeX + slopeY * slopeY) / 20) / variance;
 }
 
-bool BlockRow::changes(std::size_t first, const std::array<float, 3>& variance,
-                       const ChangeBounds& bounds) const {
-    std::array<float, 3> ofCell{};
-    for (std::size_t i = 0; i < 3; ++i)
-        ofCell[i] = (variance[i] + kByteRounding) / 16 * bounds.grain;
-    float most = 0, moments = 0;
-    std::int32_t absolute = 0;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-        const auto sums = cellSums<std::int32_t>(&difference_[channel].sum[first], pitch_);
-        for (const std::int32_t s :
-             cellSums<std::int32_t>(&difference_[channel].absolute[first], pitch_))
-            absolute = std::max(absolute, s);
-        for (const std::int32_t s : sums)
-            most = std::max(most, static_cast<float>(std::abs(s)) / 16);
-        if (channel != 1) moments = std::max(moments, momentsOf(sums, ofCell[channel]));
-    }
-    moments = std::max(moments, momentsOf(cellSums<float>(&lumaSum_[first], pitch_), ofCell[1]));
+/// Variance of a cell's mean by noise: red, luma, blue.
+std::array<float, 3> ofCells(std::array<float, 3> variance, float grain) {
+    for (float& v : variance)
+        v = (v + kByteRounding) / 16 * grain;
+    return variance;
+}
+
+std::uint16_t BlockRow::changedCells(std::size_t first, const std::array<float, 3>& ofCell,
+                                     const ChangeBounds& bounds) const {
     const float noisiest = kCellSurelyChanged * std::ranges::max(ofCell);
-    return static_cast<float>(absolute) / 16 > bounds.absolute ||
-           (most > bounds.mean && most * most > noisiest) || moments > kSurelyChanged;
+    std::uint16_t out = 0;
+    for (const Blocks& channel : difference_) {
+        const auto sums = cellSums<std::int32_t>(&channel.sum[first], pitch_);
+        const auto absolute = cellSums<std::int32_t>(&channel.absolute[first], pitch_);
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            const float mean = static_cast<float>(std::abs(sums[i])) / 16;
+            if (static_cast<float>(absolute[i]) / 16 > bounds.absolute ||
+                (mean > bounds.mean && mean * mean > noisiest))
+                out = static_cast<std::uint16_t>(out | 1U << i);
+        }
+    }
+    return out;
+}
+
+bool BlockRow::leans(std::size_t first, const std::array<float, 3>& ofCell) const {
+    float moments = momentsOf(cellSums<float>(&lumaSum_[first], pitch_), ofCell[1]);
+    for (const std::size_t channel : {0, 2})
+        moments = std::max(
+            moments, momentsOf(cellSums<std::int32_t>(&difference_[channel].sum[first], pitch_),
+                               ofCell[channel]));
+    return moments > kSurelyChanged;
 }
 
 TileMeasure BlockRow::measure(int column, const ChangeBounds& bounds) const {
     const std::size_t first = std::size_t{kBlocks} * column;
     const std::array<float, 3> variance = noiseOf(first);
     TileMeasure out;
-    out.changed = changes(first, variance, bounds);
+    const std::array<float, 3> ofCell = ofCells(variance, bounds.grain);
+    out.changedCells = changedCells(first, ofCell, bounds);
+    out.changed = out.changedCells != 0 || leans(first, ofCell);
     out.structure = structureOf(first);
     out.pixels = variance[1];
     for (std::size_t y = 0; y < kBlocks; ++y)

@@ -3,6 +3,7 @@
 #include "pipeline/plan/rgb_planes.h"
 #include "pipeline/workers.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace mfar {
@@ -13,6 +14,8 @@ struct TileMeasure {
     /// fine structure that moved, or the tile's mean and slopes are. Colour counts by its largest
     /// channel. What is too weak for one tile shows in many: that is for markDrifted().
     bool changed = false;
+    /// The cells of 4x4 pixels that surely did by themselves, a bit each, row-major.
+    std::uint16_t changedCells = 0;
     float noise = 0;  ///< standard deviation of the video's noise [grey levels]
     /// What of the luma's 2x2 means the plane through 8x8 pixels leaves: the sum of squares, mean
     /// of the tile's 9 places. A slope alone tells no match from another.

@@ -77,6 +77,7 @@ void WorkPlan::update(const RgbPlanes& now, const RgbPlanes& drawn, bool force) 
                   static_cast<float>(grain_)},
                  workers_.get(), measured_);
     const TileEnergy unchanged = markDrifted(measured_, tileCount_.width, grain_, force);
+    markBeside(measured_, tileCount_.width);
     chooseMatched();
     chooseChanged(std::exchange(redraw_, Redraw::WithThem));
     upload();

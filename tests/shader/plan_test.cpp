@@ -32,13 +32,14 @@ std::vector<TileState> tilesOf(const WorkPlan& plan) {
 }
 
 /// `base` with the first `tiles` tiles turned by some grey levels.
-Picture changedIn(const Picture& base, int tiles, int by) {
+Picture changedIn(Picture base, int tiles, int by) {
     Picture out = base;
     for (int t = 0; t < tiles; ++t)
-        for (int i = 0; i < 256; ++i) {
-            const int x = 16 * (t % 7) + i % 16, y = 16 * (t / 7) + i / 16;
-            if (x < kSize.width && y < kSize.height)
-                out.at(x, y)[1] = static_cast<std::uint8_t>(out.at(x, y)[1] ^ by);
+        for (int i = 0; i < 64; ++i) {
+            // Not at the border to another tile, but where the tile is cut.
+            const int x = t % 7 == 6 ? 96 + i % 4 : 16 * (t % 7) + 4 + i % 8;
+            std::uint8_t* pixel = out.at(x, 16 * (t / 7) + 4 + i / 8);
+            pixel[1] = static_cast<std::uint8_t>(base.at(x, 16 * (t / 7) + 4 + i / 8)[1] ^ by);
         }
     return out;
 }
@@ -135,6 +136,30 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
             plan.update(planesOf(noisy), planesOf(noisy), false);
         }
         EXPECT_NEAR(plan.noise(), sigma, 0.15 * sigma);
+    }
+}
+
+// Enlarging looks two pixels beyond a tile.
+TEST_F(Plan, AChangeAtATilesBorderIsOneOfTheTileBesideIt) {
+    const Picture base = Waves(1, 6, 60, 30).shoot(kSize, {});
+    struct Case {
+        int x, y;
+        std::vector<int> tiles;
+    };
+    for (const Case& c :
+         {Case{16 + 6, 16 + 6, {8}}, Case{16, 16 + 6, {7, 8}}, Case{16 + 12, 16 + 6, {8, 9}},
+          Case{16 + 6, 16, {1, 8}}, Case{16 + 6, 16 + 12, {8, 15}}, Case{16, 16, {0, 1, 7, 8}},
+          Case{0, 0, {0}}}) {
+        Picture now = base;
+        for (int i = 0; i < 16; ++i)
+            now.at(c.x + i % 4, c.y + i / 4)[1] ^= 64;
+        WorkPlan plan(kSize);
+        plan.update(planesOf(now), planesOf(base), false);
+        std::vector<int> found;
+        const auto tiles = tilesOf(plan);
+        for (int i = 0; i < 28; ++i)
+            if (tiles[i].changed != 0) found.push_back(i);
+        EXPECT_EQ(found, c.tiles) << c.x << ',' << c.y;
     }
 }
 
@@ -283,8 +308,8 @@ TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
         for (int i = 0; i < 256; ++i)  // a tile, evenly
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
-        EXPECT_EQ(plan.changedTiles(), 1);
-        EXPECT_EQ(plan.matchedTiles(), inStructure ? 1 : 0);
+        EXPECT_EQ(plan.changedTiles(), 9) << "with those beside it";
+        EXPECT_EQ(plan.matchedTiles(), inStructure ? 9 : 0);
         EXPECT_EQ(plan.opens(matching), inStructure);
         EXPECT_TRUE(plan.opens(drawing));
     }

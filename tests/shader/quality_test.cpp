@@ -42,6 +42,24 @@ Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
     return p.readImage();
 }
 
+// Two rows at the lower end of a tile.
+TEST_F(QualityTest, WhatAChangeReachesIntoIsDrawnAnewWithIt) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {}), whole(c.rig, {});
+    Picture frame = c.video({2, 0});
+    for (Pipeline* each : {&p, &whole})
+        each->run(frame.view(), {});
+    for (int x = 32; x < 48; ++x)
+        for (int y = 46; y < 48; ++y)
+            for (int channel = 0; channel < 3; ++channel)
+                frame.at(x, y)[channel] = static_cast<std::uint8_t>(255 - frame.at(x, y)[channel]);
+    whole.redraw();
+    for (Pipeline* each : {&p, &whole})
+        each->run(frame.view(), {});
+    EXPECT_GE(p.readStats().tiles[0], 70);
+    EXPECT_TRUE(p.readImage() == whole.readImage());
+}
+
 // All have seen the same frames before: the noise of the video is known from them.
 TEST_F(QualityTest, ChangedBetweenFramesIsAsFromTheStart) {
     const PipelineCase c;

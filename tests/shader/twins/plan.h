@@ -9,12 +9,13 @@
 #include <optional>
 #include <vector>
 
-/// Scalar twins of measureTiles() and markDrifted().
+/// Scalar twins of measureTiles(), markDrifted() and markBeside().
 namespace mfar::twin {
 
 struct TileChange {
-    /// Largest over the tile's cells and the channels: mean difference, mean absolute difference.
-    double mean = 0, absolute = 0;
+    /// Of the tile's cells, row-major, the largest over the channels: mean difference, mean
+    /// absolute difference.
+    std::array<double, 16> mean{}, absolute{};
     double cellNoise = 0;  ///< variance of such a mean in the noisiest channel
     double noise = 0;      ///< [grey levels]
     /// Mean and slopes of the difference, squared, over their variance: of the worst channel.
@@ -127,8 +128,8 @@ inline TileChange tileChange(const Picture& now, const Picture& drawn, const Gre
                 sum += by / 16;
                 absolute += std::abs(by) / 16;
             }
-            out.mean = std::max(out.mean, std::abs(sum));
-            out.absolute = std::max(out.absolute, absolute);
+            out.mean[cell] = std::max(out.mean[cell], std::abs(sum));
+            out.absolute[cell] = std::max(out.absolute[cell], absolute);
         }
         for (int y = y0; y < y0 + 4; y += 2)
             for (int x = x0; x < x0 + 4; x += 2)
@@ -145,14 +146,23 @@ struct ChangeBounds {
     double mean, absolute;
     static constexpr double kMoments = 40, kCell = 30;
 
+    [[nodiscard]] bool surely(const TileChange& t, int cell) const {
+        const double m = t.mean[cell];
+        return (m > mean && m * m > kCell * t.cellNoise) || t.absolute[cell] > absolute;
+    }
     [[nodiscard]] bool surely(const TileChange& t) const {
-        return (t.mean > mean && t.mean * t.mean > kCell * t.cellNoise) || t.absolute > absolute ||
-               t.moments > kMoments;
+        bool out = t.moments > kMoments;
+        for (int cell = 0; cell < 16; ++cell)
+            out = out || surely(t, cell);
+        return out;
     }
     [[nodiscard]] bool isClose(const TileChange& t) const {
-        return std::abs(t.mean - mean) < 1e-3 || std::abs(t.absolute - absolute) < 1e-3 ||
-               std::abs(t.moments - kMoments) < 1e-2 ||
-               std::abs(t.mean * t.mean - kCell * t.cellNoise) < 1e-2;
+        bool out = std::abs(t.moments - kMoments) < 1e-2;
+        for (int cell = 0; cell < 16; ++cell)
+            out = out || std::abs(t.mean[cell] - mean) < 1e-3 ||
+                  std::abs(t.absolute[cell] - absolute) < 1e-3 ||
+                  std::abs(t.mean[cell] * t.mean[cell] - kCell * t.cellNoise) < 1e-2;
+        return out;
     }
 };
 
@@ -174,6 +184,17 @@ private:
     int tiles_ = 0;
     double pixels_ = 0, means_ = 0;
 };
+
+/// Is a cell of tile (x, y) beside tile (i, j) among those that surely changed?
+inline bool reaches(const TileChange& t, const ChangeBounds& bounds, int x, int y, int i, int j) {
+    for (int cell = 0; cell < 16; ++cell) {
+        const int column = 4 * x + cell % 4, row = 4 * y + cell / 4;
+        const bool isBeside =
+            column >= 4 * i - 1 && column <= 4 * i + 4 && row >= 4 * j - 1 && row <= 4 * j + 4;
+        if (isBeside && bounds.surely(t, cell)) return true;
+    }
+    return false;
+}
 
 /// Which tiles changed, row-major; nothing where rounding decides.
 inline std::vector<std::optional<bool>> changedTiles(const std::vector<TileChange>& tiles,
@@ -199,6 +220,10 @@ inline std::vector<std::optional<bool>> changedTiles(const std::vector<TileChang
         if (bounds.surely(tiles[i]) || drifts || clear(block.beyondNoise()))
             out[i] = bounds.surely(tiles[i]) || drifts;
     }
+    for (int i = 0; known && i < static_cast<int>(tiles.size()); ++i)
+        for (int k = 0; k < static_cast<int>(tiles.size()); ++k)
+            if (reaches(tiles[k], bounds, k % columns, k / columns, i % columns, i / columns))
+                out[i] = true;
     return out;
 }
 
