@@ -47,6 +47,7 @@ QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
     file.number(prefix + "ms", out.ms, 0.001, kLongest);
     file.number(prefix + "psnr_db", out.psnrDb, 0, 200);
     file.choice<SuperResMode>(prefix + "mode", out.quality.mode, kModes);
+    file.boolean(prefix + "cubic", out.quality.cubic);
     file.boolean(prefix + "along_lines", out.quality.alongLines);
     file.number(prefix + "detail_share", out.quality.detailShare, kLeastShare, 1);
     for (const LevelKey& key : kLevelKeys)
@@ -144,6 +145,7 @@ std::string toToml(std::span<const QualityLevel> levels) {
         out += fmt::format("[[level]]\nname = \"{}\"\nms = {:.1f}\npsnr_db = {:.2f}\nmode = "
                            "\"{}\"\n",
                            level.name, level.ms, level.psnrDb, name(quality.mode));
+        if (!quality.cubic) out += "cubic = false\n";
         if (!quality.alongLines) out += "along_lines = false\n";
         if (quality.detailShare != usual.detailShare)
             out += fmt::format("detail_share = {:.3f}\n", quality.detailShare);
@@ -160,7 +162,8 @@ std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels, SuperR
     for (QualityLevel level : levels) {
         if (best != SuperResMode::Detail && level.quality.mode == SuperResMode::Detail)
             level.quality.mode = best;
-        if (best == SuperResMode::Off) level.quality = {.mode = SuperResMode::Off};
+        if (best == SuperResMode::Off)
+            level.quality = {.mode = SuperResMode::Off, .cubic = level.quality.cubic};
         const auto same = [&](const QualityLevel& other) { return other.quality == level.quality; };
         if (std::ranges::none_of(out, same)) out.push_back(level);
     }

@@ -1,9 +1,24 @@
-// Output where the still adds nothing: the upscaled video.
+// Output where the still adds nothing: the upscaled video, cubic or linear.
+// Variant: #define LINEAR
 #include "tile_params.glsl"
 #include "upscale.glsl"
 
 layout(location = 0) out vec4 colour;
 
+#ifdef LINEAR
+vec3 upscaledLinearly() {
+    float x = gl_FragCoord.x * scale.x - 0.5;
+    int y = int(gl_FragCoord.y);
+    int column = int(floor(x));
+    return mix(texelFetch(columns, ivec2(max(column, 0), y), 0).rgb,
+               texelFetch(columns, ivec2(min(column + 1, video.x - 1), y), 0).rgb, x - floor(x));
+}
+#endif
+
 void main() {
+#ifdef LINEAR
+    colour = vec4(upscaledLinearly(), 1.0);
+#else
     colour = vec4(upscaled(), 1.0);
+#endif
 }

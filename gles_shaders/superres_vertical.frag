@@ -1,4 +1,5 @@
-// Bicubic upscaling, first half: columns. In: prefiltered video. Out: video width x output height.
+// Upscaling, first half: columns. In: prefiltered video. Out: video width x output height.
+// Variant: #define LINEAR
 #include "cubic.glsl"
 
 #include "tile_params.glsl"
@@ -9,9 +10,16 @@ void main() {
     float y = gl_FragCoord.y * scale.y - 0.5;
     int x = int(gl_FragCoord.x);
     int row = int(floor(y));
-    vec4 w = cubicWeights(y - floor(y));
+    float t = y - floor(y);
+#ifdef LINEAR
+    const int first = 1, last = 2;
+    vec4 w = vec4(0.0, 1.0 - t, t, 0.0);
+#else
+    const int first = 0, last = 3;
+    vec4 w = cubicWeights(t);
+#endif
     vec3 sum = vec3(0.0);
-    for (int i = 0; i < 4; ++i)
+    for (int i = first; i <= last; ++i)
         sum += w[i] * texelFetch(picture, ivec2(x, clamp(row + i - 1, 0, video.y - 1)), 0).rgb;
     colour = vec4(sum, 1.0);
 }

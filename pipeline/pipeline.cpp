@@ -78,6 +78,7 @@ void Pipeline::dropStill() {
 void Pipeline::setMode(SuperResMode mode) {
     state_->options.mode = mode;
     state_->superres.setMode(mode);
+    state_->superres.setCubic(true);
     state_->redraw = true;
 }
 
@@ -86,6 +87,7 @@ void Pipeline::setQuality(const Quality& quality) {
     State& s = *state_;
     s.options.mode = quality.mode;
     s.superres.setMode(quality.mode);
+    s.superres.setCubic(quality.cubic || quality.mode != SuperResMode::Off);
     s.flow.setOptions(quality.flow2d);
     s.epipolar.setOptions(quality.epipolar);
     s.alongLines = quality.alongLines;

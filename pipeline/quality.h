@@ -14,6 +14,8 @@ enum class SuperResMode {
 /// of changing it. The defaults are the most accurate.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
+    /// Enlarges with Keys' cubic; false, and in mode Off alone: linearly, in half the time.
+    bool cubic = true;
     /// Off: matched in both dimensions though the poses are known.
     bool alongLines = true;
     Flow2dOptions flow2d{};      ///< but for what changed() in flow_options.h leaves

@@ -15,6 +15,7 @@ constexpr float kLeastWeight = 0.02F;
 constexpr float kPlainFlow = 0.08F;
 constexpr float kPlainWeight = 0.25F;
 constexpr std::uint32_t kQuadVertices = 6;
+constexpr const char* kLinear = "#define LINEAR\n";
 constexpr const char* kPlain = "#define PLAIN_TILE\n";
 
 }  // namespace
@@ -47,9 +48,7 @@ SuperRes::SuperRes(const StereoRig& rig, Size output, SuperResMode mode,
                    WorkPlan::For::Changed)),
       assess_("superres_assess.comp"), gain_("superres_gain.comp"), weigh_("superres_weigh.comp"),
       classify_("superres_classify.comp"), sharpen_("superres_sharpen.frag"),
-      vertical_("superres_vertical.frag"), wholeUpscale_("composite_upscale.frag"),
       wholeDetail_("composite_detail.frag"), wholeBlend_("composite_blend.frag"),
-      upscale_("tile_rect.vert", "composite_upscale.frag", ""),
       detail_("tile_rect.vert", "composite_detail.frag", ""),
       plainDetail_("tile_rect.vert", "composite_detail.frag", kPlain),
       blend_("tile_rect.vert", "composite_blend.frag", ""),
@@ -175,6 +174,12 @@ void SuperRes::sharpen(const TileParams& params, const gpu::Texture& video, cons
         drawBoth(sharpen_, params, from, sharpenedTarget_, plan);
 }
 
+SuperRes::Enlarging& SuperRes::enlarging() {
+    if (cubic_) return cubicly_;
+    if (!linearly_) linearly_.emplace(kLinear);
+    return *linearly_;
+}
+
 void SuperRes::drawDetail(gpu::DrawPass<TileParams>& detail, const TileParams& params,
                           gpu::Bindings bindings, const WorkPlan& plan) {
     const PixelRect in = outputOf(plan.detailTiles());
@@ -184,7 +189,7 @@ void SuperRes::drawDetail(gpu::DrawPass<TileParams>& detail, const TileParams& p
           PixelRect{0, in.y0, in.x0, in.y1}, PixelRect{in.x1, in.y0, width, in.y1}}) {
         if (part.empty()) continue;
         const gpu::Scissor scissor(part);
-        wholeUpscale_.run(params, {gpu::sampler(0, columns_)}, outputTarget_);
+        cubicly_.rows.whole.run(params, {gpu::sampler(0, columns_)}, outputTarget_);
     }
     const gpu::Scissor scissor(in);
     detail.run(params, bindings, outputTarget_);
@@ -214,15 +219,18 @@ void SuperRes::draw(const gpu::Texture& video, const StillReference* still, cons
     const bool sharpens = p.tune[0] > 0;
     if (sharpens) sharpen(p, video, plan);
     sharpenedIsOld_ = !sharpens;
-    drawBoth(vertical_, p, {gpu::sampler(0, sharpens ? sharpened_ : video)}, columnsTarget_, plan);
+    Enlarging& enlarging = this->enlarging();
+    drawBoth(enlarging.columns, p, {gpu::sampler(0, sharpens ? sharpened_ : video)}, columnsTarget_,
+             plan);
     if (!plan.drawsWhole())
-        upscale_.runTiles(p, {gpu::sampler(0, columns_)}, outputTarget_, list(List::Upscaled));
+        enlarging.rows.tiles.runTiles(p, {gpu::sampler(0, columns_)}, outputTarget_,
+                                      list(List::Upscaled));
     if (useStill) {
         const gpu::Bindings from{gpu::sampler(0, columns_),
                                  gpu::sampler(1, blend ? still->picture() : still->detail()),
                                  gpu::sampler(2, lookupField_)};
         if (plan.drawsWholeEnlarged())
-            wholeUpscale_.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
+            enlarging.rows.whole.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
         if (plan.drawsWholeDetail()) {
             drawDetail(blend ? wholeBlend_ : wholeDetail_, p, from, plan);
             return;
@@ -230,7 +238,7 @@ void SuperRes::draw(const gpu::Texture& video, const StillReference* still, cons
         (blend ? plainBlend_ : plainDetail_).runTiles(p, from, outputTarget_, list(List::Trusted));
         (blend ? blend_ : detail_).runTiles(p, from, outputTarget_, list(List::Blended));
     } else if (plan.drawsWhole()) {
-        wholeUpscale_.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
+        enlarging.rows.whole.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace mfar {
@@ -23,6 +24,8 @@ public:
     void draw(const gpu::Texture& video, const StillReference* still, const WorkPlan& plan);
 
     void setMode(SuperResMode mode) { mode_ = mode; }
+    /// Of the enlarged video: Keys' cubic, or linear.
+    void setCubic(bool cubic) { cubic_ = cubic; }
     void setSkips(const SkipOptions& skips) { skips_ = skips; }
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
     /// Draws into output(), for what comes over it.
@@ -62,9 +65,14 @@ private:
     };
     /// The same shader over the whole target and over a list of tiles; the plan opens one of them.
     struct TilePass {
-        explicit TilePass(const char* fragment)
-            : whole(fragment), tiles("tile_rect.vert", fragment, "") {}
+        explicit TilePass(const char* fragment, const char* defines = "")
+            : whole(fragment, defines), tiles("tile_rect.vert", fragment, defines) {}
         gpu::DrawPass<TileParams> whole, tiles;
+    };
+    struct Enlarging {
+        explicit Enlarging(const char* defines = "")
+            : columns("superres_vertical.frag", defines), rows("composite_upscale.frag", defines) {}
+        TilePass columns, rows;
     };
     /// draws[] of superres_classify.comp.
     struct DrawBlock {
@@ -85,6 +93,7 @@ private:
                     gpu::Bindings bindings, const WorkPlan& plan);
     [[nodiscard]] PixelRect outputOf(const PixelRect& tiles) const;
     [[nodiscard]] TileParams tileParams(bool useStill) const;
+    [[nodiscard]] Enlarging& enlarging();
 
     StereoRig rig_;
     SuperResMode mode_;
@@ -97,14 +106,17 @@ private:
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
     bool sharpenedIsOld_ = true;  // of a frame before the last
+    bool cubic_ = true;
     WorkPlan::Dispatch assessDispatch_, gainDispatch_, weighDispatch_;
     gpu::ComputePass<AssessParams> assess_;
     gpu::ComputePass<GainParams> gain_;
     gpu::ComputePass<WeighParams> weigh_;
     gpu::ComputePass<ClassifyParams> classify_;
-    TilePass sharpen_, vertical_;
-    gpu::DrawPass<TileParams> wholeUpscale_, wholeDetail_, wholeBlend_;
-    gpu::DrawPass<TileParams> upscale_, detail_, plainDetail_, blend_, plainBlend_;
+    TilePass sharpen_;
+    Enlarging cubicly_;
+    std::optional<Enlarging> linearly_;  // from the first frame on that wants it
+    gpu::DrawPass<TileParams> wholeDetail_, wholeBlend_;
+    gpu::DrawPass<TileParams> detail_, plainDetail_, blend_, plainBlend_;
 };
 
 }  // namespace mfar

@@ -11,6 +11,7 @@ std::vector<QualitySetting> qualitySettings() {
         {"detail", {}},
         {"blend", {.mode = SuperResMode::Blend}},
         {"off", {.mode = SuperResMode::Off}},
+        {"off-linear", {.mode = SuperResMode::Off, .cubic = false}},
         {"detail-2d", {.alongLines = false}},
         {"lines-half", {.epipolar = {.finest = 1}}},
         {"predicted-15", {.epipolar = {.mostPredicted = 15}}},

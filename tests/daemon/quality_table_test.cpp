@@ -22,6 +22,7 @@ TEST(QualityTable, WhatIsWrittenIsRead) {
     Quality fast;
     fast.mode = SuperResMode::Blend;
     fast.alongLines = false;
+    fast.cubic = false;
     fast.depthEvery = 3;
     fast.flow2d = {.searchRadius = 1,
                    .candidates = 2,
@@ -63,16 +64,19 @@ TEST(QualityTable, WhatIsWrongIsRefusedWithItsPlace) {
 }
 
 TEST(QualityTable, NoLevelGoesBeyondTheModeAskedFor) {
-    const std::vector<QualityLevel> levels{{"off", 10, 20, {.mode = SuperResMode::Off}},
-                                           {"blend", 20, 22, {.mode = SuperResMode::Blend}},
-                                           {"detail", 30, 25, {}}};
-    EXPECT_EQ(limitedTo(levels, SuperResMode::Detail).size(), 3U);
+    const std::vector<QualityLevel> levels{
+        {"linear", 5, 19, {.mode = SuperResMode::Off, .cubic = false}},
+        {"off", 10, 20, {.mode = SuperResMode::Off}},
+        {"blend", 20, 22, {.mode = SuperResMode::Blend}},
+        {"detail", 30, 25, {}}};
+    EXPECT_EQ(limitedTo(levels, SuperResMode::Detail).size(), 4U);
     const auto blend = limitedTo(levels, SuperResMode::Blend);
-    ASSERT_EQ(blend.size(), 2U);
-    EXPECT_EQ(blend[1].name, "blend");
+    ASSERT_EQ(blend.size(), 3U);
+    EXPECT_EQ(blend[2].name, "blend");
     const auto off = limitedTo(levels, SuperResMode::Off);
-    ASSERT_EQ(off.size(), 1U);
-    EXPECT_EQ(off[0].name, "off");
+    ASSERT_EQ(off.size(), 2U);
+    EXPECT_EQ(off[0].name, "linear");
+    EXPECT_EQ(off[1].name, "off");
 }
 
 }  // namespace

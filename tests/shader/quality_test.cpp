@@ -1,6 +1,7 @@
 // Settings that change between frames, and work that is not left out.
 #include "tests/shader/gl_test.h"
 #include "tests/shader/pipeline_case.h"
+#include "tests/shader/twins/upscale.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -40,6 +41,31 @@ Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
     p.run(c.video({2, 0}).view(), {}, pose(0.02));
     p.run(c.video({3, 0}).view(), {}, pose(0.03));
     return p.readImage();
+}
+
+TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {}), cubic(c.rig, {}), detail(c.rig, {});
+    p.setQuality({.mode = SuperResMode::Off, .cubic = false});
+    cubic.setQuality({.mode = SuperResMode::Off});
+    detail.setQuality({.cubic = false});
+    Picture frame = c.video({2, 0});
+    for (const bool inTiles : {false, true}) {
+        for (int x = 50; inTiles && x < 54; ++x)
+            std::fill_n(frame.at(x, 40), 3, static_cast<std::uint8_t>(60 * (x - 50)));
+        for (Pipeline* each : {&p, &cubic})
+            each->run(frame.view(), {});
+        EXPECT_EQ(p.readStats().changed < 1, inTiles);
+        const Image image = p.readImage();
+        EXPECT_FALSE(image == cubic.readImage());
+        const twin::Grey red = twin::greyOf(
+            c.rig.video.size, [&](int x, int y) { return static_cast<double>(frame.at(x, y)[0]); });
+        const twin::Grey wanted = twin::upscaled(red, p.outputSize(), true);
+        for (std::size_t i = 0; i < wanted.values.size(); ++i)
+            ASSERT_NEAR(image[4 * i], wanted.values[i], 2) << i;
+    }
+    Pipeline usual(c.rig, {});
+    EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false)) << "of the still alone";
 }
 
 // Two rows at the lower end of a tile.

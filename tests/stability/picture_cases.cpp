@@ -130,6 +130,8 @@ void enlargement(Context& c) {
     options.mode = SuperResMode::Off;
     options.output = output;
     Pipeline pipeline(plainRig(video, {2 * video.width, 2 * video.height}), options);
+    const bool linear = c.hostile.chance(0.3);
+    pipeline.setQuality({.mode = SuperResMode::Off, .cubic = !linear});
     pipeline.run(picture.view(), {});
     const auto image = pipeline.readImage();
     c.gl.frame(c.checks, pixelsOf(video));
@@ -137,7 +139,7 @@ void enlargement(Context& c) {
         const twin::Grey grey = twin::greyOf(video, [&](int x, int y) {
             return double(picture.bytes[4UL * (1UL * y * video.width + x) + channel]);
         });
-        const twin::Grey wanted = twin::upscaled(grey, output);
+        const twin::Grey wanted = twin::upscaled(grey, output, linear);
         for (std::size_t i = 0; i < wanted.values.size(); ++i)
             c.checks.within(image[4 * i + channel] - std::clamp(wanted.values[i], 0.0, 255.0), -2,
                             2, "error of an enlarged pixel");

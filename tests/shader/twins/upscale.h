@@ -23,24 +23,30 @@ inline double rounded(double v) {
 }
 
 /// Columns first, kept in 8 bits, then rows.
-inline Grey upscaledColumns(const Grey& g, int height) {
+/// Of Keys' cubic or, with the outer two zero, linear.
+inline std::array<double, 4> enlargingWeights(double t, bool linear) {
+    if (linear) return {0, 1 - t, t, 0};
+    return cubic(t);
+}
+
+inline Grey upscaledColumns(const Grey& g, int height, bool linear = false) {
     return greyOf({g.size.width, height}, [&](int x, int y) {
         const double p = (y + 0.5) * g.size.height / height - 0.5;
         const int i = static_cast<int>(std::floor(p));
         double sum = 0;
         for (int k = 0; k < 4; ++k)
-            sum += cubic(p - i)[k] * g.at(x, i + k - 1);
+            sum += enlargingWeights(p - i, linear)[k] * g.at(x, i + k - 1);
         return rounded(sum);
     });
 }
-inline Grey upscaled(const Grey& g, Size to) {
-    const Grey columns = upscaledColumns(g, to.height);
+inline Grey upscaled(const Grey& g, Size to, bool linear = false) {
+    const Grey columns = upscaledColumns(g, to.height, linear);
     return greyOf(to, [&](int x, int y) {
         const double p = (x + 0.5) * g.size.width / to.width - 0.5;
         const int i = static_cast<int>(std::floor(p));
         double sum = 0;
         for (int k = 0; k < 4; ++k)
-            sum += cubic(p - i)[k] * columns.at(i + k - 1, y);
+            sum += enlargingWeights(p - i, linear)[k] * columns.at(i + k - 1, y);
         return sum;
     });
 }
