@@ -70,15 +70,22 @@ void requireWhole(const std::vector<QualityLevel>& levels, const std::string& fi
 // What `mfar-bench pareto --table FILE` writes.
 constexpr std::string_view kBuiltInLevels = R"(
 [[level]]
+name = "off-linear"
+ms = 19.4
+psnr_db = 26.59
+mode = "off"
+cubic = false
+
+[[level]]
 name = "off"
-ms = 24.6
-psnr_db = 27.04
+ms = 22.5
+psnr_db = 27.03
 mode = "off"
 
 [[level]]
 name = "lines-quarter-tiles-5"
-ms = 45.0
-psnr_db = 27.23
+ms = 48.4
+psnr_db = 27.26
 mode = "detail"
 detail_share = 0.050
 flow2d.plane_fits = 1
@@ -86,8 +93,8 @@ epipolar.finest = 2
 
 [[level]]
 name = "lines-quarter-tiles-12"
-ms = 48.3
-psnr_db = 27.38
+ms = 60.3
+psnr_db = 27.37
 mode = "detail"
 detail_share = 0.120
 flow2d.plane_fits = 1
@@ -95,32 +102,55 @@ epipolar.finest = 2
 
 [[level]]
 name = "lines-quarter-tiles-25"
-ms = 59.4
-psnr_db = 27.73
+ms = 69.6
+psnr_db = 27.80
 mode = "detail"
 detail_share = 0.250
 flow2d.plane_fits = 1
 epipolar.finest = 2
 
 [[level]]
-name = "lines-quarter-tiles-70"
-ms = 84.9
-psnr_db = 29.69
+name = "quickest-2d"
+ms = 83.1
+psnr_db = 29.73
 mode = "detail"
-detail_share = 0.700
-epipolar.finest = 2
+along_lines = false
+flow2d.search_radius = 5
+flow2d.candidates = 1
+flow2d.steps = 1
+flow2d.coarsest_propagations = 2
+flow2d.plane_fits = 0
+
+[[level]]
+name = "quick-2d"
+ms = 92.4
+psnr_db = 30.44
+mode = "detail"
+along_lines = false
+flow2d.candidates = 2
+flow2d.steps = 2
+flow2d.plane_fits = 1
+
+[[level]]
+name = "lines-half-15"
+ms = 98.7
+psnr_db = 30.55
+mode = "detail"
+flow2d.plane_fits = 1
+epipolar.finest = 1
+epipolar.most_predicted = 15
 
 [[level]]
 name = "lines-half"
-ms = 99.4
-psnr_db = 30.25
+ms = 108.2
+psnr_db = 30.59
 mode = "detail"
 epipolar.finest = 1
 
 [[level]]
 name = "detail"
-ms = 116.5
-psnr_db = 30.63
+ms = 114.4
+psnr_db = 30.87
 mode = "detail"
 )";
 
