@@ -56,7 +56,7 @@ public:
         bool stillIsDue = true;
         const int last = static_cast<int>(shots.frames.size()) - 1;
         for (int i = 0; i < count; ++i) {
-            const int there = i % (2 * std::max(last, 1));
+            const int there = i % std::max(2 * last, 1);
             const SceneFrame& frame = shots.frames[std::min(there, 2 * last - there)];
             stillIsDue = stillIsDue || i % kStillEvery == 0;
             const bool takes = stillIsDue && !frame.still.empty() && governor_.mayTakeStill();

@@ -1,3 +1,4 @@
+#include "daemon/exit_code.h"
 #include "hal/gl_context.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recording.h"
@@ -151,6 +152,8 @@ int main(int argc, char** argv) {
     } catch (const RecordingError& e) {
         return fail(kUsage, e);
     } catch (const ImageFileError& e) {
+        return fail(kUsage, e);
+    } catch (const Failure& e) {
         return fail(kUsage, e);
     } catch (const std::exception& e) {
         return fail(1, e);

@@ -181,6 +181,19 @@ TEST(MfarBench, SkipMeasuresWhatIsAskedFor) {
     EXPECT_FALSE(std::getline(lines, line));
 }
 
+TEST(MfarBench, GovernorIsMeasuredAtTheDeadlineAskedFor) {
+    const mfar::test::TempFolder folder;
+    const auto out = folder / "governor.txt";
+    const std::string command =
+        fmt::format("{} governor --deadlines 5000 --frames 2 >'{}'", MFAR_BENCH, out.string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const std::string said = mfar::test::readFile(out);
+    EXPECT_NE(said.find("deadline 5000 ms: p95"), std::string::npos) << said;
+    for (const char* scene : {"office", "still", "flat", "moving"})
+        EXPECT_NE(said.find(scene), std::string::npos) << said;
+    EXPECT_NE(said.find("detail"), std::string::npos) << said;
+}
+
 TEST(MfarBench, WrongRequestsEndWithStatus2) {
     const std::string program = MFAR_BENCH;
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --recording /absent 2>/dev/null").c_str())), 2);
@@ -188,6 +201,11 @@ TEST(MfarBench, WrongRequestsEndWithStatus2) {
     EXPECT_EQ(WEXITSTATUS(std::system((program + " --data /tmp 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " skip --cases none 2>/dev/null").c_str())), 2);
     EXPECT_EQ(WEXITSTATUS(std::system((program + " pareto --stages x 2>/dev/null").c_str())), 2);
+    for (const char* wrong : {"--deadlines 0", "--frames 1", "--table /absent"})
+        EXPECT_EQ(WEXITSTATUS(std::system(
+                      fmt::format("{} governor {} 2>/dev/null", program, wrong).c_str())),
+                  2)
+            << wrong;
     EXPECT_EQ(WEXITSTATUS(std::system(
                   (program + " pareto --stages flow --table /tmp/x 2>/dev/null").c_str())),
               2);

@@ -122,7 +122,7 @@ struct FrameTruth {
     cv::Mat luma;     ///< of the output, CV_64F
     cv::Mat without;  ///< CV_8U: no object may be here
     cv::Mat visible;  ///< of objects, CV_8U of the video
-    cv::Mat silhouette, rho;
+    cv::Mat silhouette, undecided, rho;
 };
 
 FrameTruth truthOf(SyntheticBoard& board, const Case& one, Timestamp time) {
@@ -139,6 +139,7 @@ FrameTruth truthOf(SyntheticBoard& board, const Case& one, Timestamp time) {
         eval::virtualTruth(one.objects, board.rig().video, board.pose(time).T_world_video, depth);
     out.visible = objects.visible;
     out.silhouette = objects.silhouette;
+    out.undecided = objects.undecided;
     cv::Mat grown;
     cv::dilate(out.silhouette, grown, cv::Mat::ones(9, 9, CV_8U));
     cv::resize(grown, grown, out.luma.size(), 0, 0, cv::INTER_NEAREST);
@@ -205,6 +206,7 @@ public:
             errors_.overlap += overlap;
             ++errors_.seen;
         }
+        if (cv::countNonZero(truth.undecided) == 0) return;
         errors_.bad1 += depthBad1(truth);
         ++errors_.depths;
     }
@@ -225,7 +227,7 @@ private:
         cv::Mat rho(truth.rho.size(), CV_32F, cv::Scalar(0));
         for (std::size_t i = 0; i < field.rho.size(); ++i)
             if (field.isKnown(i)) rho.ptr<float>()[i] = field.rho[i];
-        return eval::depthError(rho, truth.rho, focal_ * kBaseline, truth.silhouette).bad1;
+        return eval::depthError(rho, truth.rho, focal_ * kBaseline, truth.undecided).bad1;
     }
 
     static PipelineOptions optionsWithout(const Skip* off) {

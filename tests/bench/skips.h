@@ -14,8 +14,9 @@ struct SkipResult {
     double ms = 0,
            msWithout = 0;  ///< median frame with the skip, and with the work done all the same
     /// Errors that the skip adds; nothing where there is nothing to measure.
-    std::optional<double> psnrLost;   ///< of the picture beside virtual objects [dB]
-    std::optional<double> bad1Added;  ///< of the depth under them [points]
+    std::optional<double> psnrLost;  ///< of the picture beside virtual objects [dB]
+    /// Of the depth under them, where that decides what is seen [points].
+    std::optional<double> bad1Added;
     std::optional<double>
         overlapLost;  ///< of where they are seen with where they should be [points]
 };

@@ -7,6 +7,8 @@
 namespace mfar::eval {
 namespace {
 
+constexpr double kClearlyBefore = 1.1;  // as inverse depth
+
 /// A ray with the object's extent as the unit of length: origin + t * direction.
 struct LocalRay {
     Eigen::Vector3d origin, direction;
@@ -65,8 +67,9 @@ double surfaceDepth(const VirtualObject& object, const RigidTransform& T_world_c
 VirtualTruth virtualTruth(std::span<const VirtualObject> objects, const CameraModel& video,
                           const RigidTransform& T_world_video, const FloatImage& real) {
     CV_Assert(real.size == video.size);
-    VirtualTruth out{cv::Mat(video.size.height, video.size.width, CV_8U, cv::Scalar(0)), {}};
+    VirtualTruth out{cv::Mat(video.size.height, video.size.width, CV_8U, cv::Scalar(0)), {}, {}};
     out.visible = out.silhouette.clone();
+    out.undecided = out.silhouette.clone();
     for (int y = 0; y < video.size.height; ++y) {
         for (int x = 0; x < video.size.width; ++x) {
             const Eigen::Vector2d ray = video.unproject({x, y});
@@ -76,6 +79,8 @@ VirtualTruth virtualTruth(std::span<const VirtualObject> objects, const CameraMo
                     nearest = std::max(nearest, 1 / z);
             if (nearest > 0) out.silhouette.at<std::uint8_t>(y, x) = 255;
             if (nearest > 0 && nearest >= real.at(x, y)) out.visible.at<std::uint8_t>(y, x) = 255;
+            if (nearest > 0 && nearest < kClearlyBefore * real.at(x, y))
+                out.undecided.at<std::uint8_t>(y, x) = 255;
         }
     }
     return out;

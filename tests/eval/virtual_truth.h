@@ -20,6 +20,9 @@ namespace mfar::eval {
 struct VirtualTruth {
     cv::Mat silhouette;  ///< hidden or not
     cv::Mat visible;     ///< what no real thing hides
+    /// Where it takes depth to tell: the real surface is before the object or less than a tenth of
+    /// its distance behind.
+    cv::Mat undecided;
 };
 
 /// `real`: 1/z of the scene [1/m], 0 = nothing there; of the video's size.

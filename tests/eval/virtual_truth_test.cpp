@@ -58,10 +58,11 @@ TEST(VirtualTruth, WhatIsNearerHides) {
     FloatImage real{{64, 48}, std::vector<float>(64 * 48)};
     for (int y = 0; y < 48; ++y)
         for (int x = 0; x < 32; ++x)
-            real.at(x, y) = x < 29 ? 1 / 1.9F : 1 / 2.1F;
+            real.at(x, y) = 1 / (x < 29 ? 1.9F : x < 31 ? 2.1F : 2.3F);
     const VirtualTruth truth = virtualTruth(std::span(&quad, 1), camera, {}, real);
     EXPECT_EQ(cv::countNonZero(truth.silhouette), 12 * 6);
     EXPECT_EQ(cv::countNonZero(truth.visible), 9 * 6);
+    EXPECT_EQ(cv::countNonZero(truth.undecided), 5 * 6);
     EXPECT_EQ(truth.visible.at<std::uint8_t>(24, 28), 0);
     EXPECT_EQ(truth.visible.at<std::uint8_t>(24, 29), 255);
 }
