@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/frame.h"
+#include "pipeline/geometry.h"
 #include "pipeline/plan/tile_measure.h"
 
 #include <cstdint>

@@ -38,7 +38,7 @@ constexpr PlantedFault kPlanted[] = {
     {"superres_classify.comp", "texelFetch(cellField, clamp(c, ivec2(0), tiles.zw - 1), 0)",
      "texelFetch(cellField, c, 0)", "missing clamp of a cell", "even-picture,pipeline"},
     {"superres_sharpen.frag", "clamp(p, ivec2(0), video.xy - 1)", "p", "missing clamp of a pixel",
-     "enlargement"},
+     "even-picture,pipeline-truth"},
     {"superres_vertical.frag", "clamp(row + i - 1, 0, video.y - 1)", "row + i - 1",
      "missing clamp of a row", "enlargement"},
     {"composite_upscale.frag", "clamp(column + 2, 0, last)", "clamp(column + 1, 0, last)",
