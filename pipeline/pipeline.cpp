@@ -154,8 +154,9 @@ void Pipeline::State::limitMatching() {
 // The pixels of the video in these tiles.
 PixelRect Pipeline::State::pixelsOf(const PixelRect& tiles) const {
     const auto [width, height] = rig.video.size;
-    return {tiles.x0 * kTileSize, tiles.y0 * kTileSize, std::min(tiles.x1 * kTileSize, width),
-            std::min(tiles.y1 * kTileSize, height)};
+    return common(
+        {tiles.x0 * kTileSize, tiles.y0 * kTileSize, tiles.x1 * kTileSize, tiles.y1 * kTileSize},
+        {0, 0, width, height});
 }
 
 // Along epipolar lines where the frame's pose is known, and the still's.
@@ -217,12 +218,11 @@ void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose,
 
 // Where the flow leaves the epipolar lines, the scene is not at rest.
 void Pipeline::State::forgetMoving(const DepthMatches& matches) {
-    const Size tiles = plan.tileCount(), frame = rig.video.size;
+    const Size tiles = plan.tileCount();
     for (int t = 0; t < tiles.width * tiles.height; ++t) {
         if (!matches.searched2d[static_cast<std::size_t>(t)]) continue;
-        const int x = t % tiles.width * kTileSize, y = t / tiles.width * kTileSize;
-        const PixelRect tile{x, y, std::min(x + kTileSize, frame.width),
-                             std::min(y + kTileSize, frame.height)};
+        const int x = t % tiles.width, y = t / tiles.width;
+        const PixelRect tile = pixelsOf({x, y, x + 1, y + 1});
         if (leavesLines(tile, matches.vectors)) depth.forget(tile);
     }
 }

@@ -14,7 +14,7 @@ enum class SuperResMode {
 /// of changing it. The defaults are the most accurate.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
-    /// Enlarges with Keys' cubic; false, and in mode Off alone: linearly, in half the time.
+    /// Enlarges with Keys' cubic; false, and in mode Off alone: linearly, from half the samples.
     bool cubic = true;
     /// Off: matched in both dimensions though the poses are known.
     bool alongLines = true;

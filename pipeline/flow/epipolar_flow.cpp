@@ -18,11 +18,11 @@ constexpr int kRoom = 16;  // [px]
 
 /// What is searched for `where`, in whole cells of 4x4 pixels but at the picture's end.
 PixelRect searchedFor(const PixelRect& where, Size video) {
-    const auto down = [](int x) { return std::max(x - kRoom, 0) / kRoom * kRoom; };
-    const auto up = [](int x, int most) {
-        return std::min((x + 2 * kRoom - 1) / kRoom * kRoom, most);
-    };
-    return {down(where.x0), down(where.y0), up(where.x1, video.width), up(where.y1, video.height)};
+    const PixelRect around = widened(where, kRoom, video);
+    const auto down = [](int x) { return x / kRoom * kRoom; };
+    const auto up = [](int x, int most) { return std::min((x + kRoom - 1) / kRoom * kRoom, most); };
+    return {down(around.x0), down(around.y0), up(around.x1, video.width),
+            up(around.y1, video.height)};
 }
 
 }  // namespace

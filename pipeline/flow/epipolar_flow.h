@@ -32,7 +32,8 @@ public:
 
     /// Refines the relative pose and searches; needs a still. Then forward(), hidden() and
     /// search() are of this frame. What is not in `where` [video px], or a little beside it, may
-    /// not be searched: it counts as far away as what is next to it and was. Must not be empty.
+    /// not be searched: it counts as far away as what is next to it and was searched. Must not
+    /// be empty.
     void run(const ImageView& video, const Pose& pose, const PixelRect& where);
     void run(const ImageView& video, const Pose& pose) {
         run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});

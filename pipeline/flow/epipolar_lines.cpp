@@ -2,6 +2,7 @@
 #include "pipeline/flow/census_costs.h"
 #include "pipeline/flow/epipolar_search.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mfar {

@@ -220,10 +220,12 @@ inline std::vector<std::optional<bool>> changedTiles(const std::vector<TileChang
         if (bounds.surely(tiles[i]) || drifts || clear(block.beyondNoise()))
             out[i] = bounds.surely(tiles[i]) || drifts;
     }
-    for (int i = 0; known && i < static_cast<int>(tiles.size()); ++i)
-        for (int k = 0; k < static_cast<int>(tiles.size()); ++k)
-            if (reaches(tiles[k], bounds, k % columns, k / columns, i % columns, i / columns))
-                out[i] = true;
+    for (int i = 0; known && i < static_cast<int>(tiles.size()); ++i) {
+        const int column = i % columns, row = i / columns;
+        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows - 1); ++y)
+            for (int x = std::max(column - 1, 0); x <= std::min(column + 1, columns - 1); ++x)
+                if (reaches(tiles[y * columns + x], bounds, x, y, column, row)) out[i] = true;
+    }
     return out;
 }
 

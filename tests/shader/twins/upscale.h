@@ -22,13 +22,13 @@ inline double rounded(double v) {
     return std::floor(std::clamp(v, 0.0, 255.0) + 0.5);
 }
 
-/// Columns first, kept in 8 bits, then rows.
 /// Of Keys' cubic or, with the outer two zero, linear.
 inline std::array<double, 4> enlargingWeights(double t, bool linear) {
     if (linear) return {0, 1 - t, t, 0};
     return cubic(t);
 }
 
+/// Columns first, kept in 8 bits, then rows.
 inline Grey upscaledColumns(const Grey& g, int height, bool linear = false) {
     return greyOf({g.size.width, height}, [&](int x, int y) {
         const double p = (y + 0.5) * g.size.height / height - 0.5;
