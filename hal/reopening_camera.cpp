@@ -26,11 +26,26 @@ void ReopeningCamera::start() {
     opener_ = std::thread([this] { keepOpen(); });
 }
 
+// A device can be opened once at a time: first closed, then opened again. Both may take long and
+// are done here, not where others wait for pictures.
 void ReopeningCamera::keepOpen() {
     std::chrono::milliseconds pause = options_.firstPause;
     std::unique_lock lock(mutex_);
+    const auto rest = [&] {
+        changed_.wait_for(lock, pause, [&] { return stopped_; });
+        pause = std::min(2 * pause, options_.longestPause);
+    };
     for (;;) {
-        changed_.wait(lock, [&] { return stopped_ || (!camera_ && !closing_); });
+        changed_.wait(lock, [&] { return stopped_ || !camera_; });
+        if (std::shared_ptr<Camera> lost = std::exchange(lost_, nullptr)) {
+            lock.unlock();
+            lost.reset();
+            lock.lock();
+            if (hasSent_)
+                pause = options_.firstPause;
+            else
+                rest();
+        }
         if (stopped_) return;
         lock.unlock();
         std::shared_ptr<Camera> camera = tryOpen();
@@ -39,11 +54,10 @@ void ReopeningCamera::keepOpen() {
         if (camera) {
             camera_ = std::move(camera);
             lastFrame_ = Timestamp::now();
-            pause = options_.firstPause;
+            hasSent_ = false;
             changed_.notify_all();
         } else {
-            changed_.wait_for(lock, pause, [&] { return stopped_; });
-            pause = std::min(2 * pause, options_.longestPause);
+            rest();
         }
     }
 }
@@ -55,7 +69,7 @@ std::shared_ptr<Camera> ReopeningCamera::tryOpen() {
             throw std::runtime_error("gives " + sizeText(size) + ", not " + sizeText(info_.size));
         camera->start();
         return camera;
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
         const std::lock_guard lock(mutex_);
         fault_ = info_.name + ": " + error.what();
         return nullptr;
@@ -81,7 +95,7 @@ std::optional<Frame> ReopeningCamera::next(std::chrono::milliseconds timeout) {
             if (frame) sent();
             return frame;
         }
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
         reason = error.what();
     }
     camera.reset();
@@ -92,6 +106,7 @@ std::optional<Frame> ReopeningCamera::next(std::chrono::milliseconds timeout) {
 void ReopeningCamera::sent() {
     const std::lock_guard lock(mutex_);
     lastFrame_ = Timestamp::now();
+    hasSent_ = true;
     fault_.reset();
 }
 
@@ -106,21 +121,13 @@ bool ReopeningCamera::hasStalled() {
     return Timestamp::now() - lastFrame_ >= (isExcused ? options_.excused : options_.stalled);
 }
 
-// A device can be opened once at a time: first closed, then opened again.
 void ReopeningCamera::lose(const std::string& reason) {
-    std::shared_ptr<Camera> lost;
     {
         const std::lock_guard lock(mutex_);
         fault_ = info_.name + ": " + reason;
-        lost = std::exchange(camera_, nullptr);
-        if (!lost) return;
+        if (!camera_) return;
+        lost_ = std::exchange(camera_, nullptr);
         ++losses_;
-        closing_ = true;
-    }
-    lost.reset();
-    {
-        const std::lock_guard lock(mutex_);
-        closing_ = false;
     }
     changed_.notify_all();
 }

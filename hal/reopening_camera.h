@@ -22,6 +22,7 @@ struct ReopeningOptions {
     std::chrono::milliseconds stalled{2000};
     /// Pause between two attempts to open it; doubles from the first to the second. A camera that
     /// is plugged in again is to be back within 3 s, of which some libraries take two to find it.
+    /// After a device that was lost before it had sent anything as well.
     std::chrono::milliseconds firstPause{100}, longestPause{500};
     /// Says that frames may be late for a reason that is not this device's: libcamera looks at a
     /// device that was plugged in from the thread that delivers every camera's frames. Meanwhile
@@ -30,12 +31,12 @@ struct ReopeningOptions {
     std::chrono::milliseconds excused{6000};
 };
 
-/// A camera that outlives its device: it is opened by a thread of its own, again whenever it is
-/// lost, so that whoever asks for frames never waits for a device that is not there.
+/// A camera that outlives its device: it is opened and closed by a thread of its own, again
+/// whenever it is lost, so that whoever asks for frames never waits for a device that is not there.
 /// next() is called from one thread, the rest from any.
 class ReopeningCamera final : public Camera {
 public:
-    /// Opens the device and throws std::runtime_error when it cannot be had.
+    /// Opens the device and throws std::exception when it cannot be had.
     using Open = std::function<std::unique_ptr<Camera>()>;
 
     /// `info`: what the camera is to be; a device that is something else counts as not there.
@@ -76,7 +77,8 @@ private:
     std::optional<std::string> fault_;  ///< why there is none
     Timestamp lastFrame_;               ///< or when it was opened
     std::uint64_t losses_ = 0;
-    bool closing_ = false;  ///< the one that is lost is not closed yet
+    std::shared_ptr<Camera> lost_;  ///< to be closed
+    bool hasSent_ = false;          ///< the one that is open, or was last
     bool stopped_ = false;
     std::thread opener_;
 };

@@ -18,6 +18,7 @@ struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
     std::atomic<int> open{0}, opened{0};
+    std::atomic<bool> closes{true};  ///< closing it ends
     Size size{4, 2};
 };
 
@@ -30,7 +31,11 @@ public:
     }
     PluggedCamera(const PluggedCamera&) = delete;
     PluggedCamera& operator=(const PluggedCamera&) = delete;
-    ~PluggedCamera() override { --socket_.open; }
+    ~PluggedCamera() override {
+        while (!socket_.closes)
+            std::this_thread::sleep_for(milliseconds(1));
+        --socket_.open;
+    }
     [[nodiscard]] CameraInfo info() const override {
         return {"plugged", socket_.size, PixelFormat::Gray8, 30};
     }
@@ -93,7 +98,6 @@ TEST(ReopeningCamera, SurvivesManyLosses) {
         EXPECT_EQ(camera.fault(), std::nullopt);
         socket.plugged = false;
         ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.fault().has_value(); })) << i;
-        EXPECT_EQ(socket.open, 0);
         socket.plugged = true;
     }
     EXPECT_EQ(camera.losses(), 20U);
@@ -131,6 +135,42 @@ TEST(ReopeningCamera, OneThatIsSilentBesideABusyLibraryIsLeftAloneForLonger) {
     EXPECT_EQ(camera.losses(), 0U);
     busy = false;
     EXPECT_TRUE(drivenUntil(camera, [&](bool) { return camera.losses() > 0; }));
+}
+
+TEST(ReopeningCamera, ADeviceThatIsSlowToCloseHoldsNobodyUp) {
+    Socket socket;
+    ReopeningCamera camera = cameraOn(socket);
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    socket.closes = false;
+    socket.plugged = false;
+    const Timestamp begin = Timestamp::now();
+    while (!camera.absent())
+        EXPECT_FALSE(camera.next(milliseconds(5)));
+    EXPECT_FALSE(camera.next(milliseconds(5)));
+    EXPECT_LT(Timestamp::now() - begin, std::chrono::seconds(30));
+    EXPECT_EQ(socket.open, 1);
+    socket.closes = true;
+    socket.plugged = true;
+    EXPECT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+}
+
+TEST(ReopeningCamera, OneThatIsLostBeforeItSendsIsNotOpenedAtFullSpeed) {
+    Socket socket;
+    ReopeningOptions options = quick();
+    options.firstPause = options.longestPause = std::chrono::hours(1);
+    ReopeningCamera camera = cameraOn(socket, options);
+    socket.sends = false;
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [&](bool) { return !camera.absent(); }));
+    socket.plugged = false;
+    ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.absent(); }));
+    socket.plugged = true;
+    const Timestamp end = Timestamp::now() + milliseconds(100);
+    while (Timestamp::now() < end)
+        EXPECT_FALSE(camera.next(milliseconds(5)));
+    EXPECT_EQ(socket.opened, 1);
+    EXPECT_EQ(camera.fault(), "video camera: it has gone");
 }
 
 TEST(ReopeningCamera, OneOnTriggerMayBeSilent) {
