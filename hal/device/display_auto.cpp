@@ -7,6 +7,7 @@
 
 #include <GLES3/gl31.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -15,6 +16,9 @@ namespace {
 
 // A device that appears between two looks is shown within this and one frame.
 constexpr std::chrono::milliseconds kLookEvery{500};
+// The first picture sets the mode, and the third waits for the second: only then it has been seen
+// to change.
+constexpr int kProven = 3;
 
 }  // namespace
 
@@ -36,7 +40,7 @@ void ScreenDisplay::refresh() {
     if (!changed && lookedAt_ && now - *lookedAt_ < kLookEvery) return;
     lookedAt_ = now;
     Screen* found = look(changed);
-    if (found != active_) shown_ = false;
+    if (found != active_) shown_ = 0;
     active_ = found;
 }
 
@@ -56,7 +60,7 @@ void ScreenDisplay::show(const GlImage& image, Timestamp) {
     }
     try {
         active_->show(image);
-        shown_ = true;
+        shown_ = std::min(shown_ + 1, kProven);
         failed_ = nullptr;
         fault_.clear();
     } catch (const std::runtime_error& error) {
@@ -66,7 +70,7 @@ void ScreenDisplay::show(const GlImage& image, Timestamp) {
 
 void ScreenDisplay::lose(const std::string& why) {
     fault_ = why;
-    failed_ = shown_ ? nullptr : active_;
+    failed_ = shown_ == kProven ? nullptr : active_;
     active_->close();
     active_ = nullptr;
 }

@@ -54,8 +54,8 @@ private:
     Clock clock_;
     Events changed_;
     Screen* active_ = nullptr;
-    Screen* failed_ = nullptr;  // could not show its first picture
-    bool shown_ = false;        // by active_
+    Screen* failed_ = nullptr;  // could not show its first pictures
+    int shown_ = 0;             // pictures, by active_
     std::optional<Timestamp> lookedAt_;
     std::string fault_;
 };

@@ -92,6 +92,12 @@ Screen::Presence KmsScreen::look(bool thorough) {
         if (!card_) openCard();
         if (!card_) return Presence::Absent;
         auto found = card_->findOutput(spec_, thorough);
+        if (!found && thorough && spec_.device.empty() && cardPaths().size() > 1) {
+            close();  // the next monitor may be another card's
+            openCard();
+            if (!card_) return Presence::Absent;
+            found = card_->findOutput(spec_, thorough);
+        }
         if (!found || (output_ && !sameOutput(*found, *output_))) leaveOutput();
         output_ = std::move(found);
         return output_ ? Presence::Ready : Presence::Waiting;
@@ -188,10 +194,12 @@ void KmsScreen::waitForFlip() {
         pollfd waiting{card_->fd(), POLLIN, 0};
         const int count = poll(&waiting, 1, kFlipTimeoutMs);
         if (count < 0 && errno == EINTR) continue;
-        if (count <= 0 || (waiting.revents & POLLIN) == 0 ||
-            drmHandleEvent(card_->fd(), &events) != 0)
-            throw std::runtime_error(
-                fmt::format("{}, {}: shows no new picture", card_->path(), output_->connectorName));
+        const bool happened = count > 0 && (waiting.revents & POLLIN) != 0 &&
+                              drmHandleEvent(card_->fd(), &events) == 0;
+        if (happened) continue;
+        flipPending_ = false;  // nobody waits for it once more
+        throw std::runtime_error(
+            fmt::format("{}, {}: shows no new picture", card_->path(), output_->connectorName));
     }
 }
 
@@ -202,7 +210,7 @@ void KmsScreen::leaveOutput() {
         try {
             waitForFlip();
         } catch (const std::runtime_error&) {
-            flipPending_ = false;  // lost: nothing to wait for
+            // Lost: nothing to wait for.
         }
         if (saved_ && saved_->mode_valid != 0 && saved_->buffer_id != 0)
             drmModeSetCrtc(card_->fd(), saved_->crtc_id, saved_->buffer_id, saved_->x, saved_->y,

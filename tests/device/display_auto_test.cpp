@@ -14,7 +14,8 @@ using testing::HasSubstr;
 // What a test knows and decides about a device.
 struct Device {
     Presence presence = Presence::Absent;
-    bool refuses = false;  // show() throws
+    bool refuses = false;        // show() throws
+    int refusesAfter = 1000000;  // pictures
     int shown = 0, looks = 0, thoroughLooks = 0;
     bool held = false;
     Size size{640, 400};
@@ -32,7 +33,8 @@ public:
     }
     [[nodiscard]] Size size() const override { return device_.size; }
     void show(const GlImage&) override {
-        if (device_.refuses || device_.presence != Presence::Ready)
+        if (device_.refuses || device_.shown >= device_.refusesAfter ||
+            device_.presence != Presence::Ready)
             throw std::runtime_error(name_ + " is broken");
         ++device_.shown;
     }
@@ -177,6 +179,14 @@ TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsRefused) {
     EXPECT_GE(run(kSecond), 8);
     EXPECT_EQ(display_->name(), "fbdev held");
     EXPECT_FALSE(kms_.held);
+}
+
+TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsNeverFollowedByAnother) {
+    kms_.presence = fbdev_.presence = Presence::Ready;
+    kms_.refusesAfter = 2;  // as a flip that does not happen is noticed with the third
+    EXPECT_GE(run(kSecond), 8);
+    EXPECT_EQ(display_->name(), "fbdev held");
+    EXPECT_EQ(kms_.shown, 2);
 }
 
 TEST_F(AutoDisplay, TriesTheFirstAgainWhenThereIsNoNext) {
