@@ -46,6 +46,18 @@ std::size_t distance(std::string_view given, std::string_view known) {
     return std::min(editDistance(given, known), editDistance(lastPart(given), lastPart(known)) + 1);
 }
 
+/// TOML++ sorts by name; the file's order may matter.
+std::vector<std::pair<std::string, const toml::node*>> asWritten(const toml::table& table) {
+    std::vector<std::pair<std::string, const toml::node*>> out;
+    for (const auto& [name, value] : table)
+        out.emplace_back(name.str(), &value);
+    std::ranges::stable_sort(out, {}, [](const auto& entry) {
+        const toml::source_position& at = entry.second->source().begin;
+        return std::pair(at.line, at.column);
+    });
+    return out;
+}
+
 std::string place(const std::string& file, const toml::source_position& at) {
     return fmt::format("{}:{}:{}: ", file, at.line, at.column);
 }
@@ -153,9 +165,10 @@ void TomlReader::values(std::string_view key,
                         std::vector<std::pair<std::string, std::string>>& out) {
     const toml::node* node = find(key, "a section", &toml::node::is_table);
     if (node == nullptr) return;
-    for (const auto& [name, value] : *node->as_table()) {
-        const std::string full = fmt::format("{}.{}", key, name.str());
-        std::string& text = out.emplace_back(name.str(), "").second;
+    for (const auto& [name, entry] : asWritten(*node->as_table())) {
+        const toml::node& value = *entry;
+        const std::string full = fmt::format("{}.{}", key, name);
+        std::string& text = out.emplace_back(name, "").second;
         if (const auto flag = value.value_exact<bool>())
             text = *flag ? "true" : "false";
         else if (const auto whole = value.value_exact<std::int64_t>())

@@ -41,7 +41,8 @@ public:
     /// A list of exactly so many numbers as `out` holds.
     void numbers(std::string_view key, std::span<double> out, double least, double most,
                  const NumbersCheck& check = nullptr);
-    /// A table of texts, numbers and true or false by any name, each as text: "1", "0.5", "true".
+    /// A table of texts, numbers and true or false by any name, each as text: "1", "0.5", "true";
+    /// in the order of the file.
     void values(std::string_view key, std::vector<std::pair<std::string, std::string>>& out);
     template <class E>
     void choice(std::string_view key, E& out,

@@ -91,11 +91,11 @@ GpioAddress byNumber(const std::vector<const GpioChip*>& chips, std::string_view
     if (chips.size() > 1)
         throw std::runtime_error(fmt::format(
             "{} GPIO chips have the label '{}': give a name or path instead", chips.size(), chip));
+    for (const GpioLine& line : chips[0]->lines)
+        if (line.offset == wanted) return address(*chips[0], line);
     if (chips[0]->error != 0)
         throw std::runtime_error(
             fmt::format("GPIO chip {}: {}", chips[0]->path, because(chips[0]->error)));
-    for (const GpioLine& line : chips[0]->lines)
-        if (line.offset == wanted) return address(*chips[0], line);
     throw std::runtime_error(
         fmt::format("there is no line {} on GPIO chip {}", wanted, describe(*chips[0])));
 }

@@ -97,7 +97,10 @@ GpioChip describe(const std::string& path) {
     found.label = text(gpiod_chip_label(chip.get()));
     for (unsigned i = 0; i < gpiod_chip_num_lines(chip.get()); ++i) {
         gpiod_line* line = gpiod_chip_get_line(chip.get(), i);
-        if (!line) continue;
+        if (!line) {
+            found.error = errno;  // later kernels may know the newer way of asking alone
+            continue;
+        }
         found.lines.push_back({i, text(gpiod_line_name(line)), text(gpiod_line_consumer(line)),
                                gpiod_line_is_used(line)});
     }

@@ -232,7 +232,12 @@ std::int64_t V4l2Controls::write(const V4l2Control& control, std::int64_t value)
     request.controls = &one;
     const int error = device_->tryCall(VIDIOC_S_EXT_CTRLS, &request);
     const std::string where = fmt::format("{}: control {}", device_->path(), control.folded);
-    if (error == EACCES) throw std::runtime_error(where + " is read-only");
+    if (error == EACCES)
+        throw std::runtime_error(
+            where + (control.readOnly
+                         ? " is read-only"
+                         : " cannot be set as it is now: another control, an automatic one "
+                           "mostly, has to be set before it"));
     if (error == EBUSY) throw std::runtime_error(where + " is busy, it cannot be set now");
     if (error == ERANGE)
         throw std::runtime_error(
