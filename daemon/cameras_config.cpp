@@ -25,6 +25,7 @@ void readCamera(TomlReader& file, const std::string& section, CameraConfig& came
                   if (word == "auto" || camera.driver == CameraDriver::V4l2) return std::nullopt;
                   return "must be \"auto\": libcamera's pictures are chosen among what it offers";
               });
+    file.boolean(section + "allow_crop", camera.allowCrop);
     file.values(section + "controls", camera.controls);
 }
 
@@ -33,6 +34,8 @@ void readLine(TomlReader& file, TriggerLineConfig& line) {
     file.text("cameras.trigger.line", line.line);
     file.boolean("cameras.trigger.active_low", line.activeLow);
     file.number("cameras.trigger.pulse_ms", line.pulseMs, 0.001, 10000);
+    file.boolean("cameras.trigger.pulse_is_exposure", line.pulseIsExposure);
+    file.text("cameras.trigger.loopback_chip", line.loopbackChip);
     file.text("cameras.trigger.loopback", line.loopback);
     file.number("cameras.trigger.delay_ms", line.delayMs, -1000, 10000);
     file.number("cameras.trigger.jitter_ms", line.jitterMs, 0.001, 1000);

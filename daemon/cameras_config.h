@@ -21,10 +21,12 @@ enum class CameraDriver {
 /// One sensor, section [cameras.video] or [cameras.still].
 struct CameraConfig {
     CameraDriver driver = CameraDriver::Libcamera;
-    std::string camera{};  ///< libcamera: id, model or location; V4L2: device or card name
+    /// libcamera: id, model or location; V4L2: device or card name; empty: any but the other one.
+    std::string camera{};
     Size size{};
     double rateHz = 0;            ///< 0: on trigger only
     std::string format = "auto";  ///< or a name of the driver's
+    bool allowCrop = false;       ///< libcamera: a part of the field of view will do
     /// Name and value, as the camera knows them.
     std::vector<std::pair<std::string, std::string>> controls{};
     bool operator==(const CameraConfig&) const = default;
@@ -36,10 +38,12 @@ struct TriggerLineConfig {
     std::string line;  ///< number or name; empty: the still sensor is free-running
     bool activeLow = false;
     double pulseMs = 1;
-    std::string loopback;    ///< input wired to the line; empty: none
-    double delayMs = 0;      ///< from the edge to the start of exposure, a first guess
-    double jitterMs = 1;     ///< what stills' times may be off by
-    double arrivalMs = 500;  ///< a still that has not come by then is lost
+    bool pulseIsExposure = false;  ///< the sensor exposes as long as the pulse lasts
+    std::string loopbackChip;      ///< empty: `chip`
+    std::string loopback;          ///< input wired to the line; empty: none
+    double delayMs = 0;            ///< from the edge to the start of exposure, a first guess
+    double jitterMs = 1;           ///< what stills' times may be off by
+    double arrivalMs = 500;        ///< a still that has not come by then is lost
     bool operator==(const TriggerLineConfig&) const = default;
 };
 

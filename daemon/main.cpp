@@ -3,6 +3,7 @@
 #include "daemon/log.h"
 #include "daemon/options.h"
 #include "daemon/rig.h"
+#include "daemon/rig_cameras.h"
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 int main(int argc, char** argv) {
     using namespace mfar;
@@ -28,7 +30,9 @@ int main(int argc, char** argv) {
             return static_cast<int>(ExitCode::Ok);
         }
         if (line.options.releaseTrigger) {
-            releaseTrigger(effectiveConfig(line.options));
+            // The file may have been changed since the service took its line.
+            const std::optional<TriggerLineConfig> taken = takenLine();
+            releaseTrigger(taken ? *taken : effectiveConfig(line.options).cameras.trigger);
             return static_cast<int>(ExitCode::Ok);
         }
         App app(line.options, log);

@@ -282,10 +282,10 @@ void Rig::finishRecording() {
     if (const auto to = recorder()) finish(*to);
 }
 
-void releaseTrigger(const Config& config) {
-    if (config.cameras.trigger.line.empty()) return;
+void releaseTrigger(const TriggerLineConfig& line) {
+    if (line.line.empty()) return;
     try {
-        driveSafe(triggerOptions(config.cameras.trigger));
+        driveSafe(triggerOptions(line));
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::Unavailable, error.what());
     }

@@ -92,8 +92,8 @@ private:
     std::uint64_t lostBefore_ = 0;  ///< not recorded, of recordings that have ended
 };
 
-/// Brings the trigger line that the configuration names to its safe level. Throws Failure.
-void releaseTrigger(const Config& config);
+/// Brings a trigger line to its safe level. Throws Failure.
+void releaseTrigger(const TriggerLineConfig& line);
 
 /// Opens the display that the configuration names. A request on `cancel` ends its waiting. Throws
 /// Failure.

@@ -1,14 +1,19 @@
 #include "daemon/rig_cameras.h"
 
+#include "daemon/config.h"
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/camera_v4l2.h"
 #include "pipeline/calibration/rig_files.h"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
@@ -24,15 +29,35 @@ std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// A trigger whose line may not be there yet: each pulse tries anew to get it.
+/// Where the service keeps what it has taken, until it ends or, after a crash, its hook has
+/// released it; empty where no service manager has made the folder.
+std::filesystem::path takenLineFile() {
+    const char* folder = std::getenv("RUNTIME_DIRECTORY");
+    return folder != nullptr && *folder == '/' ? std::filesystem::path(folder) / "trigger.toml"
+                                               : std::filesystem::path();
+}
+
+// Without the note the hook still has the configuration.
+void noteTakenLine(const TriggerLineConfig& line) {
+    const std::filesystem::path file = takenLineFile();
+    if (file.empty()) return;
+    std::ofstream(file) << toml::table{
+        {"cameras", toml::table{{"trigger", toml::table{{"chip", line.chip},
+                                                        {"line", line.line},
+                                                        {"active_low", line.activeLow}}}}}};
+}
+
+/// A trigger whose line may not be there yet: it is tried anew with each pulse, and once a second
+/// without.
 class WaitingTrigger final : public Trigger {
 public:
-    explicit WaitingTrigger(TriggerOptions options) : options_(std::move(options)) {}
+    explicit WaitingTrigger(const TriggerLineConfig& line)
+        : line_(line), options_(triggerOptions(line)) {}
 
     Timestamp fire() override {
         const std::lock_guard lock(mutex_);
         try {
-            if (!open_) open_ = openGpioTrigger(options_);
+            open();
             const Timestamp edge = open_->fire();
             fault_.reset();
             return edge;
@@ -42,6 +67,17 @@ public:
             open_.reset();
             fault_ = "trigger: " + std::string(error.what());
             throw;
+        }
+    }
+    void rest() override {
+        const std::lock_guard lock(mutex_);
+        const Timestamp now = Timestamp::now();
+        if (open_ || (tried_ && now - *tried_ < std::chrono::seconds(1))) return;
+        try {
+            open();
+            fault_.reset();
+        } catch (const std::runtime_error& error) {
+            fault_ = "trigger: " + std::string(error.what());
         }
     }
     void endPulse() override {
@@ -57,17 +93,32 @@ public:
     }
 
 private:
+    /// With the mutex held. Throws std::runtime_error.
+    void open() {
+        if (open_) return;
+        tried_ = Timestamp::now();
+        noteTakenLine(line_);  // first: whoever comes after a crash has to find it
+        open_ = openGpioTrigger(options_);
+    }
+
+    const TriggerLineConfig line_;
     const TriggerOptions options_;
     mutable std::mutex mutex_;
     std::unique_ptr<PulseTrigger> open_;
+    std::optional<Timestamp> tried_;
     std::optional<std::string> fault_;
 };
 
-std::unique_ptr<Camera> openCamera(const CameraConfig& config) {
+/// What is not named is any camera but the one that the other names.
+CameraWish wishFor(const CameraConfig& config, const CameraConfig& other, bool largest) {
+    return {config.camera, config.driver == other.driver ? other.camera : "", largest};
+}
+
+std::unique_ptr<Camera> openCamera(const CameraConfig& config, const CameraWish& wish) {
     const bool onTrigger = config.rateHz == 0;
     if (config.driver == CameraDriver::V4l2) {
         CameraV4l2Options options;
-        options.device = config.camera;
+        options.device = wish;
         options.wish.size = config.size;
         if (!onTrigger) options.wish.rateHz = config.rateHz;
         if (config.format != "auto") options.wish.format = config.format;
@@ -75,15 +126,17 @@ std::unique_ptr<Camera> openCamera(const CameraConfig& config) {
         return std::make_unique<CameraV4l2>(options);
     }
     LibcameraOptions options;
-    options.camera = config.camera;
+    options.camera = wish;
     options.size = config.size;
     options.rateHz = config.rateHz;
     options.controls = config.controls;
     options.still = onTrigger;
+    options.allowCrop = config.allowCrop;
     return std::make_unique<LibcameraCamera>(options);
 }
 
-std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const char* role,
+std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const CameraWish& wish,
+                                               const char* role,
                                                std::function<bool()> busyElsewhere) {
     ReopeningOptions options;
     if (config.driver == CameraDriver::Libcamera) options.busyElsewhere = std::move(busyElsewhere);
@@ -91,7 +144,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
     if (config.rateHz == 0) options.silent = std::chrono::milliseconds(0);
     return std::make_unique<ReopeningCamera>(
         CameraInfo{role, config.size, PixelFormat::Nv12, config.rateHz},
-        [config] { return openCamera(config); }, options);
+        [config, wish] { return openCamera(config, wish); }, options);
 }
 
 // A lost still is asked for once more by the StillPolicy.
@@ -101,6 +154,7 @@ TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
     out.matching.window = nanoseconds(line.jitterMs);
     out.matching.timeout = nanoseconds(line.arrivalMs);
     out.matching.repeat = false;
+    if (line.pulseIsExposure) out.exposure = nanoseconds(line.pulseMs);
     return out;
 }
 
@@ -128,8 +182,16 @@ TriggerOptions triggerOptions(const TriggerLineConfig& line) {
     out.line = line.line;
     out.activeLow = line.activeLow;
     out.pulse = std::chrono::microseconds(std::llround(line.pulseMs * 1e3));
+    out.loopbackChip = line.loopbackChip;
     out.loopback = line.loopback;
     return out;
+}
+
+std::optional<TriggerLineConfig> takenLine() {
+    const std::filesystem::path file = takenLineFile();
+    std::error_code ignored;
+    if (file.empty() || !std::filesystem::exists(file, ignored)) return std::nullopt;
+    return loadConfig(file).cameras.trigger;
 }
 
 StereoRig nominalRig(Size video, Size still) {
@@ -139,20 +201,21 @@ StereoRig nominalRig(Size video, Size still) {
 }
 
 CamerasSource::CamerasSource(const CamerasConfig& config)
-    : config_(config), video_(waitingCamera(config.video, "video camera", [this] {
-          return config_.still.driver == CameraDriver::Libcamera && still_->absent();
-      })) {
+    : config_(config),
+      video_(waitingCamera(
+          config.video, wishFor(config.video, config.still, false), "video camera",
+          [this] { return config_.still.driver == CameraDriver::Libcamera && still_->absent(); })) {
     const RigCalibration calibration = calibrationOf(config);
     geometry_ = calibration.rig;
     stillTimeOffset = nanoseconds(calibration.stillTimeOffset * 1e3);
-    auto still = waitingCamera(config.still, "still camera", [this] {
-        return config_.video.driver == CameraDriver::Libcamera && video_->absent();
-    });
+    auto still = waitingCamera(
+        config.still, wishFor(config.still, config.video, true), "still camera",
+        [this] { return config_.video.driver == CameraDriver::Libcamera && video_->absent(); });
     still_ = still.get();
     if (config.trigger.line.empty()) {
         freeStill_ = std::move(still);
     } else {
-        auto line = std::make_unique<WaitingTrigger>(triggerOptions(config.trigger));
+        auto line = std::make_unique<WaitingTrigger>(config.trigger);
         triggerFault_ = [waiting = line.get()] { return waiting->fault(); };
         triggered_ = std::make_unique<TriggeredStillCamera>(std::move(still), std::move(line),
                                                             stillOptions(config.trigger));

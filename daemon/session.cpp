@@ -209,12 +209,17 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
         try {
             trigger->fire();
         } catch (const TriggerBusy&) {
-            // The pulse before is not over; the policy asks again.
+            policy_.busy();
         } catch (const std::runtime_error& error) {
             // One that is waited for says so in the picture.
             if (!rig_.fault())
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }
+    }
+    if (policy_.lost() > lostTold_) {
+        lostTold_ = policy_.lost();
+        stats_.warn(fmt::format("{}: no still has come for a pulse{}", trigger->name(),
+                                policy_.pending() ? ", it is asked for once more" : ""));
     }
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()),
                     static_cast<std::uint64_t>(policy_.lost()));

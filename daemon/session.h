@@ -98,6 +98,7 @@ private:
     Pipeline pipeline_;
     VirtualWorld virtual_;
     StillPolicy policy_;
+    int lostTold_ = 0;  ///< of the policy's lost stills, those that the log has
     Banner banner_;
     double deadlineMs_;                 ///< 0: none
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured

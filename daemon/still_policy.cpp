@@ -29,6 +29,12 @@ void StillPolicy::configure(const TriggerConfig& config) {
     usedSince_.reset();
 }
 
+void StillPolicy::busy() {
+    --fired_;
+    arrived_ = true;
+    asked_ = true;
+}
+
 void StillPolicy::stillArrived(Timestamp exposed) {
     still_ = exposed;
     usedSince_.reset();

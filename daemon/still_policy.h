@@ -46,6 +46,9 @@ public:
     /// mode.
     void ask() { asked_ = true; }
 
+    /// The trigger could not fire as its last pulse was still on: the next decision is to.
+    void busy();
+
     /// A still has become the reference of the frame that is decided on next, and of those after
     /// it. One that was exposed before the last trigger is a late answer to the trigger before it.
     void stillArrived(Timestamp exposed);

@@ -22,6 +22,9 @@ public:
     /// picture arrives later through the still camera. Throws std::runtime_error when the line
     /// cannot be driven, TriggerBusy when it can later.
     virtual Timestamp fire() = 0;
+    /// Takes the line, at its level at rest, where that has not been done or could not be; called
+    /// again and again while the camera runs. Never throws.
+    virtual void rest() {}
     /// Ends a pulse that is on at once: the line is inactive when this returns. May be called from
     /// any thread, and where no line is driven it does nothing. Never throws; a line that cannot be
     /// driven is reported by the next fire().

@@ -35,6 +35,7 @@ CameraInfo TriggeredStillCamera::info() const {
 
 void TriggeredStillCamera::start() {
     stopped_ = false;
+    trigger_->rest();
     camera_->start();
 }
 
@@ -50,6 +51,7 @@ void TriggeredStillCamera::stop() {
 std::optional<Frame> TriggeredStillCamera::next(milliseconds timeout) {
     const Timestamp deadline = Timestamp::now() + timeout;
     while (!stopped_) {
+        trigger_->rest();
         repeatLost();
         const auto left = std::chrono::ceil<milliseconds>(deadline - Timestamp::now());
         std::optional<Frame> frame = camera_->next(std::clamp(left, milliseconds{0}, kLookAround));

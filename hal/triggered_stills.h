@@ -44,6 +44,7 @@ public:
     [[nodiscard]] bool ended() const override { return camera_->ended(); }
 
     Timestamp fire() override;
+    void rest() override { trigger_->rest(); }
     void endPulse() override { trigger_->endPulse(); }
     [[nodiscard]] std::string name() const override { return trigger_->name(); }
 

@@ -14,9 +14,8 @@
 namespace mfar {
 
 struct LibcameraOptions {
-    std::string
-        camera;  ///< id, location ("front", "back", "external") or model; empty: the only one
-    Size size;   ///< exactly
+    CameraWish camera;
+    Size size;  ///< exactly
     /// Frames per second, asked for where the camera can be told (FrameDurationLimits), otherwise
     /// as its driver does. 0: on trigger only, then no drops are counted.
     double rateHz = 30;
@@ -32,11 +31,12 @@ struct LibcameraOptions {
 };
 
 struct LibcameraCounters {
-    std::uint64_t frames = 0;   ///< given out or ready to be
-    std::uint64_t dropped = 0;  ///< by the gaps between the times of frames
-    std::uint64_t broken = 0;   ///< with an error or too few bytes, never shown
-    std::uint64_t startup = 0;  ///< from before the sensor had settled, never shown
-    std::uint64_t untimed = 0;  ///< without a plausible time: that of their arrival is used
+    std::uint64_t frames = 0;     ///< given out or ready to be
+    std::uint64_t dropped = 0;    ///< by the gaps between the times of frames
+    std::uint64_t broken = 0;     ///< with an error or too few bytes, never shown
+    std::uint64_t startup = 0;    ///< from before the sensor had settled, never shown
+    std::uint64_t untimed = 0;    ///< without a plausible time: that of their arrival is used
+    std::uint64_t restarted = 0;  ///< times that it had given up waiting for its sensor
     SensorClock::Kind clock = SensorClock::Kind::Monotonic;  ///< which the driver has used
 };
 

@@ -1,5 +1,7 @@
 #include "hal/device/camera_v4l2.h"
 
+#include "hal/device/v4l2_selection.h"
+
 #include <fmt/format.h>
 
 #include <poll.h>

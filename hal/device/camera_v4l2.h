@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/camera.h"
+#include "hal/device/camera_selection.h"
 #include "hal/device/jpeg_decoder.h"
 #include "hal/device/v4l2_controls.h"
 #include "hal/device/v4l2_stream.h"
@@ -15,9 +16,9 @@
 namespace mfar {
 
 struct CameraV4l2Options {
-    std::string device;  ///< a path ("/dev/video0"), or the card's or bus' name
-    V4l2Wish wish;       ///< exactly this size; format and rate as far as they are given
-    int buffers = 6;     ///< of the driver, 2 to 32; one more than pictures are held at a time
+    CameraWish device;  ///< by path ("/dev/video0"), card or bus
+    V4l2Wish wish;      ///< exactly this size; format and rate as far as they are given
+    int buffers = 6;    ///< of the driver, 2 to 32; one more than pictures are held at a time
     /// Added to the driver's timestamps, e.g. minus the sensor's readout time where the driver
     /// stamps the end of the frame.
     std::chrono::nanoseconds timeOffset{0};
@@ -27,7 +28,7 @@ struct CameraV4l2Options {
 
 /// A camera straight on V4L2: USB cameras, vivid, and boards that libcamera does not serve.
 ///
-///     CameraV4l2 camera({.device = "/dev/video0", .wish = {{640, 480}, 30}});
+///     CameraV4l2 camera({.device = {"/dev/video0"}, .wish = {{640, 480}, 30}});
 ///     camera.start();
 ///     while (auto frame = camera.next(500ms)) ...
 ///

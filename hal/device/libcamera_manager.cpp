@@ -1,5 +1,6 @@
 #include "hal/device/libcamera_manager.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <stdexcept>
@@ -33,6 +34,18 @@ void end(CameraManager* manager) {
         one.exists = false;
     }
     one.gone.notify_all();
+}
+
+/// Pixels of the largest picture that it offers; 0 where it does not say.
+std::int64_t largestPicture(Camera& camera) {
+    std::int64_t most = 0;
+    const auto configuration = camera.generateConfiguration({libcamera::StreamRole::StillCapture});
+    if (!configuration || configuration->empty()) return most;
+    const libcamera::StreamFormats& formats = configuration->at(0).formats();
+    for (const auto& format : formats.pixelformats())
+        for (const libcamera::Size& size : formats.sizes(format))
+            most = std::max(most, std::int64_t{size.width} * size.height);
+    return most;
 }
 
 std::string locationName(const std::optional<std::int32_t>& location) {
@@ -72,9 +85,13 @@ std::vector<ListedCamera> listCameras(const std::vector<std::shared_ptr<Camera>>
     return listed;
 }
 
-std::shared_ptr<Camera> findLibcamera(const CameraManager& manager, std::string_view wanted) {
+std::shared_ptr<Camera> findLibcamera(const CameraManager& manager, const CameraWish& wish) {
     const std::vector<std::shared_ptr<Camera>> cameras = manager.cameras();
-    return cameras[chooseCamera(listCameras(cameras), wanted)];
+    std::vector<ListedCamera> listed = listCameras(cameras);
+    // To ask takes time: only where it decides.
+    for (std::size_t i = 0; i < cameras.size() && wish.name.empty() && cameras.size() > 1; ++i)
+        listed[i].pixels = largestPicture(*cameras[i]);
+    return cameras[chooseCamera(listed, wish)];
 }
 
 }  // namespace mfar

@@ -4,7 +4,6 @@
 #include "hal/device/libcamera_compat.h"
 
 #include <memory>
-#include <string_view>
 #include <vector>
 
 namespace mfar {
@@ -19,6 +18,6 @@ listCameras(const std::vector<std::shared_ptr<libcamera::Camera>>& cameras);
 
 /// See chooseCamera().
 [[nodiscard]] std::shared_ptr<libcamera::Camera>
-findLibcamera(const libcamera::CameraManager& manager, std::string_view wanted);
+findLibcamera(const libcamera::CameraManager& manager, const CameraWish& wish);
 
 }  // namespace mfar

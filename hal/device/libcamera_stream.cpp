@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kLeastBuffers = 2;
 /// For libcamera to learn that a device is gone, on a board that has no time for udev.
 constexpr std::chrono::seconds kUdevTime{30};
+constexpr std::chrono::milliseconds kNodeLook{100};  ///< between two looks at the nodes meanwhile
 
 void check(const LibcameraOptions& options) {
     const auto sound = [](const std::optional<double>& value, double least, double most) {
@@ -54,9 +55,10 @@ LibcameraCamera::Stream::Stream(const LibcameraOptions& options) : options_(opti
     check(options);
     manager_ = libcameraManager();
     camera_ = findLibcamera(*manager_, options.camera);
+    id_ = camera_->id();
     if (const int error = camera_->acquire(); error != 0)
         throw std::runtime_error(
-            fmt::format("camera '{}' is {}", camera_->id(),
+            fmt::format("camera '{}' is {}", id_,
                         error == -EBUSY ? "in use by another program or another camera of this one"
                                         : fmt::format("not to be had (error {})", -error)));
     try {
@@ -81,33 +83,36 @@ void LibcameraCamera::Stream::open() {
 void LibcameraCamera::Stream::allocate() {
     allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
     if (const int count = allocator_->allocate(stream_); count < static_cast<int>(kLeastBuffers))
-        throw std::runtime_error(fmt::format("camera '{}' gives no buffers for its pictures ({})",
-                                             camera_->id(), count));
+        throw std::runtime_error(
+            fmt::format("camera '{}' gives no buffers for its pictures ({})", id_, count));
     for (const auto& buffer : allocator_->buffers(stream_)) {
         Slot slot;
         slot.request = camera_->createRequest(slots_.size());
         if (!slot.request || slot.request->addBuffer(stream_, buffer.get()) != 0)
-            throw std::runtime_error(fmt::format("camera '{}' takes no requests", camera_->id()));
+            throw std::runtime_error(fmt::format("camera '{}' takes no requests", id_));
         slot.picture = std::make_shared<MappedPicture>(*buffer, configured_.layout);
         slots_.push_back(std::move(slot));
     }
 }
 
-// Given up while it runs, it may be unplugged, which libcamera learns late, from udev. To stop a
-// device that is gone with requests in it ends the process; once it knows, stopping does nothing.
+// A device that was unplugged while it runs libcamera learns late, from udev. To stop it with
+// requests in it ends the process; once libcamera knows, stopping does nothing. The lost node may
+// be another camera's, which goes with it.
 void LibcameraCamera::Stream::awaitUnplugged() {
-    if (!hasLostVideoNode()) return;
-    std::unique_lock lock(mutex_);
-    const std::uint64_t frames = counters_.frames;
-    changed_.wait_for(lock, kUdevTime, [&] {
+    const auto end = std::chrono::steady_clock::now() + kUdevTime;
+    while (hasLostVideoNode() && std::chrono::steady_clock::now() < end) {
+        std::unique_lock lock(mutex_);
+        const std::uint64_t frames = counters_.frames;
         const auto isQueued = [](const Slot& slot) { return slot.state == State::Queued; };
-        return !running_ || unplugged_ || counters_.frames != frames ||
-               std::ranges::none_of(slots_, isQueued);
-    });
+        if (changed_.wait_for(lock, kNodeLook, [&] {
+                return !running_ || unplugged_ || counters_.frames != frames ||
+                       std::ranges::none_of(slots_, isQueued);
+            }))
+            return;
+    }
 }
 
 void LibcameraCamera::Stream::close() {
-    awaitUnplugged();
     stop();
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);
@@ -126,11 +131,35 @@ void LibcameraCamera::Stream::close() {
 }
 
 CameraInfo LibcameraCamera::Stream::info() const {
-    return {camera_->id(), configured_.layout.size, configured_.layout.format, options_.rateHz};
+    return {id_, configured_.layout.size, configured_.layout.format, options_.rateHz};
 }
 
 void LibcameraCamera::Stream::start() {
-    std::lock_guard life(lifecycle_);
+    const std::lock_guard life(lifecycle_);
+    begin();
+}
+
+void LibcameraCamera::Stream::stop() {
+    const std::lock_guard life(lifecycle_);
+    halt();
+}
+
+// A pipeline that has waited too long for its sensor gives back all requests and takes no more
+// until it is started again: Raspberry Pi's after a second without a pulse, on libcamera 0.0.3 at
+// least.
+void LibcameraCamera::Stream::restart() {
+    const std::lock_guard life(lifecycle_);
+    {
+        const std::lock_guard lock(mutex_);
+        if (!running_) return;
+        ++counters_.restarted;
+    }
+    halt();
+    begin();
+}
+
+/// With the life cycle held.
+void LibcameraCamera::Stream::begin() {
     {
         std::lock_guard lock(mutex_);
         if (running_) return;
@@ -140,13 +169,13 @@ void LibcameraCamera::Stream::start() {
     for (const auto& [id, value] : controls_)
         initial.set(id, value);
     if (const int error = camera_->start(&initial); error != 0) {
-        const std::string text =
-            fmt::format("camera '{}' does not start (error {})", camera_->id(), -error);
+        const std::string text = fmt::format("camera '{}' does not start (error {})", id_, -error);
         if (error == -ENODEV) throw DeviceLost(text);
         throw std::runtime_error(text);
     }
     std::lock_guard lock(mutex_);
     running_ = true;
+    givenBack_ = false;
     drops_.pause();
     bool first = true;
     for (Slot& slot : slots_) {
@@ -160,8 +189,9 @@ void LibcameraCamera::Stream::start() {
     }
 }
 
-void LibcameraCamera::Stream::stop() {
-    std::lock_guard life(lifecycle_);
+/// With the life cycle held.
+void LibcameraCamera::Stream::halt() {
+    awaitUnplugged();
     {
         std::lock_guard lock(mutex_);
         if (!running_) return;
@@ -181,7 +211,7 @@ void LibcameraCamera::Stream::queue(Slot& slot) {
     const int error = camera_->queueRequest(slot.request.get());
     if (error == 0) return;
     slot.state = State::Idle;
-    lose(fmt::format("camera '{}' takes no more requests (error {})", camera_->id(), -error));
+    lose(fmt::format("camera '{}' takes no more requests (error {})", id_, -error));
 }
 
 void LibcameraCamera::Stream::lose(const std::string& why) {
@@ -203,7 +233,7 @@ void LibcameraCamera::Stream::giveBack(std::size_t index) {
 void LibcameraCamera::Stream::disconnected() {
     std::lock_guard lock(mutex_);
     unplugged_ = true;
-    lose(fmt::format("camera '{}' has been unplugged", camera_->id()));
+    lose(fmt::format("camera '{}' has been unplugged", id_));
 }
 
 /// In libcamera's thread.
@@ -214,7 +244,12 @@ void LibcameraCamera::Stream::completed(libcamera::Request* request) {
     Slot& slot = slots_[index];
     slot.state = State::Idle;
     changed_.notify_all();
-    if (!running_ || request->status() == libcamera::Request::RequestCancelled) return;
+    if (!running_) return;
+    if (request->status() == libcamera::Request::RequestCancelled) {
+        const auto isQueued = [](const Slot& other) { return other.state == State::Queued; };
+        givenBack_ = std::ranges::none_of(slots_, isQueued);
+        return;
+    }
     const libcamera::FrameMetadata& metadata = request->findBuffer(stream_)->metadata();
     if (!isSound(metadata)) {
         request->reuse(libcamera::Request::ReuseBuffers);
@@ -264,9 +299,14 @@ LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
 std::optional<Frame> LibcameraCamera::Stream::next(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, timeout,
-                      [&] { return !running_ || !lost_.empty() || !ready_.empty(); });
+                      [&] { return !running_ || !lost_.empty() || !ready_.empty() || givenBack_; });
     if (!lost_.empty()) throw DeviceLost(lost_);
     if (!viewFault_.empty()) throw std::runtime_error(viewFault_);
+    if (running_ && ready_.empty() && givenBack_) {
+        lock.unlock();
+        restart();
+        return std::nullopt;
+    }
     if (!running_ || ready_.empty()) return std::nullopt;
     const Done done = ready_.front();
     ready_.pop_front();

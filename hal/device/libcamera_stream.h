@@ -57,11 +57,15 @@ private:
     void queue(Slot& slot);
     void giveBack(std::size_t slot);
     void lose(const std::string& why);
+    void begin();
+    void halt();
+    void restart();
     void awaitUnplugged();
 
     LibcameraOptions options_;
     std::shared_ptr<libcamera::CameraManager> manager_;
     std::shared_ptr<libcamera::Camera> camera_;
+    std::string id_;  ///< of the camera
     ConfiguredCamera configured_;
     ControlValues controls_;
     std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
@@ -74,6 +78,7 @@ private:
     std::deque<Done> ready_;
     bool running_ = false;
     bool unplugged_ = false;
+    bool givenBack_ = false;  ///< it has cancelled all requests
     bool viewChecked_ = false;
     std::string lost_;       ///< why the device is gone; empty: it is not
     std::string viewFault_;  ///< frames show a part of the field

@@ -106,36 +106,4 @@ bool V4l2Device::multiPlanar() const {
     return (capabilities_ & V4L2_CAP_VIDEO_CAPTURE) == 0;
 }
 
-V4l2Device openCapture(V4l2Api& api, const std::string& which) {
-    if (which.starts_with("/")) {
-        V4l2Device device(api, which);
-        if (!device.captures())
-            throw std::runtime_error(
-                fmt::format("{}: '{}' delivers no pictures", which, device.card()));
-        return device;
-    }
-    std::string all, fitting;
-    std::vector<V4l2Device> found;
-    for (const std::string& path : api.nodes()) {
-        try {
-            V4l2Device device(api, path);
-            if (!device.captures()) continue;
-            const auto line = fmt::format("\n  {}: '{}' at {}", path, device.card(), device.bus());
-            all += line;
-            if (device.card() != which && device.bus() != which) continue;
-            fitting += line;
-            found.push_back(std::move(device));
-        } catch (const V4l2Error& e) {
-            all += fmt::format("\n  {}", e.what());
-        }
-    }
-    if (found.empty())
-        throw std::runtime_error(fmt::format("no camera '{}' among{}", which,
-                                             all.empty() ? " no video devices at all" : all));
-    if (found.size() > 1)
-        throw std::runtime_error(fmt::format(
-            "several cameras are '{}', name one by its path or bus:{}", which, fitting));
-    return std::move(found.front());
-}
-
 }  // namespace mfar

@@ -77,10 +77,6 @@ private:
     OwnedFd fd_;
 };
 
-/// Opens the capture device that `which` names: a path, or the card or bus of one device node of
-/// this machine. Throws std::runtime_error that lists what there is when none or several fit.
-[[nodiscard]] V4l2Device openCapture(V4l2Api& api, const std::string& which);
-
 /// The text of a fixed field of a driver, which need not end in a zero.
 [[nodiscard]] std::string fieldText(const void* field, std::size_t bytes);
 

@@ -71,6 +71,9 @@ struct V4l2Layout {
 /// Asks for a rate and returns the one that the driver will keep; 0 when it does not say.
 [[nodiscard]] double setRate(const V4l2Device& device, double rateHz);
 
+/// Pixels of the largest picture in a usable format; 0 where the driver lists no sizes.
+[[nodiscard]] std::int64_t largestPicture(const V4l2Device& device);
+
 /// V4L2_BUF_TYPE_... of the device's captures.
 [[nodiscard]] std::uint32_t bufferType(const V4l2Device& device);
 

@@ -154,6 +154,24 @@ V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish) {
     refuse(device, wish, offers);
 }
 
+std::int64_t largestPicture(const V4l2Device& device) {
+    std::int64_t most = 0;
+    for (const V4l2PixelFormat& format : kUsable)
+        for (int i = 0; i < kMostOffers; ++i) {
+            v4l2_frmsizeenum query{};
+            query.index = static_cast<std::uint32_t>(i);
+            query.pixel_format = format.fourcc;
+            if (device.tryCall(VIDIOC_ENUM_FRAMESIZES, &query) != 0) break;
+            const bool discrete = query.type == V4L2_FRMSIZE_TYPE_DISCRETE;
+            const std::uint32_t width = discrete ? query.discrete.width : query.stepwise.max_width;
+            const std::uint32_t height =
+                discrete ? query.discrete.height : query.stepwise.max_height;
+            most = std::max(most, std::int64_t{width} * height);
+            if (!discrete) break;
+        }
+    return most;
+}
+
 double setRate(const V4l2Device& device, double rateHz) {
     v4l2_streamparm parameters{};
     parameters.type = bufferType(device);

@@ -25,8 +25,9 @@ width = 320
 height = 240
 rate_hz = 60
 format = "YUYV"
-controls = { exposure_auto = 1, "Gain" = 2.5, flip = true, mode = "manual" }
+controls = { mode = "manual", "Gain" = 2.5, flip = true, exposure_auto = 1 }
 [cameras.still]
+allow_crop = true
 width = 1280
 height = 960
 [cameras.trigger]
@@ -34,6 +35,8 @@ chip = "pl061"
 line = "5"
 active_low = true
 pulse_ms = 0.5
+pulse_is_exposure = true
+loopback_chip = "gpiochip1"
 loopback = "6"
 delay_ms = 2
 jitter_ms = 3
@@ -48,12 +51,15 @@ arrival_ms = 700
     EXPECT_EQ(cameras.video.rateHz, 60);
     EXPECT_EQ(cameras.video.format, "YUYV");
     EXPECT_THAT(cameras.video.controls,
-                testing::UnorderedElementsAre(Pair("exposure_auto", "1"), Pair("Gain", "2.5"),
-                                              Pair("flip", "true"), Pair("mode", "manual")));
+                testing::ElementsAre(Pair("mode", "manual"), Pair("Gain", "2.5"),
+                                     Pair("flip", "true"), Pair("exposure_auto", "1")));
+    EXPECT_FALSE(cameras.video.allowCrop);
+    EXPECT_TRUE(cameras.still.allowCrop);
     EXPECT_EQ(cameras.still.driver, CameraDriver::Libcamera);
     EXPECT_EQ(cameras.still.size, (Size{1280, 960}));
     EXPECT_EQ(cameras.still.rateHz, 0);
-    EXPECT_EQ(cameras.trigger, (TriggerLineConfig{"pl061", "5", true, 0.5, "6", 2, 3, 700}));
+    EXPECT_EQ(cameras.trigger,
+              (TriggerLineConfig{"pl061", "5", true, 0.5, true, "gpiochip1", "6", 2, 3, 700}));
 }
 
 TEST(CamerasConfig, EveryFaultHasItsPlace) {

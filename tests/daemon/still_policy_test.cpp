@@ -7,6 +7,19 @@ namespace {
 
 constexpr double kFrame = 1.0 / 30;
 
+TEST(StillPolicy, AskedWhileAPulseIsOnItAsksAgainAtOnce) {
+    StillPolicy policy({.mode = TriggerMode::Rate, .rateHz = 0.5});
+    const auto at = [](double s) { return Timestamp::fromSeconds(s); };
+    ASSERT_TRUE(policy.decide(at(100), at(100), {}));
+    policy.busy();
+    EXPECT_EQ(policy.fired(), 0);
+    EXPECT_FALSE(policy.pending());
+    EXPECT_TRUE(policy.decide(at(100.03), at(100), {}));
+    EXPECT_EQ(policy.fired(), 1);
+    EXPECT_FALSE(policy.decide(at(100.07), at(100.03), {}));
+    EXPECT_EQ(policy.lost(), 0);
+}
+
 /// A sensor that answers a trigger after a fixed time, or never.
 class Simulation {
 public:

@@ -22,7 +22,7 @@ constexpr Size kSize{32, 24};
 
 CameraV4l2Options wanted(const std::string& format = {}, double rateHz = 0) {
     CameraV4l2Options out;
-    out.device = "/dev/video0";
+    out.device.name = "/dev/video0";
     out.wish = {kSize, rateHz, format};
     out.buffers = 4;
     return out;
@@ -114,22 +114,39 @@ TEST(CameraV4l2, IsFoundByCardAndBus) {
     FakeV4l2 fake;
     CameraV4l2Options options = wanted();
     for (const char* name : {"Fake Camera", "fake:1"}) {
-        options.device = name;
+        options.device.name = name;
         EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video0)");
     }
-    options.device = "Other";
+    options.device.name = "Other";
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
               "no camera 'Other' among\n  /dev/video0: 'Fake Camera' at fake:1");
     fake.secondPath = "/dev/video2";
-    options.device = "Fake Camera";
+    options.device.name = "Fake Camera";
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }).substr(0, 63),
               "several cameras are 'Fake Camera', name one by its path or bus:");
-    options.device = "/dev/video1";
+    options.device.name = "/dev/video1";
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
               "/dev/video1: 'Fake Camera' delivers no pictures");
-    options.device = "/dev/video9";
+    options.device.name = "/dev/video9";
     EXPECT_EQ(errorOf([&] { CameraV4l2(options, fake); }),
               "/dev/video9: No such file or directory");
+}
+
+TEST(CameraV4l2, WithoutANameItIsAnyButTheOther) {
+    FakeV4l2 fake;
+    CameraV4l2Options options = wanted();
+    options.device = {};
+    EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video0)");
+    options.device.largest = true;
+    EXPECT_EQ(
+        errorOf([&] { CameraV4l2(options, fake); }),
+        "there is no camera beside the other one among\n  /dev/video0: 'Fake Camera' at fake:1");
+    fake.secondPath = "/dev/video2";  // the same pictures: by path
+    EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
+    options.device.except = "/dev/video2";
+    EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video0)");
+    options.device = {.except = "/dev/video0"};
+    EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
 }
 
 TEST(CameraV4l2, ControlsAreSetBeforeItRuns) {

@@ -98,7 +98,7 @@ int main(int argc, char** argv) try {
     if (argc == 1) return list();
     if (argc < 4) return usage();
     LibcameraOptions options;
-    options.camera = camera(argv[1]);
+    options.camera.name = camera(argv[1]);
     if (std::sscanf(argv[2], "%dx%d", &options.size.width, &options.size.height) != 2)
         return usage();
     const int frames = std::atoi(argv[3]);

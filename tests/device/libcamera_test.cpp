@@ -18,7 +18,7 @@ using testing::ThrowsMessage;
 
 LibcameraOptions unknown() {
     LibcameraOptions options;
-    options.camera = "no-such-camera";
+    options.camera.name = "no-such-camera";
     options.size = {640, 480};
     return options;
 }

@@ -41,7 +41,7 @@ void print(const std::optional<Frame>& still, std::uint64_t pulses) {
 
 void run(char** argv) {
     LibcameraOptions camera;
-    camera.camera = argv[1];
+    camera.camera.name = argv[1];
     if (std::sscanf(argv[2], "%dx%d", &camera.size.width, &camera.size.height) != 2)
         throw std::runtime_error("a size is WIDTHxHEIGHT");
     camera.rateHz = 0;

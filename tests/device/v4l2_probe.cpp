@@ -57,7 +57,7 @@ int capture(mfar::CameraV4l2& camera, int frames) {
 
 bool parse(int argc, char** argv, mfar::CameraV4l2Options& options, int& frames) {
     if (argc < 4) return false;
-    options.device = argv[1];
+    options.device.name = argv[1];
     if (std::sscanf(argv[2], "%dx%d", &options.wish.size.width, &options.wish.size.height) != 2)
         return false;
     frames = std::atoi(argv[3]);

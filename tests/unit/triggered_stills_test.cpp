@@ -27,6 +27,7 @@ struct Sensor {
     int busy = 0;   ///< refuses so many pulses
     int blind = 0;  ///< exposes nothing for so many pulses
     bool stopped = false;
+    int rests = 0;      ///< times that the line was asked to rest
     bool high = false;  ///< the line, from a pulse until somebody ends it
     nanoseconds exposure{0};
     nanoseconds delay{300us};  ///< from edge to the start of exposure
@@ -85,6 +86,10 @@ class FakeTrigger final : public Trigger {
 public:
     explicit FakeTrigger(Sensor& sensor) : sensor_(sensor) {}
     Timestamp fire() override { return sensor_.fire(); }
+    void rest() override {
+        const std::lock_guard lock(sensor_.mutex);
+        ++sensor_.rests;
+    }
     void endPulse() override {
         const std::lock_guard lock(sensor_.mutex);
         sensor_.high = false;
@@ -139,6 +144,15 @@ TEST_F(TriggeredStills, PulseGivesTheExposureThatTheCameraDoesNotSay) {
     ASSERT_TRUE(still);
     EXPECT_EQ(still->exposure, 6ms);
     EXPECT_EQ(still->time(), edge + 300us + 3ms);
+}
+
+TEST_F(TriggeredStills, TheLineIsAskedToRestBeforeAnyPulse) {
+    const auto camera = open();
+    EXPECT_GE(sensor.rests, 1);
+    const int before = sensor.rests;
+    EXPECT_FALSE(camera->next(1ms));
+    EXPECT_GT(sensor.rests, before);
+    EXPECT_TRUE(sensor.pulses.empty());
 }
 
 TEST_F(TriggeredStills, StrayStillsGoBackToTheCamera) {

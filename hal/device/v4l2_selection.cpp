@@ -1,0 +1,86 @@
+#include "hal/device/v4l2_selection.h"
+
+#include "hal/device/v4l2_formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+/// The devices that deliver pictures.
+struct Captures {
+    std::vector<V4l2Device> devices;
+    std::string listed;  ///< for people, with those that cannot be opened
+};
+
+std::string lineOf(const V4l2Device& device) {
+    return fmt::format("\n  {}: '{}' at {}", device.path(), device.card(), device.bus());
+}
+
+Captures capturesOf(V4l2Api& api) {
+    Captures out;
+    for (const std::string& path : api.nodes()) {
+        try {
+            V4l2Device device(api, path);
+            if (!device.captures()) continue;
+            out.listed += lineOf(device);
+            out.devices.push_back(std::move(device));
+        } catch (const V4l2Error& error) {
+            out.listed += fmt::format("\n  {}", error.what());
+        }
+    }
+    if (out.listed.empty()) out.listed = " no video devices at all";
+    return out;
+}
+
+bool isNamed(const V4l2Device& device, const std::string& name) {
+    return device.card() == name || device.bus() == name || device.path() == name;
+}
+
+V4l2Device anyOf(Captures captures, const CameraWish& wish) {
+    std::vector<V4l2Device>& devices = captures.devices;
+    if (wish.except.empty() && wish.largest && devices.size() == 1) devices.clear();
+    if (!wish.except.empty())
+        std::erase_if(devices, [&](const V4l2Device& one) { return isNamed(one, wish.except); });
+    if (devices.empty())
+        throw std::runtime_error("there is no camera beside the other one among" + captures.listed);
+    const auto size = [](const V4l2Device& one) {
+        return std::pair(largestPicture(one), one.path());
+    };
+    const auto [least, most] = std::ranges::minmax_element(devices, {}, size);
+    return std::move(wish.largest ? *most : *least);
+}
+
+}  // namespace
+
+V4l2Device openCapture(V4l2Api& api, const CameraWish& wish) {
+    if (wish.name.starts_with("/")) {
+        V4l2Device device(api, wish.name);
+        if (!device.captures())
+            throw std::runtime_error(
+                fmt::format("{}: '{}' delivers no pictures", wish.name, device.card()));
+        return device;
+    }
+    Captures captures = capturesOf(api);
+    if (wish.name.empty()) return anyOf(std::move(captures), wish);
+    std::erase_if(captures.devices,
+                  [&](const V4l2Device& one) { return !isNamed(one, wish.name); });
+    if (captures.devices.empty())
+        throw std::runtime_error(fmt::format("no camera '{}' among{}", wish.name, captures.listed));
+    std::string fitting;
+    for (const V4l2Device& device : captures.devices)
+        fitting += lineOf(device);
+    if (captures.devices.size() > 1)
+        throw std::runtime_error(fmt::format(
+            "several cameras are '{}', name one by its path or bus:{}", wish.name, fitting));
+    return std::move(captures.devices.front());
+}
+
+}  // namespace mfar
