@@ -21,6 +21,10 @@ using Seconds = std::chrono::duration<double>;
 constexpr Seconds kLeaveTime{0.2};   ///< after a signal: for the picture in work
 constexpr Seconds kFlushTime{0.4};   ///< the same, for what is being written
 constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
+/// Shaders are compiled for the first pictures, which may take the watchdog's limit many times on a
+/// small board.
+constexpr std::uint64_t kFirstPictures = 10;
+constexpr int kFirstPatience = 6;
 
 const char* signalName(int signal) {
     return signal == SIGINT ? "SIGINT" : "SIGTERM";
@@ -104,6 +108,7 @@ void App::onReady() {
     }
     log_.notice(running_->startLine);
     service_.ready(running_->startLine);
+    service_.watchdogPatience(kFirstPatience);
     if (options_.seconds && !stopReason_) events_.deadlineIn(Seconds(*options_.seconds));
 }
 
@@ -201,6 +206,7 @@ void App::feedWatchdog() {
     if (!running_ || !service_.watchdogPeriod()) return;
     const std::uint64_t progress = stats_.progress();
     if (progress == progressFed_ && !stopReason_) return;
+    if (progressFed_ < kFirstPictures && progress >= kFirstPictures) service_.watchdogPatience(1);
     progressFed_ = progress;
     service_.alive();
 }

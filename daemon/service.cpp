@@ -49,6 +49,11 @@ void Service::stopping(const std::string& status) const {
     tell(fmt::format("STOPPING=1\nSTATUS={}", oneLine(status)));
 }
 
+void Service::watchdogPatience(int times) const {
+    if (watchdogPeriod_)
+        tell(fmt::format("WATCHDOG_USEC={:.0f}", 2e6 * times * watchdogPeriod_->count()));
+}
+
 void Service::alive() const {
     tell("WATCHDOG=1");
 }

@@ -25,6 +25,9 @@ public:
     void reloading() const;
     void stopping(const std::string& status) const;
     void alive() const;
+    /// From now on the watchdog waits so many times as long as it was told to at the start of the
+    /// process.
+    void watchdogPatience(int times) const;
 
 private:
     bool listening_;

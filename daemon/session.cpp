@@ -65,8 +65,10 @@ void Session::setUpQuality(SuperResMode best) {
 
 std::string Session::startLine() const {
     const Size out = pipeline_.outputSize();
-    return fmt::format("{}; {}; {}; display {}, {}x{}", description_.renderer, description_.source,
-                       description_.poses, description_.display, out.width, out.height);
+    return fmt::format("{}; {}; {}; display {}, {}x{}{}", description_.renderer,
+                       description_.source, description_.poses, description_.display, out.width,
+                       out.height,
+                       TracedLayer::isAvailable() ? "" : "; this build has no path tracer");
 }
 
 std::string Session::run(std::optional<std::uint64_t> maxFrames) {

@@ -66,6 +66,10 @@ TEST(Service, FeedsTheWatchdogTwiceAsOftenAsAsked) {
     setenv("WATCHDOG_USEC", "3000000", 1);
     ASSERT_TRUE(Service().watchdogPeriod().has_value());
     EXPECT_DOUBLE_EQ(Service().watchdogPeriod()->count(), 1.5);
+    Service().watchdogPatience(6);
+    EXPECT_EQ(manager.heard(), "WATCHDOG_USEC=18000000");
+    Service().watchdogPatience(1);
+    EXPECT_EQ(manager.heard(), "WATCHDOG_USEC=3000000");
     setenv("WATCHDOG_PID", "1", 1);  // another process
     EXPECT_EQ(Service().watchdogPeriod(), std::nullopt);
     setenv("WATCHDOG_USEC", "soon", 1);
@@ -78,6 +82,7 @@ TEST(Service, WithoutAManagerItSaysNothing) {
     const Service service;
     EXPECT_FALSE(service.listening());
     EXPECT_EQ(service.watchdogPeriod(), std::nullopt);
+    service.watchdogPatience(6);
     service.ready("nobody");
     unsetenv("WATCHDOG_USEC");
 }

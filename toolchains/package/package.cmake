@@ -17,6 +17,10 @@ set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "mfard lifts the video of one image sensor to the resolution of a second one
 that takes stills on a trigger, finds its pose by AprilTags, and shows virtual
 objects behind real ones. It runs as a service on small Linux boards.")
+if(NOT MFAR_PATH_TRACING)
+    string(APPEND CPACK_DEBIAN_PACKAGE_DESCRIPTION
+           "\n .\n This build has no path tracer: virtual objects are simple shapes.")
+endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION video)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
