@@ -21,6 +21,14 @@ debianSources() {
     done
 }
 
+# Prints where this machine's packages come from; nothing: the usual mirror.
+debianMirror() {
+    local file
+    while IFS= read -r file; do
+        sed -n 's/^URIs: *\([^ ]*\).*/\1/p; s/^deb \(\[[^]]*\] \)\?\([^ ]*\).*/\2/p' "$file"
+    done < <(debianSources) | head -n 1
+}
+
 # Arguments: what a folder is made from. Prints a name part that is the same for the same.
 inputHash() { printf '%s\n' "$@" | sha256sum | cut -c 1-12; }
 

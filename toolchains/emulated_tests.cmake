@@ -4,10 +4,14 @@ set(mfar_emulated
     mfar-composite-tests
     mfar-daemon-tests
     mfar-depth-tests
+    mfar-display-tests
     mfar-flow-tests
+    mfar-libcamera-tests
     mfar-shader-tests-egl
     mfar-track-tests
+    mfar-trigger-tests
     mfar-unit-tests
+    mfar-v4l2-tests
 )
 
 function(gtest_discover_tests target)

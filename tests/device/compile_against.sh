@@ -1,17 +1,27 @@
 #!/usr/bin/env bash
 # Compiles the sources that depend on the version of a device library inside another Debian's root,
 # and runs their tests there: what CMake chooses here by version is thereby seen in both.
-# Usage: compile_against.sh ROOT. Needs root; ROOT is made for example by
-#   mmdebstrap --variant=minbase --include="$(tests/device/compile_against.sh --packages)" \
-#       trixie ROOT
+# Usage: compile_against.sh CACHE SUITE   (bookworm, trixie, sid). Needs root and mmdebstrap; the root is kept
+# in CACHE for a week; two minutes to make.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
+# shellcheck source=toolchains/debian.sh
+. toolchains/debian.sh
 
+[[ $# == 2 ]] || die "usage: compile_against.sh CACHE SUITE"
+[[ $(id -u) == 0 ]] || die "chroot needs root"
+cache=$1 suite=$2
 packages=g++,pkg-config,libfmt-dev,libgpiod-dev,libcamera-dev,libgtest-dev,libgmock-dev
-
-[[ ${1:-} != --packages ]] || { echo "$packages"; exit 0; }
-root=${1:?usage: compile_against.sh ROOT | --packages}
-[[ $(id -u) == 0 ]] || { echo "compile_against: chroot needs root" >&2; exit 77; }
+root=$cache/native-$suite-$(inputHash "$packages")
+find "$cache" -maxdepth 1 -name 'native-*' -mtime +7 -exec rm -rf {} +
+if [[ ! -d $root ]]; then
+    printf 'Making %s, about two minutes\n' "$root" >&2
+    rm -rf "$root.part"
+    mirror=$(debianMirror)
+    mmdebstrap --quiet --mode=root --variant=minbase --include="$packages" "$suite" "$root.part" \
+        ${mirror:+"$mirror"}
+    mv "$root.part" "$root"
+fi
 
 work=$(mktemp -d -p "$root/tmp" mfar.XXXXXX)
 trap 'rm -rf "$work"' EXIT
