@@ -1,14 +1,27 @@
-"""Started without a display, it shows the picture within a second after one is plugged in."""
+"""Started without a display, it shows the picture within a second after one is plugged in, and again after that was
+unplugged for a while: the display's own program, and the service."""
 
 import re
 
 BOOT = {'display': False}
 LIMIT = 1  # s
+CONFIG = '''[superres]
+mode = "off"
+[status]
+interval_s = 0.1
+'''
 
 
 def run(bed):
     bed.run('systemctl stop mfard')
     assert bed.guest.status('ls /dev/dri/card0') != 0
+    of_the_probe(bed)
+    bed.guest.unplug_display()
+    bed.wait_for('! ls /dev/dri/card0', 20)
+    of_the_service(bed)
+
+
+def of_the_probe(bed):
     # The guest's own clock tells when the device came and when the picture was there.
     bed.run('/share/mfar-display-probe auto 3 /share/shown.ppm 600 2>&1 '
             '| while read -r line; do echo "$(cut -d " " -f 1 /proc/uptime) $line"; done '
@@ -17,10 +30,29 @@ def run(bed):
     bed.guest.plug_display()
     bed.wait_for('grep -q kms:card /tmp/probe', 60)
     said = bed.run('cat /tmp/probe')
-    picture = float(re.search(r'^([\d.]+) .*: kms:card', said, re.MULTILINE)[1])
+    shown_in_time(bed, float(re.search(r'^([\d.]+) .*: kms:card', said, re.MULTILINE)[1]), said)
+    bed.run('for p in /proc/[0-9]*; do [[ $(readlink $p/exe) != */mfar-display-probe ]] || '
+            'kill -KILL ${p#/proc/}; done')
+
+
+def of_the_service(bed):
+    bed.fresh_service('display = "auto"\n' + bed.cameras + CONFIG)
+    bed.wait_for_pictures(10)
+    bed.run('mfarctl status | grep -q "no screen"')
+    for _ in range(2):
+        since = bed.now()
+        bed.guest.plug_display()
+        bed.wait_for('mfarctl status | grep -q kms:card', 60)
+        said = bed.run(f'journalctl --no-pager -q -u mfard -o short-monotonic --since "{since}"')
+        shown_in_time(bed, float(re.search(r'^\[ *([\d.]+)\].*display kms:card', said, re.MULTILINE)[1]),
+                      said)
+        bed.guest.unplug_display()
+        bed.wait_for('mfarctl status | grep -q "no screen"', 20)
+    assert bed.property('NRestarts') == '0'
+
+
+def shown_in_time(bed, picture, said):
     device = float(bed.run('dmesg | sed -n "s/^\\[ *\\([0-9.]*\\)\\].*Initialized virtio_gpu.*/\\1/p" '
                            '| tail -n 1'))
     print(f'        picture {picture - device:.2f} s after the device')
     assert picture - device < LIMIT, said
-    bed.run('for p in /proc/[0-9]*; do [[ $(readlink $p/exe) != */mfar-display-probe ]] || '
-            'kill -KILL ${p#/proc/}; done')

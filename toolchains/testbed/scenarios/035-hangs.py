@@ -1,0 +1,16 @@
+"""A service that makes no pictures any more is ended by its watchdog and runs again, its trigger at rest."""
+
+WATCHDOG = 20  # s; of the first pictures six times as long
+LIMIT = WATCHDOG + 10  # s: it is asked to end first, then killed
+
+
+def run(bed):
+    bed.fresh_service(bed.cameras, f'WatchdogSec={WATCHDOG}\n')
+    bed.wait_for_pictures(12)
+    hung = bed.property('MainPID')
+    bed.run(f'kill -STOP {hung}')
+    seconds = bed.wait_for(f'[[ $(systemctl show -P MainPID mfard) != @(0|{hung}) ]]', LIMIT)
+    print(f'        runs again after {seconds:.1f} s')
+    assert seconds > WATCHDOG / 2, 'ended by something else'
+    assert int(bed.property('NRestarts')) == 1
+    assert bed.guest.edges.level() == 0, 'the trigger line is high'

@@ -1,0 +1,24 @@
+"""The service gets every frame of the video, whatever its own pictures take."""
+
+import json
+
+SECONDS = 10
+
+
+def run(bed):
+    bed.fresh_service('display = "none"\n' + bed.cameras)
+    bed.wait_for_pictures(12)
+    before, begin = counted(bed), bed.guest.clock()
+    bed.run(f'sleep {SECONDS}')
+    after, end = counted(bed), bed.guest.clock()
+    came, lost = (b - a for a, b in zip(before, after))
+    rate = (came + lost) / (end - begin)
+    print(f'        {rate:.1f} frames a second, {lost} of {came + lost} lost by the sensor or the driver')
+    assert 27 < rate < 33, f'{rate:.1f} frames a second'
+    assert lost < (came + lost) / 100, f'{lost} lost'
+
+
+def counted(bed):
+    """Frames that came, in pictures or too late for one, and those that did not."""
+    stats = json.loads(bed.run('mfarctl stats'))
+    return stats['frames'] + stats['drops']['mailbox'], stats['drops']['sensor']
