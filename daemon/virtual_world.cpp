@@ -12,7 +12,8 @@ namespace {
 
 // How often the camera's pictures are asked for light [s].
 constexpr double kLightInterval = 0.5;
-// Light that a shiny thing throws onto others is noise for very many samples; 1 is white.
+// Light that a shiny thing throws onto others is noise for very many samples; 1 is white as it is
+// shown.
 constexpr float kBrightestCaustic = 1;
 
 std::shared_ptr<const Environment> environmentOf(const LightOptions& light) {
@@ -56,7 +57,7 @@ TracedLayerOptions VirtualWorld::layerOptions() const {
     out.reference.slices.samples = options_.samples;
     out.reference.slices.samplesPerTurn = 1;  // something is to be seen soon
     out.reference.tracer.shadowReach = kShadowReach;
-    out.reference.tracer.fireflyClamp = kBrightestCaustic;
+    out.reference.tracer.fireflyClamp = kBrightestCaustic / static_cast<float>(exposure_);
     out.reference.budgetMs = options_.budgetMs;
     out.reference.threads = options_.threads;
     out.reference.exposure.scale = exposure_;

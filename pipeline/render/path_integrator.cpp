@@ -116,7 +116,8 @@ Eigen::Vector3f PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo,
     for (int depth = 1;; ++depth) {
         const std::uint32_t pair =
             kCameraPairs + static_cast<std::uint32_t>(depth - 1) * kPairsOfVertex;
-        sum += limited(throughput.cwiseProduct(point.emission), depth);
+        // What shines at the second surface is direct light of the first.
+        sum += limited(throughput.cwiseProduct(point.emission), depth - 1);
         const Vertex vertex(point, wo);
         sum += limited(throughput.cwiseProduct(direct(vertex, sampler, pair, world)), depth);
 
