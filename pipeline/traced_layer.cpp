@@ -53,8 +53,10 @@ void TracedLayer::update(const RigidTransform& T_world_video, Timestamp time) {
         s.warp.answer(*answer);
         s.changing = s.fadeFrames + 1;
     }
-    if (std::optional<HoleRequest> request = s.warp.takeRequest())
+    if (std::optional<HoleRequest> request = s.warp.takeRequest()) {
+        request->source = s.scene;
         s.renderer.requestHoles(*request);
+    }
 }
 
 bool TracedLayer::isStale() const {

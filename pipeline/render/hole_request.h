@@ -1,9 +1,11 @@
 #pragma once
 
 #include "pipeline/render/render_view.h"
+#include "pipeline/render/scene.h"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace mfar {
@@ -15,6 +17,9 @@ struct HoleRequest {
     int samples = 4;                    ///< of each
     std::uint64_t scene = 0;            ///< whatever the answer is to be recognised by
     bool edges = false;                 ///< those that are blurred
+    /// Of the picture that has the holes, which another one may already be made for: then they are
+    /// left. None: the scene of the pictures.
+    std::shared_ptr<const Scene> source{};
 };
 
 /// What is seen through them: as RenderedPicture, for each of `pixels`.

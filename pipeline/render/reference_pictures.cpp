@@ -12,6 +12,10 @@ constexpr double kBack = 0.5;
 constexpr double kHopeless = 3;
 // A finer picture is worth a conversion when its error has halved.
 constexpr int kSamplesRatio = 4;
+// A camera that moves by less for so many looks rests; then what is farther off is warped for
+// nothing.
+constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
+constexpr int kRestLooks = 10;
 
 }  // namespace
 
@@ -28,22 +32,46 @@ ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> s
 ReferencePictures::ReferencePictures(const SliceOptions& slices, const ReferencePolicy& policy)
     : slices_(slices), policy_(policy), pictures_{Picture(slices), Picture(slices)} {}
 
+// The light of one in the making counts once it is shown: where it changes all the time, none would
+// be finished.
 std::optional<double> ReferencePictures::changeSince(const Picture& picture) const {
+    const bool isShown = &picture == &pictures_[shown_];
     if (!picture.scene || picture.scene->objects != scene_->objects ||
-        picture.scene->light != scene_->light)
+        (isShown && picture.scene->light != scene_->light))
         return {};
     return viewChange(picture.view, now_, scene_->balls, policy_.limits);
+}
+
+void ReferencePictures::watchRest() {
+    if (pixelChange(restsAt_, now_, scene_->balls) < kRestPixels) {
+        restLooks_ = std::min(restLooks_ + 1, kRestLooks);
+    } else {
+        restsAt_ = now_;
+        restLooks_ = 0;
+    }
+}
+
+ReferenceStep ReferencePictures::chosenStep() const {
+    const std::optional<double> sinceShown = changeSince(pictures_[shown_]);
+    const bool rests = restLooks_ == kRestLooks;
+    if (hasNext_ && nextRests_ && rests && !toBegin_) return ReferenceStep::Continue;
+    const bool isElsewhere =
+        sinceShown && pixelChange(pictures_[shown_].view, now_, scene_->balls) > kElsewherePixels;
+    if (!hasNext_ && rests && isElsewhere) return ReferenceStep::Start;
+    return nextStep(sinceShown,
+                    hasNext_ && !toBegin_ ? changeSince(pictures_[1 - shown_]) : std::nullopt);
 }
 
 void ReferencePictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
     now_ = now;
     if (!scene_) return;
-    const std::optional<double> sinceNext =
-        hasNext_ && !toBegin_ ? changeSince(pictures_[1 - shown_]) : std::nullopt;
-    switch (nextStep(changeSince(pictures_[shown_]), sinceNext)) {
+    watchRest();
+    const bool rests = restLooks_ == kRestLooks;
+    switch (chosenStep()) {
     case ReferenceStep::Start:
         hasNext_ = toBegin_ = true;
-        wanted_ = predicted;
+        nextRests_ = rests;
+        wanted_ = rests ? now : predicted;
         chosen_ = time;
         break;
     case ReferenceStep::Refine:
@@ -99,7 +127,9 @@ int ReferencePictures::leastSamples(const Picture& picture) const {
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
         viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
         return 1;
-    return policy_.samplesToReplace;
+    // At rest nothing is to become worse.
+    return nextRests_ ? std::max(policy_.samplesToReplace, shown.shownSamples)
+                      : policy_.samplesToReplace;
 }
 
 bool ReferencePictures::toShow() const {

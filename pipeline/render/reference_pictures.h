@@ -53,8 +53,13 @@ public:
 
     void setScene(std::shared_ptr<const ReferenceScene> scene) { scene_ = std::move(scene); }
     [[nodiscard]] const ReferenceScene* scene() const { return scene_.get(); }
+    /// Of the picture shown; none: there is none.
+    [[nodiscard]] const std::shared_ptr<const ReferenceScene>& shownScene() const {
+        return pictures_[shown_].scene;
+    }
 
     /// The camera is at `now`; a picture that is begun because of it is made for `predicted`.
+    /// One that has come to rest gets a picture of its very view.
     void look(const RenderView& now, const RenderView& predicted, Timestamp time);
 
     /// Whether begin() is due. Then there is nothing to trace.
@@ -105,6 +110,8 @@ private:
 
     [[nodiscard]] std::size_t working() const { return hasNext_ ? 1 - shown_ : shown_; }
     [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
+    [[nodiscard]] ReferenceStep chosenStep() const;
+    void watchRest();
     [[nodiscard]] int leastSamples(const Picture& picture) const;
 
     const SliceOptions slices_;
@@ -114,7 +121,9 @@ private:
     NoiseFilter filter_;
     std::size_t shown_ = 0;
     bool hasNext_ = false, toBegin_ = false;
-    RenderView now_, wanted_;
+    bool nextRests_ = false;  // the next one is of a camera at rest
+    RenderView now_, wanted_, restsAt_;
+    int restLooks_ = 0;  // since it is there
     Timestamp chosen_;
     std::uint64_t finished_ = 0;
 };

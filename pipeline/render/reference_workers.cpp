@@ -68,11 +68,19 @@ void ReferenceWorkers::work() {
 
 void ReferenceWorkers::readMail() {
     if (mail_.scenes.fetch()) toBuild_ = std::exchange(mail_.scenes.front(), nullptr);
-    if (!holesExclusive_ && holes_.idle() && scene_ && mail_.holeRequests.fetch()) {
-        holes_.take(mail_.holeRequests.front());
-        holeScene_ = scene_;
-    }
+    if (!holesExclusive_ && holes_.idle() && scene_ && mail_.holeRequests.fetch())
+        takeHoles(mail_.holeRequests.front());
     if (mail_.ticks.fetch()) takeTick();
+}
+
+// What is asked for a picture whose scene has gone is asked again for the next.
+void ReferenceWorkers::takeHoles(HoleRequest& request) {
+    const std::shared_ptr<const Scene> source = std::exchange(request.source, nullptr);
+    const std::shared_ptr<const ReferenceScene>& scene =
+        source && shownScene_ && shownScene_->source == source ? shownScene_ : scene_;
+    if (source && scene->source != source) return;
+    holes_.take(request);
+    holeScene_ = scene;
 }
 
 void ReferenceWorkers::takeTick() {
@@ -224,6 +232,7 @@ void ReferenceWorkers::finish(const Job& job, double ms) {
     case Job::Kind::Build: finishBuild(job); break;
     case Job::Kind::Show:
         mail_.pictures.publish();
+        shownScene_ = pictures_.shownScene();
         ++counters_.shown;
         [[fallthrough]];
     case Job::Kind::Begin:

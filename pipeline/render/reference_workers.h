@@ -69,6 +69,7 @@ private:
 
     // Under the mutex:
     void readMail();
+    void takeHoles(HoleRequest& request);
     void takeTick();
     void look();
     [[nodiscard]] RenderView predictedView() const;
@@ -94,7 +95,7 @@ private:
     HoleTracer holes_;
     RenderTick tick_;
     std::shared_ptr<const Scene> toBuild_, source_;
-    std::shared_ptr<const ReferenceScene> scene_, holeScene_;
+    std::shared_ptr<const ReferenceScene> scene_, shownScene_, holeScene_;
     bool building_ = false;        // Build is out
     bool exclusive_ = false;       // Begin or Show is
     bool holesExclusive_ = false;  // PrepareHoles or AnswerHoles is

@@ -124,6 +124,25 @@ double viewChange(const RenderView& from, const RenderView& to, std::span<const 
     return change;
 }
 
+double pixelChange(const RenderView& from, const RenderView& to,
+                   std::span<const ObjectBall> objects) {
+    if (!sameLens(from.camera, to.camera)) return kInfinity;
+    const RigidTransform before = from.T_world_camera.inverse(),
+                         after = to.T_world_camera.inverse();
+    const Eigen::Vector2d focal{from.camera.fx, from.camera.fy};
+    double change = 0;
+    for (const ObjectBall& ball : objects)
+        for (int i = 0; i < 7; ++i) {
+            Eigen::Vector3d point = ball.centre;
+            if (i > 0) point[(i - 1) / 2] += (i % 2 == 0 ? -1 : 1) * ball.radius;
+            const Eigen::Vector3d a = before * point, b = after * point;
+            if (!(a.z() > 0 && b.z() > 0)) continue;
+            const Eigen::Vector2d moved = b.hnormalized() - a.hnormalized();
+            change = std::max(change, moved.cwiseProduct(focal).norm());
+        }
+    return change;
+}
+
 double lightChange(const Lighting& a, const Lighting& b) {
     const bool sameSun =
         a.sun.has_value() == b.sun.has_value() &&

@@ -34,6 +34,12 @@ struct ViewLimits {
 [[nodiscard]] double viewChange(const RenderView& from, const RenderView& to,
                                 std::span<const ObjectBall> objects, const ViewLimits& limits);
 
+/// By how much the objects move from one view to the other, at most, seen without distortion [px].
+/// Those that either does not have before it count for nothing. Infinity for cameras that are not
+/// the same.
+[[nodiscard]] double pixelChange(const RenderView& from, const RenderView& to,
+                                 std::span<const ObjectBall> objects);
+
 /// How much the light differs, as a share of the stronger: the largest difference of the mean
 /// radiance and of its first moment over all directions (spherical harmonics of degree 0 and 1).
 [[nodiscard]] double lightChange(const Lighting& a, const Lighting& b);

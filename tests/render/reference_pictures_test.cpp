@@ -112,6 +112,42 @@ TEST(ReferencePictures, ACameraAtRestSeesItsPictureGetFiner) {
     EXPECT_FALSE(driver.step()) << "it serves";
 }
 
+TEST(ReferencePictures, ACameraThatComesToRestGetsAPictureOfItsOwnView) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    const std::size_t before = driver.shown.size();
+    for (int i = 0; i < 30; ++i) {  // it still moves, and the picture serves
+        driver.look(20.5 + 0.05 * i);
+        EXPECT_FALSE(driver.step()) << i;
+    }
+    for (int i = 0; i < 12; ++i)
+        driver.look(22);
+    driver.settle();
+    ASSERT_EQ(driver.shown.size(), before + 1) << "a worse one was shown";
+    EXPECT_EQ(driver.shown.back().samples, 32);
+    EXPECT_TRUE(driver.shows(22));
+    EXPECT_TRUE(driver.pictures.settled());
+    for (int i = 0; i < 30; ++i)
+        driver.look(22 + 0.001 * (i % 2));  // a pose is never quite the same
+    EXPECT_FALSE(driver.step());
+}
+
+TEST(ReferencePictures, APictureIsFinishedThoughTheLightChangesAllTheTime) {
+    Driver driver(kThirtyTwo);
+    driver.look(20);
+    driver.settle();
+    const std::size_t before = driver.shown.size();
+    for (std::uint64_t light = 2; light < 400 && driver.shown.size() == before; ++light) {
+        driver.pictures.setScene(preparedStillLife(1, light));
+        driver.look(26);
+        driver.step();
+        driver.step();
+    }
+    EXPECT_GT(driver.shown.size(), before);
+    EXPECT_TRUE(driver.shows(26));
+}
+
 TEST(ReferencePictures, SpatialSlicesAreShownWhenTheyAreFinished) {
     SliceOptions slices = kThirtyTwo;
     slices.slicing = Slicing::Spatial;
