@@ -9,6 +9,7 @@
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
 #include "warp_surface.glsl"
+#include "warp_quarters.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform usampler2D silhouette;
@@ -63,40 +64,18 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
 // How much of the colour of the surface at `point` is known; at the depth of `seen` to the reference.
 float known(vec3 point, vec3 seen, float id, out vec4 found) {
     if (lookUp(colours, surfaces, sizes.xy, 0, inView(0, seen), id, slack.x, found) > 0.0) return 1.0;
-    float share_ = 0.0;
-    for (int i = 0; i < counts.x && share_ == 0.0; ++i) {
+    float share_ = 0.0;  // that of the patch shown most: one that fades in takes nothing away
+    for (int i = 0; i < counts.x; ++i) {
+        vec4 own;
         vec3 at = inView(i + 1, point);
-        if (lookUp(patchColours, patchSurfaces, sizes.zw, i * sizes.w, at, id, 1.0, found) > 0.0) share_ = share[i];
+        if (share[i] <= share_ || lookUp(patchColours, patchSurfaces, sizes.zw, i * sizes.w, at, id, 1.0, own) == 0.0) continue;
+        share_ = share[i];
+        found = own;
     }
     if (share_ > 0.0) return share_;
     // Of the catcher, nothing is known beyond the reference, and nothing is missed.
     found = vec4(0.0);
     return id == 255.0 && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
-}
-
-// The object that has most of the quarters.
-uint mostOf(uvec4 s) {
-    uint id = 0u;
-    int most = 0;
-    for (int i = 0; i < 4; ++i) {
-        uint own = surfaceId(s[i]);
-        ivec4 same = ivec4(equal(s & 0xffu, uvec4(own)));
-        int count = same.x + same.y + same.z + same.w;
-        bool more = own != 0u && own != kCatcher && count > most;
-        most = more ? count : most;
-        id = more ? own : id;
-    }
-    return id;
-}
-
-// The middle of those quarters that show `id`: offset [px], z [m], 0 = none.
-vec3 middleOf(uvec4 s, uint id) {
-    vec4 own = vec4(equal(s & 0xffu, uvec4(id)));
-    float count = dot(own, vec4(1.0));
-    vec4 z = uintBitsToFloat(s & 0xffffff00u);
-    // In the order of textureGather.
-    vec2 sum = vec2(dot(own, vec4(-0.25, 0.25, 0.25, -0.25)), dot(own, vec4(0.25, 0.25, -0.25, -0.25)));
-    return count > 0.0 && id != 0u ? vec3(sum, dot(own, z)) / count : vec3(0.0);
 }
 
 vec3 seenAt(sampler2D splattedDepth, ivec2 p, vec3 point, vec3 otherwise) {

@@ -56,6 +56,8 @@ Warp::Warp(const CameraModel& video, Size output, const WarpOptions& options)
 void Warp::setScene(const Scene& scene) {
     ++scene_;
     silhouette_.setScene(scene);
+    patches_.clear();
+    asked_ = false;
     dropReference();
 }
 
@@ -65,13 +67,12 @@ void Warp::setReference(WarpReference reference) {
     reference_ = std::move(reference);
 }
 
+// The patches stay: they are of the scene, and of no reference.
 void Warp::dropReference() {
     reference_.reset();
-    patches_.clear();
     lastRequest_ = {};
     filler_.drop();
     rested({});
-    asked_ = false;
 }
 
 const VirtualLayer& Warp::run(const RigidTransform& T_world_camera) {
@@ -196,8 +197,9 @@ void Warp::answer(const HoleAnswer& answer) {
         throw std::invalid_argument("an answer has a pixel outside of the layer");
     if (!isFinite(answer.view.T_world_camera))
         throw std::invalid_argument("an answer's pose is not finite");
-    if (answer.scene != scene_ || pixels.empty()) return;
+    if (answer.scene != scene_) return;
     asked_ = false;
+    if (pixels.empty()) return;
     counters_.answered += pixels.size();
     if (!answer.edges)
         patches_.add(answer);
