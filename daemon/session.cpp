@@ -135,8 +135,7 @@ void Session::process(CapturedFrame captured) {
     fireIfNeeded(time, result.stats);
     previous_ = time;
     last_ = result.image;
-    const std::optional<std::string> fault = rig_.fault();
-    show(fault ? banner_.over(last_, *fault) : last_, time);
+    show(time, result.unchanged);
     ++pictures_;
     std::optional<double> age;
     if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
@@ -187,8 +186,8 @@ void Session::useStill(const CapturedStill& still) {
 }
 
 ScreenPicture Session::snapshot(bool ofScreen) const {
-    if (shown_.texture == 0) throw std::runtime_error("there is no picture yet");
-    if (!ofScreen) return copyOf(shown_);
+    if (!shown_) throw std::runtime_error("there is no picture yet");
+    if (!ofScreen) return copyOf(*shown_);
     std::optional<ScreenPicture> screen = display_->lastShown();
     if (!screen) throw std::runtime_error("there is no screen: " + display_->name());
     return *std::move(screen);
@@ -229,16 +228,22 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
 
 // Frames bring the fault with them; without them it is shown over the last picture.
 void Session::showFault() {
-    const std::optional<std::string> fault = rig_.fault();
-    if (!fault) return;
-    show(banner_.over(last_, *fault), Timestamp::now());
+    if (!rig_.fault()) return;
+    show(Timestamp::now(), true);
     stats_.pictureOfFault();
 }
 
-void Session::show(const GlImage& image, Timestamp time) {
-    shown_ = image;
+// The last picture of the pipeline, with what is wrong over it.
+void Session::show(Timestamp time, bool unchanged) {
+    const std::string fault = rig_.fault().value_or("");
     try {
-        display_->show(image, time);
+        if (unchanged && shown_ && fault == faultShown_) {
+            display_->showAgain(*shown_, time);
+        } else {
+            shown_ = fault.empty() ? last_ : banner_.over(last_, fault);
+            faultShown_ = fault;
+            display_->show(*shown_, time);
+        }
         stats_.display(display_->name());
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());

@@ -84,7 +84,7 @@ private:
     void govern();
     void showFault();
     void tellFaultyPasses();
-    void show(const GlImage& image, Timestamp time);
+    void show(Timestamp time, bool unchanged);
 
     Stats& stats_;
     Mailbox<Tunables>& changes_;
@@ -103,9 +103,10 @@ private:
     double deadlineMs_;                 ///< 0: none
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
     std::optional<Governor> governor_;
-    Governor::Choice choice_{};  ///< the pipeline's
-    GlImage last_;               ///< the pipeline's, without banner; no texture before the first
-    GlImage shown_;              ///< what the display got last
+    Governor::Choice choice_{};     ///< the pipeline's
+    GlImage last_;                  ///< the pipeline's, without banner; no texture before the first
+    std::optional<GlImage> shown_;  ///< what the display got last
+    std::string faultShown_;        ///< over it
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;
     std::vector<PlacedObject> objects_;

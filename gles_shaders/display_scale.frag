@@ -3,7 +3,8 @@
 // an area filter where the picture shrinks (nothing aliases), linear interpolation where it grows, a
 // copy at equal size. Two neighbours are fetched at once, weighted by where between them is sampled;
 // so the sampler must be linear and clamp to the edge. Values are averaged as they are stored.
-// PAIRS: as many pairs of texels in a row as a footprint can touch; a constant, so that loops unroll.
+// PAIRS: as many pairs of texels in a row as a footprint can touch; a constant, so that loops unroll. 0: a copy.
+// Variant: #define PAIRS 0
 // Variant: #define PAIRS 2
 #ifndef PAIRS
 #define PAIRS 1
@@ -28,6 +29,9 @@ void main() {
     colour = vec4(0.0, 0.0, 0.0, 1.0);
     if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, target.zw))) return;
 
+#if PAIRS == 0
+    vec3 sum = texelFetch(picture, p, 0).rgb;
+#else
     vec2 centre = (vec2(p) + 0.5) * scaleFootprint.xy;
     vec2 lo = centre - 0.5 * scaleFootprint.zw, hi = lo + scaleFootprint.zw;
     vec2 first = floor(lo), texel = 1.0 / vec2(source.xy);
@@ -47,5 +51,6 @@ void main() {
         }
     }
     sum /= scaleFootprint.z * scaleFootprint.w;
+#endif
     colour.rgb = source.z == 1 ? sum.bgr : sum;
 }

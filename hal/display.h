@@ -36,6 +36,9 @@ public:
     /// Shows the picture (or queues it for that). May wait for the device's pace; must not keep the
     /// texture after returning. Throws std::runtime_error when the device is lost.
     virtual void show(const GlImage& image, Timestamp time) = 0;
+    /// The same where the picture is the last one, to the bit: a screen that shows it needs
+    /// nothing.
+    virtual void showAgain(const GlImage& image, Timestamp time) { show(image, time); }
     /// Blocks until everything shown is out (files written). Throws like show().
     virtual void finish() = 0;
     /// What the last show() sent to a screen, screen-sized. Nothing where there is no screen. Waits

@@ -262,14 +262,19 @@ void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
 }
 
 void Pipeline::State::keepDrawn() {
+    result.unchanged = false;
     if (plan.drawsWhole()) {
         std::swap(now, drawn);
         return;
     }
+    result.unchanged = !draws;
     const Size tiles = plan.tileCount();
     for (int row = 0, i = 0; row < tiles.height; ++row)
         for (int column = 0; column < tiles.width; ++column, ++i)
-            if (plan.draws(i)) drawn.takeTile(now, column, row);
+            if (plan.draws(i)) {
+                drawn.takeTile(now, column, row);
+                result.unchanged = false;
+            }
 }
 
 const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,

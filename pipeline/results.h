@@ -56,6 +56,7 @@ struct FrameStats {
 /// What Pipeline::run gives back. Valid until the next run.
 struct FrameResult {
     GlImage image;
+    bool unchanged = false;  ///< the image is that of the run before, to the bit
     FlowField flow;
     FrameStats stats;
 };

@@ -68,6 +68,12 @@ void ScreenDisplay::show(const GlImage& image, Timestamp) {
     }
 }
 
+// The first pictures prove the screen, see kProven.
+void ScreenDisplay::showAgain(const GlImage& image, Timestamp time) {
+    refresh();
+    if (active_ == nullptr || shown_ < kProven) show(image, time);
+}
+
 void ScreenDisplay::lose(const std::string& why) {
     fault_ = why;
     failed_ = shown_ == kProven ? nullptr : active_;

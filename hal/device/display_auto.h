@@ -37,6 +37,7 @@ public:
     void show(const GlImage& image, Timestamp time) override;
     void finish() override {}
     [[nodiscard]] std::optional<Size> screenSize() override;
+    void showAgain(const GlImage& image, Timestamp time) override;
     [[nodiscard]] std::string name() const override;
 
     /// The picture that the last show() sent to the screen, screen-sized, black bars included; on a

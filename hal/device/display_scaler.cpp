@@ -31,8 +31,11 @@ ScaleParams scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
             {picture.width, picture.height, order == ScreenScaler::Order::Bgra ? 1 : 0, 0}};
 }
 
-// A footprint that is no whole number begins and ends inside a texel.
-int pairsOver(float footprint) {
+// A footprint that is no whole number begins and ends inside a texel. A picture of the screen's
+// size is copied.
+int pairsFor(const ScaleParams& params) {
+    if (params.target[2] == params.source[0] && params.target[3] == params.source[1]) return 0;
+    const float footprint = std::max(params.footprint[0], params.footprint[1]);
     const int texels = static_cast<int>(std::ceil(footprint)) + 1;
     return footprint <= 1.0F ? 1 : (texels + 1) / 2;
 }
@@ -98,7 +101,7 @@ void ScreenScaler::warmUp(const GlImage& picture) {
 // Into what is bound.
 void ScreenScaler::render(const GlImage& picture, Size screen, Order order) {
     const ScaleParams params = scaleParams(picture.size, screen, order);
-    prepare(pairsOver(std::max(params.footprint[0], params.footprint[1])));
+    prepare(pairsFor(params));
     program_->use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});
     glBindSampler(0, sampler_);
     gpu::detail::drawFullScreen();
