@@ -36,7 +36,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  outputSizeFor(config.size, rig_.geometry(), display_->screenSize()),
                  config.superres.skipUnchanged}),
       virtual_(config.virtualLayer, rig_.geometry(), pipeline_), policy_(config.trigger),
-      banner_(pipeline_.outputSize()),
+      mode_(config.superres.mode), banner_(pipeline_.outputSize()),
       deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
       levels_(governedLevels(config.governor)), objects_(config.objects), light_(config.light),
       tags_(poses_.tags()) {
@@ -102,7 +102,9 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
 }
 
 void Session::apply(const Tunables& wanted) {
-    pipeline_.setMode(wanted.superres.mode);
+    mode_ = wanted.superres.mode;
+    pipeline_.setMode(mode_);
+    useStill();
     setUpQuality(wanted.superres.mode);
     pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
     pipeline_.setMeasure(wanted.measure);
@@ -122,7 +124,7 @@ void Session::placeObjects() {
 void Session::process(CapturedFrame captured) {
     const Timestamp begun = Timestamp::now();
     const bool newStill = captured.still.has_value();
-    if (captured.still) useStill(*std::exchange(captured.still, std::nullopt));
+    if (captured.still) takeStill(*std::exchange(captured.still, std::nullopt));
     if (std::optional<TagMap> found = poses_.takeFoundTags()) {
         tags_ = *std::move(found);
         rig_.recordTags(tags_);
@@ -178,10 +180,18 @@ void Session::govern() {
     stats_.quality(governor_->level().name, deadlineMs_);
 }
 
-void Session::useStill(const CapturedStill& still) {
+void Session::takeStill(CapturedStill still) {
+    policy_.stillArrived(still.frame.time());
+    newestStill_ = std::move(still);
+    useStill();
+}
+
+// A picture that is only enlarged needs no still; it is kept until another mode does.
+void Session::useStill() {
+    if (!newestStill_ || mode_ == SuperResMode::Off) return;
+    const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
     pipeline_.setStill(still.frame.view(), still.frame.time(), still.pose);
     stillTime_ = still.frame.time();
-    policy_.stillArrived(still.frame.time());
     stats_.stillUsed();
 }
 

@@ -77,7 +77,8 @@ private:
     void apply(const Tunables& wanted);
     void placeObjects();
     void process(CapturedFrame captured);
-    void useStill(const CapturedStill& still);
+    void takeStill(CapturedStill still);
+    void useStill();
     void fireIfNeeded(Timestamp frame, const FrameStats& stats);
     void setUpQuality(SuperResMode best);
     /// Takes the governor's choice for the next frame.
@@ -98,6 +99,8 @@ private:
     Pipeline pipeline_;
     VirtualWorld virtual_;
     StillPolicy policy_;
+    SuperResMode mode_;
+    std::optional<CapturedStill> newestStill_;  ///< not used yet
     int lostTold_ = 0;  ///< of the policy's lost stills, those that the log has
     Banner banner_;
     double deadlineMs_;                 ///< 0: none
