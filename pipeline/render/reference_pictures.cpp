@@ -54,10 +54,11 @@ void ReferencePictures::watchRest() {
 ReferenceStep ReferencePictures::chosenStep() const {
     const std::optional<double> sinceShown = changeSince(pictures_[shown_]);
     const bool rests = restLooks_ == kRestLooks;
-    if (hasNext_ && nextRests_ && rests && !toBegin_) return ReferenceStep::Continue;
+    const bool hasBegun = hasNext_ && !toBegin_;
+    if (hasBegun && nextRests_ && rests) return ReferenceStep::Continue;
     const bool isElsewhere =
         sinceShown && pixelChange(pictures_[shown_].view, now_, scene_->balls) > kElsewherePixels;
-    if (!hasNext_ && rests && isElsewhere) return ReferenceStep::Start;
+    if (!hasBegun && rests && isElsewhere) return ReferenceStep::Start;
     return nextStep(sinceShown,
                     hasNext_ && !toBegin_ ? changeSince(pictures_[1 - shown_]) : std::nullopt);
 }

@@ -139,8 +139,11 @@ class Camera:
             pixels = self._picture(moment - self._epoch, number)
             if fault and fault.kind == 'late':
                 time.sleep(fault.seconds)
-            if self._deliver(self._payload(pixels, fault), generation):
-                self.sent.append((number, time.monotonic()))
+            try:
+                if self._deliver(self._payload(pixels, fault), generation):
+                    self.sent.append((number, time.monotonic()))
+            except (BrokenPipeError, ConnectionResetError):
+                return  # the guest has ended
 
     def _next(self):
         """Waits for the next picture's turn: its number, moment and stream."""
