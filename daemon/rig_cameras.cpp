@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -24,6 +25,8 @@ namespace {
 
 constexpr double kNominalView = std::numbers::pi / 3;  // across the picture [rad]
 constexpr double kNominalBaseline = 0.014;             // [m]
+// Frames that a camera may leave out before it is called silent, and before it is opened anew.
+constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
@@ -141,7 +144,13 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
     ReopeningOptions options;
     if (config.driver == CameraDriver::Libcamera) options.busyElsewhere = std::move(busyElsewhere);
     // One that waits for its trigger is silent as long as it likes.
-    if (config.rateHz == 0) options.silent = std::chrono::milliseconds(0);
+    const double periodMs = config.rateHz > 0 ? 1e3 / config.rateHz : 0;
+    const auto periods = [&](double count) {
+        return std::chrono::milliseconds(std::lround(count * periodMs));
+    };
+    options.silent = config.rateHz > 0 ? std::max(options.silent, periods(kSilentPeriods))
+                                       : std::chrono::milliseconds(0);
+    options.stalled = std::max(options.stalled, periods(kStalledPeriods));
     return std::make_unique<ReopeningCamera>(
         CameraInfo{role, config.size, PixelFormat::Nv12, config.rateHz},
         [config, wish] { return openCamera(config, wish); }, options);

@@ -10,8 +10,8 @@
 namespace mfar {
 namespace {
 
-/// How soon a fault is in the picture, and how often it is shown anew, while no frames come.
-constexpr std::chrono::milliseconds kFaultInterval{100};
+/// How often is looked for a fault while no frames come.
+constexpr std::chrono::milliseconds kFaultInterval{30};
 
 std::unique_ptr<GlContext> openGl() {
     try {
@@ -137,13 +137,16 @@ void Session::process(CapturedFrame captured) {
     fireIfNeeded(time, result.stats);
     previous_ = time;
     last_ = result.image;
+    const Timestamp drawn = Timestamp::now();
     show(time, result.unchanged);
     ++pictures_;
     std::optional<double> age;
     if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
     const Timestamp shown = Timestamp::now();
     const double ms = static_cast<double>((shown - begun).count()) * 1e-6;
-    stats_.picture({result.stats, pipeline_.stageTimes(), captured.arrived, shown, age, ms});
+    stages_ = pipeline_.stageTimes();
+    stages_.push_back({"display", static_cast<double>((shown - drawn).count()) * 1e-6});
+    stats_.picture({result.stats, stages_, captured.arrived, shown, age, ms});
     if (governor_) {
         governor_->add({ms, newStill, result.stats.usedStill, result.stats.changed});
         govern();

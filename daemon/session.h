@@ -110,6 +110,7 @@ private:
     GlImage last_;                  ///< the pipeline's, without banner; no texture before the first
     std::optional<GlImage> shown_;  ///< what the display got last
     std::string faultShown_;        ///< over it
+    std::vector<StageTime> stages_;      ///< of the last picture
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;
     std::vector<PlacedObject> objects_;

@@ -17,7 +17,7 @@ namespace mfar {
 struct ReopeningOptions {
     /// A camera that sends nothing for this long is called silent. 0: one that sends on trigger
     /// only, whose silence says nothing.
-    std::chrono::milliseconds silent{200};
+    std::chrono::milliseconds silent{150};
     /// A camera that is silent for this long is closed and opened again.
     std::chrono::milliseconds stalled{2000};
     /// Pause between two attempts to open it; doubles from the first to the second. A camera that
