@@ -54,7 +54,7 @@ BudgetGrant BudgetController::grant() {
     }
     BudgetGrant out{kFirstSamples, 0};
     if (msPerSample_ > 0) {
-        const double ms = std::min(left, budget_ / kPortionsPerFrame);
+        const double ms = std::min(left, portionMs());
         // Far inside the range of the integer, however cheap a sample is.
         out.samples = static_cast<std::int64_t>(std::min(ms / msPerSample_, 1e9));
         out.samples = std::max(out.samples, kLeastSamples);
@@ -62,6 +62,19 @@ BudgetGrant BudgetController::grant() {
     out.reservedMs = static_cast<double>(out.samples) * msPerSample_;
     reserved_ += out.reservedMs;
     return out;
+}
+
+BudgetGrant BudgetController::grant(double expectedMs) {
+    if (!(balance_ - reserved_ > 0)) {
+        usedUp_ = true;
+        return {};
+    }
+    reserved_ += valid(expectedMs);
+    return {1, valid(expectedMs)};
+}
+
+double BudgetController::portionMs() const {
+    return budget_ / kPortionsPerFrame;
 }
 
 void BudgetController::spent(const BudgetGrant& grant, std::int64_t samples, double ms) {

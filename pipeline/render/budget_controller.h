@@ -38,6 +38,10 @@ public:
 
     /// What may be begun now. Several may be out.
     [[nodiscard]] BudgetGrant grant();
+    /// The same of work that is expected to take so long.
+    [[nodiscard]] BudgetGrant grant(double expectedMs);
+    /// What a portion should take, so that a frame's last one still fits [ms].
+    [[nodiscard]] double portionMs() const;
     /// A granted portion took so long. Numbers that are not finite or negative count as nothing.
     void spent(const BudgetGrant& grant, std::int64_t samples, double ms);
     /// Other work that belongs to the budget, which does not tell what a sample costs.

@@ -45,27 +45,26 @@ Film::Film(Size size)
     : size_(size),
       pixels_(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height)) {}
 
-void Film::clear(const PixelRect& pixels) {
-    const PixelRect r = common(pixels, {0, 0, size_.width, size_.height});
-    for (int y = r.y0; y < r.y1; ++y) {
-        const auto row = pixels_.begin() + static_cast<std::ptrdiff_t>(y) * size_.width;
-        std::fill(row + r.x0, row + r.x1, Pixel{});
-    }
-}
+const Film::Pixel Film::kNothing{};
 
-void Film::clear(std::size_t pixel) {
-    pixels_[pixel] = Pixel{};
+Film::Pixel& Film::begun(std::size_t pixel) {
+    Pixel& p = pixels_[pixel];
+    if (p.picture != picture_) {
+        p = {};
+        p.picture = picture_;
+    }
+    return p;
 }
 
 std::uint64_t Film::dropped() const {
     std::uint64_t sum = 0;
-    for (const Pixel& p : pixels_)
-        sum += p.lost;
+    for (std::size_t i = 0; i < pixels_.size(); ++i)
+        sum += at(i).lost;
     return sum;
 }
 
 void Film::add(std::size_t pixel, const FilmSample& sample) {
-    Pixel& p = pixels_[pixel];
+    Pixel& p = begun(pixel);
     ++p.taken;
     if (!isLight(sample.radiance) || !isLight(sample.without)) {
         ++p.lost;
@@ -88,11 +87,11 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
 }
 
 void Film::setCentre(std::size_t pixel, const FirstHit& hit) {
-    pixels_[pixel].centre = hit;
+    begun(pixel).centre = hit;
 }
 
 float Film::error(std::size_t pixel, const Exposure& exposure) const {
-    const Pixel& p = pixels_[pixel];
+    const Pixel& p = at(pixel);
     const auto n = static_cast<double>(p.taken - p.lost);
     if (n < 2) return std::numeric_limits<float>::infinity();
     const auto objects = static_cast<double>(p.objectHits);
@@ -130,7 +129,7 @@ Film::Means Film::meansOf(const Pixel& p) {
 }
 
 Film::Means Film::means(std::size_t pixel) const {
-    return meansOf(pixels_[pixel]);
+    return meansOf(at(pixel));
 }
 
 Film::Shown Film::shown(const Means& m, const Exposure& exposure) {
@@ -166,8 +165,12 @@ Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
 }
 
 Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const {
-    const Pixel& p = pixels_[pixel];
+    const Pixel& p = at(pixel);
     return resolved(p, shown(p, exposure));
+}
+
+Film::Resolved Film::resolvedFrom(const NoisyPixel& filtered, std::size_t pixel) const {
+    return resolved(at(pixel), Shown{filtered.value.head<3>().matrix(), filtered.value[3]});
 }
 
 Film::Resolved Film::resolved(const Pixel& p, const Shown& s) {
@@ -182,7 +185,7 @@ Film::Resolved Film::resolved(const Pixel& p, const Shown& s) {
 NoisyPixel Film::noisy(std::size_t pixel, const Exposure& exposure) const {
     // Fewer samples say nothing of their spread.
     constexpr std::uint32_t kFew = 4;
-    const Pixel& p = pixels_[pixel];
+    const Pixel& p = at(pixel);
     const Shown s = shown(p, exposure);
     NoisyPixel out;
     out.value << s.colour.array(), s.coverage;
@@ -197,40 +200,6 @@ NoisyPixel Film::noisy(std::size_t pixel, const Exposure& exposure) const {
     // A real surface without change stays without.
     out.kept = p.catcherHits == n && p.with == p.without;
     return out;
-}
-
-std::vector<NoisyPixel> Film::smoothed(const Exposure& exposure, NoiseFilter& filter) const {
-    std::vector<NoisyPixel> out;
-    out.reserve(pixels_.size());
-    for (std::size_t i = 0; i < pixels_.size(); ++i)
-        out.push_back(noisy(i, exposure));
-    filter(size_, out);
-    return out;
-}
-
-void Film::resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out,
-                   NoiseFilter* filter) const {
-    const std::vector<NoisyPixel> smooth =
-        filter != nullptr ? smoothed(exposure, *filter) : std::vector<NoisyPixel>();
-    out.camera = view.camera;
-    out.T_world_camera = view.T_world_camera;
-    out.colour.resize(pixels_.size());
-    out.depth.resize(pixels_.size());
-    out.id.resize(pixels_.size());
-    double taken = 0, seen = 0;
-    for (std::size_t i = 0; i < pixels_.size(); ++i) {
-        const Pixel& p = pixels_[i];
-        const auto [colour, hit] = resolved(
-            p, smooth.empty() ? shown(p, exposure)
-                              : Shown{smooth[i].value.head<3>().matrix(), smooth[i].value[3]});
-        out.colour[i] = colour;
-        out.depth[i] = hit.depth;
-        out.id[i] = hit.id;
-        if (hit.id == 0) continue;
-        taken += p.taken;
-        seen += 1;
-    }
-    out.samples = seen > 0 ? taken / seen : 0;
 }
 
 }  // namespace mfar

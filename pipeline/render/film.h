@@ -35,11 +35,12 @@ public:
     explicit Film(Size size);
 
     [[nodiscard]] Size size() const { return size_; }
-    void clear(const PixelRect& pixels);
-    void clear(std::size_t pixel);
+    /// All pixels, at no cost.
+    void clear() { ++picture_; }
+    void clear(std::size_t pixel) { pixels_[pixel] = Pixel{}; }
 
     /// Taken so far, those that were dropped too: the next one's number.
-    [[nodiscard]] std::uint32_t samples(std::size_t pixel) const { return pixels_[pixel].taken; }
+    [[nodiscard]] std::uint32_t samples(std::size_t pixel) const { return at(pixel).taken; }
     /// Samples of all pixels that were not finite or negative, and count for nothing.
     [[nodiscard]] std::uint64_t dropped() const;
 
@@ -60,18 +61,18 @@ public:
     /// and an edge's coverage as that of jittered samples, n^-3/4 (Mitchell 1996).
     [[nodiscard]] float error(std::size_t pixel, const Exposure& exposure = {}) const;
 
-    /// The picture of what there is. Shadow and bounced light change the real surface's value by
-    /// the ratio of its modelled light with the objects to without (differential rendering, Debevec
-    /// 1998): black of coverage 1 - ratio^(1/2.2) in the darkest channel, and what the others are
-    /// brighter as added colour. `out` keeps its memory. With a filter its noise is smoothed.
-    void resolve(const RenderView& view, const Exposure& exposure, RenderedPicture& out,
-                 NoiseFilter* filter = nullptr) const;
-    /// One pixel of that picture.
+    /// One pixel of the picture of what there is. Shadow and bounced light change the real
+    /// surface's value by the ratio of its modelled light with the objects to without (differential
+    /// rendering, Debevec 1998): black of coverage 1 - ratio^(1/2.2) in the darkest channel, and
+    /// what the others are brighter as added colour.
     struct Resolved {
         std::array<std::uint8_t, 4> colour{};
         FirstHit hit;
     };
     [[nodiscard]] Resolved resolved(std::size_t pixel, const Exposure& exposure) const;
+    /// The same before it is quantised, for a NoiseFilter, and of what that has made of it.
+    [[nodiscard]] NoisyPixel noisy(std::size_t pixel, const Exposure& exposure) const;
+    [[nodiscard]] Resolved resolvedFrom(const NoisyPixel& filtered, std::size_t pixel) const;
 
 private:
     struct Pixel {
@@ -82,6 +83,7 @@ private:
         double changeSquares = 0;             // of the luminance's change on the catcher
         std::uint32_t taken = 0, lost = 0, objectHits = 0, catcherHits = 0;
         FirstHit centre, nearest, catcher;
+        std::uint32_t picture = 0;  // that it is of
     };
     struct Shown {
         Eigen::Vector3f colour{0, 0, 0};  // premultiplied, [0, 1]
@@ -93,12 +95,18 @@ private:
     [[nodiscard]] static Shown shown(const Pixel& p, const Exposure& exposure);
     [[nodiscard]] static Shown shown(const Means& m, const Exposure& exposure);
     [[nodiscard]] static Resolved resolved(const Pixel& p, const Shown& shown);
-    [[nodiscard]] NoisyPixel noisy(std::size_t pixel, const Exposure& exposure) const;
-    [[nodiscard]] std::vector<NoisyPixel> smoothed(const Exposure& exposure,
-                                                   NoiseFilter& filter) const;
     [[nodiscard]] static FirstHit firstHit(const Pixel& p, bool changed);
+    /// Nothing where what is there is of an earlier picture.
+    [[nodiscard]] const Pixel& at(std::size_t pixel) const {
+        const Pixel& p = pixels_[pixel];
+        return p.picture == picture_ ? p : kNothing;
+    }
+    [[nodiscard]] Pixel& begun(std::size_t pixel);
+
+    static const Pixel kNothing;
 
     Size size_;
+    std::uint32_t picture_ = 0;
     std::vector<Pixel> pixels_;
 };
 

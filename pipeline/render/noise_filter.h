@@ -25,22 +25,37 @@ struct NoisyPixel {
 /// al. 2017, without their moments over time). Neighbours across an edge of depth, of the surface's
 /// colour or of another surface do not count, and pixels without an id stay as they are. With the
 /// samples' number the variances fall, and the filter does nothing in the end.
+///
+/// It runs in stages, one after the other; rows of a stage may be filtered by several threads at a
+/// time.
 class NoiseFilter {
 public:
-    /// `pixels`: rows of `size`. Keeps its memory from one call to the next.
-    void operator()(Size size, std::vector<NoisyPixel>& pixels);
+    static constexpr int kStages = 5;
+
+    /// Of a picture of `size`, the pixels in `where`. Keeps its memory from one picture to the
+    /// next.
+    void begin(Size size, const PixelRect& where);
+    /// To be filled in `where` before the first stage; row-major.
+    [[nodiscard]] std::span<NoisyPixel> pixels() { return pixels_; }
+    void run(int stage, int firstRow, int lastRow);
+    /// After the last stage; row-major.
+    [[nodiscard]] std::span<const NoisyPixel> filtered() const { return other_; }
 
 private:
-    void estimateVariances(std::span<NoisyPixel> pixels) const;
-    void pass(int step, std::span<const NoisyPixel> from, std::span<NoisyPixel> to) const;
+    void spreadVariance(int x, int y);
+    void meanVariance(int x, int y);
+    void filter(int step, std::span<const NoisyPixel> from, std::span<NoisyPixel> to, int x,
+                int y) const;
 
-    /// Calls `use(neighbour, dx, dy)` for those of the same surface within `reach` steps.
+    /// Calls `use(index, dx, dy)` for those of the same surface within `reach` steps.
     template <class Use>
     void forNeighbours(std::span<const NoisyPixel> pixels, int x, int y, int reach, int step,
                        Use use) const;
 
     Size size_;
-    std::vector<NoisyPixel> other_;
+    PixelRect where_;
+    std::vector<NoisyPixel> pixels_, other_;
+    std::vector<float> variances_;
 };
 
 }  // namespace mfar

@@ -93,7 +93,7 @@ void ReferencePictures::begin() {
     picture.shownSamples = 0;
     picture.wasShown = picture.counted = false;
     if (picture.film && picture.film->size() == wanted_.camera.size)
-        picture.film->clear(picture.traced);
+        picture.film->clear();
     else
         picture.film = std::make_unique<Film>(wanted_.camera.size);
     picture.traced = scene_->tracer->bounds(wanted_);
@@ -142,9 +142,13 @@ bool ReferencePictures::toShow() const {
     return picture.slices.samples() >= leastSamples(picture);
 }
 
-void ReferencePictures::resolve(const Exposure& exposure, RenderedPicture& out) {
+void ReferencePictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
+    const Picture& picture = pictures_[working()];
+    resolver_.begin(*picture.film, picture.view, picture.traced, exposure, policy_.filter, out);
+}
+
+void ReferencePictures::endShow(RenderedPicture& out) {
     Picture& picture = pictures_[working()];
-    picture.film->resolve(picture.view, exposure, out, policy_.filter ? &filter_ : nullptr);
     out.scene = picture.scene->source;
     picture.shownSamples = picture.slices.samples();
     picture.wasShown = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/render/path_tracer.h"
+#include "pipeline/render/picture_resolver.h"
 #include "pipeline/render/slices.h"
 #include "pipeline/render/view_change.h"
 
@@ -45,7 +46,7 @@ struct ReferenceScene {
 
 /// The two reference pictures: the one shown, which is refined while it serves, and the next one,
 /// which takes its place. One caller at a time, but trace() may be called by any number, and
-/// trace() and done() alone during begin() and resolve().
+/// trace() and done() alone during begin() and from beginShow() to endShow().
 class ReferencePictures {
 public:
     /// Throws std::invalid_argument for slices out of range.
@@ -79,7 +80,10 @@ public:
 
     /// Whether the picture in the making is complete and should be shown.
     [[nodiscard]] bool toShow() const;
-    void resolve(const Exposure& exposure, RenderedPicture& out);
+    /// Then it is made in portions, until that is complete; meanwhile nothing of it is traced.
+    void beginShow(const Exposure& exposure, RenderedPicture& out);
+    [[nodiscard]] PictureResolver& resolver() { return resolver_; }
+    void endShow(RenderedPicture& out);
 
     /// No portion of the picture in the making is out, and every pixel has the same samples.
     [[nodiscard]] bool turnComplete() const { return pictures_[working()].slices.turnComplete(); }
@@ -118,7 +122,7 @@ private:
     const ReferencePolicy policy_;
     std::shared_ptr<const ReferenceScene> scene_;
     std::array<Picture, 2> pictures_;
-    NoiseFilter filter_;
+    PictureResolver resolver_;
     std::size_t shown_ = 0;
     bool hasNext_ = false, toBegin_ = false;
     bool nextRests_ = false;  // the next one is of a camera at rest

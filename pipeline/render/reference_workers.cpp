@@ -17,6 +17,8 @@ constexpr double kPredictedChange = 0.9;
 // Frames that went by during one long job, of which the budget is to know.
 constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
+// Of whose time nothing is known yet.
+constexpr std::int64_t kFirstResolved = 2048;
 
 double secondsBetween(Timestamp a, Timestamp b) {
     return static_cast<double>((b - a).count()) * 1e-9;
@@ -149,23 +151,43 @@ ReferenceWorkers::Job ReferenceWorkers::chosenJob() {
     }
     if (!exclusive_) {
         if (toLook_) look();
-        if (pictures_.toBegin() || pictures_.toShow()) {
+        if (pictures_.toBegin()) {
             exclusive_ = true;
-            job.kind = pictures_.toBegin() ? Job::Kind::Begin : Job::Kind::Show;
+            job.kind = Job::Kind::Begin;
             return job;
+        }
+        if (pictures_.toShow()) {
+            exclusive_ = resolves_ = true;
+            pictures_.beginShow(options_.exposure, mail_.pictures.back());
         }
     }
     return portion();
+}
+
+ReferenceWorkers::Job ReferenceWorkers::resolving() {
+    Job job;
+    PictureResolver& resolver = pictures_.resolver();
+    const double ms = resolveMs_[static_cast<std::size_t>(resolver.stage())];
+    const std::int64_t pixels =
+        ms > 0 ? static_cast<std::int64_t>(std::min(budget_.portionMs() / ms, 1e9))
+               : kFirstResolved;
+    job.grant = budget_.grant(ms * static_cast<double>(pixels));
+    if (job.grant.samples == 0) return job;
+    job.rows = resolver.next(pixels);
+    job.kind = Job::Kind::Resolve;
+    return job;
 }
 
 ReferenceWorkers::Job ReferenceWorkers::portion() {
     Job job;
     const bool holesWait = !holesExclusive_ && holes_.tracing();
     const bool picturesWait = !exclusive_ && !pictures_.settled();
-    if (!holesWait && !picturesWait) return job;
+    const bool rowsWait = resolves_ && pictures_.resolver().hasNext();
+    if (!holesWait && !picturesWait && !rowsWait) return job;
+    const bool holesTurn = holeMs_ <= options_.holeShare * budget_.used();
+    if (rowsWait && !(holesWait && holesTurn)) return resolving();
     job.grant = budget_.grant();
     if (job.grant.samples == 0) return job;
-    const bool holesTurn = holeMs_ <= options_.holeShare * budget_.used();
     if (picturesWait && !(holesWait && holesTurn)) {
         job.portion = pictures_.next(job.grant.samples);
         if (!job.portion.slice.pixels.empty()) {
@@ -189,7 +211,7 @@ void ReferenceWorkers::perform(Job& job) {
     case Job::Kind::None: break;
     case Job::Kind::Build: build(job); break;
     case Job::Kind::Begin: pictures_.begin(); break;
-    case Job::Kind::Show: pictures_.resolve(options_.exposure, mail_.pictures.back()); break;
+    case Job::Kind::Resolve: pictures_.resolver().run(job.rows); break;
     case Job::Kind::PrepareHoles: holes_.prepare(); break;
     case Job::Kind::AnswerHoles: holes_.answer(options_.exposure, mail_.holeAnswers.back()); break;
     case Job::Kind::Trace: pictures_.trace(job.portion); break;
@@ -230,11 +252,7 @@ void ReferenceWorkers::finish(const Job& job, double ms) {
     switch (job.kind) {
     case Job::Kind::None: return;
     case Job::Kind::Build: finishBuild(job); break;
-    case Job::Kind::Show:
-        mail_.pictures.publish();
-        shownScene_ = pictures_.shownScene();
-        ++counters_.shown;
-        [[fallthrough]];
+    case Job::Kind::Resolve: return finishRows(job, ms);
     case Job::Kind::Begin:
         exclusive_ = false;
         budget_.spentElsewhere(ms);
@@ -257,6 +275,23 @@ void ReferenceWorkers::finish(const Job& job, double ms) {
     }
     publishCounters();
     wakeOthers();
+}
+
+void ReferenceWorkers::finishRows(const Job& job, double ms) {
+    PictureResolver& resolver = pictures_.resolver();
+    resolveMs_[static_cast<std::size_t>(job.rows.stage)] =
+        ms / static_cast<double>(resolver.pixelsOf(job.rows));
+    budget_.spent(job.grant, 0, ms);
+    resolver.done(job.rows);
+    if (resolver.complete()) {
+        pictures_.endShow(mail_.pictures.back());
+        mail_.pictures.publish();
+        shownScene_ = pictures_.shownScene();
+        ++counters_.shown;
+        exclusive_ = resolves_ = false;
+        publishCounters();
+    }
+    if (resolver.complete() || resolver.hasNext()) wakeOthers();
 }
 
 void ReferenceWorkers::finishBuild(const Job& job) {

@@ -4,6 +4,7 @@
 #include "pipeline/render/reference_options.h"
 #include "pipeline/render/triple_buffer.h"
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -47,9 +48,9 @@ private:
     struct Job {
         enum class Kind : unsigned char {
             None,
-            Build,  // of these one at a time, as of the next two together, and the two after
-            Begin,
-            Show,
+            Build,  // of these one at a time, as of the two after the next together
+            Begin,  // one at a time, and none while a picture is resolved
+            Resolve,
             PrepareHoles,
             AnswerHoles,
             Trace,
@@ -58,6 +59,7 @@ private:
         Kind kind = Kind::None;
         BudgetGrant grant;
         ReferencePictures::Portion portion;
+        PictureResolver::Portion rows;
         std::span<const std::uint32_t> holes;
         int holeSamples = 0;  // of each
         std::shared_ptr<const Scene> source, previousSource;
@@ -75,6 +77,8 @@ private:
     [[nodiscard]] RenderView predictedView() const;
     [[nodiscard]] Job chosenJob();
     [[nodiscard]] Job portion();
+    [[nodiscard]] Job resolving();
+    void finishRows(const Job& job, double ms);
     void finish(const Job& job, double ms);
     void finishBuild(const Job& job);
     [[nodiscard]] bool tracing() const;
@@ -96,9 +100,11 @@ private:
     RenderTick tick_;
     std::shared_ptr<const Scene> toBuild_, source_;
     std::shared_ptr<const ReferenceScene> scene_, shownScene_, holeScene_;
-    bool building_ = false;        // Build is out
-    bool exclusive_ = false;       // Begin or Show is
-    bool holesExclusive_ = false;  // PrepareHoles or AnswerHoles is
+    bool building_ = false;   // Build is out
+    bool exclusive_ = false;  // Begin is, or a picture is resolved
+    bool resolves_ = false;
+    std::array<double, PictureResolver::kStages> resolveMs_{};  // of a pixel, in each stage
+    bool holesExclusive_ = false;                               // PrepareHoles or AnswerHoles is
     bool toLook_ = false, workAtBegin_ = false;
     double tickSeconds_ = 1.0 / 30;
     double holeMs_ = 0;  // in the current frame

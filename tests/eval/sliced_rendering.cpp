@@ -1,5 +1,6 @@
 #include "tests/eval/sliced_rendering.h"
 
+#include "pipeline/render/picture_resolver.h"
 #include "pipeline/render/reference_renderer.h"
 #include "pipeline/render/thread_priority.h"
 #include "tests/render/still_life.h"
@@ -38,9 +39,8 @@ public:
     }
     [[nodiscard]] ErrorAt state() const {
         const auto pixels = static_cast<double>(std::max<std::size_t>(slices.pixels(), 1));
-        NoiseFilter filter;
         return {static_cast<double>(slices.traced()) / pixels, ms, scene_.error(film),
-                scene_.error(film, &filter)};
+                scene_.error(film, true)};
     }
 
     Film film;
@@ -72,12 +72,12 @@ SlicedScene::SlicedScene(Size size, int truthSamples, int threads)
             exact.trace(view, pixels, truthSamples, film);
         });
     workers.clear();
-    film.resolve(view, {}, truth);
+    resolve(film, view, {}, truth);
 }
 
-double SlicedScene::error(const Film& film, NoiseFilter* filter) const {
+double SlicedScene::error(const Film& film, bool filter) const {
     RenderedPicture picture;
-    film.resolve(view, {}, picture, filter);
+    resolve(film, view, {}, picture, filter);
     double squares = 0, count = 0;
     for (int y = bounds.y0; y < bounds.y1; ++y)
         for (int x = bounds.x0; x < bounds.x1; ++x) {

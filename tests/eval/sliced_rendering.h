@@ -21,7 +21,7 @@ struct SlicedScene {
     /// Of the few balls and boxes of the tests. `threads` trace the truth.
     SlicedScene(Size size, int truthSamples, int threads);
     /// Root mean square of the difference to the truth inside the bounds [grey levels].
-    [[nodiscard]] double error(const Film& film, NoiseFilter* filter = nullptr) const;
+    [[nodiscard]] double error(const Film& film, bool filter = false) const;
 };
 
 /// After so much processor time the picture was so far off.

@@ -2,6 +2,7 @@
 
 #include "pipeline/render/environment_map.h"
 #include "pipeline/render/gltf_model.h"
+#include "pipeline/render/picture_resolver.h"
 #include "pipeline/render/showpiece.h"
 #include "tests/eval/report.h"
 #include "tests/render/still_life.h"
@@ -98,7 +99,7 @@ RenderedPicture tracePixels(const PathTracer& tracer, const RenderView& view,
         }
     }
     RenderedPicture out;
-    film.resolve(view, {}, out);
+    resolve(film, view, {}, out);
     return out;
 }
 

@@ -1,4 +1,5 @@
 #include "pipeline/render/film.h"
+#include "pipeline/render/picture_resolver.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ RenderedPicture pictureOf(const Film& film, const Exposure& exposure = {}) {
     RenderView view;
     view.camera.size = film.size();
     RenderedPicture out;
-    film.resolve(view, exposure, out);
+    resolve(film, view, exposure, out);
     return out;
 }
 
@@ -182,10 +183,14 @@ TEST(Film, ClearForgets) {
     EXPECT_EQ(film.samples(1), 1U);
     EXPECT_EQ(pictureOf(film).id[0], 0);
     film.add(0, objectSample(0.5F));
-    film.clear(PixelRect{1, -3, 7, 9});
-    EXPECT_EQ(film.samples(0), 1U);
+    film.clear();
+    EXPECT_EQ(film.samples(0), 0U);
     EXPECT_EQ(film.samples(1), 0U);
     EXPECT_EQ(pictureOf(film).id[1], 0);
+    EXPECT_EQ(film.dropped(), 0U);
+    film.add(1, objectSample(kNan));
+    EXPECT_EQ(film.samples(1), 1U);
+    EXPECT_EQ(film.dropped(), 1U);
 }
 
 TEST(Exposure, SrgbIsTheStandards) {

@@ -1,5 +1,6 @@
 #include "pipeline/render/hole_tracer.h"
 #include "pipeline/render/path_tracer.h"
+#include "pipeline/render/picture_resolver.h"
 #include "tests/render/still_life.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,7 @@ TEST(HoleTracer, AnswersAsAPictureOfTheViewWould) {
     Film film(kHoleSize);
     tracer.trace(view, all, 4, film);
     RenderedPicture truth;
-    film.resolve(view, {}, truth);
+    resolve(film, view, {}, truth);
 
     HoleTracer holes(10000);
     for (int round = 0; round < 2; ++round) {  // nothing of the first is left in the second

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -42,6 +43,17 @@ double errorOf(const Pixels& pixels, Value value) {
     return std::sqrt(squares / static_cast<double>(pixels.size()));
 }
 
+/// Rows of each stage in several portions, the last ones first.
+Pixels filtered(Size size, const Pixels& pixels) {
+    NoiseFilter filter;
+    filter.begin(size, {0, 0, size.width, size.height});
+    std::ranges::copy(pixels, filter.pixels().begin());
+    for (int stage = 0; stage < NoiseFilter::kStages; ++stage)
+        for (const int row : {5, 2, 0})
+            filter.run(stage, row, row == 5 ? size.height : row == 2 ? 5 : 2);
+    return {filter.filtered().begin(), filter.filtered().end()};
+}
+
 float flat(int, int) {
     return 0.5F;
 }
@@ -51,7 +63,7 @@ float step(int x, int) {
 
 TEST(NoiseFilter, SmoothsNoise) {
     Pixels pixels = noisyPicture(flat);
-    NoiseFilter()(kNoisySize, pixels);
+    pixels = filtered(kNoisySize, pixels);
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
@@ -59,19 +71,19 @@ TEST(NoiseFilter, FindsVariancesThatAreNotKnown) {
     Pixels pixels = noisyPicture(flat);
     for (NoisyPixel& p : pixels)
         p.variance = -1;
-    NoiseFilter()(kNoisySize, pixels);
+    pixels = filtered(kNoisySize, pixels);
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
 TEST(NoiseFilter, LeavesWhatIsMoreThanNoise) {
     const auto edge = [](int x, int) { return x < kNoisySize.width / 2 ? 0.1F : 0.9F; };
     Pixels pixels = noisyPicture(edge);
-    NoiseFilter()(kNoisySize, pixels);
+    pixels = filtered(kNoisySize, pixels);
     EXPECT_LT(errorOf(pixels, edge), kSigma / 2);
     Pixels known = noisyPicture(flat);
     for (NoisyPixel& p : known)
         p.variance = 0;
-    NoiseFilter()(kNoisySize, known);
+    known = filtered(kNoisySize, known);
     EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
 }
 
@@ -81,7 +93,7 @@ double errorAtStep(Mark mark) {
     Pixels pixels = noisyPicture(step, 0);
     for (std::size_t i = 0; i < pixels.size(); ++i)
         mark(pixels[i], static_cast<int>(i % kNoisySize.width) < kNoisySize.width / 2);
-    NoiseFilter()(kNoisySize, pixels);
+    pixels = filtered(kNoisySize, pixels);
     return errorOf(pixels, step);
 }
 
@@ -102,9 +114,28 @@ TEST(NoiseFilter, ChangesNothingElse) {
         pixels[i].kept = pixels[i].id == 1;
     }
     const Pixels before = pixels;
-    NoiseFilter()(kNoisySize, pixels);
+    pixels = filtered(kNoisySize, pixels);
     for (std::size_t i = 0; i < pixels.size(); i += 3)
         ASSERT_TRUE((pixels[i].value == before[i].value).all()) << i;
+}
+
+TEST(NoiseFilter, SeesNothingBeyondItsPixels) {
+    const PixelRect where{8, 4, 30, 20};
+    const auto inside = [&](float outside) {
+        NoiseFilter filter;
+        filter.begin(kNoisySize, where);
+        std::ranges::copy(noisyPicture(flat), filter.pixels().begin());
+        for (int i = 0; i < kNoisySize.width * kNoisySize.height; ++i)
+            if (common(where, {i % kNoisySize.width, i / kNoisySize.width, i % kNoisySize.width + 1,
+                               i / kNoisySize.width + 1})
+                    .empty())
+                filter.pixels()[static_cast<std::size_t>(i)].value.setConstant(outside);
+        for (int stage = 0; stage < NoiseFilter::kStages; ++stage)
+            filter.run(stage, 0, kNoisySize.height);
+        return filter.filtered()[static_cast<std::size_t>(where.y0) * kNoisySize.width + where.x0]
+            .value[0];
+    };
+    EXPECT_EQ(inside(0.5F), inside(0.52F));
 }
 
 TEST(NoiseFilter, TakesAnySize) {
@@ -115,7 +146,7 @@ TEST(NoiseFilter, TakesAnySize) {
             p.variance = -1;
             p.id = 1;
         }
-        NoiseFilter()(size, pixels);
+        pixels = filtered(size, pixels);
         for (const NoisyPixel& p : pixels)
             ASSERT_NEAR(p.value[2], 0.5F, 1e-6);
     }

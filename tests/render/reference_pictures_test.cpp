@@ -44,7 +44,14 @@ public:
             return true;
         }
         if (pictures.toShow()) {
-            pictures.resolve({}, shown.emplace_back());
+            RenderedPicture& out = shown.emplace_back();
+            pictures.beginShow({}, out);
+            while (!pictures.resolver().complete()) {
+                const PictureResolver::Portion rows = pictures.resolver().next(100);
+                pictures.resolver().run(rows);
+                pictures.resolver().done(rows);
+            }
+            pictures.endShow(out);
             return true;
         }
         const ReferencePictures::Portion portion = pictures.next(1000);

@@ -1,3 +1,4 @@
+#include "pipeline/render/picture_resolver.h"
 #include "pipeline/render/reference_renderer.h"
 #include "tests/render/still_life.h"
 
@@ -91,8 +92,7 @@ TEST(ReferenceRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
     Film film(kRenderSize);
     tracer.trace(view, all, 16, film);
     RenderedPicture truth;
-    NoiseFilter filter;
-    film.resolve(view, {}, truth, &filter);
+    resolve(film, view, {}, truth, true);
     for (const Slicing slicing : {Slicing::Time, Slicing::Spatial})
         for (const int threads : {1, 2, 5}) {
             ReferenceOptions options = quick();

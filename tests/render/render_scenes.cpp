@@ -1,5 +1,7 @@
 #include "tests/render/render_scenes.h"
 
+#include "pipeline/render/picture_resolver.h"
+
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -104,7 +106,7 @@ Film traced(const PathTracer& tracer, const RenderView& view, int samples) {
 
 RenderedPicture resolved(const Film& film, const RenderView& view) {
     RenderedPicture out;
-    film.resolve(view, {}, out);
+    resolve(film, view, {}, out);
     return out;
 }
 

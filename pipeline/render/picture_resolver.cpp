@@ -1,0 +1,112 @@
+#include "pipeline/render/picture_resolver.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace mfar {
+
+void PictureResolver::begin(const Film& film, const RenderView& view, const PixelRect& traced,
+                            const Exposure& exposure, bool filter, RenderedPicture& out) {
+    const Size size = film.size();
+    film_ = &film;
+    traced_ = common(traced, {0, 0, size.width, size.height});
+    if (traced_.empty()) traced_ = {};
+    exposure_ = exposure;
+    filters_ = filter;
+    out_ = &out;
+    out.camera = view.camera;
+    out.T_world_camera = view.T_world_camera;
+    const std::size_t pixels =
+        static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+    out.colour.resize(pixels);
+    out.depth.resize(pixels);
+    out.id.resize(pixels);
+    taken_.assign(static_cast<std::size_t>(size.height), 0);
+    seen_ = taken_;
+    if (filters_) filter_.begin(size, traced_);
+    stage_ = filters_ && !traced_.empty() ? kPrepare : kLastStage;
+    nextRow_ = rowsBegin();
+    rowsOut_ = 0;
+}
+
+// What is not traced is written as well: the memory held another picture.
+int PictureResolver::rowsBegin() const {
+    return stage_ == kLastStage ? 0 : traced_.y0;
+}
+
+int PictureResolver::rowsEnd() const {
+    if (complete()) return nextRow_;
+    return stage_ == kLastStage ? film_->size().height : traced_.y1;
+}
+
+PictureResolver::Portion PictureResolver::next(std::int64_t pixels) {
+    const std::int64_t width = std::max(traced_.x1 - traced_.x0, 1);
+    const auto rows = static_cast<int>(
+        std::clamp<std::int64_t>(pixels / width, 1, std::max(rowsEnd() - nextRow_, 1)));
+    const Portion out{stage_, nextRow_, std::min(nextRow_ + rows, rowsEnd())};
+    nextRow_ = out.lastRow;
+    rowsOut_ += out.lastRow - out.firstRow;
+    return out;
+}
+
+std::int64_t PictureResolver::pixelsOf(const Portion& portion) const {
+    return std::int64_t{portion.lastRow - portion.firstRow} * std::max(traced_.x1 - traced_.x0, 1);
+}
+
+void PictureResolver::run(const Portion& portion) {
+    if (portion.stage > kPrepare && portion.stage < kLastStage)
+        return filter_.run(portion.stage - 1, portion.firstRow, portion.lastRow);
+    for (int row = portion.firstRow; row < portion.lastRow; ++row)
+        portion.stage == kPrepare ? prepare(row) : write(row);
+}
+
+void PictureResolver::done(const Portion& portion) {
+    rowsOut_ -= portion.lastRow - portion.firstRow;
+    if (rowsOut_ > 0 || hasNext()) return;
+    ++stage_;
+    nextRow_ = complete() ? 0 : rowsBegin();
+    if (!complete()) return;
+    const double seen = std::reduce(seen_.begin(), seen_.end());
+    out_->samples = seen > 0 ? std::reduce(taken_.begin(), taken_.end()) / seen : 0;
+}
+
+void PictureResolver::prepare(int row) {
+    const auto begin = static_cast<std::size_t>(row) * film_->size().width;
+    for (int x = traced_.x0; x < traced_.x1; ++x)
+        filter_.pixels()[begin + x] = film_->noisy(begin + x, exposure_);
+}
+
+void PictureResolver::write(int row) {
+    const int width = film_->size().width;
+    const auto begin = static_cast<std::size_t>(row) * width;
+    std::fill_n(out_->colour.begin() + static_cast<std::ptrdiff_t>(begin), width,
+                std::array<std::uint8_t, 4>{});
+    std::fill_n(out_->depth.begin() + static_cast<std::ptrdiff_t>(begin), width, 0.0F);
+    std::fill_n(out_->id.begin() + static_cast<std::ptrdiff_t>(begin), width, std::uint8_t{0});
+    if (row < traced_.y0 || row >= traced_.y1) return;
+    for (int x = traced_.x0; x < traced_.x1; ++x) {
+        const std::size_t i = begin + x;
+        const auto [colour, hit] = filters_ ? film_->resolvedFrom(filter_.filtered()[i], i)
+                                            : film_->resolved(i, exposure_);
+        out_->colour[i] = colour;
+        out_->depth[i] = hit.depth;
+        out_->id[i] = hit.id;
+        if (hit.id == 0) continue;
+        taken_[static_cast<std::size_t>(row)] += film_->samples(i);
+        seen_[static_cast<std::size_t>(row)] += 1;
+    }
+}
+
+void resolve(const Film& film, const RenderView& view, const Exposure& exposure,
+             RenderedPicture& out, bool filter) {
+    PictureResolver resolver;
+    resolver.begin(film, view, {0, 0, film.size().width, film.size().height}, exposure, filter,
+                   out);
+    while (!resolver.complete()) {
+        const PictureResolver::Portion portion = resolver.next(1 << 30);
+        resolver.run(portion);
+        resolver.done(portion);
+    }
+}
+
+}  // namespace mfar
