@@ -1,6 +1,7 @@
 #include "pipeline/traced_layer.h"
 
 #include "pipeline/render/reference_renderer.h"
+#include "pipeline/render/view_change.h"
 #include "pipeline/warp/warp.h"
 
 #include <utility>
@@ -15,8 +16,9 @@ struct TracedLayer::State {
     /// Pictures of another scene come with their models.
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {
+            const bool sameModels = scene && sameObjects(*scene, *picture.scene);
             scene = picture.scene;
-            warp.setScene(*scene);
+            if (!sameModels) warp.setScene(*scene);  // another light moves no silhouette
         }
         warp.setReference(warpReference(picture));
         shown = &picture;

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -97,6 +98,21 @@ PixelRect doubled(const PixelRect& r) {
     return {2 * r.x0, 2 * r.y0, 2 * r.x1, 2 * r.y1};
 }
 
+/// Leaves out what faces away: clockwise in a picture whose first row is the lowest to GL.
+class FrontFaces {
+public:
+    FrontFaces() {
+        glEnable(GL_CULL_FACE);
+        glFrontFace(GL_CW);
+    }
+    FrontFaces(const FrontFaces&) = delete;
+    FrontFaces& operator=(const FrontFaces&) = delete;
+    ~FrontFaces() {
+        glDisable(GL_CULL_FACE);
+        glFrontFace(GL_CCW);
+    }
+};
+
 /// Objects before, the catcher behind all of them.
 class DepthRange {
 public:
@@ -120,16 +136,21 @@ ModelSilhouette::ModelSilhouette(const CameraModel& layer)
 }
 
 void ModelSilhouette::setScene(const Scene& scene) {
-    shapes_.clear();
+    const double share = std::min(1.0, kMostTriangles / trianglesOf(scene));
+    std::deque<Shape> before = std::exchange(shapes_, {});
+    if (std::exchange(share_, share) != share) before.clear();
     objects_.clear();
     catcher_.reset();
     triangles_ = 0;
-    const double share = std::min(1.0, kMostTriangles / trianglesOf(scene));
     std::map<const Model*, std::size_t> known;
     for (const SceneObject& o : scene.objects) {
         const auto [at, isNew] = known.try_emplace(o.model.get(), shapes_.size());
-        if (isNew) addModel(*o.model, share);
         objects_.push_back({at->second, o.T_world_object, o.scale});
+        if (!isNew) continue;
+        const auto kept = std::ranges::find(before, o.model, &Shape::model);
+        shapes_.push_back(kept != before.end() ? std::move(*kept) : shapeOf(o.model));
+        for (const Part& part : shapes_.back().parts)
+            triangles_ += static_cast<std::size_t>(part.indexCount) / 3;
     }
     addCatcher(scene.catcher);
 }
@@ -145,32 +166,37 @@ ModelSilhouette::Part ModelSilhouette::partOf(const SurfaceMesh& mesh) {
     return part;
 }
 
-void ModelSilhouette::addModel(const Model& model, double share) {
-    Shape shape;
+ModelSilhouette::Shape ModelSilhouette::shapeOf(const std::shared_ptr<const Model>& model) const {
+    Shape shape{{}, {}, model};
     const bool bent = isDistorted(lens_.camera);
     float diagonal = 0;
-    for (const Mesh& mesh : model.meshes)
+    for (const Mesh& mesh : model->meshes)
         diagonal = std::max(diagonal, diagonalOf(mesh.positions));
-    for (const Mesh& mesh : model.meshes) {
+    for (const Mesh& mesh : model->meshes) {
+        const Material& material = model->materials.at(static_cast<std::size_t>(mesh.material));
+        const float cutoff = material.alphaCutoff / std::max(material.baseColour.w(), 1e-6F);
+        const bool masked =
+            material.alphaCutoff > 0 && material.baseColourTexture >= 0 && !mesh.uvs.empty();
+        if (!masked && cutoff > 1) continue;  // the factor alone makes a hole of it
         SurfaceMesh surface = surfaceMesh(mesh.positions, mesh.uvs, mesh.triangles,
                                           bent ? diagonal / kModelPieces : 0);
-        if (share < 1)
+        if (share_ < 1)
             surface = simplified(
                 std::move(surface),
-                static_cast<std::size_t>(share * static_cast<double>(mesh.triangles.size())) +
+                static_cast<std::size_t>(share_ * static_cast<double>(mesh.triangles.size())) +
                     kLeastTriangles);
         if (surface.triangles.empty()) continue;
-        const Material& material = model.materials.at(static_cast<std::size_t>(mesh.material));
         Part part = partOf(surface);
-        part.cutoff = material.alphaCutoff / std::max(material.baseColour.w(), 1e-6F);
-        const auto texture = static_cast<std::size_t>(material.baseColourTexture);
-        if (material.alphaCutoff > 0 && material.baseColourTexture >= 0 && !mesh.uvs.empty())
-            part.alpha = alphaOf(model.textures.at(texture));
-        triangles_ += surface.triangles.size();
+        part.cutoff = cutoff;
+        // Simplified, a triangle may face another way than the surface does.
+        part.bothSides = material.doubleSided || share_ < 1;
+        if (masked)
+            part.alpha =
+                alphaOf(model->textures.at(static_cast<std::size_t>(material.baseColourTexture)));
         shape.box.extend(boxOf(surface));
         shape.parts.push_back(std::move(part));
     }
-    shapes_.push_back(std::move(shape));
+    return shape;
 }
 
 void ModelSilhouette::addCatcher(const ShadowCatcher& catcher) {
@@ -182,7 +208,7 @@ void ModelSilhouette::addCatcher(const ShadowCatcher& catcher) {
                     bent ? diagonalOf(catcher.positions) / kCatcherPieces : 0);
     if (surface.triangles.empty()) return;
     triangles_ += surface.triangles.size();
-    Shape shape{{}, boxOf(surface)};
+    Shape shape{{}, boxOf(surface), {}};
     shape.parts.push_back(partOf(surface));
     catcher_ = Object{shapes_.size(), {}, 1};
     shapes_.push_back(std::move(shape));
@@ -235,6 +261,8 @@ void ModelSilhouette::drawObject(const Object& object, std::size_t number,
     p.target[2] = static_cast<float>(number);
     for (const Part& part : shapes_[object.shape].parts) {
         p.target[3] = part.cutoff;
+        std::optional<FrontFaces> front;
+        if (!part.bothSides) front.emplace();
         const gpu::Mesh mesh{part.vertices, part.indices, part.indexCount};
         if (part.alpha)
             maskedPass_.runMesh(p, {gpu::sampler(0, *part.alpha)}, target_, mesh);

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -50,10 +51,12 @@ private:
         int indexCount;
         std::optional<gpu::Texture> alpha;  // of masked surfaces
         float cutoff;
+        bool bothSides = true;  // are seen
     };
     struct Shape {
         std::vector<Part> parts;
         Eigen::AlignedBox3d box;
+        std::shared_ptr<const Model> model;  // none: the catcher
     };
     struct Object {
         std::size_t shape;
@@ -63,7 +66,7 @@ private:
 
     static Part partOf(const SurfaceMesh& mesh);
     void clear(const PixelRect& where) const;
-    void addModel(const Model& model, double share);
+    [[nodiscard]] Shape shapeOf(const std::shared_ptr<const Model>& model) const;
     void addCatcher(const ShadowCatcher& catcher);
     void drawObject(const Object& object, std::size_t number, const RigidTransform& T_camera_world);
     [[nodiscard]] PixelRect boundsOf(const Object& object,
@@ -75,6 +78,7 @@ private:
     std::optional<Object> catcher_;
     Eigen::Vector4d plane_ = Eigen::Vector4d::Zero();
     std::size_t triangles_ = 0;
+    double share_ = 1;  // of the models' triangles that are drawn
     PixelRect drawn_;
     gpu::Texture surface_, window_;
     gpu::Framebuffer target_;
