@@ -284,13 +284,16 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.stageTimes.clear();
     s.lastLap = std::chrono::steady_clock::now();
 
-    s.video.upload(video);
-    s.lap("upload");
     const PixelRect where = s.placeObjects(pose, time);
     s.limitMatching();
     s.now.take(video);
     s.plan.update(s.now, s.drawn, s.redraw || !s.options.skipUnchanged);
     s.lap("plan");
+    // At rest the GPU is left alone.
+    if (s.plan.changedTiles() > 0 || s.plan.drawsWhole() || s.plan.redraws()) {
+        s.video.upload(video);
+        s.lap("upload");
+    }
     const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
     const bool usePose = useStill && s.alongLines && pose && s.epipolar.hasStill();
     if (useStill) s.matchStill(video, usePose ? pose : std::nullopt, where);
