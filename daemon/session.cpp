@@ -42,12 +42,16 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       tags_(poses_.tags()) {
     rig_.recordTags(tags_);
     pipeline_.setMeasure(config.status.measure);
+    pipeline_.setImporter(gl_->planeImporter());
     placeObjects();
     setUpQuality(config.superres.mode);
     description_ = {gl_->description(),  rig_.description(),
                     display_->name(),    std::string(name(config.superres.mode)),
                     rig_.videoFrames(),  std::nullopt,
                     poses_.description()};
+    if (description_.source.starts_with("cameras"))
+        description_.source +=
+            gl_->planeImporter() != nullptr ? ", read in place by the GPU" : ", copied";
 }
 
 Session::~Session() = default;
@@ -153,6 +157,7 @@ void Session::process(CapturedFrame captured) {
     }
     if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
     if (auto error = pipeline_.takeSceneError()) stats_.warn("objects: " + *error);
+    if (auto error = pipeline_.takeImportFault()) stats_.warn(*error + ": it is copied");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
         // It is the policy that repeats.

@@ -56,6 +56,18 @@ struct PlaneView {
     std::size_t stride = 0;  ///< bytes from one row to the next
 };
 
+/// Where the planes of a picture lie in memory that other devices can read as well (dma-buf).
+struct SharedMemory {
+    std::uint64_t id = 0;  ///< of this memory, never another's
+    struct Plane {
+        int fd = -1;
+        std::size_t offset = 0;  ///< bytes from the begin of the buffer
+    };
+    std::array<Plane, 3> planes{};
+};
+/// One that nobody has had in this process. Any thread.
+[[nodiscard]] std::uint64_t newSharedMemoryId();
+
 /// Borrowed, read-only pixels. Origin top left, row 0 first. Never owns.
 struct ImageView {
     const std::uint8_t* data = nullptr;
@@ -65,6 +77,7 @@ struct ImageView {
     std::array<PlaneView, 2> chroma{};  ///< Nv12: U V in [0]; Yuv420: U in [0], V in [1]
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
+    const SharedMemory* shared = nullptr;  ///< where the same planes are; none: here alone
 };
 
 /// A picture on loan from a camera: move-only, gives its buffer back when destroyed. May be handed

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "hal/plane_importer.h"
+
 #include <memory>
 #include <string>
 
@@ -18,6 +20,9 @@ public:
     virtual void release() = 0;
     /// Address of an extension function, nullptr when it does not exist.
     [[nodiscard]] virtual Proc getProcAddress(const char* name) const = 0;
+    /// Nothing where the driver imports no memory of cameras, or reads faster what is uploaded: a
+    /// software renderer.
+    [[nodiscard]] virtual PlaneImporter* planeImporter() { return nullptr; }
     /// One line for people: "EGL surfaceless: llvmpipe (...), OpenGL ES 3.2 ..., software".
     [[nodiscard]] virtual std::string description() const = 0;
 };

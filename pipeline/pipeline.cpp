@@ -140,6 +140,16 @@ std::optional<std::string> Pipeline::takeSceneError() {
     return state_->objects->traced()->takeError();
 }
 
+void Pipeline::setImporter(PlaneImporter* importer) {
+    state_->video.setImporter(importer);
+    state_->still.setImporter(importer);
+}
+
+std::optional<std::string> Pipeline::takeImportFault() {
+    std::optional<std::string> fault = state_->video.takeImportFault();
+    return fault ? fault : state_->still.takeImportFault();
+}
+
 void Pipeline::setSkipUnchanged(bool skip) {
     state_->options.skipUnchanged = skip;
 }
@@ -311,6 +321,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.result.stats.searched2d = s.flow.searched().countBefore();
     if (usePose) publishPose(s.epipolar, s.result.stats);
     s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
+    s.video.finishReading();  // long done
     return s.result;
 }
 

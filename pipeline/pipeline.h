@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/frame.h"
+#include "hal/plane_importer.h"
 #include "pipeline/composite/virtual_object.h"
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/depth/inverse_depth_field.h"
@@ -64,6 +65,10 @@ public:
     /// Both take effect with the next run.
     void setMode(SuperResMode mode);
     void setSkipUnchanged(bool skip);
+    /// What reads cameras' memory without a copy; null: all is uploaded. It must outlive this.
+    void setImporter(PlaneImporter* importer);
+    /// Why that is not done, where it was to be; told once.
+    [[nodiscard]] std::optional<std::string> takeImportFault();
     /// Takes effect with the next run, in what that draws; allocates nothing. Throws
     /// std::invalid_argument for settings out of range.
     void setQuality(const Quality& quality);

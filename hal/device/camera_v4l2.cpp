@@ -137,10 +137,14 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
     for (std::size_t i = 0; i < memory.size(); ++i)
         if (memory[i] != nullptr) memory[i] += filled.offset[i];
     std::optional<Frame> out;
-    if (decoder_)
+    if (decoder_) {
         out = decoder_->decode({memory[0], filled.bytes[0] - filled.offset[0]}, *time);
-    else
-        out.emplace(layout_.view(memory), *time, [loan] {});
+    } else {
+        ImageView view = layout_.view(memory);
+        const bool atBegin = filled.offset == decltype(filled.offset){};
+        view.shared = atBegin ? stream_->shared(filled.index) : nullptr;
+        out.emplace(view, *time, [loan] {});
+    }
     if (!out) {
         ++counts_.broken;
         return std::nullopt;

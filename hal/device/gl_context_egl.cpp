@@ -1,3 +1,4 @@
+#include "hal/device/egl_plane_importer.h"
 #include "hal/gl_context.h"
 
 #include <EGL/egl.h>
@@ -114,6 +115,7 @@ public:
                               renderer.find("softpipe") != renderer.npos;
         description_ = std::string(opened.how) + ": " + renderer + ", " + text(GL_VERSION) +
                        (software ? ", software" : ", hardware");
+        if (!software) importer_ = createPlaneImporter(display_);
         // ES 3.1 refuses indirect draws without a vertex array object.
         glGenVertexArrays(1, &vertexArray_);
         glBindVertexArray(vertexArray_);
@@ -134,12 +136,14 @@ public:
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
     Proc getProcAddress(const char* name) const override { return eglGetProcAddress(name); }
+    PlaneImporter* planeImporter() override { return importer_.get(); }
     std::string description() const override { return description_; }
 
 private:
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;
     GLuint vertexArray_ = 0;
+    std::unique_ptr<PlaneImporter> importer_;
     std::string description_;
 };
 

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <stdexcept>
 
@@ -22,6 +23,7 @@ MappedPicture::MappedPicture(const libcamera::FrameBuffer& buffer, const Picture
             planes.push_back({memory + plane.offset, plane.length});
         }
         view_ = layOut(layout, planes);
+        share();
     } catch (...) {
         unmap();
         throw;
@@ -50,6 +52,20 @@ void MappedPicture::map(const libcamera::FrameBuffer& buffer) {
                                                  std::generic_category().message(errno)));
         file.memory = memory;
     }
+}
+
+// Planes may begin anywhere in the camera's: those of the picture's are found by their addresses.
+void MappedPicture::share() {
+    shared_.id = newSharedMemoryId();
+    const std::array<const std::uint8_t*, 3> begins{view_.data, view_.chroma[0].data,
+                                                    view_.chroma[1].data};
+    for (std::size_t i = 0; i < begins.size(); ++i)
+        for (const File& file : files_) {
+            const auto* memory = static_cast<const std::uint8_t*>(file.memory);
+            if (begins[i] != nullptr && begins[i] >= memory && begins[i] < memory + file.length)
+                shared_.planes[i] = {file.fd.get(), static_cast<std::size_t>(begins[i] - memory)};
+        }
+    view_.shared = &shared_;
 }
 
 void MappedPicture::unmap() {

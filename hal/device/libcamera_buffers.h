@@ -35,8 +35,11 @@ private:
     void unmap();
     void synchronize(std::uint64_t flags) const;
 
+    void share();
+
     std::vector<File> files_;
     ImageView view_;
+    SharedMemory shared_;
 };
 
 }  // namespace mfar

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <stdexcept>
@@ -40,6 +42,7 @@ V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
                 throw std::runtime_error(fmt::format(
                     "{}: the driver's buffers have {} bytes, a picture needs {}", device_->path(),
                     memoryBytes(i, p), layout.bytes[static_cast<std::size_t>(p)]));
+        exportBuffer(i, layout);
     }
 }
 
@@ -71,6 +74,32 @@ void V4l2Stream::mapBuffer(int index) {
             multi ? argument.planes[i].m.mem_offset : argument.buffer.m.offset;
         buffers_[static_cast<std::size_t>(index)].pieces[i] = device_->map(length, offset);
     }
+}
+
+// A driver need not know how; a copy does as well.
+void V4l2Stream::exportBuffer(int index, const V4l2Layout& layout) {
+    if (layout.format.jpeg) return;
+    Buffer& buffer = buffers_[static_cast<std::size_t>(index)];
+    for (int p = 0; p < pieces_; ++p) {
+        v4l2_exportbuffer request{};
+        request.type = type_;
+        request.index = static_cast<std::uint32_t>(index);
+        request.plane = static_cast<std::uint32_t>(p);
+        request.flags = O_CLOEXEC;
+        if (device_->tryCall(VIDIOC_EXPBUF, &request) != 0) return;
+        buffer.exported[static_cast<std::size_t>(p)] = OwnedFd(request.fd);
+    }
+    buffer.shared.id = newSharedMemoryId();
+    for (std::size_t i = 0; i < layout.planes.size(); ++i) {
+        const V4l2Layout::Plane& plane = layout.planes[i];
+        buffer.shared.planes[i] = {buffer.exported[static_cast<std::size_t>(plane.memory)].get(),
+                                   plane.offset};
+    }
+}
+
+const SharedMemory* V4l2Stream::shared(int index) const {
+    const Buffer& buffer = buffers_[static_cast<std::size_t>(index)];
+    return buffer.shared.id != 0 ? &buffer.shared : nullptr;
 }
 
 int V4l2Stream::queue(int index) noexcept {

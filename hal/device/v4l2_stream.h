@@ -50,6 +50,9 @@ public:
     [[nodiscard]] std::array<const std::uint8_t*, 3> memory(int index) const;
     [[nodiscard]] std::size_t memoryBytes(int index, int piece) const;
 
+    /// The same as shared memory; nothing where the driver does not export it.
+    [[nodiscard]] const SharedMemory* shared(int index) const;
+
     /// Not after close().
     [[nodiscard]] const V4l2Device& device() const { return *device_; }
 
@@ -58,12 +61,15 @@ private:
     struct Buffer {
         Holder holder = Holder::Nobody;
         std::array<V4l2Device::Mapping, 3> pieces;
+        std::array<OwnedFd, 3> exported;
+        SharedMemory shared;  ///< id 0: none
     };
     /// The argument of a buffer call, with planes where the multi-planar API wants them.
     struct Argument;
 
     void allocate(int buffers);
     void mapBuffer(int index);
+    void exportBuffer(int index, const V4l2Layout& layout);
     [[nodiscard]] int queue(int index) noexcept;
 
     std::optional<V4l2Device> device_;

@@ -70,6 +70,7 @@ void StillReference::set(const ImageView& still) {
     d.scale[1] = static_cast<float>(low.height) / static_cast<float>(full.height);
     d.scale[2] = reducer_ ? 0 : kLost;
     detailPass_.run(d, {gpu::sampler(0, picture()), gpu::sampler(1, low_)}, detailTarget_);
+    picture_.finishReading();
 }
 
 }  // namespace mfar

@@ -21,6 +21,12 @@ public:
     /// Size must be the still camera's; the pixel format may change from one still to the next.
     void set(const ImageView& still);
 
+    /// See PictureTexture.
+    void setImporter(PlaneImporter* importer) { picture_.setImporter(importer); }
+    [[nodiscard]] std::optional<std::string> takeImportFault() {
+        return picture_.takeImportFault();
+    }
+
     /// The rig with the still camera as picture() has it: the same lens, maybe fewer pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     /// The picture as it came.

@@ -4,6 +4,13 @@
 #include "tests/shader/twins/yuv.h"
 #include "tests/unit/padded_picture.h"
 
+#include <array>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <vector>
+
 namespace mfar {
 namespace {
 
@@ -95,6 +102,113 @@ TEST_F(PictureTexture, ThePictureOfEachUploadIsTheNewOne) {
         EXPECT_TRUE(id == 0 || id == picture.texture().id()) << "allocated again";
         id = picture.texture().id();
     }
+}
+
+/// As a driver that reads memory of others, by copying it.
+class FakeImporter final : public PlaneImporter {
+public:
+    unsigned import(const SharedPlane& plane) override {
+        ++imports;
+        if (refuses) throw std::runtime_error("not this memory");
+        GLuint texture = 0;
+        glGenTextures(1, &texture);
+        glBindTexture(GL_TEXTURE_2D, texture);
+        constexpr std::array<GLenum, 5> kFormats{0, GL_RED, GL_RG, 0, GL_RGBA};
+        constexpr std::array<GLint, 5> kStored{0, GL_R8, GL_RG8, 0, GL_RGBA8};
+        const auto channels = static_cast<std::size_t>(plane.channels);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(plane.stride / channels));
+        glTexImage2D(GL_TEXTURE_2D, 0, kStored[channels], plane.size.width, plane.size.height, 0,
+                     kFormats[channels], GL_UNSIGNED_BYTE,
+                     memory.at(static_cast<std::size_t>(plane.fd)) + plane.offset);
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+        alive.insert(texture);
+        return texture;
+    }
+    void forget(unsigned texture) override {
+        glDeleteTextures(1, &texture);
+        EXPECT_EQ(alive.erase(texture), 1U);
+    }
+
+    std::vector<const std::uint8_t*> memory;  ///< by descriptor
+    std::set<unsigned> alive;
+    int imports = 0;
+    bool refuses = false;
+};
+
+/// A picture whose planes are in the importer's memory alone: what the CPU could read is another
+/// one.
+struct SharedPicture {
+    SharedPicture(PixelFormat format, FakeImporter& importer, std::uint64_t id)
+        : real(format, kEvenSize, 4), other(format, kEvenSize, 4), view(real.view()),
+          shown(other.view()) {
+        for (int i = 0; i < planeCount(format); ++i)
+            std::fill(other.plane(i).begin(), other.plane(i).end(), std::uint8_t{0});
+        memory.id = id;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(planeCount(format)); ++i) {
+            const std::uint8_t* begin = i == 0 ? view.data : view.chroma[i - 1].data;
+            // Planes begin somewhere in their buffers.
+            memory.planes[i] = {static_cast<int>(importer.memory.size()), 4 * i};
+            importer.memory.push_back(begin - 4 * i);
+        }
+        shown.shared = &memory;
+    }
+    PaddedPicture real, other;
+    ImageView view, shown;
+    SharedMemory memory;
+};
+
+TEST_F(PictureTexture, MemoryThatIsSharedIsReadWhereItIs) {
+    for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
+        FakeImporter importer;
+        {
+            gpu::PictureTexture picture;
+            picture.setImporter(&importer);
+            const SharedPicture source(format, importer, 1);
+            for (int i = 0; i < 3; ++i) {
+                picture.upload(source.shown);
+                expectTwin(picture, source.view, kChroma);
+            }
+            EXPECT_EQ(importer.imports, planeCount(format)) << "once for a buffer";
+            picture.finishReading();
+            EXPECT_EQ(picture.takeImportFault(), std::nullopt);
+        }
+        EXPECT_TRUE(importer.alive.empty());
+    }
+}
+
+TEST_F(PictureTexture, MemoryOfCamerasThatHaveGoneIsGivenUp) {
+    FakeImporter importer;
+    gpu::PictureTexture picture;
+    picture.setImporter(&importer);
+    std::vector<std::unique_ptr<SharedPicture>> sources;
+    for (std::uint64_t id = 1; id <= 40; ++id) {
+        sources.push_back(std::make_unique<SharedPicture>(PixelFormat::Nv12, importer, id));
+        picture.upload(sources.back()->shown);
+        EXPECT_LE(importer.alive.size(), 32U);
+    }
+    const int before = importer.imports;
+    picture.upload(sources.back()->shown);
+    EXPECT_EQ(importer.imports, before);
+    expectTwin(picture, sources.back()->view, kChroma);
+    picture.setImporter(nullptr);
+    EXPECT_TRUE(importer.alive.empty());
+}
+
+TEST_F(PictureTexture, MemoryThatTheDriverRefusesIsCopied) {
+    FakeImporter importer;
+    importer.refuses = true;
+    gpu::PictureTexture picture;
+    picture.setImporter(&importer);
+    const SharedPicture source(PixelFormat::Nv12, importer, 1);
+    for (int i = 0; i < 2; ++i) {
+        picture.upload(source.shown);
+        expectTwin(picture, source.other.view(), kChroma);
+    }
+    EXPECT_EQ(importer.imports, 1);
+    EXPECT_EQ(picture.takeImportFault(), "not this memory");
+    EXPECT_EQ(picture.takeImportFault(), std::nullopt);
 }
 
 }  // namespace
