@@ -72,11 +72,14 @@ ScreenScaler::~ScreenScaler() {
     glDeleteSamplers(1, &sampler_);
 }
 
-void ScreenScaler::prepare(int pairs) {
-    if (program_ && pairs == pairs_) return;
-    program_.emplace("fullscreen.vert", "display_scale.frag",
-                     fmt::format("#define PAIRS {}\n", pairs), sizeof(ScaleParams));
-    pairs_ = pairs;
+gpu::Program& ScreenScaler::programFor(int pairs) {
+    std::optional<gpu::Program>& program = pairs == 0 ? copy_ : scale_;
+    if (!program || (pairs != 0 && pairs != pairs_)) {
+        program.emplace("fullscreen.vert", "display_scale.frag",
+                        fmt::format("#define PAIRS {}\n", pairs), sizeof(ScaleParams));
+        if (pairs != 0) pairs_ = pairs;
+    }
+    return *program;
 }
 
 void ScreenScaler::draw(const GlImage& picture, GLuint framebuffer, Size screen, Order order) {
@@ -89,20 +92,21 @@ void ScreenScaler::draw(const GlImage& picture, GLuint framebuffer, Size screen,
 
 // The renderer compiles with the first use, for which a few pixels will do.
 void ScreenScaler::warmUp(const GlImage& picture) {
-    if (program_ || picture.size.width < 1 || picture.size.height < 1) return;
+    if (copy_ || picture.size.width < 1 || picture.size.height < 1) return;
     const gpu::Texture few(kFewPixels, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer target(few);
     glBindFramebuffer(GL_FRAMEBUFFER, target.id());
     glViewport(0, 0, kFewPixels.width, kFewPixels.height);
     render(picture, kLikelyScreen, Order::Bgra);
+    render(picture, picture.size, Order::Bgra);
     glFinish();
 }
 
 // Into what is bound.
 void ScreenScaler::render(const GlImage& picture, Size screen, Order order) {
     const ScaleParams params = scaleParams(picture.size, screen, order);
-    prepare(pairsFor(params));
-    program_->use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});
+    programFor(pairsFor(params))
+        .use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});
     glBindSampler(0, sampler_);
     gpu::detail::drawFullScreen();
     glBindSampler(0, 0);

@@ -45,10 +45,11 @@ public:
 
 private:
     void render(const GlImage& picture, Size screen, Order order);
-    void prepare(int pairs);
+    [[nodiscard]] gpu::Program& programFor(int pairs);
 
-    // For footprints that touch up to `pairs_` pairs of texels in a row.
-    std::optional<gpu::Program> program_;
+    // Of pictures of the screen's size; for footprints that touch up to `pairs_` pairs of texels in
+    // a row.
+    std::optional<gpu::Program> copy_, scale_;
     int pairs_ = 0;
     GLuint sampler_ = 0;
 };

@@ -5,6 +5,8 @@ import re
 
 BOOT = {'display': False}
 LIMIT = 1  # s
+# A size that a screen will have: without, a service that starts headless makes its pictures as large as stills,
+# which take a second each in the guest.
 CONFIG = '''[superres]
 mode = "off"
 [status]
@@ -18,7 +20,11 @@ def run(bed):
     of_the_probe(bed)
     bed.guest.unplug_display()
     bed.wait_for('! ls /dev/dri/card0', 20)
-    of_the_service(bed)
+    bed.held(True)
+    try:
+        of_the_service(bed)
+    finally:
+        bed.held(False)
 
 
 def of_the_probe(bed):
@@ -36,7 +42,7 @@ def of_the_probe(bed):
 
 
 def of_the_service(bed):
-    bed.fresh_service('display = "auto"\n' + bed.cameras + CONFIG)
+    bed.fresh_service('display = "auto"\nsize = "1280x720"\n' + bed.cameras + CONFIG)
     bed.wait_for_pictures(10)
     bed.run('mfarctl status | grep -q "no screen"')
     for _ in range(2):
