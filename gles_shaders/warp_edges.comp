@@ -56,7 +56,7 @@ void main() {
 #else
     if (i == 0u) {
         least = kLevels - 1u;
-        uint sum = count[least], most = uint(share.y * float(count[kLevels]));
+        uint sum = count[least], most = min(uint(share.y * float(count[kLevels])), uint(limits.w));
         for (uint l = least; l-- > uint(limits.z);) {
             sum += count[l];
             if (sum > most) break;

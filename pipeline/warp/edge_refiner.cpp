@@ -14,11 +14,11 @@ constexpr std::size_t kListedAt = EdgeRefiner::kLevels + 1;
 
 }  // namespace
 
-EdgeRefiner::EdgeRefiner(Size layer, double share, int fadeFrames)
-    : layer_(layer), share_(share), step_(fadeFrames > 0 ? 1.0 / fadeFrames : 1),
+EdgeRefiner::EdgeRefiner(Size layer, double share, int most, int fadeFrames)
+    : layer_(layer), share_(share), step_(fadeFrames > 0 ? 1.0 / fadeFrames : 1), most_(most),
       counts_(sizeof(std::uint32_t) * (kListedAt + 1)),
       list_(2 * sizeof(std::uint32_t) * layer.width * layer.height),
-      entries_(sizeof(Entry) * layer.width * layer.height),
+      entries_(sizeof(Entry) * static_cast<std::size_t>(most)),
       count_("warp_edges.comp", "#define COUNT\n"), choose_("warp_edges.comp"),
       sharpen_("warp_sharpen.comp") {}
 
@@ -32,7 +32,7 @@ void EdgeRefiner::list(const gpu::Texture& colour, const gpu::Texture& state,
                        const PixelRect& where) {
     drop();
     params_ = {{where.x0, where.y0, where.x1, where.y1},
-               {layer_.width, 0, kLeastContrast, 0},
+               {layer_.width, 0, kLeastContrast, most_},
                {0, static_cast<float>(share_), 0, 0}};
     constexpr std::array<std::uint32_t, kListedAt + 1> kNone{};
     counts_.write(std::span<const std::uint32_t>(kNone));
@@ -68,6 +68,7 @@ void EdgeRefiner::answer(const HoleAnswer& answer) {
         while (before != listed_.end() && (*before)[0] < pixel)
             ++before;
         if (before == listed_.end() || (*before)[0] != pixel) continue;
+        if (entries.size() == static_cast<std::size_t>(most_)) break;
         entries.push_back({pixel, (*before)[1], std::bit_cast<std::uint32_t>(answer.colour[i]), 0});
     }
     params_.limits[1] = static_cast<std::int32_t>(entries.size());

@@ -19,8 +19,9 @@ class EdgeRefiner {
 public:
     static constexpr int kLevels = 64;  ///< of contrast
 
-    /// See WarpOptions.
-    EdgeRefiner(Size layer, double share, int fadeFrames);
+    /// See WarpOptions. Lists `most` pixels at most, unless more have the very highest contrast;
+    /// takes answers of so many.
+    EdgeRefiner(Size layer, double share, int most, int fadeFrames);
 
     /// Lists the pixels of a look-up's `colour` (RGBA8 premultiplied) and `state` within `where`.
     /// Forgets the list and the answer before.
@@ -45,6 +46,7 @@ private:
 
     Size layer_;
     double share_, step_;
+    int most_;
     gpu::Buffer counts_, list_, entries_;
     std::optional<gpu::Fence> fence_;                   // of the list
     std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel, colour; ascending

@@ -49,7 +49,7 @@ Warp::Warp(const CameraModel& video, Size output, const WarpOptions& options)
       patches_(output, options.filling == HoleFilling::Both ? options.fadeFrames : 0) {
     if (options.depth == WarpDepth::Splatted) splat_.emplace(lens_);
     if (rerenders() && options.sharpenShare > 0)
-        refiner_.emplace(output, options.sharpenShare,
+        refiner_.emplace(output, options.sharpenShare, options.mostRequested,
                          options.filling == HoleFilling::Both ? options.fadeFrames : 0);
 }
 

@@ -1,5 +1,6 @@
 #include "tests/eval/warp.h"
 
+#include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/warp/warp.h"
 #include "tests/eval/stopwatch.h"
 #include "tests/eval/warp_scenes.h"
@@ -32,6 +33,16 @@ std::size_t objectPixels(const RenderedPicture& picture) {
     return count;
 }
 
+double areaOf(const PixelRect& r) {
+    return static_cast<double>(r.x1 - r.x0) * (r.y1 - r.y0);
+}
+
+PathTracerOptions asInTheProduct() {
+    PathTracerOptions out;
+    out.shadowReach = kShadowReach;
+    return out;
+}
+
 using Rgba = std::vector<std::uint8_t>;
 
 /// Of the three colours, where the truth shows an object [dB].
@@ -60,14 +71,14 @@ struct Shot {
 struct Warped {
     Rgba rgba;
     double ms = 0;
-    std::optional<double> holeShare, rerayShare;
+    std::optional<double> holeShare, rerayShare, rerayOfObjects;
 };
 
 /// One scene with its reference.
 class WarpRun {
 public:
     WarpRun(const WarpRequest& request, const std::string& scene)
-        : request_(request), scene_(warpScene(scene)), tracer_(scene_),
+        : request_(request), scene_(warpScene(scene)), tracer_(scene_, asInTheProduct()),
           view_(warpView(*scene_, request.size, 0)),
           picture_(tracePicture(tracer_, view_, request.referenceSamples)),
           reference_(warpReference(picture_)) {}
@@ -125,8 +136,9 @@ private:
         out.rgba = warp.run(shot.view.T_world_camera).colour->readRgba8();
         const auto pixels = static_cast<double>(objectPixels(shot.truth));
         *out.holeShare /= pixels;
-        out.rerayShare =
-            static_cast<double>(warp.counters().rays) / (pixels * request_.referenceSamples);
+        const auto rays = static_cast<double>(warp.counters().rays) / request_.referenceSamples;
+        out.rerayOfObjects = rays / pixels;
+        out.rerayShare = rays / areaOf(tracer_.bounds(shot.view));
         return out;
     }
 
@@ -156,6 +168,7 @@ private:
                 [&] { cv::inpaint(rgb, mask, filled, kInpaintRadius, cv::INPAINT_TELEA); });
         });
         out.rerayShare.reset();
+        out.rerayOfObjects.reset();
         for (i = 0; i < mask.total(); ++i)
             if (mask(static_cast<int>(i)) != 0)
                 std::copy_n(filled.ptr() + 3 * i, 3, out.rgba.begin() + 4 * static_cast<long>(i));
@@ -196,7 +209,11 @@ std::vector<std::string> warpMethodNames() {
 }
 
 Report evaluateWarp(const WarpRequest& request) {
-    Report report({{"psnr_db", 2}, {"hole_share", 4}, {"reray_share", 4}, {"ms", 2}});
+    Report report({{"psnr_db", 2},
+                   {"hole_share", 4},
+                   {"reray_share", 4},
+                   {"reray_of_objects", 4},
+                   {"ms", 2}});
     for (const std::string& scene : request.scenes) {
         const WarpRun run(request, scene);
         const std::string stem = std::filesystem::path(scene).stem().string();
@@ -212,7 +229,7 @@ Report evaluateWarp(const WarpRequest& request) {
                 savePicture(request, fileOf(method), warped.rgba);
                 report.add(label, "0", method,
                            {psnrInside(warped.rgba, shot.truth), warped.holeShare,
-                            warped.rerayShare, warped.ms});
+                            warped.rerayShare, warped.rerayOfObjects, warped.ms});
             }
         }
     }

@@ -23,9 +23,10 @@ struct WarpRequest {
 /// A path-traced picture of each scene, warped to views at `degrees` from its own: rows of
 /// SCENE/DEGREES, `frame` 0 and means over none. Columns: psnr_db inside the silhouette of the
 /// objects, against a picture path traced there with truthSamples; hole_share of the silhouette's
-/// pixels; reray_share: rays of the holes over those of a full picture, which is the silhouette's
-/// pixels with referenceSamples each; ms of the warp, waited for, or of the peer. Needs a
-/// current GL context. Throws EvalError.
+/// pixels; reray_share: rays of what is rendered for itself over those of a full picture, which are
+/// referenceSamples of all pixels in the tracer's bounds; reray_of_objects: the same over those of
+/// the silhouette's pixels alone; ms of the warp, waited for, or of the peer. Needs a current GL
+/// context. Throws EvalError.
 [[nodiscard]] Report evaluateWarp(const WarpRequest& request);
 
 /// The report's PSNR over the degrees, as an SVG document.

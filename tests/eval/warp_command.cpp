@@ -17,10 +17,11 @@ constexpr const char* kWarpHelp =
     "show; splatted: push-pull, with the picture's depth instead of the models'; inpaint: Telea's\n"
     "method in OpenCV, in the holes of none; full: the picture is traced anew.\n"
     "psnr_db: of red, green and blue where the truth shows an object; hole_share: such pixels and\n"
-    "those of the shadow over those of the objects; reray_share: rays for them over those of the\n"
-    "objects' pixels in a full picture; ms: of the warp once all has arrived, of inpaint alone, "
-    "of\n"
-    "tracing.";
+    "those of the shadow over those of the objects; reray_share: rays for pixels that are rendered "
+    "for\n"
+    "themselves over those that full takes, and over those of the objects' pixels alone; ms: of "
+    "the warp\n"
+    "once all has arrived, of inpaint alone, of tracing.";
 
 std::string isTurn(const std::string& text) {
     double degrees = -1;

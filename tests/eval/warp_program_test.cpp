@@ -25,7 +25,7 @@ TEST(MfarEvalWarp, WritesARowForEachTurnAndMethodAndAPlot) {
     std::istringstream in(test::readFile(folder / "out.csv"));
     std::string line;
     std::getline(in, line);
-    EXPECT_EQ(line, "recording,frame,method,psnr_db,hole_share,reray_share,ms");
+    EXPECT_EQ(line, "recording,frame,method,psnr_db,hole_share,reray_share,reray_of_objects,ms");
     int rows = 0;
     for (; std::getline(in, line); ++rows) {
         EXPECT_TRUE(line.starts_with(rows < 7 ? "still-life/2,0," : "still-life/20,0,")) << line;
