@@ -9,7 +9,9 @@ namespace {
 // Pairs of random numbers of each vertex.
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
-constexpr float kLongestWalk = 0.95F;  // greatest chance to go on after the roulette's depth
+// Paths that still bring so much of the light go on for sure: what ends them adds noise that no
+// sampler makes up for.
+constexpr float kSurvives = 0.25F;
 
 /// Balance heuristic of one sample from each of two densities (Veach 1997, equation 9.8): the one
 /// that the environment's compensated density is made for.
@@ -127,7 +129,7 @@ Eigen::Vector3f PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo,
         if (!vertex.faces(direction)) return sum;
         throughput = throughput.cwiseProduct(out.weight);
         if (depth >= options_.rouletteDepth) {
-            const float chance = std::min(kLongestWalk, throughput.maxCoeff());
+            const float chance = std::min(1.0F, throughput.maxCoeff() / kSurvives);
             if (!(sampler.pair(pair + kRoulettePair).x() < chance)) return sum;
             throughput /= chance;
         }
