@@ -10,7 +10,8 @@
 namespace mfar {
 namespace {
 
-constexpr unsigned kKernelGroup = 1;
+// The kernel tells of a device first, udev once this process may open it.
+constexpr unsigned kKernelGroup = 1, kUdevGroup = 2;
 
 // "ACTION=change\0SUBSYSTEM=drm\0..."
 bool concernsDisplays(std::string_view message) {
@@ -26,7 +27,7 @@ DisplayEvents::DisplayEvents()
           ::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, NETLINK_KOBJECT_UEVENT)) {
     sockaddr_nl address{};
     address.nl_family = AF_NETLINK;
-    address.nl_groups = kKernelGroup;
+    address.nl_groups = kKernelGroup | kUdevGroup;
     if (socket_ && bind(socket_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
         socket_ = OwnedFd();
 }
