@@ -211,7 +211,7 @@ void edges(Context& c) {
     const Size size = c.size(1, 90);
     const double share = c.hostile.pick({0.01, 0.15, 1.0});
     const int fade = c.hostile.integer(0, 3);
-    EdgeRefiner refiner(size, share, fade);
+    EdgeRefiner refiner(size, share, size.width * size.height, fade);
     for (int round = 0; round < 4; ++round) {
         const Pixels before = unpacked(c.hostile.picture(size));
         const Pixels numbers = unpacked(c.hostile.picture(size));
