@@ -21,8 +21,8 @@ struct WarpOptions {
     int holeSamples = 4;  ///< of each of them, [1, 4096]
     /// While the camera rests, this share of the objects' pixels is rendered for itself: those at
     /// edges, which the warp blurs; [0, 1], 0: none.
-    double sharpenShare = 0.3;
-    int sharpenSamples = 32;  ///< of each of them, [1, 4096]
+    double sharpenShare = 0.4;
+    int sharpenSamples = 40;  ///< of each of them, [1, 4096]
     /// What was rendered appears over so many frames, [0, 100].
     int fadeFrames = 4;
     /// A pose that moves nothing of the reference by so much shows it as it is [px], [0, 10].
