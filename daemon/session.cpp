@@ -155,6 +155,12 @@ void Session::process(CapturedFrame captured) {
         governor_->add({ms, newStill, result.stats.usedStill, result.stats.changed});
         govern();
     }
+    tell(time);
+    rig_.checkRecording();
+    if (validation_) tellFaultyPasses();
+}
+
+void Session::tell(Timestamp time) {
     if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
     if (auto error = pipeline_.takeSceneError()) stats_.warn("objects: " + *error);
     if (auto error = pipeline_.takeImportFault()) stats_.warn(*error + ": it is copied");
@@ -164,8 +170,6 @@ void Session::process(CapturedFrame captured) {
         matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
         stats_.matching(*matching);
     }
-    rig_.checkRecording();
-    if (validation_) tellFaultyPasses();
 }
 
 void Session::tellFaultyPasses() {

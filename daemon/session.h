@@ -84,6 +84,7 @@ private:
     /// Takes the governor's choice for the next frame.
     void govern();
     void showFault();
+    void tell(Timestamp time);
     void tellFaultyPasses();
     void show(Timestamp time, bool unchanged);
 

@@ -51,7 +51,7 @@ std::vector<std::pair<std::string, const toml::node*>> asWritten(const toml::tab
     std::vector<std::pair<std::string, const toml::node*>> out;
     for (const auto& [name, value] : table)
         out.emplace_back(name.str(), &value);
-    std::ranges::stable_sort(out, {}, [](const auto& entry) {
+    std::ranges::sort(out, {}, [](const auto& entry) {
         const toml::source_position& at = entry.second->source().begin;
         return std::pair(at.line, at.column);
     });
