@@ -53,7 +53,7 @@ ParetoStage warpStage(bool quick) {
     for (const auto& row : report.rows()) {
         Sum& sum = sums[row.method];
         sum.error += 255 * std::pow(10, -valueOf(row, 0) / 20);
-        sum.ms += valueOf(row, 3);
+        sum.ms += valueOf(row, row.values.size() - 1);
         ++sum.scenes;
     }
     sums.at(kInpainting).ms += sums.at("none").ms;
