@@ -41,7 +41,7 @@ void ReopeningCamera::keepOpen() {
             lock.unlock();
             lost.reset();
             lock.lock();
-            if (hasSent_)
+            if (hasSent_ || Timestamp::now() - opened_ > options_.longestPause)
                 pause = options_.firstPause;
             else
                 rest();
@@ -53,7 +53,7 @@ void ReopeningCamera::keepOpen() {
         if (stopped_) return;
         if (camera) {
             camera_ = std::move(camera);
-            lastFrame_ = Timestamp::now();
+            opened_ = lastFrame_ = Timestamp::now();
             hasSent_ = false;
             changed_.notify_all();
         } else {

@@ -22,7 +22,7 @@ struct ReopeningOptions {
     std::chrono::milliseconds stalled{2000};
     /// Pause between two attempts to open it; doubles from the first to the second. A camera that
     /// is plugged in again is to be back within 3 s, of which some libraries take two to find it.
-    /// After a device that was lost before it had sent anything as well.
+    /// After a device that was lost at once, before it had sent anything, as well.
     std::chrono::milliseconds firstPause{100}, longestPause{500};
     /// Says that frames may be late for a reason that is not this device's: libcamera looks at a
     /// device that was plugged in from the thread that delivers every camera's frames. Meanwhile
@@ -75,7 +75,7 @@ private:
     std::condition_variable changed_;
     std::shared_ptr<Camera> camera_;    ///< also held by a next() that waits for it
     std::optional<std::string> fault_;  ///< why there is none
-    Timestamp lastFrame_;               ///< or when it was opened
+    Timestamp opened_, lastFrame_;      ///< the latter as the former until there is one
     std::uint64_t losses_ = 0;
     std::shared_ptr<Camera> lost_;  ///< to be closed
     bool hasSent_ = false;          ///< the one that is open, or was last
