@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace mfar::stress {
@@ -111,8 +112,8 @@ void hostilePoseFilter(Context& c) {
     PoseFilter filter;
     Timestamp time{};
     for (int frame = 0; frame < 40; ++frame) {
-        time = time + std::chrono::nanoseconds(
-                          c.hostile.pick<long>({33000000, 1, 0, -1, 400000000, 1000000000000}));
+        time = time + std::chrono::nanoseconds(c.hostile.pick<std::int64_t>(
+                          {33000000, 1, 0, -1, 400000000, 1000000000000}));
         Pose measured{time, c.hostile.chance(0.8) ? c.hostile.gentle() : c.hostile.motion()};
         if (c.hostile.chance(0.2))
             measured.T_world_video = c.hostile.spoilt(measured.T_world_video);
