@@ -1,4 +1,5 @@
 #include "hal/device/display_buffers.h"
+#include "hal/device/egl_extensions.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -17,15 +18,6 @@ namespace {
 using GbmDevice = std::unique_ptr<gbm_device, FreedBy<gbm_device_destroy>>;
 using GbmBuffer = std::unique_ptr<gbm_bo, FreedBy<gbm_bo_destroy>>;
 
-bool has(std::string_view rest, std::string_view extension) {
-    while (!rest.empty()) {
-        const std::size_t end = std::min(rest.find(' '), rest.size());
-        if (rest.substr(0, end) == extension) return true;
-        rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    return false;
-}
-
 // A software renderer draws fastest into its own memory. And Mesa's crashes where it cannot map
 // what it has imported, as on the render node of a card that has no GPU.
 bool isSoftware(std::string_view renderer) {
@@ -38,10 +30,8 @@ std::string_view glText(GLenum name) {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
-std::string_view eglText(EGLDisplay display) {
-    const char* text =
-        display != EGL_NO_DISPLAY ? eglQueryString(display, EGL_EXTENSIONS) : nullptr;
-    return text != nullptr ? text : "";
+const char* eglExtensions(EGLDisplay display) {
+    return display != EGL_NO_DISPLAY ? eglQueryString(display, EGL_EXTENSIONS) : nullptr;
 }
 
 /// The functions of EGL and GL that GBM buffers need. Throws where one is missing.
@@ -53,12 +43,12 @@ struct Importer {
     PFNGLEGLIMAGETARGETRENDERBUFFERSTORAGEOESPROC imageStorage = nullptr;
 
     Importer() {
-        const std::string_view egl = eglText(display);
+        const char* egl = eglExtensions(display);
         if (isSoftware(glText(GL_RENDERER))) throw std::runtime_error("the renderer is no GPU");
-        if (!has(egl, "EGL_EXT_image_dma_buf_import") ||
-            !has(glText(GL_EXTENSIONS), "GL_OES_EGL_image"))
+        if (!hasExtension(egl, "EGL_EXT_image_dma_buf_import") ||
+            !hasExtension(glText(GL_EXTENSIONS).data(), "GL_OES_EGL_image"))
             throw std::runtime_error("the GPU's driver imports no buffers");
-        modifiers = has(egl, "EGL_EXT_image_dma_buf_import_modifiers");
+        modifiers = hasExtension(egl, "EGL_EXT_image_dma_buf_import_modifiers");
         load(createImage, "eglCreateImageKHR");
         load(destroyImage, "eglDestroyImageKHR");
         load(imageStorage, "glEGLImageTargetRenderbufferStorageOES");
@@ -66,7 +56,7 @@ struct Importer {
 
     template <class F>
     static void load(F& function, const char* name) {
-        function = reinterpret_cast<F>(eglGetProcAddress(name));
+        function = eglProc<F>(name);
         if (function == nullptr) throw std::runtime_error(std::string("EGL lacks ") + name);
     }
 };
@@ -75,7 +65,7 @@ struct Importer {
 class NativeFences {
 public:
     explicit NativeFences(EGLDisplay display) : display_(display) {
-        if (!has(eglText(display), "EGL_ANDROID_native_fence_sync"))
+        if (!hasExtension(eglExtensions(display), "EGL_ANDROID_native_fence_sync"))
             throw std::runtime_error("the GPU's driver exports no fences");
         Importer::load(create_, "eglCreateSyncKHR");
         Importer::load(destroy_, "eglDestroySyncKHR");

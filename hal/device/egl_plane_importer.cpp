@@ -1,5 +1,7 @@
 #include "hal/device/egl_plane_importer.h"
 
+#include "hal/device/egl_extensions.h"
+
 #include <EGL/eglext.h>
 #include <GLES3/gl31.h>
 
@@ -7,17 +9,10 @@
 #include <array>
 #include <drm_fourcc.h>
 #include <stdexcept>
-#include <string>
-#include <string_view>
 #include <unordered_map>
 
 namespace mfar {
 namespace {
-
-bool has(const char* list, std::string_view name) {
-    const std::string all = " " + std::string(list != nullptr ? list : "") + " ";
-    return all.find(" " + std::string(name) + " ") != std::string::npos;
-}
 
 EGLint fourccOf(int channels) {
     switch (channels) {
@@ -30,9 +25,9 @@ EGLint fourccOf(int channels) {
 class EglPlaneImporter final : public PlaneImporter {
 public:
     explicit EglPlaneImporter(EGLDisplay display) : display_(display) {
-        create_ = proc<PFNEGLCREATEIMAGEKHRPROC>("eglCreateImageKHR");
-        destroy_ = proc<PFNEGLDESTROYIMAGEKHRPROC>("eglDestroyImageKHR");
-        target_ = proc<PFNGLEGLIMAGETARGETTEXTURE2DOESPROC>("glEGLImageTargetTexture2DOES");
+        create_ = eglProc<PFNEGLCREATEIMAGEKHRPROC>("eglCreateImageKHR");
+        destroy_ = eglProc<PFNEGLDESTROYIMAGEKHRPROC>("eglDestroyImageKHR");
+        target_ = eglProc<PFNGLEGLIMAGETARGETTEXTURE2DOESPROC>("glEGLImageTargetTexture2DOES");
     }
     EglPlaneImporter(const EglPlaneImporter&) = delete;
     EglPlaneImporter& operator=(const EglPlaneImporter&) = delete;
@@ -82,11 +77,6 @@ public:
     }
 
 private:
-    template <class F>
-    static F proc(const char* name) {
-        return reinterpret_cast<F>(eglGetProcAddress(name));
-    }
-
     EGLDisplay display_;
     PFNEGLCREATEIMAGEKHRPROC create_ = nullptr;
     PFNEGLDESTROYIMAGEKHRPROC destroy_ = nullptr;
@@ -97,9 +87,10 @@ private:
 }  // namespace
 
 std::unique_ptr<PlaneImporter> createPlaneImporter(EGLDisplay display) {
-    if (!has(eglQueryString(display, EGL_EXTENSIONS), "EGL_EXT_image_dma_buf_import"))
+    if (!hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_EXT_image_dma_buf_import"))
         return nullptr;
-    if (!has(reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS)), "GL_OES_EGL_image"))
+    if (!hasExtension(reinterpret_cast<const char*>(glGetString(GL_EXTENSIONS)),
+                      "GL_OES_EGL_image"))
         return nullptr;
     auto importer = std::make_unique<EglPlaneImporter>(display);
     if (!importer->isComplete()) return nullptr;

@@ -1,3 +1,4 @@
+#include "hal/device/egl_extensions.h"
 #include "hal/device/egl_plane_importer.h"
 #include "hal/gl_context.h"
 
@@ -21,20 +22,6 @@ std::string text(GLenum name) {
     return s != nullptr ? reinterpret_cast<const char*>(s) : "unknown";
 }
 
-bool hasExtension(const char* list, std::string_view name) {
-    const std::string_view all = list != nullptr ? list : "";
-    for (std::size_t at = 0; (at = all.find(name, at)) != all.npos; at += name.size()) {
-        const std::size_t end = at + name.size();
-        if ((at == 0 || all[at - 1] == ' ') && (end == all.size() || all[end] == ' ')) return true;
-    }
-    return false;
-}
-
-template <class F>
-F proc(const char* name) {
-    return reinterpret_cast<F>(eglGetProcAddress(name));
-}
-
 EGLDisplay initialised(EGLDisplay display) {
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) != EGL_TRUE)
         return EGL_NO_DISPLAY;
@@ -50,12 +37,13 @@ struct OpenedDisplay {
 // fall-back (it may still pick a GPU by itself where the device extensions are missing).
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    const auto platformDisplay = proc<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+    const auto platformDisplay =
+        eglProc<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
     if (platformDisplay == nullptr)
         throw std::runtime_error("EGL: no EGL_EXT_platform_base, a newer EGL is needed");
     if (!software && hasExtension(client, "EGL_EXT_platform_device")) {
-        const auto queryDevices = proc<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-        const auto queryString = proc<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+        const auto queryDevices = eglProc<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+        const auto queryString = eglProc<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
         std::array<EGLDeviceEXT, 16> devices{};
         EGLint count = 0;
         if (queryDevices != nullptr && queryString != nullptr)

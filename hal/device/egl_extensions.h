@@ -1,0 +1,25 @@
+#pragma once
+
+#include <EGL/egl.h>
+
+#include <string_view>
+
+namespace mfar {
+
+/// Whether a list of extensions, of EGL or of GL, has one; null: an empty list.
+[[nodiscard]] inline bool hasExtension(const char* list, std::string_view name) {
+    const std::string_view all = list != nullptr ? list : "";
+    for (std::size_t at = 0; (at = all.find(name, at)) != all.npos; at += name.size()) {
+        const std::size_t end = at + name.size();
+        if ((at == 0 || all[at - 1] == ' ') && (end == all.size() || all[end] == ' ')) return true;
+    }
+    return false;
+}
+
+/// A function of EGL or GL; null where it does not exist.
+template <class F>
+[[nodiscard]] F eglProc(const char* name) {
+    return reinterpret_cast<F>(eglGetProcAddress(name));
+}
+
+}  // namespace mfar
