@@ -98,6 +98,7 @@ TEST(ReopeningCamera, SurvivesManyLosses) {
         EXPECT_EQ(camera.fault(), std::nullopt);
         socket.plugged = false;
         ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.fault().has_value(); })) << i;
+        ASSERT_TRUE(drivenUntil(camera, [&](bool) { return socket.open == 0; })) << i;
         socket.plugged = true;
     }
     EXPECT_EQ(camera.losses(), 20U);

@@ -12,7 +12,7 @@ source = "none"
 interval_s = 0.1
 '''
 TIMES = 10
-SAID_LIMIT = 4  # s: a picture with something new takes about one in the guest
+SAID_LIMIT = 2  # s: a picture with something new takes about one in the guest
 BACK_LIMIT = 3  # s
 
 
