@@ -1,6 +1,6 @@
 #include "daemon/banner.h"
 
-#include "pipeline/gpu/gl.h"
+#include "base/gl/gl.h"
 
 #include <opencv2/imgproc.hpp>
 

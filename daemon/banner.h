@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/gl/texture.h"
 #include "hal/display.h"
-#include "pipeline/gpu/texture.h"
 
 #include <string>
 

@@ -1,7 +1,7 @@
 #include "daemon/control_socket.h"
 
+#include "base/time.h"
 #include "daemon/exit_code.h"
-#include "hal/time.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,8 @@
 #include "daemon/objects_config.h"
 
 #include "daemon/toml_reader.h"
-#include "pipeline/render/gltf_model.h"
-#include "pipeline/render/showpiece.h"
+#include "pipeline/models/gltf_model.h"
+#include "pipeline/models/showpiece.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/geometry.h"
+#include "base/geometry.h"
 #include "pipeline/track/tag_family.h"
 #include "pipeline/track/tracker.h"
 

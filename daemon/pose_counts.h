@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "daemon/histogram.h"
-#include "pipeline/geometry.h"
 #include "pipeline/track/tracker.h"
 
 #include <cstdint>

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "daemon/mailbox.h"
 #include "daemon/pose_config.h"
 #include "daemon/pose_history.h"
 #include "daemon/stats.h"
 #include "hal/frame.h"
-#include "pipeline/geometry.h"
 
 #include <functional>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "daemon/pose_history.h"
 
-#include "pipeline/se3.h"
+#include "base/se3.h"
 
 namespace mfar {
 namespace {

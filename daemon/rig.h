@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "daemon/config.h"
 #include "daemon/exit_code.h"
 #include "daemon/mailbox.h"
@@ -8,7 +9,6 @@
 #include "hal/display.h"
 #include "hal/still_matcher.h"
 #include "hal/trigger.h"
-#include "pipeline/geometry.h"
 
 #include <chrono>
 #include <cstdint>

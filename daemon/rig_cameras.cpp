@@ -1,9 +1,9 @@
 #include "daemon/rig_cameras.h"
 
+#include "base/calibration/rig_files.h"
 #include "daemon/config.h"
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/camera_v4l2.h"
-#include "pipeline/calibration/rig_files.h"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>

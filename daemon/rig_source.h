@@ -1,11 +1,11 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "daemon/exit_code.h"
 #include "daemon/mailbox.h"
 #include "hal/camera.h"
 #include "hal/still_matcher.h"
 #include "hal/trigger.h"
-#include "pipeline/geometry.h"
 #include "pipeline/track/tag_map.h"
 
 #include <chrono>

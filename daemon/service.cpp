@@ -1,6 +1,6 @@
 #include "daemon/service.h"
 
-#include "hal/time.h"
+#include "base/time.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/gl/validation.h"
 #include "daemon/banner.h"
 #include "daemon/call_queue.h"
 #include "daemon/capture.h"
@@ -14,7 +15,6 @@
 #include "daemon/virtual_world.h"
 #include "hal/display.h"
 #include "hal/gl_context.h"
-#include "pipeline/gpu/validation.h"
 #include "pipeline/pipeline.h"
 
 #include <cstdint>

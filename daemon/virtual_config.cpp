@@ -1,8 +1,8 @@
 #include "daemon/virtual_config.h"
 
 #include "daemon/toml_reader.h"
-#include "pipeline/render/environment_map.h"
-#include "pipeline/render/gltf_model.h"
+#include "pipeline/models/environment_map.h"
+#include "pipeline/models/gltf_model.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/render/virtual_options.h"
+#include "pipeline/scene/virtual_options.h"
 
 #include <filesystem>
 

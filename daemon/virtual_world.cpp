@@ -1,7 +1,7 @@
 #include "daemon/virtual_world.h"
 
-#include "pipeline/render/environment_map.h"
-#include "pipeline/render/shape_model.h"
+#include "pipeline/models/environment_map.h"
+#include "pipeline/models/shape_model.h"
 
 #include <algorithm>
 #include <cmath>

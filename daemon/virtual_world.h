@@ -2,9 +2,9 @@
 
 #include "daemon/objects_config.h"
 #include "pipeline/composite/scene_follower.h"
+#include "pipeline/models/light_estimate.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/render/light_estimate.h"
-#include "pipeline/render/virtual_options.h"
+#include "pipeline/scene/virtual_options.h"
 
 #include <optional>
 #include <string_view>

@@ -1,4 +1,4 @@
-// The lens model of pipeline/geometry.h: pinhole with radial-tangential distortion.
+// The lens model of base/geometry.h: pinhole with radial-tangential distortion.
 // Rays are normalised (x/z, y/z); pixels have their centres at integers.
 
 struct Camera {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/time.h"
 #include "hal/frame.h"
-#include "hal/time.h"
 
 #include <cstddef>
 #include <cstdint>

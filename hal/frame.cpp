@@ -1,15 +1,8 @@
 #include "hal/frame.h"
 
-#include "hal/image_layout.h"
-
-#include <atomic>
+#include "base/image_layout.h"
 
 namespace mfar {
-
-std::uint64_t newSharedMemoryId() {
-    static std::atomic<std::uint64_t> last{0};
-    return ++last;
-}
 
 FramePool::FramePool(Size size, PixelFormat format, int count)
     : size_(size), format_(format), shared_(std::make_shared<Shared>()) {

@@ -1,6 +1,6 @@
 #include "pipeline/pipeline.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
 

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "hal/frame.h"
 #include "hal/plane_importer.h"
 #include "pipeline/composite/virtual_object.h"
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/flow/flow_options.h"
-#include "pipeline/geometry.h"
 #include "pipeline/quality.h"
 #include "pipeline/results.h"
 #include "pipeline/skip_options.h"

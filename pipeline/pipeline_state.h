@@ -3,9 +3,9 @@
 #include "pipeline/composite/virtual_view.h"
 #include "pipeline/depth/depth_stage.h"
 #include "pipeline/depth/edge_snap.h"
-#include "pipeline/flow/epipolar_flow.h"
+#include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/flow/flow2d.h"
-#include "pipeline/gpu/picture_texture.h"
+#include "pipeline/gles/picture_texture.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/superres/superres.h"
 

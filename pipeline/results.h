@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/gl/buffer.h"
 #include "hal/display.h"
 #include "pipeline/depth/depth_options.h"
-#include "pipeline/gpu/buffer.h"
 #include "pipeline/plan/tiles.h"
 
 #include <array>

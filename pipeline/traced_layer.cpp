@@ -1,7 +1,7 @@
 #include "pipeline/traced_layer.h"
 
-#include "pipeline/render/reference_renderer.h"
-#include "pipeline/render/view_change.h"
+#include "pipeline/slices/reference_renderer.h"
+#include "pipeline/slices/view_change.h"
 #include "pipeline/warp/warp.h"
 
 #include <utility>

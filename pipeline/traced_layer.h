@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pipeline/composite/virtual_layer.h"
-#include "pipeline/render/reference_options.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
+#include "pipeline/slices/reference_options.h"
 #include "pipeline/warp/warp_options.h"
 
 #include <cstdint>

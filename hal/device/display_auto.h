@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/time.h"
 #include "hal/device/display_screen.h"
-#include "hal/time.h"
 
 #include <functional>
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/owned_fd.h"
 #include "hal/device/display_drm.h"
 #include "hal/device/display_scaler.h"
-#include "hal/device/owned_fd.h"
 
 #include <memory>
 

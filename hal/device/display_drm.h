@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/owned_fd.h"
 #include "hal/device/display_handles.h"
 #include "hal/device/display_spec.h"
-#include "hal/device/owned_fd.h"
 
 #include <cstdint>
 #include <map>

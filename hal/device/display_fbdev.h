@@ -1,9 +1,9 @@
 #pragma once
 
+#include "base/owned_fd.h"
 #include "hal/device/display_pixels.h"
 #include "hal/device/display_screen.h"
 #include "hal/device/display_spec.h"
-#include "hal/device/owned_fd.h"
 
 #include <linux/fb.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/gl/pass.h"
 #include "hal/display.h"
-#include "pipeline/gpu/pass.h"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "hal/device/jpeg_decoder.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 
 #include <stdexcept>
 #include <string_view>

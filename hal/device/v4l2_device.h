@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/device/owned_fd.h"
+#include "base/owned_fd.h"
 
 #include <sys/types.h>
 

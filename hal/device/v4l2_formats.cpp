@@ -1,6 +1,6 @@
 #include "hal/device/v4l2_formats.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "hal/virtual/bgr_picture.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 
 #include <opencv2/imgproc.hpp>
 

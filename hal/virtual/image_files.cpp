@@ -1,7 +1,7 @@
 #include "hal/virtual/image_files.h"
 
+#include "base/image_layout.h"
 #include "hal/image_codec.h"
-#include "hal/image_layout.h"
 #include "hal/virtual/bgr_picture.h"
 #include "hal/virtual/whole_file.h"
 

@@ -1,9 +1,9 @@
 #include "hal/virtual/recorder.h"
 
-#include "hal/image_layout.h"
+#include "base/calibration/sensor_yaml.h"
+#include "base/image_layout.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/whole_file.h"
-#include "pipeline/calibration/sensor_yaml.h"
 
 #include <fmt/format.h>
 

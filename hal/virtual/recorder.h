@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "hal/frame.h"
 #include "hal/virtual/background_writer.h"
-#include "pipeline/geometry.h"
 
 #include <atomic>
 #include <cstdint>

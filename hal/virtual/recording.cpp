@@ -1,8 +1,8 @@
 #include "hal/virtual/recording.h"
 
+#include "base/calibration/sensor_yaml.h"
 #include "hal/virtual/png_header.h"
 #include "hal/virtual/recording_csv.h"
-#include "pipeline/calibration/sensor_yaml.h"
 
 #include <fmt/format.h>
 

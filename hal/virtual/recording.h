@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/geometry.h"
+#include "base/time.h"
 #include "hal/frame.h"
-#include "hal/time.h"
-#include "pipeline/geometry.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "hal/camera.h"
 #include "hal/trigger.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recording_player.h"
 #include "hal/virtual/synthetic_scene.h"
-#include "pipeline/geometry.h"
 
 #include <chrono>
 #include <cstdint>

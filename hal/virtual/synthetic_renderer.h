@@ -1,11 +1,11 @@
 #pragma once
 
+#include "base/geometry.h"
+#include "base/gl/buffer.h"
+#include "base/gl/pass.h"
+#include "base/gl/texture.h"
 #include "hal/virtual/synthetic_light.h"
 #include "hal/virtual/synthetic_scene.h"
-#include "pipeline/geometry.h"
-#include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/pass.h"
-#include "pipeline/gpu/texture.h"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/synthetic_scene.h"
-#include "pipeline/geometry.h"
 
 /// What can be known exactly about a view of the world: rays cast in double precision through the
 /// exact lens, not rendered pictures.

@@ -1,6 +1,6 @@
 #include "pipeline/composite/composite.h"
 
-#include "pipeline/gpu/scoped_state.h"
+#include "base/gl/scoped_state.h"
 
 #include <algorithm>
 #include <array>

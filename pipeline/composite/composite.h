@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/gl/pass.h"
 #include "pipeline/composite/virtual_layer.h"
-#include "pipeline/gpu/pass.h"
 
 #include <cstdint>
 

@@ -1,6 +1,6 @@
 #include "pipeline/composite/lens_projection.h"
 
-#include "pipeline/flow/epipolar_lens.h"
+#include "pipeline/epipolar/epipolar_lens.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/geometry.h"
+#include "base/geometry.h"
 
 namespace mfar {
 

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "base/gl/pass.h"
 #include "pipeline/composite/object_projection.h"
 #include "pipeline/composite/virtual_layer.h"
 #include "pipeline/composite/virtual_object.h"
-#include "pipeline/gpu/pass.h"
 
 #include <array>
 #include <span>

@@ -1,6 +1,6 @@
 #include "pipeline/composite/scene_boxes.h"
 
-#include "pipeline/se3.h"
+#include "base/se3.h"
 
 #include <algorithm>
 #include <array>

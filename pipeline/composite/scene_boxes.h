@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/composite/object_projection.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <vector>
 

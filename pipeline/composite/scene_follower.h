@@ -1,9 +1,9 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/depth/inverse_depth_field.h"
-#include "pipeline/geometry.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <memory>
 #include <optional>

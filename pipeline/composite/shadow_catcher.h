@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/depth/inverse_depth_field.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <Eigen/Geometry>
 

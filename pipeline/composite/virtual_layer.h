@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/geometry.h"
-#include "pipeline/gpu/texture.h"
+#include "base/geometry.h"
+#include "base/gl/texture.h"
 
 namespace mfar {
 

@@ -1,6 +1,6 @@
 #include "pipeline/depth/depth_filter.h"
 
-#include "pipeline/se3.h"
+#include "base/se3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
+#include "base/workers.h"
 #include "pipeline/depth/inverse_depth_field.h"
-#include "pipeline/flow/epipolar_lens.h"
+#include "pipeline/epipolar/epipolar_lens.h"
 #include "pipeline/flow/luma_image.h"
-#include "pipeline/workers.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/depth/inverse_depth_field.h"
-#include "pipeline/flow/epipolar_search.h"
+#include "pipeline/epipolar/epipolar_search.h"
 
 #include <Eigen/Core>
 

@@ -4,7 +4,7 @@
 #include "pipeline/depth/depth_measurement.h"
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/depth/keyframes.h"
-#include "pipeline/flow/unit_pose.h"
+#include "pipeline/epipolar/unit_pose.h"
 
 #include <memory>
 #include <optional>

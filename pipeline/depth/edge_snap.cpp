@@ -1,6 +1,6 @@
 #include "pipeline/depth/edge_snap.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/geometry.h"
+#include "base/workers.h"
 #include "pipeline/depth/inverse_depth_field.h"
-#include "pipeline/geometry.h"
-#include "pipeline/workers.h"
 
 #include <memory>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/flow/luma_image.h"
-#include "pipeline/geometry.h"
 
 #include <cstddef>
 #include <deque>

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pipeline/geometry.h"
-#include "pipeline/gpu/buffer.h"
-#include "pipeline/gpu/pass.h"
-#include "pipeline/gpu/texture.h"
+#include "base/geometry.h"
+#include "base/gl/buffer.h"
+#include "base/gl/pass.h"
+#include "base/gl/texture.h"
 
 #include <cstdint>
 #include <limits>

@@ -1,7 +1,7 @@
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/flow/flow2d.h"
-#include "pipeline/gpu/picture_texture.h"
+#include "pipeline/gles/picture_texture.h"
 #include "pipeline/pipeline.h"
 
 #include <stdexcept>

@@ -1,6 +1,6 @@
 #include "pipeline/flow/luma_image.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "hal/frame.h"
-#include "pipeline/geometry.h"
-#include "pipeline/workers.h"
+#include "base/geometry.h"
+#include "base/image_view.h"
+#include "base/workers.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "pipeline/plan/rgb_planes.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 #include "pipeline/plan/tiles.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/workers.h"
 #include "pipeline/plan/rgb_planes.h"
-#include "pipeline/workers.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/frame.h"
+#include "base/image_view.h"
 
 namespace mfar {
 

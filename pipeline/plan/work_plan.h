@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pipeline/geometry.h"
-#include "pipeline/gpu/pass.h"
+#include "base/geometry.h"
+#include "base/gl/pass.h"
+#include "base/workers.h"
 #include "pipeline/plan/tile_choice.h"
-#include "pipeline/workers.h"
 
 #include <array>
 #include <cstdint>

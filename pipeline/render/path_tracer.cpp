@@ -1,11 +1,11 @@
 #include "pipeline/render/path_tracer.h"
 
+#include "base/se3.h"
 #include "pipeline/render/lens_rays.h"
 #include "pipeline/render/path_integrator.h"
 #include "pipeline/render/scene_check.h"
 #include "pipeline/render/traced_scene.h"
 #include "pipeline/render/view_bounds.h"
-#include "pipeline/se3.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "pipeline/render/film.h"
 #include "pipeline/render/path_tracer_options.h"
 #include "pipeline/render/render_view.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/geometry.h"
-#include "pipeline/render/scene.h"
+#include "base/geometry.h"
+#include "pipeline/scene/scene.h"
 
 #include <array>
 #include <cstdint>

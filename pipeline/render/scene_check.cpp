@@ -1,6 +1,6 @@
 #include "pipeline/render/scene_check.h"
 
-#include "pipeline/se3.h"
+#include "base/se3.h"
 
 #include <algorithm>
 #include <cmath>

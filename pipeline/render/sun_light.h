@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/render/light_sample.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pipeline/render/ray_scene.h"
-#include "pipeline/render/scene.h"
 #include "pipeline/render/surface_scatter.h"
+#include "pipeline/scene/scene.h"
 
 #include <memory>
 #include <vector>

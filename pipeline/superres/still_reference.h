@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/geometry.h"
-#include "pipeline/gpu/pass.h"
-#include "pipeline/gpu/picture_texture.h"
+#include "base/geometry.h"
+#include "base/gl/pass.h"
+#include "pipeline/gles/picture_texture.h"
 #include "pipeline/superres/still_reducer.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "pipeline/superres/superres.h"
 
+#include "base/gl/scoped_state.h"
 #include "pipeline/flow/cell_field.h"
-#include "pipeline/gpu/scoped_state.h"
 
 #include <algorithm>
 

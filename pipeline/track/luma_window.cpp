@@ -1,6 +1,6 @@
 #include "pipeline/track/luma_window.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 
 #include <algorithm>
 

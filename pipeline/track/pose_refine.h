@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/geometry.h"
-#include "pipeline/se3.h"
+#include "base/geometry.h"
+#include "base/se3.h"
 
 #include <array>
 #include <optional>

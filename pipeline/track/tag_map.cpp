@@ -1,6 +1,6 @@
 #include "pipeline/track/tag_map.h"
 
-#include "pipeline/se3.h"
+#include "base/se3.h"
 #include "pipeline/track/tag_map_faults.h"
 
 #include <system_error>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/gpu/pass.h"
 #include "pipeline/warp/reference_textures.h"
 
 #include <cstdint>

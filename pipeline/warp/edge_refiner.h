@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/gpu/fence.h"
-#include "pipeline/gpu/pass.h"
-#include "pipeline/render/hole_request.h"
+#include "base/gl/fence.h"
+#include "base/gl/pass.h"
+#include "pipeline/slices/hole_request.h"
 
 #include <array>
 #include <cstdint>

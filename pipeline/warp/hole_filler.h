@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/gpu/fence.h"
-#include "pipeline/gpu/pass.h"
+#include "base/gl/fence.h"
+#include "base/gl/pass.h"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "pipeline/warp/model_silhouette.h"
 
-#include "pipeline/gpu/scoped_state.h"
+#include "base/gl/scoped_state.h"
+#include "base/se3.h"
 #include "pipeline/render/rendered_picture.h"
-#include "pipeline/se3.h"
 #include "pipeline/warp/surface_mesh.h"
 #include "pipeline/warp/warp_params.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/gpu/pass.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 #include "pipeline/warp/surface_mesh.h"
 
 #include <Eigen/Geometry>

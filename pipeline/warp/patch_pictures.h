@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/gpu/texture.h"
-#include "pipeline/render/hole_request.h"
+#include "base/gl/texture.h"
+#include "pipeline/slices/hole_request.h"
 #include "pipeline/warp/warp_reference.h"
 
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/gl/texture.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/gpu/texture.h"
 #include "pipeline/warp/warp_reference.h"
 
 #include <optional>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/gpu/pass.h"
+#include "base/gl/pass.h"
 
 #include <Eigen/Core>
 

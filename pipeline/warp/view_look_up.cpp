@@ -1,6 +1,6 @@
 #include "pipeline/warp/view_look_up.h"
 
-#include "pipeline/gpu/scoped_state.h"
+#include "base/gl/scoped_state.h"
 #include "pipeline/warp/warp_params.h"
 
 #include <algorithm>

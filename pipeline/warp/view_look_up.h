@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/gpu/pass.h"
 #include "pipeline/warp/hole_filler.h"
 #include "pipeline/warp/patch_pictures.h"
 #include "pipeline/warp/reference_textures.h"

@@ -1,6 +1,6 @@
 #include "pipeline/warp/warp.h"
 
-#include "pipeline/se3.h"
+#include "base/se3.h"
 
 #include <algorithm>
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/composite/virtual_layer.h"
-#include "pipeline/render/hole_request.h"
+#include "pipeline/slices/hole_request.h"
 #include "pipeline/warp/depth_splat.h"
 #include "pipeline/warp/edge_refiner.h"
 #include "pipeline/warp/hole_filler.h"

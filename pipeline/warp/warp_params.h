@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/geometry.h"
 
 #include <Eigen/Geometry>
 

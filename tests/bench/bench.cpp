@@ -1,6 +1,6 @@
 #include "tests/bench/bench.h"
 
-#include "pipeline/gpu/timer.h"
+#include "tests/bench/gpu_timer.h"
 #include "tests/eval/paper_pipeline.h"
 #include "tests/eval/picture.h"
 #include "tests/eval/stopwatch.h"

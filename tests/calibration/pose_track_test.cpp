@@ -1,5 +1,5 @@
+#include "base/se3.h"
 #include "daemon/tools/calibrate/pose_track.h"
-#include "pipeline/se3.h"
 
 #include <gtest/gtest.h>
 

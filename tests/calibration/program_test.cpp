@@ -1,4 +1,4 @@
-#include "pipeline/calibration/rig_files.h"
+#include "base/calibration/rig_files.h"
 #include "tests/unit/run_program.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "pipeline/calibration/rig_files.h"
+#include "base/calibration/rig_files.h"
 #include "tests/calibration/rig_texts.h"
 #include "tests/unit/damage.h"
 #include "tests/unit/temp_folder.h"

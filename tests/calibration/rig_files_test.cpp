@@ -1,5 +1,5 @@
-#include "pipeline/calibration/rig_files.h"
-#include "pipeline/calibration/sensor_yaml.h"
+#include "base/calibration/rig_files.h"
+#include "base/calibration/sensor_yaml.h"
 #include "tests/calibration/rig_texts.h"
 #include "tests/unit/same_camera.h"
 #include "tests/unit/temp_folder.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/calibration/rig_files.h"
+#include "base/calibration/rig_files.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
+#include "base/calibration/calibration_error.h"
 #include "daemon/tools/calibrate/coverage.h"
 #include "daemon/tools/calibrate/target_finder.h"
-#include "pipeline/calibration/calibration_error.h"
 #include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
+#include "base/se3.h"
 #include "daemon/pose_history.h"
-#include "pipeline/se3.h"
 
 #include <gtest/gtest.h>
 

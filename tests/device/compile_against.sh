@@ -59,7 +59,7 @@ echo "libcamera $(version libcamera)"
 tested="camera_selection field_of_view frame_drops picture_layout sensor_clock libcamera_buffers
     libcamera_controls"
 parts="$tested camera_libcamera libcamera_manager libcamera_setup libcamera_stream"
-objects libcamera hal/frame.cpp hal/image_layout.cpp $(printf "hal/device/%s.cpp " $parts) tests/device/libcamera_test.cpp \
+objects libcamera hal/frame.cpp base/image_layout.cpp $(printf "hal/device/%s.cpp " $parts) tests/device/libcamera_test.cpp \
     $(printf "tests/device/%s_test.cpp " $tested) tests/device/libcamera_probe.cpp
 parts="frame image_layout $parts"
 link camera-tests libcamera $parts libcamera_test $(printf "%s_test " $tested)

@@ -1,6 +1,6 @@
 #include "tests/device/fake_v4l2.h"
 
-#include "hal/time.h"
+#include "base/time.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>

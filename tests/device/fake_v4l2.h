@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/image_view.h"
 #include "hal/device/v4l2_device.h"
-#include "hal/frame.h"
 
 #include <linux/videodev2.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/geometry.h"
+#include "base/geometry.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/video/tracking.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "hal/virtual/recording.h"
-#include "pipeline/geometry.h"
 
 #include <opencv2/core.hpp>
 

@@ -1,8 +1,8 @@
 #include "tests/eval/sliced_rendering.h"
 
 #include "pipeline/render/picture_resolver.h"
-#include "pipeline/render/reference_renderer.h"
-#include "pipeline/render/thread_priority.h"
+#include "pipeline/slices/reference_renderer.h"
+#include "pipeline/slices/thread_priority.h"
 #include "tests/render/still_life.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/render/path_tracer.h"
-#include "pipeline/render/slices.h"
+#include "pipeline/slices/slices.h"
 
 #include <cstdint>
 #include <memory>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "hal/virtual/image_files.h"
 #include "pipeline/composite/virtual_object.h"
-#include "pipeline/geometry.h"
 
 #include <opencv2/core.hpp>
 

@@ -1,9 +1,9 @@
 #include "tests/eval/warp_scenes.h"
 
-#include "pipeline/render/environment_map.h"
-#include "pipeline/render/gltf_model.h"
+#include "pipeline/models/environment_map.h"
+#include "pipeline/models/gltf_model.h"
+#include "pipeline/models/showpiece.h"
 #include "pipeline/render/picture_resolver.h"
-#include "pipeline/render/showpiece.h"
 #include "tests/eval/report.h"
 #include "tests/render/still_life.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/render/path_tracer.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <cstdint>
 #include <memory>

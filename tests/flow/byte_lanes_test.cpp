@@ -1,4 +1,4 @@
-#include "pipeline/flow/byte_lanes.h"
+#include "pipeline/epipolar/byte_lanes.h"
 
 #include <gtest/gtest.h>
 

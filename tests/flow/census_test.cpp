@@ -1,4 +1,4 @@
-#include "pipeline/flow/census.h"
+#include "pipeline/epipolar/census.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/flow/epipolar_lens.h"
+#include "pipeline/epipolar/epipolar_lens.h"
 #include "tests/flow/flow_scene.h"
 
 #include <gtest/gtest.h>

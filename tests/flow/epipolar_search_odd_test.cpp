@@ -1,5 +1,5 @@
 // Pictures and poses that a search must survive, and what it must not depend on.
-#include "pipeline/flow/epipolar_search.h"
+#include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
 #include <gtest/gtest.h>

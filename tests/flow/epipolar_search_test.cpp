@@ -1,4 +1,4 @@
-#include "pipeline/flow/epipolar_search.h"
+#include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
 #include <gtest/gtest.h>

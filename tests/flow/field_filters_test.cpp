@@ -1,4 +1,4 @@
-#include "pipeline/flow/field_filters.h"
+#include "pipeline/epipolar/field_filters.h"
 
 #include <gtest/gtest.h>
 

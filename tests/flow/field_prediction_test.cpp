@@ -1,4 +1,4 @@
-#include "pipeline/flow/field_prediction.h"
+#include "pipeline/epipolar/field_prediction.h"
 #include "tests/flow/flow_scene.h"
 
 #include <gtest/gtest.h>

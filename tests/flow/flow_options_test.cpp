@@ -1,4 +1,4 @@
-#include "pipeline/flow/epipolar_search.h"
+#include "pipeline/epipolar/epipolar_search.h"
 #include "pipeline/flow/flow_options.h"
 #include "tests/flow/flow_scene.h"
 

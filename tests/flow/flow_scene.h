@@ -1,8 +1,8 @@
 #pragma once
 
-#include "pipeline/flow/epipolar_search.h"
+#include "base/geometry.h"
+#include "pipeline/epipolar/epipolar_search.h"
 #include "pipeline/flow/luma_image.h"
-#include "pipeline/geometry.h"
 
 #include <Eigen/Core>
 

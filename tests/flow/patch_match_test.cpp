@@ -1,4 +1,4 @@
-#include "pipeline/flow/patch_match.h"
+#include "pipeline/epipolar/patch_match.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The search with a pose that is off, on rendered scenes of known depth.
-#include "pipeline/flow/epipolar_search.h"
+#include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "pipeline/flow/relative_pose.h"
+#include "pipeline/epipolar/relative_pose.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/flow/semi_global.h"
+#include "pipeline/epipolar/semi_global.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "pipeline/flow/turned_picture.h"
+#include "pipeline/epipolar/turned_picture.h"
 #include "tests/flow/flow_scene.h"
 
 #include <gtest/gtest.h>

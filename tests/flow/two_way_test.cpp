@@ -1,4 +1,4 @@
-#include "pipeline/flow/two_way.h"
+#include "pipeline/epipolar/two_way.h"
 #include "tests/flow/flow_scene.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "pipeline/workers.h"
+#include "base/workers.h"
 
 #include <gtest/gtest.h>
 

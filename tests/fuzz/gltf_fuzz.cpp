@@ -1,6 +1,6 @@
 // Feeds the glTF reader with damaged models: whatever it gets, it answers with a sound model or
 // with ModelError. What it must not do (crash, hang, go out of bounds) the sanitizers see.
-#include "pipeline/render/gltf_model.h"
+#include "pipeline/models/gltf_model.h"
 #include "tests/fuzz/mutations.h"
 #include "tests/fuzz/sound_model.h"
 #include "tests/models/gltf_maker.h"

@@ -4,15 +4,14 @@
 set -euo pipefail
 cd "${1:-$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..}"
 
-rooms=(daemon hal pipeline gles_shaders tests systemd toolchains)
+rooms=(base daemon hal pipeline gles_shaders tests systemd toolchains)
 topLevel=' CMakeLists.txt CMakePresets.json README.md LICENSE run .clang-format .clang-tidy .ci
- .gitignore daemon hal pipeline gles_shaders tests systemd toolchains '
+  .gitignore base daemon hal pipeline gles_shaders tests systemd toolchains '
 # Not part of the tree: version control, build and output folders, recordings for measurements.
 ignored=' .git .build out shared '
 maxLines=400
 
 halTop='hal/[^/]+'
-leaves='pipeline/geometry\.h|pipeline/calibration/.+|pipeline/gpu/.+|gles_shaders/.+'
 faults=0
 
 fault() {
@@ -25,15 +24,17 @@ fault() {
 allowedFrom() {
     case $1 in
     tests/*) allowed='.+' ;;
-    daemon/rig.* | daemon/rig_*) allowed='daemon/.+|pipeline/.+|hal/.+' ;;
-    daemon/tools/*) allowed="daemon/.+|pipeline/.+|$halTop|hal/virtual/.+" ;;
-    daemon/*) allowed="daemon/.+|pipeline/.+|$halTop" ;;
-    pipeline/geometry.* | pipeline/calibration/* | pipeline/gpu/*) allowed="$leaves|$halTop" ;;
-    pipeline/*) allowed="pipeline/.+|gles_shaders/.+|$halTop" ;;
+    daemon/rig.* | daemon/rig_*) allowed='daemon/.+|pipeline/.+|hal/.+|base/.+' ;;
+    daemon/tools/*) allowed="daemon/.+|pipeline/.+|$halTop|hal/virtual/.+|base/.+" ;;
+    daemon/*) allowed="daemon/.+|pipeline/.+|$halTop|base/.+" ;;
+    pipeline/*) allowed="pipeline/.+|$halTop|base/.+" ;;
+    hal/device/*) allowed="hal/device/.+|$halTop|base/.+" ;;
+    hal/virtual/*) allowed="hal/virtual/.+|$halTop|base/.+" ;;
+    hal/*) allowed="$halTop|base/[^/]+" ;;
+    base/gl/*) allowed='base/.+|gles_shaders/.+' ;;
+    base/calibration/*) allowed='base/calibration/.+|base/[^/]+' ;;
+    base/*) allowed='base/[^/]+' ;;
     gles_shaders/*) allowed='gles_shaders/.+' ;;
-    hal/device/*) allowed="hal/device/.+|$halTop|$leaves" ;;
-    hal/virtual/*) allowed="hal/virtual/.+|$halTop|$leaves" ;;
-    hal/*) allowed="$halTop" ;;
     esac
 }
 

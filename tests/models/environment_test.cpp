@@ -1,5 +1,5 @@
-#include "pipeline/render/environment_map.h"
-#include "pipeline/render/gltf_model.h"
+#include "pipeline/models/environment_map.h"
+#include "pipeline/models/gltf_model.h"
 #include "tests/models/gltf_maker.h"
 #include "tests/unit/temp_folder.h"
 

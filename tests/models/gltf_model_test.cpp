@@ -1,4 +1,4 @@
-#include "pipeline/render/gltf_model.h"
+#include "pipeline/models/gltf_model.h"
 #include "tests/models/gltf_maker.h"
 #include "tests/unit/temp_folder.h"
 

@@ -1,5 +1,5 @@
-#include "pipeline/render/environment_map.h"
-#include "pipeline/render/light_estimate.h"
+#include "pipeline/models/environment_map.h"
+#include "pipeline/models/light_estimate.h"
 
 #include <gtest/gtest.h>
 

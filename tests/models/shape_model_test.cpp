@@ -1,4 +1,4 @@
-#include "pipeline/render/shape_model.h"
+#include "pipeline/models/shape_model.h"
 #include "tests/fuzz/sound_model.h"
 
 #include <Eigen/Geometry>

@@ -1,5 +1,5 @@
-#include "pipeline/render/lathe.h"
-#include "pipeline/render/showpiece.h"
+#include "pipeline/models/lathe.h"
+#include "pipeline/models/showpiece.h"
 #include "tests/fuzz/sound_model.h"
 
 #include <Eigen/Geometry>

@@ -1,4 +1,4 @@
-#include "pipeline/render/budget_controller.h"
+#include "pipeline/slices/budget_controller.h"
 
 #include <gtest/gtest.h>
 

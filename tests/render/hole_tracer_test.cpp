@@ -1,6 +1,6 @@
-#include "pipeline/render/hole_tracer.h"
 #include "pipeline/render/path_tracer.h"
 #include "pipeline/render/picture_resolver.h"
+#include "pipeline/slices/hole_tracer.h"
 #include "tests/render/still_life.h"
 
 #include <gtest/gtest.h>

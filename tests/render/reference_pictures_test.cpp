@@ -1,4 +1,4 @@
-#include "pipeline/render/reference_pictures.h"
+#include "pipeline/slices/reference_pictures.h"
 #include "tests/render/still_life.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 #include "pipeline/render/picture_resolver.h"
-#include "pipeline/render/reference_renderer.h"
+#include "pipeline/slices/reference_renderer.h"
 #include "tests/render/still_life.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include "pipeline/render/film.h"
 #include "pipeline/render/path_tracer.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <functional>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "pipeline/render/slices.h"
+#include "pipeline/slices/slices.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pipeline/render/render_view.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "pipeline/render/triple_buffer.h"
+#include "pipeline/slices/triple_buffer.h"
 
 #include <gtest/gtest.h>
 

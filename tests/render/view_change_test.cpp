@@ -1,4 +1,4 @@
-#include "pipeline/render/view_change.h"
+#include "pipeline/slices/view_change.h"
 #include "tests/render/render_scenes.h"
 #include "tests/render/still_life.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/render/view_predictor.h"
+#include "pipeline/slices/view_predictor.h"
 #include "tests/render/still_life.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/gl/gl.h"
 #include "hal/gl_context.h"
-#include "pipeline/gpu/gl.h"
 
 #include <gtest/gtest.h>
 

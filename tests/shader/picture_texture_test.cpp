@@ -1,4 +1,4 @@
-#include "pipeline/gpu/picture_texture.h"
+#include "pipeline/gles/picture_texture.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/pictures.h"
 #include "tests/shader/twins/yuv.h"

@@ -1,7 +1,7 @@
 #include "tests/shader/pictures.h"
 
-#include "pipeline/gpu/gl.h"
-#include "pipeline/gpu/pass.h"
+#include "base/gl/gl.h"
+#include "base/gl/pass.h"
 
 #include <algorithm>
 #include <cmath>

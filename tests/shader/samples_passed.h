@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/gpu/gl.h"
+#include "base/gl/gl.h"
 
 namespace mfar {
 

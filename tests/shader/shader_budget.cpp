@@ -1,6 +1,6 @@
 #include "tests/shader/shader_budget.h"
 
-#include "pipeline/gpu/pass.h"
+#include "base/gl/pass.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/gpu/pass.h"
+#include "base/gl/pass.h"
 #include "tests/shader/pictures.h"
 #include "tests/shader/twins/luma.h"
 

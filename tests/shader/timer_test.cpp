@@ -1,4 +1,4 @@
-#include "pipeline/gpu/timer.h"
+#include "tests/bench/gpu_timer.h"
 #include "tests/shader/gl_test.h"
 
 namespace mfar::gpu {

@@ -1,4 +1,4 @@
-#include "pipeline/gpu/pass.h"
+#include "base/gl/pass.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/pictures.h"
 #include "tests/shader/twins/superres.h"

@@ -1,6 +1,6 @@
 #include "tests/stability/gl_watch.h"
 
-#include "pipeline/gpu/gl.h"
+#include "base/gl/gl.h"
 #include "tests/stability/watched_shaders.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/gl/validation.h"
 #include "hal/gl_context.h"
-#include "pipeline/gpu/validation.h"
 #include "tests/stability/checks.h"
 
 #include <map>

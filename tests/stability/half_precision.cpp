@@ -1,6 +1,6 @@
 #include "tests/stability/half_precision.h"
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 #include "tests/stability/error_table.h"
 #include "tests/stability/hostile.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/geometry.h"
+#include "base/se3.h"
 #include "pipeline/flow/luma_image.h"
-#include "pipeline/geometry.h"
-#include "pipeline/se3.h"
 #include "tests/shader/pictures.h"
 
 #include <array>

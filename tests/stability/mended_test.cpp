@@ -1,7 +1,7 @@
 // What hostile cases found once, each by itself.
 #include "pipeline/depth/depth_filter.h"
 #include "pipeline/depth/edge_snap.h"
-#include "pipeline/flow/epipolar_flow.h"
+#include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/track/pose_filter.h"
 #include "tests/shader/pictures.h"
 

@@ -1,6 +1,6 @@
 // Passes over pictures: formats, pyramids, the plan of changes, enlargement, weights.
-#include "hal/image_layout.h"
-#include "pipeline/gpu/picture_texture.h"
+#include "base/image_layout.h"
+#include "pipeline/gles/picture_texture.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/plan/work_plan.h"
 #include "tests/shader/levels.h"

@@ -66,13 +66,13 @@ hostFaults() {
         'depth not carried' depth-carried
     inHost pipeline/depth/edge_snap.cpp 'if (!isSound(in, i)) {' 'if (false) {' \
         'removed guard against depth that is none' edges
-    inHost pipeline/flow/epipolar_flow.cpp 'std::clamp(error, 0.0F, kNowhere)' 'error' \
+    inHost pipeline/epipolar/epipolar_flow.cpp 'std::clamp(error, 0.0F, kNowhere)' 'error' \
         'missing clamp of the two-way error' flow-of-poses
-    inHost pipeline/flow/epipolar_search.cpp 'return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);' \
+    inHost pipeline/epipolar/epipolar_search.cpp 'return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);' \
         'return label;' 'missing clamp of a prediction' search
-    inHost pipeline/flow/relative_pose.cpp 'out.error = ray - seen;' 'out.error = seen - ray;' \
+    inHost pipeline/epipolar/relative_pose.cpp 'out.error = ray - seen;' 'out.error = seen - ray;' \
         'wrong sign of an error' refinement-exact
-    inHost pipeline/flow/semi_global.cpp 'from + std::clamp(shift, -apart, apart)' 'from + shift' \
+    inHost pipeline/epipolar/semi_global.cpp 'from + std::clamp(shift, -apart, apart)' 'from + shift' \
         'missing clamp of a shift' aggregation
     inHost pipeline/flow/luma_image.cpp 'out.back().firstWeight = 1;' 'out.back().firstWeight = 2;' \
         'wrong weight' luma

@@ -1,9 +1,9 @@
 // The epipolar search on the host, and what stands around it.
+#include "pipeline/epipolar/epipolar_flow.h"
+#include "pipeline/epipolar/field_filters.h"
+#include "pipeline/epipolar/relative_pose.h"
+#include "pipeline/epipolar/semi_global.h"
 #include "pipeline/flow/cell_field.h"
-#include "pipeline/flow/epipolar_flow.h"
-#include "pipeline/flow/field_filters.h"
-#include "pipeline/flow/relative_pose.h"
-#include "pipeline/flow/semi_global.h"
 #include "tests/flow/flow_scene.h"
 #include "tests/stability/cases.h"
 

@@ -1,6 +1,6 @@
+#include "base/gl/pass.h"
+#include "base/gl/validation.h"
 #include "gles_shaders/shaders.h"
-#include "pipeline/gpu/pass.h"
-#include "pipeline/gpu/validation.h"
 #include "tests/shader/pictures.h"
 #include "tests/stability/gl_watch.h"
 

@@ -1,4 +1,4 @@
-#include "pipeline/se3.h"
+#include "base/se3.h"
 #include "pipeline/track/pose_filter.h"
 #include "tests/track/tag_scene.h"
 

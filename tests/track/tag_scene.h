@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hal/frame.h"
-#include "pipeline/geometry.h"
+#include "base/geometry.h"
+#include "base/image_view.h"
 #include "pipeline/track/tag_detector.h"
 
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
+#include "base/gl/texture.h"
 #include "hal/gl_context.h"
 #include "hal/virtual/display_files.h"
 #include "hal/virtual/y4m.h"
-#include "pipeline/gpu/texture.h"
 #include "tests/unit/small_recording.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 #include "tests/shader/twins/yuv.h"
 #include "tests/unit/padded_picture.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/image_layout.h"
+#include "base/image_layout.h"
 
 #include <cstdint>
 #include <random>

@@ -2,7 +2,7 @@
 
 #include "pipeline/render/render_view.h"
 #include "pipeline/render/rendered_picture.h"
-#include "pipeline/render/scene.h"
+#include "pipeline/scene/scene.h"
 
 #include <cstdint>
 #include <span>

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/image_view.h"
 #include "daemon/tools/calibrate/target.h"
-#include "hal/frame.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "daemon/tools/calibrate/pose_track.h"
 
-#include "pipeline/se3.h"
+#include "base/se3.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hal/time.h"
-#include "pipeline/geometry.h"
+#include "base/geometry.h"
+#include "base/time.h"
 
 #include <array>
 #include <optional>

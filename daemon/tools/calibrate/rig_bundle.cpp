@@ -1,8 +1,8 @@
 #include "daemon/tools/calibrate/rig_bundle.h"
 
+#include "base/se3.h"
 #include "daemon/tools/calibrate/camera_fit.h"
 #include "daemon/tools/calibrate/pose_track.h"
-#include "pipeline/se3.h"
 
 #include <Eigen/Dense>
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "daemon/tools/calibrate/target.h"
-#include "pipeline/geometry.h"
 
 #include <Eigen/Core>
 

@@ -1,6 +1,6 @@
 #include "daemon/tools/calibrate/rig_start.h"
 
-#include "pipeline/se3.h"
+#include "base/se3.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "base/calibration/rig_files.h"
 #include "daemon/tools/calibrate/camera_fit.h"
 #include "daemon/tools/calibrate/rig_bundle.h"
-#include "pipeline/calibration/rig_files.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "daemon/tools/calibrate/target.h"
 
-#include "pipeline/calibration/yaml_reader.h"
+#include "base/calibration/yaml_reader.h"
 
 #include <fmt/format.h>
 

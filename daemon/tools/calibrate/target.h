@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/time.h"
+#include "base/time.h"
 
 #include <Eigen/Core>
 

@@ -1,0 +1,121 @@
+#include "base/calibration/plausible.h"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace mfar::plausible {
+namespace {
+
+constexpr int kMaxSide = 16384;              // larger than any texture the shaders can use
+constexpr double kMaxFocal = 100;            // [widths]; a field of view of half a degree
+constexpr double kRotationTolerance = 1e-3;  // files print as few as four digits
+constexpr double kMaxBaseline = 2;           // [m]
+constexpr double kMaxTimeOffset = 10;        // [s]
+constexpr double kMaxFoldError = 0.5;        // [px]
+
+/// A lens model that folds over before the picture's edge maps several rays to one pixel.
+bool foldsInside(const CameraModel& c) {
+    const double right = c.size.width - 1, bottom = c.size.height - 1;
+    const std::array<Eigen::Vector2d, 4> edges{
+        {{0, c.cy}, {right, c.cy}, {c.cx, 0}, {c.cx, bottom}}};
+    for (const Eigen::Vector2d& p : edges)
+        if (!((c.project(c.unproject(p)) - p).norm() < kMaxFoldError)) return true;
+    return false;
+}
+
+}  // namespace
+
+Size size(const YamlReader& in, const YAML::Node& node, double width, double height,
+          std::optional<Size> wanted) {
+    for (const double side : {width, height})
+        if (!(side >= 1 && side <= kMaxSide) || side != std::floor(side))
+            in.fail(node, fmt::format("resolution {} is not a whole number from 1 to {}", side,
+                                      kMaxSide));
+    const Size out{static_cast<int>(width), static_cast<int>(height)};
+    if (wanted && out != *wanted)
+        in.fail(node, fmt::format("is the calibration of {}x{}, the sensor gives {}x{}", out.width,
+                                  out.height, wanted->width, wanted->height));
+    return out;
+}
+
+void setIntrinsics(const YamlReader& in, const YAML::Node& node, const Eigen::Vector4d& values,
+                   CameraModel& camera) {
+    for (int i = 0; i < 2; ++i)
+        if (!(values[i] > 0 && values[i] <= kMaxFocal * camera.size.width))
+            in.fail(node, fmt::format("focal length {} px is impossible", values[i]));
+    const auto near = [](double c, int side) { return c > -side && c < 2.0 * side; };
+    if (!near(values[2], camera.size.width) || !near(values[3], camera.size.height))
+        in.fail(node, fmt::format("principal point ({}, {}) lies far outside the picture of {}x{}",
+                                  values[2], values[3], camera.size.width, camera.size.height));
+    camera.fx = values[0];
+    camera.fy = values[1];
+    camera.cx = values[2];
+    camera.cy = values[3];
+}
+
+void setCameraMatrix(const YamlReader& in, const YAML::Node& node, const Eigen::Matrix3d& matrix,
+                     CameraModel& camera) {
+    if (!(std::abs(matrix.determinant()) > 1e-9)) in.fail(node, "the camera matrix is singular");
+    if (!matrix.row(2).isApprox(Eigen::RowVector3d(0, 0, 1), 1e-9) || matrix(1, 0) != 0)
+        in.fail(node, "the camera matrix is not fx 0 cx, 0 fy cy, 0 0 1");
+    if (std::abs(matrix(0, 1)) > 1e-6 * std::abs(matrix(0, 0)))
+        in.fail(node, fmt::format("the camera matrix has a skew of {}", matrix(0, 1)));
+    setIntrinsics(in, node, {matrix(0, 0), matrix(1, 1), matrix(0, 2), matrix(1, 2)}, camera);
+}
+
+void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vector<double>& values,
+                   CameraModel& camera) {
+    if (values.size() < 4)
+        in.fail(node, fmt::format("{} distortion coefficients, 4 or 5 (k1 k2 p1 p2 k3) are needed",
+                                  values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (std::abs(values[i]) > 1000)
+            in.fail(node, fmt::format("distortion coefficient {} is impossible", values[i]));
+        if (i < camera.distortion.size())
+            camera.distortion[i] = values[i];
+        else if (values[i] != 0)
+            in.fail(node, fmt::format("distortion coefficient {} is {}: only the first five (k1 k2 "
+                                      "p1 p2 k3) are supported",
+                                      i + 1, values[i]));
+    }
+    if (foldsInside(camera))
+        in.fail(node, "the distortion folds the picture over inside its own edges");
+}
+
+Eigen::Quaterniond rotation(const YamlReader& in, const YAML::Node& node,
+                            const Eigen::Matrix3d& matrix, const char* what) {
+    const double skew =
+        (matrix * matrix.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    if (!(skew < kRotationTolerance) || !(matrix.determinant() > 0))
+        in.fail(node, fmt::format("{} is not a rotation", what));
+    return Eigen::Quaterniond(matrix).normalized();
+}
+
+RigidTransform transform(const YamlReader& in, const YAML::Node& node,
+                         const Eigen::Matrix4d& matrix, const char* what) {
+    const auto part = fmt::format("the upper left part of {}", what);
+    const Eigen::Quaterniond turn = rotation(in, node, matrix.topLeftCorner<3, 3>(), part.c_str());
+    if (!matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), 1e-9))
+        in.fail(node, fmt::format("the last row of {} is not 0 0 0 1", what));
+    return {turn, matrix.topRightCorner<3, 1>()};
+}
+
+void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T) {
+    const double baseline = T.translation.norm();
+    if (!(baseline <= kMaxBaseline))
+        in.fail(node, fmt::format("the sensors stand {} m apart, at most {} m are plausible: is "
+                                  "the unit metres?",
+                                  baseline, kMaxBaseline));
+}
+
+double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what) {
+    const double offset = in.number(node, what);
+    if (!(std::abs(offset) <= kMaxTimeOffset))
+        in.fail(node, fmt::format("{} of {} s is impossible", what, offset));
+    return offset;
+}
+
+}  // namespace mfar::plausible

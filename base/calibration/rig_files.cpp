@@ -1,0 +1,142 @@
+#include "base/calibration/rig_files.h"
+
+#include "base/calibration/camera_info.h"
+#include "base/calibration/plausible.h"
+#include "base/calibration/rig_formats.h"
+#include "base/calibration/sensor_yaml.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace mfar {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRigFile = "rig.yaml";
+
+/// A file that rig.yaml names stands beside it: a calibration must not reach out of its folder.
+fs::path neighbour(const YamlReader& in, const char* key) {
+    const YAML::Node node = in.at(key);
+    const fs::path name = in.word(node, key);
+    if (name.empty() || name != name.filename() || name == "." || name == "..")
+        in.fail(node, fmt::format("{} is not the plain name of a file beside this one", key));
+    return in.file().parent_path() / name;
+}
+
+RigCalibration readOwn(const YamlReader& in, const WantedSizes& wanted) {
+    RigCalibration out;
+    out.rig.video = readCameraInfo(neighbour(in, "video"), wanted.video);
+    out.rig.still = readCameraInfo(neighbour(in, "still"), wanted.still);
+    const YAML::Node T = in.at("T_still_video");
+    out.rig.T_still_video =
+        plausible::transform(in, T, in.matrix(T, 4, 4, "T_still_video"), "T_still_video");
+    plausible::checkBaseline(in, T, out.rig.T_still_video);
+    if (in.has("still_time_offset"))
+        out.stillTimeOffset =
+            plausible::timeOffset(in, in.at("still_time_offset"), "still_time_offset");
+    return out;
+}
+
+RigCalibration readEuroc(const fs::path& video, const fs::path& still, const WantedSizes& wanted) {
+    const SensorYaml v = readSensorYaml(video, wanted.video);
+    const SensorYaml s = readSensorYaml(still, wanted.still);
+    RigCalibration out{{v.camera, s.camera, s.T_body_sensor.inverse() * v.T_body_sensor}};
+    readYaml(still, [&](const YamlReader& in) {
+        plausible::checkBaseline(in, in.at("T_BS"), out.rig.T_still_video);
+    });
+    return out;
+}
+
+RigCalibration readFolder(const fs::path& folder, const WantedSizes& wanted) {
+    if (fs::is_regular_file(folder / kRigFile)) return loadRig(folder / kRigFile, wanted);
+    if (fs::is_regular_file(folder / "cam0" / "sensor.yaml"))
+        return readEuroc(folder / "cam0" / "sensor.yaml", folder / "cam1" / "sensor.yaml", wanted);
+    calibrationFault(folder, 0, "holds neither rig.yaml nor cam0/sensor.yaml");
+}
+
+RigCalibration readOne(const YamlReader& in, const WantedSizes& wanted) {
+    if (in.has("T_still_video")) return readOwn(in, wanted);
+    if (in.has("cam0")) return rig_formats::kalibr(in, wanted);
+    if (rig_formats::isOpenCv(in)) return rig_formats::openCv(in, in, wanted);
+    if (in.has("camera_matrix") || in.has("camera_model"))
+        in.fail("describes one camera: a rig needs both and T_still_video");
+    in.fail("is no calibration of a known format (rig.yaml, Kalibr camchain, OpenCV, EuRoC)");
+}
+
+RigCalibration readTwo(const fs::path& first, const fs::path& second, const WantedSizes& wanted) {
+    RigCalibration out;
+    bool euroc = false;
+    readYaml(first, [&](const YamlReader& a) {
+        readYaml(second, [&](const YamlReader& b) {
+            euroc = a.has("T_BS") && b.has("T_BS");
+            if (euroc) return;
+            if (!rig_formats::isOpenCv(a) || !rig_formats::isOpenCv(b))
+                a.fail(fmt::format("and {} are no pair: two sensor.yaml, or intrinsics and "
+                                   "extrinsics of OpenCV, are",
+                                   second.string()));
+            out =
+                a.has("R") ? rig_formats::openCv(b, a, wanted) : rig_formats::openCv(a, b, wanted);
+        });
+    });
+    return euroc ? readEuroc(first, second, wanted) : out;
+}
+
+/// XML is not YAML, and the message of a YAML parser would not help.
+void refuseXml(const fs::path& file) {
+    std::ifstream in(file);
+    if (in.peek() == '<')
+        calibrationFault(file, 1, "is XML: let OpenCV's FileStorage write a file named .yml");
+}
+
+void write(const fs::path& file, const std::string& text) {
+    const fs::path part = file.string() + ".part";
+    std::ofstream out(part, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", part.string()));
+    fs::rename(part, file);
+}
+
+std::string rigText(const RigCalibration& c) {
+    const Eigen::Matrix3d r = c.rig.T_still_video.rotation.toRotationMatrix();
+    const Eigen::Vector3d& t = c.rig.T_still_video.translation;
+    std::string rows;
+    for (int i = 0; i < 3; ++i)
+        rows += fmt::format("  - [{}, {}, {}, {}]\n", r(i, 0), r(i, 1), r(i, 2), t(i));
+    return fmt::format("# How the two sensors of a board stand to each other.\n"
+                       "video: video.yaml  # ROS camera_info, beside this file\n"
+                       "still: still.yaml\n"
+                       "# Video camera coordinates -> still camera coordinates, metres.\n"
+                       "T_still_video:\n{}  - [0.0, 0.0, 0.0, 1.0]\n"
+                       "# Seconds to add to the time of a still to get the video's clock.\n"
+                       "still_time_offset: {}\n",
+                       rows, c.stillTimeOffset);
+}
+
+}  // namespace
+
+RigCalibration loadRig(std::span<const fs::path> paths, const WantedSizes& wanted) {
+    for (const fs::path& path : paths)
+        if (fs::is_regular_file(path)) refuseXml(path);
+    if (paths.size() == 2) return readTwo(paths[0], paths[1], wanted);
+    if (paths.size() != 1) throw CalibrationError("a calibration is one path or two");
+    if (fs::is_directory(paths[0])) return readFolder(paths[0], wanted);
+    RigCalibration out;
+    readYaml(paths[0], [&](const YamlReader& in) { out = readOne(in, wanted); });
+    return out;
+}
+
+RigCalibration loadRig(const fs::path& path, const WantedSizes& wanted) {
+    return loadRig(std::span(&path, 1), wanted);
+}
+
+void saveRig(const fs::path& folder, const RigCalibration& calibration) {
+    fs::create_directories(folder);
+    write(folder / "video.yaml", cameraInfoText(calibration.rig.video, "video"));
+    write(folder / "still.yaml", cameraInfoText(calibration.rig.still, "still"));
+    write(folder / kRigFile, rigText(calibration));
+}
+
+}  // namespace mfar

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "base/calibration/rig_files.h"
+#include "base/calibration/yaml_reader.h"
+
+/// The formats that loadRig() tells apart. All throw CalibrationError.
+namespace mfar::rig_formats {
+
+[[nodiscard]] RigCalibration kalibr(const YamlReader& in, const WantedSizes& wanted);
+
+[[nodiscard]] bool isOpenCv(const YamlReader& in);
+/// `extrinsics` may be the same file.
+[[nodiscard]] RigCalibration openCv(const YamlReader& intrinsics, const YamlReader& extrinsics,
+                                    const WantedSizes& wanted);
+
+}  // namespace mfar::rig_formats

@@ -1,0 +1,162 @@
+#include "base/gl/pass.h"
+
+#include "base/gl/validation.h"
+#include "gles_shaders/shaders.h"
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <utility>
+
+namespace mfar::gpu {
+namespace {
+
+GLuint compile(GLenum stage, std::string_view name, std::string_view defines) {
+    const std::string body(shaders::source(name));
+    const std::string head = shaderPreamble(defines);
+    const std::array<const char*, 2> parts{head.c_str(), body.c_str()};
+    const GLuint shader = glCreateShader(stage);
+    glShaderSource(shader, 2, parts.data(), nullptr);
+    glCompileShader(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok == GL_TRUE) return shader;
+    std::array<char, 4096> log{};
+    glGetShaderInfoLog(shader, log.size(), nullptr, log.data());
+    glDeleteShader(shader);
+    throw GlError("shader " + std::string(name) + " does not compile: " + log.data());
+}
+
+}  // namespace
+
+std::string shaderPreamble(std::string_view defines) {
+    return "#version 310 es\n" + std::string(defines) +
+           "precision highp float;\nprecision highp int;\n"
+           "precision highp sampler2D;\nprecision highp usampler2D;\n"
+           "precision highp image2D;\nprecision highp uimage2D;\n#line 1\n";
+}
+
+Program::Program(std::string_view computeShader, std::string_view defines, std::size_t paramsBytes)
+    : name_(computeShader) {
+    const GLuint shader = compile(GL_COMPUTE_SHADER, computeShader, defines);
+    id_ = glCreateProgram();
+    glAttachShader(id_, shader);
+    glDeleteShader(shader);
+    finishLink(paramsBytes);
+}
+
+Program::Program(std::string_view vertexShader, std::string_view fragmentShader,
+                 std::string_view defines, std::size_t paramsBytes)
+    : name_(fragmentShader) {
+    const GLuint vertex = compile(GL_VERTEX_SHADER, vertexShader, defines);
+    const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragmentShader, defines);
+    id_ = glCreateProgram();
+    for (const GLuint shader : {vertex, fragment}) {
+        glAttachShader(id_, shader);
+        glDeleteShader(shader);
+    }
+    finishLink(paramsBytes);
+}
+
+void Program::finishLink(std::size_t paramsBytes) {
+    glLinkProgram(id_);
+    GLint ok = 0;
+    glGetProgramiv(id_, GL_LINK_STATUS, &ok);
+    if (ok != GL_TRUE) {
+        std::array<char, 4096> log{};
+        glGetProgramInfoLog(id_, log.size(), nullptr, log.data());
+        throw GlError("shader " + name_ + " does not link: " + log.data());
+    }
+    const GLuint block = glGetUniformBlockIndex(id_, "Params");
+    if (block == GL_INVALID_INDEX)
+        throw GlError("shader " + name_ + " has no active uniform block Params");
+    GLint bytes = 0;
+    glGetActiveUniformBlockiv(id_, block, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
+    // Drivers may report the size with or without the trailing padding of the last vec4.
+    if ((static_cast<std::size_t>(bytes) + 15) / 16 * 16 != paramsBytes)
+        throw GlError("shader " + name_ + ": block Params has " + std::to_string(bytes) +
+                      " bytes, the program expects " + std::to_string(paramsBytes));
+    glUniformBlockBinding(id_, block, 0);
+    params_ = Buffer(paramsBytes);
+    checkErrors("Program");
+}
+
+Program::Program(Program&& other) noexcept
+    : id_(std::exchange(other.id_, 0)), name_(std::move(other.name_)),
+      params_(std::move(other.params_)) {}
+
+Program& Program::operator=(Program&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(name_, other.name_);
+    std::swap(params_, other.params_);
+    return *this;
+}
+
+Program::~Program() {
+    if (id_ != 0) glDeleteProgram(id_);
+}
+
+void Program::use(const void* params, std::size_t bytes, Bindings bindings) {
+    glUseProgram(id_);
+    params_.write(std::span(static_cast<const std::byte*>(params), bytes));
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, params_.id());
+    for (const Binding& b : bindings) {
+        switch (b.kind) {
+        case Binding::Kind::Sampler:
+            glActiveTexture(GL_TEXTURE0 + b.index);
+            glBindTexture(GL_TEXTURE_2D, b.id);
+            break;
+        case Binding::Kind::ImageWrite:
+            glBindImageTexture(b.index, b.id, 0, GL_FALSE, 0, GL_WRITE_ONLY, b.format);
+            break;
+        case Binding::Kind::Storage:
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, b.index, b.id);
+            break;
+        case Binding::Kind::Uniform: glBindBufferBase(GL_UNIFORM_BUFFER, b.index, b.id); break;
+        }
+    }
+}
+
+namespace detail {
+
+void validate(const Program& program, Bindings bindings, const Framebuffer* target) {
+    validation->check(program, bindings, target);
+}
+
+void drawFullScreen() {
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void drawTiles(const InstanceList& tiles) {
+    glBindBuffer(GL_ARRAY_BUFFER, tiles.instances.id());
+    glEnableVertexAttribArray(0);
+    glVertexAttribIPointer(0, 1, GL_UNSIGNED_INT, sizeof(GLuint),
+                           reinterpret_cast<const void*>(tiles.instanceOffset));
+    glVertexAttribDivisor(0, 1);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, tiles.commands.id());
+    glDrawArraysIndirect(GL_TRIANGLES, reinterpret_cast<const void*>(tiles.commandOffset));
+    glDisableVertexAttribArray(0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+void drawMesh(const Mesh& mesh) {
+    constexpr std::array<GLint, 3> kComponents{3, 3, 2};
+    constexpr std::array<std::size_t, 3> kOffsets{
+        offsetof(MeshVertex, position), offsetof(MeshVertex, normal), offsetof(MeshVertex, uv)};
+    glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.id());
+    for (GLuint i = 0; i < kComponents.size(); ++i) {
+        glEnableVertexAttribArray(i);
+        glVertexAttribPointer(i, kComponents[i], GL_FLOAT, GL_FALSE, sizeof(MeshVertex),
+                              reinterpret_cast<const void*>(kOffsets[i]));
+        glVertexAttribDivisor(i, 0);
+    }
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.id());
+    glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
+    for (GLuint i = 0; i < kComponents.size(); ++i)
+        glDisableVertexAttribArray(i);
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+    glBindBuffer(GL_ARRAY_BUFFER, 0);
+}
+
+}  // namespace detail
+}  // namespace mfar::gpu

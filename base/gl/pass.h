@@ -1,0 +1,183 @@
+#pragma once
+
+#include "base/gl/buffer.h"
+#include "base/gl/texture.h"
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace mfar::gpu {
+
+/// One resource bound to one binding point of a shader.
+struct Binding {
+    enum class Kind { Sampler, ImageWrite, Storage, Uniform };
+    Kind kind;
+    GLuint index;
+    GLuint id;
+    GLenum format = 0;
+};
+
+inline Binding sampler(GLuint unit, const Texture& t) {
+    return {Binding::Kind::Sampler, unit, t.id()};
+}
+inline Binding imageWrite(GLuint unit, const Texture& t) {
+    return {Binding::Kind::ImageWrite, unit, t.id(), static_cast<GLenum>(t.format())};
+}
+inline Binding storage(GLuint index, const Buffer& b) {
+    return {Binding::Kind::Storage, index, b.id()};
+}
+
+using Bindings = std::initializer_list<Binding>;
+
+class Program;
+class Validation;
+namespace detail {
+/// The Validation of this thread.
+inline constinit thread_local Validation* validation = nullptr;
+void validate(const Program& program, Bindings bindings, const Framebuffer* target);
+/// After each pass.
+inline void ran(const Program& program, Bindings bindings, const Framebuffer* target = nullptr) {
+    if (validation != nullptr) validate(program, bindings, target);
+}
+}  // namespace detail
+
+/// Workgroup counts of a dispatch.
+struct Groups {
+    GLuint x = 1, y = 1, z = 1;
+};
+[[nodiscard]] constexpr GLuint groupsFor(int items, int perGroup) {
+    return static_cast<GLuint>((items + perGroup - 1) / perGroup);
+}
+
+/// What stands before the text of every shader: version, `defines`, highp everywhere.
+[[nodiscard]] std::string shaderPreamble(std::string_view defines);
+
+/// A linked program and the uniform block `Params` (binding 0) it declares. Untyped base of the two
+/// passes. Throws GlError with the shader's name and the compiler's text.
+class Program {
+public:
+    /// `defines`: lines put below #version, e.g. "#define TWO_WAY 1\n".
+    Program(std::string_view computeShader, std::string_view defines, std::size_t paramsBytes);
+    Program(std::string_view vertexShader, std::string_view fragmentShader,
+            std::string_view defines, std::size_t paramsBytes);
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&& other) noexcept;
+    Program(const Program&) = delete;
+    Program& operator=(const Program&) = delete;
+    ~Program();
+
+    /// Activates the program with its parameters and bindings.
+    void use(const void* params, std::size_t bytes, Bindings bindings);
+    [[nodiscard]] GLuint id() const { return id_; }
+    /// Of the compute or the fragment shader.
+    [[nodiscard]] const std::string& name() const { return name_; }
+
+private:
+    void finishLink(std::size_t paramsBytes);
+
+    GLuint id_ = 0;
+    std::string name_;
+    Buffer params_;
+};
+
+/// The tiles of an instanced draw, written by a compute pass.
+struct InstanceList {
+    const Buffer& commands;  ///< one DrawArraysIndirect command at `commandOffset`
+    std::size_t commandOffset;
+    const Buffer& instances;  ///< uint per instance, attribute location 0
+    std::size_t instanceOffset = 0;
+};
+
+/// Indexed triangles.
+struct Mesh {
+    const Buffer& vertices;  ///< MeshVertex, attribute locations 0 (position), 1 (normal), 2 (uv)
+    const Buffer& indices;   ///< uint, three a triangle
+    int indexCount;
+};
+struct MeshVertex {
+    float position[3], normal[3], uv[2];
+};
+
+namespace detail {
+void drawMesh(const Mesh& mesh);
+void drawFullScreen();
+void drawTiles(const InstanceList& tiles);
+}  // namespace detail
+
+/// A compute shader with its parameter block. `P` mirrors the std140 block `Params`; its size is
+/// checked against the program at construction. Issues the barriers its readers need.
+template <class P>
+class ComputePass {
+    static_assert(std::is_trivially_copyable_v<P> && sizeof(P) % 16 == 0, "std140 block");
+
+public:
+    explicit ComputePass(std::string_view shader, std::string_view defines = {})
+        : program_(shader, defines, sizeof(P)) {}
+
+    void run(const P& params, Bindings bindings, Groups groups) {
+        program_.use(&params, sizeof(P), bindings);
+        glDispatchCompute(groups.x, groups.y, groups.z);
+        glMemoryBarrier(kBarriers);
+        detail::ran(program_, bindings);
+    }
+    /// The group counts come from three uints in `commands` at `offset` bytes.
+    void runIndirect(const P& params, Bindings bindings, const Buffer& commands,
+                     std::size_t offset) {
+        program_.use(&params, sizeof(P), bindings);
+        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, commands.id());
+        glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+        glMemoryBarrier(kBarriers);
+        detail::ran(program_, bindings);
+    }
+
+private:
+    static constexpr GLbitfield kBarriers =
+        GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+        GL_TEXTURE_FETCH_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+        GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT;
+    Program program_;
+};
+
+/// A fragment shader over the whole target, over a list of tiles, or over a mesh.
+template <class P>
+class DrawPass {
+    static_assert(std::is_trivially_copyable_v<P> && sizeof(P) % 16 == 0, "std140 block");
+
+public:
+    /// Full-screen triangle in front of `fragment`.
+    explicit DrawPass(std::string_view fragment, std::string_view defines = {})
+        : DrawPass("fullscreen.vert", fragment, defines) {}
+    DrawPass(std::string_view vertex, std::string_view fragment, std::string_view defines)
+        : program_(vertex, fragment, defines, sizeof(P)) {}
+
+    void run(const P& params, Bindings bindings, const Framebuffer& target) {
+        target.bind();
+        program_.use(&params, sizeof(P), bindings);
+        detail::drawFullScreen();
+        detail::ran(program_, bindings, &target);
+    }
+    /// Draws one quad per instance of the list; the vertex shader places it.
+    void runTiles(const P& params, Bindings bindings, const Framebuffer& target,
+                  const InstanceList& tiles) {
+        target.bind();
+        program_.use(&params, sizeof(P), bindings);
+        detail::drawTiles(tiles);
+        detail::ran(program_, bindings, &target);
+    }
+    /// Draws triangles; the vertex shader places them.
+    void runMesh(const P& params, Bindings bindings, const Framebuffer& target, const Mesh& mesh) {
+        target.bind();
+        program_.use(&params, sizeof(P), bindings);
+        detail::drawMesh(mesh);
+        detail::ran(program_, bindings, &target);
+    }
+
+private:
+    Program program_;
+};
+
+}  // namespace mfar::gpu

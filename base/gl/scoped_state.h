@@ -1,0 +1,68 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/gl/gl.h"
+
+namespace mfar::gpu {
+
+/// A capability of the context that is on for the life of the object and off outside of it.
+template <GLenum Capability>
+class Enabled {
+public:
+    Enabled() { glEnable(Capability); }
+    Enabled(const Enabled&) = delete;
+    Enabled& operator=(const Enabled&) = delete;
+    ~Enabled() { glDisable(Capability); }
+};
+
+/// Draws and clears touch these pixels of the target alone. The rectangle must not be empty.
+class Scissor {
+public:
+    explicit Scissor(const PixelRect& r) { glScissor(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0); }
+
+private:
+    Enabled<GL_SCISSOR_TEST> test_;
+};
+
+/// Nearest surface wins; the depth of window coordinates.
+class DepthTest {
+public:
+    DepthTest() { glDepthFunc(GL_LESS); }
+
+private:
+    Enabled<GL_DEPTH_TEST> test_;
+};
+
+/// Whatever is drawn leaves its depth.
+class DepthWritten {
+public:
+    DepthWritten() { glDepthFunc(GL_ALWAYS); }
+
+private:
+    Enabled<GL_DEPTH_TEST> test_;
+};
+
+/// Triangles whose corners run counter-clockwise in a picture with row 0 on top, as those of a
+/// solid do where its inside is seen, are not drawn.
+class InsidesCulled {
+public:
+    InsidesCulled() {
+        glCullFace(GL_BACK);
+        glFrontFace(GL_CW);
+    }
+    ~InsidesCulled() { glFrontFace(GL_CCW); }
+
+private:
+    Enabled<GL_CULL_FACE> cull_;
+};
+
+/// target = drawn + (1 - drawn alpha) * target.
+class PremultipliedBlend {
+public:
+    PremultipliedBlend() { glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA); }
+
+private:
+    Enabled<GL_BLEND> blend_;
+};
+
+}  // namespace mfar::gpu

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "base/gl/gl.h"
+#include "base/image_view.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace mfar::gpu {
+
+/// Storage formats in use, each allowed as an image or a texture by the portable floor. Drawing
+/// into a float format needs EXT_color_buffer_float or OpenGL ES 3.2: Framebuffer throws without.
+enum class TexelFormat : GLenum {
+    R8 = GL_R8,
+    Rg8 = GL_RG8,
+    Rgba8 = GL_RGBA8,
+    R16F = GL_R16F,
+    Rg16F = GL_RG16F,
+    Rgba16F = GL_RGBA16F,
+    R32F = GL_R32F,
+    Rg32F = GL_RG32F,
+    Rgba32F = GL_RGBA32F,
+    R32Ui = GL_R32UI,
+    Rgba32Ui = GL_RGBA32UI,
+    Depth24 = GL_DEPTH_COMPONENT24,
+};
+
+enum class Filter { Nearest, Linear };
+
+/// An immutable 2-D texture, R8 samples as grey. Move-only. Needs a current context for its whole
+/// life. Throws GlError when the driver refuses the size or format.
+class Texture {
+public:
+    Texture() = default;
+    Texture(Size size, TexelFormat format, Filter filter = Filter::Nearest, int levels = 1);
+    Texture(Texture&& other) noexcept;
+    Texture& operator=(Texture&& other) noexcept;
+    Texture(const Texture&) = delete;
+    Texture& operator=(const Texture&) = delete;
+    ~Texture();
+
+    [[nodiscard]] GLuint id() const { return id_; }
+    [[nodiscard]] Size size() const { return size_; }
+    [[nodiscard]] TexelFormat format() const { return format_; }
+
+    /// Replaces level 0 of an R8, Rg8 or Rgba8 texture; rows of its width. Slow where the
+    /// stride is no multiple of the texel. Asserts the format.
+    void upload(const PlaneView& rows);
+    /// Replaces level 0 of an R32F, Rg32F or Rgba32F texture from a row on: one, two or four floats
+    /// a texel, rows without padding. Asserts format and that they are whole rows of it.
+    void upload(std::span<const float> values, int firstRow = 0);
+    /// Replaces level 0 of an Rgba8 texture from a row on: rows without padding. Asserts as above.
+    void uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow = 0);
+    /// The same of an R32Ui texture, all of it.
+    void upload(std::span<const std::uint32_t> values);
+    /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
+    [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
+    /// Reads level 0 back as four floats a texel. Waits for the GPU: not for the frame path.
+    [[nodiscard]] std::vector<float> readRgba32F() const;
+
+private:
+    GLuint id_ = 0;
+    Size size_;
+    TexelFormat format_ = TexelFormat::Rgba8;
+};
+
+/// A framebuffer that draws into one or more textures. Move-only; does not own the textures.
+class Framebuffer {
+public:
+    Framebuffer() = default;
+    explicit Framebuffer(std::span<const Texture* const> colour, const Texture* depth = nullptr);
+    explicit Framebuffer(const Texture& colour);
+    Framebuffer(Framebuffer&& other) noexcept;
+    Framebuffer& operator=(Framebuffer&& other) noexcept;
+    Framebuffer(const Framebuffer&) = delete;
+    Framebuffer& operator=(const Framebuffer&) = delete;
+    ~Framebuffer();
+
+    /// Makes it the target of the following draws, with a viewport over all of it.
+    void bind() const;
+    [[nodiscard]] GLuint id() const { return id_; }
+    [[nodiscard]] Size size() const { return size_; }
+
+private:
+    GLuint id_ = 0;
+    Size size_;
+};
+
+}  // namespace mfar::gpu

@@ -1,0 +1,97 @@
+#pragma once
+
+#include "pipeline/epipolar/epipolar_search.h"
+#include "pipeline/epipolar/field_prediction.h"
+#include "pipeline/epipolar/two_way.h"
+#include "pipeline/epipolar/unit_pose.h"
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// Flow between a frame and the still from the epipolar search, ready for what works on cells of
+/// 4x4 video pixels.
+class EpipolarFlow {
+public:
+    /// Row-major, one entry per cell of 4x4 video pixels.
+    using Cells = std::vector<std::array<float, 4>>;
+
+    EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
+                 const EpipolarOptions& options = {});
+
+    /// As EpipolarSearch::setOptions().
+    void setOptions(const EpipolarOptions& options);
+
+    /// The new reference as its sensor took it, and where the video camera was then.
+    void setStill(const ImageView& still, const Pose& pose);
+    void dropStill();
+    [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
+
+    /// Refines the relative pose and searches; needs a still. Then forward(), hidden() and
+    /// search() are of this frame. What is not in `where` [video px], or a little beside it, may
+    /// not be searched: it counts as far away as what is next to it and was searched. Must not
+    /// be empty.
+    void run(const ImageView& video, const Pose& pose, const PixelRect& where);
+    void run(const ImageView& video, const Pose& pose) {
+        run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});
+    }
+
+    /// Video -> still: flow x, y [video px at the video's geometry], -, -.
+    [[nodiscard]] const Cells& forward() const { return forward_; }
+    /// What eq. 2 calls the two-way error [px], -, -, -. From a z-test: how much less parallax a
+    /// cell has than the nearest surface that lands on the same place of the still; with
+    /// EpipolarOptions::bothWays from a search back instead.
+    [[nodiscard]] const Cells& hidden() const { return hidden_; }
+    /// s of every cell, as close as its line comes to where a flow field ends, such as forward()
+    /// once it was refined in both dimensions.
+    [[nodiscard]] const std::vector<float>& inverseDepthOf(const Cells& flow);
+    /// Flow at every video pixel, x, y interleaved; far outside where the still cannot see it.
+    [[nodiscard]] std::vector<float> flow() const;
+    /// Distance of a flow at a pixel from the pixel's epipolar line; without parallax, where the
+    /// line is a point, from that [px].
+    [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
+    /// Its unit of length is the distance between the still's camera and the frame's.
+    [[nodiscard]] const EpipolarSearch& search() const { return search_; }
+    /// That unit [unit of length of the poses].
+    [[nodiscard]] double unit() const { return unit_; }
+    /// UnitPose::lengthError of it.
+    [[nodiscard]] double lengthError() const { return lengthError_; }
+    /// Turns the frame's rays into the still at the video's geometry.
+    [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
+    /// Luma of the frame.
+    [[nodiscard]] const LumaImage& luma() const { return luma_; }
+    /// Was the last frame searched around what the one before it showed?
+    [[nodiscard]] bool predicted() const { return predictedFrames_ > 0; }
+
+private:
+    [[nodiscard]] EpipolarLens::Point endOf(float rayX, float rayY, float s) const;
+    void search(const UnitPose& relative, const PixelRect& where);
+    [[nodiscard]] std::span<const float> ofArea(std::span<const float> cells);
+    [[nodiscard]] float nearnessAt(int x, int y) const;
+    void fillForward();
+    void testDepth();
+    void testBothWays(const ImageView& video);
+    [[nodiscard]] std::optional<std::size_t> landing(int i, int j) const;
+
+    StereoRig rig_;
+    Size cells_;
+    EpipolarSearch search_;
+    std::optional<TwoWayTest> twoWay_;
+    int mostPredicted_;
+    FieldPrediction prediction_;
+    int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
+    EpipolarLens lens_, cellRays_;
+    Eigen::Matrix3f rotation_;
+    double unit_ = 1, lengthError_ = 0;
+    std::optional<Pose> stillPose_;
+    LumaImage luma_;
+    Cells forward_, hidden_;
+    std::vector<float> predicted_;
+    std::vector<float> nearness_, aligned_,
+        nearest_;  // s per cell of the video, and landed per cell of the still
+};
+
+}  // namespace mfar

@@ -1,0 +1,78 @@
+#include "pipeline/epipolar/epipolar_lens.h"
+
+namespace mfar {
+namespace {
+
+// Rays are followed beyond the picture by this factor, if the lens does not fold them back before.
+constexpr double kBeyondPicture = 2;
+
+}  // namespace
+
+double cornerRadius(const CameraModel& camera) {
+    double radius = 0;
+    for (const double x : {0.0, camera.size.width - 1.0})
+        for (const double y : {0.0, camera.size.height - 1.0})
+            radius = std::max(radius, camera.unproject({x, y}).norm());
+    return radius;
+}
+
+double rimOf(const CameraModel& camera, double picture, double beyond) {
+    const auto& k = camera.distortion;
+    const auto distorted = [&](double r) {
+        const double q = r * r;
+        return r * (1 + q * (k[0] + q * (k[1] + q * k[4])));
+    };
+    constexpr int kSteps = 64;
+    double rim = picture;
+    for (int i = 1; i <= kSteps; ++i) {
+        const double r = picture * (1 + (beyond - 1) * i / kSteps);
+        if (!(distorted(r) > distorted(rim))) break;
+        rim = r;
+    }
+    return rim;
+}
+
+EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.size) {
+    const double scale = 1.0 / (1 << level);
+    for (int i = 0; i < level; ++i)
+        size_ = {(size_.width + 1) / 2, (size_.height + 1) / 2};
+    const auto& d = camera.distortion;
+    lens_.fx = static_cast<float>(camera.fx * scale);
+    lens_.fy = static_cast<float>(camera.fy * scale);
+    lens_.cx = static_cast<float>((camera.cx + 0.5) * scale - 0.5);
+    lens_.cy = static_cast<float>((camera.cy + 0.5) * scale - 0.5);
+    lens_.k1 = static_cast<float>(d[0]);
+    lens_.k2 = static_cast<float>(d[1]);
+    lens_.p1 = static_cast<float>(d[2]);
+    lens_.p2 = static_cast<float>(d[3]);
+    lens_.k3 = static_cast<float>(d[4]);
+    rays_.reserve(2UL * size_.width * size_.height);
+    double rim = 0;  // of the picture's corners, squared
+    Eigen::Vector2d ray(0, 0);
+    for (int y = 0; y < size_.height; ++y) {
+        for (int x = 0; x < size_.width; ++x) {
+            const Eigen::Vector2d fine((x + 0.5) / scale - 0.5, (y + 0.5) / scale - 0.5);
+            ray = camera.unproject(fine, ray);
+            rays_.push_back(static_cast<float>(ray.x()));
+            rays_.push_back(static_cast<float>(ray.y()));
+            rim = std::max(rim, ray.squaredNorm());
+        }
+    }
+    // A picture of one pixel has one ray, which may be the axis.
+    lens_.rim2 = std::max(
+        static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2)), 1e-12F);
+}
+
+void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
+    size_ = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
+    lens_ = whole.lens_;
+    lens_.cx -= static_cast<float>(pixels.x0);
+    lens_.cy -= static_cast<float>(pixels.y0);
+    rays_.clear();
+    for (int y = pixels.y0; y < pixels.y1; ++y) {
+        const auto row = whole.rays_.begin() + 2L * y * whole.size_.width;
+        rays_.insert(rays_.end(), row + 2L * pixels.x0, row + 2L * pixels.x1);
+    }
+}
+
+}  // namespace mfar

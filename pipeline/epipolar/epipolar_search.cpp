@@ -1,0 +1,371 @@
+#include "pipeline/epipolar/epipolar_search.h"
+
+#include "pipeline/epipolar/census.h"
+#include "pipeline/flow/cell_field.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+// The coarsest level has at least this many pixels on its short side.
+constexpr int kCoarsest = 60;
+// Labels beyond infinity at the finest level: the slack for noise and errors of the pose.
+constexpr int kBeyond = 4;
+constexpr int kSmallestCanvas = 16;
+constexpr int kMostStep = 30;
+constexpr int kPredictedLevel = 2;  // of the pyramid: cells are 4x4 pixels
+
+Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
+    const int step = options.stepPenalty;
+    return {.step = std::clamp(static_cast<int>(step - 2 + 4.5 * noise), step, kMostStep),
+            .jump = options.jumpPenalty,
+            .noise = 2 * noise};
+}
+
+// Weight of a neighbour before the census: nothing below one grey level of noise (smoothing costs
+// a third more bad pixels on clean pictures), the full three-pixel binomial from four on.
+float smoothingFor(double noise) {
+    return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
+}
+
+int levelsFor(Size size, const EpipolarOptions& options) {
+    int levels = 1;
+    while (levels < options.levels && std::min(size.width, size.height) / 2 >= kCoarsest) {
+        size = {(size.width + 1) / 2, (size.height + 1) / 2};
+        ++levels;
+    }
+    return levels;
+}
+
+std::size_t pixelsOf(Size size) {
+    return static_cast<std::size_t>(size.width) * size.height;
+}
+
+/// Vectors of labels of the whole picture, at the level that needs most.
+std::size_t mostVectors(Size size, const EpipolarOptions& options) {
+    const std::size_t finest = pixelsOf(size);
+    const double longest = options.longestParallax * size.width;
+    int scale = 1;
+    for (int i = levelsFor(size, options); i > 1; --i) {
+        size = {(size.width + 1) / 2, (size.height + 1) / 2};
+        scale *= 2;
+    }
+    const double labels = longest / scale + kBeyond + 1;
+    const auto coarsest = static_cast<std::size_t>(std::ceil(labels / SemiGlobal::kLabels));
+    return std::max(finest, coarsest * pixelsOf(size));
+}
+
+/// A label that may be searched around; of one that is no number, infinity's.
+float soundLabel(float label, float longest) {
+    return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);
+}
+
+// From as many patches the median of their distances is the better guess than the pose's
+// covariance.
+constexpr int kEnoughPatches = 16;
+
+/// What a pose's doubt moves the lines by [px]: its rotation, as what is far shows it.
+double normalErrorOf(const Matrix6& covariance, double focal) {
+    constexpr double kNoLine = 1e6;  // [px]
+    const double variance = covariance.topLeftCorner<3, 3>().trace() / 3;
+    return variance > 0 ? std::min(focal * std::sqrt(variance), kNoLine) : 0;
+}
+
+// The pixel of a level in which a pixel of the finest lies.
+std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
+    const double scale = 1 << level;
+    const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);
+    const int y = std::min(static_cast<int>((pixel.y() + 0.5) / scale), size.height - 1);
+    return static_cast<std::size_t>(y) * size.width + x;
+}
+
+// The same camera with a sensor of these pixels alone.
+CameraModel partOf(CameraModel camera, const PixelRect& pixels) {
+    camera.size = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
+    camera.cx -= pixels.x0;
+    camera.cy -= pixels.y0;
+    return camera;
+}
+
+}  // namespace
+
+CameraModel atScaleOf(const StereoRig& rig) {
+    const auto scaled = [](int pixels, double ratio) {
+        return std::max(2, static_cast<int>(std::lround(pixels * std::min(ratio, 1.0))));
+    };
+    return rig.still.scaledTo({scaled(rig.still.size.width, rig.video.fx / rig.still.fx),
+                               scaled(rig.still.size.height, rig.video.fy / rig.still.fy)});
+}
+
+EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
+                               const EpipolarOptions& options)
+    : options_(validated(options)), whole_(rig.video), video_(rig.video), still_(atScaleOf(rig)),
+      workers_(std::move(workers)), matcher_(mostVectors(rig.video.size, options)) {
+    for (int i = 0; i < levelsFor(whole_.size, options_); ++i) {
+        lenses_.emplace_back(whole_, i);
+        levels_.push_back({lenses_.back(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}});
+    }
+    setArea({0, 0, whole_.size.width, whole_.size.height});
+}
+
+void EpipolarSearch::setArea(const PixelRect& pixels) {
+    // Of a pixel of the coarsest level, so that the levels' pixels stay where they are.
+    const int grid = 1 << (levels_.size() - 1);
+    const auto up = [&](int x, int most) { return std::min((x + grid - 1) / grid * grid, most); };
+    const PixelRect area{pixels.x0 / grid * grid, pixels.y0 / grid * grid,
+                         up(pixels.x1, whole_.size.width), up(pixels.y1, whole_.size.height)};
+    assert(area.x0 >= 0 && area.y0 >= 0 && !area.empty());
+    if (area == area_) return;
+    area_ = area;
+    video_ = partOf(whole_, area);
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        Level& level = levels_[l];
+        const int scale = 1 << l;
+        level.lens.cover(lenses_[l],
+                         {area.x0 / scale, area.y0 / scale, (area.x1 + scale - 1) / scale,
+                          (area.y1 + scale - 1) / scale});
+        const std::size_t count = pixelsOf(level.lens.size());
+        level.videoCensus.resize(count);
+        level.base.resize(count);
+        level.labels.resize(count);
+    }
+    inverseDepth_.resize(levels_[0].labels.size());
+    scratch_.resize(inverseDepth_.size());
+    valleys_.resize(inverseDepth_.size());
+}
+
+void EpipolarSearch::setStill(const ImageView& still) {
+    shrinkLuma(still, still_.size, *workers_, picture_);
+    stillNoise_ = noiseOf(picture_);
+}
+
+bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_video,
+                         const std::optional<Matrix6>& covariance,
+                         std::span<const float> predicted) {
+    assert(predicted.empty() || predicted.size() == pixelsOf(cellsOf(video_.size)));
+    cut(video, area_, levels_[0].video);
+    videoNoise_ = noiseOf(levels_[0].video);
+    refinement_ = {};
+    normalError_ = 0;
+    std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
+    if (!place(T_still_video)) return false;
+    if (predicted.empty()) searchCoarsest();
+    if (covariance) refine(*covariance, predicted);
+    if (refinement_.accepted && !place(T_still_video * refinement_.motion)) return false;
+    const bool again = refinement_.accepted || hasSlack(static_cast<int>(levels_.size()) - 1);
+    if (again && predicted.empty()) searchCoarsest();
+    if (!(pixelsPerUnit_ > 0)) return true;
+    if (predicted.empty())
+        searchFiner();
+    else
+        searchAround(predicted);
+    readInverseDepth();
+    return true;
+}
+
+int EpipolarSearch::finestLevel() const {
+    return std::min(options_.finest, static_cast<int>(levels_.size()) - 1);
+}
+
+// A pixel takes what the one that covers it at a coarser level found: cells of 4x4 pixels take
+// their middle from four of them.
+void EpipolarSearch::readInverseDepth() {
+    const int finest = finestLevel();
+    const Level& level = levels_[finest];
+    std::vector<float>& smooth = finest > 0 ? scratch_ : inverseDepth_;
+    median3x3(level.labels, level.lens.size(), *workers_, smooth);
+    const auto perLabel = static_cast<float>((1 << finest) / pixelsPerUnit_);
+    const Size size = levels_[0].lens.size();
+    const int columns = level.lens.size().width;
+    for (int y = 0; y < size.height; ++y) {
+        const std::size_t row = static_cast<std::size_t>(y) * size.width;
+        const std::size_t from = static_cast<std::size_t>(y >> finest) * columns;
+        for (int x = 0; x < size.width; ++x)
+            inverseDepth_[row + x] = perLabel * smooth[from + (x >> finest)];
+    }
+}
+
+bool EpipolarSearch::place(const RigidTransform& told) {
+    const std::optional<RigidTransform> T_still_video = soundMotion(told);
+    pose_ = T_still_video.value_or(RigidTransform{});
+    const Eigen::Matrix3d R_still_video = pose_.rotation.toRotationMatrix();
+    translation_ = (R_still_video.transpose() * pose_.translation).cast<float>();
+    labels_ = 0;
+    pixelsPerUnit_ = 0;
+    if (!T_still_video || !turnStill(R_still_video)) return false;
+    measureParallax();
+    if (pixelsPerUnit_ > 0)
+        labels_ = static_cast<int>(options_.longestParallax * whole_.size.width);
+    return true;
+}
+
+// The coarsest level's pixels are so large that the lines of a pose yet to be refined still lead
+// past their matches; what is predicted comes from refined ones.
+void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> predicted) {
+    const PosePrior prior{translation_.cast<double>(), covariance};
+    const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
+    const double noise = std::max(videoNoise_, stillNoise_);
+    const auto nearness = [&](const Eigen::Vector2d& pixel) {
+        if (!predicted.empty()) {
+            const float s = predicted[coarseIndex(pixel, cellsOf(video_.size), kPredictedLevel)];
+            const double perUnit = std::max(pixelsPerUnit_, 1e-12);
+            return soundLabel(static_cast<float>(s * perUnit), static_cast<float>(labels_)) /
+                   perUnit;
+        }
+        const int coarsest = static_cast<int>(levels_.size()) - 1;
+        return levels_.back().labels[coarseIndex(pixel, levels_.back().lens.size(), coarsest)] *
+               (1 << coarsest) / pixelsPerUnit_;
+    };
+    const auto matches = matchPatches(levels_[0].pair(), half.pair(),
+                                      {video_, prior, noise, pixelsPerUnit_, nearness}, *workers_);
+    refinement_ = refineRelativePose(matches, prior, video_.fx);
+    normalError_ = refinement_.patches < kEnoughPatches ? normalErrorOf(covariance, video_.fx)
+                                                        : refinement_.normalAfter;
+}
+
+// The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
+// holds what of it a parallax can reach.
+bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video) {
+    const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
+    turned_.place(video_, still_, R_still_video, beyond);
+    if (turned_.size().width < kSmallestCanvas || turned_.size().height < kSmallestCanvas)
+        return false;
+    Level& fine = levels_[0];
+    turned_.draw(picture_, *workers_, fine.still, fine.seen);
+    fine.origin = turned_.origin();
+    for (std::size_t l = 1; l < levels_.size(); ++l) {
+        const Level& finer = levels_[l - 1];
+        Level& level = levels_[l];
+        halve(finer.video, level.video);
+        halve(finer.still, level.still);
+        level.origin = {finer.origin.x / 2, finer.origin.y / 2};
+        const Size s = level.still.size;
+        level.seen.resize(static_cast<std::size_t>(s.width) * s.height);
+        for (int y = 0; y < s.height; ++y)
+            for (int x = 0; x < s.width; ++x)
+                level.seen[static_cast<std::size_t>(y) * s.width + x] =
+                    finer.seen[static_cast<std::size_t>(2 * y) * finer.still.size.width + 2 * x];
+    }
+    return true;
+}
+
+// One label is one pixel where a change of s moves the picture most.
+void EpipolarSearch::measureParallax() {
+    const EpipolarLens& lens = levels_[0].lens;
+    const Size size = lens.size();
+    const Eigen::Vector3f& t = translation_;
+    const float norm = t.norm();
+    if (!(norm > 1e-12F)) return;
+    const float small = 1e-3F / norm;
+    for (int j = 0; j <= 8; ++j) {
+        for (int i = 0; i <= 8; ++i) {
+            const std::size_t p = static_cast<std::size_t>(j * (size.height - 1) / 8) * size.width +
+                                  i * (size.width - 1) / 8;
+            const float x = lens.rayX(p), y = lens.rayY(p);
+            const auto a = lens.project(x, y);
+            const auto b =
+                lens.project(x + small * (t.x() - x * t.z()), y + small * (t.y() - y * t.z()));
+            pixelsPerUnit_ = std::max(
+                pixelsPerUnit_, static_cast<double>(std::hypot(b.x - a.x, b.y - a.y) / small));
+        }
+    }
+}
+
+void EpipolarSearch::prepare(int index) {
+    Level& level = levels_[index];
+    const double noise = std::max(videoNoise_, stillNoise_) / (1 << index);
+    const float both = smoothingFor(noise);
+    const LumaImage* video = &level.video;
+    const LumaImage* still = &level.still;
+    if (both > 0) {
+        smooth(level.video, both, level.smoothVideo);
+        smooth(level.still, both, level.smoothStill);
+        video = &level.smoothVideo;
+        still = &level.smoothStill;
+    }
+    const Size canvas = still->size;
+    level.stillCensus.resize(static_cast<std::size_t>(canvas.width) * canvas.height);
+    workers_->forRange(video->size.height, 8, [&](int first, int last) {
+        census(*video, first, last, level.videoCensus);
+    });
+    workers_->forRange(canvas.height, 8, [&](int first, int last) {
+        census(*still, first, last, level.stillCensus);
+        for (std::size_t i = static_cast<std::size_t>(first) * canvas.width;
+             i < static_cast<std::size_t>(last) * canvas.width; ++i)
+            if (level.seen[i] == 0) level.stillCensus[i] = kNoCensus;
+    });
+}
+
+void EpipolarSearch::searchCoarsest() {
+    if (!(pixelsPerUnit_ > 0)) return;
+    const int index = static_cast<int>(levels_.size()) - 1;
+    Level& level = levels_[index];
+    prepare(index);
+    const int beyond = (kBeyond + (1 << index) - 1) >> index;
+    std::fill(level.base.begin(), level.base.end(), static_cast<std::int16_t>(-beyond));
+    match(index, ((labels_ >> index) + beyond + SemiGlobal::kLabels - 1) / SemiGlobal::kLabels);
+}
+
+void EpipolarSearch::searchFiner() {
+    for (int i = static_cast<int>(levels_.size()) - 2; i >= finestLevel(); --i) {
+        const Level& coarse = levels_[i + 1];
+        prepare(i);
+        centreWindows({coarse.labels, coarse.lens.size(), 2, 1}, levels_[i]);
+        match(i, 1);
+    }
+}
+
+void EpipolarSearch::searchAround(std::span<const float> predicted) {
+    const auto labelsPerUnit = static_cast<float>(pixelsPerUnit_);
+    const auto longest = static_cast<float>(labels_);
+    predicted_.clear();
+    for (const float s : predicted)
+        predicted_.push_back(soundLabel(s * labelsPerUnit, longest));
+    const int finest = finestLevel();
+    prepare(finest);
+    centreWindows({predicted_, cellsOf(video_.size), 1.0F / static_cast<float>(1 << finest),
+                   kPredictedLevel - finest},
+                  levels_[finest]);
+    match(finest, 1);
+}
+
+void EpipolarSearch::match(int index, int vectors) {
+    Level& level = levels_[index];
+    matcher_.run(
+        level.video, level.base, vectors,
+        smoothnessFor(std::max(videoNoise_, stillNoise_), options_),
+        [&](int y, std::uint8_t* out) { costRow(level, index, vectors, y, out); }, *workers_,
+        std::span(valleys_).first(level.labels.size()));
+    if (index > finestLevel())
+        std::ranges::transform(std::span(valleys_).first(level.labels.size()), level.labels.begin(),
+                               vertexOf);
+    else
+        placeLabels(index);
+}
+
+// The window of a pixel covers what the coarser level found around it, with room on both sides.
+void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
+    constexpr int kRoom = 2;
+    const Size from = coarse.size, to = fine.lens.size();
+    const float scale = coarse.scale;
+    median3x3(coarse.labels, from, *workers_, scratch_);
+    localRange(scratch_, from, options_.windowRadius, range_);
+    for (std::size_t i = 0; i < coarse.labels.size(); ++i) {
+        constexpr float kHalf = SemiGlobal::kLabels / 2.0F - kRoom;
+        const float low = scale * range_.low[i], high = scale * range_.high[i];
+        const float centre = high - low < 2 * kHalf
+                                 ? 0.5F * (low + high)
+                                 : std::clamp(scale * scratch_[i], low + kHalf, high - kHalf);
+        range_.low[i] = std::round(centre - 0.5F * (SemiGlobal::kLabels - 1));
+    }
+    for (int y = 0; y < to.height; ++y)
+        for (int x = 0; x < to.width; ++x)
+            fine.base[static_cast<std::size_t>(y) * to.width + x] = static_cast<std::int16_t>(
+                range_.low[static_cast<std::size_t>(y >> coarse.shift) * from.width +
+                           (x >> coarse.shift)]);
+}
+
+}  // namespace mfar

@@ -1,0 +1,133 @@
+#pragma once
+
+#include "pipeline/epipolar/epipolar_lens.h"
+#include "pipeline/epipolar/field_filters.h"
+#include "pipeline/epipolar/pose_patches.h"
+#include "pipeline/epipolar/relative_pose.h"
+#include "pipeline/epipolar/semi_global.h"
+#include "pipeline/epipolar/turned_picture.h"
+#include "pipeline/flow/flow_options.h"
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace mfar {
+
+/// The still camera with a sensor of about as many pixels per ray as the video camera's.
+[[nodiscard]] CameraModel atScaleOf(const StereoRig& rig);
+
+/// Dense matching of a video frame with a still whose relative pose is known: a search along each
+/// pixel's epipolar line, coarse to fine, with a census cost and semi-global smoothness.
+///
+/// Runs on the host's processor; no GL.
+class EpipolarSearch {
+public:
+    /// Throws std::invalid_argument for options out of range.
+    EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> workers,
+                   const EpipolarOptions& options = {});
+
+    /// See changed() in flow_options.h; takes effect with the next run. Throws
+    /// std::invalid_argument for options out of range.
+    void setOptions(const EpipolarOptions& options) { options_ = changed(options_, options); }
+
+    /// The still as its sensor took it.
+    void setStill(const ImageView& still);
+
+    /// Searches for these pixels of the video alone from now on, and for what is around them up to
+    /// a grid of a few pixels. At first the area is the whole picture.
+    void setArea(const PixelRect& pixels);
+    [[nodiscard]] const PixelRect& area() const { return area_; }
+
+    /// `T_still_video`: video camera coordinates at the frame's time to still camera coordinates at
+    /// the still's; its unit of length is free. `covariance`: of a small motion x, T_still_video *
+    /// exp(x); with it the pose is refined from the pictures first, without it taken as exact.
+    /// `predicted`: about s of every cell of 4x4 pixels of the area, row-major; the coarser levels,
+    /// which would find it, are then left out. Returns false, and a field of zeros, where nothing
+    /// of the still is in reach or the pose is none (soundMotion()). `video`: the whole picture.
+    bool run(const LumaImage& video, const RigidTransform& T_still_video,
+             const std::optional<Matrix6>& covariance = std::nullopt,
+             std::span<const float> predicted = {});
+
+    /// Luma of the still at that scale.
+    [[nodiscard]] const LumaImage& stillPicture() const { return picture_; }
+    /// The T_still_video whose lines were searched, and what led to it.
+    [[nodiscard]] const RigidTransform& pose() const { return pose_; }
+    [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
+    /// How far matches are to be expected beside the lines [px]; levels where that is more than
+    /// half a pixel are searched a pixel to both sides of each line as well.
+    [[nodiscard]] double normalError() const { return normalError_; }
+
+    /// Per pixel of the area: s [1/unit of length], see EpipolarLens. Less than zero where the best
+    /// match lies beyond infinity, as noise and errors of the pose make it.
+    [[nodiscard]] const std::vector<float>& inverseDepth() const { return inverseDepth_; }
+    /// Longest way of a pixel per unit of s [px]; zero: no parallax, nothing was searched.
+    [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
+    /// Translation of points from the frame to the still, in the frame's orientation.
+    [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
+    /// Labels compared at the finest level; zero when nothing was searched.
+    [[nodiscard]] int labels() const { return labels_; }
+
+private:
+    struct Level {
+        EpipolarLens lens;
+        PixelOffset origin;  // of the still's canvas, in pixels of the lens
+        LumaImage video, still, smoothVideo, smoothStill;
+        std::vector<std::uint8_t> seen;
+        std::vector<std::uint32_t> videoCensus, stillCensus;
+        std::vector<std::int16_t> base;
+        std::vector<float> labels;
+
+        [[nodiscard]] TurnedPair pair() const { return {lens, origin, video, still, seen}; }
+    };
+
+    [[nodiscard]] bool place(const RigidTransform& T_still_video);
+    [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video);
+    void measureParallax();
+    void searchCoarsest();
+    void searchFiner();
+    [[nodiscard]] int finestLevel() const;
+    void readInverseDepth();
+    void searchAround(std::span<const float> predicted);
+    void refine(const Matrix6& covariance, std::span<const float> predicted);
+    void prepare(int index);
+    /// About the labels of a level at `scale` of its size, each covering 2^shift pixels.
+    struct Coarser {
+        const std::vector<float>& labels;
+        Size size;
+        float scale;
+        int shift;
+    };
+    void centreWindows(const Coarser& coarse, Level& fine);
+    void match(int index, int vectors);
+    void costRow(const Level& level, int index, int vectors, int y, std::uint8_t* out) const;
+    [[nodiscard]] bool hasSlack(int index) const;
+    template <class LabelAt>
+    void placeRow(const Level& level, std::size_t first, float perLabel, LabelAt labelAt,
+                  std::vector<EpipolarLens::Point>& out) const;
+    void placeLabels(int index);
+
+    EpipolarOptions options_;
+    CameraModel whole_, video_, still_;  // the area's is video_; the still's: atScaleOf()
+    PixelRect area_;
+    std::vector<EpipolarLens> lenses_;  // of the whole picture's levels
+    std::shared_ptr<Workers> workers_;
+    TurnedPicture turned_;
+    std::vector<Level> levels_;
+    LumaImage picture_;  // of the still
+    SemiGlobal matcher_;
+    std::vector<Valley> valleys_;
+    RigidTransform pose_;  // T_still_video
+    PoseRefinement refinement_;
+    double stillNoise_ = 0, videoNoise_ = 0, normalError_ = 0;
+    Eigen::Vector3f translation_ = Eigen::Vector3f::Zero();
+    double pixelsPerUnit_ = 0;
+    int labels_ = 0;
+    std::vector<float> inverseDepth_, scratch_, predicted_;
+    LocalRange range_;
+};
+
+}  // namespace mfar

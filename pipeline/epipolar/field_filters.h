@@ -1,0 +1,19 @@
+#pragma once
+
+#include "base/image_view.h"
+#include "base/workers.h"
+
+#include <vector>
+
+namespace mfar {
+
+/// Median over 3x3 values; the border repeats. `in` and `out` differ and have size's pixels.
+void median3x3(const std::vector<float>& in, Size size, Workers& workers, std::vector<float>& out);
+
+/// Least and greatest value within `radius` columns and rows of each pixel.
+struct LocalRange {
+    std::vector<float> low, high;
+};
+void localRange(const std::vector<float>& in, Size size, int radius, LocalRange& out);
+
+}  // namespace mfar

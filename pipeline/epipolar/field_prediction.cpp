@@ -1,0 +1,91 @@
+#include "pipeline/epipolar/field_prediction.h"
+
+#include "pipeline/epipolar/near_plane.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+constexpr int kCellLevel = 2;  // of the pyramid: cells are 4x4 pixels
+constexpr float kUnknown = -1e9F;
+// Cells by which gaps are closed, from the picture's border and at depth edges: 12 px a frame.
+constexpr int kWidestGap = 3;
+
+}  // namespace
+
+FieldPrediction::FieldPrediction(const CameraModel& video) : cells_(video, kCellLevel) {}
+
+void FieldPrediction::keep(std::span<const float> nearness, const RigidTransform& T_still_frame,
+                           double unit) {
+    kept_.assign(nearness.begin(), nearness.end());
+    keptPose_ = T_still_frame;
+    unit_ = unit;
+}
+
+std::span<const float> FieldPrediction::in(const RigidTransform& T_still_frame, double unit) {
+    if (kept_.empty()) return {};
+    land(T_still_frame, unit);
+    return fillGaps() ? std::span<const float>(landed_) : std::span<const float>();
+}
+
+// Points are homogeneous, (x, y, z, s): what is far away has s near zero.
+void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
+    RigidTransform T_still_next = T_still_frame, T_still_last = keptPose_;
+    T_still_next.translation *= unit / unit_;
+    const RigidTransform T_next_last = T_still_next.inverse() * T_still_last;
+    const Eigen::Matrix3f R = T_next_last.rotation.toRotationMatrix().cast<float>();
+    const Eigen::Vector3f t = T_next_last.translation.cast<float>();
+    const auto behind = [](const RigidTransform& T_still) {
+        return static_cast<float>((T_still.rotation.conjugate() * T_still.translation).z());
+    };
+    const float lastZ = behind(T_still_last), nextZ = behind(T_still_next);
+    const auto perUnit = static_cast<float>(unit / unit_);
+    const Size size = cells_.size();
+    landed_.assign(kept_.size(), kUnknown);
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+        const float s = kept_[i], depth = 1 - s * lastZ;
+        const Eigen::Vector3f p =
+            R * Eigen::Vector3f(cells_.rayX(i) * depth, cells_.rayY(i) * depth, depth) + s * t;
+        const float whole = p.z() + s * nextZ;
+        if (!(p.z() > kNearPlane && whole > kNearPlane)) continue;
+        const auto at = cells_.project(p.x() / p.z(), p.y() / p.z());
+        const float x = std::round(at.x), y = std::round(at.y);
+        if (!(x >= 0 && y >= 0 && x < static_cast<float>(size.width) &&
+              y < static_cast<float>(size.height)))
+            continue;
+        float& to = landed_[static_cast<std::size_t>(y) * size.width + static_cast<std::size_t>(x)];
+        to = std::max(to, s / whole * perUnit);
+    }
+}
+
+// What comes to light from behind an edge is as far away as what lies beside it.
+bool FieldPrediction::fillGaps() {
+    const Size size = cells_.size();
+    for (int round = 0; round < kWidestGap; ++round) {
+        filled_ = landed_;
+        bool whole = true;
+        for (int y = 0; y < size.height; ++y) {
+            for (int x = 0; x < size.width; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
+                if (landed_[i] > kUnknown) continue;
+                float least = -kUnknown;
+                for (int v = std::max(y - 1, 0); v <= std::min(y + 1, size.height - 1); ++v)
+                    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, size.width - 1); ++u) {
+                        const float n = landed_[static_cast<std::size_t>(v) * size.width + u];
+                        if (n > kUnknown) least = std::min(least, n);
+                    }
+                if (least < -kUnknown)
+                    filled_[i] = least;
+                else
+                    whole = false;
+            }
+        }
+        landed_.swap(filled_);
+        if (whole) return true;
+    }
+    return false;
+}
+
+}  // namespace mfar

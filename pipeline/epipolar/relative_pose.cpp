@@ -1,0 +1,195 @@
+#include "pipeline/epipolar/relative_pose.h"
+
+#include "pipeline/epipolar/near_plane.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+using Matrix26 = Eigen::Matrix<double, 2, 6>;
+using Matrix23 = Eigen::Matrix<double, 2, 3>;
+
+constexpr int kMostSolves = 15;
+constexpr double kSettled = 0.01;  // [px]
+constexpr int kFewest = 16;
+constexpr double kFewestShare = 0.4;
+// Beyond so many standard deviations a match has no weight.
+constexpr double kTukey = 4.685;
+// Standard deviation of a good match [px]; the scale of the weights does not fall below half.
+constexpr double kMatchError = 0.3;
+// A pose explains what lies no farther from its lines [px].
+constexpr double kExplained = 1;
+constexpr double kNotExplained = 1e6;  // [px]
+
+/// Rotation and translation of points, in the prior's orientation and unit of length.
+struct Estimate {
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+    Eigen::Vector3d translation;
+};
+
+/// A match under an estimate with the inverse depth that suits it best.
+struct Residual {
+    Eigen::Vector2d error;  // [rays]
+    Matrix26 jacobian;      // by rotation and translation, inverse depth eliminated
+};
+
+Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
+    Matrix23 out;
+    out << 1, 0, -ray.x(), 0, 1, -ray.y();
+    return out / z;
+}
+
+// By the epipole no depth moves the point much, and one beyond all bounds would explain anything:
+// there the depth is held with the error of a match against a parallax of one.
+std::optional<Residual> residualOf(const RayMatch& match, const Estimate& at, double focal) {
+    const double held = std::pow(kMatchError / focal, 2);
+    const Eigen::Vector3d turned = at.rotation * match.video.homogeneous();
+    const Eigen::Vector2d& seen = match.still;
+    const Eigen::Vector2d apart = turned.head<2>() - seen * turned.z();
+    const Eigen::Vector2d way = at.translation.head<2>() - seen * at.translation.z();
+    const double inverseDepth = -apart.dot(way) / (way.squaredNorm() + held);
+    const Eigen::Vector3d point = turned + inverseDepth * at.translation;
+    if (!(point.z() > kNearPlane)) return std::nullopt;
+    const Eigen::Vector2d ray = point.hnormalized();
+    const Matrix23 byPoint = rayOfPoint(ray, point.z());
+    Residual out;
+    out.error = ray - seen;
+    out.jacobian << -byPoint * skew(turned), inverseDepth * byPoint;
+    const Eigen::Vector2d byDepth = byPoint * at.translation;
+    const Eigen::RowVector2d share = byDepth.transpose() / (byDepth.squaredNorm() + held);
+    out.jacobian -= byDepth * (share * out.jacobian);
+    return out;
+}
+
+double quantileOf(std::vector<double> values, double quantile) {
+    if (values.empty()) return 0;
+    const auto place = static_cast<std::ptrdiff_t>(quantile * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + place, values.end());
+    return values[place];
+}
+
+/// Gauss-Newton in the prior's units: radians, and the length of its translation.
+class Solver {
+public:
+    Solver(std::span<const RayMatch> matches, const PosePrior& prior, double focal)
+        : matches_(matches), focal_(focal) {
+        const double length =
+            std::max(prior.translation.norm(),
+                     std::sqrt(prior.covariance.bottomRightCorner<3, 3>().trace()));
+        unit_ = length > 0 ? length : 1;
+        Vector6 scale = Vector6::Ones();
+        scale.tail<3>().setConstant(1 / unit_);
+        Matrix6 covariance = scale.asDiagonal() * prior.covariance * scale.asDiagonal();
+        // What is known exactly is so to a millionth.
+        covariance.diagonal().array() += 1e-12;
+        const Eigen::LLT<Matrix6> factors(covariance);
+        usable_ = covariance.allFinite() && prior.translation.allFinite() &&
+                  factors.info() == Eigen::Success;
+        information_ = factors.solve(Matrix6::Identity());
+        start_ = at_.translation = prior.translation / unit_;
+    }
+
+    [[nodiscard]] bool usable() const { return usable_; }
+    [[nodiscard]] bool settled() const { return settled_; }
+    [[nodiscard]] double median() const { return quantileOf(errors_, 0.5); }
+    [[nodiscard]] RigidTransform motion() const {
+        return {at_.rotation, unit_ * motion_.tail<3>()};
+    }
+    [[nodiscard]] int inliers() const {
+        return static_cast<int>(std::count_if(errors_.begin(), errors_.end(),
+                                              [&](double error) { return error < kExplained; }));
+    }
+
+    void measure() {
+        residuals_.clear();
+        errors_.clear();
+        for (const RayMatch& match : matches_) {
+            residuals_.push_back(residualOf(match, at_, focal_));
+            const auto& r = residuals_.back();
+            const double error = r ? focal_ * r->error.norm() : kNotExplained;
+            errors_.push_back(error < kNotExplained ? error : kNotExplained);
+        }
+        // From fewer than half of the errors, so that it stands more than half of wrong ones.
+        constexpr double kQuantile = 0.4, kNormal = 0.5244;  // of |N(0, 1)|
+        scale_ = std::clamp(quantileOf(errors_, kQuantile) / kNormal, 0.5 * kMatchError, scale_);
+    }
+
+    /// False: no step is possible.
+    bool step() {
+        Matrix6 A = information_;
+        Vector6 b = -information_ * motion_;
+        for (std::size_t i = 0; i < residuals_.size(); ++i) {
+            const auto& r = residuals_[i];
+            const double u = errors_[i] / (kTukey * scale_);
+            if (!r || !(u < 1)) continue;
+            const double weight = std::pow((1 - u * u) * focal_ / scale_, 2);
+            A += weight * r->jacobian.transpose() * r->jacobian;
+            b -= weight * r->jacobian.transpose() * r->error;
+        }
+        const Vector6 change = A.ldlt().solve(b);
+        if (!change.allFinite()) return false;
+        motion_ += change;
+        Vector6 turn = Vector6::Zero();
+        turn.head<3>() = motion_.head<3>();
+        at_.rotation = exponential(turn).rotation;
+        at_.translation = start_ + motion_.tail<3>();
+        const double before = scale_;
+        measure();
+        settled_ = focal_ * change.norm() < kSettled && scale_ > 0.99 * before;
+        return true;
+    }
+
+private:
+    std::span<const RayMatch> matches_;
+    double focal_, unit_;
+    bool usable_, settled_ = false;
+    Matrix6 information_;
+    Eigen::Vector3d start_;
+    Estimate at_;
+    Vector6 motion_ = Vector6::Zero();
+    std::vector<std::optional<Residual>> residuals_;
+    std::vector<double> errors_;    // [px]
+    double scale_ = kNotExplained;  // standard deviation of the matches that agree [px]
+};
+
+}  // namespace
+
+PoseRefinement refineRelativePose(std::span<const RayMatch> matches, const PosePrior& prior,
+                                  double focal) {
+    PoseRefinement out;
+    out.patches = static_cast<int>(matches.size());
+    Solver solver(matches, prior, focal);
+    if (!solver.usable()) return out;
+    solver.measure();
+    out.normalBefore = out.normalAfter = solver.median();
+    for (int i = 0; i < kMostSolves && !solver.settled(); ++i)
+        if (!solver.step()) return out;
+    out.inliers = solver.inliers();
+    const double after = solver.median();
+    const double gained = out.normalBefore * out.normalBefore - after * after;
+    out.accepted = out.inliers >= kFewest && out.inliers >= kFewestShare * out.patches &&
+                   gained > kExactEnough * kExactEnough;
+    if (!out.accepted) return out;
+    out.normalAfter = after;
+    out.motion = solver.motion();
+    return out;
+}
+
+Eigen::Matrix2d spreadOf(const RayMatch& match, const PosePrior& prior) {
+    const Eigen::Vector2d& seen = match.still;
+    const Eigen::Vector2d way = prior.translation.head<2>() - seen * prior.translation.z();
+    const double square = way.squaredNorm();
+    const double inverseDepth = square > 0 ? (seen - match.video).dot(way) / square : 0;
+    const Matrix23 byPoint = rayOfPoint(seen, 1);
+    Matrix26 J;
+    J << -byPoint * skew(seen.homogeneous()), inverseDepth * byPoint;
+    return J * prior.covariance * J.transpose();
+}
+
+}  // namespace mfar

@@ -1,0 +1,64 @@
+#include "pipeline/models/bounded_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace mfar {
+
+namespace fs = std::filesystem;
+
+std::string percentDecoded(std::string_view uri) {
+    std::string out;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        if (uri[i] != '%') {
+            out += uri[i];
+            continue;
+        }
+        const std::string_view digits = uri.substr(i + 1, 2);
+        unsigned value = 0;
+        const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+        if (digits.size() != 2 || end.ptr != digits.data() + 2)
+            throw std::runtime_error("broken percent-encoding");
+        out += static_cast<char>(value);
+        i += 2;
+    }
+    return out;
+}
+
+std::vector<std::uint8_t> boundedFile(const fs::path& file, std::size_t most) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (!fs::exists(status)) throw std::runtime_error("is missing");
+    if (!fs::is_regular_file(status)) throw std::runtime_error("is not a regular file");
+    const std::uintmax_t size = fs::file_size(file, error);
+    if (error) throw std::runtime_error("cannot be read");
+    if (size > most)
+        throw std::runtime_error(fmt::format("has {} bytes, at most {} are read", size, most));
+    std::vector<std::uint8_t> bytes(size);
+    std::ifstream in(file, std::ios::binary);
+    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (!in) throw std::runtime_error("cannot be read");
+    return bytes;
+}
+
+fs::path fileInFolder(const fs::path& folder, const std::string& name) {
+    if (folder.empty()) throw std::runtime_error("other files are not read here");
+    const fs::path path(name);
+    const bool up = std::find(path.begin(), path.end(), fs::path("..")) != path.end();
+    if (name.empty() || name.find('\0') != std::string::npos || path.is_absolute() || up)
+        throw std::runtime_error("must name a file in the model's folder");
+    std::error_code error;
+    const fs::path top = fs::canonical(folder, error);
+    const fs::path file = error ? fs::path() : fs::canonical(top / path, error);
+    if (error) throw std::runtime_error("is missing");
+    if (std::mismatch(top.begin(), top.end(), file.begin(), file.end()).first != top.end())
+        throw std::runtime_error("must name a file in the model's folder");
+    return file;
+}
+
+}  // namespace mfar

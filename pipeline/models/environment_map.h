@@ -1,0 +1,35 @@
+#pragma once
+
+#include "pipeline/scene/scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace mfar {
+
+/// Reads a latitude-longitude picture: Radiance RGBE (.hdr), PNG or JPEG (sRGB, white is radiance
+/// 1). Its width is twice its height, to one in a hundred, and at most 16384 (PNG, JPEG: 8192);
+/// more than 2048x1024 is averaged down to that. Throws ModelError "file: what is wrong".
+[[nodiscard]] Environment loadEnvironment(const std::filesystem::path& file);
+/// The same for a file's bytes. `name` is for messages.
+[[nodiscard]] Environment parseEnvironment(std::span<const std::uint8_t> bytes,
+                                           const std::string& name);
+
+/// A photographer's studio: a large soft box to the upper left in front (-x, -y), a strip to the
+/// right, a cold one behind, in a dim room. A white surface that faces up has radiance near 1.
+[[nodiscard]] Environment studioEnvironment();
+
+/// Clear sky, without its sun, over grey ground. `towardsSun` is a unit vector above the horizon.
+/// A white surface that faces up has radiance near 1. Source: CIE S 011/E:2003, sky type 12.
+[[nodiscard]] Environment skyEnvironment(const Eigen::Vector3f& towardsSun);
+
+/// World direction of a place in an environment, u and v in [0, 1]; see Environment.
+[[nodiscard]] Eigen::Vector3f environmentDirection(float u, float v);
+/// An environment of that size from the radiance of its pixels' centres.
+[[nodiscard]] Environment
+environmentOf(Size size, const std::function<Eigen::Vector3f(const Eigen::Vector3f&)>& radiance);
+
+}  // namespace mfar

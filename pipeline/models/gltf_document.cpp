@@ -1,0 +1,152 @@
+#define TINYGLTF_IMPLEMENTATION
+#include "pipeline/models/gltf_document.h"
+
+#include "pipeline/models/bounded_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace mfar {
+namespace {
+
+constexpr std::size_t kGlbHeader = 12, kChunkHeader = 8;
+
+std::uint32_t littleEndian(const std::uint8_t* p) {
+    return std::uint32_t{p[3]} << 24U | std::uint32_t{p[2]} << 16U | std::uint32_t{p[1]} << 8U |
+           p[0];
+}
+
+bool isBinary(std::span<const std::uint8_t> bytes) {
+    return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
+}
+
+/// The JSON of a file; of a .glb its first chunk.
+std::string_view jsonOf(std::span<const std::uint8_t> bytes) {
+    const auto* text = reinterpret_cast<const char*>(bytes.data());
+    if (!isBinary(bytes)) return {text, bytes.size()};
+    if (bytes.size() < kGlbHeader + kChunkHeader)
+        throw std::runtime_error("ends in the header of a .glb");
+    const std::uint32_t version = littleEndian(&bytes[4]);
+    if (version != 2) throw std::runtime_error(fmt::format("version {} of .glb", version));
+    const std::uint32_t length = littleEndian(&bytes[kGlbHeader]);
+    const std::size_t left = bytes.size() - kGlbHeader - kChunkHeader;
+    if (length > left)
+        throw std::runtime_error(fmt::format("JSON of {} bytes in a .glb with {}", length, left));
+    return {text + kGlbHeader + kChunkHeader, length};
+}
+
+/// tinygltf asks for the files of buffers through this.
+struct FolderAccess {
+    const std::filesystem::path& folder;
+    std::size_t left;  ///< bytes that may still be read
+};
+
+bool readFile(std::vector<unsigned char>* out, std::string* error, const std::string& uri,
+              void* access) {
+    auto* from = static_cast<FolderAccess*>(access);
+    try {
+        *out = boundedFile(fileInFolder(from->folder, uri), from->left);
+        from->left -= out->size();
+        return true;
+    } catch (const std::exception& e) {
+        *error = e.what();
+        return false;
+    }
+}
+
+/// All of them: tinygltf falls back to its own where one is missing. Paths are ours: the first that
+/// it tries, the URI itself, is the one.
+template <typename Callbacks>
+Callbacks callbacksFor(FolderAccess& access) {
+    Callbacks out{};
+    out.FileExists = [](const std::string&, void*) { return true; };
+    out.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    out.ReadWholeFile = readFile;
+    out.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                            void*) { return false; };
+    // Of newer releases. What may be read is limited as it is read.
+    if constexpr (requires { out.GetFileSizeInBytes; })
+        out.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+            *size = 0;
+            return true;
+        };
+    out.user_data = &access;
+    return out;
+}
+
+/// Keeps the bytes of a picture in a data URI. Those in a bufferView stay there.
+bool keepImage(tinygltf::Image* image, int /*index*/, std::string* /*error*/,
+               std::string* /*warning*/, int /*width*/, int /*height*/, const unsigned char* bytes,
+               int size, void* /*user*/) {
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
+    return true;
+}
+
+std::string oneLine(std::string text) {
+    for (char& c : text)
+        if (c == '\n' || c == '\r') c = ' ';
+    while (!text.empty() && text.back() == ' ')
+        text.pop_back();
+    return text;
+}
+
+void parse(std::span<const std::uint8_t> bytes, GltfDocument& document) {
+    FolderAccess access{document.folder, document.limits.bytes};
+    tinygltf::TinyGLTF parser;
+    parser.SetImageLoader(keepImage, nullptr);
+    parser.SetFsCallbacks(callbacksFor<tinygltf::FsCallbacks>(access));
+    const auto size = static_cast<unsigned>(bytes.size());
+    std::string error, warning;
+    const bool good =
+        isBinary(bytes)
+            ? parser.LoadBinaryFromMemory(&document.gltf, &error, &warning, bytes.data(), size, "")
+            : parser.LoadASCIIFromString(&document.gltf, &error, &warning,
+                                         reinterpret_cast<const char*>(bytes.data()), size, "");
+    if (!good) throw std::runtime_error(error.empty() ? "cannot be read" : oneLine(error));
+}
+
+void requireVersionAndExtensions(const GltfDocument& document) {
+    if (!document.gltf.asset.version.starts_with("2."))
+        document.refuse("asset.version",
+                        fmt::format("\"{}\", 2.0 is read", document.gltf.asset.version));
+    for (const std::string& name : document.gltf.extensionsRequired)
+        if (name != "KHR_texture_transform" && name != "KHR_materials_emissive_strength")
+            document.refuse("extensionsRequired", fmt::format("{} is not supported", name));
+}
+
+}  // namespace
+
+void GltfDocument::refuse(std::string_view place, std::string_view what) const {
+    throw ModelError(oneLine(fmt::format("{}: {}: {}", name, place, what)));
+}
+
+std::span<const std::uint8_t> GltfDocument::view(int bufferView, std::string_view place) const {
+    const tinygltf::BufferView& view = at(gltf.bufferViews, bufferView, place);
+    const std::span<const std::uint8_t> buffer = at(gltf.buffers, view.buffer, place).data;
+    // The JSON was looked through, but the buffer is what tinygltf made of it.
+    if (view.byteOffset > buffer.size() || view.byteLength > buffer.size() - view.byteOffset)
+        refuse(place, fmt::format("bufferView {} is not in its buffer", bufferView));
+    return buffer.subspan(view.byteOffset, view.byteLength);
+}
+
+GltfDocument readDocument(std::span<const std::uint8_t> bytes, const std::string& name,
+                          const std::filesystem::path& folder, const ModelLimits& limits) {
+    GltfDocument document{{}, name, folder, limits};
+    try {
+        const auto most = std::min<std::uint64_t>(limits.bytes, UINT32_MAX);
+        if (bytes.size() > most)
+            throw std::runtime_error(
+                fmt::format("has {} bytes, at most {} are read", bytes.size(), most));
+        requireSoundJson(jsonOf(bytes), limits);
+        parse(bytes, document);
+    } catch (const std::exception& error) {
+        throw ModelError(oneLine(fmt::format("{}: {}", name, error.what())));
+    }
+    requireVersionAndExtensions(document);
+    return document;
+}
+
+}  // namespace mfar

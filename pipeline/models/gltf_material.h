@@ -1,0 +1,53 @@
+#pragma once
+
+#include "pipeline/models/gltf_document.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mfar {
+
+/// Which texture coordinates a material's textures take, and what becomes of them first:
+/// KHR_texture_transform, uv' = offset + R(rotation) (scale uv).
+struct TextureMapping {
+    int set = 0;  ///< TEXCOORD_n
+    Eigen::Vector2f offset{0, 0}, scale{1, 1};
+    float rotation = 0;  ///< [rad]
+
+    bool operator==(const TextureMapping&) const = default;
+    [[nodiscard]] Eigen::Vector2f operator()(const Eigen::Vector2f& uv) const;
+};
+
+/// Materials of a document with their textures, each decoded when first needed. Refuses what is out
+/// of range.
+class GltfMaterials {
+public:
+    explicit GltfMaterials(const GltfDocument& document) : document_(document) {}
+
+    /// Of glTF's material; -1: the default one. The result's number, and what its textures take.
+    std::pair<int, TextureMapping> use(int material);
+
+    [[nodiscard]] const Material& operator[](int number) const { return materials_[number]; }
+    [[nodiscard]] std::vector<Material> takeMaterials() { return std::move(materials_); }
+    [[nodiscard]] std::vector<SurfaceTexture> takeTextures() { return std::move(textures_); }
+
+private:
+    Material read(const tinygltf::Material& from, const std::string& place);
+    int texture(const tinygltf::TextureInfo& info, bool srgb, const std::string& place);
+    int picture(int image, bool srgb, const std::string& place);
+    SurfaceTexture decode(const tinygltf::Image& image, const std::string& place);
+    void takeMapping(const TextureMapping& wanted, const std::string& place);
+
+    const GltfDocument& document_;
+    std::map<int, std::pair<int, TextureMapping>> used_;
+    std::map<std::pair<int, bool>, int> pictures_;  ///< by image and whether it is sRGB
+    std::vector<Material> materials_;
+    std::vector<SurfaceTexture> textures_;
+    std::optional<TextureMapping> mapping_;  ///< of the material that is being read
+    std::size_t texels_ = 0, bytes_ = 0;
+};
+
+}  // namespace mfar

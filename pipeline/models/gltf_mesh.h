@@ -1,0 +1,25 @@
+#pragma once
+
+#include "pipeline/models/gltf_document.h"
+#include "pipeline/models/gltf_material.h"
+
+#include <optional>
+
+namespace mfar {
+
+/// One primitive of a mesh in glTF's own frame, with normals and tangents where its material has a
+/// normal texture. Material::material is left at 0. Nothing for points and lines. Refuses what is
+/// not sound, and more than so many vertices or triangles.
+struct PrimitiveSource {
+    const tinygltf::Primitive& primitive;
+    TextureMapping mapping;
+    bool textured = false, bumpy = false;  ///< the material has any texture, a normal texture
+    std::string place;
+};
+[[nodiscard]] std::optional<Mesh> readPrimitive(const GltfDocument& document,
+                                                const PrimitiveSource& source);
+
+/// The mesh moved by a node. A mirroring transform turns its triangles round.
+[[nodiscard]] Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh);
+
+}  // namespace mfar

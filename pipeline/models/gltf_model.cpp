@@ -1,0 +1,166 @@
+#include "pipeline/models/gltf_model.h"
+
+#include "pipeline/models/bounded_file.h"
+#include "pipeline/models/gltf_document.h"
+#include "pipeline/models/gltf_material.h"
+#include "pipeline/models/gltf_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace mfar {
+namespace {
+
+/// glTF's y up to z up.
+Eigen::Affine3d upright() {
+    Eigen::Affine3d T = Eigen::Affine3d::Identity();
+    T.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+    return T;
+}
+
+Eigen::Affine3d transformOf(const GltfDocument& document, const tinygltf::Node& node,
+                            const std::string& place) {
+    Eigen::Affine3d T = Eigen::Affine3d::Identity();
+    const auto sizeIs = [](const std::vector<double>& list, std::size_t wanted) {
+        return list.empty() || list.size() == wanted;
+    };
+    if (!sizeIs(node.matrix, 16) || !sizeIs(node.translation, 3) || !sizeIs(node.rotation, 4) ||
+        !sizeIs(node.scale, 3))
+        document.refuse(place, "its transform is not sound");
+    if (!node.matrix.empty()) {
+        const Eigen::Map<const Eigen::Matrix4d> matrix(node.matrix.data());
+        T.matrix().topRows<3>() = matrix.topRows<3>();
+    } else {
+        if (!node.translation.empty()) T.translate(Eigen::Vector3d(node.translation.data()));
+        if (!node.rotation.empty()) {
+            const Eigen::Quaterniond q(Eigen::Vector4d(node.rotation.data()));
+            if (!(q.norm() > 1e-6)) document.refuse(place, "its rotation is not sound");
+            T.rotate(q.normalized());
+        }
+        if (!node.scale.empty()) T.scale(Eigen::Vector3d(node.scale.data()));
+    }
+    if (!T.matrix().allFinite()) document.refuse(place, "its transform is not finite");
+    return T;
+}
+
+class ModelBuilder {
+public:
+    explicit ModelBuilder(const GltfDocument& document)
+        : document_(document), materials_(document), onPath_(document.gltf.nodes.size(), false) {}
+
+    Model build() {
+        for (const int root : roots())
+            addNode(root, upright(), 0);
+        if (model_.meshes.empty()) document_.refuse("scene", "shows no triangles");
+        model_.materials = materials_.takeMaterials();
+        model_.textures = materials_.takeTextures();
+        return std::move(model_);
+    }
+
+private:
+    /// Of the default scene; where there is no scene, nodes that are nobody's children.
+    std::vector<int> roots() const {
+        const tinygltf::Model& gltf = document_.gltf;
+        if (!gltf.scenes.empty())
+            return document_.at(gltf.scenes, std::max(gltf.defaultScene, 0), "scene").nodes;
+        std::set<int> children;
+        for (const tinygltf::Node& node : gltf.nodes)
+            children.insert(node.children.begin(), node.children.end());
+        std::vector<int> out;
+        for (int i = 0; i < static_cast<int>(gltf.nodes.size()); ++i)
+            if (!children.contains(i)) out.push_back(i);
+        return out;
+    }
+
+    // As deep as the limit allows, which is checked.
+    void addNode(int index, const Eigen::Affine3d& T_model_parent, int depth) {
+        const std::string place = fmt::format("nodes[{}]", index);
+        const tinygltf::Node& node = document_.at(document_.gltf.nodes, index, place);
+        if (onPath_[index]) document_.refuse(place, "is its own ancestor");
+        if (depth == document_.limits.nodeDepth)
+            document_.refuse(place, fmt::format("is nested deeper than {}", depth));
+        if (++nodesShown_ > document_.limits.elements)
+            document_.refuse(place, fmt::format("more than {} nodes", document_.limits.elements));
+        onPath_[index] = true;
+        const Eigen::Affine3d T = T_model_parent * transformOf(document_, node, place);
+        if (node.mesh >= 0) addMesh(node.mesh, T, place);
+        for (const int child : node.children)
+            addNode(child, T, depth + 1);
+        onPath_[index] = false;
+    }
+
+    void addMesh(int index, const Eigen::Affine3d& T, const std::string& place) {
+        const tinygltf::Mesh& mesh = document_.at(document_.gltf.meshes, index, place + ".mesh");
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            const std::optional<Mesh>& plain = primitive(index, i, mesh.primitives[i]);
+            if (!plain) continue;
+            count(vertices_, plain->positions.size(), document_.limits.vertices, "vertices", place);
+            count(triangles_, plain->triangles.size(), document_.limits.triangles, "triangles",
+                  place);
+            model_.meshes.push_back(transformed(*plain, T));
+            requireNear(model_.meshes.back(), place);
+        }
+    }
+
+    const std::optional<Mesh>& primitive(int mesh, std::size_t index,
+                                         const tinygltf::Primitive& from) {
+        const auto [it, isNew] = read_.try_emplace({mesh, index});
+        if (!isNew) return it->second;
+        const auto [material, mapping] = materials_.use(from.material);
+        const Material& m = materials_[material];
+        const bool bumpy = m.normalTexture >= 0;
+        const bool textured = bumpy || m.baseColourTexture >= 0 ||
+                              m.metallicRoughnessTexture >= 0 || m.emissionTexture >= 0;
+        it->second =
+            readPrimitive(document_, {from, mapping, textured, bumpy,
+                                      fmt::format("meshes[{}].primitives[{}]", mesh, index)});
+        if (it->second) it->second->material = material;
+        if (it->second && it->second->triangles.empty()) it->second.reset();
+        return it->second;
+    }
+
+    void count(std::size_t& sum, std::size_t more, std::size_t most, const char* what,
+               const std::string& place) const {
+        if (more > most - sum) document_.refuse(place, fmt::format("more than {} {}", most, what));
+        sum += more;
+    }
+
+    void requireNear(const Mesh& mesh, const std::string& place) const {
+        for (const Eigen::Vector3f& p : mesh.positions)
+            if (!(p.cwiseAbs().maxCoeff() <= document_.limits.farthest))
+                document_.refuse(
+                    place, fmt::format("reaches farther than {} m", document_.limits.farthest));
+    }
+
+    const GltfDocument& document_;
+    GltfMaterials materials_;
+    std::map<std::pair<int, std::size_t>, std::optional<Mesh>> read_;
+    std::vector<bool> onPath_;
+    std::size_t nodesShown_ = 0, vertices_ = 0, triangles_ = 0;
+    Model model_;
+};
+
+}  // namespace
+
+Model parseGltf(std::span<const std::uint8_t> bytes, const std::string& name,
+                const std::filesystem::path& folder, const ModelLimits& limits) {
+    const GltfDocument document = readDocument(bytes, name, folder, limits);
+    return ModelBuilder(document).build();
+}
+
+Model loadGltf(const std::filesystem::path& file, const ModelLimits& limits) {
+    std::vector<std::uint8_t> bytes;
+    try {
+        bytes = boundedFile(file, limits.bytes);
+    } catch (const std::runtime_error& error) {
+        throw ModelError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+    const std::filesystem::path folder = file.parent_path();
+    return parseGltf(bytes, file.string(), folder.empty() ? "." : folder, limits);
+}
+
+}  // namespace mfar

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "base/image_view.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <functional>
+#include <span>
+
+namespace mfar {
+
+/// Whether the bytes begin like a Radiance picture.
+[[nodiscard]] bool isRadianceHdr(std::span<const std::uint8_t> bytes);
+
+/// Reads a Radiance picture (RGBE, plain or either kind of run lengths, -Y +X order): first
+/// `size`, which may throw, then each row from the top. Values are not negative and finite; the
+/// header's EXPOSURE is undone. Throws std::runtime_error that says what is wrong.
+/// Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's color.c.
+void readRadianceHdr(std::span<const std::uint8_t> bytes, const std::function<void(Size)>& size,
+                     const std::function<void(int, std::span<const Eigen::Vector3f>)>& row);
+
+}  // namespace mfar

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "pipeline/scene/scene.h"
+
+#include <functional>
+
+namespace mfar {
+
+/// What a painted surface is like at one place.
+struct PaintedPoint {
+    Eigen::Vector3f colour;  ///< linear base colour, [0, 1]
+    float roughness = 1, metallic = 0;
+    float height = 0;  ///< relief [m]
+};
+
+/// What it is painted on: extent of the texture in the world [m], u to the right, v downwards.
+struct PaintedArea {
+    Size texels;
+    float width = 1, height = 1;
+};
+
+/// Paints base colour, metallic-roughness and normal textures, appends them to the model's and
+/// names them in the material. The relief joins in u and ends in v.
+void paint(Model& model, Material& material, const PaintedArea& area,
+           const std::function<PaintedPoint(float u, float v)>& look);
+
+}  // namespace mfar

@@ -1,0 +1,117 @@
+#pragma once
+
+#include "pipeline/slices/hole_tracer.h"
+#include "pipeline/slices/reference_options.h"
+#include "pipeline/slices/triple_buffer.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace mfar {
+
+/// A frame's begin.
+struct RenderTick {
+    std::optional<RenderView> view;  ///< the camera's last one
+    Timestamp time;
+    std::uint64_t number = 0;
+};
+
+/// What goes between the frame's thread and the workers.
+struct RenderMail {
+    TripleBuffer<RenderTick> ticks;
+    TripleBuffer<std::shared_ptr<const Scene>> scenes;
+    TripleBuffer<HoleRequest> holeRequests;
+    TripleBuffer<HoleAnswer> holeAnswers;
+    TripleBuffer<RenderedPicture> pictures;
+    TripleBuffer<RenderCounters> counters;
+    TripleBuffer<std::string> errors;
+    std::atomic<std::uint32_t> wakes{0};  ///< changes with each letter to the workers
+    std::atomic<bool> stop{false};
+};
+
+/// What the threads of a ReferenceRenderer share, and what they do.
+class ReferenceWorkers {
+public:
+    /// Throws std::invalid_argument for options out of range. `mail` must outlive it.
+    ReferenceWorkers(const ReferenceOptions& options, RenderMail& mail);
+
+    /// A thread's life, until mail.stop.
+    void work();
+
+private:
+    struct Job {
+        enum class Kind : unsigned char {
+            None,
+            Build,  // of these one at a time, as of the two after the next together
+            Begin,  // one at a time, and none while a picture is resolved
+            Resolve,
+            PrepareHoles,
+            AnswerHoles,
+            Trace,
+            TraceHoles,
+        };
+        Kind kind = Kind::None;
+        BudgetGrant grant;
+        ReferencePictures::Portion portion;
+        PictureResolver::Portion rows;
+        std::span<const std::uint32_t> holes;
+        int holeSamples = 0;  // of each
+        std::shared_ptr<const Scene> source, previousSource;
+        std::shared_ptr<const ReferenceScene> scene;  // Build: the one before, then the one built
+        std::string error;
+
+        [[nodiscard]] std::int64_t samples() const;
+    };
+
+    // Under the mutex:
+    void readMail();
+    void takeHoles(HoleRequest& request);
+    void takeTick();
+    void look();
+    [[nodiscard]] RenderView predictedView() const;
+    [[nodiscard]] Job chosenJob();
+    [[nodiscard]] Job portion();
+    [[nodiscard]] Job resolving();
+    void finishRows(const Job& job, double ms);
+    void finish(const Job& job, double ms);
+    void finishBuild(const Job& job);
+    [[nodiscard]] bool tracing() const;
+    [[nodiscard]] bool hasWork() const { return toBuild_ || building_ || tracing(); }
+    void publishCounters();
+    void wakeOthers();
+    // Without it:
+    void perform(Job& job);
+    void build(Job& job) const;
+
+    const ReferenceOptions options_;
+    RenderMail& mail_;
+
+    std::mutex mutex_;
+    BudgetController budget_;
+    ViewPredictor predictor_;
+    ReferencePictures pictures_;
+    HoleTracer holes_;
+    RenderTick tick_;
+    std::shared_ptr<const Scene> toBuild_, source_;
+    std::shared_ptr<const ReferenceScene> scene_, shownScene_, holeScene_;
+    bool building_ = false;   // Build is out
+    bool exclusive_ = false;  // Begin is, or a picture is resolved
+    bool resolves_ = false;
+    std::array<double, PictureResolver::kStages> resolveMs_{};  // of a pixel, in each stage
+    bool holesExclusive_ = false;                               // PrepareHoles or AnswerHoles is
+    bool toLook_ = false, workAtBegin_ = false;
+    double tickSeconds_ = 1.0 / 30;
+    double holeMs_ = 0;  // in the current frame
+    int asleep_ = 0;
+    RenderCounters counters_;
+    std::uint64_t samplesThen_ = 0;  // when the rate was computed
+    Timestamp rateTime_;
+};
+
+}  // namespace mfar

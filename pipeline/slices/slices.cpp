@@ -1,0 +1,180 @@
+#include "pipeline/slices/slices.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+constexpr int kTileEdge = 8;
+constexpr int kTilePixels = kTileEdge * kTileEdge;
+
+/// Puts a zero bit between all of the lower 16.
+std::uint32_t spread(std::uint32_t v) {
+    v = (v | v << 8) & 0x00ff00ff;
+    v = (v | v << 4) & 0x0f0f0f0f;
+    v = (v | v << 2) & 0x33333333;
+    return (v | v << 1) & 0x55555555;
+}
+
+/// Every other bit of the lower 16, side by side.
+int gathered(std::uint32_t v) {
+    v &= 0x55555555;
+    v = (v | v >> 1) & 0x33333333;
+    v = (v | v >> 2) & 0x0f0f0f0f;
+    return static_cast<int>((v | v >> 4) & 0x000000ff);
+}
+
+std::uint32_t mortonCode(int x, int y) {
+    return spread(static_cast<std::uint32_t>(x)) | spread(static_cast<std::uint32_t>(y)) << 1;
+}
+
+}  // namespace
+
+Slices::Slices(const SliceOptions& options) : options_(options) {
+    if (options.samples < 1 || options.samplesPerTurn < 1 || options.leastSamples < 2)
+        throw std::invalid_argument("slices need samples, and two to know an error");
+    if (!(options.threshold >= 0)) throw std::invalid_argument("an error is not negative");
+}
+
+void Slices::begin(const PixelRect& bounds, Size picture) {
+    const PixelRect r = common(bounds, {0, 0, picture.width, picture.height});
+    width_ = picture.width;
+    pixels_.clear();
+    tiles_.clear();
+    open_.clear();
+    order_.clear();
+    cursor_ = 0;
+    samples_ = turn_ = 0;
+    traced_ = settled_ = 0;
+    unfinished_ = ofTurn_ = 0;
+    if (r.empty()) return;
+    for (int row = r.y0 / kTileEdge; row * kTileEdge < r.y1; ++row)
+        for (int column = r.x0 / kTileEdge; column * kTileEdge < r.x1; ++column)
+            order_.push_back(mortonCode(column, row));
+    std::sort(order_.begin(), order_.end());
+    for (const std::uint32_t code : order_)
+        addTile(gathered(code), gathered(code >> 1), r);
+    unfinished_ = tiles_.size();
+}
+
+void Slices::addTile(int column, int row, const PixelRect& bounds) {
+    Tile tile;
+    tile.first = static_cast<std::uint32_t>(pixels_.size());
+    for (std::uint32_t code = 0; code < kTilePixels; ++code) {
+        const int x = column * kTileEdge + gathered(code),
+                  y = row * kTileEdge + gathered(code >> 1);
+        if (x >= bounds.x0 && x < bounds.x1 && y >= bounds.y0 && y < bounds.y1)
+            pixels_.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
+                              static_cast<std::uint32_t>(x));
+    }
+    tile.count = tile.active = static_cast<std::uint32_t>(pixels_.size()) - tile.first;
+    tiles_.push_back(tile);
+}
+
+Slice Slices::next(std::int64_t mostSamples) {
+    if (finished()) return {};
+    if (turnComplete()) beginTurn();
+    return options_.slicing == Slicing::Time ? nextOfTurn(mostSamples) : nextOfTiles(mostSamples);
+}
+
+void Slices::beginTurn() {
+    const bool time = options_.slicing == Slicing::Time;
+    turn_ = time ? std::min(turn_ + options_.samplesPerTurn, options_.samples) : options_.samples;
+    ofTurn_ = unfinished_;
+    cursor_ = 0;
+}
+
+Slice Slices::nextOfTurn(std::int64_t mostSamples) {
+    for (; cursor_ < tiles_.size(); ++cursor_) {
+        const Tile& tile = tiles_[cursor_];
+        if (tile.samples < turn_ && tile.handed < tile.active) return part(cursor_, mostSamples);
+    }
+    return {};
+}
+
+Slice Slices::nextOfTiles(std::int64_t mostSamples) {
+    for (const std::uint32_t tile : open_)
+        if (tiles_[tile].handed < tiles_[tile].active) return part(tile, mostSamples);
+    if (cursor_ == tiles_.size()) return {};
+    open_.push_back(cursor_);
+    return part(cursor_++, mostSamples);
+}
+
+int Slices::step(const Tile& tile) const {
+    return std::min(options_.samplesPerTurn, options_.samples - tile.samples);
+}
+
+Slice Slices::part(std::uint32_t index, std::int64_t mostSamples) {
+    Tile& tile = tiles_[index];
+    const std::int64_t most = std::max<std::int64_t>(mostSamples / step(tile), 1);
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::int64_t>(most, tile.active - tile.handed));
+    const std::span pixels(pixels_.data() + tile.first + tile.handed, count);
+    tile.handed += count;
+    ++tile.out;
+    return {pixels, step(tile), index};
+}
+
+void Slices::done(const Slice& slice, const std::function<float(std::uint32_t)>& error) {
+    Tile& tile = tiles_[slice.tile];
+    traced_ += slice.pixels.size() * static_cast<std::uint64_t>(slice.samples);
+    --tile.out;
+    if (tile.out == 0 && tile.handed == tile.active) endRound(tile, error);
+}
+
+void Slices::endRound(Tile& tile, const std::function<float(std::uint32_t)>& error) {
+    tile.samples += step(tile);
+    tile.handed = 0;
+    const std::uint32_t before = tile.active;
+    if (tile.samples == options_.samples)
+        tile.active = 0;
+    else if (options_.threshold > 0 && tile.samples >= options_.leastSamples)
+        keepNoisy(tile, error);
+    settled_ +=
+        (before - tile.active) * static_cast<std::uint64_t>(options_.samples - tile.samples);
+    if (tile.active == 0) {
+        --unfinished_;
+        std::erase(open_, static_cast<std::uint32_t>(&tile - tiles_.data()));
+    }
+    if (tile.active == 0 || tile.samples == turn_) --ofTurn_;
+    if (ofTurn_ == 0) samples_ = turn_;
+}
+
+void Slices::keepNoisy(Tile& tile, const std::function<float(std::uint32_t)>& error) {
+    constexpr int kRow = kTileEdge + 2;  // a border without noise
+    std::array<bool, kRow * kRow> noisy{};
+    const auto placeOf = [&](std::uint32_t pixel) {
+        const std::uint32_t x = pixel % static_cast<std::uint32_t>(width_);
+        const std::uint32_t y = pixel / static_cast<std::uint32_t>(width_);
+        return (y % kTileEdge + 1) * kRow + x % kTileEdge + 1;
+    };
+    for (std::uint32_t i = 0; i < tile.count; ++i) {
+        const std::uint32_t pixel = pixels_[tile.first + i];
+        noisy[placeOf(pixel)] = !(error(pixel) < options_.threshold);
+    }
+    std::uint32_t kept = 0;
+    for (std::uint32_t i = 0; i < tile.active; ++i) {
+        const std::uint32_t pixel = pixels_[tile.first + i], at = placeOf(pixel);
+        const auto rowNoisy = [&](std::uint32_t p) {
+            return noisy[p - 1] || noisy[p] || noisy[p + 1];
+        };
+        if (rowNoisy(at - kRow) || rowNoisy(at) || rowNoisy(at + kRow))
+            std::swap(pixels_[tile.first + i], pixels_[tile.first + kept++]);
+    }
+    tile.active = kept;
+}
+
+bool Slices::turnComplete() const {
+    return ofTurn_ == 0;
+}
+
+double Slices::progress() const {
+    if (pixels_.empty()) return 1;
+    const double most = static_cast<double>(pixels_.size()) * options_.samples;
+    return static_cast<double>(traced_ + settled_) / most;
+}
+
+}  // namespace mfar
