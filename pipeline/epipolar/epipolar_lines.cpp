@@ -19,7 +19,7 @@ struct LabelPixel {
 };
 
 /// The next pixel on one side of the best label's.
-struct Side {
+struct ValleySide {
     float foot = 0;
     int rise = Valley::kUnknown;
 };
@@ -40,11 +40,11 @@ float bottomOf(const Valley& valley, EpipolarLens::Point p, EpipolarLens::Point 
         for (const int k : {side, 2 * side}) {
             const LabelPixel pixel = pixelOf(p, way, k);
             if (pixel.x != best.x || pixel.y != best.y)
-                return Side{pixel.foot, valley.rise[k < 0 ? k + 2 : k + 1]};
+                return ValleySide{pixel.foot, valley.rise[k < 0 ? k + 2 : k + 1]};
         }
-        return Side{};
+        return ValleySide{};
     };
-    const Side left = beside(-1), right = beside(1);
+    const ValleySide left = beside(-1), right = beside(1);
     if (left.rise == Valley::kUnknown || right.rise == Valley::kUnknown) return best.foot;
     const auto leftRise = static_cast<float>(left.rise), rightRise = static_cast<float>(right.rise);
     const float leftSlope = leftRise / (best.foot - left.foot);

@@ -66,6 +66,7 @@ expectFault 'gles_shaders must not' gles_shaders/bad.cpp '#include "base/gl/pass
 expectFault 'not a path from the top' daemon/bad.cpp '#include "app.h"'
 expectFault 'not a path from the top' daemon/bad.cpp '#include "../hal/camera.h"'
 expectFault '<apriltag/apriltag.h> belongs into' pipeline/flow/bad.cpp '#include <apriltag/apriltag.h>'
+expectFault '<hwy/highway.h> belongs into' pipeline/flow/bad.cpp '#include <hwy/highway.h>'
 expectFault '<embree4/rtcore.h> belongs into' pipeline/bad.cpp '#include <embree4/rtcore.h>'
 expectFault '<EGL/egl.h> belongs into' pipeline/bad.cpp '#include <EGL/egl.h>'
 expectFault '<GL/osmesa.h> belongs into' hal/device/bad.cpp '#include <GL/osmesa.h>'

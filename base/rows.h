@@ -1,0 +1,73 @@
+#pragma once
+
+#include "base/image_view.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <new>
+#include <type_traits>
+#include <utility>
+
+namespace mfar {
+
+/// Borrowed rows of a picture or a field in host memory. Never owns.
+template <class T>
+struct Rows {
+    T* data = nullptr;
+    std::ptrdiff_t pitch = 0;  ///< elements from one row to the next
+    Size size;                 ///< elements in a row, rows
+
+    [[nodiscard]] T* operator[](int y) const { return data + y * pitch; }
+    /// Read-only rows.
+    // NOLINTNEXTLINE(google-explicit-constructor): as T* converts to const T*
+    operator Rows<const T>() const
+        requires(!std::is_const_v<T>)
+    {
+        return {data, pitch, size};
+    }
+};
+
+/// Rows that own their memory, zero at first: each begins on a cache line and has at least
+/// kPadding bytes behind it that may be read and written, so that vectors need no scalar rest.
+template <class T>
+class AlignedRows {
+    static_assert(std::is_trivially_copyable_v<T>);
+
+public:
+    static constexpr std::size_t kAlignment = 64, kPadding = 64;  ///< bytes
+
+    AlignedRows() = default;
+    explicit AlignedRows(Size size) : rows_{nullptr, pitchFor(size.width), size} {
+        const std::size_t count = static_cast<std::size_t>(rows_.pitch) * std::max(size.height, 1);
+        rows_.data = new (std::align_val_t{kAlignment}) T[count]{};
+    }
+    AlignedRows(AlignedRows&& other) noexcept : rows_(std::exchange(other.rows_, {})) {}
+    AlignedRows& operator=(AlignedRows&& other) noexcept {
+        std::swap(rows_, other.rows_);
+        return *this;
+    }
+    AlignedRows(const AlignedRows&) = delete;
+    AlignedRows& operator=(const AlignedRows&) = delete;
+    ~AlignedRows() {
+        ::operator delete[](static_cast<void*>(rows_.data), std::align_val_t{kAlignment});
+    }
+
+    [[nodiscard]] Size size() const { return rows_.size; }
+    [[nodiscard]] std::ptrdiff_t pitch() const { return rows_.pitch; }
+    [[nodiscard]] T* operator[](int y) { return rows_[y]; }
+    [[nodiscard]] const T* operator[](int y) const { return rows_[y]; }
+    [[nodiscard]] Rows<T> rows() { return rows_; }
+    [[nodiscard]] Rows<const T> rows() const { return rows_; }
+
+private:
+    static std::ptrdiff_t pitchFor(int width) {
+        const std::size_t bytes = static_cast<std::size_t>(width) * sizeof(T) + kPadding;
+        const std::size_t lines = (bytes + kAlignment - 1) / kAlignment;
+        // Elements whose size divides no cache line give up the alignment of later rows.
+        return static_cast<std::ptrdiff_t>((lines * kAlignment + sizeof(T) - 1) / sizeof(T));
+    }
+
+    Rows<T> rows_;
+};
+
+}  // namespace mfar

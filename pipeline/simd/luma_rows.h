@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mfar::simd {
+
+/// Rec. 601 luma of `pixels` texels of four bytes, R G B first (`bgr`: B G R), rounded.
+void lumaRow(const std::uint8_t* texels, bool bgr, std::size_t pixels, std::uint8_t* luma);
+
+}  // namespace mfar::simd
