@@ -6,32 +6,6 @@
 namespace mfar {
 namespace {
 
-constexpr int kMarginWords = 2;
-// The coarsest level keeps this many pixels on its short side: fewer would leave no patch of its
-// own.
-constexpr int kCoarsest = 26;
-constexpr std::size_t kMaxLevels = 6;
-// The gain between the sensors is measured at the second.
-constexpr std::size_t kMinLevels = 2;
-// Weight of a neighbour on each side in the smoothing of the finest level. 0.18 gains 0.3 dB on
-// printed text and costs 0.05 dB on photographs against none.
-constexpr float kSmoothing = 0.18F;
-// A box of this many video pixels has the variance of a pixel and the smoothing together (a pixel
-// has 1/12, the three taps have twice their side weight).
-const double kBoxWidening = std::sqrt(1 + 12 * 2 * kSmoothing);
-
-std::vector<LumaLevel> layout(Size size, std::int32_t& words) {
-    std::vector<LumaLevel> levels;
-    while (true) {
-        const std::int32_t pitch = (size.width + 3) / 4 + 2 * kMarginWords;
-        levels.push_back({words, pitch, size.width, size.height});
-        words += pitch * size.height;
-        size = {(size.width + 1) / 2, (size.height + 1) / 2};
-        const bool small = std::min(size.width, size.height) < kCoarsest;
-        if (levels.size() >= kMinLevels && (small || levels.size() == kMaxLevels)) return levels;
-    }
-}
-
 gpu::Groups groupsOf(const LumaLevel& level) {
     return {gpu::groupsFor(level.pitch, 8), gpu::groupsFor(level.height, 8), 1};
 }
@@ -64,8 +38,8 @@ LumaPyramids::LumaPyramids(Size video, WorkPlan& plan)
     : fromVideo_("luma_from_video.comp"), fromStill_("luma_from_still.comp"),
       down_("luma_down.comp") {
     std::int32_t words = 0;
-    video_ = layout(video, words);
-    still_ = layout(video, words);
+    video_ = lumaLayout(video, words);
+    still_ = lumaLayout(video, words);
     // A patch row reads three words from any column on: two spare ones end the buffer.
     words_ = gpu::Buffer((static_cast<std::size_t>(words) + 2) * sizeof(std::uint32_t));
     for (const LumaLevel& level : video_)
@@ -73,7 +47,7 @@ LumaPyramids::LumaPyramids(Size video, WorkPlan& plan)
 }
 
 void LumaPyramids::buildVideo(const gpu::Texture& video, const WorkPlan& plan) {
-    plan.run(fromVideo_, {video_[0], {kSmoothing}},
+    plan.run(fromVideo_, {video_[0], {kLumaSmoothing}},
              {gpu::sampler(0, video), gpu::storage(0, words_)}, dispatches_[0]);
     for (std::size_t i = 1; i < video_.size(); ++i)
         plan.run(down_, {video_[i - 1], video_[i]}, {gpu::storage(0, words_)}, dispatches_[i]);
@@ -84,14 +58,14 @@ void LumaPyramids::buildStill(const gpu::Texture& still, const StereoRig& rig) {
     p.rig = rigParams(rig);
     p.target = still_[0];
     put(p.stillTexel, 1.0 / still.size().width, 1.0 / still.size().height,
-        kBoxWidening * rig.still.fx / rig.video.fx, 0);
+        lumaBoxWidening() * rig.still.fx / rig.video.fx, 0);
     fromStill_.run(p, {gpu::sampler(0, still), gpu::storage(0, words_)}, groupsOf(still_[0]));
     buildCoarse(still_);
 }
 
 void LumaPyramids::buildSecond(const gpu::Texture& picture) {
-    fromVideo_.run({still_[0], {kSmoothing}}, {gpu::sampler(0, picture), gpu::storage(0, words_)},
-                   groupsOf(still_[0]));
+    fromVideo_.run({still_[0], {kLumaSmoothing}},
+                   {gpu::sampler(0, picture), gpu::storage(0, words_)}, groupsOf(still_[0]));
     buildCoarse(still_);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "pipeline/flow/luma_layout.h"
 #include "pipeline/plan/work_plan.h"
 
 #include <array>
@@ -8,14 +9,6 @@
 #include <vector>
 
 namespace mfar {
-
-/// One level of a luma pyramid inside the shared buffer; mirrors an ivec4 in the shaders.
-struct LumaLevel {
-    std::int32_t offset;  ///< [words]
-    std::int32_t pitch;   ///< [words], with two words of replicated border on each side
-    std::int32_t width;   ///< [px]
-    std::int32_t height;  ///< [px]
-};
 
 /// std140 mirror of `Rig` in rig.glsl.
 struct RigParams {

@@ -1,0 +1,35 @@
+#include "pipeline/flow/luma_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+// The coarsest level keeps this many pixels on its short side: fewer would leave no patch of its
+// own.
+constexpr int kShortestSide = 26;
+constexpr std::size_t kMaxLevels = 6;
+// The gain between the sensors is measured at the second.
+constexpr std::size_t kMinLevels = 2;
+
+}  // namespace
+
+// A pixel has a variance of 1/12, the three taps have twice their side weight.
+double lumaBoxWidening() {
+    return std::sqrt(1 + 12 * 2 * kLumaSmoothing);
+}
+
+std::vector<LumaLevel> lumaLayout(Size size, std::int32_t& words) {
+    std::vector<LumaLevel> levels;
+    while (true) {
+        const std::int32_t pitch = (size.width + 3) / 4 + 2 * kLumaMarginWords;
+        levels.push_back({words, pitch, size.width, size.height});
+        words += pitch * size.height;
+        size = {(size.width + 1) / 2, (size.height + 1) / 2};
+        const bool small = std::min(size.width, size.height) < kShortestSide;
+        if (levels.size() >= kMinLevels && (small || levels.size() == kMaxLevels)) return levels;
+    }
+}
+
+}  // namespace mfar
