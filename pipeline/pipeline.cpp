@@ -1,10 +1,9 @@
 #include "pipeline/pipeline.h"
 
 #include "base/image_layout.h"
-#include "pipeline/flow/cell_field.h"
+#include "pipeline/gles/device_copies.h"
 #include "pipeline/pipeline_state.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -32,11 +31,6 @@ void publishPose(const EpipolarFlow& flow, FrameStats& stats) {
     stats.epipolarError = refinement.normalAfter;
 }
 
-int tilesIn(const PixelRect& videoPixels) {
-    const PixelRect tiles = tilesAround(videoPixels);
-    return (tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
-}
-
 }  // namespace
 
 Size Pipeline::State::outputSize(const StereoRig& rig, Size wanted) {
@@ -49,6 +43,27 @@ Size Pipeline::fullSize(const StereoRig& rig) {
     return {rig.still.size.width, std::max(height, 1)};
 }
 
+Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
+    : rig(rigIn), options(optionsIn), output(outputSize(rig, options.output)),
+      workers(std::make_shared<Workers>()), now(rig.video.size), drawn(rig.video.size),
+      plan(rig.video.size, workers), epipolar(rig, workers, options.epipolar),
+      depth(rig.video, workers, options.depth), snap(rig.video.size, workers) {
+    const StepSetup setup{rig, output, options.flow2d, workers, &transfers};
+    if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
+    if (options.engines.uses(EngineKind::Simd)) simd = makeSimdEngine(setup);
+    still = engineOf(options.engines.still).still();
+    pyramid = engineOf(options.engines.pyramid).pyramid();
+    flow = engineOf(options.engines.flow).flow();
+    weigh = engineOf(options.engines.weigh).weigh();
+    detail = engineOf(options.engines.detail).detail();
+    quality.mode = options.mode;
+    if (!options.skips.tileLists) plan.drawWholeFrom(0);
+}
+
+Engine& Pipeline::State::engineOf(EngineKind kind) {
+    return kind == EngineKind::Gles ? *gles : *simd;
+}
+
 Pipeline::Pipeline(const StereoRig& rig, const PipelineOptions& options)
     : state_(std::make_unique<State>(rig, options)) {}
 Pipeline::~Pipeline() = default;
@@ -58,107 +73,169 @@ Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<Pose>& pose) {
     State& s = *state_;
     requireFit(still, s.rig.still.size, "still");
-    s.still.set(still);
+    s.stillPictures = &s.still->run(still, s.quality.mode);
     s.epipolar.dropStill();
     if (pose) s.epipolar.setStill(still, *pose);
     s.depth.renew();
-    s.pyramids.buildStill(s.still.whole(), s.rig);
-    s.hasStill = true;
+    s.pyramid->still(*s.stillPictures);
     s.redraw = true;
-    s.hasPrior = false;
+    s.lastFlow = nullptr;
 }
 
 void Pipeline::dropStill() {
-    state_->hasStill = false;
+    state_->stillPictures = nullptr;
     state_->epipolar.dropStill();
     state_->redraw = true;
-    state_->hasPrior = false;
+    state_->lastFlow = nullptr;
 }
 
 void Pipeline::setMode(SuperResMode mode) {
-    state_->options.mode = mode;
-    state_->superres.setMode(mode);
-    state_->superres.setCubic(true);
+    state_->quality.mode = mode;
+    state_->quality.cubic = true;
+    state_->still->setMode(mode);
     state_->redraw = true;
 }
 
 void Pipeline::setQuality(const Quality& quality) {
     validate(quality);
     State& s = *state_;
-    s.options.mode = quality.mode;
-    s.superres.setMode(quality.mode);
-    s.superres.setCubic(quality.cubic || quality.mode != SuperResMode::Off);
-    s.flow.setOptions(quality.flow2d);
+    if (quality.mode != s.quality.mode) s.still->setMode(quality.mode);
+    s.quality = quality;
+    s.quality.cubic = quality.cubic || quality.mode != SuperResMode::Off;
+    s.flow->setOptions(quality.flow2d);
     s.epipolar.setOptions(quality.epipolar);
-    s.alongLines = quality.alongLines;
-    s.detailShare = quality.detailShare;
-    s.depthEvery = quality.depthEvery;
 }
 
 void Pipeline::redraw() {
     state_->redraw = true;
 }
 
-void Pipeline::setObjects(std::vector<VirtualObject> objects) {
-    State& s = *state_;
-    if (!s.objects && objects.empty()) return;
-    if (!s.objects || s.objects->traced() != nullptr) {
-        s.objects.emplace(s.rig.video, outputSize());
-        s.objects->setSkips(s.options.skips);
-        s.redraw = true;
-    }
-    s.objects->setObjects(std::move(objects));
-}
-
-void Pipeline::setScene(std::shared_ptr<const Scene> scene, const TracedLayerOptions& options) {
-    State& s = *state_;
-    if (!s.objects && !scene) return;
-    TracedLayerOptions wanted = options;
-    const Size output = outputSize();
-    if (wanted.size.width <= 0 || wanted.size.height <= 0)
-        wanted.size = {(output.width + 1) / 2, (output.height + 1) / 2};
-    if (!s.objects || s.objects->traced() == nullptr || !(s.traced == wanted)) {
-        s.objects.emplace(s.rig.video, output, wanted);
-        s.objects->setSkips(s.options.skips);
-        s.traced = wanted;
-        s.redraw = true;
-    }
-    s.objects->setScene(std::move(scene));
-}
-
-PixelRect Pipeline::objectsRegion() const {
-    return state_->objects ? state_->objects->region() : PixelRect{};
-}
-
-std::optional<TracedLayerCounters> Pipeline::tracedCounters() const {
-    if (!state_->objects || state_->objects->traced() == nullptr) return {};
-    return state_->objects->traced()->counters();
-}
-
-std::optional<std::string> Pipeline::takeSceneError() {
-    if (!state_->objects || state_->objects->traced() == nullptr) return {};
-    return state_->objects->traced()->takeError();
-}
-
 void Pipeline::setImporter(PlaneImporter* importer) {
-    state_->video.setImporter(importer);
-    state_->still.setImporter(importer);
+    if (state_->gles) state_->gles->setImporter(importer);
 }
 
 std::optional<std::string> Pipeline::takeImportFault() {
-    std::optional<std::string> fault = state_->video.takeImportFault();
-    return fault ? fault : state_->still.takeImportFault();
+    return state_->gles ? state_->gles->takeImportFault() : std::nullopt;
 }
 
 void Pipeline::setSkipUnchanged(bool skip) {
     state_->options.skipUnchanged = skip;
 }
 
-void Pipeline::State::limitMatching() {
-    if (options.mode == SuperResMode::Blend || !options.skips.smoothTiles)
+const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
+                                 const std::optional<Pose>& pose) {
+    State& s = *state_;
+    requireFit(video, s.rig.video.size, "video frame");
+    s.clock.start();
+    s.result.stats = {};
+    const VideoFrame frame{video, s.now, ++s.frames};
+
+    const PixelRect decides = s.placeObjects(pose, time);
+    const TileWork& work = s.planFrame(frame);
+    const bool usesStill = s.stillPictures != nullptr && s.quality.mode != SuperResMode::Off;
+    const bool usesPose = usesStill && s.quality.alongLines && pose && s.epipolar.hasStill();
+    std::optional<State::Match> match;
+    if (usesStill)
+        match.emplace(s.matchStill(frame, work, usesPose ? pose : std::nullopt, decides));
+    const State::DepthTask task =
+        s.prepareDepth(decides, pose.has_value(), usesPose ? &match->flow : nullptr);
+    s.drawDetail(frame, work, match ? &*match : nullptr);
+    if (task.measures) s.measureDepth(frame, {time, pose->T_world_video, pose->covariance}, task);
+    s.showObjects(frame);
+    s.publish(usesStill, usesPose);
+    return s.result;
+}
+
+const TileWork& Pipeline::State::planFrame(const VideoFrame& frame) {
+    if (quality.mode == SuperResMode::Blend || !options.skips.smoothTiles)
         plan.matchEverything();
     else
-        plan.matchStructured(detailShare);
+        plan.matchStructured(quality.detailShare);
+    now.take(frame.view);
+    plan.update(now, drawn, redraw || !options.skipUnchanged);
+    lap("plan");
+    return plan.work();
+}
+
+Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, const TileWork& work,
+                                                   const std::optional<Pose>& pose,
+                                                   const PixelRect& forDepth) {
+    const LumaPyramid& pyramids = pyramid->video(frame, work);
+    lap("pyramid");
+    const FlowCells* found = nullptr;
+    if (pose) {
+        const PixelRect where = around(pixelsOf(work.detailTiles), forDepth);
+        const int tiles = forDepth.empty() ? work.matched : work.changed;
+        if (tiles > 0 && !where.empty()) epipolar.run(frame.view, *pose, where);
+        lap("epipolar");
+        found = &flow->refine(pyramids, work, epipolar.forward(), epipolar.hidden());
+    } else {
+        found = &flow->run(pyramids, work, lastFlow != nullptr && options.skips.knownFlow);
+    }
+    lap("flow");
+    const CellWeights& weights = weigh->run(pyramids, *found, work);
+    lap("weigh");
+    lastFlow = found;
+    lastWeights = &weights;
+    return {*found, weights};
+}
+
+void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
+                                 const Match* match) {
+    const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles,
+                            options.skips.plainTiles};
+    if (match != nullptr) {
+        const DetailStep::Matched matched{*stillPictures, match->weights};
+        detail->draw(frame, &matched, work, how);
+    } else {
+        detail->draw(frame, nullptr, work, how);
+        lastFlow = nullptr;
+    }
+    keepDrawn(work);
+    if (gles) gles->flush();
+    lap("detail");
+}
+
+void Pipeline::State::keepDrawn(const TileWork& work) {
+    result.unchanged = false;
+    if (work.drawsWhole()) {
+        std::swap(now, drawn);
+        return;
+    }
+    result.unchanged = !drawsObjects();
+    for (int row = 0, i = 0; row < work.tiles.height; ++row)
+        for (int column = 0; column < work.tiles.width; ++column, ++i)
+            if (work.draws(static_cast<std::size_t>(i))) {
+                drawn.takeTile(now, column, row);
+                result.unchanged = false;
+            }
+}
+
+void Pipeline::State::publish(bool usedStill, bool usedPose) {
+    FrameStats& stats = result.stats;
+    const TileSummary summary = detail->finishedSummary();
+    stats.tiles = summary.tiles;
+    stats.meanConfidence = summary.meanConfidence;
+    stats.explained = summary.explained;
+    stats.changed = summary.changed;
+    stats.usedStill = usedStill;
+    stats.searched2d = flow->finishedSearchedCount();
+    if (usedPose) publishPose(epipolar, stats);
+    stats.transfers = {transfers.uploadedBytes - transfersBefore.uploadedBytes,
+                       transfers.downloadedBytes - transfersBefore.downloadedBytes};
+    transfersBefore = transfers;
+    const Field<std::uint32_t>& picture = detail->output();
+    result.picture = &picture;
+    result.image = {
+        picture.isOnDevice() ? textureOf(picture, gpu::TexelFormat::Rgba8).texture().id() : 0,
+        output};
+    redraw = false;
+    if (gles) gles->finishReading();  // long done
+}
+
+void Pipeline::State::lap(const char* stage) {
+    if (clock.measures && gles) gles->finish();
+    clock.lap(stage);
 }
 
 // The pixels of the video in these tiles.
@@ -169,176 +246,16 @@ PixelRect Pipeline::State::pixelsOf(const PixelRect& tiles) const {
         {0, 0, width, height});
 }
 
-// Along epipolar lines where the frame's pose is known, and the still's.
-void Pipeline::State::matchStill(const ImageView& frame, const std::optional<Pose>& pose,
-                                 const PixelRect& forDepth) {
-    pyramids.buildVideo(video.texture(), plan);
-    lap("pyramid");
-    if (pose) {
-        // The search runs on the processor, so that has to know whether it is needed.
-        const PixelRect where = around(pixelsOf(plan.detailTiles()), forDepth);
-        const int tiles = forDepth.empty() ? plan.matchedTiles() : plan.changedTiles();
-        if (tiles > 0 && !where.empty()) epipolar.run(frame, *pose, where);
-        lap("epipolar");
-        flow.refine(pyramids, plan, epipolar.forward(), epipolar.hidden());
-    } else {
-        flow.run(pyramids, plan, hasPrior && options.skips.knownFlow);
-    }
-    lap("flow");
-    superres.assess(pyramids, flow, plan);
-    lap("assess");
-}
-
-PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timestamp time) {
-    PixelRect where;
-    if (objects) {
-        where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
-                               depth.field());
-        plan.drawnOver(objects->staleTiles(), objects->redraw());
-    }
-    if (options.depthEverywhere) where = {0, 0, rig.video.size.width, rig.video.size.height};
-    return where;
-}
-
-void Pipeline::State::prepareDepth(bool hasPose, bool searched, const PixelRect& where) {
-    draws = objects && plan.redraws();
-    const bool isNeeded = options.depthEverywhere ? plan.changedTiles() > 0 : draws;
-    matches.reset();
-    measures = hasPose && isNeeded && (!where.empty() || inView());
-    depthIsDue = measures && ++depthAge >= depthEvery && !where.empty();
-    if (!depthIsDue) return;
-    depthAge = 0;
-    if (searched) matches = {flow.readForward(), flow.searched().read()};
-}
-
-void Pipeline::State::measureDepth(const ImageView& frame, const Pose& pose,
-                                   const PixelRect& where) {
-    if (matches) {
-        const DepthStage::StillSearch still{epipolar.search(), epipolar.rotation(), epipolar.unit(),
-                                            epipolar.lengthError(),
-                                            epipolar.inverseDepthOf(matches->vectors)};
-        depth.run(epipolar.luma(), pose, still, where);
-        forgetMoving(*matches);
-    } else {
-        lumaOf(frame, luma);
-        depth.run(luma, pose, {}, depthIsDue ? where : PixelRect{});
-    }
-    snap.run(depth.field(), frame, where);
-}
-
-// Where the flow leaves the epipolar lines, the scene is not at rest.
-void Pipeline::State::forgetMoving(const DepthMatches& matches) {
-    const Size tiles = plan.tileCount();
-    for (int t = 0; t < tiles.width * tiles.height; ++t) {
-        if (!matches.searched2d[static_cast<std::size_t>(t)]) continue;
-        const int x = t % tiles.width, y = t / tiles.width;
-        const PixelRect tile = pixelsOf({x, y, x + 1, y + 1});
-        if (leavesLines(tile, matches.vectors)) depth.forget(tile);
-    }
-}
-
-// Of the tile's cells a quarter at least.
-bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const {
-    const int columns = flow.forward().cells.width;
-    int off = 0, all = 0;
-    for (int y = tile.y0 + 1; y < tile.y1; y += kCell) {
-        for (int x = tile.x0 + 1; x < tile.x1; x += kCell, ++all) {
-            const auto& u = vectors[static_cast<std::size_t>(y / kCell) * columns + x / kCell];
-            if (epipolar.offLine(x, y, u[0], u[1]) > kOffLine) ++off;
-        }
-    }
-    return 4 * off >= all;
-}
-
-// Depth and what it decides about. Where nothing is measured, what is known goes on with the
-// camera.
-void Pipeline::State::showObjects(const ImageView& frame, Timestamp time,
-                                  const std::optional<Pose>& pose, const PixelRect& where) {
-    result.stats.objectsInView = inView();
-    result.stats.objectsHidden = inView() && objects->hidden();
-    if (measures) {
-        measureDepth(frame, {time, pose->T_world_video, pose->covariance}, where);
-        result.stats.depthTiles = tilesIn(where);
-        if (inView())
-            result.stats.depthTilesSkipped =
-                std::max(tilesIn(objects->region()) - tilesIn(where), 0);
-        if (!where.empty()) result.stats.depth = depth.source();
-        lap("depth");
-    }
-    if (!draws) return;
-    objects->draw(snap.field(), snap.where(), video.texture(), superres.output(),
-                  superres.target());
-    lap("composite");
-}
-
-void Pipeline::State::keepDrawn() {
-    result.unchanged = false;
-    if (plan.drawsWhole()) {
-        std::swap(now, drawn);
-        return;
-    }
-    result.unchanged = !draws;
-    const Size tiles = plan.tileCount();
-    for (int row = 0, i = 0; row < tiles.height; ++row)
-        for (int column = 0; column < tiles.width; ++column, ++i)
-            if (plan.draws(i)) {
-                drawn.takeTile(now, column, row);
-                result.unchanged = false;
-            }
-}
-
-const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
-                                 const std::optional<Pose>& pose) {
-    State& s = *state_;
-    requireFit(video, s.rig.video.size, "video frame");
-    s.stageTimes.clear();
-    s.lastLap = std::chrono::steady_clock::now();
-
-    const PixelRect where = s.placeObjects(pose, time);
-    s.limitMatching();
-    s.now.take(video);
-    s.plan.update(s.now, s.drawn, s.redraw || !s.options.skipUnchanged);
-    s.lap("plan");
-    // At rest the GPU is left alone.
-    if (s.plan.changedTiles() > 0 || s.plan.drawsWhole() || s.plan.redraws()) {
-        s.video.upload(video);
-        s.lap("upload");
-    }
-    const bool useStill = s.hasStill && s.options.mode != SuperResMode::Off;
-    const bool usePose = useStill && s.alongLines && pose && s.epipolar.hasStill();
-    if (useStill) s.matchStill(video, usePose ? pose : std::nullopt, where);
-    s.prepareDepth(pose.has_value(), usePose, where);
-    s.superres.draw(s.video.texture(), useStill ? &s.still : nullptr, s.plan);
-    s.keepDrawn();
-    glFlush();
-    s.lap("superres");
-    s.result.stats = s.superres.statsBefore();
-    s.showObjects(video, time, pose, where);
-    s.redraw = false;
-    s.hasPrior = useStill;
-
-    s.result.stats.usedStill = useStill;
-    s.result.stats.searched2d = s.flow.searched().countBefore();
-    if (usePose) publishPose(s.epipolar, s.result.stats);
-    s.result.flow = {&s.flow.patches(), s.flow.forward().cells, 4};
-    s.video.finishReading();  // long done
-    return s.result;
-}
-
-const InverseDepthField& Pipeline::inverseDepth() const {
-    return state_->snap.field();
-}
-
 Size Pipeline::outputSize() const {
-    return state_->superres.output().size();
+    return state_->output;
 }
 
 const std::vector<StageTime>& Pipeline::stageTimes() const {
-    return state_->stageTimes;
+    return state_->clock.times();
 }
 
 void Pipeline::setMeasure(bool measure) {
-    state_->measure = measure;
+    state_->clock.measures = measure;
 }
 
 }  // namespace mfar

@@ -6,10 +6,12 @@
 #include "pipeline/composite/virtual_object.h"
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/engine/engine.h"
 #include "pipeline/flow/flow_options.h"
 #include "pipeline/quality.h"
 #include "pipeline/results.h"
 #include "pipeline/skip_options.h"
+#include "pipeline/stage_clock.h"
 #include "pipeline/traced_layer.h"
 
 #include <memory>
@@ -32,17 +34,15 @@ struct PipelineOptions {
     /// hidden: for evaluation and for the preview.
     bool depthEverywhere = false;
     SkipOptions skips{};
-};
-
-/// Time of one stage of the last frame.
-struct StageTime {
-    const char* stage;
-    double ms;
+    /// Which engine does which step. GLES steps need a current GL context; without any, neither
+    /// setObjects() nor setScene() may be called.
+    EngineChoice engines{};
 };
 
 /// The whole flow of a frame: video in, high-resolution picture out. Allocates everything in the
-/// constructor. Lives on the GL thread with its context current. Throws GlError and, for options
-/// out of range, std::invalid_argument from set-up only.
+/// constructor. Lives on one thread; where a step runs on GLES, that is the GL thread with its
+/// context current. Throws GlError and, for options out of range, std::invalid_argument from set-up
+/// only.
 class Pipeline {
 public:
     Pipeline(const StereoRig& rig, const PipelineOptions& options);
@@ -65,9 +65,9 @@ public:
     /// Both take effect with the next run.
     void setMode(SuperResMode mode);
     void setSkipUnchanged(bool skip);
-    /// What reads cameras' memory without a copy; null: all is uploaded. It must outlive this.
+    /// Reads cameras' memory without a copy; null: all is uploaded. It must outlive this.
     void setImporter(PlaneImporter* importer);
-    /// Why that is not done, where it was to be; told once.
+    /// Why zero-copy import failed; returned once.
     [[nodiscard]] std::optional<std::string> takeImportFault();
     /// Takes effect with the next run, in what that draws; allocates nothing. Throws
     /// std::invalid_argument for settings out of range.
@@ -91,8 +91,8 @@ public:
     [[nodiscard]] Size outputSize() const;
     /// Where no other size is asked for: the still's width at the video's aspect ratio.
     [[nodiscard]] static Size fullSize(const StereoRig& rig);
-    /// CPU-side stage times of the last run. With `measure` on, each stage ends with glFinish and
-    /// the times are those of the work; off (default), the frame path is not disturbed.
+    /// CPU-side stage times of the last run. With `measure` on, each stage waits until its work is
+    /// done and the times are those of the work; off (default), the frame path is not disturbed.
     [[nodiscard]] const std::vector<StageTime>& stageTimes() const;
     void setMeasure(bool measure);
 

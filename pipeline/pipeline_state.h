@@ -4,100 +4,92 @@
 #include "pipeline/depth/depth_stage.h"
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"
-#include "pipeline/flow/flow2d.h"
-#include "pipeline/gles/picture_texture.h"
 #include "pipeline/pipeline.h"
-#include "pipeline/superres/superres.h"
-
-#include <chrono>
+#include "pipeline/stage_clock.h"
 
 namespace mfar {
 
 /// A flow vector so far from its pixel's epipolar line is not that of a point at rest [px].
 inline constexpr float kOffLine = 3;
 
-/// What depth takes from a frame's flow.
-struct DepthMatches {
-    EpipolarFlow::Cells vectors;
-    std::vector<bool> searched2d;  ///< tiles
-};
-
-/// What Pipeline keeps; shared by pipeline.cpp (the frame path) and readback.cpp.
+/// What Pipeline keeps from frame to frame; shared by pipeline.cpp (the frame path),
+/// pipeline_objects.cpp and readback.cpp. What lives for one frame is passed and returned.
 struct Pipeline::State {
-    State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
-        : rig(rigIn), options(optionsIn), workers(std::make_shared<Workers>()), now(rig.video.size),
-          drawn(rig.video.size), plan(rig.video.size, workers), pyramids(rig.video.size, plan),
-          flow(pyramids, plan, options.flow2d), epipolar(rig, workers, options.epipolar),
-          still(rig, outputSize(rig, options.output)), depth(rig.video, workers, options.depth),
-          snap(rig.video.size, workers),
-          superres(still.rig(), outputSize(rig, options.output), options.mode, pyramids, plan) {
-        superres.setSkips(options.skips);
-        if (!options.skips.tileLists) plan.drawWholeFrom(0);
-        stageTimes.reserve(8);
-        result.image = {superres.output().id(), superres.output().size()};
-    }
+    State(const StereoRig& rig, const PipelineOptions& options);
 
-    /// Closes a stage: its time since the last call, with the GPU's work when measuring.
-    void lap(const char* stage) {
-        if (measure) glFinish();
-        const auto now = std::chrono::steady_clock::now();
-        stageTimes.push_back(
-            {stage, std::chrono::duration<double, std::milli>(now - lastLap).count()});
-        lastLap = now;
-    }
+    /// What depth takes from a frame's flow.
+    struct DepthMatches {
+        EpipolarFlow::Cells vectors;
+        std::vector<bool> searched2d;  ///< tiles
+    };
+    /// Real depth of one frame.
+    struct DepthTask {
+        PixelRect where;  ///< where it is needed [video px]
+        bool measures = false;
+        std::optional<DepthMatches> matches;  ///< found along lines
+        bool isDue = false;                   ///< measured anew, not carried on
+    };
+    /// How the still matches a frame.
+    struct Match {
+        const FlowCells& flow;
+        const CellWeights& weights;
+    };
 
-    /// Tells the plan which tiles the frame is to match.
-    void limitMatching();
-    /// After drawing.
-    void keepDrawn();
-    [[nodiscard]] PixelRect pixelsOf(const PixelRect& tiles) const;
-    /// `forDepth`: where depth is measured by it [video px].
-    void matchStill(const ImageView& frame, const std::optional<Pose>& pose,
-                    const PixelRect& forDepth);
-    /// Says where real depth is needed in this frame [video px].
+    /// Where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
+    const TileWork& planFrame(const VideoFrame& frame);
+    /// Along epipolar lines where a pose is given, else in both dimensions.
+    Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
+                     const PixelRect& forDepth);
+    /// Decides whether depth is measured, and takes from the flow what that needs: a read after the
+    /// frame's drawing has begun would wait for the drawing.
+    DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
+    void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
+    void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
+    void showObjects(const VideoFrame& frame);
+    void publish(bool usedStill, bool usedPose);
+
+    [[nodiscard]] PixelRect pixelsOf(const PixelRect& tiles) const;
     [[nodiscard]] bool inView() const { return objects && !objects->region().empty(); }
-    /// Decides whether objects are drawn and depth is measured `where` it is needed, and takes from
-    /// the flow what it is measured by: a read after the frame's drawing has begun would wait for
-    /// that.
-    void prepareDepth(bool hasPose, bool searched, const PixelRect& where);
-    void measureDepth(const ImageView& frame, const Pose& pose, const PixelRect& where);
-    void showObjects(const ImageView& frame, Timestamp time, const std::optional<Pose>& pose,
-                     const PixelRect& where);
+    [[nodiscard]] bool drawsObjects() const { return objects && plan.redraws(); }
+    void keepDrawn(const TileWork& work);
     void forgetMoving(const DepthMatches& matches);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
+    [[nodiscard]] Engine& engineOf(EngineKind kind);
+    /// Closes a stage of the frame.
+    void lap(const char* stage);
 
     /// The size asked for, or the full one.
     static Size outputSize(const StereoRig& rig, Size wanted);
 
     StereoRig rig;
     PipelineOptions options;
+    Size output;
     std::shared_ptr<Workers> workers;
-    gpu::PictureTexture video;
+    Transfers transfers, transfersBefore;  // in all
+    std::unique_ptr<Engine> gles, simd;    // as far as the choice needs them
+    std::unique_ptr<StillStep> still;
+    std::unique_ptr<PyramidStep> pyramid;
+    std::unique_ptr<FlowStep> flow;
+    std::unique_ptr<WeighStep> weigh;
+    std::unique_ptr<DetailStep> detail;
     RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
     WorkPlan plan;
-    LumaPyramids pyramids;
-    Flow2d flow;
     EpipolarFlow epipolar;
-    StillReference still;
     DepthStage depth;
     EdgeSnap snap;
-    LumaImage luma;  // of the frame, where the search along lines did not run
-    SuperRes superres;
+    LumaImage luma;  // of a frame without a search along lines
     std::optional<VirtualView> objects;
-    TracedLayerOptions traced;  // of objects that are path traced
-    bool hasStill = false;
+    TracedLayerOptions traced;  // of path traced objects
+    Quality quality;
+    const StillPictures* stillPictures = nullptr;  // the newest still's
+    const FlowCells* lastFlow = nullptr;           // belongs to that still
+    const CellWeights* lastWeights = nullptr;
     bool redraw = true;  // nothing of the last output may stay
-    bool alongLines = true;
-    double detailShare = 1;
-    int depthEvery = 1, depthAge = 0;  // frames; since depth was measured
-    bool draws = false, measures = false, depthIsDue = false;
-    std::optional<DepthMatches> matches;  // of this frame, found along lines
-    bool hasPrior = false;                // the flow field of the last frame belongs to this still
-    bool measure = false;
+    int depthAge = 0;    // frames since depth was measured
+    std::uint64_t frames = 0;
+    StageClock clock;
     FrameResult result;
-    std::vector<StageTime> stageTimes;
-    std::chrono::steady_clock::time_point lastLap;
 };
 
 }  // namespace mfar

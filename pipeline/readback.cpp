@@ -2,19 +2,26 @@
 #include "pipeline/pipeline_state.h"
 
 #include <cmath>
+#include <cstring>
 
 namespace mfar {
 namespace {
 
 constexpr float kSameSurface = 0.5F;  // [px]
 
-/// One channel of a four-channel cell field at every video pixel.
-void channelInto(std::vector<float>& out, int stride, int at, const std::vector<float>& cells,
-                 Size cellCount, int channel, Size video) {
+/// One channel of the weighed cells at every video pixel.
+void channelInto(std::vector<float>& out, int stride, int at, const CellWeights& weights,
+                 int channel, Size video) {
+    const Rows<const WeighedCell> rows = weights.weighed.host();
+    std::vector<float> cells;
+    for (int y = 0; y < rows.size.height; ++y)
+        for (int x = 0; x < rows.size.width; ++x)
+            cells.insert(cells.end(),
+                         {rows[y][x].x, rows[y][x].y, rows[y][x].weight, rows[y][x].confidence});
     std::size_t i = 0;
     for (int y = 0; y < video.height; ++y)
         for (int x = 0; x < video.width; ++x, ++i)
-            out[i * stride + at] = sampleCells(cells, cellCount, channel, x, y);
+            out[i * stride + at] = sampleCells(cells, rows.size, channel, x, y);
 }
 
 std::size_t tileAt(int x, int y, Size video) {
@@ -25,24 +32,23 @@ std::size_t tileAt(int x, int y, Size video) {
 
 FrameStats Pipeline::readStats() const {
     FrameStats stats = state_->result.stats;
-    const FrameStats drawn = state_->superres.statsNow();
+    const TileSummary drawn = state_->detail->summary();
     stats.tiles = drawn.tiles;
     stats.meanConfidence = drawn.meanConfidence;
     stats.explained = drawn.explained;
     stats.changed = drawn.changed;
-    stats.searched2d = state_->flow.searched().count();
+    stats.searched2d = state_->flow->searchedCount();
     return stats;
 }
 
 std::vector<float> Pipeline::readFlow() const {
     const State& s = *state_;
-    if (!s.hasPrior) return {};
+    if (s.lastFlow == nullptr) return {};
     const Size video = s.rig.video.size;
-    const std::vector<float> cells = s.superres.cellField().readRgba32F();
     std::vector<float> out(2UL * video.width * video.height);
     for (int channel = 0; channel < 2; ++channel)
-        channelInto(out, 2, channel, cells, s.superres.cellField().size(), channel, video);
-    if (!s.flow.errorsGiven()) return out;
+        channelInto(out, 2, channel, *s.lastWeights, channel, video);
+    if (!s.lastFlow->errorsGiven) return out;
     // The cells' vectors are refined to a fraction of a pixel, the lines' are those of the pixels:
     // they say on which side of an edge a pixel lies.
     const std::vector<bool> searched = readSearchedTiles();
@@ -62,27 +68,31 @@ std::vector<float> Pipeline::readFlow() const {
 
 std::vector<float> Pipeline::readConfidence() const {
     const State& s = *state_;
-    if (!s.hasPrior) return {};
-    const std::vector<float> cells = s.superres.cellField().readRgba32F();
+    if (s.lastFlow == nullptr) return {};
     std::vector<float> out(1UL * s.rig.video.size.width * s.rig.video.size.height);
-    channelInto(out, 1, 0, cells, s.superres.cellField().size(), 3, s.rig.video.size);
+    channelInto(out, 1, 0, *s.lastWeights, 3, s.rig.video.size);
     return out;
 }
 
 std::vector<TileClass> Pipeline::readTileClasses() const {
-    return state_->superres.readClasses();
+    return state_->detail->classes();
 }
 
 std::vector<bool> Pipeline::readSearchedTiles() const {
-    return state_->flow.searched().read();
+    return state_->flow->searchedTiles();
 }
 
 std::vector<float> Pipeline::readShownObjects() const {
-    return state_->objects ? state_->objects->readShown() : std::vector<float>();
+    return state_->objects ? state_->objects->readShown(state_->output) : std::vector<float>();
 }
 
 std::vector<std::uint8_t> Pipeline::readImage() const {
-    return state_->superres.output().readRgba8();
+    const Rows<const std::uint32_t> rows = state_->detail->output().host();
+    const std::size_t rowBytes = 4 * static_cast<std::size_t>(rows.size.width);
+    std::vector<std::uint8_t> out(rowBytes * rows.size.height);
+    for (int y = 0; y < rows.size.height; ++y)
+        std::memcpy(out.data() + y * rowBytes, rows[y], rowBytes);
+    return out;
 }
 
 }  // namespace mfar

@@ -1,32 +1,14 @@
 #pragma once
 
-#include "base/gl/buffer.h"
 #include "hal/display.h"
 #include "pipeline/depth/depth_options.h"
+#include "pipeline/engine/field.h"
 #include "pipeline/plan/tiles.h"
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
 
 namespace mfar {
-
-/// What the super-resolution does with a tile of 16x16 video pixels, cheapest first.
-enum class TileClass : unsigned {
-    Unchanged,  ///< neither video nor still changed: the last output stays
-    Upscaled,   ///< the still has no detail to add, or none that fits
-    Trusted,    ///< detail added everywhere in the tile with one smooth flow
-    Blended,    ///< detail added with a weight and flow that vary per pixel
-    Hidden,     ///< behind an opaque virtual object
-};
-inline constexpr std::size_t kTileClasses = 5;
-
-/// Dense 2-D flow from video to still, in video pixels at the video's geometry: video pixel p looks
-/// like still pyramid pixel p + flow(p). Row-major vec2, one per cell of `stride` video pixels.
-struct FlowField {
-    const gpu::Buffer* vectors = nullptr;
-    Size size;       ///< cells
-    int stride = 1;  ///< video pixels a cell; cell (i, j) stands for pixel (i + 0.5) stride - 0.5
-};
 
 /// Numbers of one frame for status, trigger and summary. Zero before the second frame.
 struct FrameStats {
@@ -51,13 +33,15 @@ struct FrameStats {
     bool objectsInView = false;  ///< a virtual object is within the picture's borders
     bool objectsHidden = false;  ///< and real things are before all of them: nothing was drawn
     DepthSource depth = DepthSource::None;
+    Transfers transfers{};  ///< between host and GPU, in this frame
 };
 
 /// What Pipeline::run gives back. Valid until the next run.
 struct FrameResult {
-    GlImage image;
+    /// RGBA8, row 0 on top, alpha 255; where the engine left it.
+    const Field<std::uint32_t>* picture = nullptr;
+    GlImage image;           ///< the same as a texture; no texture where it is on the host
     bool unchanged = false;  ///< the image is that of the run before, to the bit
-    FlowField flow;
     FrameStats stats;
 };
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <utility>
 
 namespace mfar {
@@ -57,19 +56,15 @@ bool holdsMore(const TileBounds& most, const PixelRect& tile, Size video, const 
 
 }  // namespace
 
-VirtualView::VirtualView(const CameraModel& video, Size output)
+VirtualView::VirtualView(const CameraModel& video, Size output, Engine& occludes)
     : video_(video.size), silhouette_(video, kMargin), catcherSilhouette_(video, kMargin),
-      preview_(std::make_unique<PreviewRenderer>(video, output)), composite_(video.size, output),
-      depth_(video.size, gpu::TexelFormat::Rg32F),
-      values_(2UL * video.size.width * video.size.height), focal_(std::max(video.fx, video.fy)),
-      uploaded_{0, 0, video.size.width, video.size.height} {}
+      preview_(std::make_unique<PreviewRenderer>(video, output)),
+      occlusion_(occludes.occlusion(output)), focal_(std::max(video.fx, video.fy)) {}
 
-VirtualView::VirtualView(const CameraModel& video, Size output, TracedLayerOptions options)
+VirtualView::VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options)
     : video_(video.size), silhouette_(video, kMargin), catcherSilhouette_(video, kMargin),
       traced_(std::make_unique<TracedLayer>(video, options)),
-      composite_(video.size, output, options.size), depth_(video.size, gpu::TexelFormat::Rg32F),
-      values_(2UL * video.size.width * video.size.height), focal_(std::max(video.fx, video.fy)),
-      uploaded_{0, 0, video.size.width, video.size.height} {}
+      occlusion_(occludes.occlusion(options.size)), focal_(std::max(video.fx, video.fy)) {}
 
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
     // What is shown changes when there is a picture of it.
@@ -157,8 +152,7 @@ bool VirtualView::isHidden(const PixelRect& tile, float nearest,
     return !holdsMore(most, tile, video_, [&](std::size_t i) {
         if (!known.isKnown(i)) return Surface::Unknown;
         const float sigma = std::sqrt(known.variance[i]);
-        return composite_.hides(known.rho[i], sigma, 1 / nearest) ? Surface::Other
-                                                                  : Surface::Finding;
+        return hiding_.hides(known.rho[i], sigma, 1 / nearest) ? Surface::Other : Surface::Finding;
     });
 }
 
@@ -180,58 +174,50 @@ PixelRect VirtualView::staleTiles() const {
 }
 
 void VirtualView::draw(const InverseDepthField& real, const PixelRect& where,
-                       const gpu::Texture& video, const gpu::Texture& picture,
-                       const gpu::Framebuffer& target) {
+                       const VideoFrame& frame, Field<std::uint32_t>& picture) {
     changed_ = false;
     shown_ = shows();
     drawnPose_ = placedPose_;
     drawn_ = {};
     if (!shown_) return;
-    layer_ = traced_ ? traced_->render(*placedPose_) : preview_->render(objects_, *placedPose_);
+    setLayer(traced_ ? traced_->render(*placedPose_) : preview_->render(objects_, *placedPose_));
     if (layer_.bounds.empty()) return;
-    const Size layer = layer_.colour->size();
-    upload(real, where);
-    VirtualLayer laid = layer_;
-    if (!skips_.objectBounds) laid.bounds = {0, 0, layer.width, layer.height};
-    composite_.run(laid, depth_, video, picture, target);
+    const PixelRect bounds = layer_.bounds;
+    const Size layer = layer_.colour.size();
+    if (!skips_.objectBounds) layer_.bounds = {0, 0, layer.width, layer.height};
+    occlusion_->draw(layer_, real, where, frame, picture);
+    layer_.bounds = bounds;
     drawn_ = common(tilesOf(layer_.bounds, layer, video_),
                     {0, 0, silhouette_.tileCount().width, silhouette_.tileCount().height});
 }
 
-std::vector<float> VirtualView::readShown() const {
-    const Size size = composite_.visibility().size();
-    std::vector<float> out(static_cast<std::size_t>(size.width) * size.height);
+void VirtualView::setLayer(const VirtualLayer& layer) {
+    colourCopy_.emplace(*layer.colour);
+    depthCopy_.emplace(*layer.depth);
+    layer_.colour.writtenOnDevice(*colourCopy_, layer.colour->size());
+    layer_.depth.writtenOnDevice(*depthCopy_, layer.depth->size());
+    layer_.bounds = layer.bounds;
+}
+
+std::vector<float> VirtualView::readShown(Size output) const {
+    std::vector<float> out(static_cast<std::size_t>(output.width) * output.height);
     if (drawn_.empty()) return out;
-    const auto visible = composite_.visibility().readRgba8(), colour = layer_.colour->readRgba8();
-    const Size layer = layer_.colour->size();
+    const std::vector<float> visible = occlusion_->visibility();
+    const Rows<const std::uint32_t> colour = layer_.colour.host();
+    const Size layer = layer_.colour.size();
     const PixelRect& drawn = layer_.bounds;
-    for (int y = 0; y < size.height; ++y) {
-        const int v = static_cast<int>(static_cast<std::int64_t>(y) * layer.height / size.height);
+    for (int y = 0; y < output.height; ++y) {
+        const int v = static_cast<int>(static_cast<std::int64_t>(y) * layer.height / output.height);
         if (v < drawn.y0 || v >= drawn.y1) continue;
-        for (int x = 0; x < size.width; ++x) {
-            const int u = static_cast<int>(static_cast<std::int64_t>(x) * layer.width / size.width);
+        for (int x = 0; x < output.width; ++x) {
+            const int u =
+                static_cast<int>(static_cast<std::int64_t>(x) * layer.width / output.width);
             if (u < drawn.x0 || u >= drawn.x1) continue;
-            const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
-            const std::size_t j = static_cast<std::size_t>(v) * layer.width + u;
-            out[i] = static_cast<float>(visible[4 * i] * colour[4 * j + 3]) / (255.0F * 255.0F);
+            const std::size_t i = static_cast<std::size_t>(y) * output.width + x;
+            out[i] = visible[i] * static_cast<float>(colour[v][u] >> 24) / 255;
         }
     }
     return out;
-}
-
-// Rows in which something is known, or was.
-void VirtualView::upload(const InverseDepthField& real, const PixelRect& where) {
-    const PixelRect rows = around(uploaded_, where);
-    uploaded_ = where;
-    if (rows.empty()) return;
-    const std::size_t first = static_cast<std::size_t>(rows.y0) * video_.width;
-    const std::size_t last = static_cast<std::size_t>(rows.y1) * video_.width;
-    for (std::size_t i = first; i < last; ++i) {
-        const bool known = real.isKnown(i);
-        values_[2 * i] = known ? real.rho[i] : 0.0F;
-        values_[2 * i + 1] = known ? std::sqrt(real.variance[i]) : -1.0F;
-    }
-    depth_.upload(std::span(values_).subspan(2 * first, 2 * (last - first)), rows.y0);
 }
 
 }  // namespace mfar

@@ -1,10 +1,12 @@
 #pragma once
 
-#include "pipeline/composite/composite.h"
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/composite/scene_boxes.h"
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/engine/engine.h"
+#include "pipeline/engine/occlusion_options.h"
+#include "pipeline/gles/device_copies.h"
 #include "pipeline/plan/work_plan.h"
 #include "pipeline/skip_options.h"
 #include "pipeline/traced_layer.h"
@@ -19,10 +21,11 @@ namespace mfar {
 /// drawing over the picture.
 class VirtualView {
 public:
-    /// Objects are drawn by the preview renderer.
-    VirtualView(const CameraModel& video, Size output);
+    /// Objects are drawn by the preview renderer; `occludes` makes the step that lays them over the
+    /// picture and must outlive this.
+    VirtualView(const CameraModel& video, Size output, Engine& occludes);
     /// They are path traced. Throws as TracedLayer does.
-    VirtualView(const CameraModel& video, Size output, TracedLayerOptions options);
+    VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options);
 
     /// Shown from the next place() on. Of a view with preview.
     void setObjects(std::vector<VirtualObject> objects);
@@ -49,13 +52,12 @@ public:
     /// Tiles of the picture to draw anew before the next draw().
     [[nodiscard]] PixelRect staleTiles() const;
 
-    /// Draws them, as placed, over `picture`, which `target` draws into. Of `real` nothing is known
-    /// outside of `where`.
-    void draw(const InverseDepthField& real, const PixelRect& where, const gpu::Texture& video,
-              const gpu::Texture& picture, const gpu::Framebuffer& target);
+    /// Draws them, as placed, over the picture. `real` is unknown outside of `where`.
+    void draw(const InverseDepthField& real, const PixelRect& where, const VideoFrame& frame,
+              Field<std::uint32_t>& picture);
 
     /// Share of every output pixel that shows a virtual object, as last drawn. Waits for the GPU.
-    [[nodiscard]] std::vector<float> readShown() const;
+    [[nodiscard]] std::vector<float> readShown(Size output) const;
 
 private:
     /// Adds tiles with virtual surfaces to the region and to `decides`.
@@ -70,7 +72,7 @@ private:
                                      const InverseDepthField& known) const;
     [[nodiscard]] bool isHidden(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const;
-    void upload(const InverseDepthField& real, const PixelRect& where);
+    void setLayer(const VirtualLayer& layer);
 
     Size video_;
     SkipOptions skips_;
@@ -80,14 +82,15 @@ private:
     Silhouette silhouette_, catcherSilhouette_;
     std::unique_ptr<PreviewRenderer> preview_;
     std::unique_ptr<TracedLayer> traced_;  // one of the two
-    Composite composite_;
-    gpu::Texture depth_;
-    std::vector<float> values_;
+    std::unique_ptr<OcclusionStep> occlusion_;
+    CompositeOptions hiding_;
     double focal_, nearest_ = 0;  // [px]; of the objects' inverse depths, as placed [1/m]
     std::optional<RigidTransform> placedPose_, drawnPose_;
-    PixelRect region_, drawn_, uploaded_;  // video pixels, tiles, video pixels
-    VirtualLayer layer_;                   // as last drawn
-    int relied_ = 0;                       // frames in a row on what was known before
+    PixelRect region_, drawn_;  // video pixels, tiles
+    // As last drawn.
+    std::optional<TextureCopy> colourCopy_, depthCopy_;
+    LayerPicture layer_;
+    int relied_ = 0;  // frames in a row on what was known before
     bool changed_ = false, hidden_ = false, shown_ = false;
 };
 

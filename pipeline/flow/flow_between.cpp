@@ -1,6 +1,6 @@
 #include "base/image_layout.h"
 #include "pipeline/flow/cell_field.h"
-#include "pipeline/flow/flow2d.h"
+#include "pipeline/gles/flow2d.h"
 #include "pipeline/gles/picture_texture.h"
 #include "pipeline/pipeline.h"
 
@@ -16,13 +16,12 @@ std::vector<float> flowBetween(const ImageView& a, const ImageView& b) {
     gpu::PictureTexture first, second;
     first.upload(a);
     second.upload(b);
-    WorkPlan plan(a.size);
-    LumaPyramids pyramids(a.size, plan);
-    Flow2d flow(pyramids, plan);
-    plan.openAll();
-    pyramids.buildVideo(first.texture(), plan);
+    const TileBuffer tiles(a.size);
+    LumaPyramids pyramids(a.size);
+    Flow2d flow(a.size);
+    pyramids.buildVideo(first.texture());
     pyramids.buildSecond(second.texture());
-    flow.run(pyramids, plan, false);
+    flow.run(pyramids.luma(), tiles, false);
 
     const Flow2d::Field& field = flow.forward();
     const std::vector<float> cells = flow.patches().read<float>(

@@ -10,9 +10,9 @@
 namespace mfar {
 namespace {
 
-using Rows = std::array<std::uint8_t*, 3>;
+using ChannelRows = std::array<std::uint8_t*, 3>;
 
-void splitRow(const std::uint8_t* from, int width, bool blueFirst, const Rows& to) {
+void splitRow(const std::uint8_t* from, int width, bool blueFirst, const ChannelRows& to) {
     std::uint8_t *first = to[blueFirst ? 2 : 0], *second = to[1], *third = to[blueFirst ? 0 : 2];
     for (int x = 0; x < width; ++x) {
         std::uint32_t pixel;
@@ -60,7 +60,7 @@ public:
         }
     }
 
-    void convert(int y, const Rows& to) {
+    void convert(int y, const ChannelRows& to) {
         const Samples& luma = samples_[0];
         const std::uint8_t* from = luma.row(y);
         for (int x = 0; x < size_.width; ++x)
@@ -124,7 +124,7 @@ RgbPlanes::RgbPlanes(Size size)
         plane.resize(static_cast<std::size_t>(pitch_) * kTileSize * tiles_.height);
 }
 
-RgbPlanes::Rows RgbPlanes::rowsAt(int y) {
+RgbPlanes::ChannelRows RgbPlanes::rowsAt(int y) {
     const std::size_t at = static_cast<std::size_t>(y) * pitch_;
     return {planes_[0].data() + at, planes_[1].data() + at, planes_[2].data() + at};
 }

@@ -32,8 +32,8 @@ public:
     }
 
 private:
-    using Rows = std::array<std::uint8_t*, 3>;
-    [[nodiscard]] Rows rowsAt(int y);
+    using ChannelRows = std::array<std::uint8_t*, 3>;
+    [[nodiscard]] ChannelRows rowsAt(int y);
     void repeatBorder();
 
     Size size_, tiles_;

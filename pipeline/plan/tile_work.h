@@ -30,8 +30,23 @@ struct TileWork {
     PixelRect detailTiles;  ///< [tiles]; the least rectangle that holds all matched tiles
     double noise = 0;       ///< standard deviation of the video's noise [grey levels]
 
+    /// Every tile changed and matched.
+    [[nodiscard]] static TileWork everything(Size tiles) {
+        const int count = tiles.width * tiles.height;
+        return {tiles,
+                std::vector<Tile>(static_cast<std::size_t>(count), Tile{1, 1}),
+                count,
+                count,
+                Draw::Whole,
+                {0, 0, tiles.width, tiles.height},
+                0};
+    }
     [[nodiscard]] const Tile& at(int column, int row) const {
         return flags[static_cast<std::size_t>(row) * tiles.width + column];
+    }
+    /// Is this tile drawn, as it changed or everything is?
+    [[nodiscard]] bool draws(std::size_t tile) const {
+        return drawsWhole() || flags[tile].changed != 0;
     }
     [[nodiscard]] bool drawsWhole() const { return draw != Draw::Tiles; }
 };

@@ -39,31 +39,12 @@ PixelRect tilesAround(const PixelRect& videoPixels) {
 }
 
 WorkPlan::WorkPlan(Size video, std::shared_ptr<Workers> workers)
-    : tileCount_(tilesOf(video)), workers_(std::move(workers)), noise_(kInitialNoise),
-      wholeShare_(kWholeShare),
-      plan_(kHeader + static_cast<std::size_t>(tileCount_.width) * tileCount_.height),
-      buffer_(sizeof(plan_.front()) * plan_.size()) {}
-
-WorkPlan::Dispatch WorkPlan::add(gpu::Groups groups, For what) {
-    wanted_.push_back({groups, what});
-    return {static_cast<int>(wanted_.size()) - 1};
-}
-
-void WorkPlan::openAll() {
-    opensAll_ = true;
-    std::ranges::fill(plan_, std::array{1U, 1U});
-    upload();
-}
-
-void WorkPlan::upload() {
-    if (plan_ == uploaded_) return;
-    buffer_.write(std::span<const std::array<std::uint32_t, 2>>(plan_));
-    uploaded_ = plan_;
-}
+    : workers_(std::move(workers)), noise_(kInitialNoise), wholeShare_(kWholeShare),
+      work_(TileWork::everything(tilesOf(video))) {}
 
 void WorkPlan::drawnOver(const PixelRect& tiles, Redraw redraw) {
     drawnOver_ = {std::max(tiles.x0, 0), std::max(tiles.y0, 0),
-                  std::min(tiles.x1, tileCount_.width), std::min(tiles.y1, tileCount_.height)};
+                  std::min(tiles.x1, work_.tiles.width), std::min(tiles.y1, work_.tiles.height)};
     redraw_ = redraw;
 }
 
@@ -76,28 +57,28 @@ void WorkPlan::update(const RgbPlanes& now, const RgbPlanes& drawn, bool force) 
                  {static_cast<float>(1.0 + 2.0 * noise), static_cast<float>(1.5 + 4.0 * noise),
                   static_cast<float>(grain_)},
                  workers_.get(), measured_);
-    const TileEnergy unchanged = markDrifted(measured_, tileCount_.width, grain_, force);
-    markBeside(measured_, tileCount_.width);
+    const TileEnergy unchanged = markDrifted(measured_, work_.tiles.width, grain_, force);
+    markBeside(measured_, work_.tiles.width);
     chooseMatched();
     chooseChanged(std::exchange(redraw_, Redraw::WithThem));
-    upload();
     followNoise(unchanged);
+    work_.noise = noise_;
 }
 
 void WorkPlan::chooseMatched() {
     const bool everything = !(matchedShare_ > 0);
     const auto tiles = static_cast<double>(measured_.size());
     const double ofMean = grain_ * (noise_ * noise_ + kRoundingVariance) / 4;
-    structured_.choose(measured_, tileCount_.width, everything ? -1 : kStructure * ofMean,
+    structured_.choose(measured_, work_.tiles.width, everything ? -1 : kStructure * ofMean,
                        static_cast<int>(std::ceil(everything ? tiles : matchedShare_ * tiles)));
-    detailTiles_ = mayList() ? structured_.bounds(tileCount_.width)
-                             : PixelRect{0, 0, tileCount_.width, tileCount_.height};
+    work_.detailTiles = mayList() ? structured_.bounds(work_.tiles.width)
+                                  : PixelRect{0, 0, work_.tiles.width, work_.tiles.height};
 }
 
 void WorkPlan::chooseChanged(Redraw redraw) {
     const auto isDrawnOver = [&](std::size_t tile, int margin) {
-        const int x = static_cast<int>(tile) % tileCount_.width,
-                  y = static_cast<int>(tile) / tileCount_.width;
+        const int x = static_cast<int>(tile) % work_.tiles.width,
+                  y = static_cast<int>(tile) / work_.tiles.width;
         return x >= drawnOver_.x0 - margin && x < drawnOver_.x1 + margin &&
                y >= drawnOver_.y0 - margin && y < drawnOver_.y1 + margin;
     };
@@ -112,19 +93,22 @@ void WorkPlan::chooseChanged(Redraw redraw) {
     }
     redraws_ = redraw == Redraw::Always || (redraw == Redraw::WithOthers && changes > 0) ||
                changes >= wholeFrom || beside;
-    changed_ = 0;
-    matched_ = 0;
+    work_.changed = 0;
+    work_.matched = 0;
     for (std::size_t i = 0; i < measured_.size(); ++i) {
         const bool changed = measured_[i].changed || (redraws_ && isDrawnOver(i, 0));
-        changed_ += changed ? 1 : 0;
-        matched_ += changed && structured_[i] ? 1 : 0;
-        plan_[kHeader + i] = {changed ? 1U : 0U, structured_[i] ? 1U : 0U};
+        work_.changed += changed ? 1 : 0;
+        work_.matched += changed && structured_[i] ? 1 : 0;
+        work_.flags[i] = {static_cast<std::uint8_t>(changed),
+                          static_cast<std::uint8_t>(structured_[i])};
     }
-    whole_ = changed_ >= wholeFrom;
-    const int inside = (detailTiles_.x1 - detailTiles_.x0) * (detailTiles_.y1 - detailTiles_.y0);
-    listsDetail_ = whole_ && mayList() && structured_.count() <= kListedShare * inside;
-    plan_[0] = {whole_ ? (listsDetail_ ? 2U : 1U) : 0U, static_cast<std::uint32_t>(changed_)};
-    opensAll_ = false;
+    const PixelRect& detail = work_.detailTiles;
+    const int inside = (detail.x1 - detail.x0) * (detail.y1 - detail.y0);
+    const bool whole = work_.changed >= wholeFrom;
+    const bool lists = whole && mayList() && structured_.count() <= kListedShare * inside;
+    work_.draw = !whole  ? TileWork::Draw::Tiles
+                 : lists ? TileWork::Draw::WholeEnlarged
+                         : TileWork::Draw::Whole;
 }
 
 double WorkPlan::quietestDecile() const {

@@ -57,8 +57,7 @@ TEST(MfarBench, QuickRunWritesEveryPartOfItsJson) {
         return std::any_of(stages.begin(), stages.end(),
                            [&](const auto& stage) { return stage.at("stage") == name; });
     };
-    for (const char* stage :
-         {"upload", "plan", "pyramid", "epipolar", "flow", "assess", "superres"})
+    for (const char* stage : {"plan", "pyramid", "epipolar", "flow", "weigh", "detail"})
         EXPECT_TRUE(hasStage(1, stage)) << stage;
     EXPECT_FALSE(hasStage(0, "epipolar"));
 }

@@ -94,7 +94,7 @@ private:
                 measured(flicker(before, shown, scale * cv::countNonZero(truth.silhouette)));
         report.add(placement_.label, std::to_string(time.ns),
                    request_.poses == PoseSource::Tags ? "tags" : "recorded",
-                   {msOf(pipeline_, "depth"), msOf(pipeline_, "composite"), measured(got.overlap),
+                   {msOf(pipeline_, "depth"), msOf(pipeline_, "objects"), measured(got.overlap),
                     measured(got.boundary), flickering});
     }
 

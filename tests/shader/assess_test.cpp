@@ -72,7 +72,7 @@ Assessed assess(const LevelPair& pair, const StereoRig& rig, const Fields& field
     gpu::ComputePass<AssessParams> pass("superres_assess.comp");
     pass.run(p,
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
-              gpu::storage(2, pair.plan.tiles()), gpu::imageWrite(0, displacement),
+              gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, displacement),
               gpu::imageWrite(1, statistics)},
              {4, 3, 1});
     return {{kGrid, displacement.readRgba32F()}, {kGrid, statistics.readRgba32F()}};
@@ -184,9 +184,9 @@ TEST_F(Assess, GainStatisticsMatchTwin) {
     pass.run({pair.pyramids.video()[1],
               pair.pyramids.still()[1],
               {cells.width, cells.height, forward.width, forward.height},
-              {0, pair.plan.tileCount().width, 0, 0}},
+              {0, pair.tiles.work().tiles.width, 0, 0}},
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
-              gpu::storage(2, pair.plan.tiles()), gpu::imageWrite(0, out)},
+              gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, out)},
              {4, 3, 1});
     ASSERT_EQ(a.size, half);
     const twin::Cells got{cells, out.readRgba32F()};

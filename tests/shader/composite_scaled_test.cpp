@@ -1,4 +1,4 @@
-#include "pipeline/composite/composite.h"
+#include "pipeline/gles/layer_composite.h"
 #include "tests/shader/gl_test.h"
 
 #include <cmath>
@@ -37,7 +37,7 @@ protected:
         depth.upload(z);
         const gpu::Texture picture = uploaded(Picture(kOutputOf, PixelFormat::Rgba8, 0));
         const gpu::Framebuffer target(picture);
-        Composite composite(kVideoOf, kOutputOf, layerSize);
+        LayerComposite composite(kVideoOf, kOutputOf, layerSize);
         composite.run({&colour, &depth, bounds}, real, video, picture, target);
         shown_ = picture.readRgba8();
         visibility_ = composite.visibility().readRgba8();

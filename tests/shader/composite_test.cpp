@@ -1,4 +1,4 @@
-#include "pipeline/composite/composite.h"
+#include "pipeline/gles/layer_composite.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/samples_passed.h"
 #include "tests/shader/twins/visibility.h"
@@ -49,7 +49,7 @@ protected:
         real.upload(samples);
         const gpu::Texture video = uploaded(scene.video), picture = uploaded(scene.picture);
         const gpu::Framebuffer target(picture);
-        Composite composite(kCoarse, kFine, options);
+        LayerComposite composite(kCoarse, kFine, options);
         drew_ = drewAnything(
             [&] { composite.run({&colour, &depth, layer.bounds}, real, video, picture, target); });
         shown_ = picture.readRgba8();
@@ -212,12 +212,12 @@ TEST_F(CompositeTest, EmptyBoundsDrawNothing) {
 
 TEST_F(CompositeTest, OptionsOutOfRangeAreRefused) {
     for (const double bad : {-1.0, 1e9, kNan, kInfinite}) {
-        EXPECT_THROW(Composite(kCoarse, kFine, {.bias = bad}), std::invalid_argument);
-        EXPECT_THROW(Composite(kCoarse, kFine, {.virtualSigma = bad}), std::invalid_argument);
+        EXPECT_THROW(LayerComposite(kCoarse, kFine, {.bias = bad}), std::invalid_argument);
+        EXPECT_THROW(LayerComposite(kCoarse, kFine, {.virtualSigma = bad}), std::invalid_argument);
     }
     for (const double bad : {0.0, -1.0, 1e9, kNan}) {
-        EXPECT_THROW(Composite(kCoarse, kFine, {.softness = bad}), std::invalid_argument);
-        EXPECT_THROW(Composite(kCoarse, kFine, {.likeness = bad}), std::invalid_argument);
+        EXPECT_THROW(LayerComposite(kCoarse, kFine, {.softness = bad}), std::invalid_argument);
+        EXPECT_THROW(LayerComposite(kCoarse, kFine, {.likeness = bad}), std::invalid_argument);
     }
 }
 

@@ -1,4 +1,4 @@
-#include "pipeline/superres/still_reference.h"
+#include "pipeline/gles/still_reference.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/tile_pass.h"
 #include "tests/shader/twins/upscale.h"
@@ -232,7 +232,8 @@ TEST_F(Draw, StillLowMatchesTwin) {
 
 TEST_F(Draw, StillDetailIsWhatTheVideoCannotShow) {
     const StereoRig rig = plainRig({50, 35}, kSmallStill);
-    StillReference reference(rig, kSmallStill);
+    gpu::PictureTexture picture(gpu::Filter::Linear);
+    StillReference reference(rig, kSmallStill, picture);
     for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
         const Picture still = Waves(5, 4, 60, 30).shoot(kSmallStill, {.format = format});
         reference.set(still.view());
@@ -249,7 +250,8 @@ TEST_F(Draw, StillDetailIsWhatTheVideoCannotShow) {
 }
 
 TEST_F(Draw, AConstantStillHasNoDetail) {
-    StillReference reference(plainRig({50, 35}, kSmallStill), kSmallStill);
+    gpu::PictureTexture picture(gpu::Filter::Linear);
+    StillReference reference(plainRig({50, 35}, kSmallStill), kSmallStill, picture);
     for (const std::uint8_t level : {0, 90, 255}) {
         reference.set(Picture(kSmallStill, PixelFormat::Rgba8, level).view());
         for (const double v : channelOf(reference.detail(), 0).values)

@@ -1,4 +1,4 @@
-#include "pipeline/flow/flow2d.h"
+#include "pipeline/gles/flow2d.h"
 #include "pipeline/pipeline.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/levels.h"
@@ -143,7 +143,7 @@ std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int 
               {0, kArea, 0, 0},
               {steps, 0, 0, 0}},
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
-              gpu::storage(2, pair.plan.tiles())},
+              gpu::storage(2, pair.tiles.buffer())},
              {4, 3, 1});
     return patches.read<Cell>(kArea);
 }

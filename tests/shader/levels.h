@@ -1,6 +1,7 @@
 #pragma once
 
-#include "pipeline/flow/luma_pyramid.h"
+#include "pipeline/gles/luma_pyramids.h"
+#include "pipeline/gles/tile_buffer.h"
 #include "tests/shader/pictures.h"
 #include "tests/shader/twins/luma.h"
 
@@ -28,9 +29,8 @@ inline twin::Grey readLevel(const LumaPyramids& pyramids, const LumaLevel& level
 
 /// The pyramids of two pictures of the same size.
 struct LevelPair {
-    LevelPair(const Picture& a, const Picture& b) : plan(a.size), pyramids(a.size, plan) {
-        plan.openAll();
-        pyramids.buildVideo(uploaded(a), plan);
+    LevelPair(const Picture& a, const Picture& b) : tiles(a.size), pyramids(a.size) {
+        pyramids.buildVideo(uploaded(a));
         pyramids.buildSecond(uploaded(b));
     }
     [[nodiscard]] twin::Grey first(int level = 0) const {
@@ -40,7 +40,7 @@ struct LevelPair {
         return readLevel(pyramids, pyramids.still()[level]);
     }
 
-    WorkPlan plan;
+    TileBuffer tiles;  // all changed and matched
     LumaPyramids pyramids;
 };
 

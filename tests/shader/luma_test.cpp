@@ -52,8 +52,7 @@ TEST_F(Luma, LevelsKeepTheRange) {
 
 void expectStillMatches(const StereoRig& rig) {
     const Picture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
-    WorkPlan plan(rig.video.size);
-    LumaPyramids pyramids(rig.video.size, plan);
+    LumaPyramids pyramids(rig.video.size);
     pyramids.buildStill(uploaded(still, gpu::Filter::Linear), rig);
     expectNear(readLevel(pyramids, pyramids.still()[0]),
                twin::lumaFromStill(twin::luma(still.view()), rig), kFiltered);

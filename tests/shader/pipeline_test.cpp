@@ -179,7 +179,7 @@ TEST_F(PipelineTest, StagesAreTimedInOrder) {
         stages += std::string(s.stage) + " ";
         EXPECT_GE(s.ms, 0);
     }
-    EXPECT_EQ(stages, "plan upload pyramid flow assess superres ");
+    EXPECT_EQ(stages, "plan pyramid flow weigh detail ");
 }
 
 }  // namespace

@@ -84,12 +84,11 @@ DriftOutcome watch(const DriftScene& scene, NoisySensor sensor, int settled, int
         light = lightOf(scene, frame);
         const Picture now = sensor.shoot(light);
         plan.update(planesOf(now), planesOf(drawn), false);
-        const auto tiles = plan.tiles().read<std::array<std::uint32_t, 2>>(
-            static_cast<std::size_t>(plan.tileCount().width) * plan.tileCount().height, 8);
+        const std::vector<TileWork::Tile>& tiles = plan.work().flags;
         double stale = 0;
         for (std::size_t i = 0; i < kDriftPixels; ++i) {
             const std::size_t x = i % kDriftVideo.width, y = i / kDriftVideo.width;
-            if (tiles[y / 16 * plan.tileCount().width + x / 16][0] != 0) {
+            if (tiles[y / 16 * plan.tileCount().width + x / 16].changed != 0) {
                 std::copy_n(&now.bytes[4 * i], 4, &drawn.bytes[4 * i]);
                 drawnLight[i] = light[i];
             }
@@ -98,7 +97,7 @@ DriftOutcome watch(const DriftScene& scene, NoisySensor sensor, int settled, int
         }
         if (frame <= settled) continue;
         out.stale += stale / frames;
-        out.changed += static_cast<double>(plan.changedTiles()) / tiles.size() / frames;
+        out.changed += static_cast<double>(plan.work().changed) / tiles.size() / frames;
     }
     return out;
 }

@@ -1,3 +1,4 @@
+#include "pipeline/gles/tile_buffer.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/twins/plan.h"
 
@@ -21,12 +22,15 @@ struct TileState {
 
 std::vector<TileState> tilesOf(const WorkPlan& plan) {
     const auto count = static_cast<std::size_t>(plan.tileCount().width) * plan.tileCount().height;
-    const auto flags = plan.tiles().read<std::array<std::uint32_t, 2>>(count, 8);
+    const std::vector<TileWork::Tile>& flags = plan.work().flags;
     std::vector<TileState> out;
     for (std::size_t i = 0; i < count; ++i) {
         const TileMeasure& m = plan.measured()[i];
-        out.push_back(
-            {flags[i][0], flags[i][1], m.noise, m.structure, {m.pixels, m.means, m.bends}});
+        out.push_back({flags[i].changed,
+                       flags[i].matched,
+                       m.noise,
+                       m.structure,
+                       {m.pixels, m.means, m.bends}});
     }
     return out;
 }
@@ -85,15 +89,13 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
     const Picture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const Picture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
-    const WorkPlan::Dispatch dispatch = plan.add({5, 2, 1});
     plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::WithOthers);
     plan.update(planesOf(base), planesOf(base), false);
-    EXPECT_EQ(plan.changedTiles(), 0);
+    EXPECT_EQ(plan.work().changed, 0);
     EXPECT_FALSE(plan.redraws());
     plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::WithOthers);
-    EXPECT_FALSE(plan.opens(dispatch));
     plan.update(planesOf(oneTile), planesOf(base), false);
-    EXPECT_EQ(plan.changedTiles(), 1 + 2 * 3);
+    EXPECT_EQ(plan.work().changed, 1 + 2 * 3);
     const auto tiles = tilesOf(plan);
     for (int i = 0; i < 28; ++i) {
         const bool over = i % 7 >= 2 && i % 7 < 4 && i / 7 >= 1;
@@ -102,13 +104,12 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
     EXPECT_TRUE(plan.redraws());
     plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::Always);
     plan.update(planesOf(base), planesOf(base), false);
-    EXPECT_EQ(plan.changedTiles(), 6);
+    EXPECT_EQ(plan.work().changed, 6);
     EXPECT_TRUE(plan.redraws());
-    EXPECT_TRUE(plan.opens(dispatch));
     plan.update(planesOf(base), planesOf(base), false);
-    EXPECT_EQ(plan.changedTiles(), 0) << "redrawn once";
+    EXPECT_EQ(plan.work().changed, 0) << "redrawn once";
     plan.update(planesOf(base), planesOf(base), true);
-    EXPECT_EQ(plan.changedTiles(), 28) << "none counts twice";
+    EXPECT_EQ(plan.work().changed, 28) << "none counts twice";
 }
 
 TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithItsTilesOrTheWhole) {
@@ -117,11 +118,11 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithItsTilesOrTheWhole) {
     WorkPlan plan(kSize);
     plan.drawnOver({2, 0, 4, 2}, WorkPlan::Redraw::WithThem);
     plan.update(planesOf(oneTile), planesOf(base), false);
-    EXPECT_EQ(plan.changedTiles(), 1);
+    EXPECT_EQ(plan.work().changed, 1);
     EXPECT_FALSE(plan.redraws());
     plan.drawnOver({1, 0, 4, 2}, WorkPlan::Redraw::WithThem);
     plan.update(planesOf(oneTile), planesOf(base), false);
-    EXPECT_EQ(plan.changedTiles(), 1 + 3 * 2) << "beside them";
+    EXPECT_EQ(plan.work().changed, 1 + 3 * 2) << "beside them";
     EXPECT_TRUE(plan.redraws());
     plan.update(planesOf(base), planesOf(base), true);
     EXPECT_TRUE(plan.redraws());
@@ -163,30 +164,38 @@ TEST_F(Plan, AChangeAtATilesBorderIsOneOfTheTileBesideIt) {
     }
 }
 
-TEST_F(Plan, NothingChangedShutsEveryDispatch) {
+TEST_F(Plan, NothingChangedDrawsNothing) {
     const Picture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
-    const auto dispatch = plan.add({3, 2, 1});
     plan.update(planesOf(p), planesOf(p), false);
     for (const TileState& t : tilesOf(plan))
         EXPECT_EQ(t.changed, 0U);
-    EXPECT_EQ(plan.changedTiles(), 0);
-    EXPECT_FALSE(plan.drawsWhole());
-    EXPECT_FALSE(plan.opens(dispatch));
+    EXPECT_EQ(plan.work().changed, 0);
+    EXPECT_FALSE(plan.work().drawsWhole());
 }
 
-TEST_F(Plan, AForcedFrameOpensEverything) {
+TEST_F(Plan, AForcedFrameChangesEverything) {
     const Picture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
-    const auto matching = plan.add({3, 2, 1});
-    const auto drawing = plan.add({5, 4, 2}, WorkPlan::For::Changed);
     plan.update(planesOf(p), planesOf(p), true);
     for (const TileState& t : tilesOf(plan))
         EXPECT_EQ(t.changed, 1U);
-    EXPECT_EQ(plan.changedTiles(), 28);
-    EXPECT_TRUE(plan.drawsWhole());
-    EXPECT_TRUE(plan.opens(matching));
-    EXPECT_TRUE(plan.opens(drawing));
+    EXPECT_EQ(plan.work().changed, 28);
+    EXPECT_TRUE(plan.work().drawsWhole());
+    EXPECT_EQ(plan.work().matched, 28);
+}
+
+TEST_F(Plan, TheBufferHoldsEveryTilesFlags) {
+    TileWork work = TileWork::everything({3, 2});
+    work.flags[4] = {1, 0};
+    work.flags[5] = {0, 1};
+    work.changed = 5;
+    work.draw = TileWork::Draw::Tiles;
+    TileBuffer buffer({48, 32});
+    EXPECT_EQ(buffer.buffer().read<std::uint32_t>(2), (std::vector<std::uint32_t>{1, 6}));
+    buffer.set(work);
+    EXPECT_EQ(buffer.buffer().read<std::uint32_t>(14),
+              (std::vector<std::uint32_t>{0, 5, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0, 1}));
 }
 
 TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
@@ -194,14 +203,14 @@ TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
     const int last = 12;  // 0.45 of 28 tiles are 12.6
     for (const int tiles : {1, last, last + 1, 28}) {
         WorkPlan plan(kSize);
-        const auto dispatch = plan.add({1, 1, 1});
         plan.update(planesOf(changedIn(base, tiles, 64)), planesOf(base), false);
         const std::uint32_t whole = tiles > last ? 1 : 0;
-        EXPECT_EQ(plan.changedTiles(), tiles);
-        EXPECT_EQ(plan.drawsWhole(), whole == 1);
-        EXPECT_EQ(plan.tiles().read<std::uint32_t>(2),
+        EXPECT_EQ(plan.work().changed, tiles);
+        EXPECT_EQ(plan.work().drawsWhole(), whole == 1);
+        TileBuffer buffer(kSize);
+        buffer.set(plan.work());
+        EXPECT_EQ(buffer.buffer().read<std::uint32_t>(2),
                   (std::vector<std::uint32_t>{whole, static_cast<std::uint32_t>(tiles)}));
-        EXPECT_TRUE(plan.opens(dispatch));
     }
 }
 
@@ -245,7 +254,6 @@ TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
     const Size size{256, 96};  // 16 columns
     const Picture picture = dotted(size, {20, 60, 0, 40});
     WorkPlan plan(size);
-    static_cast<void>(plan.add({1, 1, 1}));
     const auto update = [&] {
         for (int i = 0; i < 20; ++i)  // until the noise is known
             plan.update(planesOf(picture), planesOf(picture), true);
@@ -254,11 +262,11 @@ TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
     EXPECT_EQ(update().size(), 16U) << "at first everything";
     plan.matchStructured(1);
     EXPECT_EQ(update(), (std::vector<int>{0, 1, 2, 4, 5, 6, 12, 13, 14}));
-    EXPECT_EQ(plan.matchedTiles(), 9 * 6);
+    EXPECT_EQ(plan.work().matched, 9 * 6);
     plan.matchStructured(6.5 / 16);
     EXPECT_EQ(update(), (std::vector<int>{4, 5, 6, 12, 13, 14})) << "the most structure";
     plan.matchStructured(0.05);
-    EXPECT_EQ(plan.matchedTiles(), 6 * 6) << "with the next update";
+    EXPECT_EQ(plan.work().matched, 6 * 6) << "with the next update";
     EXPECT_TRUE(update().empty());
     plan.matchEverything();
     EXPECT_EQ(update().size(), 16U);
@@ -276,7 +284,6 @@ TEST_F(Plan, NoiseMakesNoDetailComeAndGo) {
                     static_cast<std::uint8_t>(contrast);
     }
     WorkPlan plan(size);
-    static_cast<void>(plan.add({1, 1, 1}));
     plan.matchStructured(0.5);
     std::vector<TileState> last;
     int turns = 0;
@@ -289,17 +296,15 @@ TEST_F(Plan, NoiseMakesNoDetailComeAndGo) {
             turns += tiles[i].matched != last[i].matched ? 1 : 0;
         last = tiles;
     }
-    EXPECT_GT(plan.matchedTiles(), 512 / 5);
-    EXPECT_LE(plan.matchedTiles(), 512 / 2);
+    EXPECT_GT(plan.work().matched, 512 / 5);
+    EXPECT_LE(plan.work().matched, 512 / 2);
     EXPECT_LT(turns, 19 * 512 / 100) << "one tile of a hundred a frame";
 }
 
-TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
+TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
     const Size size{256, 96};
     const Picture drawn = dotted(size, {60});
     WorkPlan plan(size);
-    const auto matching = plan.add({3, 1, 1});
-    const auto drawing = plan.add({5, 1, 1}, WorkPlan::For::Changed);
     plan.matchStructured(1);
     for (const bool inStructure : {false, true}) {
         for (int i = 0; i < 20; ++i)
@@ -308,10 +313,8 @@ TEST_F(Plan, WhatIsForMatchedTilesIsShutWhereNoneChanged) {
         for (int i = 0; i < 256; ++i)  // a tile, evenly
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
-        EXPECT_EQ(plan.changedTiles(), 9) << "with those beside it";
-        EXPECT_EQ(plan.matchedTiles(), inStructure ? 9 : 0);
-        EXPECT_EQ(plan.opens(matching), inStructure);
-        EXPECT_TRUE(plan.opens(drawing));
+        EXPECT_EQ(plan.work().changed, 9) << "with those beside it";
+        EXPECT_EQ(plan.work().matched, inStructure ? 9 : 0);
     }
 }
 
@@ -329,9 +332,11 @@ TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
         plan.matchStructured(1);
         planWhole(plan,
                   structured ? randomPicture(size, 1) : dotted(size, {60, 0, 0, 0, 0, 0, 0, 60}));
-        EXPECT_EQ(plan.drawsWholeDetail(), structured);
-        EXPECT_EQ(plan.drawsWholeEnlarged(), !structured);
-        EXPECT_EQ(plan.tiles().read<std::uint32_t>(1)[0], structured ? 1U : 2U);
+        EXPECT_EQ(plan.work().draw == TileWork::Draw::Whole, structured);
+        EXPECT_EQ(plan.work().draw == TileWork::Draw::WholeEnlarged, !structured);
+        TileBuffer buffer(size);
+        buffer.set(plan.work());
+        EXPECT_EQ(buffer.buffer().read<std::uint32_t>(1)[0], structured ? 1U : 2U);
     }
 }
 
@@ -340,15 +345,15 @@ TEST_F(Plan, DetailIsDrawnInARectangleAroundTheStructure) {
     WorkPlan plan(size);
     plan.matchStructured(1);
     planWhole(plan, dotted(size, {0, 60}));
-    EXPECT_TRUE(plan.drawsWholeDetail());
-    EXPECT_EQ(plan.detailTiles(), (PixelRect{4, 0, 7, 6}));
+    EXPECT_TRUE(plan.work().draw == TileWork::Draw::Whole);
+    EXPECT_EQ(plan.work().detailTiles, (PixelRect{4, 0, 7, 6}));
     plan.matchEverything();
     planWhole(plan, randomPicture(size, 1));
-    EXPECT_EQ(plan.detailTiles(), (PixelRect{0, 0, 16, 6}));
+    EXPECT_EQ(plan.work().detailTiles, (PixelRect{0, 0, 16, 6}));
     plan.matchStructured(1);
     plan.drawWholeFrom(0);
     planWhole(plan, dotted(size, {0, 60}));
-    EXPECT_EQ(plan.detailTiles(), (PixelRect{0, 0, 16, 6}));
+    EXPECT_EQ(plan.work().detailTiles, (PixelRect{0, 0, 16, 6}));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-#include "pipeline/superres/still_reference.h"
+#include "pipeline/gles/still_reference.h"
+#include "pipeline/superres/still_scale.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/levels.h"
 #include "tests/shader/pipeline_case.h"
@@ -68,10 +69,11 @@ TEST_F(StillReducerTest, MatchesItsTwin) {
 
 TEST_F(StillReducerTest, StillsKeepTheirPixelsWhereTheOutputShowsThem) {
     const StereoRig rig = plainRig({50, 35}, {200, 140});
-    EXPECT_EQ(StillReference(rig, {200, 140}).rig().still.size, (Size{200, 140}));
-    EXPECT_EQ(StillReference(rig, {400, 280}).rig().still.size, (Size{200, 140}));
-    EXPECT_EQ(StillReference(rig, {150, 105}).rig().still.size, (Size{200, 140}));
-    const StillReference half(rig, {100, 70});
+    EXPECT_EQ(stillFor({200, 140}, rig).still.size, (Size{200, 140}));
+    EXPECT_EQ(stillFor({400, 280}, rig).still.size, (Size{200, 140}));
+    EXPECT_EQ(stillFor({150, 105}, rig).still.size, (Size{200, 140}));
+    gpu::PictureTexture picture(gpu::Filter::Linear);
+    const StillReference half(rig, {100, 70}, picture);
     EXPECT_EQ(half.rig().still.size, (Size{140, 98}));
     EXPECT_DOUBLE_EQ(half.rig().still.fx, rig.still.fx * 0.7);
     EXPECT_EQ(half.detail().size(), (Size{140, 98}));

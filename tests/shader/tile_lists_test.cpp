@@ -1,5 +1,5 @@
-#include "pipeline/flow/flow2d.h"
-#include "pipeline/flow/tile_lists.h"
+#include "pipeline/gles/flow2d.h"
+#include "pipeline/gles/tile_lists.h"
 #include "tests/shader/gl_test.h"
 #include "tests/shader/pictures.h"
 
@@ -97,12 +97,11 @@ std::set<std::uint32_t> listed(const TileLists& lists, int level) {
 }
 
 TEST_F(TileListsGl, FlagsAndListsMatchTheTwins) {
-    WorkPlan plan(kVideoSize);
-    TileLists lists(kCells, kLevels, plan);
-    plan.openAll();
+    TileBuffer tiles(kVideoSize);
+    TileLists lists(kCells, kLevels);
     const auto fields = randomFields(1);
     const gpu::Buffer patches = stored(fields);
-    lists.find({patches, 0, kCount}, plan);
+    lists.find({patches, 0, kCount}, tiles);
 
     const auto wanted = twinClosed(twinFlags(fields));
     EXPECT_EQ(lists.read(), wanted);
@@ -113,15 +112,14 @@ TEST_F(TileListsGl, FlagsAndListsMatchTheTwins) {
 }
 
 TEST_F(TileListsGl, CoarserLevelsHaveWhatTheFinerLookAt) {
-    WorkPlan plan(kVideoSize);
-    TileLists lists(kCells, kLevels, plan);
-    plan.openAll();
+    TileBuffer tiles(kVideoSize);
+    TileLists lists(kCells, kLevels);
     std::vector<Cell> fields(2UL * kCount, Cell{0, 0, 0, 1e4F});
     for (const int tile : {0, 60, 200})  // far apart
         for (int i = 0; i < 3; ++i)
             fields[4 * (tile / kTiles.width) * kCells.width + 4 * (tile % kTiles.width) + i][2] = 1;
     const gpu::Buffer patches = stored(fields);
-    lists.find({patches, 0, kCount}, plan);
+    lists.find({patches, 0, kCount}, tiles);
 
     auto wanted = listed(lists, 0);
     EXPECT_EQ(wanted.size(), 3U);
@@ -137,16 +135,16 @@ TEST_F(TileListsGl, CoarserLevelsHaveWhatTheFinerLookAt) {
 }
 
 TEST_F(TileListsGl, AShutPlanListsNothing) {
-    WorkPlan plan(kVideoSize);
-    TileLists lists(kCells, kLevels, plan);
-    plan.openAll();
+    TileBuffer tiles(kVideoSize);
+    TileLists lists(kCells, kLevels);
     const auto fields = randomFields(2);
     const gpu::Buffer patches = stored(fields);
-    lists.find({patches, 0, kCount}, plan);
+    lists.find({patches, 0, kCount}, tiles);
     const int before = lists.count();
-    const Picture same(kVideoSize, PixelFormat::Rgba8, 90);
-    plan.update(planesOf(same), planesOf(same), false);
-    lists.find({patches, 0, kCount}, plan);
+    TileWork atRest = tiles.work();
+    atRest.changed = atRest.matched = 0;
+    tiles.set(atRest);
+    lists.find({patches, 0, kCount}, tiles);
     EXPECT_GT(before, 0);
     EXPECT_EQ(lists.countBefore(), before);
     EXPECT_EQ(lists.count(), 0);
@@ -178,13 +176,11 @@ struct MovedSquare {
 /// What refine() makes of a field of no motion.
 class Refined {
 public:
-    Refined(const Picture& now, const Picture& then)
-        : plan_(now.size), pyramids_(now.size, plan_), flow(pyramids_, plan_) {
-        plan_.openAll();
-        pyramids_.buildVideo(uploaded(now), plan_);
+    Refined(const Picture& now, const Picture& then) : pyramids_(now.size), flow(now.size) {
+        pyramids_.buildVideo(uploaded(now));
         pyramids_.buildSecond(uploaded(then));
         const std::vector<Cell> none(kCount);
-        flow.refine(pyramids_, plan_, none, none);
+        flow.refine(pyramids_.luma(), tiles_, none, none);
     }
     [[nodiscard]] std::vector<Cell> vectors() const { return read(flow.forward()); }
     [[nodiscard]] std::vector<Cell> errors() const { return read(flow.backward()); }
@@ -193,7 +189,7 @@ private:
     [[nodiscard]] std::vector<Cell> read(const Flow2d::Field& field) const {
         return flow.patches().read<Cell>(kCount, sizeof(Cell) * field.offset);
     }
-    WorkPlan plan_;
+    TileBuffer tiles_{kVideoSize};
     LumaPyramids pyramids_;
 
 public:

@@ -41,7 +41,8 @@ protected:
     void SetUp() override {
         GlTest::SetUp();
         if (!TracedLayer::isAvailable()) GTEST_SKIP() << "no path tracer in this build";
-        view_ = std::make_unique<VirtualView>(kAbove, kSeen, TracedLayerOptions{.size = kSeen});
+        engine_ = makeGlesEngine({.rig = {kAbove, kAbove, {}}, .output = kSeen});
+        view_ = std::make_unique<VirtualView>(kAbove, *engine_, TracedLayerOptions{.size = kSeen});
         view_->setScene(hovering());
     }
     std::vector<PixelRect> placed(const InverseDepthField& known, int frames = 18) {
@@ -54,6 +55,7 @@ protected:
     [[nodiscard]] bool isAll(const PixelRect& r) const { return r == view_->region(); }
 
 private:
+    std::unique_ptr<Engine> engine_;
     std::unique_ptr<VirtualView> view_;
 };
 

@@ -88,18 +88,17 @@ void changePlan(Context& c) {
     const Size size = c.size(1, 120);
     const Picture before = c.hostile.picture(size), now = changed(c, before);
     WorkPlan plan(size);
-    (void)plan.add({});
     plan.update(planesOf(now), planesOf(before), false);
     const Size tiles = plan.tileCount();
     const auto count = static_cast<std::size_t>(pixelsOf(tiles));
-    const auto got = plan.tiles().read<std::array<std::uint32_t, 2>>(count, 8);
+    const std::vector<TileWork::Tile>& got = plan.work().flags;
     std::vector<twin::TileChange> twins;
     const twin::Grey grey = twin::luma(now.view());
     int changed = 0;
     for (int t = 0; t < static_cast<int>(count); ++t) {
         const auto& twin = twins.emplace_back(
             twin::tileChange(now, before, grey, t % tiles.width, t / tiles.width));
-        changed += static_cast<int>(got[t][0]);
+        changed += static_cast<int>(got[static_cast<std::size_t>(t)].changed);
         const TileMeasure& measured = plan.measured()[t];
         c.checks.within(measured.noise - twin.noise, -0.02, 0.02, "a tile's noise");
         c.checks.within(measured.structure / (1 + twin.structure) -
@@ -114,8 +113,8 @@ void changePlan(Context& c) {
     // Bounds as WorkPlan::update() sets them before anything is measured.
     const auto wanted = twin::changedTiles(twins, tiles.width, {1 + 2 * 0.29, 1.5 + 4 * 0.29});
     for (std::size_t t = 0; t < count; ++t)
-        c.checks.require(!wanted[t] || (got[t][0] != 0) == *wanted[t], "a tile's change");
-    c.checks.require(plan.changedTiles() == changed, "the number of changed tiles");
+        c.checks.require(!wanted[t] || (got[static_cast<std::size_t>(t)].changed != 0) == *wanted[t], "a tile's change");
+    c.checks.require(plan.work().changed == changed, "the number of changed tiles");
     c.checks.through("TileMeasure", pixelsOf(size));
     c.gl.frame(c.checks, pixelsOf(size));
 }

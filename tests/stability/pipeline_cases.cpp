@@ -1,6 +1,5 @@
 // The whole flow of frames, with poses, stills and objects that are hard to bear.
 #include "pipeline/pipeline.h"
-#include "pipeline/superres/superres.h"
 #include "tests/stability/cases.h"
 
 #include <algorithm>

@@ -116,7 +116,7 @@ void stillPixels() {
     gpu::ComputePass<AssessParams> pass("superres_assess.comp");
     pass.run(p,
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
-              gpu::storage(2, pair.plan.tiles()), gpu::imageWrite(0, displacement),
+              gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, displacement),
               gpu::imageWrite(1, statistics)},
              {gpu::groupsFor(cells.width, 4), gpu::groupsFor(cells.height, 4), 1});
     const auto got = displacement.readRgba32F();

@@ -1,7 +1,7 @@
 // Virtual objects: their preview, and who hides whom.
-#include "pipeline/composite/composite.h"
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/composite/silhouette.h"
+#include "pipeline/gles/layer_composite.h"
 #include "pipeline/results.h"
 #include "tests/shader/twins/ray_cast.h"
 #include "tests/shader/twins/visibility.h"
@@ -74,7 +74,7 @@ void compositing(Context& c) {
     real.upload(samples);
     const gpu::Texture frame = uploaded(scene.video), picture = uploaded(scene.picture);
     const gpu::Texture target = uploaded(scene.picture);
-    Composite composite(video, output, options);
+    LayerComposite composite(video, output, options);
     composite.run({&colour, &depth, {0, 0, output.width, output.height}}, real, frame, picture,
                   gpu::Framebuffer(target));
     const auto seen = composite.visibility().readRgba8();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/flow/luma_pyramid.h"
+#include "pipeline/gles/luma_pyramids.h"
 
 #include <algorithm>
 #include <cmath>

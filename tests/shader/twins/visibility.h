@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/composite/composite.h"
+#include "pipeline/gles/layer_composite.h"
 #include "tests/shader/pictures.h"
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "base/gl/pass.h"
 #include "pipeline/flow/luma_layout.h"
-#include "pipeline/plan/work_plan.h"
 
 #include <array>
 #include <cstdint>
@@ -21,15 +21,21 @@ struct RigParams {
 };
 [[nodiscard]] RigParams rigParams(const StereoRig& rig);
 
+/// Luma pyramids on the GPU, wherever they were made.
+struct LumaOnGpu {
+    const std::vector<LumaLevel>&video, &still;
+    const gpu::Buffer& words;
+};
+
 /// Luma pyramids of the video frame and of the still at the video's geometry (rotation and both
 /// lenses applied, no parallax), both smoothed alike, 8 bits a pixel, four pixels a word, in one
 /// storage buffer: what the flow compares.
 class LumaPyramids {
 public:
-    LumaPyramids(Size video, WorkPlan& plan);
+    explicit LumaPyramids(Size video);
 
-    /// From the video frame (RGBA8 texture of the video's size), if the plan needs it.
-    void buildVideo(const gpu::Texture& video, const WorkPlan& plan);
+    /// From the video frame (RGBA8 texture of the video's size).
+    void buildVideo(const gpu::Texture& video);
     /// From a still (RGBA8 texture, linear filter), through the rig. Once per still.
     void buildStill(const gpu::Texture& still, const StereoRig& rig);
     /// From a picture that already has the video's geometry (flow between two frames).
@@ -38,6 +44,7 @@ public:
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }
     [[nodiscard]] const std::vector<LumaLevel>& still() const { return still_; }
     [[nodiscard]] const gpu::Buffer& words() const { return words_; }
+    [[nodiscard]] LumaOnGpu luma() const { return {video_, still_, words_}; }
 
 private:
     struct VideoParams {
@@ -57,7 +64,6 @@ private:
 
     std::vector<LumaLevel> video_, still_;
     gpu::Buffer words_;
-    std::vector<WorkPlan::Dispatch> dispatches_;
     gpu::ComputePass<VideoParams> fromVideo_;
     gpu::ComputePass<StillParams> fromStill_;
     gpu::ComputePass<DownParams> down_;

@@ -1,4 +1,4 @@
-#include "pipeline/flow/luma_pyramid.h"
+#include "pipeline/gles/luma_pyramids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ RigParams rigParams(const StereoRig& rig) {
     return p;
 }
 
-LumaPyramids::LumaPyramids(Size video, WorkPlan& plan)
+LumaPyramids::LumaPyramids(Size video)
     : fromVideo_("luma_from_video.comp"), fromStill_("luma_from_still.comp"),
       down_("luma_down.comp") {
     std::int32_t words = 0;
@@ -42,15 +42,12 @@ LumaPyramids::LumaPyramids(Size video, WorkPlan& plan)
     still_ = lumaLayout(video, words);
     // A patch row reads three words from any column on: two spare ones end the buffer.
     words_ = gpu::Buffer((static_cast<std::size_t>(words) + 2) * sizeof(std::uint32_t));
-    for (const LumaLevel& level : video_)
-        dispatches_.push_back(plan.add(groupsOf(level)));
 }
 
-void LumaPyramids::buildVideo(const gpu::Texture& video, const WorkPlan& plan) {
-    plan.run(fromVideo_, {video_[0], {kLumaSmoothing}},
-             {gpu::sampler(0, video), gpu::storage(0, words_)}, dispatches_[0]);
-    for (std::size_t i = 1; i < video_.size(); ++i)
-        plan.run(down_, {video_[i - 1], video_[i]}, {gpu::storage(0, words_)}, dispatches_[i]);
+void LumaPyramids::buildVideo(const gpu::Texture& video) {
+    fromVideo_.run({video_[0], {kLumaSmoothing}}, {gpu::sampler(0, video), gpu::storage(0, words_)},
+                   groupsOf(video_[0]));
+    buildCoarse(video_);
 }
 
 void LumaPyramids::buildStill(const gpu::Texture& still, const StereoRig& rig) {

@@ -1,4 +1,4 @@
-#include "pipeline/superres/still_reducer.h"
+#include "pipeline/gles/still_reducer.h"
 
 #include <string>
 

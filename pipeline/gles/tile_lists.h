@@ -1,6 +1,7 @@
 #pragma once
 
-#include "pipeline/plan/work_plan.h"
+#include "base/gl/pass.h"
+#include "pipeline/gles/tile_buffer.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,10 +18,10 @@ public:
         int vectors, errors;
     };
 
-    /// `cells` of the finest level; the plan opens and shuts the search for tiles.
-    TileLists(Size cells, int levels, WorkPlan& plan);
+    /// `cells` of the finest level.
+    TileLists(Size cells, int levels);
 
-    void find(const Field& field, const WorkPlan& plan);
+    void find(const Field& field, const TileBuffer& tiles);
     /// Nothing is listed any more.
     void clear();
 
@@ -48,14 +49,12 @@ private:
     struct Level {
         Size groups;
         int first;
-        WorkPlan::Dispatch dispatch;
     };
 
     Size cells_, tiles_;
     std::vector<Level> levels_;
     int countBefore_ = 0;
     gpu::Buffer flags_, commands_, lists_;
-    WorkPlan::Dispatch flagDispatch_;
     gpu::ComputePass<FlagParams> flag_;
     gpu::ComputePass<ListParams> list_;
 };

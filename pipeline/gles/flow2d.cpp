@@ -1,4 +1,4 @@
-#include "pipeline/flow/flow2d.h"
+#include "pipeline/gles/flow2d.h"
 
 #include "pipeline/flow/cell_field.h"
 
@@ -32,15 +32,18 @@ Size cellsOf(const LumaLevel& level) {
     return cellsOf(Size{level.width, level.height});
 }
 
-int levelsOf(const LumaPyramids& pyramids, const Flow2dOptions& options) {
-    return std::min(static_cast<int>(pyramids.video().size()), options.levels);
+std::vector<LumaLevel> levelsOf(Size video, const Flow2dOptions& options) {
+    std::int32_t words = 0;
+    std::vector<LumaLevel> levels = lumaLayout(video, words);
+    levels.resize(std::min(levels.size(), static_cast<std::size_t>(options.levels)));
+    return levels;
 }
 
 }  // namespace
 
-Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions& options)
+Flow2d::Flow2d(Size video, const Flow2dOptions& options)
     : options_(validated(options)),
-      searched_(cellsOf(pyramids.video()[0]), levelsOf(pyramids, options), plan),
+      searched_(cellsOf(video), static_cast<int>(levelsOf(video, options).size())),
       search_("flow_search.comp"), searchListed_("flow_search.comp", "#define LISTED\n"),
       propagate_("flow_propagate.comp"), align_("flow_align.comp"), filter_("flow_filter.comp") {
     int next = 0;
@@ -50,12 +53,12 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions
         return at;
     };
     for (std::vector<Stage>* stages : {&forwardStages_, &backwardStages_}) {
-        for (int i = 0; i < levelsOf(pyramids, options); ++i) {
-            const Size cells = cellsOf(pyramids.video()[i]);
-            stages->push_back({cells,
-                               {take(cells), take(cells)},
-                               plan.add({gpu::groupsFor(cells.width, kGroup),
-                                         gpu::groupsFor(cells.height, kGroup), 1})});
+        for (const LumaLevel& level : levelsOf(video, options)) {
+            const Size cells = cellsOf(level);
+            stages->push_back(
+                {cells,
+                 {take(cells), take(cells)},
+                 {gpu::groupsFor(cells.width, kGroup), gpu::groupsFor(cells.height, kGroup), 1}});
         }
     }
     forward_ = {take(forwardStages_[0].cells), forwardStages_[0].cells};
@@ -66,64 +69,65 @@ Flow2d::Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions
     patches_ = gpu::Buffer(static_cast<std::size_t>(next) * 4 * sizeof(float));
 }
 
-void Flow2d::run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePrior) {
+void Flow2d::run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior) {
     errorsGiven_ = false;
     searched_.clear();
-    const auto& video = pyramids.video();
-    const auto& still = pyramids.still();
-    run({video, still, forwardStages_, 0, options_.propagations, usePrior}, pyramids, plan);
-    run({still, video, backwardStages_, backward_.level, kBackwardPropagations, false}, pyramids,
-        plan);
-    filter(forwardStages_[0], forward_, plan);
-    filter(backwardStages_[backward_.level], backward_, plan);
+    if (tiles.work().matched == 0) return;
+    run({luma.video, luma.still, forwardStages_, 0, options_.propagations, usePrior}, luma);
+    run({luma.still, luma.video, backwardStages_, backward_.level, kBackwardPropagations, false},
+        luma);
+    filter(forwardStages_[0], forward_, tiles);
+    filter(backwardStages_[backward_.level], backward_, tiles);
 }
 
-void Flow2d::refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells forward,
-                    Cells errors) {
+void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors) {
     errorsGiven_ = true;
     patches_.write(forward, 16UL * seed_);
     patches_.write(errors, 16UL * backward_.offset);
+    if (tiles.work().matched == 0) {
+        searched_.clear();
+        return;
+    }
     const Stage& stage = forwardStages_[0];
-    align(seed_, pyramids, plan);
-    searched_.find({patches_, stage.area[0], backward_.offset}, plan);
-    searchListed(pyramids);
-    filter(stage, forward_, plan);
+    align(seed_, luma, tiles);
+    searched_.find({patches_, stage.area[0], backward_.offset}, tiles);
+    searchListed(luma);
+    filter(stage, forward_, tiles);
 }
 
 // No propagation: a listed group's neighbours need not be listed. What the lines found is a
 // candidate at every level, and at the finest it stays where nothing fits better.
-void Flow2d::searchListed(const LumaPyramids& pyramids) {
-    const Direction way{pyramids.video(), pyramids.still(), forwardStages_, 0, 0, false};
+void Flow2d::searchListed(const LumaOnGpu& luma) {
+    const Direction way{luma.video, luma.still, forwardStages_, 0, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
         SearchParams p = searchParams(way, level, 0, std::min(kListedRadius, options_.searchRadius),
                                       forwardStages_[0].area[0]);
         put(p.listed, searched_.first(level), level == 0 ? backward_.offset : -1, 0, 0);
         searchListed_.runIndirect(p,
-                                  {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_),
+                                  {gpu::storage(0, luma.words), gpu::storage(1, patches_),
                                    gpu::storage(2, searched_.lists())},
                                   searched_.commands(), 16UL * level);
     }
 }
 
-void Flow2d::run(const Direction& way, const LumaPyramids& pyramids, const WorkPlan& plan) {
+void Flow2d::run(const Direction& way, const LumaOnGpu& luma) {
     const int coarsest = static_cast<int>(way.stages.size()) - 1;
     for (int level = coarsest; level >= way.finest; --level) {
         int rounds = 1;
         if (level == way.finest) rounds = way.finestPropagations;
         if (level == coarsest) rounds = options_.coarsestPropagations;
-        search(way, level, rounds % 2, pyramids, plan);  // so that the last round ends in area 0
+        search(way, level, rounds % 2, luma);  // so that the last round ends in area 0
         for (int round = rounds; round > 0; --round)
-            propagate(way, level, (round - 1) % 2, pyramids, plan);
+            propagate(way, level, (round - 1) % 2, luma);
     }
 }
 
-void Flow2d::search(const Direction& way, int level, int area, const LumaPyramids& pyramids,
-                    const WorkPlan& plan) {
+void Flow2d::search(const Direction& way, int level, int area, const LumaOnGpu& luma) {
     const SearchParams p =
         searchParams(way, level, area, way.usePrior ? kTrackingRadius : options_.searchRadius,
                      way.usePrior ? forward_.offset : -1);
-    plan.run(search_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
-             way.stages[level].dispatch);
+    search_.run(p, {gpu::storage(0, luma.words), gpu::storage(1, patches_)},
+                way.stages[level].groups);
 }
 
 // `prior`: first vec4 of a field of the finest level whose vectors are candidates, or -1.
@@ -157,32 +161,29 @@ Flow2d::LevelParams Flow2d::levelParams(const LumaLevel& from, const LumaLevel& 
     return p;
 }
 
-void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,
-                       const WorkPlan& plan) {
+void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaOnGpu& luma) {
     const Stage& stage = way.stages[level];
     const LevelParams p = levelParams(way.from[level], way.to[level], stage.cells,
                                       stage.area[toArea], stage.area[1 - toArea], kPropagateSteps);
-    plan.run(propagate_, p, {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_)},
-             stage.dispatch);
+    propagate_.run(p, {gpu::storage(0, luma.words), gpu::storage(1, patches_)}, stage.groups);
 }
 
-void Flow2d::align(int in, const LumaPyramids& pyramids, const WorkPlan& plan) {
+void Flow2d::align(int in, const LumaOnGpu& luma, const TileBuffer& tiles) {
     const Stage& stage = forwardStages_[0];
-    const LevelParams p = levelParams(pyramids.video()[0], pyramids.still()[0], stage.cells,
-                                      stage.area[0], in, kAlignSteps);
-    plan.run(align_, p,
-             {gpu::storage(0, pyramids.words()), gpu::storage(1, patches_),
-              gpu::storage(2, plan.tiles())},
-             stage.dispatch);
+    const LevelParams p =
+        levelParams(luma.video[0], luma.still[0], stage.cells, stage.area[0], in, kAlignSteps);
+    align_.run(
+        p,
+        {gpu::storage(0, luma.words), gpu::storage(1, patches_), gpu::storage(2, tiles.buffer())},
+        stage.groups);
 }
 
-void Flow2d::filter(const Stage& stage, const Field& out, const WorkPlan& plan) {
+void Flow2d::filter(const Stage& stage, const Field& out, const TileBuffer& tiles) {
     FilterParams p{};
     // The cells of a coarser level are not those of a tile.
     put(p.cells, stage.cells.width, stage.cells.height, options_.planeFits, out.level == 0 ? 1 : 0);
     put(p.offsets, out.offset, stage.area[0], 0, 0);
-    plan.run(filter_, p, {gpu::storage(1, patches_), gpu::storage(2, plan.tiles())},
-             stage.dispatch);
+    filter_.run(p, {gpu::storage(1, patches_), gpu::storage(2, tiles.buffer())}, stage.groups);
 }
 
 }  // namespace mfar

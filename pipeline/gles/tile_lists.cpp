@@ -1,4 +1,4 @@
-#include "pipeline/flow/tile_lists.h"
+#include "pipeline/gles/tile_lists.h"
 
 #include <algorithm>
 #include <array>
@@ -21,22 +21,21 @@ int divideUp(int a, int b) {
     return (a + b - 1) / b;
 }
 
-WorkPlan::Dispatch addGroups(WorkPlan& plan, Size size) {
-    return plan.add(
-        {gpu::groupsFor(size.width, kTileGroup), gpu::groupsFor(size.height, kTileGroup), 1});
+gpu::Groups groupsOf(Size size) {
+    return {gpu::groupsFor(size.width, kTileGroup), gpu::groupsFor(size.height, kTileGroup), 1};
 }
 
 }  // namespace
 
-TileLists::TileLists(Size cells, int levels, WorkPlan& plan)
+TileLists::TileLists(Size cells, int levels)
     : cells_(cells),
       tiles_{divideUp(cells.width, kCellsPerTile), divideUp(cells.height, kCellsPerTile)},
       flags_(sizeof(std::uint32_t) * tiles_.width * tiles_.height), commands_(16UL * levels),
-      flagDispatch_(addGroups(plan, tiles_)), flag_("flow_flag.comp"), list_("flow_list.comp") {
+      flag_("flow_flag.comp"), list_("flow_list.comp") {
     int entries = 0;
     for (int l = 0; l < levels; ++l) {
         const Size groups{divideUp(tiles_.width, 1 << l), divideUp(tiles_.height, 1 << l)};
-        levels_.push_back({groups, entries, addGroups(plan, groups)});
+        levels_.push_back({groups, entries});
         entries += groups.width * groups.height;
     }
     lists_ = gpu::Buffer(sizeof(std::uint32_t) * entries);
@@ -48,13 +47,15 @@ void TileLists::clear() {
     commands_.write(std::span(none));
 }
 
-void TileLists::find(const Field& field, const WorkPlan& plan) {
+void TileLists::find(const Field& field, const TileBuffer& tiles) {
     clear();
+    const TileWork& work = tiles.work();
+    if (work.matched == 0) return;
     FlagParams f{{tiles_.width, tiles_.height, cells_.width, cells_.height},
                  {field.vectors, field.errors, kLeastCells, 0},
-                 {static_cast<float>(kTexturePerVariance * (1 + plan.noise() * plan.noise())),
+                 {static_cast<float>(kTexturePerVariance * (1 + work.noise * work.noise)),
                   kUnexplained, kNotShown, 0}};
-    plan.run(flag_, f, {gpu::storage(1, field.patches), gpu::storage(2, flags_)}, flagDispatch_);
+    flag_.run(f, {gpu::storage(1, field.patches), gpu::storage(2, flags_)}, groupsOf(tiles_));
     for (int l = 0; l < static_cast<int>(levels_.size()); ++l) {
         const Level& level = levels_[l];
         // A group's search looks at the coarser groups beside its own, and those at theirs.
@@ -62,9 +63,8 @@ void TileLists::find(const Field& field, const WorkPlan& plan) {
         const ListParams p{{tiles_.width, tiles_.height, 0, 0},
                            {level.groups.width, level.groups.height, 1 << l, margin},
                            {l, level.first, 0, 0}};
-        plan.run(list_, p,
-                 {gpu::storage(0, flags_), gpu::storage(1, commands_), gpu::storage(2, lists_)},
-                 level.dispatch);
+        list_.run(p, {gpu::storage(0, flags_), gpu::storage(1, commands_), gpu::storage(2, lists_)},
+                  groupsOf(level.groups));
     }
 }
 

@@ -3,7 +3,7 @@
 #include "base/geometry.h"
 #include "base/gl/pass.h"
 #include "pipeline/gles/picture_texture.h"
-#include "pipeline/superres/still_reducer.h"
+#include "pipeline/gles/still_reducer.h"
 
 #include <cstdint>
 #include <optional>
@@ -15,17 +15,12 @@ namespace mfar {
 /// output shows the still's pixels smaller than its own, the still is reduced to the output's.
 class StillReference {
 public:
-    /// `output`: size of what is made of the video's whole picture.
-    StillReference(const StereoRig& rig, Size output);
+    /// `output`: size of what is made of the video's whole picture. `picture` takes the stills; it
+    /// has a linear filter and must outlive this.
+    StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture);
 
     /// Size must be the still camera's; the pixel format may change from one still to the next.
     void set(const ImageView& still);
-
-    /// See PictureTexture.
-    void setImporter(PlaneImporter* importer) { picture_.setImporter(importer); }
-    [[nodiscard]] std::optional<std::string> takeImportFault() {
-        return picture_.takeImportFault();
-    }
 
     /// The rig with the still camera as picture() has it: the same lens, maybe fewer pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
@@ -46,7 +41,7 @@ private:
     };
 
     StereoRig rig_;
-    gpu::PictureTexture picture_;
+    gpu::PictureTexture& picture_;
     std::optional<StillReducer> reducer_;
     gpu::Texture low_, detail_;
     gpu::Framebuffer lowTarget_, detailTarget_;

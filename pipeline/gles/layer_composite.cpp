@@ -1,4 +1,4 @@
-#include "pipeline/composite/composite.h"
+#include "pipeline/gles/layer_composite.h"
 
 #include "base/gl/scoped_state.h"
 
@@ -6,25 +6,15 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace mfar {
 namespace {
 
 constexpr const char* kScaled = "#define SCALED_LAYER 1\n";
 
-void require(const char* name, double value, double least) {
-    constexpr double kMost = 1000;
-    if (!(value >= least && value <= kMost))
-        throw std::invalid_argument("composite option " + std::string(name) + " is " +
-                                    std::to_string(value) + ", not from " + std::to_string(least) +
-                                    " to 1000");
-}
-
 }  // namespace
 
-Composite::Composite(Size video, Size output, Size layer, const CompositeOptions& options)
+LayerComposite::LayerComposite(Size video, Size output, Size layer, const CompositeOptions& options)
     : video_(video), layer_(layer), options_(options), range_(video, gpu::TexelFormat::Rg32F),
       visibility_(output, gpu::TexelFormat::R8), open_(output, gpu::TexelFormat::Depth24),
       rangeTarget_(range_),
@@ -33,13 +23,10 @@ Composite::Composite(Size video, Size output, Size layer, const CompositeOptions
       decidePass_("visibility_decide.frag", layer == output ? "" : kScaled),
       samplePass_("visibility_sample.frag", layer == output ? "" : kScaled),
       blendPass_("visibility_blend.frag", layer == output ? "" : kScaled) {
-    require("bias", options.bias, 0);
-    require("softness", options.softness, 0.01);
-    require("virtualSigma", options.virtualSigma, 0);
-    require("likeness", options.likeness, 0.1);
+    validate(options);
 }
 
-Composite::Params Composite::params() const {
+LayerComposite::Params LayerComposite::params() const {
     const Size output = visibility_.size();
     const double likeness = options_.likeness / 255;
     Params p{};
@@ -60,7 +47,7 @@ Composite::Params Composite::params() const {
     return p;
 }
 
-PixelRect Composite::videoPixels(const PixelRect& bounds) const {
+PixelRect LayerComposite::videoPixels(const PixelRect& bounds) const {
     const Size output = visibility_.size();
     const double sx = static_cast<double>(video_.width) / output.width;
     const double sy = static_cast<double>(video_.height) / output.height;
@@ -72,7 +59,7 @@ PixelRect Composite::videoPixels(const PixelRect& bounds) const {
             std::min(below(bounds.y1, sy) + 1, video_.height)};
 }
 
-PixelRect Composite::outputPixels(const PixelRect& layerPixels) const {
+PixelRect LayerComposite::outputPixels(const PixelRect& layerPixels) const {
     const Size output = visibility_.size();
     const PixelRect all{0, 0, output.width, output.height};
     if (layerPixels.empty() || layer_ == output) return common(layerPixels, all);
@@ -88,9 +75,9 @@ PixelRect Composite::outputPixels(const PixelRect& layerPixels) const {
         all);
 }
 
-void Composite::run(const VirtualLayer& layer, const gpu::Texture& realDepth,
-                    const gpu::Texture& video, const gpu::Texture& picture,
-                    const gpu::Framebuffer& target) {
+void LayerComposite::run(const VirtualLayer& layer, const gpu::Texture& realDepth,
+                         const gpu::Texture& video, const gpu::Texture& picture,
+                         const gpu::Framebuffer& target) {
     assert(realDepth.size() == video_ && video.size() == video_);
     assert(picture.size() == visibility_.size());
     assert(layer.colour->size() == layer_ && layer.depth->size() == layer_);

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "pipeline/flow/flow_options.h"
-#include "pipeline/flow/luma_pyramid.h"
-#include "pipeline/flow/tile_lists.h"
+#include "pipeline/gles/luma_pyramids.h"
+#include "pipeline/gles/tile_lists.h"
 
 #include <array>
 #include <span>
@@ -24,21 +24,21 @@ public:
     };
 
     /// Throws std::invalid_argument for options out of range.
-    Flow2d(const LumaPyramids& pyramids, WorkPlan& plan, const Flow2dOptions& options = {});
+    explicit Flow2d(Size video, const Flow2dOptions& options = {});
 
     /// See changed() in flow_options.h; takes effect with the next run. Throws
     /// std::invalid_argument for options out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Computes both fields, as far as the plan asks for it. `usePrior`: the last frame's field is
-    /// a candidate everywhere (not after a new still).
-    void run(const LumaPyramids& pyramids, const WorkPlan& plan, bool usePrior);
+    /// Computes both fields; does nothing where no tile is matched. `usePrior`: the last frame's
+    /// field is a candidate everywhere (not after a new still).
+    void run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior);
 
     /// Computes the forward field from one vector per cell that is right but for a fraction of a
     /// pixel; `errors`: what is known of the two-way error of eq. 2, in x [px]. Tiles where the
     /// vectors turn out wrong, as nothing explains, are searched in 2-D from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
-    void refine(const LumaPyramids& pyramids, const WorkPlan& plan, Cells forward, Cells errors);
+    void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 
     /// The tiles that the last refine() had to search.
     [[nodiscard]] const TileLists& searched() const { return searched_; }
@@ -74,7 +74,7 @@ private:
     struct Stage {
         Size cells;
         int area[2];
-        WorkPlan::Dispatch dispatch;
+        gpu::Groups groups;
     };
     /// One way to go through the levels, from coarse to fine.
     struct Direction {
@@ -86,19 +86,17 @@ private:
         bool usePrior;
     };
 
-    void run(const Direction& way, const LumaPyramids& pyramids, const WorkPlan& plan);
-    void search(const Direction& way, int level, int area, const LumaPyramids& pyramids,
-                const WorkPlan& plan);
-    void searchListed(const LumaPyramids& pyramids);
+    void run(const Direction& way, const LumaOnGpu& luma);
+    void search(const Direction& way, int level, int area, const LumaOnGpu& luma);
+    void searchListed(const LumaOnGpu& luma);
     [[nodiscard]] SearchParams searchParams(const Direction& way, int level, int area, int radius,
                                             int prior) const;
     [[nodiscard]] static LevelParams levelParams(const LumaLevel& from, const LumaLevel& to,
                                                  Size cells, int out, int in, int steps);
-    void propagate(const Direction& way, int level, int toArea, const LumaPyramids& pyramids,
-                   const WorkPlan& plan);
+    void propagate(const Direction& way, int level, int toArea, const LumaOnGpu& luma);
     /// Lets the vectors from `in` on take Gauss-Newton steps.
-    void align(int in, const LumaPyramids& pyramids, const WorkPlan& plan);
-    void filter(const Stage& stage, const Field& out, const WorkPlan& plan);
+    void align(int in, const LumaOnGpu& luma, const TileBuffer& tiles);
+    void filter(const Stage& stage, const Field& out, const TileBuffer& tiles);
 
     Flow2dOptions options_;
     std::vector<Stage> forwardStages_, backwardStages_;

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "base/gl/pass.h"
+#include "pipeline/gles/luma_pyramids.h"
+#include "pipeline/gles/tile_buffer.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// Flow and luma on the GPU, as the weighing reads them.
+struct WeighInput {
+    const std::vector<LumaLevel>&video, &still;
+    const gpu::Buffer& words;
+    const gpu::Buffer& patches;
+    int first;               ///< entry of the forward field in `patches`; the other follows
+    Size forward, backward;  ///< [cells]
+    int backwardLevel;       ///< of the pyramid
+    bool errorsGiven;        ///< two-way errors stand in place of the backward field
+};
+
+/// Weighs the still cell by cell: how well it matches, and the sensors' photometric gain.
+class CellWeigher {
+public:
+    explicit CellWeigher(const StereoRig& rig);
+
+    /// Does nothing where no tile has changed.
+    void run(const WeighInput& in, const TileBuffer& tiles);
+
+    [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }  ///< Rgba32F
+    [[nodiscard]] const gpu::Texture& lookUps() const { return lookUps_; }  ///< Rgba16F, linear
+    [[nodiscard]] const gpu::Texture& trust() const { return trust_; }      ///< Rgba8, linear
+
+private:
+    struct AssessParams {
+        RigParams rig;
+        LumaLevel video, still;
+        std::int32_t cells[4], offsets[4];
+        float tune[4], stillSize[4];
+    };
+    struct GainParams {
+        LumaLevel video, still;
+        std::int32_t cells[4], offsets[4];
+    };
+    struct WeighParams {
+        std::int32_t cells[4];
+        float tune[4];
+    };
+
+    void assess(const WeighInput& in, const TileBuffer& tiles);
+    void measureGain(const WeighInput& in, const TileBuffer& tiles);
+    void weigh(double noise);
+
+    StereoRig rig_;
+    Size cells_, halfCells_;
+    gpu::Texture displacement_, statistics_, halfStatistics_, weighed_, lookUps_, trust_;
+    gpu::ComputePass<AssessParams> assess_;
+    gpu::ComputePass<GainParams> gain_;
+    gpu::ComputePass<WeighParams> weigh_;
+};
+
+}  // namespace mfar

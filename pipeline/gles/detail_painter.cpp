@@ -1,0 +1,197 @@
+#include "pipeline/gles/detail_painter.h"
+
+#include "base/gl/scoped_state.h"
+#include "pipeline/flow/cell_field.h"
+
+#include <algorithm>
+
+namespace mfar {
+namespace {
+
+// Below this weight the detail changes no pixel by a grey level.
+constexpr float kLeastWeight = 0.02F;
+// A tile within these spreads is drawn as one quad; 0.08 px are 0.3 px of the output.
+constexpr float kPlainFlow = 0.08F;
+constexpr float kPlainWeight = 0.25F;
+constexpr std::uint32_t kQuadVertices = 6;
+constexpr const char* kLinear = "#define LINEAR\n";
+constexpr const char* kPlain = "#define PLAIN_TILE\n";
+
+}  // namespace
+
+DetailPainter::DetailPainter(const StereoRig& stillRig, Size output)
+    : rig_(stillRig), video_(stillRig.video.size), cells_(cellsOf(video_)), tiles_(tilesOf(video_)),
+      blank_(cells_, gpu::TexelFormat::Rgba8), sharpened_(video_, gpu::TexelFormat::Rgba8),
+      columns_({video_.width, output.height}, gpu::TexelFormat::Rgba8),
+      output_(output, gpu::TexelFormat::Rgba8), sharpenedTarget_(sharpened_),
+      columnsTarget_(columns_), outputTarget_(output_),
+      classes_(8 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
+      lists_(16 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
+      draws_{gpu::Buffer(sizeof(DrawBlock)), gpu::Buffer(sizeof(DrawBlock))},
+      classify_("superres_classify.comp"), sharpen_("superres_sharpen.frag"),
+      wholeDetail_("composite_detail.frag"), wholeBlend_("composite_blend.frag"),
+      detail_("tile_rect.vert", "composite_detail.frag", ""),
+      plainDetail_("tile_rect.vert", "composite_detail.frag", kPlain),
+      blend_("tile_rect.vert", "composite_blend.frag", ""),
+      plainBlend_("tile_rect.vert", "composite_blend.frag", kPlain) {}
+
+void DetailPainter::classify(const Matched* matched, const TileBuffer& tiles,
+                             const DetailOptions& options) {
+    current_ = 1 - current_;
+    DrawBlock block{};
+    for (auto& command : block.commands)
+        command[0] = kQuadVertices;
+    draws_[current_].write(std::span<const DrawBlock>(&block, 1));
+    ClassifyParams p{};
+    p.tiles[0] = tiles_.width;
+    p.tiles[1] = tiles_.height;
+    p.tiles[2] = cells_.width;
+    p.tiles[3] = cells_.height;
+    p.tune[0] = options.upscaledTiles ? kLeastWeight : -1.0F;
+    p.tune[1] = options.plainTiles ? kPlainFlow : 0.0F;
+    p.tune[2] = kPlainWeight;
+    p.tune[3] = matched != nullptr ? 0.0F : 1.0F;
+    classify_.run(p,
+                  {gpu::storage(0, tiles.buffer()), gpu::storage(1, classes_),
+                   gpu::storage(2, draws_[current_]), gpu::storage(3, lists_),
+                   gpu::sampler(0, matched != nullptr ? matched->weighed : blank_),
+                   gpu::sampler(1, matched != nullptr ? matched->trust : blank_)},
+                  {gpu::groupsFor(tiles_.width, 8), gpu::groupsFor(tiles_.height, 8), 1});
+}
+
+gpu::InstanceList DetailPainter::list(List which) const {
+    const std::size_t tiles = static_cast<std::size_t>(tiles_.width) * tiles_.height;
+    const auto index = static_cast<std::size_t>(which);
+    return {draws_[current_], 16 * index, lists_, 4 * index * tiles};
+}
+
+DetailPainter::TileParams DetailPainter::tileParams(bool sharpens) const {
+    TileParams p{};
+    p.video[0] = video_.width;
+    p.video[1] = video_.height;
+    p.video[2] = cells_.width;
+    p.video[3] = cells_.height;
+    p.scale[0] = static_cast<float>(video_.width) / static_cast<float>(output_.size().width);
+    p.scale[1] = static_cast<float>(video_.height) / static_cast<float>(output_.size().height);
+    p.scale[2] = 1.0F / static_cast<float>(rig_.still.size.width);
+    p.scale[3] = 1.0F / static_cast<float>(rig_.still.size.height);
+    p.tune[0] = sharpens ? 1.0F : 0.0F;
+    p.tune[2] = p.scale[0] * static_cast<float>(rig_.still.fx / rig_.video.fx);
+    p.tune[3] = p.scale[1] * static_cast<float>(rig_.still.fy / rig_.video.fy);
+    return p;
+}
+
+void DetailPainter::drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
+                             const gpu::Framebuffer& target, const TileWork& work) {
+    if (work.drawsWhole())
+        pass.whole.run(params, bindings, target);
+    else
+        pass.tiles.runTiles(params, bindings, target, list(List::All));
+}
+
+// Tiles beside those that are drawn are looked at, too: after frames without, all are made.
+void DetailPainter::sharpen(const TileParams& params, const gpu::Texture& video,
+                            const gpu::Texture& trust, const TileWork& work) {
+    const gpu::Bindings from{gpu::sampler(0, video), gpu::sampler(1, trust)};
+    if (sharpenedIsOld_)
+        sharpen_.whole.run(params, from, sharpenedTarget_);
+    else
+        drawBoth(sharpen_, params, from, sharpenedTarget_, work);
+}
+
+DetailPainter::Enlarging& DetailPainter::enlarging(bool cubic) {
+    if (cubic) return cubicly_;
+    if (!linearly_) linearly_.emplace(kLinear);
+    return *linearly_;
+}
+
+void DetailPainter::drawDetail(gpu::DrawPass<TileParams>& detail, const TileParams& params,
+                               gpu::Bindings bindings, const TileWork& work) {
+    const PixelRect in = outputOf(work.detailTiles);
+    const auto [width, height] = output_.size();
+    for (const PixelRect& part :
+         {PixelRect{0, 0, width, in.y0}, PixelRect{0, in.y1, width, height},
+          PixelRect{0, in.y0, in.x0, in.y1}, PixelRect{in.x1, in.y0, width, in.y1}}) {
+        if (part.empty()) continue;
+        const gpu::Scissor scissor(part);
+        cubicly_.rows.whole.run(params, {gpu::sampler(0, columns_)}, outputTarget_);
+    }
+    const gpu::Scissor scissor(in);
+    detail.run(params, bindings, outputTarget_);
+}
+
+// The pixels of the output that show these tiles, or parts of them.
+PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
+    const auto [width, height] = output_.size();
+    const auto at = [](int tile, int video, int out, int rest) {
+        const long pixels = std::min(tile * kTileSize, video) * static_cast<long>(out);
+        return static_cast<int>((pixels + rest * (video - 1)) / video);
+    };
+    return {at(tiles.x0, video_.width, width, 0), at(tiles.y0, video_.height, height, 0),
+            at(tiles.x1, video_.width, width, 1), at(tiles.y1, video_.height, height, 1)};
+}
+
+void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
+                         const DetailOptions& options) {
+    const TileWork& work = tiles.work();
+    // Both counts of a frame at rest are there after two of them.
+    restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
+    if (restingFrames_ <= 2) classify(matched, tiles, options);
+    // A draw of no tiles would have its shader compiled all the same.
+    if (restingFrames_ > 0) return;
+
+    const bool sharpens = matched != nullptr && options.mode == SuperResMode::Detail;
+    const TileParams p = tileParams(sharpens);
+    if (sharpens) sharpen(p, video, matched->trust, work);
+    sharpenedIsOld_ = !sharpens;
+    Enlarging& enlarging = this->enlarging(options.cubic);
+    drawBoth(enlarging.columns, p, {gpu::sampler(0, sharpens ? sharpened_ : video)}, columnsTarget_,
+             work);
+    if (!work.drawsWhole())
+        enlarging.rows.tiles.runTiles(p, {gpu::sampler(0, columns_)}, outputTarget_,
+                                      list(List::Upscaled));
+    const bool enlargesAll =
+        matched == nullptr ? work.drawsWhole() : work.draw == TileWork::Draw::WholeEnlarged;
+    if (enlargesAll) enlarging.rows.whole.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
+    if (matched != nullptr) drawMatched(*matched, p, work, options.mode);
+}
+
+void DetailPainter::drawMatched(const Matched& matched, const TileParams& params,
+                                const TileWork& work, SuperResMode mode) {
+    const bool blend = mode == SuperResMode::Blend;
+    const gpu::Bindings from{gpu::sampler(0, columns_), gpu::sampler(1, matched.still),
+                             gpu::sampler(2, matched.lookUps)};
+    if (work.draw == TileWork::Draw::Whole) {
+        drawDetail(blend ? wholeBlend_ : wholeDetail_, params, from, work);
+        return;
+    }
+    (blend ? plainBlend_ : plainDetail_).runTiles(params, from, outputTarget_, list(List::Trusted));
+    (blend ? blend_ : detail_).runTiles(params, from, outputTarget_, list(List::Blended));
+}
+
+TileSummary DetailPainter::summary(int which) const {
+    const auto block = draws_[which].read<DrawBlock>(1)[0];
+    TileSummary s;
+    int total = 0;
+    for (std::size_t i = 0; i < kTileClasses; ++i) {
+        s.tiles[i] = static_cast<int>(block.counts[i]);
+        total += s.tiles[i];
+    }
+    if (total == 0) return s;
+    s.changed = 1.0 - static_cast<double>(s.tiles[0]) / total;
+    s.explained = 1.0 - static_cast<double>(block.counts[5]) / total;
+    s.meanConfidence = block.counts[6] / (256.0 * total);
+    return s;
+}
+
+std::vector<TileClass> DetailPainter::readClasses() const {
+    const std::size_t tiles = static_cast<std::size_t>(tiles_.width) * tiles_.height;
+    const auto raw = classes_.read<std::array<std::uint32_t, 2>>(tiles);
+    std::vector<TileClass> out;
+    out.reserve(tiles);
+    for (const auto& r : raw)
+        out.push_back(static_cast<TileClass>(r[0]));
+    return out;
+}
+
+}  // namespace mfar

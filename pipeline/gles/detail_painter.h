@@ -1,0 +1,101 @@
+#pragma once
+
+#include "base/gl/pass.h"
+#include "pipeline/engine/steps.h"
+#include "pipeline/gles/tile_buffer.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace mfar {
+
+/// Turns video, still and weights into the high-resolution picture. Only the tiles that the plan
+/// calls changed are drawn; the others keep their pixels from earlier frames.
+class DetailPainter {
+public:
+    /// `stillRig`: with the still camera as its detail and picture are.
+    DetailPainter(const StereoRig& stillRig, Size output);
+
+    /// A still on the GPU, and how it matches.
+    struct Matched {
+        const gpu::Texture& still;    ///< its detail, or its picture in mode Blend; linear filter
+        const gpu::Texture& weighed;  ///< Rgba32F, as the other two one texel a cell
+        const gpu::Texture& lookUps;  ///< Rgba16F, linear filter
+        const gpu::Texture& trust;    ///< Rgba8, linear filter
+    };
+    /// Sorts the changed tiles into classes and draws them. Null: only enlarges.
+    void draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
+              const DetailOptions& options);
+
+    [[nodiscard]] const gpu::Texture& output() const { return output_; }
+    /// Draws into output(), for what comes over it.
+    [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
+
+    /// Counts of the frame before the last one drawn: already there, nothing waits for them.
+    [[nodiscard]] TileSummary summaryBefore() const { return summary(1 - current_); }
+    /// Counts of the last frame. Waits for the GPU.
+    [[nodiscard]] TileSummary summaryNow() const { return summary(current_); }
+    /// Class of every tile in the last frame, row-major. Waits for the GPU.
+    [[nodiscard]] std::vector<TileClass> readClasses() const;
+
+private:
+    struct ClassifyParams {
+        std::int32_t tiles[4];
+        float tune[4];
+    };
+    struct TileParams {  // tile_params.glsl
+        std::int32_t video[4];
+        float scale[4], tune[4];
+    };
+    /// The same shader over the whole target and over a list of tiles.
+    struct TilePass {
+        explicit TilePass(const char* fragment, const char* defines = "")
+            : whole(fragment, defines), tiles("tile_rect.vert", fragment, defines) {}
+        gpu::DrawPass<TileParams> whole, tiles;
+    };
+    struct Enlarging {
+        explicit Enlarging(const char* defines = "")
+            : columns("superres_vertical.frag", defines), rows("composite_upscale.frag", defines) {}
+        TilePass columns, rows;
+    };
+    /// draws[] of superres_classify.comp.
+    struct DrawBlock {
+        std::array<std::array<std::uint32_t, 4>, 4> commands;
+        std::array<std::uint32_t, 8> counts;
+    };
+    enum class List : std::uint32_t { All, Upscaled, Trusted, Blended };
+
+    [[nodiscard]] TileSummary summary(int which) const;
+    [[nodiscard]] gpu::InstanceList list(List which) const;
+    void classify(const Matched* matched, const TileBuffer& tiles, const DetailOptions& options);
+    void sharpen(const TileParams& params, const gpu::Texture& video, const gpu::Texture& trust,
+                 const TileWork& work);
+    void drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
+                  const gpu::Framebuffer& target, const TileWork& work);
+    void drawMatched(const Matched& matched, const TileParams& params, const TileWork& work,
+                     SuperResMode mode);
+    void drawDetail(gpu::DrawPass<TileParams>& detail, const TileParams& params,
+                    gpu::Bindings bindings, const TileWork& work);
+    [[nodiscard]] PixelRect outputOf(const PixelRect& tiles) const;
+    [[nodiscard]] TileParams tileParams(bool sharpens) const;
+    [[nodiscard]] Enlarging& enlarging(bool cubic);
+
+    StereoRig rig_;
+    Size video_, cells_, tiles_;
+    gpu::Texture blank_, sharpened_, columns_, output_;
+    gpu::Framebuffer sharpenedTarget_, columnsTarget_, outputTarget_;
+    gpu::Buffer classes_, lists_;
+    std::array<gpu::Buffer, 2> draws_;
+    int current_ = 0, restingFrames_ = 0;
+    bool sharpenedIsOld_ = true;  // from a frame before the last
+    gpu::ComputePass<ClassifyParams> classify_;
+    TilePass sharpen_;
+    Enlarging cubicly_;
+    std::optional<Enlarging> linearly_;  // made for the first frame that wants it
+    gpu::DrawPass<TileParams> wholeDetail_, wholeBlend_;
+    gpu::DrawPass<TileParams> detail_, plainDetail_, blend_, plainBlend_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "base/gl/buffer.h"
+#include "base/gl/texture.h"
+#include "pipeline/engine/field.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+
+namespace mfar {
+
+/// Entries of a storage buffer as a field of one row.
+class BufferCopy final : public DeviceCopy {
+public:
+    /// Part of a step's buffer: `count` entries of `entryBytes`, from the entry `first` on.
+    BufferCopy(const gpu::Buffer& buffer, int first, std::size_t count, std::size_t entryBytes)
+        : buffer_(&buffer), first_(first), count_(count), entryBytes_(entryBytes) {}
+    /// A buffer of its own.
+    BufferCopy(std::size_t count, std::size_t entryBytes)
+        : own_(count * entryBytes), buffer_(&*own_), count_(count), entryBytes_(entryBytes) {}
+
+    [[nodiscard]] const gpu::Buffer& buffer() const { return *buffer_; }
+    [[nodiscard]] int first() const { return first_; }  ///< entry
+
+    /// Into a buffer of its own alone.
+    void upload(const void* data, std::ptrdiff_t pitch) override;
+    void download(void* data, std::ptrdiff_t pitch) override;
+
+private:
+    std::optional<gpu::Buffer> own_;
+    const gpu::Buffer* buffer_;
+    int first_ = 0;
+    std::size_t count_, entryBytes_;
+};
+
+/// A texture as a field. A texel is on the host: R8 a byte, Rgba8 four bytes, R32F a float, the
+/// formats of four channels four floats; Rgba8 as `floats`: four floats in [0, 1].
+class TextureCopy final : public DeviceCopy {
+public:
+    /// A step's texture.
+    explicit TextureCopy(const gpu::Texture& texture, bool floats = false)
+        : texture_(&texture), floats_(floats) {}
+    /// A texture of its own.
+    TextureCopy(Size size, gpu::TexelFormat format, gpu::Filter filter, bool floats = false)
+        : own_(std::in_place, size, format, filter), texture_(&*own_), floats_(floats) {}
+
+    [[nodiscard]] const gpu::Texture& texture() const { return *texture_; }
+    /// Draws into the texture.
+    [[nodiscard]] const gpu::Framebuffer& target();
+
+    void upload(const void* data, std::ptrdiff_t pitch) override;
+    void download(void* data, std::ptrdiff_t pitch) override;
+
+private:
+    std::optional<gpu::Texture> own_;
+    const gpu::Texture* texture_;
+    std::optional<gpu::Framebuffer> target_;
+    bool floats_;
+};
+
+/// A field's copy in a storage buffer.
+template <class T>
+[[nodiscard]] const BufferCopy& bufferOf(const Field<T>& field) {
+    DeviceCopy& copy = field.device([&] {
+        return std::make_unique<BufferCopy>(static_cast<std::size_t>(field.size().width),
+                                            sizeof(T));
+    });
+    return static_cast<const BufferCopy&>(copy);
+}
+
+/// A field's copy in a texture, which gets this format and filter where it has to be made.
+template <class T>
+[[nodiscard]] TextureCopy& textureOf(const Field<T>& field, gpu::TexelFormat format,
+                                     gpu::Filter filter = gpu::Filter::Nearest,
+                                     bool floats = false) {
+    DeviceCopy& copy = field.device(
+        [&] { return std::make_unique<TextureCopy>(field.size(), format, filter, floats); });
+    return static_cast<TextureCopy&>(copy);
+}
+
+}  // namespace mfar

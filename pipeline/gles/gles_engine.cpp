@@ -1,0 +1,46 @@
+#include "base/gl/gl.h"
+#include "pipeline/gles/gles_steps.h"
+
+namespace mfar {
+namespace {
+
+class GlesEngine final : public Engine {
+public:
+    explicit GlesEngine(const StepSetup& setup)
+        : setup_(setup), stillRig_(stillFor(setup.output, setup.rig)),
+          frame_(setup.rig.video.size) {}
+
+    std::unique_ptr<StillStep> still() override { return gles::makeStillStep(setup_, frame_); }
+    std::unique_ptr<PyramidStep> pyramid() override {
+        return gles::makePyramidStep(setup_, frame_);
+    }
+    std::unique_ptr<FlowStep> flow() override { return gles::makeFlowStep(setup_, frame_); }
+    std::unique_ptr<WeighStep> weigh() override {
+        return gles::makeWeighStep(setup_, stillRig_, frame_);
+    }
+    std::unique_ptr<DetailStep> detail() override {
+        return gles::makeDetailStep(setup_, stillRig_, frame_);
+    }
+    std::unique_ptr<OcclusionStep> occlusion(Size layer) override {
+        return gles::makeOcclusionStep(setup_, layer, frame_);
+    }
+
+    void flush() override { glFlush(); }
+    void finish() override { glFinish(); }
+    void finishReading() override { frame_.finishReading(); }
+    void setImporter(PlaneImporter* importer) override { frame_.setImporter(importer); }
+    std::optional<std::string> takeImportFault() override { return frame_.takeImportFault(); }
+
+private:
+    StepSetup setup_;
+    StereoRig stillRig_;
+    gles::FrameOnGpu frame_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> makeGlesEngine(const StepSetup& setup) {
+    return std::make_unique<GlesEngine>(setup);
+}
+
+}  // namespace mfar

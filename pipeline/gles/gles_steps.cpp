@@ -1,0 +1,260 @@
+#include "pipeline/gles/gles_steps.h"
+
+#include "pipeline/gles/cell_weigher.h"
+#include "pipeline/gles/detail_painter.h"
+#include "pipeline/gles/device_copies.h"
+#include "pipeline/gles/flow2d.h"
+#include "pipeline/gles/luma_pyramids.h"
+#include "pipeline/gles/still_reference.h"
+#include "pipeline/simd/luma_rows.h"
+
+#include <cassert>
+#include <cstring>
+
+namespace mfar::gles {
+namespace {
+
+/// A still's texture whose rows on the host are its luma.
+class StillLumaCopy final : public DeviceCopy {
+public:
+    explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}
+
+    [[nodiscard]] const gpu::Texture& texture() const { return picture_.texture(); }
+    void upload(const void*, std::ptrdiff_t) override { assert(!"a still's luma comes from here"); }
+    void download(void* data, std::ptrdiff_t pitch) override {
+        const std::vector<std::uint8_t> rgba = texture().readRgba8();
+        const auto [width, height] = texture().size();
+        for (int y = 0; y < height; ++y)
+            simd::lumaRow(rgba.data() + 4UL * y * width, false, static_cast<std::size_t>(width),
+                          static_cast<std::uint8_t*>(data) + y * pitch);
+    }
+
+private:
+    const gpu::PictureTexture& picture_;
+};
+
+class GlesStill final : public StillStep {
+public:
+    GlesStill(const StepSetup& setup, FrameOnGpu& frame)
+        : still_(setup.rig, setup.output, frame.stillPicture()), lumaCopy_(frame.stillPicture()),
+          detailCopy_(still_.detail()) {
+        pictures_.rig = still_.rig();
+    }
+
+    const StillPictures& run(const ImageView& still, SuperResMode) override {
+        still_.set(still);
+        pictureCopy_.emplace(still_.picture());
+        pictures_.luma.writtenOnDevice(lumaCopy_, still_.whole().size());
+        pictures_.detail.writtenOnDevice(detailCopy_, still_.detail().size());
+        pictures_.picture.writtenOnDevice(*pictureCopy_, still_.picture().size());
+        return pictures_;
+    }
+    void setMode(SuperResMode) override {}
+
+private:
+    StillReference still_;
+    StillLumaCopy lumaCopy_;
+    TextureCopy detailCopy_;
+    std::optional<TextureCopy> pictureCopy_;  // the texture changes with the still's format
+    StillPictures pictures_;
+};
+
+class GlesPyramid final : public PyramidStep {
+public:
+    GlesPyramid(const StepSetup& setup, FrameOnGpu& frame)
+        : rig_(setup.rig), frame_(frame), pyramids_(setup.rig.video.size),
+          words_(static_cast<int>(pyramids_.words().bytes() / sizeof(std::uint32_t))),
+          copy_(pyramids_.words(), 0, static_cast<std::size_t>(words_), sizeof(std::uint32_t)),
+          luma_{pyramids_.video(), pyramids_.still(),
+                Field<std::uint32_t>({words_, 1}, setup.transfers)} {}
+
+    const LumaPyramid& video(const VideoFrame& frame, const TileWork& work) override {
+        if (work.matched > 0) pyramids_.buildVideo(frame_.video(frame));
+        return written();
+    }
+    const LumaPyramid& still(const StillPictures& still) override {
+        pyramids_.buildStill(lumaTexture(still), rig_);
+        return written();
+    }
+
+private:
+    // From the other engine it comes as luma, which samples as grey.
+    static const gpu::Texture& lumaTexture(const StillPictures& still) {
+        DeviceCopy& copy = still.luma.device([&] {
+            return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,
+                                                 gpu::Filter::Linear);
+        });
+        if (const auto* own = dynamic_cast<const StillLumaCopy*>(&copy)) return own->texture();
+        return static_cast<const TextureCopy&>(copy).texture();
+    }
+    const LumaPyramid& written() {
+        luma_.words.writtenOnDevice(copy_, {words_, 1});
+        return luma_;
+    }
+
+    StereoRig rig_;
+    FrameOnGpu& frame_;
+    LumaPyramids pyramids_;
+    int words_;
+    BufferCopy copy_;
+    LumaPyramid luma_;
+};
+
+class GlesFlow final : public FlowStep {
+public:
+    GlesFlow(const StepSetup& setup, FrameOnGpu& frame)
+        : frame_(frame), flow_(setup.rig.video.size, setup.flow2d),
+          entries_(2 * flow_.forward().cells.width * flow_.forward().cells.height),
+          copy_(flow_.patches(), flow_.forward().offset, static_cast<std::size_t>(entries_),
+                sizeof(FlowCell)),
+          cells_{Field<FlowCell>({entries_, 1}, setup.transfers), flow_.forward().cells,
+                 flow_.backward().cells, flow_.backward().level, false} {}
+
+    void setOptions(const Flow2dOptions& options) override { flow_.setOptions(options); }
+    const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) override {
+        flow_.run(lumaOf(luma), frame_.tiles(work), usePrior);
+        return written();
+    }
+    const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
+                            Cells errors) override {
+        flow_.refine(lumaOf(luma), frame_.tiles(work), vectors, errors);
+        return written();
+    }
+    std::vector<bool> searchedTiles() const override { return flow_.searched().read(); }
+    int searchedCount() const override { return flow_.searched().count(); }
+    int finishedSearchedCount() const override { return flow_.searched().countBefore(); }
+
+private:
+    static LumaOnGpu lumaOf(const LumaPyramid& luma) {
+        return {luma.video, luma.still, bufferOf(luma.words).buffer()};
+    }
+    const FlowCells& written() {
+        cells_.errorsGiven = flow_.errorsGiven();
+        cells_.cells.writtenOnDevice(copy_, {entries_, 1});
+        return cells_;
+    }
+
+    FrameOnGpu& frame_;
+    Flow2d flow_;
+    int entries_;
+    BufferCopy copy_;
+    FlowCells cells_;
+};
+
+class GlesWeigh final : public WeighStep {
+public:
+    GlesWeigh(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame)
+        : frame_(frame), weigher_(stillRig), weighedCopy_(weigher_.weighed()),
+          lookUpCopy_(weigher_.lookUps()), trustCopy_(weigher_.trust(), true),
+          weights_{Field<WeighedCell>({}, setup.transfers), Field<LookUpCell>({}, setup.transfers),
+                   Field<TrustCell>({}, setup.transfers)} {}
+
+    const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
+                           const TileWork& work) override {
+        if (work.changed > 0) {
+            const BufferCopy& cells = bufferOf(flow.cells);
+            weigher_.run({luma.video, luma.still, bufferOf(luma.words).buffer(), cells.buffer(),
+                          cells.first(), flow.forward, flow.backward, flow.backwardLevel,
+                          flow.errorsGiven},
+                         frame_.tiles(work));
+        }
+        const Size cells = weigher_.weighed().size();
+        weights_.weighed.writtenOnDevice(weighedCopy_, cells);
+        weights_.lookUps.writtenOnDevice(lookUpCopy_, cells);
+        weights_.trust.writtenOnDevice(trustCopy_, cells);
+        return weights_;
+    }
+
+private:
+    FrameOnGpu& frame_;
+    CellWeigher weigher_;
+    TextureCopy weighedCopy_, lookUpCopy_, trustCopy_;
+    CellWeights weights_;
+};
+
+class GlesDetail final : public DetailStep {
+public:
+    GlesDetail(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame)
+        : frame_(frame), painter_(stillRig, setup.output), copy_(painter_.output()),
+          output_({}, setup.transfers) {
+        output_.writtenOnDevice(copy_, setup.output);
+    }
+
+    void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
+              const DetailOptions& options) override {
+        const TileBuffer& tiles = frame_.tiles(work);
+        // At rest the video is not looked at.
+        const gpu::Texture& video = work.changed > 0 ? frame_.video(frame) : painter_.output();
+        if (matched == nullptr) {
+            painter_.draw(video, nullptr, tiles, options);
+        } else {
+            const DetailPainter::Matched on = texturesOf(*matched, options.mode);
+            painter_.draw(video, &on, tiles, options);
+        }
+        if (work.changed > 0) output_.writtenOnDevice(copy_, painter_.output().size());
+    }
+    Field<std::uint32_t>& output() override { return output_; }
+    TileSummary summary() const override { return painter_.summaryNow(); }
+    TileSummary finishedSummary() const override { return painter_.summaryBefore(); }
+    std::vector<TileClass> classes() const override { return painter_.readClasses(); }
+
+private:
+    static DetailPainter::Matched texturesOf(const Matched& matched, SuperResMode mode) {
+        const auto linear = gpu::Filter::Linear;
+        const StillPictures& still = matched.still;
+        const CellWeights& weights = matched.weights;
+        return {mode == SuperResMode::Blend
+                    ? textureOf(still.picture, gpu::TexelFormat::Rgba8, linear).texture()
+                    : textureOf(still.detail, gpu::TexelFormat::R8, linear).texture(),
+                textureOf(weights.weighed, gpu::TexelFormat::Rgba32F).texture(),
+                textureOf(weights.lookUps, gpu::TexelFormat::Rgba16F, linear).texture(),
+                textureOf(weights.trust, gpu::TexelFormat::Rgba8, linear, true).texture()};
+    }
+
+    FrameOnGpu& frame_;
+    DetailPainter painter_;
+    TextureCopy copy_;
+    Field<std::uint32_t> output_;
+};
+
+}  // namespace
+
+const gpu::Texture& FrameOnGpu::video(const VideoFrame& frame) {
+    if (number_ != frame.number) video_.upload(frame.view);
+    number_ = frame.number;
+    return video_.texture();
+}
+
+void FrameOnGpu::setImporter(PlaneImporter* importer) {
+    video_.setImporter(importer);
+    still_.setImporter(importer);
+}
+
+std::optional<std::string> FrameOnGpu::takeImportFault() {
+    std::optional<std::string> fault = video_.takeImportFault();
+    return fault ? fault : still_.takeImportFault();
+}
+
+std::unique_ptr<StillStep> makeStillStep(const StepSetup& setup, FrameOnGpu& frame) {
+    return std::make_unique<GlesStill>(setup, frame);
+}
+
+std::unique_ptr<PyramidStep> makePyramidStep(const StepSetup& setup, FrameOnGpu& frame) {
+    return std::make_unique<GlesPyramid>(setup, frame);
+}
+
+std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup, FrameOnGpu& frame) {
+    return std::make_unique<GlesFlow>(setup, frame);
+}
+
+std::unique_ptr<WeighStep> makeWeighStep(const StepSetup& setup, const StereoRig& stillRig,
+                                         FrameOnGpu& frame) {
+    return std::make_unique<GlesWeigh>(setup, stillRig, frame);
+}
+
+std::unique_ptr<DetailStep> makeDetailStep(const StepSetup& setup, const StereoRig& stillRig,
+                                           FrameOnGpu& frame) {
+    return std::make_unique<GlesDetail>(setup, stillRig, frame);
+}
+
+}  // namespace mfar::gles

@@ -1,0 +1,35 @@
+#include "pipeline/gles/still_reference.h"
+
+#include "pipeline/superres/still_scale.h"
+
+namespace mfar {
+
+StillReference::StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture)
+    : rig_(stillFor(output, rig)), picture_(picture), low_(lowSizeOf(rig_), gpu::TexelFormat::R8),
+      detail_(rig_.still.size, gpu::TexelFormat::R8, gpu::Filter::Linear), lowTarget_(low_),
+      detailTarget_(detail_), lowPass_("still_low.frag"), detailPass_("still_detail.frag") {
+    if (rig_.still.size != rig.still.size) reducer_.emplace(rig.still.size, rig_.still.size);
+}
+
+void StillReference::set(const ImageView& still) {
+    picture_.upload(still);
+    if (reducer_) reducer_->run(picture_.texture());
+    const auto low = low_.size();
+    const auto full = picture().size();
+    LowParams l{};
+    l.step[0] = 1.0F / static_cast<float>(low.width);
+    l.step[1] = 1.0F / static_cast<float>(low.height);
+    l.step[2] = 0.25F * kFootprint * l.step[0];
+    l.step[3] = 0.25F * kFootprint * l.step[1];
+    lowPass_.run(l, {gpu::sampler(0, picture())}, lowTarget_);
+    DetailParams d{};
+    d.low[0] = low.width;
+    d.low[1] = low.height;
+    d.scale[0] = static_cast<float>(low.width) / static_cast<float>(full.width);
+    d.scale[1] = static_cast<float>(low.height) / static_cast<float>(full.height);
+    d.scale[2] = reducer_ ? 0 : kLinearLoss;
+    detailPass_.run(d, {gpu::sampler(0, picture()), gpu::sampler(1, low_)}, detailTarget_);
+    picture_.finishReading();
+}
+
+}  // namespace mfar

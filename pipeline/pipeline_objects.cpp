@@ -1,0 +1,153 @@
+// What Pipeline does about real depth and virtual objects.
+
+#include "pipeline/flow/cell_field.h"
+#include "pipeline/pipeline_state.h"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+int tilesIn(const PixelRect& videoPixels) {
+    const PixelRect tiles = tilesAround(videoPixels);
+    return (tiles.x1 - tiles.x0) * (tiles.y1 - tiles.y0);
+}
+
+}  // namespace
+
+void Pipeline::setObjects(std::vector<VirtualObject> objects) {
+    State& s = *state_;
+    if (!s.objects && objects.empty()) return;
+    if (!s.objects || s.objects->traced() != nullptr) {
+        s.objects.emplace(s.rig.video, s.output, s.engineOf(s.options.engines.occlusion));
+        s.objects->setSkips(s.options.skips);
+        s.redraw = true;
+    }
+    s.objects->setObjects(std::move(objects));
+}
+
+void Pipeline::setScene(std::shared_ptr<const Scene> scene, const TracedLayerOptions& options) {
+    State& s = *state_;
+    if (!s.objects && !scene) return;
+    TracedLayerOptions wanted = options;
+    if (wanted.size.width <= 0 || wanted.size.height <= 0)
+        wanted.size = {(s.output.width + 1) / 2, (s.output.height + 1) / 2};
+    if (!s.objects || s.objects->traced() == nullptr || !(s.traced == wanted)) {
+        s.objects.emplace(s.rig.video, s.engineOf(s.options.engines.occlusion), wanted);
+        s.objects->setSkips(s.options.skips);
+        s.traced = wanted;
+        s.redraw = true;
+    }
+    s.objects->setScene(std::move(scene));
+}
+
+PixelRect Pipeline::objectsRegion() const {
+    return state_->objects ? state_->objects->region() : PixelRect{};
+}
+
+std::optional<TracedLayerCounters> Pipeline::tracedCounters() const {
+    if (!state_->objects || state_->objects->traced() == nullptr) return {};
+    return state_->objects->traced()->counters();
+}
+
+std::optional<std::string> Pipeline::takeSceneError() {
+    if (!state_->objects || state_->objects->traced() == nullptr) return {};
+    return state_->objects->traced()->takeError();
+}
+
+const InverseDepthField& Pipeline::inverseDepth() const {
+    return state_->snap.field();
+}
+
+PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timestamp time) {
+    PixelRect where;
+    if (objects) {
+        where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
+                               depth.field());
+        // Two engines keep a picture each: any drawing by one leaves out what the other has laid
+        // over it.
+        const bool apart = options.engines.detail != options.engines.occlusion;
+        const WorkPlan::Redraw redrawn = objects->redraw();
+        plan.drawnOver(objects->staleTiles(), apart && redrawn == WorkPlan::Redraw::WithThem
+                                                  ? WorkPlan::Redraw::WithOthers
+                                                  : redrawn);
+    }
+    if (options.depthEverywhere) where = {0, 0, rig.video.size.width, rig.video.size.height};
+    return where;
+}
+
+Pipeline::State::DepthTask Pipeline::State::prepareDepth(const PixelRect& where, bool hasPose,
+                                                         const FlowCells* alongLines) {
+    DepthTask task;
+    task.where = where;
+    const bool isNeeded = options.depthEverywhere ? plan.work().changed > 0 : drawsObjects();
+    task.measures = hasPose && isNeeded && (!where.empty() || inView());
+    task.isDue = task.measures && ++depthAge >= quality.depthEvery && !where.empty();
+    if (!task.isDue) return task;
+    depthAge = 0;
+    if (alongLines != nullptr) {
+        task.matches.emplace();
+        task.matches->vectors.resize(alongLines->count());
+        std::memcpy(task.matches->vectors.data(), alongLines->cells.host().data,
+                    sizeof(FlowCell) * alongLines->count());
+        task.matches->searched2d = flow->searchedTiles();
+    }
+    return task;
+}
+
+void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
+                                   const DepthTask& task) {
+    const PixelRect& where = task.where;
+    if (task.matches) {
+        const DepthStage::StillSearch search{epipolar.search(), epipolar.rotation(),
+                                             epipolar.unit(), epipolar.lengthError(),
+                                             epipolar.inverseDepthOf(task.matches->vectors)};
+        depth.run(epipolar.luma(), pose, search, where);
+        forgetMoving(*task.matches);
+    } else {
+        lumaOf(frame.view, luma);
+        depth.run(luma, pose, {}, task.isDue ? where : PixelRect{});
+    }
+    snap.run(depth.field(), frame.view, where);
+    result.stats.depthTiles = tilesIn(where);
+    if (inView())
+        result.stats.depthTilesSkipped = std::max(tilesIn(objects->region()) - tilesIn(where), 0);
+    if (!where.empty()) result.stats.depth = depth.source();
+    lap("depth");
+}
+
+// Where the flow leaves the epipolar lines, the scene is not at rest.
+void Pipeline::State::forgetMoving(const DepthMatches& matches) {
+    const Size tiles = plan.tileCount();
+    for (int t = 0; t < tiles.width * tiles.height; ++t) {
+        if (!matches.searched2d[static_cast<std::size_t>(t)]) continue;
+        const int x = t % tiles.width, y = t / tiles.width;
+        const PixelRect tile = pixelsOf({x, y, x + 1, y + 1});
+        if (leavesLines(tile, matches.vectors)) depth.forget(tile);
+    }
+}
+
+// A quarter of the tile's cells at least.
+bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const {
+    const int columns = cellsOf(rig.video.size).width;
+    int off = 0, all = 0;
+    for (int y = tile.y0 + 1; y < tile.y1; y += kCell) {
+        for (int x = tile.x0 + 1; x < tile.x1; x += kCell, ++all) {
+            const auto& u = vectors[static_cast<std::size_t>(y / kCell) * columns + x / kCell];
+            if (epipolar.offLine(x, y, u[0], u[1]) > kOffLine) ++off;
+        }
+    }
+    return 4 * off >= all;
+}
+
+void Pipeline::State::showObjects(const VideoFrame& frame) {
+    result.stats.objectsInView = inView();
+    result.stats.objectsHidden = inView() && objects->hidden();
+    if (!drawsObjects()) return;
+    objects->draw(snap.field(), snap.where(), frame, detail->output());
+    lap("objects");
+}
+
+}  // namespace mfar

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+namespace mfar {
+
+/// Time of one stage of the last frame.
+struct StageTime {
+    const char* stage;
+    double ms;
+};
+
+/// Times of a frame's stages, one after the other.
+class StageClock {
+public:
+    StageClock() { times_.reserve(kMostStages); }
+
+    void start() {
+        times_.clear();
+        last_ = Clock::now();
+    }
+    /// The time since the last call belongs to this stage.
+    void lap(const char* stage) {
+        const auto now = Clock::now();
+        times_.push_back({stage, std::chrono::duration<double, std::milli>(now - last_).count()});
+        last_ = now;
+    }
+    [[nodiscard]] const std::vector<StageTime>& times() const { return times_; }
+
+    bool measures = false;  ///< each stage waits until its work is done
+
+private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::size_t kMostStages = 12;  // so that no frame allocates
+
+    std::vector<StageTime> times_;
+    Clock::time_point last_;
+};
+
+}  // namespace mfar
