@@ -78,6 +78,7 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     file.number("status.interval_s", config.status.intervalS, 0.1, 3600);
     file.boolean("status.measure", config.status.measure);
     const std::filesystem::path folder = std::filesystem::path(fileName).parent_path();
+    readEngine(file, config.engine);
     readVirtual(file, config.virtualLayer);
     readLight(file, folder, config.light);
     readObjects(file, folder, config.objects);
@@ -116,6 +117,7 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.recordTo == wanted.recordTo, "record.directory");
     // Another tag map is another world, and a tracker that starts anew has no pose for a while.
     compare(running.pose == wanted.pose, "pose");
+    compare(running.engine == wanted.engine, "engine");
     compare(running.virtualLayer == wanted.virtualLayer, "virtual");
     compare(running.governor == wanted.governor, "governor");
     return names;

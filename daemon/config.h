@@ -1,6 +1,7 @@
 #pragma once
 
 #include "daemon/cameras_config.h"
+#include "daemon/engine_config.h"
 #include "daemon/exit_code.h"
 #include "daemon/governor_config.h"
 #include "daemon/objects_config.h"
@@ -54,6 +55,7 @@ struct Config {
     PoseConfig pose;
     GovernorConfig governor;
     StatusConfig status;
+    EngineConfig engine;
     VirtualOptions virtualLayer;
     LightOptions light;
     std::vector<PlacedObject> objects;

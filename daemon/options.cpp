@@ -24,6 +24,7 @@ CLI::Validator oneOf(std::optional<E> (*meaning)(std::string_view), const char* 
 
 struct Words {
     std::string mode;
+    std::string engine;
     std::string pace;
     std::string pose;
     std::string size;
@@ -77,6 +78,11 @@ void addOutputs(CLI::App& app, Options& options, Words& words) {
                    "video confirms it), blend (fades the still over), off (enlarges)")
         ->check(oneOf(superResMode, "detail, blend, off"))
         ->type_name("MODE");
+    app.add_option("--engine", words.engine,
+                   "What computes pictures: gles (shaders), simd (the processor's vector\n"
+                   "units; needs no graphics processor), auto (default; the faster one)")
+        ->check(oneOf(engineWish, "auto, gles, simd"))
+        ->type_name("ENGINE");
     app.add_option("--record", options.recordTo, "Record video and stills into this new folder")
         ->type_name("DIR");
     app.add_option("--frames", options.frames, "End after N pictures")
@@ -122,6 +128,7 @@ CommandLine parseCommandLine(int argc, const char* const* argv) {
     if (!(seconds > 0 && seconds <= 1e7))
         throw Failure(ExitCode::Usage, "--seconds must be more than 0 and at most 1e7");
     if (!words.mode.empty()) line.options.mode = superResMode(words.mode);
+    if (!words.engine.empty()) line.options.engine = engineWish(words.engine);
     if (!words.pace.empty()) line.options.pace = sourcePace(words.pace);
     if (!words.size.empty()) line.options.size = pictureSize(words.size);
     if (!words.pose.empty()) line.options.pose = poseOrigin(words.pose);
@@ -139,6 +146,10 @@ Config effectiveConfig(const Options& options) {
     if (options.size) config.size = *options.size;
     if (options.recordTo) config.recordTo = *options.recordTo;
     if (options.mode) config.superres.mode = *options.mode;
+    if (options.engine) {
+        config.engine = {};
+        config.engine.use = *options.engine;
+    }
     if (options.pace) config.pace = *options.pace;
     if (options.pose) config.pose.source = *options.pose;
     if (options.seed) config.seed = *options.seed;

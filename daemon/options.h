@@ -20,6 +20,7 @@ struct Options {
     std::optional<PictureSize> size;
     std::optional<std::filesystem::path> recordTo;
     std::optional<SuperResMode> mode;
+    std::optional<EngineWish> engine;
     std::optional<SourcePace> pace;
     std::optional<PoseOrigin> pose;
     std::optional<std::uint64_t> seed;

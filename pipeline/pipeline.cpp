@@ -254,6 +254,15 @@ const std::vector<StageTime>& Pipeline::stageTimes() const {
     return state_->clock.times();
 }
 
+void Pipeline::finish(EngineKind shownFrom) const {
+    const Field<std::uint32_t>& picture = state_->detail->output();
+    if (shownFrom == EngineKind::Simd)
+        (void)picture.host();
+    else
+        (void)textureOf(picture, gpu::TexelFormat::Rgba8);
+    if (state_->gles) state_->gles->finish();
+}
+
 void Pipeline::setMeasure(bool measure) {
     state_->clock.measures = measure;
 }

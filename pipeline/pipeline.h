@@ -95,6 +95,8 @@ public:
     /// done and the times are those of the work; off (default), the frame path is not disturbed.
     [[nodiscard]] const std::vector<StageTime>& stageTimes() const;
     void setMeasure(bool measure);
+    /// Waits until the last run's picture lies where it is shown from: on the GPU or on the host.
+    void finish(EngineKind shownFrom) const;
 
     /// The real scene's depth as of the last run, where that measured it.
     [[nodiscard]] const InverseDepthField& inverseDepth() const;

@@ -1,11 +1,214 @@
 #include "pipeline/engine/engine.h"
+#include "pipeline/simd/detail_step.h"
+#include "pipeline/simd/flow2d.h"
+#include "pipeline/simd/luma_pyramids.h"
+#include "pipeline/simd/occlusion_step.h"
+#include "pipeline/simd/still_preparation.h"
+#include "pipeline/simd/weigh_step.h"
+#include "pipeline/superres/still_scale.h"
 
-#include <stdexcept>
+#include <algorithm>
 
 namespace mfar {
+namespace {
 
-std::unique_ptr<Engine> makeSimdEngine(const StepSetup&) {
-    throw std::runtime_error("the SIMD engine has no steps yet");
+class SimdStill final : public StillStep {
+public:
+    explicit SimdStill(const StepSetup& setup) : still_(setup.rig, setup.output, setup.workers) {
+        pictures_.rig = still_.rig();
+    }
+
+    const StillPictures& run(const ImageView& still, SuperResMode mode) override {
+        still_.set(still);
+        isSet_ = true;
+        pictures_.luma.writtenOnHost(still_.luma());
+        pictures_.detail.writtenOnHost(still_.detail());
+        setMode(mode);
+        return pictures_;
+    }
+    void setMode(SuperResMode mode) override {
+        if (isSet_ && mode == SuperResMode::Blend)
+            pictures_.picture.writtenOnHost(still_.picture());
+    }
+
+private:
+    simd::StillPreparation still_;
+    bool isSet_ = false;
+    StillPictures pictures_;
+};
+
+class SimdPyramid final : public PyramidStep {
+public:
+    explicit SimdPyramid(const StepSetup& setup)
+        : rig_(setup.rig), pyramids_(setup.rig.video.size, setup.workers),
+          luma_{pyramids_.video(), pyramids_.still(),
+                Field<std::uint32_t>({}, setup.transfers)} {}
+
+    const LumaPyramid& video(const VideoFrame& frame, const TileWork& work) override {
+        if (work.matched > 0) pyramids_.buildVideo(frame.planes);
+        return written();
+    }
+    const LumaPyramid& still(const StillPictures& still) override {
+        pyramids_.buildStill(still.luma.host(), rig_);
+        return written();
+    }
+
+private:
+    const LumaPyramid& written() {
+        const auto words = pyramids_.words();
+        const auto count = static_cast<int>(words.size());
+        luma_.words.writtenOnHost({words.data(), count, {count, 1}});
+        return luma_;
+    }
+
+    StereoRig rig_;
+    simd::LumaPyramids pyramids_;
+    LumaPyramid luma_;
+};
+
+class SimdFlow final : public FlowStep {
+public:
+    explicit SimdFlow(const StepSetup& setup)
+        : flow_(setup.rig.video.size, setup.flow2d, setup.workers),
+          cells_{Field<FlowCell>({}, setup.transfers), flow_.forward().size,
+                 flow_.backward().size, flow_.backwardLevel(), false},
+          row_({2 * static_cast<int>(cells_.count()), 1}) {}
+
+    void setOptions(const Flow2dOptions& options) override { flow_.setOptions(options); }
+    const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) override {
+        flow_.run(lumaOf(luma), work, usePrior);
+        copy(flow_.backward());
+        return written(work);
+    }
+    const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
+                            Cells errors) override {
+        flow_.refine(lumaOf(luma), work, vectors, errors);
+        const Rows<const ErrorCell> given = flow_.errors();
+        ErrorCell* to = reinterpret_cast<ErrorCell*>(row_[0] + cells_.count());
+        for (int y = 0; y < given.size.height; ++y)
+            to = std::copy_n(given[y], given.size.width, to);
+        return written(work);
+    }
+    std::vector<bool> searchedTiles() const override { return flow_.searchedTiles(); }
+    int searchedCount() const override { return flow_.searchedCount(); }
+
+private:
+    static simd::Flow2d::Luma lumaOf(const LumaPyramid& luma) {
+        const Rows<const std::uint32_t> words = luma.words.host();
+        return {luma.video, luma.still, {words.data, static_cast<std::size_t>(words.size.width)}};
+    }
+    void copy(Rows<const FlowCell> backward) {
+        FlowCell* to = row_[0] + cells_.count();
+        for (int y = 0; y < backward.size.height; ++y)
+            to = std::copy_n(backward[y], backward.size.width, to);
+    }
+    const FlowCells& written(const TileWork&) {
+        const Rows<const FlowCell> forward = flow_.forward();
+        FlowCell* to = row_[0];
+        for (int y = 0; y < forward.size.height; ++y)
+            to = std::copy_n(forward[y], forward.size.width, to);
+        cells_.errorsGiven = flow_.errorsGiven();
+        cells_.cells.writtenOnHost(row_.rows());
+        return cells_;
+    }
+
+    simd::Flow2d flow_;
+    FlowCells cells_;
+    AlignedRows<FlowCell> row_;
+};
+
+class SimdWeigh final : public WeighStep {
+public:
+    explicit SimdWeigh(const StepSetup& setup)
+        : weigh_(stillFor(setup.output, setup.rig), setup.workers),
+          weights_{Field<WeighedCell>({}, setup.transfers), Field<LookUpCell>({}, setup.transfers),
+                   Field<TrustCell>({}, setup.transfers)} {}
+
+    const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
+                           const TileWork& work) override {
+        if (work.changed > 0) {
+            const Rows<const std::uint32_t> words = luma.words.host();
+            const FlowCell* cells = flow.cells.host().data;
+            const FlowCell* second = cells + flow.count();
+            simd::WeighInput in{luma.video,
+                                luma.still,
+                                {words.data, static_cast<std::size_t>(words.size.width)},
+                                {cells, flow.forward.width, flow.forward},
+                                {second, flow.backward.width, flow.backward},
+                                flow.backwardLevel,
+                                {},
+                                work};
+            if (flow.errorsGiven)
+                in.errors = {reinterpret_cast<const ErrorCell*>(second), flow.forward.width,
+                             flow.forward};
+            weigh_.run(in);
+        }
+        weights_.weighed.writtenOnHost(weigh_.weighed());
+        weights_.lookUps.writtenOnHost(weigh_.lookUps());
+        weights_.trust.writtenOnHost(weigh_.trust());
+        return weights_;
+    }
+
+private:
+    simd::WeighStep weigh_;
+    CellWeights weights_;
+};
+
+class SimdDetail final : public DetailStep {
+public:
+    explicit SimdDetail(const StepSetup& setup)
+        : detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
+          picture_(setup.output), output_({}, setup.transfers) {
+        output_.writtenOnHost(picture_.rows());
+    }
+
+    void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
+              const DetailOptions& options) override {
+        simd::DetailInput in{frame.planes, work, {}, {}, {}, {}, {}};
+        if (matched != nullptr) {
+            if (options.mode == SuperResMode::Blend)
+                in.picture = matched->still.picture.host();
+            else
+                in.detail = matched->still.detail.host();
+            in.weighed = matched->weights.weighed.host();
+            in.lookUps = matched->weights.lookUps.host();
+            in.trust = matched->weights.trust.host();
+        }
+        summary_ = detail_.draw(in, options, picture_.rows());
+        if (work.changed > 0) output_.writtenOnHost(picture_.rows());
+    }
+    Field<std::uint32_t>& output() override { return output_; }
+    TileSummary summary() const override { return summary_; }
+    std::vector<TileClass> classes() const override { return detail_.classes(); }
+
+private:
+    simd::DetailStep detail_;
+    AlignedRows<std::uint32_t> picture_;
+    Field<std::uint32_t> output_;
+    TileSummary summary_;
+};
+
+class SimdEngine final : public Engine {
+public:
+    explicit SimdEngine(const StepSetup& setup) : setup_(setup) {}
+
+    std::unique_ptr<StillStep> still() override { return std::make_unique<SimdStill>(setup_); }
+    std::unique_ptr<PyramidStep> pyramid() override {
+        return std::make_unique<SimdPyramid>(setup_);
+    }
+    std::unique_ptr<FlowStep> flow() override { return std::make_unique<SimdFlow>(setup_); }
+    std::unique_ptr<WeighStep> weigh() override { return std::make_unique<SimdWeigh>(setup_); }
+    std::unique_ptr<DetailStep> detail() override { return std::make_unique<SimdDetail>(setup_); }
+    std::unique_ptr<OcclusionStep> occlusion(Size layer) override;
+
+private:
+    StepSetup setup_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> makeSimdEngine(const StepSetup& setup) {
+    return std::make_unique<SimdEngine>(setup);
 }
 
 }  // namespace mfar

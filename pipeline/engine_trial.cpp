@@ -1,0 +1,83 @@
+#include "pipeline/engine_trial.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+
+namespace mfar {
+namespace {
+
+constexpr int kWarmUp = 2, kFrames = 5;
+constexpr int kShift = 3;  // px from frame to frame
+
+/// A texture of patches of three sizes, so that every pyramid level has structure.
+std::uint8_t greyAt(int x, int y) {
+    unsigned sum = 0;
+    for (const int side : {2, 9, 40}) {
+        auto hash = static_cast<std::uint32_t>(x / side) * 0x9E3779B1U ^
+                    static_cast<std::uint32_t>(y / side) * 0x85EBCA77U;
+        hash = (hash ^ (hash >> 15)) * 0x2C1B3C6DU;
+        sum += (hash >> 24) / 3;
+    }
+    return static_cast<std::uint8_t>(sum);
+}
+
+/// The texture as a picture of this size, whose pixels are `scale` texels wide.
+std::vector<std::uint8_t> pictureOf(Size size, double scale, int shift) {
+    std::vector<std::uint8_t> rgba;
+    rgba.reserve(4UL * size.width * size.height);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const std::uint8_t grey = greyAt(static_cast<int>(x * scale) + shift + 1000,
+                                             static_cast<int>(y * scale) + 1000);
+            rgba.insert(rgba.end(), {grey, grey, grey, 255});
+        }
+    return rgba;
+}
+
+ImageView viewOf(const std::vector<std::uint8_t>& rgba, Size size) {
+    return {rgba.data(), size, 4UL * size.width, PixelFormat::Rgba8};
+}
+
+EngineChoice placed(EngineKind matching, EngineKind drawing) {
+    EngineChoice choice = EngineChoice::all(drawing);
+    choice.pyramid = choice.flow = choice.weigh = matching;
+    return choice;
+}
+
+double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size output,
+                   EngineKind shownFrom) {
+    using Clock = std::chrono::steady_clock;
+    PipelineOptions options;
+    options.output = output;
+    options.engines = engines;
+    Pipeline pipeline(rig, options);
+    const double texels = static_cast<double>(rig.video.size.width) / rig.still.size.width;
+    pipeline.setStill(viewOf(pictureOf(rig.still.size, texels, 0), rig.still.size), {});
+    std::vector<double> ms;
+    for (int i = 0; i < kWarmUp + kFrames; ++i) {
+        const auto rgba = pictureOf(rig.video.size, 1, kShift * (1 + i));
+        const auto begun = Clock::now();
+        pipeline.run(viewOf(rgba, rig.video.size), Timestamp::fromSeconds(i / 30.0));
+        pipeline.finish(shownFrom);
+        if (i >= kWarmUp)
+            ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begun).count());
+    }
+    std::ranges::nth_element(ms, ms.begin() + kFrames / 2);
+    return ms[kFrames / 2];
+}
+
+}  // namespace
+
+std::vector<EngineTrial> tryEngines(const StereoRig& rig, Size output, EngineKind shownFrom) {
+    std::vector<EngineTrial> trials;
+    for (const EngineKind matching : {EngineKind::Gles, EngineKind::Simd})
+        for (const EngineKind drawing : {EngineKind::Gles, EngineKind::Simd}) {
+            const EngineChoice engines = placed(matching, drawing);
+            trials.push_back({engines, medianFrame(engines, rig, output, shownFrom)});
+        }
+    std::ranges::sort(trials, {}, &EngineTrial::frameMs);
+    return trials;
+}
+
+}  // namespace mfar
