@@ -15,8 +15,10 @@ namespace {
 
 // Change of the flow [px per px]; more of it is a depth edge rather than a surface.
 constexpr float kSteepest = 0.25F;
-// Four pixels of a row have one place of their own; two such halves a row, 16 a patch.
-constexpr int kHalf = 4, kHalves = 16;
+// Pixels of a row that have one place of their own: four; all eight where the flow changes so
+// little along the row that they stay as close to their own places as four do at the steepest.
+constexpr int kHalf = 4;
+constexpr float kGentle = 1.0F / 10;
 // Shares of a pixel, in 16 bits with room for those of its neighbours.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
@@ -59,21 +61,36 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
             slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
 }
 
-/// Where the halves of a patch's rows lie in the other picture: left and right in turn.
+/// Where the parts of a patch's rows lie in the other picture, row by row.
+template <int kParts>
 struct BentPlaces {
-    std::int32_t x[kHalves], upper[kHalves], lower[kHalves];  // columns, rows [px]
+    static constexpr int kCount = kPatch * kParts;
+    std::int32_t x[kCount], upper[kCount], lower[kCount];  // columns, rows [px]
     // Shares of the next pixel, twice in 32 bits.
-    std::int32_t shareX[kHalves], shareY[kHalves];
+    std::int32_t shareX[kCount], shareY[kCount];
 };
 
-HWY_INLINE void placeHalves(const PatchPicture& p, int column, int row, Vector2 u, const Bend& bend,
-                            BentPlaces& out) {
-    const hn::CappedTag<float, kHalves> d;
+/// Columns of a patch's parts, row by row.
+template <int kParts>
+HWY_INLINE const float* firstColumns() {
+    alignas(64) static constexpr float kColumns[2][2 * kPatch] = {
+        {}, {0, 4, 0, 4, 0, 4, 0, 4, 0, 4, 0, 4, 0, 4, 0, 4}};
+    return kColumns[kParts - 1];
+}
+
+template <int kParts>
+HWY_INLINE const float* rowsOfParts() {
+    alignas(64) static constexpr float kRows[2][2 * kPatch] = {
+        {0, 1, 2, 3, 4, 5, 6, 7}, {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7}};
+    return kRows[kParts - 1];
+}
+
+template <int kParts>
+HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u, const Bend& bend,
+                           BentPlaces<kParts>& out) {
+    const hn::CappedTag<float, BentPlaces<kParts>::kCount> d;
     const hn::RebindToSigned<decltype(d)> dInt;
-    alignas(64) static constexpr float kFirstX[kHalves] = {0, 4, 0, 4, 0, 4, 0, 4,
-                                                           0, 4, 0, 4, 0, 4, 0, 4};
-    alignas(64) static constexpr float kFirstY[kHalves] = {0, 0, 1, 1, 2, 2, 3, 3,
-                                                           4, 4, 5, 5, 6, 6, 7, 7};
+    constexpr int kSpan = kPatch / kParts;
     const auto toX = hn::Set(d, static_cast<float>(kCellSize * column - 2) + u.x);
     const auto toY = hn::Set(d, static_cast<float>(kCellSize * row - 2) + u.y);
     const auto last = hn::Set(dInt, p.height - 1), zero = hn::Zero(dInt);
@@ -86,18 +103,17 @@ HWY_INLINE void placeHalves(const PatchPicture& p, int column, int row, Vector2 
         const auto low = hn::Set(d, -7.0F), high = hn::Set(d, static_cast<float>(most));
         return hn::Min(hn::IfThenElse(hn::Gt(value, low), value, low), high);
     };
-    for (std::size_t i = 0; i < kHalves; i += hn::Lanes(d)) {
-        const auto firstX = hn::Load(d, kFirstX + i), firstY = hn::Load(d, kFirstY + i);
-        const auto middleX = hn::Sub(firstX, hn::Set(d, 2.0F));
+    for (std::size_t i = 0; i < BentPlaces<kParts>::kCount; i += hn::Lanes(d)) {
+        const auto firstX = hn::Load(d, firstColumns<kParts>() + i);
+        const auto firstY = hn::Load(d, rowsOfParts<kParts>() + i);
+        const auto middleX = hn::Sub(firstX, hn::Set(d, (kPatch - kSpan) / 2));
         const auto middleY = hn::Sub(firstY, hn::Set(d, 3.5F));
+        const auto moved = [&](auto from, float dx, float dy) HWY_ATTR {
+            return hn::MulAdd(middleX, hn::Set(d, dx), hn::MulAdd(middleY, hn::Set(d, dy), from));
+        };
         const auto x =
-            within(hn::MulAdd(middleX, hn::Set(d, bend.dx.x),
-                              hn::MulAdd(middleY, hn::Set(d, bend.dy.x), hn::Add(firstX, toX))),
-                   p.width + 2);
-        const auto y =
-            within(hn::MulAdd(middleX, hn::Set(d, bend.dx.y),
-                              hn::MulAdd(middleY, hn::Set(d, bend.dy.y), hn::Add(firstY, toY))),
-                   p.height + 2);
+            within(moved(hn::Add(firstX, toX), bend.dx.x, bend.dy.x), p.width + 6 - kSpan);
+        const auto y = within(moved(hn::Add(firstY, toY), bend.dx.y, bend.dy.y), p.height + 2);
         const auto left = hn::Floor(x), top = hn::Floor(y);
         share(x, left, out.shareX + i);
         share(y, top, out.shareY + i);
@@ -109,21 +125,25 @@ HWY_INLINE void placeHalves(const PatchPicture& p, int column, int row, Vector2 
     }
 }
 
-/// Pixels of a row's halves from `left` and `right` on; on the scalar target the one of column c.
-HWY_INLINE Vec16 loadHalves(const std::uint8_t* left, const std::uint8_t* right, int c) {
-    const Row16 d16;
+/// Pixels of a row's parts from `parts` on; on the scalar target the one of column c.
+template <int kParts>
+HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
+    if constexpr (kParts == 1) return loadPixels(parts[0] + next + c);
 #if HWY_TARGET == HWY_SCALAR
-    return hn::Set(d16, c < kHalf ? left[c] : right[c - kHalf]);
+    return hn::Set(Row16(), parts[c / kHalf][next + c % kHalf]);
 #else
-    (void)c;
     const hn::FixedTag<std::uint8_t, kHalf> dHalf;
-    return hn::PromoteTo(d16, hn::Combine(Row8(), hn::LoadU(dHalf, right), hn::LoadU(dHalf, left)));
+    const auto left = hn::LoadU(dHalf, parts[0] + next);
+    const auto right = hn::LoadU(dHalf, parts[kParts - 1] + next);
+    return hn::PromoteTo(Row16(), hn::Combine(Row8(), right, left));
 #endif
 }
 
-/// The shares of a row's halves, each in all pixels of its half.
+/// The shares of a row's parts, each in all pixels of its part.
+template <int kParts>
 HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
     const Row16 d16;
+    if constexpr (kParts == 1) return hn::Set(d16, static_cast<std::int16_t>(shares[0] & 0xFFFF));
 #if HWY_TARGET == HWY_SCALAR
     return hn::Set(d16, static_cast<std::int16_t>(shares[c / kHalf] & 0xFFFF));
 #else
@@ -136,31 +156,39 @@ HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
 #endif
 }
 
+/// Twice the columns of a row's pixels from the middle of their part.
+template <int kParts>
+HWY_INLINE Vec16 alongPart(int c) {
+    alignas(16) static constexpr std::int16_t kAlong[2][kPatch] = {{-7, -5, -3, -1, 1, 3, 5, 7},
+                                                                   {-3, -1, 1, 3, -3, -1, 1, 3}};
+    return hn::Load(Row16(), kAlong[kParts - 1] + c);
+}
+
 /// compare() with a flow that changes over the patch.
+template <int kParts>
 HWY_INLINE Match compareBent(const Template& t, const PatchPicture& p, int column, int row,
                              Vector2 u, const Bend& bend) {
     const Row16 d16;
-    BentPlaces places;
-    placeHalves(p, column, row, u, bend, places);
-    alignas(16) static constexpr std::int16_t kAlong[kPatch] = {-3, -1, 1, 3, -3, -1, 1, 3};
-    const auto slopeX = static_cast<std::int16_t>(bend.dx.x * (kShare / 2));
-    const auto slopeY = static_cast<std::int16_t>(bend.dx.y * (kShare / 2));
+    BentPlaces<kParts> places;
+    placeParts<kParts>(p, column, row, u, bend, places);
+    const auto slopeX = hn::Set(d16, static_cast<std::int16_t>(bend.dx.x * (kShare / 2)));
+    const auto slopeY = hn::Set(d16, static_cast<std::int16_t>(bend.dx.y * (kShare / 2)));
     const auto middle = hn::Set(d16, 128 << kValueBits), most = hn::Set(d16, kMostValue);
     const auto least = hn::Neg(most);
     PatchSums sums;
     for (int c = 0; c < kPatch; c += kRowLanes) {
-        const auto along = hn::Load(d16, kAlong + c);
-        const auto alongX = hn::Mul(along, hn::Set(d16, slopeX));
-        const auto alongY = hn::Mul(along, hn::Set(d16, slopeY));
+        const auto alongX = hn::Mul(alongPart<kParts>(c), slopeX);
+        const auto alongY = hn::Mul(alongPart<kParts>(c), slopeY);
         for (int r = 0; r < kPatch; ++r) {
-            const int l = 2 * r;
-            const auto shareX = hn::Add(loadShares(places.shareX + l, c), alongX);
-            const auto shareY = hn::Add(loadShares(places.shareY + l, c), alongY);
+            const int first = kParts * r;
+            const auto shareX = hn::Add(loadShares<kParts>(places.shareX + first, c), alongX);
+            const auto shareY = hn::Add(loadShares<kParts>(places.shareY + first, c), alongY);
             const auto between = [&](const std::int32_t* rows) HWY_ATTR {
-                const std::uint8_t* left = p.pixels + rows[l] * p.pitch + places.x[l];
-                const std::uint8_t* right = p.pixels + rows[l + 1] * p.pitch + places.x[l + 1];
-                const auto here = loadHalves(left, right, c);
-                const auto step = hn::Sub(loadHalves(left + 1, right + 1, c), here);
+                const std::uint8_t* parts[kParts];
+                for (int i = first; i < first + kParts; ++i)
+                    parts[i - first] = p.pixels + rows[i] * p.pitch + places.x[i];
+                const auto here = loadParts<kParts>(parts, 0, c);
+                const auto step = hn::Sub(loadParts<kParts>(parts, 1, c), here);
                 return hn::Add(hn::ShiftLeft<kValueBits>(here),
                                hn::MulFixedPoint15(hn::ShiftLeft<kValueBits + 1>(step), shareX));
             };
@@ -175,25 +203,36 @@ HWY_INLINE Match compareBent(const Template& t, const PatchPicture& p, int colum
     return matchOf(t, sums);
 }
 
+/// The best of `u` and the places that Gauss-Newton steps lead to from there.
+template <int kParts>
+HWY_INLINE void alignCell(const AlignStep& step, const Template& t, int column, int row, Vector2 u,
+                          const Bend& bend) {
+    Vector2 best = u;
+    float cost = 1e9F;
+    for (int k = 0; k <= step.steps; ++k) {
+        const Match m = compareBent<kParts>(t, step.to, column, row, u, bend);
+        if (!(m.cost < cost)) break;
+        cost = m.cost;
+        best = u;
+        const Vector2 s = stepOf(t, m.descent);
+        if (!(squaredLength(s) > kShortestStep)) break;
+        u = u + s;
+    }
+    put(step.out, column, row, best, cost, t.variance);
+}
+
 }  // namespace
 
 void AlignCells(const AlignStep& step, int row, int first, int end) {
     Template t;
     for (int column = first; column < end; ++column) {
         loadTemplate(step.from, column, row, t);
-        Vector2 u = seedAt(step, column, row), best = u;
+        const Vector2 u = seedAt(step, column, row);
         const Bend bend = bendAt(step, column, row, u);
-        float cost = 1e9F;
-        for (int k = 0; k <= step.steps; ++k) {
-            const Match m = compareBent(t, step.to, column, row, u, bend);
-            if (!(m.cost < cost)) break;
-            cost = m.cost;
-            best = u;
-            const Vector2 s = stepOf(t, m.descent);
-            if (!(squaredLength(s) > kShortestStep)) break;
-            u = u + s;
-        }
-        put(step.out, column, row, best, cost, t.variance);
+        if (std::max(std::abs(bend.dx.x), std::abs(bend.dx.y)) < kGentle)
+            alignCell<1>(step, t, column, row, u, bend);
+        else
+            alignCell<2>(step, t, column, row, u, bend);
     }
 }
 

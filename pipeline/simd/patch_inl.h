@@ -224,23 +224,20 @@ HWY_INLINE Match matchOf(const Template& t, const PatchSums& s) {
 /// The template against a level, displaced by u pixels. Positions outside are held at the border.
 HWY_INLINE Match compare(const Template& t, const PatchPicture& p, int column, int row, Vector2 u) {
     const Row16 d16;
-    const hn::RebindToUnsigned<Row16> dU16;
     const float x = bounded(static_cast<float>(kCellSize * column - 2) + u.x, -7.0F,
                             static_cast<float>(p.width - 2));
     const float y = bounded(static_cast<float>(kCellSize * row - 2) + u.y, -7.0F,
                             static_cast<float>(p.height - 2));
     const float left = std::floor(x), top = std::floor(y);
     const PatchRows rows(p, static_cast<int>(left), static_cast<int>(top), kPatch + 1, kPatch + 1);
-    // Across in 1/256, because 16 bits hold that times a pixel; down in 1/32768.
-    const int across = static_cast<int>((x - left) * 256 + 0.5F);
-    const auto right = hn::Set(dU16, static_cast<std::uint16_t>(across));
-    const auto here = hn::Set(dU16, static_cast<std::uint16_t>(256 - across));
+    const auto right = hn::Set(d16, static_cast<std::int16_t>((x - left) * 32767));
     const auto down = hn::Set(d16, static_cast<std::int16_t>((y - top) * 32767));
     const auto middle = hn::Set(d16, 128 << kValueBits);
     const auto between = [&](const std::uint8_t* from) HWY_ATTR {
-        const auto sum = hn::Add(hn::Mul(hn::BitCast(dU16, loadPixels(from)), here),
-                                 hn::Mul(hn::BitCast(dU16, loadPixels(from + 1)), right));
-        return hn::Sub(hn::BitCast(d16, hn::ShiftRight<8 - kValueBits>(sum)), middle);
+        const auto here = loadPixels(from);
+        const auto step = hn::ShiftLeft<kValueBits>(hn::Sub(loadPixels(from + 1), here));
+        return hn::Add(hn::Sub(hn::ShiftLeft<kValueBits>(here), middle),
+                       hn::MulFixedPoint15(step, right));
     };
     PatchSums sums;
     for (int c = 0; c < kPatch; c += kRowLanes) {
