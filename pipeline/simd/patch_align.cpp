@@ -1,0 +1,262 @@
+#include "pipeline/simd/patch_flow.h"
+
+// Highway compiles what follows once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/simd/patch_align.cpp"
+// clang-format off: in this order alone
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+#include "pipeline/simd/patch_inl.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace {
+
+// Change of the flow [px per px]; more of it is a depth edge rather than a surface.
+constexpr float kSteepest = 0.25F;
+// Pixels of a row that have one place of their own: four; all eight where the flow changes so
+// little along the row that they stay as close to their own places as four do at the steepest.
+constexpr int kHalf = 4;
+constexpr float kGentle = 1.0F / 10;
+// Shares of a pixel, in 16 bits with room for those of its neighbours.
+constexpr int kShareBits = 14;
+constexpr float kShare = 1 << kShareBits;
+// Pixels beyond this [1/32 grey level less 128] come from a steep slope at a high contrast: held,
+// so that sums of their squares fit 32 bits.
+constexpr std::int16_t kMostValue = 5792;
+
+/// Change of the flow per pixel along x and along y.
+struct Bend {
+    Vector2 dx, dy;
+};
+
+/// The smaller one-sided difference, zero where the two do not agree in sign. Two cells wide,
+/// because from one to the next the noise is larger than the change.
+HWY_INLINE float slopeOf(float before, float here, float after) {
+    const float a = here - before, b = after - here;
+    if (!(a * b > 0)) return 0;
+    const float least = std::copysign(std::min(std::abs(a), std::abs(b)), b);
+    return bounded(least / 8, -kSteepest, kSteepest);
+}
+
+/// A vector that no picture is large enough for, or NaN, is zero.
+HWY_INLINE float soundOf(float v) {
+    constexpr float kMost = 2e4F;
+    return std::abs(v) < kMost ? v : 0;
+}
+
+HWY_INLINE Vector2 seedAt(const AlignStep& step, int column, int row) {
+    const int c = std::clamp(column, 0, step.out.columns - 1);
+    const int r = std::clamp(row, 0, step.out.rows - 1);
+    const float* v = step.seed + 4 * (std::ptrdiff_t{r} * step.out.columns + c);
+    return {soundOf(v[0]), soundOf(v[1])};
+}
+
+HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here) {
+    const auto slope = [here](Vector2 before, Vector2 after) {
+        return Vector2{slopeOf(before.x, here.x, after.x), slopeOf(before.y, here.y, after.y)};
+    };
+    return {slope(seedAt(step, column - 2, row), seedAt(step, column + 2, row)),
+            slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
+}
+
+/// Where the parts of a patch's rows lie in the other picture, row by row.
+template <int kParts>
+struct BentPlaces {
+    static constexpr int kCount = kPatch * kParts;
+    std::int32_t x[kCount], upper[kCount], lower[kCount];  // columns, rows [px]
+    // Shares of the next pixel, twice in 32 bits.
+    std::int32_t shareX[kCount], shareY[kCount];
+};
+
+/// Columns of a patch's parts, row by row.
+template <int kParts>
+HWY_INLINE const float* firstColumns() {
+    alignas(64) static constexpr float kColumns[2][2 * kPatch] = {
+        {}, {0, 4, 0, 4, 0, 4, 0, 4, 0, 4, 0, 4, 0, 4, 0, 4}};
+    return kColumns[kParts - 1];
+}
+
+template <int kParts>
+HWY_INLINE const float* rowsOfParts() {
+    alignas(64) static constexpr float kRows[2][2 * kPatch] = {
+        {0, 1, 2, 3, 4, 5, 6, 7}, {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5, 6, 6, 7, 7}};
+    return kRows[kParts - 1];
+}
+
+template <int kParts>
+HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u, const Bend& bend,
+                           BentPlaces<kParts>& out) {
+    const hn::CappedTag<float, BentPlaces<kParts>::kCount> d;
+    const hn::RebindToSigned<decltype(d)> dInt;
+    constexpr int kSpan = kPatch / kParts;
+    const auto toX = hn::Set(d, static_cast<float>(kCellSize * column - 2) + u.x);
+    const auto toY = hn::Set(d, static_cast<float>(kCellSize * row - 2) + u.y);
+    const auto last = hn::Set(dInt, p.height - 1), zero = hn::Zero(dInt);
+    const auto share = [&](auto value, auto whole, std::int32_t* to) HWY_ATTR {
+        const auto s = hn::ConvertTo(dInt, hn::Mul(hn::Sub(value, whole), hn::Set(d, kShare)));
+        hn::StoreU(hn::Or(s, hn::ShiftLeft<16>(s)), dInt, to);
+    };
+    // NaN becomes the lower bound.
+    const auto within = [&](auto value, int most) HWY_ATTR {
+        const auto low = hn::Set(d, -7.0F), high = hn::Set(d, static_cast<float>(most));
+        return hn::Min(hn::IfThenElse(hn::Gt(value, low), value, low), high);
+    };
+    for (std::size_t i = 0; i < BentPlaces<kParts>::kCount; i += hn::Lanes(d)) {
+        const auto firstX = hn::Load(d, firstColumns<kParts>() + i);
+        const auto firstY = hn::Load(d, rowsOfParts<kParts>() + i);
+        const auto middleX = hn::Sub(firstX, hn::Set(d, (kPatch - kSpan) / 2));
+        const auto middleY = hn::Sub(firstY, hn::Set(d, 3.5F));
+        const auto moved = [&](auto from, float dx, float dy) HWY_ATTR {
+            return hn::MulAdd(middleX, hn::Set(d, dx), hn::MulAdd(middleY, hn::Set(d, dy), from));
+        };
+        const auto x =
+            within(moved(hn::Add(firstX, toX), bend.dx.x, bend.dy.x), p.width + 6 - kSpan);
+        const auto y = within(moved(hn::Add(firstY, toY), bend.dx.y, bend.dy.y), p.height + 2);
+        const auto left = hn::Floor(x), top = hn::Floor(y);
+        share(x, left, out.shareX + i);
+        share(y, top, out.shareY + i);
+        const auto upper = hn::ConvertTo(dInt, top);
+        const auto lower = hn::Add(upper, hn::Set(dInt, 1));
+        hn::StoreU(hn::ConvertTo(dInt, left), dInt, out.x + i);
+        hn::StoreU(hn::Min(hn::Max(upper, zero), last), dInt, out.upper + i);
+        hn::StoreU(hn::Min(hn::Max(lower, zero), last), dInt, out.lower + i);
+    }
+}
+
+/// Pixels of a row's parts from `parts` on; on the scalar target the one of column c.
+template <int kParts>
+HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
+    if constexpr (kParts == 1) return loadPixels(parts[0] + next + c);
+#if HWY_TARGET == HWY_SCALAR
+    return hn::Set(Row16(), parts[c / kHalf][next + c % kHalf]);
+#else
+    const hn::FixedTag<std::uint8_t, kHalf> dHalf;
+    const auto left = hn::LoadU(dHalf, parts[0] + next);
+    const auto right = hn::LoadU(dHalf, parts[kParts - 1] + next);
+    return hn::PromoteTo(Row16(), hn::Combine(Row8(), right, left));
+#endif
+}
+
+/// The shares of a row's parts, each in all pixels of its part.
+template <int kParts>
+HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
+    const Row16 d16;
+    if constexpr (kParts == 1) return hn::Set(d16, static_cast<std::int16_t>(shares[0] & 0xFFFF));
+#if HWY_TARGET == HWY_SCALAR
+    return hn::Set(d16, static_cast<std::int16_t>(shares[c / kHalf] & 0xFFFF));
+#else
+    (void)c;
+    const hn::FixedTag<std::int32_t, 2> dTwo;
+    const hn::FixedTag<std::int32_t, 4> dFour;
+    const auto two = hn::LoadU(dTwo, shares);
+    const auto four = hn::Combine(dFour, two, two);  // left right left right
+    return hn::BitCast(d16, hn::InterleaveLower(dFour, four, four));
+#endif
+}
+
+/// Twice the columns of a row's pixels from the middle of their part.
+template <int kParts>
+HWY_INLINE Vec16 alongPart(int c) {
+    alignas(16) static constexpr std::int16_t kAlong[2][kPatch] = {{-7, -5, -3, -1, 1, 3, 5, 7},
+                                                                   {-3, -1, 1, 3, -3, -1, 1, 3}};
+    return hn::Load(Row16(), kAlong[kParts - 1] + c);
+}
+
+/// compare() with a flow that changes over the patch.
+template <int kParts>
+HWY_INLINE Match compareBent(const Template& t, const PatchPicture& p, int column, int row,
+                             Vector2 u, const Bend& bend) {
+    const Row16 d16;
+    BentPlaces<kParts> places;
+    placeParts<kParts>(p, column, row, u, bend, places);
+    const auto slopeX = hn::Set(d16, static_cast<std::int16_t>(bend.dx.x * (kShare / 2)));
+    const auto slopeY = hn::Set(d16, static_cast<std::int16_t>(bend.dx.y * (kShare / 2)));
+    const auto middle = hn::Set(d16, 128 << kValueBits), most = hn::Set(d16, kMostValue);
+    const auto least = hn::Neg(most);
+    PatchSums sums;
+    for (int c = 0; c < kPatch; c += kRowLanes) {
+        const auto alongX = hn::Mul(alongPart<kParts>(c), slopeX);
+        const auto alongY = hn::Mul(alongPart<kParts>(c), slopeY);
+        for (int r = 0; r < kPatch; ++r) {
+            const int first = kParts * r;
+            const auto shareX = hn::Add(loadShares<kParts>(places.shareX + first, c), alongX);
+            const auto shareY = hn::Add(loadShares<kParts>(places.shareY + first, c), alongY);
+            const auto between = [&](const std::int32_t* rows) HWY_ATTR {
+                const std::uint8_t* parts[kParts];
+                for (int i = first; i < first + kParts; ++i)
+                    parts[i - first] = p.pixels + rows[i] * p.pitch + places.x[i];
+                const auto here = loadParts<kParts>(parts, 0, c);
+                const auto step = hn::Sub(loadParts<kParts>(parts, 1, c), here);
+                return hn::Add(hn::ShiftLeft<kValueBits>(here),
+                               hn::MulFixedPoint15(hn::ShiftLeft<kValueBits + 1>(step), shareX));
+            };
+            const auto upper = between(places.upper), lower = between(places.lower);
+            const auto step = hn::ShiftLeft<1>(hn::Sub(lower, upper));
+            auto v = hn::Sub(hn::Add(upper, hn::MulFixedPoint15(step, shareY)), middle);
+            v = hn::Min(hn::Max(v, least), most);
+            sums.add(t, kPatch * r + c, v);
+            sums.b.add(v, hn::Set(d16, 1));
+        }
+    }
+    return matchOf(t, sums);
+}
+
+/// The best of `u` and the places that Gauss-Newton steps lead to from there.
+template <int kParts>
+HWY_INLINE void alignCell(const AlignStep& step, const Template& t, int column, int row, Vector2 u,
+                          const Bend& bend) {
+    Vector2 best = u;
+    float cost = 1e9F;
+    for (int k = 0; k <= step.steps; ++k) {
+        const Match m = compareBent<kParts>(t, step.to, column, row, u, bend);
+        if (!(m.cost < cost)) break;
+        cost = m.cost;
+        best = u;
+        const Vector2 s = stepOf(t, m.descent);
+        if (!(squaredLength(s) > kShortestStep)) break;
+        u = u + s;
+    }
+    put(step.out, column, row, best, cost, t.variance);
+}
+
+}  // namespace
+
+void AlignCells(const AlignStep& step, int row, int first, int end) {
+    Template t;
+    for (int column = first; column < end; ++column) {
+        loadTemplate(step.from, column, row, t);
+        const Vector2 u = seedAt(step, column, row);
+        const Bend bend = bendAt(step, column, row, u);
+        if (std::max(std::abs(bend.dx.x), std::abs(bend.dx.y)) < kGentle)
+            alignCell<1>(step, t, column, row, u, bend);
+        else
+            alignCell<2>(step, t, column, row, u, bend);
+    }
+}
+
+void KeepSeedCells(const AlignStep& step, int row, int first, int end) {
+    for (int column = first; column < end; ++column)
+        put(step.out, column, row, seedAt(step, column, row), 0, 0);
+}
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mfar::simd {
+
+HWY_EXPORT(AlignCells);
+HWY_EXPORT(KeepSeedCells);
+
+void alignCells(const AlignStep& step, int row, int first, int end) {
+    HWY_DYNAMIC_DISPATCH(AlignCells)(step, row, first, end);
+}
+
+void keepSeedCells(const AlignStep& step, int row, int first, int end) {
+    HWY_DYNAMIC_DISPATCH(KeepSeedCells)(step, row, first, end);
+}
+
+}  // namespace mfar::simd
+#endif

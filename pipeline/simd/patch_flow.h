@@ -1,0 +1,94 @@
+#pragma once
+
+#include "base/rows.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mfar::simd {
+
+/// One pyramid level as the flow kernels read it: bytes, 8 of replicated border left of each row
+/// and at least 8 right of it.
+struct PatchPicture {
+    const std::uint8_t* pixels = nullptr;  ///< of pixel (0, 0)
+    std::ptrdiff_t pitch = 0;              ///< bytes
+    int width = 0, height = 0;             ///< [px]
+};
+
+/// Vectors of one level's cells, a plane a channel: flow x, y [px of the level], cost, texture.
+/// All planes have one pitch and kFieldMargin writable elements on each side of their rows.
+struct FlowPlanes {
+    float *x = nullptr, *y = nullptr, *cost = nullptr, *texture = nullptr;  ///< of cell (0, 0)
+    std::ptrdiff_t pitch = 0;                                               ///< elements
+    int columns = 0, rows = 0;                                              ///< cells
+};
+inline constexpr int kFieldMargin = 16;
+
+/// A field of another frame or step whose vectors are candidates at every level.
+struct PriorField {
+    const float *x = nullptr, *y = nullptr;
+    std::ptrdiff_t step = 1, pitch = 0;         ///< elements between cells, between rows
+    float scale = 1;                            ///< this level's pixels per pixel of the field
+    float columnsPerCell = 1, rowsPerCell = 1;  ///< of the field
+};
+
+/// One level of one direction, as flow_search.comp searches it.
+struct SearchStep {
+    PatchPicture from, to;  ///< patches of `from` are sought in `to`
+    FlowPlanes out;
+    FlowPlanes coarser;  ///< its vectors are candidates; no rows: the coarsest level
+    PriorField prior;    ///< no x: not there
+    int radius = 0;      ///< of the square of whole-pixel candidates at the coarsest level, <= 40
+    int candidates = 0;  ///< of the coarser level
+    int steps = 0;       ///< of Gauss-Newton
+};
+/// Cells [first, end) of a row.
+void searchCells(const SearchStep& step, int row, int first, int end);
+
+/// As the LISTED variant of flow_search.comp: cells leave their vector in `out` for a cost that is
+/// clearly less. `errors`: four floats a cell, the first is replaced; none: not the finest level,
+/// every cell takes what was found.
+struct ListedStep {
+    SearchStep search;
+    float* errors = nullptr;
+    std::ptrdiff_t errorPitch = 0;  ///< floats
+};
+void searchListedCells(const ListedStep& step, int row, int first, int end);
+
+/// As flow_propagate.comp: each cell tries its neighbours' vectors of `in`.
+struct PropagateStep {
+    PatchPicture from, to;
+    FlowPlanes out, in;
+    int steps = 0;  ///< of Gauss-Newton
+};
+void propagateCells(const PropagateStep& step, int row, int first, int end);
+
+/// As flow_align.comp: Gauss-Newton steps from `seed` with patches that bend as the field does.
+struct AlignStep {
+    PatchPicture from, to;
+    FlowPlanes out;
+    const float* seed = nullptr;  ///< flow x, y, -, - of each cell, row by row without gaps
+    int steps = 0;                ///< of Gauss-Newton
+};
+void alignCells(const AlignStep& step, int row, int first, int end);
+/// The seed's vectors as they are, with cost and texture 0. Vectors that are no pixels are zero.
+void keepSeedCells(const AlignStep& step, int row, int first, int end);
+
+/// As flow_filter.comp, on fields with their margins filled: `known` says how well a cell is
+/// known, [0, 1]. `out`: four floats a cell, row by row without gaps.
+struct CleanUpStep {
+    FlowPlanes in;
+    const float* known = nullptr;  ///< pitch and margins as those of `in`
+    float* out = nullptr;
+    int planeFits = 0;
+};
+/// Rows around the field that planes fits read.
+inline constexpr int kCleanUpRadius = 2;
+void cleanUpCells(const CleanUpStep& step, int row, int first, int end);
+/// The cells as they are.
+void copyCells(const CleanUpStep& step, int row, int first, int end);
+/// How well the cells of a row are known; repeats the outermost cells of x, y and `known` over
+/// kCleanUpRadius columns on both sides.
+void prepareCleanUpRow(const FlowPlanes& field, float* known, int row);
+
+}  // namespace mfar::simd

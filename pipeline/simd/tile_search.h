@@ -1,0 +1,61 @@
+#pragma once
+
+#include "base/rows.h"
+#include "pipeline/engine/cells.h"
+#include "pipeline/simd/patch_flow.h"
+
+#include <span>
+#include <vector>
+
+namespace mfar::simd {
+
+/// Cells of the finest level in a tile, each way.
+inline constexpr int kCellsPerTile = 4;
+
+/// Tiles of 16x16 px, row-major: 1 or 0.
+struct TileMask {
+    Size size;
+    std::vector<std::uint8_t> flags;
+
+    explicit TileMask(Size tiles = {})
+        : size(tiles), flags(static_cast<std::size_t>(tiles.width) * tiles.height) {}
+    [[nodiscard]] std::uint8_t& at(int x, int y) {
+        return flags[static_cast<std::size_t>(y) * size.width + x];
+    }
+    [[nodiscard]] std::uint8_t at(int x, int y) const {
+        return flags[static_cast<std::size_t>(y) * size.width + x];
+    }
+};
+/// `out` (of the same size): tiles with a flag within `margin` tiles each way. `between`: room.
+void widen(const TileMask& in, int margin, TileMask& between, TileMask& out);
+
+/// Finds the tiles that a field along epipolar lines does not explain, and for each pyramid level
+/// the groups of 4x4 cells that their 2-D search has to cover: flow_flag.comp and flow_list.comp.
+class TileSearch {
+public:
+    struct Group {
+        int x, y;  ///< [groups]
+    };
+
+    TileSearch(Size cells, int levels);
+
+    /// `noise` of the video [grey levels]; `errors`: two-way, row by row.
+    void find(const FlowPlanes& field, std::span<const ErrorCell> errors, double noise);
+    void clear();
+
+    [[nodiscard]] std::span<const Group> groups(int level) const {
+        return groups_[static_cast<std::size_t>(level)];
+    }
+    /// The same as groups(0), by tile.
+    [[nodiscard]] const std::vector<bool>& tiles() const { return listed_; }
+    [[nodiscard]] int count() const { return static_cast<int>(groups_[0].size()); }
+
+private:
+    void flag(const FlowPlanes& field, std::span<const ErrorCell> errors, double noise);
+
+    TileMask unexplained_, flagged_;
+    std::vector<std::vector<Group>> groups_;
+    std::vector<bool> listed_;
+};
+
+}  // namespace mfar::simd

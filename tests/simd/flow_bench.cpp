@@ -1,0 +1,76 @@
+// Time of the host's pyramids and 2-D flow, the least of many runs.
+
+#include "pipeline/flow/cell_field.h"
+#include "pipeline/simd/flow2d.h"
+#include "pipeline/simd/luma_pyramids.h"
+#include "tests/simd/flow_pictures.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <memory>
+
+namespace mfar::simd {
+namespace {
+
+double leastMs(int runs, const std::function<void()>& body) {
+    double least = 1e9;
+    for (int i = 0; i < runs; ++i) {
+        const auto begin = std::chrono::steady_clock::now();
+        body();
+        const std::chrono::duration<double, std::milli> taken =
+            std::chrono::steady_clock::now() - begin;
+        least = std::min(least, taken.count());
+    }
+    return least;
+}
+
+void measure(int threads, int runs) {
+    constexpr Size kVideo{640, 480}, kStill{2304, 1728};
+    const auto workers = std::make_shared<Workers>(threads);
+    const FlowPicture first = wavesMoved(kVideo, {0, 0}), second = wavesMoved(kVideo, {6.3, -2.4});
+    const FlowPicture still = wavesMoved(kStill, {0, 0});
+    const RgbPlanes planes = planesOf(first);
+    LumaPyramids pyramids(kVideo, workers);
+    const auto row = [](const char* what, double ms) {
+        std::printf("  %-28s %7.3f ms\n", what, ms);
+    };
+    std::printf("%d threads\n", threads);
+    row("video pyramid", leastMs(runs, [&] { pyramids.buildVideo(planes); }));
+    const StereoRig rig = rigOf(kVideo, kStill);
+    row("still pyramid", leastMs(runs / 10, [&] { pyramids.buildStill(still.rows(), rig); }));
+    pyramids.buildSecond(second.rows());
+    const TileWork work = wholeWork(kVideo);
+    Flow2d flow(kVideo, {}, workers);
+    const Flow2d::Luma luma{pyramids.video(), pyramids.still(), pyramids.words()};
+    row("flow, both ways", leastMs(runs, [&] { flow.run(luma, work, false); }));
+    row("flow, after the first", leastMs(runs, [&] { flow.run(luma, work, true); }));
+    TileWork few = work;
+    few.draw = TileWork::Draw::Tiles;
+    for (auto& tile : few.flags)
+        tile.changed = 0;
+    for (int i = 0; i < 30; ++i)
+        few.flags[static_cast<std::size_t>(600 + i % 5 + i / 5 * few.tiles.width)].changed = 1;
+    row("flow, 30 tiles of 1200", leastMs(runs, [&] { flow.run(luma, few, true); }));
+    const Size cells = cellsOf(kVideo);
+    const std::size_t count = static_cast<std::size_t>(cells.width) * cells.height;
+    std::vector<std::array<float, 4>> seed(count, {6.1F, -2.3F, 0, 0}), errors(count);
+    for (std::size_t i = 0; i < count; ++i)
+        seed[i][0] += 0.01F * static_cast<float>(i % 160) - 0.8F;
+    row("refine, slanted", leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
+    std::printf("  searched tiles: %d\n", flow.searchedCount());
+    for (auto& s : seed)
+        s = {6.1F, -2.3F, 0, 0};
+    row("refine, even", leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
+}
+
+}  // namespace
+}  // namespace mfar::simd
+
+int main(int argc, char** argv) {
+    const int runs = argc > 1 ? std::atoi(argv[1]) : 200;
+    for (const int threads : {1, 2})
+        mfar::simd::measure(threads, runs);
+}
