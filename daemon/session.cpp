@@ -13,6 +13,8 @@ namespace {
 /// How often is looked for a fault while no frames come.
 constexpr std::chrono::milliseconds kFaultInterval{30};
 
+// The only place where it is noticed that this machine has no OpenGL ES: an engine that needs none
+// is to be chosen here.
 std::unique_ptr<GlContext> openGl() {
     try {
         return createGlContext();

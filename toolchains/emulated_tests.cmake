@@ -6,6 +6,7 @@ set(mfar_emulated
     mfar-depth-tests
     mfar-display-tests
     mfar-flow-tests
+    mfar-gl-library-tests
     mfar-libcamera-tests
     mfar-shader-tests-egl
     mfar-track-tests

@@ -1,5 +1,6 @@
 #include "hal/device/egl_extensions.h"
 #include "hal/device/egl_plane_importer.h"
+#include "hal/device/gl_libraries.h"
 #include "hal/gl_context.h"
 
 #include <EGL/egl.h>
@@ -73,6 +74,7 @@ OpenedDisplay sharedDisplay() {
     static OpenedDisplay opened{EGL_NO_DISPLAY, ""};
     const std::lock_guard lock(mutex);
     if (opened.display == EGL_NO_DISPLAY) {
+        loadGlLibraries();
         const char* wanted = std::getenv("MFAR_GL_DEVICE");
         opened = openDisplay(wanted != nullptr && std::strcmp(wanted, "software") == 0);
     }

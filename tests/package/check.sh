@@ -45,6 +45,16 @@ makeSuccessor() {
     dpkg-deb --root-owner-group -b "$work/next" "$root/next.deb" >/dev/null
 }
 
+field() { dpkg-deb --field "$deb" "$1" | tr ',' '\n' | awk '{ print $1 }'; }
+
+# draws EXIT-CODE: mfard must end with this code after one picture.
+draws() {
+    local code=0
+    inside mfard --source synthetic:flat --display none --frames 1 || code=$?
+    [[ $code == "$1" ]]
+}
+withoutGl() { draws 69 && grep -q 'libEGL.so.1 cannot be loaded: .*install libegl1' "$work/said"; }
+
 enabled=$root/etc/systemd/system/multi-user.target.wants/mfard.service
 inGroup() { grep -Eq "^$1:.*[:,]mfar(,|$)" "$root/etc/group"; }
 
@@ -67,6 +77,16 @@ holds "the service is enabled" test -L "$enabled"
 holds "the unit is sound" inside systemd-analyze verify --man=no mfard.service
 holds "the licence is there" test -s "$root/usr/share/doc/mfar/copyright"
 holds "programs are stripped" isNot grep -q debug_info <(readelf -S "$root/usr/bin/mfard")
+
+step "OpenGL ES is recommended alone"
+for package in libegl1 libgl1-mesa-dri libgles2; do
+    holds "$package is recommended" grep -qx "$package" <(field Recommends)
+    holds "$package is no dependency" isNot grep -qx "$package" <(field Depends)
+done
+holds "there is no EGL" test -z "$(find "$root/usr/lib" -name 'libEGL.so*')"
+holds "without EGL mfard says so" withoutGl
+apt install libegl1 libgl1-mesa-dri libgles2
+holds "with EGL mfard draws" draws 0
 
 step "Upgrade of a changed configuration and a disabled service"
 echo 'seed = 7' >"$root/etc/mfar/mfard.toml"

@@ -30,9 +30,10 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 
-# The libraries that the programs name come before these, which are found at run time alone. The
-# service is reloaded by procps' kill.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "init-system-helpers, libgl1-mesa-dri, procps, systemd, udev")
+# The libraries that the programs name come before these. The service is reloaded by procps' kill.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS "init-system-helpers, procps, systemd, udev")
+# OpenGL ES is loaded at run time: programs start without it.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libgles2")
 set(CPACK_MFAR_SYSROOT ${CMAKE_SYSROOT})
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/depends.cmake)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA

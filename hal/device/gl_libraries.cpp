@@ -1,0 +1,50 @@
+#include "hal/device/gl_libraries.h"
+
+#include <EGL/egl.h>
+
+#include <dlfcn.h>
+#include <stdexcept>
+#include <string_view>
+
+namespace mfar {
+namespace {
+
+constexpr const char* kAdvice = "; install libegl1 and libgles2, or use the SIMD engine";
+
+using gl_libraries::Function;
+
+// Never closed: drivers leave threads and thread-local data behind.
+void* opened(const std::string& name) {
+    void* library = dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL);
+    if (library != nullptr) return library;
+    const char* error = dlerror();
+    std::string_view why = error != nullptr ? error : "unknown error";
+    if (why.starts_with(name + ": ")) why.remove_prefix(name.size() + 2);
+    throw std::runtime_error(name + " cannot be loaded: " + std::string(why) + kAdvice);
+}
+
+Function findIn(void* library, const char* name) {
+    return reinterpret_cast<Function>(dlsym(library, name));
+}
+
+}  // namespace
+
+void loadGlLibraries(const GlLibraryNames& names) {
+    void* egl = opened(names.egl);
+    void* gles = opened(names.gles);
+    // Old versions lack functions that are not called; this one all others are asked for.
+    gl_libraries::connectEgl([egl](const char* name) { return findIn(egl, name); });
+    if (findIn(egl, "eglGetProcAddress") == nullptr)
+        throw std::runtime_error(names.egl + " has no eglGetProcAddress" + kAdvice);
+    // EGL before 1.5 need not know the functions of GLES, and GLES libraries of some vendors export
+    // those of 2.0 alone.
+    const std::string missing = gl_libraries::connectGles([gles](const char* name) {
+        const Function function = findIn(gles, name);
+        return function != nullptr ? function : eglGetProcAddress(name);
+    });
+    if (!missing.empty())
+        throw std::runtime_error(names.gles + " has no " + missing +
+                                 ": it is older than OpenGL ES 3.1" + kAdvice);
+}
+
+}  // namespace mfar
