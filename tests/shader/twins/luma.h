@@ -1,6 +1,7 @@
 #pragma once
 
-#include "pipeline/flow/luma_pyramid.h"
+#include "base/geometry.h"
+#include "base/image_view.h"
 
 #include <algorithm>
 #include <cmath>
