@@ -1,7 +1,7 @@
 // The host's pyramids and 2-D flow against those of the shaders.
 
-#include "pipeline/flow/flow2d.h"
-#include "pipeline/flow/luma_pyramid.h"
+#include "pipeline/gles/flow2d.h"
+#include "pipeline/gles/luma_pyramids.h"
 #include "pipeline/simd/flow2d.h"
 #include "pipeline/simd/luma_pyramids.h"
 #include "tests/shader/gl_test.h"
@@ -23,16 +23,10 @@ using Cell = std::array<float, 4>;
 class Engines {
 public:
     Engines(const Picture& now, const Picture& then)
-        : size_(now.size), plan_(size_), glPyramids_(size_, plan_), glFlow_(glPyramids_, plan_),
+        : size_(now.size), tiles_(size_), glPyramids_(size_), glFlow_(size_),
           workers_(std::make_shared<Workers>()), pyramids_(size_, workers_),
           flow_(size_, {}, workers_) {
-        plan_.openAll();
-        work_.tiles = tilesOf(size_);
-        work_.flags.assign(static_cast<std::size_t>(work_.tiles.width) * work_.tiles.height,
-                           {1, 1});
-        work_.changed = work_.matched = static_cast<int>(work_.flags.size());
-        work_.noise = plan_.noise();
-        glPyramids_.buildVideo(uploaded(now), plan_);
+        glPyramids_.buildVideo(uploaded(now));
         glPyramids_.buildSecond(uploaded(then));
     }
 
@@ -42,12 +36,12 @@ public:
         std::ranges::copy(words, pyramids_.words().begin());
     }
     void run(bool usePrior) {
-        glFlow_.run(glPyramids_, plan_, usePrior);
-        flow_.run(luma(), work_, usePrior);
+        glFlow_.run(glPyramids_.luma(), tiles_, usePrior);
+        flow_.run(luma(), tiles_.work(), usePrior);
     }
     void refine(const std::vector<Cell>& forward, const std::vector<Cell>& errors) {
-        glFlow_.refine(glPyramids_, plan_, forward, errors);
-        flow_.refine(luma(), work_, forward, errors);
+        glFlow_.refine(glPyramids_.luma(), tiles_, forward, errors);
+        flow_.refine(luma(), tiles_.work(), forward, errors);
     }
     [[nodiscard]] simd::Flow2d::Luma luma() const {
         return {pyramids_.video(), pyramids_.still(), pyramids_.words()};
@@ -64,13 +58,12 @@ public:
 
 private:
     Size size_;
-    WorkPlan plan_;
+    TileBuffer tiles_;
     LumaPyramids glPyramids_;
     Flow2d glFlow_;
     std::shared_ptr<Workers> workers_;
     simd::LumaPyramids pyramids_;
     simd::Flow2d flow_;
-    TileWork work_;
 };
 
 struct Difference {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "pipeline/gles/luma_pyramids.h"
+#include "base/geometry.h"
+#include "base/image_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,142 @@
+#include "pipeline/simd/cell_weights.h"
+
+// Highway compiles what follows once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/simd/cell_weights.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kChunk = 16;
+using D = hn::CappedTag<float, kChunk>;
+using V = hn::Vec<D>;
+using LowRow = std::array<float, kChunk>;
+
+// Reasons for these are with superres_weigh.comp.
+constexpr float kPixels = 64;  // of a patch
+constexpr float kRounding = 0.083F;
+constexpr float kLookUpLoss = 1.15F;
+constexpr float kEven = 0.015F, kBent = 0.07F;
+constexpr float kLeastWeight = 0.004F;
+
+HWY_INLINE V Const(float value) {
+    return hn::Set(D(), value);
+}
+
+HWY_INLINE V Mix(V a, V b, V share) {
+    return hn::MulAdd(hn::Sub(b, a), share, a);
+}
+
+HWY_INLINE V SmoothStep(float low, float high, V value) {
+    const V unit = hn::Mul(hn::Sub(value, Const(low)), Const(1 / (high - low)));
+    const V t = hn::Max(hn::Min(unit, Const(1)), Const(0));
+    return hn::Mul(hn::Mul(t, t), hn::NegMulAdd(Const(2), t, Const(3)));
+}
+
+HWY_INLINE V Vertical(const RowsAround& rows, int x) {
+    const D d;
+    const V sides = hn::Add(hn::LoadU(d, rows.above + x), hn::LoadU(d, rows.below + x));
+    return hn::MulAdd(Const(2), hn::LoadU(d, rows.here + x), sides);
+}
+
+/// Mean of 3x3 cells, weighed 1 2 1 each way.
+HWY_INLINE V Smoothed(const RowsAround& rows, int x) {
+    const V sides = hn::Add(Vertical(rows, x - 1), Vertical(rows, x + 1));
+    return hn::Mul(hn::MulAdd(Const(2), Vertical(rows, x), sides), Const(1.0F / 16));
+}
+
+/// Square of how much the flow changes around the cell, times 64.
+HWY_INLINE V Bend(const RowsAround& flow, int x) {
+    const D d;
+    const V dx = hn::Sub(hn::LoadU(d, flow.here + x + 1), hn::LoadU(d, flow.here + x - 1));
+    const V dy = hn::Sub(hn::LoadU(d, flow.below + x), hn::LoadU(d, flow.above + x));
+    return hn::MulAdd(dx, dx, hn::Mul(dy, dy));
+}
+
+/// Means over the 2x2 half-resolution cells nearest to each of the chunk's cells.
+HWY_INLINE void HalfAround(const WeighRow::Half& rows, int chunk, LowRow& out) {
+    const hn::CappedTag<float, kChunk / 2> d;
+    for (int i = 0; i < kChunk / 2; i += static_cast<int>(hn::Lanes(d))) {
+        const int x = chunk / 2 + i;
+        const auto column = [&](int at) HWY_ATTR {
+            return hn::Add(hn::LoadU(d, rows.near + at), hn::LoadU(d, rows.other + at));
+        };
+        const auto quarter = hn::Set(d, 0.25F);
+        const auto here = column(x);
+        hn::StoreInterleaved2(hn::Mul(hn::Add(column(x - 1), here), quarter),
+                              hn::Mul(hn::Add(here, column(x + 1)), quarter), d, &out[2 * i]);
+    }
+}
+
+struct Weight {
+    V weight, signal, unexplained;
+};
+
+HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V confidence,
+                           float sigma) {
+    const V zero = Const(0);
+    const V video = Smoothed(row.varianceVideo, x), still = Smoothed(row.varianceStill, x);
+    const V covariance = hn::Max(Smoothed(row.covariance, x), zero);
+    const float ofPatch = kPixels * (sigma * sigma + kRounding);
+    const float ofLow = kPixels * (0.25F * sigma * sigma + kRounding);
+    const V noise = Const(ofPatch), lowNoise = Const(ofLow);
+    const V perStill = hn::Div(Const(1), hn::Add(still, noise));
+    const V perVideo = hn::Div(Const(1), hn::Add(video, noise));
+    const V fine = hn::Mul(covariance, perStill);
+    const V lowGain = hn::Div(hn::Max(low, zero), hn::Add(lowStill, lowNoise));
+    const V lowShare = hn::Div(lowStill, hn::MulAdd(Const(8), lowNoise, lowStill));
+    const V gain = hn::Min(Mix(fine, hn::Max(fine, lowGain), lowShare), Const(2));
+    const V ncc2 = hn::Mul(hn::Mul(covariance, perVideo), fine);
+    const V bend =
+        hn::Mul(hn::Sqrt(hn::Add(Bend(row.flowX, x), Bend(row.flowY, x))), Const(1.0F / 8));
+    const V even = hn::Mul(SmoothStep(0.2F, 0.6F, ncc2), Const(kLookUpLoss));
+    const V trust = Mix(even, hn::Mul(ncc2, ncc2), SmoothStep(kEven, kBent, bend));
+    const V weight = hn::Mul(hn::Mul(gain, trust), confidence);
+    // A flow that is not a number is no even one.
+    const auto counts = hn::And(hn::Gt(weight, Const(kLeastWeight)), hn::Eq(bend, bend));
+    const V signal = hn::Mul(hn::NegMulAdd(Const(2), noise, video), perVideo);
+    const auto textured = hn::Ge(video, Const(8 * (ofPatch + kPixels)));
+    const auto unlike = hn::Le(hn::Mul(ncc2, confidence), Const(0.25F));
+    return {hn::IfThenElseZero(counts, weight), hn::Max(hn::Min(signal, Const(1)), zero),
+            hn::IfThenElseZero(hn::And(textured, unlike), Const(1))};
+}
+
+void WeighCells(const WeighRow& row, float noise) {
+    const D d;
+    HWY_ALIGN LowRow low, lowStill;
+    for (int chunk = 0; chunk < row.count; chunk += kChunk) {
+        HalfAround(row.halfCovariance, chunk, low);
+        HalfAround(row.halfVarianceStill, chunk, lowStill);
+        for (int i = 0; i < kChunk; i += static_cast<int>(hn::Lanes(d))) {
+            const int x = chunk + i;
+            const V confidence = hn::LoadU(d, row.confidence + x);
+            const Weight w = WeightOf(row, x, hn::Load(d, &low[i]), hn::Load(d, &lowStill[i]),
+                                      confidence, noise);
+            hn::StoreInterleaved4(hn::LoadU(d, row.flowX.here + x),
+                                  hn::LoadU(d, row.flowY.here + x), w.weight, confidence, d,
+                                  &row.weighed[x].x);
+            hn::StoreInterleaved4(hn::LoadU(d, row.lookX + x), hn::LoadU(d, row.lookY + x),
+                                  w.weight, confidence, d, &row.lookUps[x].x);
+            hn::StoreInterleaved4(hn::Min(hn::Mul(w.weight, Const(0.5F)), Const(1)), confidence,
+                                  w.signal, w.unexplained, d, &row.trust[x].halfWeight);
+        }
+    }
+}
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mfar::simd {
+
+HWY_EXPORT(WeighCells);
+
+void weighCells(const WeighRow& row, float noise) {
+    HWY_DYNAMIC_DISPATCH(WeighCells)(row, noise);
+}
+
+}  // namespace mfar::simd
+#endif

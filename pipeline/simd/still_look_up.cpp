@@ -1,0 +1,237 @@
+#include "pipeline/simd/still_look_up.h"
+
+#include <algorithm>
+
+// Highway compiles what follows once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/simd/still_look_up.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kChunk = 16;
+using D = hn::CappedTag<float, kChunk>;
+using V = hn::Vec<D>;
+
+struct Point {
+    V x, y;
+};
+
+HWY_INLINE V Const(float value) {
+    return hn::Set(D(), value);
+}
+
+HWY_INLINE Point Distort(const LensParams& lens, Point p) {
+    const V xx = hn::Mul(p.x, p.x), yy = hn::Mul(p.y, p.y), xy = hn::Mul(p.x, p.y);
+    const V r2 = hn::Add(xx, yy);
+    const V inner = hn::MulAdd(r2, Const(lens.k3), Const(lens.k2));
+    const V radial = hn::MulAdd(r2, hn::MulAdd(r2, inner, Const(lens.k1)), Const(1));
+    const V twiceXy = hn::Add(xy, xy);
+    const V acrossX = hn::MulAdd(Const(2), xx, r2), acrossY = hn::MulAdd(Const(2), yy, r2);
+    const V x = hn::MulAdd(Const(lens.p1), twiceXy, hn::Mul(Const(lens.p2), acrossX));
+    const V y = hn::MulAdd(Const(lens.p1), acrossY, hn::Mul(Const(lens.p2), twiceXy));
+    return {hn::MulAdd(p.x, radial, x), hn::MulAdd(p.y, radial, y)};
+}
+
+HWY_INLINE V StepTo(V target, V at) {
+    return hn::Max(hn::Min(hn::Sub(target, at), Const(0.5F)), Const(-0.5F));
+}
+
+// As camera.glsl: fixed-point iterations, here until all lanes stand still.
+HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
+    constexpr int kSteps = 12;
+    constexpr float kAtRest = 3e-7F;  // 0.001 px at a focal length of 3000 px
+    const Point target{hn::Mul(hn::Sub(x, Const(lens.cx)), Const(1 / lens.fx)),
+                       hn::Mul(hn::Sub(y, Const(lens.cy)), Const(1 / lens.fy))};
+    Point ray = target;
+    for (int i = 0; lens.distorts && i < kSteps; ++i) {
+        const Point at = Distort(lens, ray);
+        const V dx = StepTo(target.x, at.x), dy = StepTo(target.y, at.y);
+        ray = {hn::Add(ray.x, dx), hn::Add(ray.y, dy)};
+        const V step = hn::Max(hn::Abs(dx), hn::Abs(dy));
+        if (hn::AllTrue(D(), hn::Le(step, Const(kAtRest)))) break;
+    }
+    return ray;
+}
+
+// Far outside where the ray points away from the still's scene.
+HWY_INLINE Point StillPixel(const LookUpParams& params, V x, V y) {
+    const Point ray = Unproject(params.video, x, y);
+    const auto turned = [&](int row) HWY_ATTR {
+        const auto& r = params.rotation[row];
+        return hn::MulAdd(Const(r[0]), ray.x, hn::MulAdd(Const(r[1]), ray.y, Const(r[2])));
+    };
+    const V z = turned(2);
+    const auto ahead = hn::Gt(z, Const(0.05F));
+    const V nearness = hn::Div(Const(1), hn::IfThenElse(ahead, z, Const(1)));
+    Point at{hn::Mul(turned(0), nearness), hn::Mul(turned(1), nearness)};
+    if (params.still.distorts) at = Distort(params.still, at);
+    const V far = Const(-1e6F);
+    return {hn::IfThenElse(ahead, hn::MulAdd(at.x, Const(params.still.fx), Const(params.still.cx)),
+                           far),
+            hn::IfThenElse(ahead, hn::MulAdd(at.y, Const(params.still.fy), Const(params.still.cy)),
+                           far)};
+}
+
+// NaN is outside.
+HWY_INLINE hn::Mask<D> Inside(const LensParams& lens, Point p) {
+    const V zero = hn::Zero(D());
+    const auto x = hn::And(hn::Ge(p.x, zero), hn::Le(p.x, Const(lens.width - 1)));
+    return hn::And(x, hn::And(hn::Ge(p.y, zero), hn::Le(p.y, Const(lens.height - 1))));
+}
+
+// NaN becomes the least.
+HWY_INLINE V Clamp(V value, float least, float most) {
+    const V low = Const(least);
+    return hn::IfThenElse(hn::Gt(value, low), hn::Min(value, Const(most)), low);
+}
+
+struct Bilinear {
+    hn::Vec<hn::RebindToSigned<D>> first, second;
+    V share;
+};
+
+HWY_INLINE Bilinear Between(V position, float last) {
+    const hn::RebindToSigned<D> di;
+    const V floor = hn::Floor(position);
+    return {hn::ConvertTo(di, Clamp(floor, 0, last)),
+            hn::ConvertTo(di, Clamp(hn::Add(floor, Const(1)), 0, last)), hn::Sub(position, floor)};
+}
+
+HWY_INLINE V Mix(V a, V b, V share) {
+    return hn::MulAdd(hn::Sub(b, a), share, a);
+}
+
+/// The backward field at `q`, less its sign: what the way there and back again ends off by.
+HWY_INLINE V TwoWayError(const BackwardCells& backward, Point q, V flowX, V flowY) {
+    const D d;
+    const hn::RebindToSigned<D> di;
+    const V perCell = Const(1 / (4 * backward.scale)), half = Const(0.5F);
+    const auto at = [&](V p, int count) HWY_ATTR {
+        const V position = hn::Sub(hn::Mul(hn::Add(p, half), perCell), half);
+        return Between(position, static_cast<float>(count - 1));
+    };
+    const Bilinear x = at(q.x, backward.columns), y = at(q.y, backward.rows);
+    const auto pitch = hn::Set(di, static_cast<std::int32_t>(backward.pitch));
+    const auto* field = reinterpret_cast<const float*>(backward.field);
+    const auto look = [&](int part) HWY_ATTR {
+        const auto atCell = [&](auto column, auto row) HWY_ATTR {
+            const auto cell = hn::Add(hn::Mul(row, pitch), column);
+            return hn::GatherIndex(d, field + part, hn::ShiftLeft<2>(cell));
+        };
+        return Mix(Mix(atCell(x.first, y.first), atCell(x.second, y.first), x.share),
+                   Mix(atCell(x.first, y.second), atCell(x.second, y.second), x.share), y.share);
+    };
+    const V scale = Const(backward.scale);
+    const V dx = hn::MulAdd(scale, look(0), flowX), dy = hn::MulAdd(scale, look(1), flowY);
+    return hn::Sqrt(hn::MulAdd(dx, dx, hn::Mul(dy, dy)));
+}
+
+void LookUpCells(const LookUpParams& params, const BackwardCells& backward, const LookUpRow& row) {
+    const D d;
+    const float centreY = 4 * static_cast<float>(row.row) + 1.5F;
+    HWY_ALIGN std::array<float, kChunk> errors{};
+    for (int chunk = 0; chunk < row.count; chunk += kChunk) {
+        const int count = std::min(kChunk, row.count - chunk);
+        for (int i = 0; backward.errors != nullptr && i < count; ++i)
+            errors[i] = backward.errors[chunk + i].error;
+        for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+            const int cell = chunk + i;
+            const V centre =
+                hn::MulAdd(hn::Iota(d, static_cast<float>(cell)), Const(4), Const(1.5F));
+            const V flowX = hn::LoadU(d, row.flowX + cell), flowY = hn::LoadU(d, row.flowY + cell);
+            const Point q{hn::Add(centre, flowX), hn::Add(Const(centreY), flowY)};
+            const Point inStill = StillPixel(params, q.x, q.y);
+            const V error = backward.errors != nullptr ? hn::Load(d, &errors[i])
+                                                       : TwoWayError(backward, q, flowX, flowY);
+            const auto agrees =
+                hn::And(hn::And(Inside(params.video, q), Inside(params.still, inStill)),
+                        hn::Lt(error, Const(params.alpha)));
+            const V confidence = hn::NegMulAdd(error, Const(1 / params.alpha), Const(1));
+            hn::StoreU(hn::IfThenElseZero(agrees, confidence), d, row.confidence + cell);
+            const V x =
+                hn::MulAdd(hn::Add(centre, Const(0.5F)), Const(params.scaleX), Const(-0.5F));
+            const V y = Const((centreY + 0.5F) * params.scaleY - 0.5F);
+            hn::StoreU(Clamp(hn::Sub(inStill.x, x), -4e3F, 4e3F), d, row.lookX + cell);
+            hn::StoreU(Clamp(hn::Sub(inStill.y, y), -4e3F, 4e3F), d, row.lookY + cell);
+        }
+    }
+}
+
+void SplitFlow(const FlowCell* cells, int count, float* x, float* y) {
+    const D d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    int i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        V a, b, cost, texture;
+        hn::LoadInterleaved4(d, &cells[i].x, a, b, cost, texture);
+        hn::StoreU(a, d, x + i);
+        hn::StoreU(b, d, y + i);
+    }
+    for (; i < count; ++i) {
+        x[i] = cells[i].x;
+        y[i] = cells[i].y;
+    }
+}
+
+void HalveFlow(const float* upper, const float* lower, int count, float* out) {
+    const D d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    int i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        V a, b, c, e;
+        hn::LoadInterleaved2(d, upper + 2 * i, a, b);
+        hn::LoadInterleaved2(d, lower + 2 * i, c, e);
+        const V sum = hn::Add(hn::Add(hn::Add(a, b), c), e);
+        hn::StoreU(hn::Mul(sum, Const(0.125F)), d, out + i);
+    }
+    for (; i < count; ++i)
+        out[i] = 0.125F * (upper[2 * i] + upper[2 * i + 1] + lower[2 * i] + lower[2 * i + 1]);
+}
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mfar::simd {
+
+HWY_EXPORT(LookUpCells);
+HWY_EXPORT(SplitFlow);
+HWY_EXPORT(HalveFlow);
+
+LensParams::LensParams(const CameraModel& camera)
+    : fx(static_cast<float>(camera.fx)), fy(static_cast<float>(camera.fy)),
+      cx(static_cast<float>(camera.cx)), cy(static_cast<float>(camera.cy)),
+      k1(static_cast<float>(camera.distortion[0])), k2(static_cast<float>(camera.distortion[1])),
+      p1(static_cast<float>(camera.distortion[2])), p2(static_cast<float>(camera.distortion[3])),
+      k3(static_cast<float>(camera.distortion[4])), width(static_cast<float>(camera.size.width)),
+      height(static_cast<float>(camera.size.height)),
+      distorts(std::ranges::any_of(camera.distortion, [](double k) { return k != 0; })) {}
+
+LookUpParams::LookUpParams(const StereoRig& rig)
+    : video(rig.video), still(rig.still), rotation{},
+      scaleX(static_cast<float>(rig.still.fx / rig.video.fx)),
+      scaleY(static_cast<float>(rig.still.fy / rig.video.fy)) {
+    const Eigen::Matrix3d r = rig.T_still_video.rotation.toRotationMatrix();
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            rotation[i][j] = static_cast<float>(r(i, j));
+}
+
+void lookUpCells(const LookUpParams& params, const BackwardCells& backward, const LookUpRow& row) {
+    HWY_DYNAMIC_DISPATCH(LookUpCells)(params, backward, row);
+}
+
+void splitFlow(const FlowCell* cells, int count, float* x, float* y) {
+    HWY_DYNAMIC_DISPATCH(SplitFlow)(cells, count, x, y);
+}
+
+void halveFlow(const float* upper, const float* lower, int count, float* out) {
+    HWY_DYNAMIC_DISPATCH(HalveFlow)(upper, lower, count, out);
+}
+
+}  // namespace mfar::simd
+#endif

@@ -1,0 +1,172 @@
+#include "pipeline/simd/weigh_step.h"
+
+#include "pipeline/flow/cell_field.h"
+#include "pipeline/simd/patch_sums.h"
+
+#include <algorithm>
+#include <cassert>
+#include <functional>
+#include <utility>
+
+namespace mfar::simd {
+namespace {
+
+constexpr int kCellsPerTile = kTileSize / kCell;
+constexpr int kLongestVector = 16;  // of the kernels [cells]
+
+int wholeVectors(int cells) {
+    return (cells + kLongestVector - 1) / kLongestVector * kLongestVector;
+}
+
+Size wholeVectors(Size cells) {
+    return {wholeVectors(cells.width), cells.height};
+}
+
+PatchLevel patchLevel(std::span<const std::uint32_t> words, const LumaLevel& level) {
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(words.data());
+    const std::ptrdiff_t first = 4 * (std::ptrdiff_t{level.offset} + kLumaMarginWords);
+    return {bytes + first, 4 * static_cast<std::ptrdiff_t>(level.pitch), level.width, level.height};
+}
+
+/// Calls body(matched, first, last) for the longest runs of cells whose tiles are alike.
+template <class Body>
+void forRuns(const TileWork& work, int tileRow, int cellsPerTile, int cells, const Body& body) {
+    for (int tile = 0; tile < work.tiles.width;) {
+        const bool matched = work.at(tile, tileRow).matched != 0;
+        const int begin = tile;
+        while (tile < work.tiles.width && (work.at(tile, tileRow).matched != 0) == matched)
+            ++tile;
+        body(matched, cellsPerTile * begin, std::min(cellsPerTile * tile, cells));
+    }
+}
+
+}  // namespace
+
+WeighStep::CellPlane::CellPlane(Size cells)
+    : cells_(cells), rows_({2 * kMargin + wholeVectors(cells.width), cells.height}) {}
+
+void WeighStep::CellPlane::repeatBorder(int y) {
+    float* row = (*this)[y];
+    row[-1] = row[0];
+    row[cells_.width] = row[cells_.width - 1];
+}
+
+RowsAround WeighStep::CellPlane::around(int y) {
+    return {(*this)[std::max(y - 1, 0)], (*this)[y], (*this)[std::min(y + 1, cells_.height - 1)]};
+}
+
+WeighStep::WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers)
+    : params_(stillRig), workers_(std::move(workers)), cells_(cellsOf(stillRig.video.size)),
+      halfCells_(
+          cellsOf({(stillRig.video.size.width + 1) / 2, (stillRig.video.size.height + 1) / 2})),
+      flowX_(cells_), flowY_(cells_), covariance_(cells_), varianceVideo_(cells_),
+      varianceStill_(cells_), confidence_(cells_), lookX_(cells_), lookY_(cells_),
+      halfFlowX_(halfCells_), halfFlowY_(halfCells_), halfCovariance_(halfCells_),
+      halfVarianceStill_(halfCells_), weighed_(wholeVectors(cells_)),
+      lookUps_(wholeVectors(cells_)), trust_(wholeVectors(cells_)) {}
+
+void WeighStep::run(const WeighInput& in) {
+    assert(in.forward.size == cells_);
+    if (in.work.changed == 0) return;
+    forRows(in.work.tiles.height, 1, [&](int tileRow) { assessTiles(in, tileRow); });
+    const auto noise = static_cast<float>(in.work.noise);
+    forRows(cells_.height, kCellsPerTile, [&](int row) { weigh(row, noise); });
+}
+
+void WeighStep::forRows(int rows, int grain, const std::function<void(int)>& body) {
+    const auto part = [&](int first, int last) {
+        for (int row = first; row < last; ++row)
+            body(row);
+    };
+    if (workers_)
+        workers_->forRange(rows, grain, part);
+    else
+        part(0, rows);
+}
+
+void WeighStep::assessTiles(const WeighInput& in, int tileRow) {
+    const int last = std::min(kCellsPerTile * (tileRow + 1), cells_.height);
+    for (int row = kCellsPerTile * tileRow; row < last; ++row)
+        assess(in, row);
+    if (in.work.matched == 0) return;
+    const int lastHalf = std::min(kCellsPerTile / 2 * (tileRow + 1), halfCells_.height);
+    for (int row = kCellsPerTile / 2 * tileRow; row < lastHalf; ++row)
+        measureGain(in, row);
+}
+
+BackwardCells WeighStep::backwardOf(const WeighInput& in, int row) const {
+    if (in.errors.data != nullptr) return {.errors = in.errors[row]};
+    return {.errors = nullptr,
+            .field = in.backward.data,
+            .pitch = in.backward.pitch,
+            .columns = in.backward.size.width,
+            .rows = in.backward.size.height,
+            .scale = static_cast<float>(1 << in.backwardLevel)};
+}
+
+void WeighStep::assess(const WeighInput& in, int row) {
+    splitFlow(in.forward[row], cells_.width, flowX_[row], flowY_[row]);
+    flowX_.repeatBorder(row);
+    flowY_.repeatBorder(row);
+    const PatchLevel video = patchLevel(in.words, in.videoLuma[0]);
+    const PatchLevel still = patchLevel(in.words, in.stillLuma[0]);
+    const PatchSums sums{covariance_[row], varianceVideo_[row], varianceStill_[row]};
+    forRuns(in.work, row / kCellsPerTile, kCellsPerTile, cells_.width,
+            [&](bool matched, int first, int last) {
+                if (matched) {
+                    comparePatches(video, still, row, first, last, flowX_[row], flowY_[row], sums);
+                    return;
+                }
+                for (float* sum : {sums.covariance, sums.varianceVideo, sums.varianceStill})
+                    std::fill(sum + first, sum + last, 0.0F);
+            });
+    for (CellPlane* plane : {&covariance_, &varianceVideo_, &varianceStill_})
+        plane->repeatBorder(row);
+    lookUpCells(
+        params_, backwardOf(in, row),
+        {row, cells_.width, flowX_[row], flowY_[row], lookX_[row], lookY_[row], confidence_[row]});
+}
+
+void WeighStep::measureGain(const WeighInput& in, int row) {
+    const int upper = 2 * row, lower = std::min(2 * row + 1, cells_.height - 1);
+    halveFlow(flowX_[upper], flowX_[lower], halfCells_.width, halfFlowX_[row]);
+    halveFlow(flowY_[upper], flowY_[lower], halfCells_.width, halfFlowY_[row]);
+    const PatchLevel video = patchLevel(in.words, in.videoLuma[1]);
+    const PatchLevel still = patchLevel(in.words, in.stillLuma[1]);
+    const PatchSums sums{halfCovariance_[row], nullptr, halfVarianceStill_[row]};
+    constexpr int kPerTile = kCellsPerTile / 2;
+    forRuns(in.work, row / kPerTile, kPerTile, halfCells_.width,
+            [&](bool matched, int first, int last) {
+                if (matched) {
+                    comparePatches(video, still, row, first, last, halfFlowX_[row], halfFlowY_[row],
+                                   sums);
+                    return;
+                }
+                std::fill(sums.covariance + first, sums.covariance + last, 0.0F);
+                std::fill(sums.varianceStill + first, sums.varianceStill + last, 0.0F);
+            });
+    halfCovariance_.repeatBorder(row);
+    halfVarianceStill_.repeatBorder(row);
+}
+
+void WeighStep::weigh(int row, float noise) {
+    const int near = row / 2;
+    const int other = std::clamp(near + (row % 2 == 0 ? -1 : 1), 0, halfCells_.height - 1);
+    weighCells({.count = cells_.width,
+                .flowX = flowX_.around(row),
+                .flowY = flowY_.around(row),
+                .covariance = covariance_.around(row),
+                .varianceVideo = varianceVideo_.around(row),
+                .varianceStill = varianceStill_.around(row),
+                .confidence = confidence_[row],
+                .lookX = lookX_[row],
+                .lookY = lookY_[row],
+                .halfCovariance = {halfCovariance_[near], halfCovariance_[other]},
+                .halfVarianceStill = {halfVarianceStill_[near], halfVarianceStill_[other]},
+                .weighed = weighed_[row],
+                .lookUps = lookUps_[row],
+                .trust = trust_[row]},
+               noise);
+}
+
+}  // namespace mfar::simd

@@ -1,0 +1,90 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/rows.h"
+#include "base/workers.h"
+#include "pipeline/engine/cells.h"
+#include "pipeline/flow/luma_layout.h"
+#include "pipeline/plan/tile_work.h"
+#include "pipeline/simd/cell_weights.h"
+#include "pipeline/simd/still_look_up.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace mfar::simd {
+
+/// What a frame is weighed by. Borrowed for the call.
+struct WeighInput {
+    /// Levels in `words`, at least two each; the second is for the sensors' photometric gain.
+    const std::vector<LumaLevel>& videoLuma;
+    const std::vector<LumaLevel>& stillLuma;
+    std::span<const std::uint32_t> words;  ///< ends with kLumaSpareWords
+    Rows<const FlowCell> forward;          ///< video to still, cells of 4x4 video px
+    /// Still to video, in pixels of level `backwardLevel`; for where errors.data is null.
+    Rows<const FlowCell> backward;
+    int backwardLevel = 0;
+    Rows<const ErrorCell> errors;  ///< of the cells of `forward`, or data == nullptr
+    const TileWork& work;
+};
+
+/// How far the still is trusted, cell by cell: superres_assess.comp, superres_gain.comp and
+/// superres_weigh.comp on the host's lanes. Results are single precision: the GLES step rounds
+/// look-ups to 16 and trust to 8 bits.
+class WeighStep {
+public:
+    /// `stillRig`: StillReference::rig(), whose still may have fewer pixels than the sensor's.
+    /// Null workers: in the caller's thread alone.
+    WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
+
+    /// Weighs every cell, or does nothing where no tile changed. Where no changed tile is matched,
+    /// the gain stays that of the frame before. Tiles that are not matched get no weight of their
+    /// own. The results' rows, one entry per cell, are valid until the next run.
+    void run(const WeighInput& in);
+
+    [[nodiscard]] Rows<const WeighedCell> weighed() const { return shown(weighed_); }
+    [[nodiscard]] Rows<const LookUpCell> lookUps() const { return shown(lookUps_); }
+    [[nodiscard]] Rows<const TrustCell> trust() const { return shown(trust_); }
+
+private:
+    /// A value per cell, whose rows repeat their border.
+    class CellPlane {
+    public:
+        explicit CellPlane(Size cells);
+        [[nodiscard]] float* operator[](int y) { return rows_[y] + kMargin; }
+        void repeatBorder(int y);
+        /// Rows around row y; those outside are held at the border.
+        [[nodiscard]] RowsAround around(int y);
+
+    private:
+        static constexpr int kMargin = 16;  // a cache line
+        Size cells_;
+        AlignedRows<float> rows_;
+    };
+
+    template <class T>
+    [[nodiscard]] Rows<const T> shown(const AlignedRows<T>& rows) const {
+        return {rows[0], rows.pitch(), cells_};
+    }
+    void assessTiles(const WeighInput& in, int tileRow);
+    void assess(const WeighInput& in, int row);
+    void measureGain(const WeighInput& in, int row);
+    void weigh(int row, float noise);
+    [[nodiscard]] BackwardCells backwardOf(const WeighInput& in, int row) const;
+    void forRows(int rows, int grain, const std::function<void(int)>& body);
+
+    LookUpParams params_;
+    std::shared_ptr<Workers> workers_;
+    Size cells_, halfCells_;
+    CellPlane flowX_, flowY_, covariance_, varianceVideo_, varianceStill_;
+    CellPlane confidence_, lookX_, lookY_;
+    CellPlane halfFlowX_, halfFlowY_, halfCovariance_, halfVarianceStill_;
+    AlignedRows<WeighedCell> weighed_;
+    AlignedRows<LookUpCell> lookUps_;
+    AlignedRows<TrustCell> trust_;
+};
+
+}  // namespace mfar::simd
