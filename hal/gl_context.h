@@ -23,6 +23,8 @@ public:
     /// Nothing where the driver imports no memory of cameras, or reads faster what is uploaded: a
     /// software renderer.
     [[nodiscard]] virtual PlaneImporter* planeImporter() { return nullptr; }
+    /// Does the processor draw, not a GPU?
+    [[nodiscard]] virtual bool isSoftware() const = 0;
     /// One line for people: "EGL surfaceless: llvmpipe (...), OpenGL ES 3.2 ..., software".
     [[nodiscard]] virtual std::string description() const = 0;
 };

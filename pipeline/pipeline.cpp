@@ -45,7 +45,7 @@ Size Pipeline::fullSize(const StereoRig& rig) {
 
 Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     : rig(rigIn), options(optionsIn), output(outputSize(rig, options.output)),
-      workers(std::make_shared<Workers>()), now(rig.video.size), drawn(rig.video.size),
+      workers(std::make_shared<Workers>(options.threads)), now(rig.video.size), drawn(rig.video.size),
       plan(rig.video.size, workers), epipolar(rig, workers, options.epipolar),
       depth(rig.video, workers, options.depth), snap(rig.video.size, workers) {
     const StepSetup setup{rig, output, options.flow2d, workers, &transfers};

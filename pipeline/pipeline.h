@@ -37,6 +37,7 @@ struct PipelineOptions {
     /// Which engine does which step. GLES steps need a current GL context; without any, neither
     /// setObjects() nor setScene() may be called.
     EngineChoice engines{};
+    int threads = 0;  ///< host threads that share a step's work; 0: one per processor, at most four
 };
 
 /// The whole flow of a frame: video in, high-resolution picture out. Allocates everything in the

@@ -101,11 +101,11 @@ public:
             throw std::runtime_error("EGL: this driver offers no OpenGL ES 3.1 context");
         makeCurrent();
         const std::string renderer = text(GL_RENDERER);
-        const bool software = renderer.find("llvmpipe") != renderer.npos ||
-                              renderer.find("softpipe") != renderer.npos;
+        software_ = renderer.find("llvmpipe") != renderer.npos ||
+                    renderer.find("softpipe") != renderer.npos;
         description_ = std::string(opened.how) + ": " + renderer + ", " + text(GL_VERSION) +
-                       (software ? ", software" : ", hardware");
-        if (!software) importer_ = createPlaneImporter(display_);
+                       (software_ ? ", software" : ", hardware");
+        if (!software_) importer_ = createPlaneImporter(display_);
         // ES 3.1 refuses indirect draws without a vertex array object.
         glGenVertexArrays(1, &vertexArray_);
         glBindVertexArray(vertexArray_);
@@ -127,12 +127,14 @@ public:
     }
     Proc getProcAddress(const char* name) const override { return eglGetProcAddress(name); }
     PlaneImporter* planeImporter() override { return importer_.get(); }
+    bool isSoftware() const override { return software_; }
     std::string description() const override { return description_; }
 
 private:
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;
     GLuint vertexArray_ = 0;
+    bool software_ = false;
     std::unique_ptr<PlaneImporter> importer_;
     std::string description_;
 };

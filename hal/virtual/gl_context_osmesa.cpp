@@ -46,6 +46,7 @@ public:
     Proc getProcAddress(const char* name) const override {
         return reinterpret_cast<Proc>(OSMesaGetProcAddress(name));
     }
+    bool isSoftware() const override { return true; }
     std::string description() const override { return description_; }
 
 private:

@@ -10,6 +10,7 @@ namespace mfar {
 
 /// Side of the cells that flow is kept in [px].
 inline constexpr int kCell = 4;
+inline constexpr int kCellsPerTile = 4;  ///< each way; tiles are those of plan/tiles.h
 
 /// Cells that cover a picture.
 [[nodiscard]] constexpr Size cellsOf(Size picture) {

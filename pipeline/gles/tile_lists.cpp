@@ -1,13 +1,14 @@
 #include "pipeline/gles/tile_lists.h"
 
+#include "pipeline/flow/cell_field.h"
+
 #include <algorithm>
 #include <array>
 
 namespace mfar {
 namespace {
 
-constexpr int kCellsPerTile = 4;  // each way
-constexpr int kTileGroup = 8;     // tiles a workgroup and axis, as in the shaders
+constexpr int kTileGroup = 8;  // tiles a workgroup and axis, as in the shaders
 // Energy of an 8x8 patch [grey levels^2] from which on its cost says something: eight times that of
 // a grey level of noise.
 constexpr double kTexturePerVariance = 8 * 64;

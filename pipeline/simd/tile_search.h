@@ -2,15 +2,13 @@
 
 #include "base/rows.h"
 #include "pipeline/engine/cells.h"
+#include "pipeline/flow/cell_field.h"
 #include "pipeline/simd/patch_flow.h"
 
 #include <span>
 #include <vector>
 
 namespace mfar::simd {
-
-/// Cells of the finest level in a tile, each way.
-inline constexpr int kCellsPerTile = 4;
 
 /// Tiles of 16x16 px, row-major: 1 or 0.
 struct TileMask {

@@ -11,7 +11,6 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kCellsPerTile = kTileSize / kCell;
 constexpr int kLongestVector = 16;  // of the kernels [cells]
 
 int wholeVectors(int cells) {

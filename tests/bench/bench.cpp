@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -32,8 +33,10 @@ Workload withoutPoses(Workload work) {
 /// Our pipeline fed with a workload's frames; brings in the stills outside the measured time.
 class Ours {
 public:
-    Ours(const Workload& work, SuperResMode mode)
-        : work_(work), pipeline_(work.rig, {.mode = mode, .output = {}, .skipUnchanged = true}) {
+    Ours(const Workload& work, SuperResMode mode, EngineKind engine, int threads = 0,
+         Size output = {})
+        : work_(work), engine_(engine),
+          pipeline_(work.rig, optionsFor(mode, engine, threads, output)) {
         for (const cv::Mat& still : work.stills)
             stills_.push_back(eval::toRgba(still));
         for (const cv::Mat& frame : work.frames)
@@ -47,28 +50,38 @@ public:
             stats_ =
                 pipeline_.run(eval::viewOf(frames_[i]), nextTime(), poseOf(work_.framePoses, i))
                     .stats;
-            glFinish();
+            pipeline_.finish(engine_);
         });
     }
     double setStill(std::size_t index) {
         still_ = index;
-        glFinish();
+        pipeline_.finish(engine_);
         return eval::wallMs([&] {
             pipeline_.setStill(eval::viewOf(stills_[index]), nextTime(),
                                poseOf(work_.stillPoses, index));
-            glFinish();
+            pipeline_.finish(engine_);
         });
     }
     [[nodiscard]] Pipeline& pipeline() { return pipeline_; }
     [[nodiscard]] const FrameStats& stats() const { return stats_; }
 
 private:
+    static PipelineOptions optionsFor(SuperResMode mode, EngineKind engine, int threads,
+                                      Size output) {
+        PipelineOptions options;
+        options.mode = mode;
+        options.output = output;
+        options.engines = EngineChoice::all(engine);
+        options.threads = threads;
+        return options;
+    }
     Timestamp nextTime() {
         time_ = time_ + std::chrono::nanoseconds{33'333'333};
         return time_;
     }
 
     const Workload& work_;
+    EngineKind engine_;
     Pipeline pipeline_;
     std::vector<cv::Mat> stills_, frames_;
     std::optional<std::size_t> still_;
@@ -128,9 +141,17 @@ public:
         return eval::wallMs([&] { paper_.run(work_.frames[i]); });
     }
     void measure(std::size_t i) { ms_.push_back(run(i)); }
-    [[nodiscard]] PeerResult result(const CaseResult& ours) const {
+    /// `ours`: time of each frame, run in turn with this.
+    [[nodiscard]] PeerResult result(const CaseResult& of, const std::vector<double>& ours) const {
         const Summary own = summarise(ms_);
-        return {name_, ours.name, own, ours.frame.median / own.median};
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < ms_.size(); ++i)
+            ratios.push_back(ours[i] / ms_[i]);
+        std::ranges::sort(ratios);
+        const auto at = [&](double share) {
+            return ratios[static_cast<std::size_t>(share * static_cast<double>(ratios.size() - 1))];
+        };
+        return {name_, of.name, own, of.frame.median / own.median, at(0.1), at(0.9)};
     }
 
 private:
@@ -144,7 +165,7 @@ private:
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
 CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work,
-                       const Peers& peers) {
+                       const Peers& peers, std::vector<PeerResult>& results) {
     const std::size_t frames = work.frames.size();
     CaseResult result;
     result.name = name;
@@ -159,7 +180,9 @@ CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work
         for (const auto& peer : peers)
             peer->measure(i);
     }
-    result.frame = summarise(std::move(ms));
+    result.frame = summarise(ms);
+    for (const auto& peer : peers)
+        results.push_back(peer->result(result, ms));
     measureStages(ours, frames, result);
     return result;
 }
@@ -170,17 +193,15 @@ void measureAgainstPeers(const std::string& name, Ours& ours, const Workload& wo
     Peers peers;
     peers.push_back(std::make_unique<Peer>("paper", eval::DisPreset::Medium, work, output));
     peers.push_back(std::make_unique<Peer>("paper-fast", eval::DisPreset::Fast, work, output));
-    out.cases.push_back(measureCase(name, ours, work, peers));
-    for (const auto& peer : peers)
-        out.peers.push_back(peer->result(out.cases.back()));
+    out.cases.push_back(measureCase(name, ours, work, peers, out.peers));
 }
 
 }  // namespace
 
 BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
-                     const std::string& renderer) {
+                     EngineKind engine, const std::string& renderer) {
     const Workload blind = withoutPoses(moving);
-    Ours ours(blind, mode);
+    Ours ours(blind, mode, engine);
     BenchResult out;
     out.workload = moving.name;
     out.posed = posed.name;
@@ -196,17 +217,48 @@ BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode
 
     measureAgainstPeers("moving", ours, blind, out);
     if (!posed.frames.empty()) {
-        Ours handheld(posed, mode);
+        Ours handheld(posed, mode, engine);
         measureAgainstPeers("handheld", handheld, posed, out);
     }
     for (const double noise : {0.0, kRestNoise}) {
         const Workload rest = atRest(blind, noise);
-        Ours resting(rest, mode);
-        out.cases.push_back(measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, {}));
+        Ours resting(rest, mode, engine);
+        out.cases.push_back(
+            measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, {}, out.peers));
     }
     out.depth = measureDepth(posed);
     out.warp = measureWarp(out.video, static_cast<int>(moving.frames.size()));
     out.triangulation = measureTriangulation(out.video);
+    return out;
+}
+
+namespace {
+
+Summary framesOf(const Workload& work, SuperResMode mode, EngineKind engine, int threads,
+                 Size output) {
+    if (work.frames.empty()) return {};
+    Ours ours(work, mode, engine, threads, output);
+    warmUp(ours, work.frames.size());
+    std::vector<double> ms;
+    for (std::size_t i = 0; i < work.frames.size(); ++i)
+        ms.push_back(ours.run(i));
+    return summarise(std::move(ms));
+}
+
+}  // namespace
+
+std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
+                                      SuperResMode mode, EngineKind engine) {
+    const Workload blind = withoutPoses(moving);
+    const Size full = Pipeline::fullSize(moving.rig);
+    std::vector<ScalingResult> out;
+    for (const int threads : {1, 2})
+        for (const double share : {5.0 / 9, 5.0 / 6, 1.0}) {
+            const Size output{static_cast<int>(std::lround(full.width * share)),
+                              static_cast<int>(std::lround(full.height * share))};
+            out.push_back({threads, output, framesOf(blind, mode, engine, threads, output),
+                           framesOf(posed, mode, engine, threads, output)});
+        }
     return out;
 }
 

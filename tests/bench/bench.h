@@ -32,7 +32,15 @@ struct PeerResult {
     std::string name;
     std::string of;  ///< the case of ours
     Summary frame;
-    double ratio = 0;  ///< our median over the peer's: below 1 we are faster
+    double ratio = 0;          ///< our median over the peer's: below 1 we are faster
+    double low = 0, high = 0;  ///< 10th and 90th percentile of the ratio frame by frame
+};
+
+/// Moving frames with another number of threads or output size.
+struct ScalingResult {
+    int threads = 0;
+    Size output;
+    Summary moving, handheld;
 };
 
 struct BenchResult {
@@ -46,12 +54,16 @@ struct BenchResult {
     DepthTimes depth;  ///< of what is hand-held
     WarpTimes warp;    ///< at the video's size
     TriangulationTimes triangulation;
+    std::vector<ScalingResult> scaling;
     RenderFigures render;
 };
 
 /// Needs a current GL context, which `renderer` describes. The first frames warm up and do not
 /// count. Poses of `moving` are not used, those of `posed` are; without frames it is left out.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
-                                   const std::string& renderer);
+                                   EngineKind engine, const std::string& renderer);
+/// One thread and two, at three output sizes.
+[[nodiscard]] std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
+                                                    SuperResMode mode, EngineKind engine);
 
 }  // namespace mfar::bench

@@ -82,14 +82,22 @@ std::string toTable(const RenderFigures& render) {
 }  // namespace
 
 nlohmann::json toJson(const BenchResult& result) {
-    nlohmann::json cases = nlohmann::json::array(), peers = nlohmann::json::array();
+    nlohmann::json cases = nlohmann::json::array(), peers = nlohmann::json::array(),
+                   scaling = nlohmann::json::array();
     for (const CaseResult& c : result.cases)
         cases.push_back(json(c));
     for (const PeerResult& peer : result.peers)
         peers.push_back({{"name", peer.name},
                          {"case", peer.of},
                          {"frame", json(peer.frame)},
-                         {"ratio", peer.ratio}});
+                         {"ratio", peer.ratio},
+                         {"ratio_p10", peer.low},
+                         {"ratio_p90", peer.high}});
+    for (const ScalingResult& s : result.scaling)
+        scaling.push_back({{"threads", s.threads},
+                           {"output", json(s.output)},
+                           {"moving", json(s.moving)},
+                           {"handheld", json(s.handheld)}});
     return {{"workload", result.workload},
             {"posed", result.posed},
             {"renderer", result.renderer},
@@ -107,6 +115,7 @@ nlohmann::json toJson(const BenchResult& result) {
              {{"flow", result.triangulation.flow},
               {"midpoint", result.triangulation.midpoint},
               {"opencv", result.triangulation.opencv}}},
+            {"scaling", scaling},
             {"render", json(result.render)}};
 }
 
@@ -125,7 +134,12 @@ std::string toTable(const BenchResult& result) {
     }
     for (const PeerResult& peer : result.peers)
         out += line("peer " + peer.name, peer.frame) +
-               fmt::format("  {} / {} = {:.2f}\n", peer.of, peer.name, peer.ratio);
+               fmt::format("  {} / {} = {:.2f}, frame by frame {:.2f} to {:.2f}\n", peer.of,
+                           peer.name, peer.ratio, peer.low, peer.high);
+    for (const ScalingResult& s : result.scaling)
+        out += fmt::format("{} thread{}, {:>4}x{:<4}  moving {:>7.2f}  handheld {:>7.2f}\n",
+                           s.threads, s.threads == 1 ? " " : "s", s.output.width, s.output.height,
+                           s.moving.median, s.handheld.median);
     if (result.depth.whole.runs > 0)
         out += line("depth, tenth of the picture", result.depth.tenth) + '\n' +
                line("depth, whole picture", result.depth.whole) + '\n';

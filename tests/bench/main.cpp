@@ -34,13 +34,14 @@ constexpr const char* kHelp =
     "moving: every frame differs from the one before, no poses; handheld: the synthetic board's "
     "office by a hand-held camera with its exact poses, or the recording's frames with its poses; "
     "rest: the same frame again; rest-noise: the same view with sensor noise of sigma 2.\n"
-    "Whole frames run undisturbed up to a final glFinish; stages are timed in a run of their own. "
+    "Whole frames run undisturbed until the picture is finished; stages are timed in a run of "
+    "their own. "
     "The peers are the paper's method on OpenCV (DIS medium, DIS fast), run in turn with ours.";
 
 struct Options {
-    std::string recording, json, mode = "detail";
+    std::string recording, json, mode = "detail", engine = "auto";
     int frames = 0;
-    bool quick = false;
+    bool quick = false, scaling = false;
     std::filesystem::path curves;
     std::vector<std::filesystem::path> data;
 };
@@ -98,6 +99,11 @@ void addOptions(CLI::App& app, Options& o) {
     app.add_option("--mode", o.mode, "of the super-resolution")
         ->check(CLI::IsMember({"detail", "blend"}))
         ->capture_default_str();
+    app.add_option("--engine", o.engine,
+                   "of all steps; auto: simd where GLES is a software renderer")
+        ->check(CLI::IsMember({"auto", "gles", "simd"}))
+        ->capture_default_str();
+    app.add_flag("--scaling", o.scaling, "also one thread against two at three output sizes");
     app.add_option("--json", o.json, "file for all results");
     app.add_flag("--quick", o.quick, "few small frames: shows that it runs, not how fast");
     app.add_option("--curves", o.curves,
@@ -128,9 +134,14 @@ int run(int argc, char** argv) {
     if (!o.curves.empty()) return drawCurves(o), 0;
     const auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();
+    const SuperResMode mode = o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail;
+    const EngineKind engine = o.engine == "simd" || (o.engine == "auto" && context->isSoftware())
+                                  ? EngineKind::Simd
+                                  : EngineKind::Gles;
     BenchResult result =
-        runBench(moving, posed, o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail,
-                 context->description());
+        runBench(moving, posed, mode, engine,
+                 fmt::format("engine {}; {}", nameOf(engine), context->description()));
+    if (o.scaling) result.scaling = runScaling(moving, posed, mode, engine);
     result.render = measureRender(o.quick);
     fmt::print("{}", toTable(result));
     if (!o.json.empty()) writeJson(o.json, toJson(result));
