@@ -286,10 +286,7 @@ void Flow2d::searchListed(const Way& way) {
         const std::span<const TileSearch::Group> groups = searched_.groups(level);
         shareRows(*workers_, static_cast<int>(groups.size()), [&](int i) {
             const auto [x, y] = groups[static_cast<std::size_t>(i)];
-            const int end = std::min(kCellsPerTile * (x + 1), step.search.out.columns);
-            const int lastRow = std::min(kCellsPerTile * (y + 1), step.search.out.rows);
-            for (int row = kCellsPerTile * y; row < lastRow; ++row)
-                searchListedCells(step, row, kCellsPerTile * x, end);
+            searchListedGroup(step, x, y);
         });
     }
 }

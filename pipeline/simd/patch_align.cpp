@@ -164,10 +164,10 @@ HWY_INLINE Vec16 alongPart(int c) {
     return hn::Load(Row16(), kAlong[kParts - 1] + c);
 }
 
-/// compare() with a flow that changes over the patch.
+/// comparePatch() with a flow that changes over the patch.
 template <int kParts>
-HWY_INLINE Match compareBent(const Template& t, const PatchPicture& p, int column, int row,
-                             Vector2 u, const Bend& bend) {
+HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int column, int row,
+                            Vector2 u, const Bend& bend, int cell, CompareSums& out) {
     const Row16 d16;
     BentPlaces<kParts> places;
     placeParts<kParts>(p, column, row, u, bend, places);
@@ -175,7 +175,8 @@ HWY_INLINE Match compareBent(const Template& t, const PatchPicture& p, int colum
     const auto slopeY = hn::Set(d16, static_cast<std::int16_t>(bend.dx.y * (kShare / 2)));
     const auto middle = hn::Set(d16, 128 << kValueBits), most = hn::Set(d16, kMostValue);
     const auto least = hn::Neg(most);
-    PatchSums sums;
+    RowProducts products;
+    ProductSum b;
     for (int c = 0; c < kPatch; c += kRowLanes) {
         const auto alongX = hn::Mul(alongPart<kParts>(c), slopeX);
         const auto alongY = hn::Mul(alongPart<kParts>(c), slopeY);
@@ -196,49 +197,70 @@ HWY_INLINE Match compareBent(const Template& t, const PatchPicture& p, int colum
             const auto step = hn::ShiftLeft<1>(hn::Sub(lower, upper));
             auto v = hn::Sub(hn::Add(upper, hn::MulFixedPoint15(step, shareY)), middle);
             v = hn::Min(hn::Max(v, least), most);
-            sums.add(t, kPatch * r + c, v);
-            sums.b.add(v, hn::Set(d16, 1));
+            products.add(patch, kPatch * r + c, v);
+            b.add(v, hn::Set(d16, 1));
         }
     }
-    return matchOf(t, sums);
+    products.store(out, cell);
+    b.store(out.b, cell);
 }
 
-/// The best of `u` and the places that Gauss-Newton steps lead to from there.
-template <int kParts>
-HWY_INLINE void alignCell(const AlignStep& step, const Template& t, int column, int row, Vector2 u,
-                          const Bend& bend) {
-    Vector2 best = u;
-    float cost = 1e9F;
-    for (int k = 0; k <= step.steps; ++k) {
-        const Match m = compareBent<kParts>(t, step.to, column, row, u, bend);
-        if (!(m.cost < cost)) break;
-        cost = m.cost;
-        best = u;
-        const Vector2 s = stepOf(t, m.descent);
-        if (!(squaredLength(s) > kShortestStep)) break;
-        u = u + s;
+/// Room for a batch and what is added up for it.
+struct AlignRoom {
+    Batch batch;
+    PatchSums patchSums;
+    CompareSums sums;
+    Bend bend[kBatch];
+};
+
+/// The best of the seeds and the places that Gauss-Newton steps lead to from there.
+HWY_INLINE void alignBatch(const AlignStep& step, AlignRoom& room) {
+    Batch& batch = room.batch;
+    loadPatches(step.from, room.patchSums, batch);
+    for (int i = 0; i < batch.count; ++i) {
+        const Vector2 u = seedAt(step, batch.column[i], batch.row[i]);
+        room.bend[i] = bendAt(step, batch.column[i], batch.row[i], u);
+        batch.trial.x.of[i] = batch.best.x.of[i] = u.x;
+        batch.trial.y.of[i] = batch.best.y.of[i] = u.y;
+        batch.cost.of[i] = 1e9F;
+        batch.active.of[i] = 1;
     }
-    put(step.out, column, row, best, cost, t.variance);
+    const auto compare = [&](int i) HWY_ATTR {
+        const Bend& bend = room.bend[i];
+        const Vector2 u{batch.trial.x.of[i], batch.trial.y.of[i]};
+        const bool gentle = std::max(std::abs(bend.dx.x), std::abs(bend.dx.y)) < kGentle;
+        (gentle ? compareBent<1> : compareBent<2>)(batch.patch[i], step.to, batch.column[i],
+                                                   batch.row[i], u, bend, i, room.sums);
+    };
+    for (int k = 0;; ++k) {
+        tryActive(compare, room.sums, batch);
+        if (k == step.steps) break;
+        stepActive(batch);
+    }
+    for (int i = 0; i < batch.count; ++i)
+        putBest(step.out, batch, i);
 }
 
 }  // namespace
 
 void AlignCells(const AlignStep& step, int row, int first, int end) {
-    Template t;
-    for (int column = first; column < end; ++column) {
-        loadTemplate(step.from, column, row, t);
-        const Vector2 u = seedAt(step, column, row);
-        const Bend bend = bendAt(step, column, row, u);
-        if (std::max(std::abs(bend.dx.x), std::abs(bend.dx.y)) < kGentle)
-            alignCell<1>(step, t, column, row, u, bend);
-        else
-            alignCell<2>(step, t, column, row, u, bend);
+    AlignRoom room;
+    for (int column = first; column < end; column += kBatch) {
+        room.batch.count = 0;
+        for (int c = column; c < std::min(column + kBatch, end); ++c)
+            room.batch.add(c, row);
+        alignBatch(step, room);
     }
 }
 
 void KeepSeedCells(const AlignStep& step, int row, int first, int end) {
-    for (int column = first; column < end; ++column)
-        put(step.out, column, row, seedAt(step, column, row), 0, 0);
+    for (int column = first; column < end; ++column) {
+        const Vector2 u = seedAt(step, column, row);
+        const std::ptrdiff_t at = row * step.out.pitch + column;
+        step.out.x[at] = u.x;
+        step.out.y[at] = u.y;
+        step.out.cost[at] = step.out.texture[at] = 0;
+    }
 }
 
 }  // namespace mfar::simd::HWY_NAMESPACE

@@ -53,7 +53,8 @@ struct ListedStep {
     float* errors = nullptr;
     std::ptrdiff_t errorPitch = 0;  ///< floats
 };
-void searchListedCells(const ListedStep& step, int row, int first, int end);
+/// A group of 4x4 cells, as far as there are cells.
+void searchListedGroup(const ListedStep& step, int groupX, int groupY);
 
 /// As flow_propagate.comp: each cell tries its neighbours' vectors of `in`.
 struct PropagateStep {

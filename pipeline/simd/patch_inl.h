@@ -1,5 +1,5 @@
 // Comparison of 8x8 patches between two luma levels, invariant to offset and gain: patch.glsl in
-// integers. Included once for each instruction set.
+// integers, for a batch of cells at once. Included once for each instruction set.
 // Pixels are kept less 128, so that sums of squares fit 32 bits: offsets cancel in every result.
 #if defined(MFAR_PATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_INL_H
@@ -41,40 +41,65 @@ using Vec16 = hn::Vec<Row16>;
 using Vec32 = hn::Vec<Sum32>;
 constexpr int kRowLanes = HWY_TARGET == HWY_SCALAR ? 1 : kPatch;
 
+// Cells that are searched side by side: what follows a comparison is done for all at once, in
+// lanes of one cell each.
+constexpr int kBatch = 16;
+using Cells = hn::CappedTag<float, kBatch>;
+using CellsInt = hn::RebindToSigned<Cells>;
+using Vec = hn::Vec<Cells>;
+
 struct Vector2 {
     float x, y;
 };
-HWY_INLINE Vector2 operator+(Vector2 a, Vector2 b) {
-    return {a.x + b.x, a.y + b.y};
-}
-HWY_INLINE Vector2 operator-(Vector2 a, Vector2 b) {
-    return {a.x - b.x, a.y - b.y};
-}
-HWY_INLINE Vector2 operator*(float s, Vector2 a) {
-    return {s * a.x, s * a.y};
-}
-HWY_INLINE float squaredLength(Vector2 a) {
-    return a.x * a.x + a.y * a.y;
-}
 /// NaN becomes the lower bound.
 HWY_INLINE float bounded(float v, float low, float high) {
     const float least = v > low ? v : low;
     return least < high ? least : high;
 }
 
-/// The patch of a cell: its pixels, twice its central differences, and what they add up to.
-struct Template {
+/// The patch of a cell: its pixels and twice its central differences.
+struct Patch {
     alignas(16) std::int16_t pixels[64];
     alignas(16) std::int16_t gx[64];
     alignas(16) std::int16_t gy[64];
-    float mean, variance;
-    Vector2 sumG, sumAG;
-    float inverseXx, inverseXy, inverseYy;
 };
 
-struct Match {
-    float cost = 1e9F;
-    Vector2 descent{0, 0};  // right-hand side of the Gauss-Newton step
+/// A value for each cell of a batch.
+struct alignas(64) Each {
+    float of[kBatch] = {};
+
+    [[nodiscard]] HWY_INLINE Vec at(std::size_t i) const { return hn::Load(Cells(), of + i); }
+    HWY_INLINE void set(std::size_t i, Vec v) { hn::Store(v, Cells(), of + i); }
+};
+struct Each2 {
+    Each x, y;
+};
+struct Lanes2 {
+    Vec x, y;
+};
+HWY_INLINE Lanes2 at(const Each2& e, std::size_t i) {
+    return {e.x.at(i), e.y.at(i)};
+}
+HWY_INLINE void set(Each2& e, std::size_t i, const Lanes2& v) {
+    e.x.set(i, v.x);
+    e.y.set(i, v.y);
+}
+HWY_INLINE Vec squaredLength(const Lanes2& v) {
+    return hn::MulAdd(v.x, v.x, hn::Mul(v.y, v.y));
+}
+
+/// What sums over a patch's pixels come in: four parts of each cell's.
+struct alignas(64) Parts {
+    std::int32_t of[kBatch][4] = {};
+
+    /// In units of `unit`.
+    [[nodiscard]] HWY_INLINE Vec sum(std::size_t i, float unit) const {
+        const CellsInt d;
+        hn::Vec<CellsInt> a, b, c, e;
+        hn::LoadInterleaved4(d, of[i], a, b, c, e);
+        const auto total = hn::Add(hn::Add(a, b), hn::Add(c, e));
+        return hn::Mul(hn::ConvertTo(Cells(), total), hn::Set(Cells(), unit));
+    }
 };
 
 /// Sum of products of 16-bit lanes.
@@ -86,28 +111,10 @@ struct ProductSum {
     HWY_INLINE void add(Vec16 a, Vec16 b) {
         even = hn::ReorderWidenMulAccumulate(Sum32(), a, b, even, odd);
     }
-    [[nodiscard]] HWY_INLINE Vec32 total() const { return hn::Add(even, odd); }
+    HWY_INLINE void store(Parts& parts, int cell) const {
+        hn::StoreU(hn::Add(even, odd), Sum32(), parts.of[cell]);
+    }
 };
-
-/// The sums of four vectors' lanes.
-HWY_INLINE void sumLanes(Vec32 a, Vec32 b, Vec32 c, Vec32 d, float* out) {
-    const hn::RebindToFloat<Sum32> dFloat;
-#if HWY_TARGET == HWY_SCALAR
-    int i = 0;
-    for (const Vec32 v : {a, b, c, d})
-        hn::StoreU(hn::ConvertTo(dFloat, v), dFloat, out + i++);
-#else
-    const Sum32 d32;
-    const hn::Repartition<std::int64_t, Sum32> d64;
-    const auto ab =
-        hn::BitCast(d64, hn::Add(hn::InterleaveLower(d32, a, b), hn::InterleaveUpper(d32, a, b)));
-    const auto cd =
-        hn::BitCast(d64, hn::Add(hn::InterleaveLower(d32, c, d), hn::InterleaveUpper(d32, c, d)));
-    const auto sums = hn::Add(hn::BitCast(d32, hn::InterleaveLower(d64, ab, cd)),
-                              hn::BitCast(d32, hn::InterleaveUpper(d64, ab, cd)));
-    hn::StoreU(hn::ConvertTo(dFloat, sums), dFloat, out);
-#endif
-}
 
 HWY_INLINE Vec16 loadPixels(const std::uint8_t* from) {
     return hn::PromoteTo(Row16(), hn::LoadU(Row8(), from));
@@ -144,25 +151,56 @@ private:
     std::uint8_t copy_[10 * kWidth];
 };
 
-HWY_INLINE void loadTemplate(const PatchPicture& p, int column, int row, Template& t) {
+/// Cells, their patches, and the vector of each that fits best so far.
+struct Batch {
+    int count = 0;
+    int column[kBatch], row[kBatch];
+    Patch patch[kBatch];
+    Each mean, variance;  // of the patch's pixels; the latter a sum
+    Each2 sumG, sumAG;    // of the gradients, of the pixels less their mean times those
+    Each inverseXx, inverseXy, inverseYy;  // Hessian
+
+    Each2 best;
+    Each cost;
+    Each2 descent;  // right-hand side of the Gauss-Newton step
+
+    Each2 trial;  // the vector that is tried next
+    Each active;  // 1: it is tried, and after that: it was better; else 0
+
+    HWY_INLINE void add(int c, int r) {
+        column[count] = c;
+        row[count] = r;
+        ++count;
+    }
+};
+
+/// What loadPatch() adds up.
+struct PatchSums {
+    Parts a, x, y, aa, ax, ay, xx, xy, yy;
+};
+
+HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, Patch& out,
+                          PatchSums& sums) {
     const Row16 d16;
     const PatchRows rows(p, kCellSize * column - 3, kCellSize * row - 3, kPatch + 2, kPatch + 2);
     const auto middle = hn::Set(d16, 128), one = hn::Set(d16, 1);
     ProductSum aa, ax, ay, xx, xy, yy, sumA, sumX, sumY;
     for (int c = 0; c < kPatch; c += kRowLanes) {
         auto above = loadPixels(rows[0] + c + 1), here = loadPixels(rows[1] + c + 1);
+        // Eight times 255 at most.
+        auto columnsA = hn::Zero(d16), columnsX = hn::Zero(d16), columnsY = hn::Zero(d16);
         for (int r = 0; r < kPatch; ++r) {
             const std::uint8_t* line = rows[r + 1] + c;
             const auto below = loadPixels(rows[r + 2] + c + 1);
             const auto gx = hn::Sub(loadPixels(line + 2), loadPixels(line));
             const auto gy = hn::Sub(below, above);
             const auto a = hn::Sub(here, middle);
-            hn::Store(a, d16, t.pixels + kPatch * r + c);
-            hn::Store(gx, d16, t.gx + kPatch * r + c);
-            hn::Store(gy, d16, t.gy + kPatch * r + c);
-            sumA.add(a, one);
-            sumX.add(gx, one);
-            sumY.add(gy, one);
+            hn::Store(a, d16, out.pixels + kPatch * r + c);
+            hn::Store(gx, d16, out.gx + kPatch * r + c);
+            hn::Store(gy, d16, out.gy + kPatch * r + c);
+            columnsA = hn::Add(columnsA, a);
+            columnsX = hn::Add(columnsX, gx);
+            columnsY = hn::Add(columnsY, gy);
             aa.add(a, a);
             ax.add(a, gx);
             ay.add(a, gy);
@@ -172,57 +210,77 @@ HWY_INLINE void loadTemplate(const PatchPicture& p, int column, int row, Templat
             above = here;
             here = below;
         }
+        sumA.add(columnsA, one);
+        sumX.add(columnsX, one);
+        sumY.add(columnsY, one);
     }
-    float sums[12];
-    sumLanes(sumA.total(), sumX.total(), sumY.total(), aa.total(), sums);
-    sumLanes(ax.total(), ay.total(), xx.total(), xy.total(), sums + 4);
-    sumLanes(yy.total(), yy.total(), yy.total(), yy.total(), sums + 8);
-    t.mean = sums[0] / kPixels;
-    t.variance = std::max(sums[3] - sums[0] * t.mean, 0.0F);
-    t.sumG = {0.5F * sums[1], 0.5F * sums[2]};
-    t.sumAG = Vector2{0.5F * sums[4], 0.5F * sums[5]} - t.mean * t.sumG;
-    const float hxx = 0.25F * sums[6] + kDamping - t.sumG.x * t.sumG.x / kPixels;
-    const float hxy = 0.25F * sums[7] - t.sumG.x * t.sumG.y / kPixels;
-    const float hyy = 0.25F * sums[8] + kDamping - t.sumG.y * t.sumG.y / kPixels;
-    const float scale = 1 / std::max(hxx * hyy - hxy * hxy, 1.0F);
-    t.inverseXx = hyy * scale;
-    t.inverseXy = -hxy * scale;
-    t.inverseYy = hxx * scale;
+    sumA.store(sums.a, cell);
+    sumX.store(sums.x, cell);
+    sumY.store(sums.y, cell);
+    aa.store(sums.aa, cell);
+    ax.store(sums.ax, cell);
+    ay.store(sums.ay, cell);
+    xx.store(sums.xx, cell);
+    xy.store(sums.xy, cell);
+    yy.store(sums.yy, cell);
 }
 
-/// Over the pixels of the patch: of the other picture, of its squares, of its product with the
-/// template and with the gradients, in the units of their integers.
-struct PatchSums {
-    ProductSum bb, ab, xb, yb, b;
+/// The patches of the batch's cells, and what does not depend on where they are sought.
+HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch) {
+    for (int i = 0; i < batch.count; ++i)
+        loadPatch(p, batch.column[i], batch.row[i], i, batch.patch[i], sums);
+    const Cells d;
+    const auto share = hn::Set(d, 1 / kPixels), damping = hn::Set(d, kDamping);
+    for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
+        const Vec a = sums.a.sum(i, 1), mean = hn::Mul(a, share);
+        const Lanes2 g{sums.x.sum(i, 0.5F), sums.y.sum(i, 0.5F)};
+        batch.mean.set(i, mean);
+        batch.variance.set(i, hn::Max(hn::NegMulAdd(a, mean, sums.aa.sum(i, 1)), hn::Zero(d)));
+        set(batch.sumG, i, g);
+        set(batch.sumAG, i,
+            {hn::NegMulAdd(mean, g.x, sums.ax.sum(i, 0.5F)),
+             hn::NegMulAdd(mean, g.y, sums.ay.sum(i, 0.5F))});
+        const Lanes2 meanG{hn::Mul(g.x, share), hn::Mul(g.y, share)};
+        const Vec xx = hn::NegMulAdd(g.x, meanG.x, hn::Add(sums.xx.sum(i, 0.25F), damping));
+        const Vec xy = hn::NegMulAdd(g.x, meanG.y, sums.xy.sum(i, 0.25F));
+        const Vec yy = hn::NegMulAdd(g.y, meanG.y, hn::Add(sums.yy.sum(i, 0.25F), damping));
+        const Vec det = hn::NegMulAdd(xy, xy, hn::Mul(xx, yy));
+        const Vec scale = hn::Div(hn::Set(d, 1.0F), hn::Max(det, hn::Set(d, 1.0F)));
+        batch.inverseXx.set(i, hn::Mul(yy, scale));
+        batch.inverseXy.set(i, hn::Neg(hn::Mul(xy, scale)));
+        batch.inverseYy.set(i, hn::Mul(xx, scale));
+    }
+}
 
-    HWY_INLINE PatchSums() : bb(), ab(), xb(), yb(), b() {}
-    HWY_INLINE void add(const Template& t, int at, Vec16 value) {
+/// Sums over the other picture's pixels, their squares, their products with the patch's pixels and
+/// gradients.
+struct CompareSums {
+    Parts b, bb, ab, xb, yb;
+};
+
+/// All of these but the first, row by row.
+struct RowProducts {
+    ProductSum bb, ab, xb, yb;
+
+    HWY_INLINE RowProducts() : bb(), ab(), xb(), yb() {}
+    HWY_INLINE void add(const Patch& patch, int at, Vec16 value) {
         const Row16 d16;
         bb.add(value, value);
-        ab.add(hn::Load(d16, t.pixels + at), value);
-        xb.add(hn::Load(d16, t.gx + at), value);
-        yb.add(hn::Load(d16, t.gy + at), value);
+        ab.add(hn::Load(d16, patch.pixels + at), value);
+        xb.add(hn::Load(d16, patch.gx + at), value);
+        yb.add(hn::Load(d16, patch.gy + at), value);
+    }
+    HWY_INLINE void store(CompareSums& sums, int cell) const {
+        bb.store(sums.bb, cell);
+        ab.store(sums.ab, cell);
+        xb.store(sums.xb, cell);
+        yb.store(sums.yb, cell);
     }
 };
 
-HWY_INLINE Match matchOf(const Template& t, const PatchSums& s) {
-    float sums[5];
-    sumLanes(s.bb.total(), s.ab.total(), s.xb.total(), s.yb.total(), sums);
-    sums[4] = static_cast<float>(hn::GetLane(hn::SumOfLanes(Sum32(), s.b.total())));
-    const float b = sums[4] / kValue, mean = b / kPixels;
-    const float varianceB = std::max(sums[0] / (kValue * kValue) - b * mean, 0.0F);
-    const float covariance = sums[1] / kValue - t.mean * b;
-    const float gain = std::sqrt((t.variance + kNoise) / (varianceB + kNoise));
-    const Vector2 gb{sums[2] / (2 * kValue), sums[3] / (2 * kValue)};
-    const float energy = t.variance + gain * gain * varianceB;
-    Match m;
-    m.descent = t.sumAG - gain * (gb - mean * t.sumG);
-    m.cost = std::max(energy - 2 * gain * covariance, 0.0F) / (energy + kNoise);
-    return m;
-}
-
-/// The template against a level, displaced by u pixels. Positions outside are held at the border.
-HWY_INLINE Match compare(const Template& t, const PatchPicture& p, int column, int row, Vector2 u) {
+/// The patch against a level, displaced by u pixels. Positions outside are held at the border.
+HWY_INLINE void comparePatch(const Patch& patch, const PatchPicture& p, int column, int row,
+                             Vector2 u, int cell, CompareSums& out) {
     const Row16 d16;
     const float x = bounded(static_cast<float>(kCellSize * column - 2) + u.x, -7.0F,
                             static_cast<float>(p.width - 2));
@@ -239,36 +297,102 @@ HWY_INLINE Match compare(const Template& t, const PatchPicture& p, int column, i
         return hn::Add(hn::Sub(hn::ShiftLeft<kValueBits>(here), middle),
                        hn::MulFixedPoint15(step, right));
     };
-    PatchSums sums;
+    RowProducts products;
+    ProductSum b;
     for (int c = 0; c < kPatch; c += kRowLanes) {
         auto above = between(rows[0] + c), columns = hn::Zero(d16);
         for (int r = 0; r < kPatch; ++r) {
             const auto below = between(rows[r + 1] + c);
             const auto v = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
             columns = hn::Add(columns, v);  // eight times 4096 at most
-            sums.add(t, kPatch * r + c, v);
+            products.add(patch, kPatch * r + c, v);
             above = below;
         }
-        sums.b.add(columns, hn::Set(d16, 1));
+        b.add(columns, hn::Set(d16, 1));
     }
-    return matchOf(t, sums);
+    products.store(out, cell);
+    b.store(out.b, cell);
 }
 
-/// One Gauss-Newton step on the displacement, at most a pixel long.
-HWY_INLINE Vector2 stepOf(const Template& t, Vector2 descent) {
-    const Vector2 s{t.inverseXx * descent.x + t.inverseXy * descent.y,
-                    t.inverseXy * descent.x + t.inverseYy * descent.y};
-    const float squared = squaredLength(s);
-    return squared > 1 ? (1 / std::sqrt(squared)) * s : s;
+/// Takes the trials that are active and fit better than the best so far; the others are active no
+/// more.
+HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
+    const Cells d;
+    const auto noise = hn::Set(d, kNoise), zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+    for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
+        const Vec b = sums.b.sum(i, 1 / kValue), mean = hn::Mul(b, hn::Set(d, 1 / kPixels));
+        const Vec bb = sums.bb.sum(i, 1 / (kValue * kValue)), variance = batch.variance.at(i);
+        const Vec varianceB = hn::Max(hn::NegMulAdd(b, mean, bb), zero);
+        const Vec covariance = hn::NegMulAdd(batch.mean.at(i), b, sums.ab.sum(i, 1 / kValue));
+        const Vec squaredGain = hn::Div(hn::Add(variance, noise), hn::Add(varianceB, noise));
+        const Vec gain = hn::Sqrt(squaredGain);
+        const Vec energy = hn::MulAdd(squaredGain, varianceB, variance);
+        const Vec off = hn::NegMulAdd(hn::Add(gain, gain), covariance, energy);
+        const Vec cost = hn::Div(hn::Max(off, zero), hn::Add(energy, noise));
+        const auto better =
+            hn::And(hn::Gt(batch.active.at(i), zero), hn::Lt(cost, batch.cost.at(i)));
+        const Lanes2 sumG = at(batch.sumG, i), sumAG = at(batch.sumAG, i);
+        const auto descent = [&](Vec gb, Vec g, Vec ag) HWY_ATTR {
+            return hn::NegMulAdd(gain, hn::NegMulAdd(mean, g, gb), ag);
+        };
+        const auto take = [&](Each& now, Vec v)
+                              HWY_ATTR { now.set(i, hn::IfThenElse(better, v, now.at(i))); };
+        take(batch.cost, cost);
+        take(batch.best.x, batch.trial.x.at(i));
+        take(batch.best.y, batch.trial.y.at(i));
+        take(batch.descent.x, descent(sums.xb.sum(i, 0.5F / kValue), sumG.x, sumAG.x));
+        take(batch.descent.y, descent(sums.yb.sum(i, 0.5F / kValue), sumG.y, sumAG.y));
+        batch.active.set(i, hn::IfThenElseZero(better, one));
+    }
 }
 
-HWY_INLINE void put(const FlowPlanes& field, int column, int row, Vector2 u, float cost,
-                    float texture) {
-    const std::ptrdiff_t at = row * field.pitch + column;
-    field.x[at] = u.x;
-    field.y[at] = u.y;
-    field.cost[at] = cost;
-    field.texture[at] = texture;
+/// The active cells of a batch, found without a branch on each.
+struct ActiveCells {
+    int count = 0;
+    int cell[kBatch];
+
+    HWY_INLINE explicit ActiveCells(const Batch& batch) {
+        for (int i = 0; i < batch.count; ++i) {
+            cell[count] = i;
+            count += batch.active.of[i] > 0 ? 1 : 0;
+        }
+    }
+};
+
+/// Compares the active cells with their trials by compare(cell), and takes what fits better.
+template <class Compare>
+HWY_INLINE void tryActive(const Compare& compare, const CompareSums& sums, Batch& batch) {
+    const ActiveCells active(batch);
+    if (active.count == 0) return;
+    for (int k = 0; k < active.count; ++k)
+        compare(active.cell[k]);
+    takeBetter(sums, batch);
+}
+
+/// One Gauss-Newton step of the active cells becomes their trial, at most a pixel long; they are
+/// active no more where it is too short.
+HWY_INLINE void stepActive(Batch& batch) {
+    const Cells d;
+    const auto one = hn::Set(d, 1.0F);
+    for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
+        const Lanes2 by = at(batch.descent, i), best = at(batch.best, i);
+        const Vec xy = batch.inverseXy.at(i);
+        const Lanes2 s{hn::MulAdd(batch.inverseXx.at(i), by.x, hn::Mul(xy, by.y)),
+                       hn::MulAdd(xy, by.x, hn::Mul(batch.inverseYy.at(i), by.y))};
+        const Vec squared = squaredLength(s);
+        const Vec shrink = hn::Div(one, hn::Sqrt(hn::Max(squared, one)));
+        set(batch.trial, i, {hn::MulAdd(s.x, shrink, best.x), hn::MulAdd(s.y, shrink, best.y)});
+        const auto goesOn = hn::Gt(squared, hn::Set(d, kShortestStep));
+        batch.active.set(i, hn::IfThenElseZero(goesOn, batch.active.at(i)));
+    }
+}
+
+HWY_INLINE void putBest(const FlowPlanes& field, const Batch& batch, int i) {
+    const std::ptrdiff_t at = batch.row[i] * field.pitch + batch.column[i];
+    field.x[at] = batch.best.x.of[i];
+    field.y[at] = batch.best.y.of[i];
+    field.cost[at] = batch.cost.of[i];
+    field.texture[at] = batch.variance.of[i];
 }
 
 }  // namespace

@@ -16,27 +16,46 @@ namespace {
 constexpr int kMostRadius = 40;
 constexpr std::size_t kMostSide = 2 * kMostRadius + 1, kSideRoom = kMostSide + 15;
 
-/// The vector of a cell that fits best so far.
-struct Search {
-    Vector2 best{1e9F, 1e9F};
-    Match found;
+/// Room for a batch and what is added up for it.
+struct SearchRoom {
+    Batch batch;
+    PatchSums patchSums;
+    CompareSums sums;
 
-    HWY_INLINE bool tries(Vector2 u) const { return !(squaredLength(u - best) < kSameCandidate); }
-    HWY_INLINE bool take(Vector2 u, const Match& m) {
-        if (!(m.cost < found.cost)) return false;
-        found = m;
-        best = u;
-        return true;
+    /// Begins a batch of the cells that were added.
+    HWY_INLINE void load(const PatchPicture& from) {
+        loadPatches(from, patchSums, batch);
+        for (int i = 0; i < batch.count; ++i) {
+            batch.best.x.of[i] = batch.best.y.of[i] = batch.cost.of[i] = 1e9F;
+            batch.descent.x.of[i] = batch.descent.y.of[i] = 0;
+        }
+    }
+    HWY_INLINE void compare(const PatchPicture& to) {
+        tryActive(
+            [&](int i) HWY_ATTR {
+                comparePatch(batch.patch[i], to, batch.column[i], batch.row[i],
+                             {batch.trial.x.of[i], batch.trial.y.of[i]}, i, sums);
+            },
+            sums, batch);
     }
 };
 
-HWY_INLINE void refine(const Template& t, const PatchPicture& to, int column, int row, int steps,
-                       Search& search) {
+/// Trials that are not what was found already are active.
+HWY_INLINE void activateNew(Batch& batch) {
+    const Cells d;
+    for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
+        const Lanes2 trial = at(batch.trial, i), best = at(batch.best, i);
+        const Vec squared = squaredLength({hn::Sub(trial.x, best.x), hn::Sub(trial.y, best.y)});
+        const auto isNew = hn::Ge(squared, hn::Set(d, kSameCandidate));
+        batch.active.set(i, hn::IfThenElseZero(isNew, hn::Set(d, 1.0F)));
+    }
+}
+
+/// Gauss-Newton steps of the active cells, as long as each fits better.
+HWY_INLINE void refine(const PatchPicture& to, int steps, SearchRoom& room) {
     for (int k = 0; k < steps; ++k) {
-        const Vector2 s = stepOf(t, search.found.descent);
-        if (!(squaredLength(s) > kShortestStep)) return;
-        const Vector2 u = search.best + s;
-        if (!search.take(u, compare(t, to, column, row, u))) return;
+        stepActive(room.batch);
+        room.compare(to);
     }
 }
 
@@ -51,8 +70,10 @@ struct WholeSums {
     alignas(64) float b[kSideRoom], bb[kSideRoom], ab[kSideRoom], cost[kSideRoom];
 };
 
-HWY_INLINE void sumWhole(const Template& t, const PatchRows& rows, std::size_t at, WholeSums& out) {
+HWY_INLINE void sumWhole(const Patch& patch, const PatchRows& rows, std::size_t at,
+                         WholeSums& out) {
     const Row16 d16;
+    const Sum32 d32;
     const auto middle = hn::Set(d16, 128);
     ProductSum bb, ab, b;
     for (int c = 0; c < kPatch; c += kRowLanes) {
@@ -61,104 +82,139 @@ HWY_INLINE void sumWhole(const Template& t, const PatchRows& rows, std::size_t a
             const auto v = hn::Sub(loadPixels(rows[r] + c), middle);
             columns = hn::Add(columns, v);
             bb.add(v, v);
-            ab.add(v, hn::Load(d16, t.pixels + kPatch * r + c));
+            ab.add(v, hn::Load(d16, patch.pixels + kPatch * r + c));
         }
         b.add(columns, hn::Set(d16, 1));
     }
-    float sums[4];
-    sumLanes(b.total(), bb.total(), ab.total(), ab.total(), sums);
-    out.b[at] = sums[0];
-    out.bb[at] = sums[1];
-    out.ab[at] = sums[2];
+    const auto sum = [&](const ProductSum& s) HWY_ATTR {
+        return static_cast<float>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(s.even, s.odd))));
+    };
+    out.b[at] = sum(b);
+    out.bb[at] = sum(bb);
+    out.ab[at] = sum(ab);
 }
 
-/// matchOf()'s cost of each of `count` displacements.
-HWY_INLINE void costsOf(const Template& t, std::size_t count, WholeSums& sums) {
-    const hn::CappedTag<float, 16> d;
-    const auto mean = hn::Set(d, t.mean), variance = hn::Set(d, t.variance);
-    const auto noise = hn::Set(d, kNoise), two = hn::Set(d, 2.0F);
+/// The costs that takeBetter() finds, of each of `count` displacements.
+HWY_INLINE void costsOf(float patchMean, float patchVariance, std::size_t count, WholeSums& sums) {
+    const Cells d;
+    const auto mean = hn::Set(d, patchMean), variance = hn::Set(d, patchVariance);
+    const auto noise = hn::Set(d, kNoise);
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const auto b = hn::Load(d, sums.b + i);
-        const auto squares = hn::Mul(b, hn::Mul(b, hn::Set(d, 1 / kPixels)));
-        const auto varianceB = hn::Max(hn::Sub(hn::Load(d, sums.bb + i), squares), hn::Zero(d));
-        const auto covariance = hn::Sub(hn::Load(d, sums.ab + i), hn::Mul(mean, b));
-        const auto gain = hn::Sqrt(hn::Div(hn::Add(variance, noise), hn::Add(varianceB, noise)));
-        const auto energy = hn::Add(variance, hn::Mul(hn::Mul(gain, gain), varianceB));
-        const auto off = hn::Sub(energy, hn::Mul(two, hn::Mul(gain, covariance)));
+        const Vec b = hn::Load(d, sums.b + i);
+        const Vec meanB = hn::Mul(b, hn::Set(d, 1 / kPixels));
+        const Vec varianceB =
+            hn::Max(hn::NegMulAdd(b, meanB, hn::Load(d, sums.bb + i)), hn::Zero(d));
+        const Vec covariance = hn::NegMulAdd(mean, b, hn::Load(d, sums.ab + i));
+        const Vec squaredGain = hn::Div(hn::Add(variance, noise), hn::Add(varianceB, noise));
+        const Vec gain = hn::Sqrt(squaredGain);
+        const Vec energy = hn::MulAdd(squaredGain, varianceB, variance);
+        const Vec off = hn::NegMulAdd(hn::Add(gain, gain), covariance, energy);
         hn::Store(hn::Div(hn::Max(off, hn::Zero(d)), hn::Add(energy, noise)), d, sums.cost + i);
     }
 }
 
+/// The vector of one cell that fits best so far.
+struct WholeBest {
+    float x, y, cost;
+};
+
 /// Tries all displacements of a row; the first of the best is taken.
-HWY_INLINE void searchWholeRow(const Template& t, const PatchPicture& to, int column, int row,
-                               int radius, int dy, int firstDx, WholeSums& sums, Search& search) {
-    const int y = std::clamp(kCellSize * row - 2 + dy, -7, to.height - 2);
-    const auto count = static_cast<std::size_t>(radius - firstDx + 1);
-    for (std::size_t i = 0; i < count; ++i) {
-        const int dx = firstDx + static_cast<int>(i);
-        const int x = std::clamp(kCellSize * column - 2 + dx, -7, to.width - 2);
-        sumWhole(t, PatchRows(to, x, y, kPatch, kPatch), i, sums);
+HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
+                               int endDx, int dy, WholeSums& sums, WholeBest& best) {
+    const int y = std::clamp(kCellSize * batch.row[cell] - 2 + dy, -7, to.height - 2);
+    for (int dx = firstDx; dx < endDx; ++dx) {
+        const int x = std::clamp(kCellSize * batch.column[cell] - 2 + dx, -7, to.width - 2);
+        sumWhole(batch.patch[cell], PatchRows(to, x, y, kPatch, kPatch),
+                 static_cast<std::size_t>(dx - firstDx), sums);
     }
-    costsOf(t, count, sums);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vector2 u{static_cast<float>(firstDx) + static_cast<float>(i),
-                        static_cast<float>(dy)};
-        if (sums.cost[i] < search.found.cost && search.tries(u))
-            search.take(u, {sums.cost[i], {0, 0}});
+    costsOf(batch.mean.of[cell], batch.variance.of[cell], static_cast<std::size_t>(endDx - firstDx),
+            sums);
+    for (int dx = firstDx; dx < endDx; ++dx) {
+        const float cost = sums.cost[dx - firstDx];
+        if (!(cost < best.cost)) continue;
+        const float x = static_cast<float>(dx) - best.x, v = static_cast<float>(dy) - best.y;
+        if (x * x + v * v >= kSameCandidate)
+            best = {static_cast<float>(dx), static_cast<float>(dy), cost};
     }
 }
 
 /// The square of displacements, from no motion on row by row around: it wins where nothing tells.
-HWY_INLINE void searchWhole(const Template& t, const PatchPicture& to, int column, int row,
-                            int radius, Search& search) {
+/// What fits best becomes the trial.
+void searchWhole(Batch& batch, int cell, const PatchPicture& to, int radius) {
     WholeSums sums{};
-    const Search before = search;
-    searchWholeRow(t, to, column, row, radius, 0, 0, sums, search);
+    WholeBest best{batch.best.x.of[cell], batch.best.y.of[cell], batch.cost.of[cell]};
+    searchWholeRow(batch, cell, to, 0, radius + 1, 0, sums, best);
     for (int dy = 1; dy <= radius; ++dy)
-        searchWholeRow(t, to, column, row, radius, dy, -radius, sums, search);
+        searchWholeRow(batch, cell, to, -radius, radius + 1, dy, sums, best);
     for (int dy = -radius; dy < 0; ++dy)
-        searchWholeRow(t, to, column, row, radius, dy, -radius, sums, search);
-    searchWholeRow(t, to, column, row, -1, 0, -radius, sums, search);
-    if (search.found.cost < before.found.cost)
-        search.found.descent = compare(t, to, column, row, search.best).descent;
+        searchWholeRow(batch, cell, to, -radius, radius + 1, dy, sums, best);
+    searchWholeRow(batch, cell, to, -radius, 0, 0, sums, best);
+    batch.trial.x.of[cell] = best.x;
+    batch.trial.y.of[cell] = best.y;
 }
 
-HWY_INLINE Search searchCell(const SearchStep& step, const Template& t, int column, int row) {
-    Search search;
-    const auto attempt = [&](Vector2 u) HWY_ATTR {
-        if (search.tries(u)) search.take(u, compare(t, step.to, column, row, u));
-    };
-    if (step.prior.x != nullptr) {
-        const PriorField& p = step.prior;
-        const auto c = static_cast<int>((static_cast<float>(column) + 0.5F) * p.columnsPerCell);
-        const auto r = static_cast<int>((static_cast<float>(row) + 0.5F) * p.rowsPerCell);
+HWY_INLINE void tryPrior(const SearchStep& step, SearchRoom& room) {
+    Batch& batch = room.batch;
+    const PriorField& p = step.prior;
+    for (int i = 0; i < batch.count; ++i) {
+        const auto c =
+            static_cast<int>((static_cast<float>(batch.column[i]) + 0.5F) * p.columnsPerCell);
+        const auto r = static_cast<int>((static_cast<float>(batch.row[i]) + 0.5F) * p.rowsPerCell);
         const std::ptrdiff_t at = r * p.pitch + c * p.step;
-        attempt({p.scale * p.x[at], p.scale * p.y[at]});
+        batch.trial.x.of[i] = p.scale * p.x[at];
+        batch.trial.y.of[i] = p.scale * p.y[at];
     }
+    activateNew(batch);
+    room.compare(step.to);
+}
+
+/// The coarser level's vectors around the cells: k-th of the four, the nearest first.
+HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
+    Batch& batch = room.batch;
+    for (int i = 0; i < batch.count; ++i) {
+        const int towardsX = (batch.column[i] & 1) * 2 - 1, towardsY = (batch.row[i] & 1) * 2 - 1;
+        const Vector2 u = vectorOf(step.coarser, (batch.column[i] >> 1) + (k & 1) * towardsX,
+                                   (batch.row[i] >> 1) + (k >> 1) * towardsY);
+        batch.trial.x.of[i] = 2 * u.x;
+        batch.trial.y.of[i] = 2 * u.y;
+    }
+    activateNew(batch);
+    room.compare(step.to);
+}
+
+/// Finds the vectors of the cells that were added to the batch.
+void searchBatch(const SearchStep& step, SearchRoom& room) {
+    room.load(step.from);
+    if (step.prior.x != nullptr) tryPrior(step, room);
     if (step.coarser.rows == 0) {
-        searchWhole(t, step.to, column, row, std::min(step.radius, kMostRadius), search);
+        for (int i = 0; i < room.batch.count; ++i)
+            searchWhole(room.batch, i, step.to, std::min(step.radius, kMostRadius));
+        activateNew(room.batch);
+        room.compare(step.to);
     } else {
-        const int towardsX = (column & 1) * 2 - 1, towardsY = (row & 1) * 2 - 1;
         for (int k = 0; k < step.candidates; ++k)
-            attempt(2.0F * vectorOf(step.coarser, (column >> 1) + (k & 1) * towardsX,
-                                    (row >> 1) + (k >> 1) * towardsY));
+            tryCoarser(step, k, room);
     }
-    refine(t, step.to, column, row, step.steps, search);
-    return search;
+    for (int i = 0; i < room.batch.count; ++i)
+        room.batch.active.of[i] = 1;
+    refine(step.to, step.steps, room);
 }
 
 }  // namespace
 
 void SearchCells(const SearchStep& step, int row, int first, int end) {
-    Template t;
-    for (int column = first; column < end; ++column) {
-        loadTemplate(step.from, column, row, t);
-        const Search s = searchCell(step, t, column, row);
-        put(step.out, column, row, s.best, s.found.cost, t.variance);
+    SearchRoom room;
+    for (int column = first; column < end; column += kBatch) {
+        room.batch.count = 0;
+        for (int c = column; c < std::min(column + kBatch, end); ++c)
+            room.batch.add(c, row);
+        searchBatch(step, room);
+        for (int i = 0; i < room.batch.count; ++i)
+            putBest(step.out, room.batch, i);
     }
 }
 
-void SearchListedCells(const ListedStep& step, int row, int first, int end) {
+void SearchListedGroup(const ListedStep& step, int groupX, int groupY) {
     // The z-test says nothing about what moves by itself: its cells are trusted by their cost, from
     // wholly to not at all (error = alpha of eq. 2).
     constexpr float kGoodCost = 0.1F, kErrorPerCost = 5.0F;
@@ -166,44 +222,95 @@ void SearchListedCells(const ListedStep& step, int row, int first, int end) {
     // A cell leaves its line only for a cost this much lower: among many vectors one fits noise by
     // chance.
     constexpr float kClearlyLess = 0.5F;
+    constexpr int kSide = 4;  // cells
+    static_assert(kSide * kSide == kBatch);
     const FlowPlanes& out = step.search.out;
-    Template t;
-    for (int column = first; column < end; ++column) {
-        loadTemplate(step.search.from, column, row, t);
-        const Search s = searchCell(step.search, t, column, row);
-        const std::ptrdiff_t at = row * out.pitch + column;
-        const Vector2 line{out.x[at], out.y[at]};
-        if (step.errors != nullptr && squaredLength(s.best - line) > kOnLine * kOnLine) {
-            if (s.found.cost > kClearlyLess * out.cost[at]) continue;
-            step.errors[row * step.errorPitch + 4 * std::ptrdiff_t{column}] =
-                std::max(s.found.cost - kGoodCost, 0.0F) * kErrorPerCost;
+    SearchRoom room;
+    Batch& batch = room.batch;
+    for (int i = 0; i < kBatch; ++i) {
+        const int c = kSide * groupX + i % kSide, r = kSide * groupY + i / kSide;
+        if (c < out.columns && r < out.rows) batch.add(c, r);
+    }
+    searchBatch(step.search, room);
+    for (int i = 0; i < batch.count; ++i) {
+        const std::ptrdiff_t at = batch.row[i] * out.pitch + batch.column[i];
+        const float x = batch.best.x.of[i] - out.x[at], y = batch.best.y.of[i] - out.y[at];
+        if (step.errors != nullptr && x * x + y * y > kOnLine * kOnLine) {
+            const float cost = batch.cost.of[i];
+            if (cost > kClearlyLess * out.cost[at]) continue;
+            step.errors[batch.row[i] * step.errorPitch + 4 * std::ptrdiff_t{batch.column[i]}] =
+                std::max(cost - kGoodCost, 0.0F) * kErrorPerCost;
         }
-        put(out, column, row, s.best, s.found.cost, t.variance);
+        putBest(out, batch, i);
     }
 }
 
-void PropagateCells(const PropagateStep& step, int row, int first, int end) {
-    Template t;
-    for (int column = first; column < end; ++column) {
-        const std::ptrdiff_t at = row * step.in.pitch + column;
-        Search search;
-        search.best = {step.in.x[at], step.in.y[at]};
-        search.found.cost = step.in.cost[at];
-        bool loaded = false, moved = false;
-        const auto attempt = [&](int c, int r) HWY_ATTR {
-            const Vector2 u = vectorOf(step.in, c, r);
-            if (!search.tries(u)) return;
-            if (!loaded) loadTemplate(step.from, column, row, t);
-            loaded = true;
-            moved = search.take(u, compare(t, step.to, column, row, u)) || moved;
-        };
-        attempt(column - 1, row);
-        attempt(column + 1, row);
-        attempt(column, row - 1);
-        attempt(column, row + 1);
-        if (moved) refine(t, step.to, column, row, step.steps, search);
-        put(step.out, column, row, search.best, search.found.cost, step.in.texture[at]);
+namespace {
+
+struct Offset {
+    int x, y;
+};
+constexpr Offset kBeside[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+
+/// Does one of the cell's neighbours have another vector?
+HWY_INLINE bool differsFromNeighbours(const FlowPlanes& field, int column, int row) {
+    const Vector2 own = vectorOf(field, column, row);
+    bool differs = false;
+    for (const Offset by : kBeside) {
+        const Vector2 u = vectorOf(field, column + by.x, row + by.y);
+        const float x = u.x - own.x, y = u.y - own.y;
+        differs = differs || x * x + y * y >= kSameCandidate;
     }
+    return differs;
+}
+
+void propagateBatch(const PropagateStep& step, SearchRoom& room) {
+    Batch& batch = room.batch;
+    room.load(step.from);
+    Each moved;
+    for (int i = 0; i < batch.count; ++i) {
+        const std::ptrdiff_t at = batch.row[i] * step.in.pitch + batch.column[i];
+        batch.best.x.of[i] = step.in.x[at];
+        batch.best.y.of[i] = step.in.y[at];
+        batch.cost.of[i] = step.in.cost[at];
+        moved.of[i] = 0;
+    }
+    for (const Offset by : kBeside) {
+        for (int i = 0; i < batch.count; ++i) {
+            const Vector2 u = vectorOf(step.in, batch.column[i] + by.x, batch.row[i] + by.y);
+            batch.trial.x.of[i] = u.x;
+            batch.trial.y.of[i] = u.y;
+        }
+        activateNew(batch);
+        room.compare(step.to);
+        for (int i = 0; i < batch.count; ++i)
+            moved.of[i] = std::max(moved.of[i], batch.active.of[i]);
+    }
+    batch.active = moved;
+    refine(step.to, step.steps, room);
+    for (int i = 0; i < batch.count; ++i)
+        putBest(step.out, batch, i);
+    batch.count = 0;
+}
+
+}  // namespace
+
+void PropagateCells(const PropagateStep& step, int row, int first, int end) {
+    SearchRoom room;
+    for (int column = first; column < end; ++column) {
+        if (differsFromNeighbours(step.in, column, row)) {
+            room.batch.add(column, row);
+            if (room.batch.count == kBatch) propagateBatch(step, room);
+            continue;
+        }
+        const std::ptrdiff_t from = row * step.in.pitch + column;
+        const std::ptrdiff_t to = row * step.out.pitch + column;
+        step.out.x[to] = step.in.x[from];
+        step.out.y[to] = step.in.y[from];
+        step.out.cost[to] = step.in.cost[from];
+        step.out.texture[to] = step.in.texture[from];
+    }
+    if (room.batch.count > 0) propagateBatch(step, room);
 }
 
 }  // namespace mfar::simd::HWY_NAMESPACE
@@ -213,15 +320,15 @@ HWY_AFTER_NAMESPACE();
 namespace mfar::simd {
 
 HWY_EXPORT(SearchCells);
-HWY_EXPORT(SearchListedCells);
+HWY_EXPORT(SearchListedGroup);
 HWY_EXPORT(PropagateCells);
 
 void searchCells(const SearchStep& step, int row, int first, int end) {
     HWY_DYNAMIC_DISPATCH(SearchCells)(step, row, first, end);
 }
 
-void searchListedCells(const ListedStep& step, int row, int first, int end) {
-    HWY_DYNAMIC_DISPATCH(SearchListedCells)(step, row, first, end);
+void searchListedGroup(const ListedStep& step, int groupX, int groupY) {
+    HWY_DYNAMIC_DISPATCH(SearchListedGroup)(step, groupX, groupY);
 }
 
 void propagateCells(const PropagateStep& step, int row, int first, int end) {
