@@ -41,9 +41,14 @@ void SemiGlobal::run(const LumaImage& guide, const std::vector<std::int16_t>& ba
         jumps_[d] = static_cast<std::uint8_t>(jump);
     }
     const auto [width, height] = guide.size;
-    const simd::PathVolume volume{guide.pixels.data(), base.data(), guide.size, vectors,
-                                  static_cast<std::uint8_t>(smoothness.step), jumps_.data(),
-                                  costs_.data(), sums_.data()};
+    const simd::PathVolume volume{guide.pixels.data(),
+                                  base.data(),
+                                  guide.size,
+                                  vectors,
+                                  static_cast<std::uint8_t>(smoothness.step),
+                                  jumps_.data(),
+                                  costs_.data(),
+                                  sums_.data()};
     const std::size_t row = static_cast<std::size_t>(width) * kLabels * vectors;
     constexpr int kRows = simd::kRowsTogether, kColumns = simd::kColumnsTogether;
     // Single vectors stay in registers. Workers makes at most four parts a thread.

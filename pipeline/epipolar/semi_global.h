@@ -47,7 +47,7 @@ public:
 
 private:
     std::vector<std::uint8_t> costs_, sums_;
-    std::vector<std::uint8_t> scratch_;  // where several vectors do not stay in registers
+    std::vector<std::uint8_t> scratch_;      // where several vectors do not stay in registers
     std::array<std::uint8_t, 256> jumps_{};  // by difference of luma
 };
 

@@ -1,9 +1,8 @@
 // What several kernels need in lanes. Included once for each instruction set.
 #include "pipeline/simd/lens.h"
 
-#include <hwy/highway.h>
-
 #include <cstddef>
+#include <hwy/highway.h>
 
 #if defined(MFAR_SIMD_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_SIMD_LANES_INL_H
@@ -16,16 +15,22 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Calls body(tag, i) for whole vectors of `count` values, and for what is left lane by lane.
+/// Calls body(tag, i) for vectors that cover `count` values: whole ones, of which the last may
+/// overlap the one before, so that the body must not change what it reads; lane by lane where not
+/// even one is full.
 template <class D, class Body>
 HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
     const std::size_t lanes = hn::Lanes(d);
+    if (count < lanes) {
+        const hn::CappedTag<hn::TFromD<D>, 1> one;
+        for (std::size_t i = 0; i < count; ++i)
+            body(one, i);
+        return;
+    }
     std::size_t i = 0;
     for (; i + lanes <= count; i += lanes)
         body(d, i);
-    const hn::CappedTag<hn::TFromD<D>, 1> one;
-    for (; i < count; ++i)
-        body(one, i);
+    if (i < count) body(d, count - lanes);
 }
 
 template <class V>

@@ -4,11 +4,10 @@
 // instruction set.
 #include "pipeline/simd/path_costs.h"
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <hwy/highway.h>
 
 #if defined(MFAR_SIMD_PATH_BLOCKS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_SIMD_PATH_BLOCKS_INL_H
@@ -148,26 +147,28 @@ public:
     static constexpr int kMost = 64, kRoom = 2 * kMost;
     HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
                               std::uint8_t* out) const {
-        forPart(to, from, count, [&](auto d, const std::uint8_t* a, const std::uint8_t* b, int i)
-                                     HWY_ATTR {
-            const auto x = hn::LoadU(d, a), y = hn::LoadU(d, b);
-            const auto apart = hn::Sub(hn::Max(x, y), hn::Min(x, y));
-            const auto low = hn::And(apart, hn::Set(d, 15)), high = hn::AndNot(hn::Set(d, 15), apart);
-            auto jump = hn::Set(d, jumps_[255]);
-            for (int c = 0; c < chunks_; ++c) {
-                const auto table = hn::LoadDup128(d, jumps_ + 16L * c);
-                const auto here = hn::Eq(high, hn::Set(d, static_cast<std::uint8_t>(16 * c)));
-                jump = hn::IfThenElse(here, hn::TableLookupBytes(table, low), jump);
-            }
-            hn::StoreU(jump, d, out + i);
-        });
+        forPart(to, from, count,
+                [&](auto d, const std::uint8_t* a, const std::uint8_t* b, int i) HWY_ATTR {
+                    const auto x = hn::LoadU(d, a), y = hn::LoadU(d, b);
+                    const auto apart = hn::Sub(hn::Max(x, y), hn::Min(x, y));
+                    const auto low = hn::And(apart, hn::Set(d, 15)),
+                               high = hn::AndNot(hn::Set(d, 15), apart);
+                    auto jump = hn::Set(d, jumps_[255]);
+                    for (int c = 0; c < chunks_; ++c) {
+                        const auto table = hn::LoadDup128(d, jumps_ + 16L * c);
+                        const auto here =
+                            hn::Eq(high, hn::Set(d, static_cast<std::uint8_t>(16 * c)));
+                        jump = hn::IfThenElse(here, hn::TableLookupBytes(table, low), jump);
+                    }
+                    hn::StoreU(jump, d, out + i);
+                });
     }
     /// Held within one more than a window.
     HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
                                   std::uint8_t* out) {
         for (int i = 0; i < count; ++i)
-            out[i] = static_cast<std::uint8_t>(
-                std::clamp(to[i] - from[i], -kLabels - 1, kLabels + 1));
+            out[i] =
+                static_cast<std::uint8_t>(std::clamp(to[i] - from[i], -kLabels - 1, kLabels + 1));
     }
 
 private:
@@ -278,8 +279,8 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     const auto odds = [&](auto v) HWY_ATTR { return hn::And(hn::ShiftRight<8>(v), byte); };
     const auto even = hn::Add(hn::And(a, byte), hn::And(b, byte)), odd = hn::Add(odds(a), odds(b));
     // The lesser sum wins, and of the same sums the lesser label.
-    const auto places = hn::BitCast(
-        d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
+    const auto places =
+        hn::BitCast(d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
     const auto evenKey = hn::Or(hn::ShiftLeft<4>(even), places);
     const auto oddKey = hn::Or(hn::ShiftLeft<4>(odd), hn::Add(places, hn::Set(d16, 1)));
     auto key = hn::Min(evenKey, oddKey);

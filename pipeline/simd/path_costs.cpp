@@ -6,11 +6,11 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/path_costs.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
 #include "pipeline/simd/path_blocks-inl.h"
 #include "pipeline/simd/path_windows-inl.h"
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {

@@ -26,10 +26,10 @@ struct PathVolume {
     const std::int16_t* base;   ///< first label of every pixel
     Size size;
     int vectors;
-    std::uint8_t step;           ///< penalty of one label's difference
-    const std::uint8_t* jumps;   ///< of more, by the difference of the guide: 256
-    const std::uint8_t* costs;   ///< kLabels * vectors a pixel
-    std::uint8_t* sums;          ///< as many: of the paths
+    std::uint8_t step;          ///< penalty of one label's difference
+    const std::uint8_t* jumps;  ///< of more, by the difference of the guide: 256
+    const std::uint8_t* costs;  ///< kLabels * vectors a pixel
+    std::uint8_t* sums;         ///< as many: of the paths
 };
 
 /// Rows and columns that are fastest together: boundaries between threads at multiples of them.

@@ -2,10 +2,9 @@
 // room on both sides. Included once for each instruction set.
 #include "pipeline/simd/path_costs.h"
 
-#include <hwy/highway.h>
-
 #include <algorithm>
 #include <cstdlib>
+#include <hwy/highway.h>
 
 #if defined(MFAR_SIMD_PATH_WINDOWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_SIMD_PATH_WINDOWS_INL_H
@@ -45,8 +44,7 @@ HWY_INLINE void windowStep(const std::uint8_t* from, int shift, std::uint8_t ste
         const auto same = hn::LoadU(d, at + k);
         const auto beside =
             hn::Add(hn::Min(hn::LoadU(d, at + k - 1), hn::LoadU(d, at + k + 1)), step);
-        const auto sum =
-            hn::Add(hn::LoadU(d, cost + k), hn::Min(hn::Min(same, beside), jump));
+        const auto sum = hn::Add(hn::LoadU(d, cost + k), hn::Min(hn::Min(same, beside), jump));
         least = hn::Min(least, sum);
         hn::StoreU(sum, d, to + k);
     }
@@ -104,8 +102,8 @@ HWY_INLINE Valley windowValley(const std::uint8_t* sums, const std::uint8_t* pat
     return {base + best, {riseOf(best - 2), riseOf(best - 1), riseOf(best + 1), riseOf(best + 2)}};
 }
 
-HWY_INLINE void windowsAlongColumns(const PathVolume& v, int first, int last,
-                                    std::uint8_t* scratch, Valley* out) {
+HWY_INLINE void windowsAlongColumns(const PathVolume& v, int first, int last, std::uint8_t* scratch,
+                                    Valley* out) {
     const int labels = kLabels * v.vectors;
     const std::ptrdiff_t width = v.size.width, height = v.size.height;
     const std::size_t stride = strideOf(v.vectors), all = (last - first + 1) * stride;
