@@ -5,10 +5,9 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/label_costs.cpp"
-#include "pipeline/simd/label_lines-inl.h"
-
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+// Once for each instruction set, like this file.
+#include "pipeline/simd/label_lines-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {

@@ -6,11 +6,10 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/path_costs.cpp"
+#include <hwy/foreach_target.h>
+// Once for each instruction set, like this file.
 #include "pipeline/simd/path_blocks-inl.h"
 #include "pipeline/simd/path_windows-inl.h"
-
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
