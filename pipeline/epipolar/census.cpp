@@ -7,36 +7,43 @@
 namespace mfar {
 namespace {
 
-constexpr int kRadius = 2;
+constexpr int kRadius = simd::kCensusRadius, kSide = 2 * kRadius + 1;
+// Pixels at either end whose windows leave the picture, or all of a narrow one.
+constexpr int kMostAtEnd = 2 * kRadius;
 
-/// The row with kRadius pixels repeated at both ends.
-void padRow(const std::uint8_t* row, int width, std::vector<std::uint8_t>& out) {
-    std::copy_n(row, width, out.begin() + kRadius);
-    std::fill_n(out.begin(), kRadius, row[0]);
-    std::fill_n(out.begin() + kRadius + width, kRadius, row[width - 1]);
+/// A few pixels from column `first` on, with the border repeated in memory of their own.
+void censusAtEnd(const std::uint8_t* const (&rows)[kSide], int width, int first, int count,
+                 const std::uint8_t* seen, std::uint32_t* out) {
+    std::array<std::array<std::uint8_t, kMostAtEnd + 2 * kRadius>, kSide> padded{};
+    const std::uint8_t* of[kSide];
+    for (int j = 0; j < kSide; ++j) {
+        for (int i = 0; i < count + 2 * kRadius; ++i)
+            padded[j][i] = rows[j][std::clamp(first + i - kRadius, 0, width - 1)];
+        of[j] = padded[j].data();
+    }
+    simd::censusRow(of, count, seen != nullptr ? seen + first : nullptr, out + first);
 }
 
 }  // namespace
 
-void census(const LumaImage& picture, int first, int last, std::vector<std::uint32_t>& out) {
-    const int w = picture.size.width, h = picture.size.height;
-    std::array<std::vector<std::uint8_t>, 2 * kRadius + 1> rows;
-    for (auto& row : rows)
-        row.resize(static_cast<std::size_t>(w) + 2 * kRadius);
+void census(const LumaImage& picture, int first, int last, std::vector<std::uint32_t>& out,
+            const std::uint8_t* seen) {
+    const auto [width, height] = picture.size;
     for (int y = first; y < last; ++y) {
-        for (int j = -kRadius; j <= kRadius; ++j)
-            padRow(picture.row(std::clamp(y + j, 0, h - 1)), w, rows[j + kRadius]);
-        const std::uint8_t* centre = rows[kRadius].data() + kRadius;
-        std::uint32_t* to = out.data() + static_cast<std::size_t>(y) * w;
-        std::fill_n(to, w, 0U);
-        for (int j = 0; j <= 2 * kRadius; ++j) {
-            for (int i = 0; i <= 2 * kRadius; ++i) {
-                if (i == kRadius && j == kRadius) continue;
-                const std::uint8_t* neighbour = rows[j].data() + i;
-                for (int x = 0; x < w; ++x)
-                    to[x] = (to[x] << 1) | static_cast<std::uint32_t>(neighbour[x] < centre[x]);
-            }
+        const std::uint8_t* rows[kSide];
+        for (int j = 0; j < kSide; ++j)
+            rows[j] = picture.row(std::clamp(y + j - kRadius, 0, height - 1));
+        const std::size_t row = static_cast<std::size_t>(y) * width;
+        const std::uint8_t* seenHere = seen != nullptr ? seen + row : nullptr;
+        std::uint32_t* to = out.data() + row;
+        if (width <= kMostAtEnd) {
+            censusAtEnd(rows, width, 0, width, seenHere, to);
+            continue;
         }
+        censusAtEnd(rows, width, 0, kRadius, seenHere, to);
+        simd::censusRow(rows, width - 2 * kRadius, seen != nullptr ? seenHere + kRadius : nullptr,
+                        to + kRadius);
+        censusAtEnd(rows, width, width - kRadius, kRadius, seenHere, to);
     }
 }
 

@@ -46,15 +46,17 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
     lens_.p1 = static_cast<float>(d[2]);
     lens_.p2 = static_cast<float>(d[3]);
     lens_.k3 = static_cast<float>(d[4]);
-    rays_.reserve(2UL * size_.width * size_.height);
+    const auto pixels = static_cast<std::size_t>(size_.width) * size_.height;
+    raysX_.reserve(pixels);
+    raysY_.reserve(pixels);
     double rim = 0;  // of the picture's corners, squared
     Eigen::Vector2d ray(0, 0);
     for (int y = 0; y < size_.height; ++y) {
         for (int x = 0; x < size_.width; ++x) {
             const Eigen::Vector2d fine((x + 0.5) / scale - 0.5, (y + 0.5) / scale - 0.5);
             ray = camera.unproject(fine, ray);
-            rays_.push_back(static_cast<float>(ray.x()));
-            rays_.push_back(static_cast<float>(ray.y()));
+            raysX_.push_back(static_cast<float>(ray.x()));
+            raysY_.push_back(static_cast<float>(ray.y()));
             rim = std::max(rim, ray.squaredNorm());
         }
     }
@@ -68,11 +70,15 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
     lens_ = whole.lens_;
     lens_.cx -= static_cast<float>(pixels.x0);
     lens_.cy -= static_cast<float>(pixels.y0);
-    rays_.clear();
-    for (int y = pixels.y0; y < pixels.y1; ++y) {
-        const auto row = whole.rays_.begin() + 2L * y * whole.size_.width;
-        rays_.insert(rays_.end(), row + 2L * pixels.x0, row + 2L * pixels.x1);
-    }
+    const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
+        to.clear();
+        for (int y = pixels.y0; y < pixels.y1; ++y) {
+            const auto row = from.begin() + static_cast<long>(y) * whole.size_.width;
+            to.insert(to.end(), row + pixels.x0, row + pixels.x1);
+        }
+    };
+    take(whole.raysX_, raysX_);
+    take(whole.raysY_, raysY_);
 }
 
 }  // namespace mfar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "pipeline/simd/lens.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,8 +32,13 @@ public:
     void cover(const EpipolarLens& whole, const PixelRect& pixels);
 
     [[nodiscard]] Size size() const { return size_; }
-    [[nodiscard]] float rayX(std::size_t pixel) const { return rays_[2 * pixel]; }
-    [[nodiscard]] float rayY(std::size_t pixel) const { return rays_[2 * pixel + 1]; }
+    [[nodiscard]] float rayX(std::size_t pixel) const { return raysX_[pixel]; }
+    [[nodiscard]] float rayY(std::size_t pixel) const { return raysY_[pixel]; }
+    /// Of all pixels, row-major.
+    [[nodiscard]] const std::vector<float>& raysX() const { return raysX_; }
+    [[nodiscard]] const std::vector<float>& raysY() const { return raysY_; }
+    /// For kernels.
+    [[nodiscard]] const simd::Lens& lens() const { return lens_; }
 
     struct Point {
         float x, y;
@@ -62,14 +68,9 @@ public:
     }
 
 private:
-    struct Lens {
-        float fx, fy, cx, cy, k1, k2, p1, p2, k3;
-        float rim2;  // squared radius of the rim
-    };
-
     Size size_;
-    Lens lens_;
-    std::vector<float> rays_;  // x, y per pixel
+    simd::Lens lens_;
+    std::vector<float> raysX_, raysY_;
 };
 
 }  // namespace mfar

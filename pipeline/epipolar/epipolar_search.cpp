@@ -292,10 +292,7 @@ void EpipolarSearch::prepare(int index) {
         census(*video, first, last, level.videoCensus);
     });
     workers_->forRange(canvas.height, 8, [&](int first, int last) {
-        census(*still, first, last, level.stillCensus);
-        for (std::size_t i = static_cast<std::size_t>(first) * canvas.width;
-             i < static_cast<std::size_t>(last) * canvas.width; ++i)
-            if (level.seen[i] == 0) level.stillCensus[i] = kNoCensus;
+        census(*still, first, last, level.stillCensus, level.seen.data());
     });
 }
 
@@ -337,11 +334,10 @@ void EpipolarSearch::match(int index, int vectors) {
     matcher_.run(
         level.video, level.base, vectors,
         smoothnessFor(std::max(videoNoise_, stillNoise_), options_),
-        [&](int y, std::uint8_t* out) { costRow(level, index, vectors, y, out); }, *workers_,
+        [&](int y, std::uint8_t* out) { costRow(index, vectors, y, out); }, *workers_,
         std::span(valleys_).first(level.labels.size()));
     if (index > finestLevel())
-        std::ranges::transform(std::span(valleys_).first(level.labels.size()), level.labels.begin(),
-                               vertexOf);
+        simd::labelVertices(valleys_.data(), level.labels.size(), level.labels.data());
     else
         placeLabels(index);
 }

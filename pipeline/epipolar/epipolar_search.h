@@ -7,6 +7,7 @@
 #include "pipeline/epipolar/semi_global.h"
 #include "pipeline/epipolar/turned_picture.h"
 #include "pipeline/flow/flow_options.h"
+#include "pipeline/simd/label_lines.h"
 
 #include <Eigen/Core>
 
@@ -103,11 +104,9 @@ private:
     };
     void centreWindows(const Coarser& coarse, Level& fine);
     void match(int index, int vectors);
-    void costRow(const Level& level, int index, int vectors, int y, std::uint8_t* out) const;
+    [[nodiscard]] simd::LabelLines linesOf(int index) const;
+    void costRow(int index, int vectors, int y, std::uint8_t* out) const;
     [[nodiscard]] bool hasSlack(int index) const;
-    template <class LabelAt>
-    void placeRow(const Level& level, std::size_t first, float perLabel, LabelAt labelAt,
-                  std::vector<EpipolarLens::Point>& out) const;
     void placeLabels(int index);
 
     EpipolarOptions options_;

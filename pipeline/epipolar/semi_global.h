@@ -2,6 +2,7 @@
 
 #include "base/workers.h"
 #include "pipeline/flow/luma_image.h"
+#include "pipeline/simd/path_costs.h"
 
 #include <array>
 #include <cstdint>
@@ -18,14 +19,7 @@ struct Smoothness {
     double noise = 0;  ///< difference between neighbours that is no edge [grey levels]
 };
 
-/// The cheapest of a pixel's labels, and by how much those beside it are dearer.
-struct Valley {
-    static constexpr std::uint8_t kUnknown = 255;  ///< outside the window
-
-    int label = 0;
-    /// Of label - 2, label - 1, label + 1 and label + 2: at most 254, or kUnknown.
-    std::array<std::uint8_t, 4> rise{};
-};
+using simd::Valley;
 
 /// The label with its sub-label part: the vertex of the two straight lines through it and its
 /// neighbours (a parabola would lock to whole labels on such costs).
@@ -36,7 +30,7 @@ float vertexOf(const Valley& valley);
 /// Source: Hirschmueller, PAMI 2008; windows per pixel: Rothermel et al., LC3D 2012 (tSGM).
 class SemiGlobal {
 public:
-    static constexpr int kLabels = 16;  ///< labels come in vectors of so many
+    static constexpr int kLabels = simd::kLabels;  ///< labels come in vectors of so many
 
     /// Writes the costs of pixels [x0, x1) of row y: kLabels * vectors bytes a pixel, each at most
     /// kCensusBits, for labels base, base + 1, ... It may be called from several threads at once.
@@ -52,13 +46,9 @@ public:
              std::span<Valley> out);
 
 private:
-    struct Task;
-    class Columns;
-    void alongRow(const Task& task, int y, std::uint8_t* scratch);
-    void alongColumns(const Task& task, int x0, int x1);
-
     std::vector<std::uint8_t> costs_, sums_;
-    std::array<std::uint8_t, 256UL * 16> jump_{};  // by difference of luma, a vector each
+    std::vector<std::uint8_t> scratch_;      // where several vectors do not stay in registers
+    std::array<std::uint8_t, 256> jumps_{};  // by difference of luma
 };
 
 }  // namespace mfar

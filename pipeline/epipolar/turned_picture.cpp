@@ -1,8 +1,7 @@
 #include "pipeline/epipolar/turned_picture.h"
 
 #include "pipeline/epipolar/epipolar_lens.h"
-
-#include <Eigen/Geometry>
+#include "pipeline/simd/turned_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +9,8 @@
 namespace mfar {
 namespace {
 
-constexpr float kOutside = -1e6F;
+static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
+
 // Rays flatter than this [z of a picture's ray (x, y, 1)] count as beside the camera.
 constexpr double kBeside = 0.2;
 // Points along each side of the picture whose hull bounds what is seen of it.
@@ -28,25 +28,27 @@ int alignDown(double v) {
     return static_cast<int>(std::floor(v / TurnedPicture::kAlign)) * TurnedPicture::kAlign;
 }
 
-/// Bounds of what the camera sees of the picture, within `whole`; empty: nothing.
-Eigen::AlignedBox2d boundsOf(const CameraModel& camera, const CameraModel& source,
-                             const Eigen::Matrix3d& R_source_camera,
-                             const Eigen::AlignedBox2d& whole) {
-    const double rim = rimOf(camera);
-    Eigen::AlignedBox2d bounds;
-    bool before = false;
+simd::Lens lensOf(const CameraModel& camera) {
+    const auto f = [](double v) { return static_cast<float>(v); };
+    const auto& d = camera.distortion;
+    return {f(camera.fx), f(camera.fy), f(camera.cx), f(camera.cy), f(d[0]),
+            f(d[1]),      f(d[2]),      f(d[3]),      f(d[4]),      1};
+}
+
+}  // namespace
+
+void TurnedPicture::know(const CameraModel& camera, const CameraModel& source) {
+    if (!isSame(camera, known_.camera)) {
+        known_.camera = camera;
+        known_.rim = rimOf(camera);
+    }
+    if (isSame(source, known_.source)) return;
+    known_.source = source;
+    known_.sourceRim = rimOf(source);
+    known_.outline.clear();
     const auto include = [&](double u, double v) {
-        const Eigen::Vector2d ray =
-            source.unproject({u * (source.size.width - 1), v * (source.size.height - 1)});
-        const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
-        // Beside or behind the camera: whatever the canvas can hold may be seen.
-        if (!(turned.z() > kBeside)) {
-            bounds.extend(whole);
-            return;
-        }
-        const Eigen::Vector2d there = turned.hnormalized();
-        bounds.extend(camera.project(there * std::min(1.0, rim / there.norm())));
-        before = true;
+        known_.outline.push_back(
+            source.unproject({u * (source.size.width - 1), v * (source.size.height - 1)}));
     };
     for (int i = 0; i <= kSidePoints; ++i) {
         const double a = static_cast<double>(i) / kSidePoints;
@@ -55,84 +57,76 @@ Eigen::AlignedBox2d boundsOf(const CameraModel& camera, const CameraModel& sourc
         include(0, a);
         include(1, a);
     }
+}
+
+/// Bounds of what the camera sees of the picture, within `whole`; empty: nothing.
+Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_camera,
+                                            const Eigen::AlignedBox2d& whole) const {
+    Eigen::AlignedBox2d bounds;
+    bool before = false;
+    for (const Eigen::Vector2d& ray : known_.outline) {
+        const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
+        // Beside or behind the camera: whatever the canvas can hold may be seen.
+        if (!(turned.z() > kBeside)) {
+            bounds.extend(whole);
+            continue;
+        }
+        const Eigen::Vector2d there = turned.hnormalized();
+        bounds.extend(known_.camera.project(there * std::min(1.0, known_.rim / there.norm())));
+        before = true;
+    }
     // The picture's rays all lie between those of its outline.
     return before ? bounds.intersection(whole) : Eigen::AlignedBox2d();
 }
 
-}  // namespace
-
 void TurnedPicture::place(const CameraModel& camera, const CameraModel& source,
                           const Eigen::Matrix3d& R_source_camera, double beyond) {
+    know(camera, source);
     const double reach = beyond * camera.size.width;
     const Eigen::AlignedBox2d whole(
         Eigen::Vector2d(-reach, -reach),
         Eigen::Vector2d(camera.size.width - 1 + reach, camera.size.height - 1 + reach));
-    const Eigen::AlignedBox2d bounds = boundsOf(camera, source, R_source_camera, whole);
+    const Eigen::AlignedBox2d bounds = boundsOf(R_source_camera, whole);
     const Eigen::Vector2d &low = bounds.min(), &high = bounds.max();
     size_ = {};
     if (!((high - low).minCoeff() >= 1)) return;
     origin_ = {alignDown(low.x()), alignDown(low.y())};
     size_ = {static_cast<int>(std::ceil(high.x())) - origin_.x + 1,
              static_cast<int>(std::ceil(high.y())) - origin_.y + 1};
-    mapGrid(camera, source, R_source_camera);
+    mapGrid(R_source_camera);
 }
 
-void TurnedPicture::mapGrid(const CameraModel& camera, const CameraModel& source,
-                            const Eigen::Matrix3d& R_source_camera) {
-    const double rim = rimOf(source);
+void TurnedPicture::mapGrid(const Eigen::Matrix3d& R_source_camera) {
     gridWidth_ = size_.width / kAlign + 2;
     const int gridHeight = size_.height / kAlign + 2;
-    grid_.clear();
+    const int column = origin_.x / kAlign, row = origin_.y / kAlign;
+    const RayLattice::Part rays =
+        lattice_.part(known_.camera, {column, row, column + gridWidth_, row + gridHeight});
+    simd::TurnedLens lens{lensOf(known_.source), {}, static_cast<float>(known_.sourceRim)};
+    for (int i = 0; i < 9; ++i)
+        lens.turn[i] = static_cast<float>(R_source_camera(i / 3, i % 3));
+    const auto width = static_cast<std::size_t>(gridWidth_);
+    gridX_.resize(width * gridHeight);
+    gridY_.resize(width * gridHeight);
     for (int j = 0; j < gridHeight; ++j) {
-        for (int i = 0; i < gridWidth_; ++i) {
-            const Eigen::Vector2d pixel(origin_.x + kAlign * i, origin_.y + kAlign * j);
-            const Eigen::Vector2d ray = camera.unproject(pixel);
-            const Eigen::Vector3d p = R_source_camera * ray.homogeneous();
-            // Beyond its fold the lens shows nothing, and no picture has anything to show.
-            const bool shown = (camera.project(ray) - pixel).squaredNorm() < 1e-2;
-            Source s{kOutside, kOutside};
-            if (shown && p.z() > 0.05 && p.head<2>().norm() < rim * p.z()) {
-                const Eigen::Vector2d q = source.project(p.hnormalized());
-                s = {static_cast<float>(q.x()), static_cast<float>(q.y())};
-            }
-            grid_.push_back(s);
-        }
+        const auto from = static_cast<std::ptrdiff_t>(j) * rays.pitch;
+        simd::turnedPoints(lens, rays.x + from, rays.y + from, width, gridX_.data() + j * width,
+                           gridY_.data() + j * width);
     }
 }
 
 void TurnedPicture::draw(const LumaImage& picture, Workers& workers, LumaImage& out,
                          std::vector<std::uint8_t>& seen) const {
-    if (!(out.size == size_)) out = LumaImage(size_);
+    if (!(out.size == size_)) out.setSize(size_);
     seen.resize(out.pixels.size());
-    const float right = static_cast<float>(picture.size.width) - 1.001F;
-    const float bottom = static_cast<float>(picture.size.height) - 1.001F;
+    const auto width = static_cast<std::size_t>(size_.width);
     workers.forRange(size_.height, kAlign, [&](int first, int last) {
         for (int y = first; y < last; ++y) {
-            const float v = static_cast<float>(y % kAlign) / kAlign;
-            const Source* above =
-                grid_.data() + static_cast<std::ptrdiff_t>(y / kAlign) * gridWidth_;
-            const Source* below = above + gridWidth_;
-            std::uint8_t* to = out.row(y);
-            std::uint8_t* known = seen.data() + static_cast<std::size_t>(y) * size_.width;
-            for (int x = 0; x < size_.width; ++x) {
-                const int c = x / kAlign;
-                const float u = static_cast<float>(x % kAlign) / kAlign;
-                const float ax = above[c].x + v * (below[c].x - above[c].x);
-                const float ay = above[c].y + v * (below[c].y - above[c].y);
-                const float bx = above[c + 1].x + v * (below[c + 1].x - above[c + 1].x);
-                const float by = above[c + 1].y + v * (below[c + 1].y - above[c + 1].y);
-                const float sx = ax + u * (bx - ax), sy = ay + u * (by - ay);
-                known[x] = sx > -0.5F && sy > -0.5F && sx < right + 0.5F && sy < bottom + 0.5F;
-                const float px = std::clamp(sx, 0.0F, right), py = std::clamp(sy, 0.0F, bottom);
-                const int ix = static_cast<int>(px), iy = static_cast<int>(py);
-                const float fx = px - static_cast<float>(ix), fy = py - static_cast<float>(iy);
-                const std::uint8_t* p = picture.row(iy) + ix;
-                const std::uint8_t* q = p + picture.size.width;
-                const float top = static_cast<float>(p[0]) + fx * static_cast<float>(p[1] - p[0]);
-                const float low = static_cast<float>(q[0]) + fx * static_cast<float>(q[1] - q[0]);
-                const float rounded = top + fy * (low - top) + 0.5F;
-                to[x] = static_cast<std::uint8_t>(rounded);
-            }
+            const auto at = static_cast<std::size_t>(y / kAlign) * gridWidth_;
+            const float *x = gridX_.data() + at, *v = gridY_.data() + at;
+            simd::turnedRow(picture.rows(), {x, v, x + gridWidth_, v + gridWidth_},
+                            static_cast<float>(y % kAlign) / kAlign, width, out.row(y),
+                            seen.data() + y * width);
         }
     });
 }

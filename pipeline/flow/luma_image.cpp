@@ -1,10 +1,12 @@
 #include "pipeline/flow/luma_image.h"
 
 #include "base/image_layout.h"
+#include "pipeline/simd/luma_filters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
+#include <numeric>
 
 namespace mfar {
 namespace {
@@ -73,90 +75,103 @@ void lumaOf(const ImageView& picture, LumaImage& out) {
         lumaRow(picture, y, out.row(y));
 }
 
-void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out) {
+namespace {
+
+/// `rowOf(y, scratch)`: a row of the picture's luma, in memory of its own or in the scratch.
+template <class RowOf>
+void shrinkRows(Size from, Size size, const RowOf& rowOf, Workers& workers, LumaImage& out) {
     if (!(out.size == size)) out = LumaImage(size);
-    const Size from = picture.size;
     const auto across = spansOf(from.width, size.width), down = spansOf(from.height, size.height);
     workers.forRange(size.height, 4, [&](int first, int last) {
         std::vector<std::uint8_t> luma(from.width);
         std::vector<float> columns(from.width);
         for (int y = first; y < last; ++y) {
             std::fill(columns.begin(), columns.end(), 0.0F);
-            for (int j = down[y].first; j <= down[y].last; ++j) {
-                lumaRow(picture, j, luma.data());
-                const float weight = down[y].weightOf(j);
-                for (int x = 0; x < from.width; ++x)
-                    columns[x] += weight * static_cast<float>(luma[x]);
-            }
+            for (int j = down[y].first; j <= down[y].last; ++j)
+                simd::addWeighted(rowOf(j, luma.data()), down[y].weightOf(j), columns.size(),
+                                  columns.data());
             std::uint8_t* to = out.row(y);
             for (int x = 0; x < size.width; ++x) {
+                const Span& span = across[x];
                 float sum = 0;
-                for (int i = across[x].first; i <= across[x].last; ++i)
-                    sum += across[x].weightOf(i) * columns[i];
+                for (int i = span.first + 1; i < span.last; ++i)
+                    sum += columns[i];
+                sum *= span.innerWeight;
+                sum += span.firstWeight * columns[span.first];
+                if (span.last > span.first) sum += span.lastWeight * columns[span.last];
                 to[x] = static_cast<std::uint8_t>(std::clamp(sum + 0.5F, 0.0F, 255.0F));
             }
         }
     });
 }
 
-void cut(const LumaImage& picture, const PixelRect& pixels, LumaImage& out) {
-    out.size = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
-    out.pixels.clear();
+}  // namespace
+
+void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out) {
+    if (const auto luma = lumaPlane(picture)) {
+        shrinkLuma(Rows<const std::uint8_t>{luma->data, static_cast<std::ptrdiff_t>(luma->stride),
+                                            luma->size},
+                   size, workers, out);
+        return;
+    }
+    const auto rowOf = [&](int y, std::uint8_t* scratch) {
+        lumaRow(picture, y, scratch);
+        return scratch;
+    };
+    shrinkRows(picture.size, size, rowOf, workers, out);
+}
+
+void shrinkLuma(const Rows<const std::uint8_t>& luma, Size size, Workers& workers, LumaImage& out) {
+    if (luma.size == size) {
+        cut(luma, {0, 0, size.width, size.height}, out);
+        return;
+    }
+    shrinkRows(luma.size, size, [&](int y, std::uint8_t*) { return luma[y]; }, workers, out);
+}
+
+void cut(const Rows<const std::uint8_t>& picture, const PixelRect& pixels, LumaImage& out) {
+    out.setSize({pixels.x1 - pixels.x0, pixels.y1 - pixels.y0});
     for (int y = pixels.y0; y < pixels.y1; ++y)
-        out.pixels.insert(out.pixels.end(), picture.row(y) + pixels.x0, picture.row(y) + pixels.x1);
+        std::copy_n(picture[y] + pixels.x0, out.size.width, out.row(y - pixels.y0));
 }
 
 void halve(const LumaImage& fine, LumaImage& coarse) {
     const Size size{(fine.size.width + 1) / 2, (fine.size.height + 1) / 2};
-    if (!(coarse.size == size)) coarse = LumaImage(size);
+    if (!(coarse.size == size)) coarse.setSize(size);
     const int inner = fine.size.width / 2;
     for (int y = 0; y < size.height; ++y) {
         const std::uint8_t* a = fine.row(2 * y);
         const std::uint8_t* b = fine.row(std::min(2 * y + 1, fine.size.height - 1));
         std::uint8_t* to = coarse.row(y);
-        for (int x = 0; x < inner; ++x)
-            to[x] = static_cast<std::uint8_t>(
-                (a[2 * x] + a[2 * x + 1] + b[2 * x] + b[2 * x + 1] + 2) >> 2);
+        simd::halveRow(a, b, inner, to);
         if (inner < size.width)
             to[inner] = static_cast<std::uint8_t>((a[2 * inner] + b[2 * inner] + 1) >> 1);
     }
 }
 
 void smooth(const LumaImage& in, float side, LumaImage& out) {
-    if (!(out.size == in.size)) out = LumaImage(in.size);
-    const int w = in.size.width, h = in.size.height;
+    if (!(out.size == in.size)) out.setSize(in.size);
+    const int height = in.size.height;
     const int s = static_cast<int>(std::lround(256 * std::clamp(side, 0.0F, 0.333F)));
-    const int c = 256 - 2 * s;
-    std::vector<int> column(static_cast<std::size_t>(w) + 2);
-    for (int y = 0; y < h; ++y) {
-        const std::uint8_t* above = in.row(std::max(y - 1, 0));
-        const std::uint8_t* here = in.row(y);
-        const std::uint8_t* below = in.row(std::min(y + 1, h - 1));
-        for (int x = 0; x < w; ++x)
-            column[x + 1] = s * (above[x] + below[x]) + c * here[x];
-        column.front() = column[1];
-        column.back() = column[w];
-        std::uint8_t* to = out.row(y);
-        for (int x = 0; x < w; ++x)
-            to[x] = static_cast<std::uint8_t>(
-                (s * (column[x] + column[x + 2]) + c * column[x + 1] + 32768) >> 16);
-    }
+    for (int y = 0; y < height; ++y)
+        simd::smoothRow(in.row(std::max(y - 1, 0)), in.row(y), in.row(std::min(y + 1, height - 1)),
+                        in.size.width, s, out.row(y));
 }
 
-double noiseOf(const LumaImage& picture) {
-    constexpr int kBlock = 8;
+double noiseOf(const Rows<const std::uint8_t>& picture) {
+    constexpr int kBlock = 8, kRun = 32;  // blocks of a run
     std::vector<int> sums;
-    for (int by = 1; by + kBlock < picture.size.height; by += kBlock) {
-        for (int bx = 1; bx + kBlock < picture.size.width; bx += kBlock) {
-            int sum = 0;
-            for (int y = by; y < by + kBlock; ++y) {
-                const std::uint8_t *a = picture.row(y - 1), *b = picture.row(y),
-                                   *c = picture.row(y + 1);
-                for (int x = bx; x < bx + kBlock; ++x)
-                    sum += std::abs(a[x - 1] + a[x + 1] + c[x - 1] + c[x + 1] -
-                                    2 * (a[x] + b[x - 1] + b[x + 1] + c[x]) + 4 * b[x]);
-            }
-            sums.push_back(sum);
+    const int blocks = (picture.size.width - 2) / kBlock;
+    for (int y = 1; y + kBlock < picture.size.height; y += kBlock) {
+        for (int first = 0; first < blocks; first += kRun) {
+            const int count = std::min(kRun, blocks - first);
+            std::array<std::uint16_t, kRun * kBlock> columns;
+            const Rows<const std::uint8_t> part{picture.data + first * kBlock, picture.pitch,
+                                                picture.size};
+            simd::noiseColumns(part, y, kBlock, count * kBlock, columns.data());
+            for (int b = 0; b < count; ++b)
+                sums.push_back(std::accumulate(columns.begin() + b * kBlock,
+                                               columns.begin() + (b + 1) * kBlock, 0));
         }
     }
     if (sums.empty()) return 0;

@@ -2,6 +2,7 @@
 
 #include "base/geometry.h"
 #include "base/image_view.h"
+#include "base/rows.h"
 #include "base/workers.h"
 
 #include <cstdint>
@@ -16,12 +17,22 @@ struct LumaImage {
 
     LumaImage() = default;
     explicit LumaImage(Size s) : size(s), pixels(static_cast<std::size_t>(s.width) * s.height) {}
+    /// Keeps its memory where that is enough; the pixels are then of no picture.
+    void setSize(Size s) {
+        size = s;
+        pixels.resize(static_cast<std::size_t>(s.width) * s.height);
+    }
     [[nodiscard]] const std::uint8_t* row(int y) const {
         return pixels.data() + static_cast<std::size_t>(y) * size.width;
     }
     [[nodiscard]] std::uint8_t* row(int y) {
         return pixels.data() + static_cast<std::size_t>(y) * size.width;
     }
+    [[nodiscard]] Rows<const std::uint8_t> rows() const {
+        return {pixels.data(), size.width, size};
+    }
+    // NOLINTNEXTLINE(google-explicit-constructor): what reads a picture need not own it
+    operator Rows<const std::uint8_t>() const { return rows(); }
 };
 
 [[nodiscard]] ImageView viewOf(const LumaImage& picture);
@@ -35,8 +46,11 @@ void lumaOf(const ImageView& picture, LumaImage& out);
 /// that it covers.
 void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out);
 
+/// The same of a picture's luma.
+void shrinkLuma(const Rows<const std::uint8_t>& luma, Size size, Workers& workers, LumaImage& out);
+
 /// These pixels of a picture, which holds them all.
-void cut(const LumaImage& picture, const PixelRect& pixels, LumaImage& out);
+void cut(const Rows<const std::uint8_t>& picture, const PixelRect& pixels, LumaImage& out);
 
 /// Half the size, rounded up: mean of 2x2 pixels, the last column and row repeated.
 void halve(const LumaImage& fine, LumaImage& coarse);
@@ -47,6 +61,6 @@ void smooth(const LumaImage& in, float side, LumaImage& out);
 /// Standard deviation of the picture's noise [grey levels], from its quietest fifth of 8x8 blocks:
 /// what remains there of a mask that no plane, step or line along an axis passes.
 /// Source: Immerkaer, Fast noise variance estimation, 1996 (the mask).
-[[nodiscard]] double noiseOf(const LumaImage& picture);
+[[nodiscard]] double noiseOf(const Rows<const std::uint8_t>& picture);
 
 }  // namespace mfar

@@ -1,0 +1,69 @@
+// What several kernels need in lanes. Included once for each instruction set.
+#include "pipeline/simd/lens.h"
+
+#include <cstddef>
+#include <hwy/highway.h>
+
+#if defined(MFAR_SIMD_LANES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef MFAR_SIMD_LANES_INL_H
+#undef MFAR_SIMD_LANES_INL_H
+#else
+#define MFAR_SIMD_LANES_INL_H
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Calls body(tag, i) for vectors that cover `count` values: whole ones, of which the last may
+/// overlap the one before, so that the body must not change what it reads; lane by lane where not
+/// even one is full.
+template <class D, class Body>
+HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
+    const std::size_t lanes = hn::Lanes(d);
+    if (count < lanes) {
+        const hn::CappedTag<hn::TFromD<D>, 1> one;
+        for (std::size_t i = 0; i < count; ++i)
+            body(one, i);
+        return;
+    }
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes)
+        body(d, i);
+    if (i < count) body(d, count - lanes);
+}
+
+template <class V>
+struct Points {
+    V x, y;
+};
+
+/// EpipolarLens::project() of a vector of rays.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Points<V> projected(D d, const Lens& lens, V x, V y) {
+    const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
+    V q = hn::MulAdd(x, x, hn::Mul(y, y));
+    const V rim = set(lens.rim2);
+    // Positively, so that a ray that is no number stays one.
+    if (!hn::AllTrue(d, hn::Le(q, rim))) {
+        const V c = hn::Sqrt(hn::Div(rim, hn::Max(q, rim)));
+        x = hn::Mul(x, c);
+        y = hn::Mul(y, c);
+        q = hn::Min(q, rim);
+    }
+    V radial = hn::MulAdd(q, set(lens.k3), set(lens.k2));
+    radial = hn::MulAdd(q, radial, set(lens.k1));
+    radial = hn::MulAdd(q, radial, set(1));
+    const V x2 = hn::Add(x, x), y2 = hn::Add(y, y), xy = hn::Mul(x2, y);
+    const V p1 = set(lens.p1), p2 = set(lens.p2);
+    V u = hn::MulAdd(p2, hn::MulAdd(x2, x, q), hn::Mul(p1, xy));
+    V v = hn::MulAdd(p1, hn::MulAdd(y2, y, q), hn::Mul(p2, xy));
+    u = hn::MulAdd(x, radial, u);
+    v = hn::MulAdd(y, radial, v);
+    return {hn::MulAdd(set(lens.fx), u, set(lens.cx)), hn::MulAdd(set(lens.fy), v, set(lens.cy))};
+}
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,394 @@
+// Paths over windows of one vector of labels, in registers: a block of 16 bytes is a pixel's, a
+// vector has as many pixels as it has blocks. Path costs are kept as their complement, so that the
+// zeros that shifts and look-ups bring in from outside a window never win. Included once for each
+// instruction set.
+#include "pipeline/simd/path_costs.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <hwy/highway.h>
+
+#if defined(MFAR_SIMD_PATH_BLOCKS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef MFAR_SIMD_PATH_BLOCKS_INL_H
+#undef MFAR_SIMD_PATH_BLOCKS_INL_H
+#else
+#define MFAR_SIMD_PATH_BLOCKS_INL_H
+#endif
+
+#if HWY_TARGET != HWY_SCALAR
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr int kBlocks = HWY_MAX_BYTES / 16;
+static_assert(kRowsTogether % kBlocks == 0 && kColumnsTogether % kBlocks == 0);
+
+template <int Blocks>
+using DBlocks = hn::FixedTag<std::uint8_t, 16 * Blocks>;
+template <int Blocks>
+using VBlocks = hn::Vec<DBlocks<Blocks>>;
+
+/// The same sixteen bytes in every block.
+template <int Blocks>
+HWY_INLINE VBlocks<Blocks> everywhere(const std::array<std::uint8_t, 16>& bytes) {
+    return hn::LoadDup128(DBlocks<Blocks>(), bytes.data());
+}
+
+/// A block each from `Blocks` places that are `apart` bytes from each other.
+template <int Blocks>
+HWY_INLINE VBlocks<Blocks> loadApart(const std::uint8_t* from, std::ptrdiff_t apart) {
+    if constexpr (Blocks == 1)
+        return hn::LoadU(DBlocks<1>(), from);
+    else
+        return hn::Combine(DBlocks<Blocks>(),
+                           loadApart<Blocks / 2>(from + Blocks / 2 * apart, apart),
+                           loadApart<Blocks / 2>(from, apart));
+}
+
+template <int Blocks>
+HWY_INLINE void storeApart(VBlocks<Blocks> v, std::uint8_t* to, std::ptrdiff_t apart) {
+    if constexpr (Blocks == 1) {
+        hn::StoreU(v, DBlocks<1>(), to);
+    } else {
+        const DBlocks<Blocks / 2> half;
+        storeApart<Blocks / 2>(hn::LowerHalf(half, v), to, apart);
+        storeApart<Blocks / 2>(hn::UpperHalf(half, v), to + Blocks / 2 * apart, apart);
+    }
+}
+
+/// What paths of single vectors need, in registers.
+template <int Blocks>
+class Stepper {
+public:
+    using D = DBlocks<Blocks>;
+    using V = VBlocks<Blocks>;
+
+    explicit Stepper(const PathVolume& volume)
+        : step_(hn::Set(d_, volume.step)), last_(hn::Set(hn::RebindToSigned<D>(), 15)),
+          one_(hn::Set(d_, 1)),
+          places_(everywhere<Blocks>({0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15})),
+          byTwo_(everywhere<Blocks>({2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0, 1})),
+          byOne_(everywhere<Blocks>({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 0})) {
+        HWY_ALIGN std::array<std::uint8_t, 16 * Blocks> blocks;
+        for (int i = 0; i < 16 * Blocks; ++i)
+            blocks[i] = static_cast<std::uint8_t>(i / 16);
+        block_ = hn::Load(d_, blocks.data());
+    }
+
+    /// One byte of each block's own, in all of its lanes.
+    HWY_INLINE V spread(const std::uint8_t* bytes) const {
+        if constexpr (Blocks == 1) {
+            return hn::Set(d_, bytes[0]);
+        } else {
+            std::uint32_t word = 0;
+            std::memcpy(&word, bytes, Blocks);
+            const hn::Repartition<std::uint32_t, D> words;
+            return hn::TableLookupBytes(hn::BitCast(d_, hn::Set(words, word)), block_);
+        }
+    }
+
+    /// The complement of path costs after a step, from those before it. `shifts`: of the windows,
+    /// `jumps`: penalties, a byte each block.
+    HWY_INLINE V advance(V path, const std::uint8_t* shifts, const std::uint8_t* jumps,
+                         V cost) const {
+        std::uint32_t moved = 0;
+        std::memcpy(&moved, shifts, Blocks);
+        V same = path, beside;
+        if (moved == 0) {
+            beside = hn::Max(hn::ShiftLeftBytes<1>(d_, path), hn::ShiftRightBytes<1>(d_, path));
+        } else {
+            const V place = hn::Add(places_, spread(shifts));
+            same = taken(path, place);
+            beside = hn::Max(taken(path, hn::Sub(place, one_)), taken(path, hn::Add(place, one_)));
+        }
+        const V jump = hn::Not(spread(jumps));
+        const V best = hn::Max(hn::Max(same, jump), hn::SaturatedSub(beside, step_));
+        const V sum = hn::Sub(best, cost);
+        return hn::Add(sum, hn::Not(greatest(sum)));
+    }
+
+    /// Bytes of a block by place; 0 for places outside of it.
+    HWY_INLINE V taken(V block, V place) const {
+        const hn::RebindToSigned<D> dSigned;
+        const auto at = hn::BitCast(dSigned, place);
+        const auto beyond = hn::VecFromMask(dSigned, hn::Gt(at, last_));
+        return hn::TableLookupBytesOr0(block, hn::BitCast(d_, hn::Or(at, beyond)));
+    }
+
+private:
+    /// The greatest byte of each block, in all of its lanes.
+    HWY_INLINE V greatest(V v) const {
+        const hn::Repartition<std::uint32_t, D> words;
+        v = hn::Max(v, hn::BitCast(d_, hn::Shuffle1032(hn::BitCast(words, v))));
+        v = hn::Max(v, hn::BitCast(d_, hn::Shuffle2301(hn::BitCast(words, v))));
+        v = hn::Max(v, hn::TableLookupBytes(v, byTwo_));
+        return hn::Max(v, hn::TableLookupBytes(v, byOne_));
+    }
+
+    D d_;
+    V step_;
+    hn::Vec<hn::RebindToSigned<D>> last_;
+    V one_, places_, byTwo_, byOne_, block_;
+};
+
+/// What lies between neighbours: the penalty of a jump, and how far the window moves.
+class Neighbours {
+public:
+    explicit Neighbours(const PathVolume& volume) : jumps_(volume.jumps) {
+        // From some difference on the penalty is the same.
+        while (chunks_ > 1 && std::all_of(jumps_ + 16L * (chunks_ - 1), jumps_ + 256,
+                                          [&](std::uint8_t j) { return j == jumps_[255]; }))
+            --chunks_;
+    }
+
+    /// Of `count` pixels, at most kMost, from those beside them. Writes whole vectors.
+    static constexpr int kMost = 64, kRoom = 2 * kMost;
+    HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
+                              std::uint8_t* out) const {
+        forPart(to, from, count,
+                [&](auto d, const std::uint8_t* a, const std::uint8_t* b, int i) HWY_ATTR {
+                    const auto x = hn::LoadU(d, a), y = hn::LoadU(d, b);
+                    const auto apart = hn::Sub(hn::Max(x, y), hn::Min(x, y));
+                    const auto low = hn::And(apart, hn::Set(d, 15)),
+                               high = hn::AndNot(hn::Set(d, 15), apart);
+                    auto jump = hn::Set(d, jumps_[255]);
+                    for (int c = 0; c < chunks_; ++c) {
+                        const auto table = hn::LoadDup128(d, jumps_ + 16L * c);
+                        const auto here =
+                            hn::Eq(high, hn::Set(d, static_cast<std::uint8_t>(16 * c)));
+                        jump = hn::IfThenElse(here, hn::TableLookupBytes(table, low), jump);
+                    }
+                    hn::StoreU(jump, d, out + i);
+                });
+    }
+    /// Held within one more than a window.
+    HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
+                                  std::uint8_t* out) {
+        for (int i = 0; i < count; ++i)
+            out[i] =
+                static_cast<std::uint8_t>(std::clamp(to[i] - from[i], -kLabels - 1, kLabels + 1));
+    }
+
+private:
+    template <class Body>
+    HWY_INLINE static void forPart(const std::uint8_t* to, const std::uint8_t* from, int count,
+                                   const Body& body) {
+        const hn::CappedTag<std::uint8_t, kMost> d;
+        const int lanes = static_cast<int>(hn::Lanes(d));
+        int i = 0;
+        for (; i + lanes <= count; i += lanes)
+            body(d, to + i, from + i, i);
+        if (i >= count) return;
+        HWY_ALIGN std::uint8_t a[kMost] = {}, b[kMost] = {};
+        std::copy_n(to + i, count - i, a);
+        std::copy_n(from + i, count - i, b);
+        body(d, a, b, i);
+    }
+
+    const std::uint8_t* jumps_;
+    int chunks_ = 16;
+};
+
+/// The neighbours of a run of pixels in `Blocks` rows, interleaved.
+template <int Blocks>
+struct RunOfRows {
+    HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];
+
+    /// Pixels [x, x + count) of rows from y on, each beside the one `toFrom` before or behind it;
+    /// one without a neighbour stands beside itself.
+    HWY_INLINE void fill(const Neighbours& between, const PathVolume& v, int x, int count, int y,
+                         int toFrom) {
+        HWY_ALIGN std::uint8_t jump[4][Neighbours::kRoom] = {}, shift[4][Neighbours::kRoom] = {};
+        const int skip = toFrom < 0 && x == 0 ? 1 : 0;
+        const int drop = toFrom > 0 && x + count == v.size.width ? 1 : 0;
+        const int inner = count - skip - drop;
+        for (int r = 0; r < Blocks; ++r) {
+            const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y + r) * v.size.width + x + skip;
+            between.penalties(v.guide + at, v.guide + at + toFrom, inner, jump[r] + skip);
+            Neighbours::shifts(v.base + at, v.base + at + toFrom, inner, shift[r] + skip);
+            if (drop == 1) jump[r][count - 1] = 0;
+        }
+        interleave(jump, count, jumps);
+        interleave(shift, count, shifts);
+    }
+
+private:
+    HWY_INLINE static void interleave(const std::uint8_t (&rows)[4][Neighbours::kRoom], int count,
+                                      std::uint8_t* out) {
+        const hn::CappedTag<std::uint8_t, Neighbours::kMost> d;
+        for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+            const auto a = hn::LoadU(d, rows[0] + i);
+            if constexpr (Blocks == 1)
+                hn::StoreU(a, d, out + i);
+            else if constexpr (Blocks == 2)
+                hn::StoreInterleaved2(a, hn::LoadU(d, rows[1] + i), d, out + 2L * i);
+            else
+                hn::StoreInterleaved4(a, hn::LoadU(d, rows[1] + i), hn::LoadU(d, rows[2] + i),
+                                      hn::LoadU(d, rows[3] + i), d, out + 4L * i);
+        }
+    }
+};
+
+/// Both directions at once, as each step waits for the one before: two chains fill the processor.
+template <int Blocks>
+HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
+    static_assert(Blocks == 1 || Blocks == 2 || Blocks == 4);
+    const DBlocks<Blocks> d;
+    const Stepper<Blocks> stepper(v);
+    const Neighbours between(v);
+    const int width = v.size.width;
+    const std::ptrdiff_t apart = static_cast<std::ptrdiff_t>(width) * kLabels;
+    const std::uint8_t* costs = v.costs + y * apart;
+    std::uint8_t* sums = v.sums + y * apart;
+    RunOfRows<Blocks> right, left;
+    auto fromLeft = hn::Set(d, 255), fromRight = fromLeft;
+    const auto keep = [&](VBlocks<Blocks> path, std::uint8_t* to, bool again) HWY_ATTR {
+        auto sum = hn::Not(path);
+        if (again) sum = hn::Add(sum, loadApart<Blocks>(to, apart));
+        storeApart<Blocks>(sum, to, apart);
+    };
+    for (int begin = 0; begin < width; begin += Neighbours::kMost) {
+        const int count = std::min(Neighbours::kMost, width - begin), end = width - begin - count;
+        right.fill(between, v, begin, count, y, -1);
+        left.fill(between, v, end, count, y, 1);
+        for (int i = 0; i < count; ++i) {
+            const std::ptrdiff_t there = kLabels * static_cast<std::ptrdiff_t>(begin + i);
+            const std::ptrdiff_t back = apart - kLabels - there;
+            const int j = Blocks * i, k = Blocks * (count - 1 - i);
+            fromLeft = stepper.advance(fromLeft, right.shifts + j, right.jumps + j,
+                                       loadApart<Blocks>(costs + there, apart));
+            fromRight = stepper.advance(fromRight, left.shifts + k, left.jumps + k,
+                                        loadApart<Blocks>(costs + back, apart));
+            keep(fromLeft, sums + there, there > back);
+            keep(fromRight, sums + back, there >= back);
+        }
+    }
+}
+
+/// The cheapest labels of sums that lack one path, which is there as its complement.
+template <int Blocks>
+HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
+                          VBlocks<Blocks> path, const std::int16_t* base, Valley* out) {
+    const DBlocks<Blocks> d;
+    const hn::Repartition<std::int16_t, DBlocks<Blocks>> d16;
+    const hn::Repartition<std::uint32_t, DBlocks<Blocks>> d32;
+    const auto byte = hn::Set(d16, 255);
+    const auto a = hn::BitCast(d16, sums), b = hn::BitCast(d16, hn::Not(path));
+    const auto odds = [&](auto v) HWY_ATTR { return hn::And(hn::ShiftRight<8>(v), byte); };
+    const auto even = hn::Add(hn::And(a, byte), hn::And(b, byte)), odd = hn::Add(odds(a), odds(b));
+    // The lesser sum wins, and of the same sums the lesser label.
+    const auto places =
+        hn::BitCast(d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
+    const auto evenKey = hn::Or(hn::ShiftLeft<4>(even), places);
+    const auto oddKey = hn::Or(hn::ShiftLeft<4>(odd), hn::Add(places, hn::Set(d16, 1)));
+    auto key = hn::Min(evenKey, oddKey);
+    const auto exchange = [&](auto words) HWY_ATTR { return hn::BitCast(d16, words); };
+    key = hn::Min(key, exchange(hn::Shuffle1032(hn::BitCast(d32, key))));
+    key = hn::Min(key, exchange(hn::Shuffle2301(hn::BitCast(d32, key))));
+    const auto words = hn::BitCast(d32, key);
+    key = hn::Min(key, exchange(hn::Or(hn::ShiftLeft<16>(words), hn::ShiftRight<16>(words))));
+    const auto least = hn::ShiftRight<4>(key), most = hn::Set(d16, 254);
+    const auto evenRise = hn::Min(hn::Sub(even, least), most);
+    const auto oddRise = hn::Min(hn::Sub(odd, least), most);
+    const auto rises = hn::BitCast(d, hn::Or(evenRise, hn::ShiftLeft<8>(oddRise)));
+    const auto best = hn::And(key, hn::Set(d16, 15));
+    const auto place = hn::BitCast(d, hn::Or(best, hn::ShiftLeft<8>(best)));
+    const auto beside = everywhere<Blocks>({254, 255, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
+    const auto found = hn::Not(stepper.taken(hn::Not(rises), hn::Add(place, beside)));
+    HWY_ALIGN std::uint8_t rise[16 * Blocks], label[16 * Blocks];
+    hn::Store(found, d, rise);
+    hn::Store(place, d, label);
+    for (int i = 0; i < Blocks; ++i) {
+        out[i].label = base[i] + label[16 * i];
+        std::memcpy(out[i].rise.data(), rise + 16L * i, 4);
+    }
+}
+
+/// The path costs of a strip of columns, which all go down or up together.
+class BlockColumns {
+public:
+    BlockColumns(const PathVolume& volume, int first, int last)
+        : v_(volume), between_(volume), first_(first), count_(last - first) {}
+
+    HWY_INLINE void down() {
+        const Stepper<kBlocks> several(v_);
+        const Stepper<1> one(v_);
+        restart();
+        for (int y = 0; y < v_.size.height; ++y) {
+            enter(y, y > 0 ? -1 : 0);
+            int x = 0;
+            for (; x + kBlocks <= count_; x += kBlocks)
+                add(several, y, x);
+            for (; x < count_; ++x)
+                add(one, y, x);
+        }
+    }
+    HWY_INLINE void up(Valley* out) {
+        const Stepper<kBlocks> several(v_);
+        const Stepper<1> one(v_);
+        restart();
+        for (int y = v_.size.height - 1; y >= 0; --y) {
+            enter(y, y + 1 < v_.size.height ? 1 : 0);
+            int x = 0;
+            for (; x + kBlocks <= count_; x += kBlocks)
+                finish(several, y, x, out);
+            for (; x < count_; ++x)
+                finish(one, y, x, out);
+        }
+    }
+
+private:
+    HWY_INLINE void restart() { std::fill_n(paths_, kLabels * count_, std::uint8_t{255}); }
+    HWY_INLINE std::ptrdiff_t pixel(int y, int x) const {
+        return static_cast<std::ptrdiff_t>(y) * v_.size.width + first_ + x;
+    }
+    HWY_INLINE void enter(int y, int toFrom) {
+        const std::ptrdiff_t at = pixel(y, 0), from = at + toFrom * v_.size.width;
+        between_.penalties(v_.guide + at, v_.guide + from, count_, jumps_);
+        Neighbours::shifts(v_.base + at, v_.base + from, count_, shifts_);
+    }
+    template <int Blocks>
+    HWY_INLINE VBlocks<Blocks> advanced(const Stepper<Blocks>& stepper, int y, int x) {
+        const DBlocks<Blocks> d;
+        std::uint8_t* own = paths_ + kLabels * x;
+        const auto path = stepper.advance(hn::LoadU(d, own), shifts_ + x, jumps_ + x,
+                                          hn::LoadU(d, v_.costs + kLabels * pixel(y, x)));
+        hn::StoreU(path, d, own);
+        return path;
+    }
+    template <int Blocks>
+    HWY_INLINE void add(const Stepper<Blocks>& stepper, int y, int x) {
+        const DBlocks<Blocks> d;
+        std::uint8_t* sums = v_.sums + kLabels * pixel(y, x);
+        const auto path = advanced(stepper, y, x);
+        hn::StoreU(hn::Add(hn::LoadU(d, sums), hn::Not(path)), d, sums);
+    }
+    template <int Blocks>
+    HWY_INLINE void finish(const Stepper<Blocks>& stepper, int y, int x, Valley* out) {
+        const DBlocks<Blocks> d;
+        const std::ptrdiff_t i = pixel(y, x);
+        const auto path = advanced(stepper, y, x);
+        valleysOf<Blocks>(stepper, hn::LoadU(d, v_.sums + kLabels * i), path, v_.base + i, out + i);
+    }
+
+    const PathVolume& v_;
+    Neighbours between_;
+    int first_, count_;
+    alignas(64) std::uint8_t paths_[kLabels * kColumnsTogether];
+    std::uint8_t jumps_[Neighbours::kRoom], shifts_[Neighbours::kRoom];
+};
+
+HWY_INLINE void blocksAlongColumns(const PathVolume& v, int first, int last, Valley* out) {
+    BlockColumns columns(v, first, last);
+    columns.down();
+    columns.up(out);
+}
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // HWY_TARGET
+
+#endif
