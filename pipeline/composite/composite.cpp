@@ -6,21 +6,11 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 
 namespace mfar {
 namespace {
 
 constexpr const char* kScaled = "#define SCALED_LAYER 1\n";
-
-void require(const char* name, double value, double least) {
-    constexpr double kMost = 1000;
-    if (!(value >= least && value <= kMost))
-        throw std::invalid_argument("composite option " + std::string(name) + " is " +
-                                    std::to_string(value) + ", not from " + std::to_string(least) +
-                                    " to 1000");
-}
 
 }  // namespace
 
@@ -33,10 +23,7 @@ Composite::Composite(Size video, Size output, Size layer, const CompositeOptions
       decidePass_("visibility_decide.frag", layer == output ? "" : kScaled),
       samplePass_("visibility_sample.frag", layer == output ? "" : kScaled),
       blendPass_("visibility_blend.frag", layer == output ? "" : kScaled) {
-    require("bias", options.bias, 0);
-    require("softness", options.softness, 0.01);
-    require("virtualSigma", options.virtualSigma, 0);
-    require("likeness", options.likeness, 0.1);
+    options.check();
 }
 
 Composite::Params Composite::params() const {
@@ -72,29 +59,13 @@ PixelRect Composite::videoPixels(const PixelRect& bounds) const {
             std::min(below(bounds.y1, sy) + 1, video_.height)};
 }
 
-PixelRect Composite::outputPixels(const PixelRect& layerPixels) const {
-    const Size output = visibility_.size();
-    const PixelRect all{0, 0, output.width, output.height};
-    if (layerPixels.empty() || layer_ == output) return common(layerPixels, all);
-    // Linear interpolation reaches a pixel of the layer beyond its own.
-    const auto to = [](int pixel, int from, int size) {
-        return static_cast<double>(pixel) * size / from;
-    };
-    return common(
-        {static_cast<int>(std::floor(to(layerPixels.x0 - 1, layer_.width, output.width))),
-         static_cast<int>(std::floor(to(layerPixels.y0 - 1, layer_.height, output.height))),
-         static_cast<int>(std::ceil(to(layerPixels.x1 + 1, layer_.width, output.width))),
-         static_cast<int>(std::ceil(to(layerPixels.y1 + 1, layer_.height, output.height)))},
-        all);
-}
-
 void Composite::run(const VirtualLayer& layer, const gpu::Texture& realDepth,
                     const gpu::Texture& video, const gpu::Texture& picture,
                     const gpu::Framebuffer& target) {
     assert(realDepth.size() == video_ && video.size() == video_);
     assert(picture.size() == visibility_.size());
     assert(layer.colour->size() == layer_ && layer.depth->size() == layer_);
-    const PixelRect bounds = outputPixels(layer.bounds);
+    const PixelRect bounds = layerInOutput(layer.bounds, layer_, visibility_.size());
     if (bounds.empty()) return;
     const Params p = params();
     {

@@ -1,26 +1,12 @@
 #pragma once
 
 #include "base/gl/pass.h"
+#include "pipeline/composite/composite_options.h"
 #include "pipeline/composite/virtual_layer.h"
 
 #include <cstdint>
 
 namespace mfar {
-
-/// When a real thing hides a virtual one. A sample's sigma here is that of the difference of both
-/// inverse depths: of the real one as given, of the virtual one by `virtualSigma`.
-struct CompositeOptions {
-    /// How much nearer than the virtual surface the real one must be to hide any of it [sigmas]:
-    /// what stands on a table is not eaten by it.
-    double bias = 0.5;
-    /// From there on, how much nearer until all of it is hidden [sigmas], at least 0.01.
-    double softness = 1;
-    /// Standard deviation of virtual depth, by the pose it is drawn for [share of the depth].
-    double virtualSigma = 0.003;
-    /// Distance of two colours (RGB, Euclidean) at which a depth sample counts for
-    /// exp(-1/2) of its weight [grey levels], above 0.
-    double likeness = 12;
-};
 
 /// Puts a virtual layer over the picture of the real scene, behind what is nearer there. Real depth
 /// comes at video resolution and is brought to the output's along the picture's edges. Only the
@@ -45,8 +31,7 @@ public:
 
     /// Does a real sample hide, by itself, a surface at inverse depth `inverse` [1/m] wholly?
     [[nodiscard]] bool hides(double rho, double sigma, double inverse) const {
-        const double sigmas = options_.bias + options_.softness;
-        return rho - sigmas * sigma >= inverse * (1 + sigmas * options_.virtualSigma);
+        return options_.hides(rho, sigma, inverse);
     }
 
     /// Share of each pixel of the layer that was drawn, R8, output size, within the last bounds.
@@ -61,8 +46,6 @@ private:
     [[nodiscard]] Params params() const;
     /// The video pixels whose range the output pixels of `bounds` look up.
     [[nodiscard]] PixelRect videoPixels(const PixelRect& bounds) const;
-    /// The output pixels that pixels of the layer are seen in.
-    [[nodiscard]] PixelRect outputPixels(const PixelRect& layerPixels) const;
 
     Size video_, layer_;
     CompositeOptions options_;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/composite/composite.h"
-#include "tests/shader/pictures.h"
+#include "pipeline/composite/composite_options.h"
+#include "tests/shader/picture.h"
 
 #include <Eigen/Core>
 
