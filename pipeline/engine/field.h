@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 
 namespace mfar {
 
@@ -47,12 +48,21 @@ public:
         host_ = rows;
         size_ = rows.size;
         device_ = nullptr;
+        editable_ = {};
+    }
+    /// The same for rows that steps may draw into.
+    void writtenOnHost(Rows<T> rows)
+        requires(!std::is_const_v<T>)
+    {
+        writtenOnHost(Rows<const T>(rows));
+        editable_ = rows;
     }
     /// The GPU's copy is new. Borrowed likewise.
     void writtenOnDevice(DeviceCopy& copy, Size size) {
         device_ = &copy;
         size_ = size;
         host_ = {};
+        editable_ = {};
     }
     [[nodiscard]] bool isOnHost() const { return host_.data != nullptr; }
     [[nodiscard]] bool isOnDevice() const { return device_ != nullptr; }
@@ -64,9 +74,17 @@ public:
             if (downloaded_.size() != size_) downloaded_ = AlignedRows<T>(size_);
             device_->download(downloaded_[0], downloaded_.pitch() * sizeof(T));
             if (transfers_ != nullptr) transfers_->downloadedBytes += bytes();
-            host_ = downloaded_.rows();
+            editable_ = downloaded_.rows();
+            host_ = editable_;
         }
         return host_;
+    }
+    /// Rows on the host to draw into; they become the newest copy. Only for a field whose step gave
+    /// editable rows, or whose newest copy was on the GPU.
+    [[nodiscard]] Rows<T> edit() {
+        (void)host();
+        device_ = nullptr;
+        return editable_;
     }
     /// The GPU's copy; `make` creates one of this field's size where rows of the host have to be
     /// uploaded for the first time.
@@ -89,6 +107,7 @@ private:
     Transfers* transfers_;
     // Reading moves rows, which changes no value.
     mutable Rows<const T> host_;            // no data: older than the GPU's copy
+    mutable Rows<T> editable_;              // the same, where it may be drawn into
     mutable DeviceCopy* device_ = nullptr;  // null: older than the host's rows
     mutable AlignedRows<T> downloaded_;
     mutable std::unique_ptr<DeviceCopy> uploaded_;

@@ -1,5 +1,6 @@
 #include "pipeline/engine/occlusion_options.h"
 
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -21,6 +22,21 @@ void validate(const CompositeOptions& options) {
     require("softness", options.softness, 0.01);
     require("virtualSigma", options.virtualSigma, 0);
     require("likeness", options.likeness, 0.1);
+}
+
+PixelRect layerInOutput(const PixelRect& layerPixels, Size layer, Size output) {
+    const PixelRect all{0, 0, output.width, output.height};
+    if (layerPixels.empty() || layer == output) return common(layerPixels, all);
+    // Linear interpolation reaches a pixel of the layer beyond its own.
+    const auto to = [](int pixel, int from, int size) {
+        return static_cast<double>(pixel) * size / from;
+    };
+    return common(
+        {static_cast<int>(std::floor(to(layerPixels.x0 - 1, layer.width, output.width))),
+         static_cast<int>(std::floor(to(layerPixels.y0 - 1, layer.height, output.height))),
+         static_cast<int>(std::ceil(to(layerPixels.x1 + 1, layer.width, output.width))),
+         static_cast<int>(std::ceil(to(layerPixels.y1 + 1, layer.height, output.height)))},
+        all);
 }
 
 }  // namespace mfar

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/geometry.h"
+
 namespace mfar {
 
 /// When a real thing hides a virtual one. A sample's sigma here is that of the difference of both
@@ -26,5 +28,8 @@ struct CompositeOptions {
 
 /// Throws std::invalid_argument for an option that is not finite or out of its range.
 void validate(const CompositeOptions& options);
+
+/// The output pixels that pixels of a virtual layer are seen in.
+[[nodiscard]] PixelRect layerInOutput(const PixelRect& layerPixels, Size layer, Size output);
 
 }  // namespace mfar

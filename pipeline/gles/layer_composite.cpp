@@ -59,29 +59,13 @@ PixelRect LayerComposite::videoPixels(const PixelRect& bounds) const {
             std::min(below(bounds.y1, sy) + 1, video_.height)};
 }
 
-PixelRect LayerComposite::outputPixels(const PixelRect& layerPixels) const {
-    const Size output = visibility_.size();
-    const PixelRect all{0, 0, output.width, output.height};
-    if (layerPixels.empty() || layer_ == output) return common(layerPixels, all);
-    // Linear interpolation reaches a pixel of the layer beyond its own.
-    const auto to = [](int pixel, int from, int size) {
-        return static_cast<double>(pixel) * size / from;
-    };
-    return common(
-        {static_cast<int>(std::floor(to(layerPixels.x0 - 1, layer_.width, output.width))),
-         static_cast<int>(std::floor(to(layerPixels.y0 - 1, layer_.height, output.height))),
-         static_cast<int>(std::ceil(to(layerPixels.x1 + 1, layer_.width, output.width))),
-         static_cast<int>(std::ceil(to(layerPixels.y1 + 1, layer_.height, output.height)))},
-        all);
-}
-
 void LayerComposite::run(const VirtualLayer& layer, const gpu::Texture& realDepth,
                          const gpu::Texture& video, const gpu::Texture& picture,
                          const gpu::Framebuffer& target) {
     assert(realDepth.size() == video_ && video.size() == video_);
     assert(picture.size() == visibility_.size());
     assert(layer.colour->size() == layer_ && layer.depth->size() == layer_);
-    const PixelRect bounds = outputPixels(layer.bounds);
+    const PixelRect bounds = layerInOutput(layer.bounds, layer_, visibility_.size());
     if (bounds.empty()) return;
     const Params p = params();
     {

@@ -41,8 +41,6 @@ private:
     [[nodiscard]] Params params() const;
     /// The video pixels whose range the output pixels of `bounds` look up.
     [[nodiscard]] PixelRect videoPixels(const PixelRect& bounds) const;
-    /// The output pixels that pixels of the layer are seen in.
-    [[nodiscard]] PixelRect outputPixels(const PixelRect& layerPixels) const;
 
     Size video_, layer_;
     CompositeOptions options_;

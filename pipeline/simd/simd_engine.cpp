@@ -8,6 +8,7 @@
 #include "pipeline/superres/still_scale.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace mfar {
 namespace {
@@ -188,6 +189,29 @@ private:
     TileSummary summary_;
 };
 
+class SimdOcclusion final : public OcclusionStep {
+public:
+    SimdOcclusion(const StepSetup& setup, Size layer)
+        : occlusion_(setup.rig.video.size, setup.output, layer, {}, setup.workers) {}
+
+    void draw(const LayerPicture& layer, const InverseDepthField& real, const PixelRect&,
+              const VideoFrame& frame, Field<std::uint32_t>& picture) override {
+        occlusion_.run({layer.colour.host(), layer.depth.host(), layer.bounds},
+                       simd::RealDepth::of(real), frame.planes, picture.edit());
+    }
+    std::vector<float> visibility() const override {
+        const Rows<const std::uint8_t> rows = occlusion_.visibility();
+        std::vector<float> out;
+        for (int y = 0; y < rows.size.height; ++y)
+            std::transform(rows[y], rows[y] + rows.size.width, std::back_inserter(out),
+                           [](std::uint8_t v) { return static_cast<float>(v) / 255; });
+        return out;
+    }
+
+private:
+    simd::OcclusionStep occlusion_;
+};
+
 class SimdEngine final : public Engine {
 public:
     explicit SimdEngine(const StepSetup& setup) : setup_(setup) {}
@@ -199,7 +223,9 @@ public:
     std::unique_ptr<FlowStep> flow() override { return std::make_unique<SimdFlow>(setup_); }
     std::unique_ptr<WeighStep> weigh() override { return std::make_unique<SimdWeigh>(setup_); }
     std::unique_ptr<DetailStep> detail() override { return std::make_unique<SimdDetail>(setup_); }
-    std::unique_ptr<OcclusionStep> occlusion(Size layer) override;
+    std::unique_ptr<OcclusionStep> occlusion(Size layer) override {
+        return std::make_unique<SimdOcclusion>(setup_, layer);
+    }
 
 private:
     StepSetup setup_;

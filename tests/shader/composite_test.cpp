@@ -1,5 +1,6 @@
 #include "pipeline/gles/layer_composite.h"
 #include "tests/shader/gl_test.h"
+#include "tests/shader/pictures.h"
 #include "tests/shader/samples_passed.h"
 #include "tests/shader/twins/visibility.h"
 

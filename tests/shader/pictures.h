@@ -3,6 +3,7 @@
 #include "base/geometry.h"
 #include "base/gl/texture.h"
 #include "pipeline/plan/rgb_planes.h"
+#include "tests/shader/picture.h"
 
 #include <Eigen/Core>
 
@@ -11,25 +12,6 @@
 #include <vector>
 
 namespace mfar {
-
-/// A picture in memory that owns its pixels.
-struct Picture {
-    Picture() = default;
-    explicit Picture(Size s, PixelFormat f = PixelFormat::Rgba8, std::uint8_t fill = 0)
-        : size(s), format(f),
-          bytes(static_cast<std::size_t>(s.width) * s.height * bytesPerPixel(f), fill) {}
-    [[nodiscard]] ImageView view() const {
-        return {bytes.data(), size, static_cast<std::size_t>(size.width) * bytesPerPixel(format),
-                format};
-    }
-    [[nodiscard]] std::uint8_t* at(int x, int y) {
-        return &bytes[(static_cast<std::size_t>(y) * size.width + x) * bytesPerPixel(format)];
-    }
-
-    Size size;
-    PixelFormat format = PixelFormat::Rgba8;
-    std::vector<std::uint8_t> bytes;
-};
 
 /// How a picture is taken from a pattern: pixel (x, y) shows the pattern around
 /// ((x, y) + 0.5) step - 0.5 + shift, averaged over a square of `footprint` pattern units.

@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kNoise = 1.5, kAlpha = 2;
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinite = std::numeric_limits<float>::infinity();
+constexpr double kVideoNoise = 1.5, kAlpha = 2;
+constexpr float kNoFlow = std::numeric_limits<float>::quiet_NaN();
+constexpr float kEndless = std::numeric_limits<float>::infinity();
 
 double wavy(double x, double y) {
     // From a flat region on the left to strong contrast on the right.
@@ -54,7 +54,7 @@ struct WeighCase {
         work.tiles = tilesOf(video);
         work.flags.assign(static_cast<std::size_t>(work.tiles.width) * work.tiles.height, {1, 1});
         work.changed = work.matched = static_cast<int>(work.flags.size());
-        work.noise = kNoise;
+        work.noise = kVideoNoise;
     }
 
     void run(bool givenErrors = false) { run(step, givenErrors); }
@@ -93,7 +93,7 @@ public:
     }
 
     [[nodiscard]] twin::Weight at(int x, int y) const {
-        return twin::weigh(flow_, statistics_, half_, x, y, kNoise);
+        return twin::weigh(flow_, statistics_, half_, x, y, kVideoNoise);
     }
     [[nodiscard]] Vector2d lookUp(int x, int y) const {
         const StereoRig& rig = case_.rig;
@@ -279,7 +279,7 @@ TEST(WeighStep, FlowThatIsNotFiniteHasNoWeightAndHurtsOnlyItsNeighbours) {
         c.run();
         return c;
     }();
-    for (const float bad : {kNan, kInfinite, -kInfinite, 1e30F, -3e38F}) {
+    for (const float bad : {kNoFlow, kEndless, -kEndless, 1e30F, -3e38F}) {
         WeighCase c = plainCase();
         c.forward[5][7] = {bad, 1, 0, 0};
         c.forward[6][12] = {0, bad, 0, 0};
@@ -312,8 +312,8 @@ TEST(WeighStep, FlowThatIsNotFiniteHasNoWeightAndHurtsOnlyItsNeighbours) {
 
 TEST(WeighStep, ErrorsThatAreNotNumbersGiveNoConfidence) {
     WeighCase c = plainCase();
-    c.errors[4][4] = {kNan};
-    c.errors[4][5] = {kInfinite};
+    c.errors[4][4] = {kNoFlow};
+    c.errors[4][5] = {kEndless};
     c.errors[4][6] = {0};
     c.run(true);
     EXPECT_EQ(c.step.weighed()[4][4].confidence, 0);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pipeline/gles/layer_composite.h"
-#include "tests/shader/pictures.h"
+#include "pipeline/engine/occlusion_options.h"
+#include "tests/shader/picture.h"
 
 #include <Eigen/Core>
 

@@ -1,0 +1,97 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/rows.h"
+#include "base/workers.h"
+#include "pipeline/engine/occlusion_options.h"
+#include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/plan/rgb_planes.h"
+#include "pipeline/simd/layer_rows.h"
+#include "pipeline/simd/visibility_rows.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace mfar::simd {
+
+/// Picture of the virtual objects alone, seen by the video camera. Borrowed. VirtualLayer on the
+/// host.
+struct LayerRowsView {
+    Rows<const std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
+    Rows<const float>
+        depth;         ///< z [m] along the camera's axis, lifted where a shadow is; 0 = nothing
+    PixelRect bounds;  ///< covered pixels, empty = nothing
+};
+
+/// Real depth at every video pixel. Borrowed.
+struct RealDepth {
+    Rows<const float> inverse;  ///< [1/m]
+    Rows<const float> sigma;    ///< of `inverse` [1/m]
+    bool squared = false;       ///< `sigma` holds variances
+
+    [[nodiscard]] static RealDepth of(const InverseDepthField& field) {
+        return {{field.rho.data(), field.size.width, field.size},
+                {field.variance.data(), field.size.width, field.size},
+                true};
+    }
+};
+
+/// Puts a virtual layer over the picture of the real scene, behind what is nearer there: Composite
+/// on the host's lanes. Only the layer's bounds are worked on.
+class OcclusionStep {
+public:
+    /// `layer`: size of the layers that come. Throws std::invalid_argument for an option that is
+    /// not finite or out of its range. Null workers: in the caller's thread alone.
+    OcclusionStep(Size video, Size output, Size layer, const CompositeOptions& options,
+                  std::shared_ptr<Workers> workers);
+
+    /// `real`: a pixel whose values are not both finite and positive is unknown and hides nothing.
+    /// `video`: the frame the depth belongs to. `picture`: that frame at output size, RGBA8, drawn
+    /// into. A layer pixel whose depth is not finite and positive is not drawn. Between the pixels
+    /// of a smaller layer colours are linear; depth is that of the nearest pixel of the four around
+    /// that has one.
+    void run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
+             Rows<std::uint32_t> picture);
+
+    /// See CompositeOptions::hides().
+    [[nodiscard]] bool hides(double rho, double sigma, double inverse) const {
+        return options_.hides(rho, sigma, inverse);
+    }
+    /// Share of each pixel of the layer that was drawn, in 255ths, within the last bounds.
+    [[nodiscard]] Rows<const std::uint8_t> visibility() const { return visibility_.rows(); }
+
+private:
+    /// Where output pixels along one axis lie between the pixels of another picture: at `first` +
+    /// share.
+    struct Between {
+        Between(int pixels, int others);
+        std::vector<std::int32_t> first;  ///< from -1 on
+        std::vector<float> share;         ///< [0, 1)
+    };
+    /// One of the frame's planes, margins included.
+    using Plane = AlignedRows<float>;
+    struct Task;
+    struct Strip;
+
+    void prepareRow(const Task& task, int y);
+    void drawRows(const Task& task, int base);
+    void drawPart(const Task& task, Strip& strip, int y);
+    [[nodiscard]] LayerRows layerRowsAt(const LayerRowsView& layer, int y) const;
+    [[nodiscard]] SampleRow samplesOf(int y);
+    [[nodiscard]] SampleWindow windowOf(int y);
+    void forRows(int first, int last, int grain, const std::function<void(int)>& body);
+
+    Size video_, output_, layer_;
+    CompositeOptions options_;
+    VisibilityParams params_;
+    std::shared_ptr<Workers> workers_;
+    Between columns_, rows_, layerColumns_, layerRows_;
+    std::vector<std::int32_t> column_, sampleColumn_, layerLeft_, layerRight_;
+    std::vector<float> columnWeights_;
+    Plane inverse_, variance_, red_, green_, blue_, nearest_, farthest_, greatest_, least_;
+    AlignedRows<std::uint8_t> visibility_;
+};
+
+}  // namespace mfar::simd
