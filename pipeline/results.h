@@ -10,16 +10,6 @@
 
 namespace mfar {
 
-/// What the super-resolution does with a tile of 16x16 video pixels, cheapest first.
-enum class TileClass : unsigned {
-    Unchanged,  ///< neither video nor still changed: the last output stays
-    Upscaled,   ///< the still has no detail to add, or none that fits
-    Trusted,    ///< detail added everywhere in the tile with one smooth flow
-    Blended,    ///< detail added with a weight and flow that vary per pixel
-    Hidden,     ///< behind an opaque virtual object
-};
-inline constexpr std::size_t kTileClasses = 5;
-
 /// Dense 2-D flow from video to still, in video pixels at the video's geometry: video pixel p looks
 /// like still pyramid pixel p + flow(p). Row-major vec2, one per cell of `stride` video pixels.
 struct FlowField {

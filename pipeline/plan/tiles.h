@@ -2,6 +2,8 @@
 
 #include "base/image_view.h"
 
+#include <cstddef>
+
 namespace mfar {
 
 inline constexpr int kTileSize = 16;  ///< video pixels
@@ -11,5 +13,15 @@ inline constexpr int kTileSize = 16;  ///< video pixels
     return {(pixels.width + kTileSize - 1) / kTileSize,
             (pixels.height + kTileSize - 1) / kTileSize};
 }
+
+/// What the super-resolution does with a tile of 16x16 video pixels, cheapest first.
+enum class TileClass : unsigned {
+    Unchanged,  ///< neither video nor still changed: the last output stays
+    Upscaled,   ///< the still has no detail to add, or none that fits
+    Trusted,    ///< detail added everywhere in the tile with one smooth flow
+    Blended,    ///< detail added with a weight and flow that vary per pixel
+    Hidden,     ///< behind an opaque virtual object
+};
+inline constexpr std::size_t kTileClasses = 5;
 
 }  // namespace mfar
