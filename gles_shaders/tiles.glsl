@@ -1,4 +1,4 @@
-// Tiles are 16x16 video pixels = 4x4 cells; the classes are those of pipeline/results.h.
+// Tiles are 16x16 video pixels = 4x4 cells; the classes are those of pipeline/plan/tiles.h.
 const uint kUnchanged = 0u;
 const uint kUpscaled = 1u;
 const uint kTrusted = 2u;

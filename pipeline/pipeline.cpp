@@ -142,7 +142,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.drawDetail(frame, work, match ? &*match : nullptr);
     if (task.measures) s.measureDepth(frame, {time, pose->T_world_video, pose->covariance}, task);
     s.showObjects(frame);
-    s.publish(usesStill, usesPose);
+    s.publish(work, usesStill, usesPose);
     return s.result;
 }
 
@@ -191,7 +191,6 @@ void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
         detail->draw(frame, nullptr, work, how);
         lastFlow = nullptr;
     }
-    keepDrawn(work);
     if (gles) gles->flush();
     lap("detail");
 }
@@ -211,7 +210,7 @@ void Pipeline::State::keepDrawn(const TileWork& work) {
             }
 }
 
-void Pipeline::State::publish(bool usedStill, bool usedPose) {
+void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPose) {
     FrameStats& stats = result.stats;
     const TileSummary summary = detail->finishedSummary();
     stats.tiles = summary.tiles;
@@ -229,6 +228,7 @@ void Pipeline::State::publish(bool usedStill, bool usedPose) {
     result.image = {
         picture.isOnDevice() ? textureOf(picture, gpu::TexelFormat::Rgba8).texture().id() : 0,
         output};
+    keepDrawn(work);
     redraw = false;
     if (gles) gles->finishReading();  // long done
 }

@@ -47,7 +47,7 @@ struct Pipeline::State {
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
     void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
-    void publish(bool usedStill, bool usedPose);
+    void publish(const TileWork& work, bool usedStill, bool usedPose);
 
     [[nodiscard]] PixelRect pixelsOf(const PixelRect& tiles) const;
     [[nodiscard]] bool inView() const { return objects && !objects->region().empty(); }

@@ -43,6 +43,7 @@ public:
 
     const StillPictures& run(const ImageView& still, SuperResMode) override {
         still_.set(still);
+        ++pictures_.number;
         pictureCopy_.emplace(still_.picture());
         pictures_.luma.writtenOnDevice(lumaCopy_, still_.whole().size());
         pictures_.detail.writtenOnDevice(detailCopy_, still_.detail().size());

@@ -3,12 +3,14 @@
 #include "pipeline/simd/flow2d.h"
 #include "pipeline/simd/luma_pyramids.h"
 #include "pipeline/simd/occlusion_step.h"
+#include "pipeline/simd/still_kernels.h"
 #include "pipeline/simd/still_preparation.h"
 #include "pipeline/simd/weigh_step.h"
 #include "pipeline/superres/still_scale.h"
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace mfar {
 namespace {
@@ -21,20 +23,22 @@ public:
 
     const StillPictures& run(const ImageView& still, SuperResMode mode) override {
         still_.set(still);
-        isSet_ = true;
+        ++pictures_.number;
         pictures_.luma.writtenOnHost(still_.luma());
         pictures_.detail.writtenOnHost(still_.detail());
+        const simd::DetailPairs pairs = still_.detailPairs();
+        pictures_.detailPairs.writtenOnHost(
+            Rows<const std::uint16_t>{pairs.data, pairs.pitch, pairs.size});
         setMode(mode);
         return pictures_;
     }
     void setMode(SuperResMode mode) override {
-        if (isSet_ && mode == SuperResMode::Blend)
+        if (pictures_.number > 0 && mode == SuperResMode::Blend)
             pictures_.picture.writtenOnHost(still_.picture());
     }
 
 private:
     simd::StillPreparation still_;
-    bool isSet_ = false;
     StillPictures pictures_;
 };
 
@@ -42,8 +46,7 @@ class SimdPyramid final : public PyramidStep {
 public:
     explicit SimdPyramid(const StepSetup& setup)
         : rig_(setup.rig), pyramids_(setup.rig.video.size, setup.workers),
-          luma_{pyramids_.video(), pyramids_.still(),
-                Field<std::uint32_t>({}, setup.transfers)} {}
+          luma_{pyramids_.video(), pyramids_.still(), Field<std::uint32_t>({}, setup.transfers)} {}
 
     const LumaPyramid& video(const VideoFrame& frame, const TileWork& work) override {
         if (work.matched > 0) pyramids_.buildVideo(frame.planes);
@@ -58,7 +61,7 @@ private:
     const LumaPyramid& written() {
         const auto words = pyramids_.words();
         const auto count = static_cast<int>(words.size());
-        luma_.words.writtenOnHost({words.data(), count, {count, 1}});
+        luma_.words.writtenOnHost(Rows<const std::uint32_t>{words.data(), count, {count, 1}});
         return luma_;
     }
 
@@ -71,8 +74,8 @@ class SimdFlow final : public FlowStep {
 public:
     explicit SimdFlow(const StepSetup& setup)
         : flow_(setup.rig.video.size, setup.flow2d, setup.workers),
-          cells_{Field<FlowCell>({}, setup.transfers), flow_.forward().size,
-                 flow_.backward().size, flow_.backwardLevel(), false},
+          cells_{Field<FlowCell>({}, setup.transfers), flow_.forward().size, flow_.backward().size,
+                 flow_.backwardLevel(), false},
           row_({2 * static_cast<int>(cells_.count()), 1}) {}
 
     void setOptions(const Flow2dOptions& options) override { flow_.setOptions(options); }
@@ -158,7 +161,8 @@ private:
 class SimdDetail final : public DetailStep {
 public:
     explicit SimdDetail(const StepSetup& setup)
-        : detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
+        : workers_(setup.workers),
+          detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
           picture_(setup.output), output_({}, setup.transfers) {
         output_.writtenOnHost(picture_.rows());
     }
@@ -170,12 +174,15 @@ public:
             if (options.mode == SuperResMode::Blend)
                 in.picture = matched->still.picture.host();
             else
-                in.detail = matched->still.detail.host();
+                in.detail = pairsOf(matched->still);
             in.weighed = matched->weights.weighed.host();
             in.lookUps = matched->weights.lookUps.host();
             in.trust = matched->weights.trust.host();
         }
-        summary_ = detail_.draw(in, options, picture_.rows());
+        const simd::TileSummary counts = detail_.draw(
+            in, {options.mode, options.cubic, options.upscaledTiles, options.plainTiles},
+            picture_.rows());
+        summary_ = summaryOf(counts);
         if (work.changed > 0) output_.writtenOnHost(picture_.rows());
     }
     Field<std::uint32_t>& output() override { return output_; }
@@ -183,7 +190,38 @@ public:
     std::vector<TileClass> classes() const override { return detail_.classes(); }
 
 private:
+    static TileSummary summaryOf(const simd::TileSummary& counts) {
+        TileSummary out{counts.tiles};
+        const double all = std::accumulate(counts.tiles.begin(), counts.tiles.end(), 0);
+        out.changed = 1 - counts.tiles[0] / all;
+        out.explained = 1 - counts.unexplained / all;
+        out.meanConfidence = counts.confidence / (256 * all);
+        return out;
+    }
+    // From the other engine a still comes without pairs: they are made once.
+    simd::DetailPairs pairsOf(const StillPictures& still) {
+        if (!still.detailPairs.isEmpty()) {
+            const Rows<const std::uint16_t> rows = still.detailPairs.host();
+            return {rows.data, rows.pitch, rows.size};
+        }
+        const Rows<const std::uint8_t> detail = still.detail.host();
+        const auto [width, height] = detail.size;
+        if (pairedStill_ != still.number || pairs_.size() != detail.size) {
+            if (pairs_.size() != detail.size) pairs_ = AlignedRows<std::uint16_t>(detail.size);
+            workers_->forRange(height, 16, [&, width = width, height = height](int y, int end) {
+                for (; y < end; ++y)
+                    simd::pairRows(detail[y], detail[std::min(y + 1, height - 1)],
+                                   static_cast<std::size_t>(width), pairs_[y]);
+            });
+            pairedStill_ = still.number;
+        }
+        return {pairs_[0], pairs_.pitch(), pairs_.size()};
+    }
+
+    std::shared_ptr<Workers> workers_;
     simd::DetailStep detail_;
+    AlignedRows<std::uint16_t> pairs_;
+    std::uint64_t pairedStill_ = 0;
     AlignedRows<std::uint32_t> picture_;
     Field<std::uint32_t> output_;
     TileSummary summary_;

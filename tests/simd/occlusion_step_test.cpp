@@ -112,11 +112,11 @@ private:
     std::vector<std::uint8_t> shown_, visibility_;
 };
 
-struct Sizes {
+struct LayerSizes {
     Size video, output;
 };
 
-class OcclusionSizes : public testing::TestWithParam<Sizes> {
+class OcclusionSizes : public testing::TestWithParam<LayerSizes> {
 protected:
     [[nodiscard]] twin::Scene roughScene() const {
         const auto& [video, output] = GetParam();
@@ -174,10 +174,10 @@ TEST_P(OcclusionSizes, ThreadsAndBoundsChangeNothingInside) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, OcclusionSizes,
-                         testing::Values(Sizes{kCoarse, kFine}, Sizes{{16, 16}, {16, 16}},
-                                         Sizes{{17, 31}, {601, 40}}, Sizes{{64, 48}, {33, 21}},
-                                         Sizes{{40, 30}, {160, 120}}));
+INSTANTIATE_TEST_SUITE_P(LayerSizes, OcclusionSizes,
+                         testing::Values(LayerSizes{kCoarse, kFine}, LayerSizes{{16, 16}, {16, 16}},
+                                         LayerSizes{{17, 31}, {601, 40}}, LayerSizes{{64, 48}, {33, 21}},
+                                         LayerSizes{{40, 30}, {160, 120}}));
 
 class OcclusionTest : public testing::Test, protected Occlusion {
 protected:

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "base/rows.h"
+#include "pipeline/simd/row_taps.h"
+
+#include <algorithm>
+#include <array>
+
+namespace mfar::simd {
+
+/// Rows of a field of cells, at the width of a picture: linear between cell centres, borders held.
+/// Of the rows asked for last two are kept. kChannels of a cell's numbers, chosen by the caller.
+template <class Cell, std::size_t kChannels>
+class CellRows {
+public:
+    using Channels = std::array<float, kChannels>;
+    using Wide = std::array<const float*, kChannels>;
+
+    CellRows(int cells, int width)
+        : planar_({cells, kChannels}), wide_({width, 2 * static_cast<int>(kChannels)}) {}
+
+    /// Starts with a field, for pixels [begin, end) of the picture alone.
+    void begin(Rows<const Cell> field, const RowTaps& taps, int begin, int end) {
+        field_ = field;
+        taps_ = &taps;
+        begin_ = begin;
+        end_ = end;
+        rows_.fill(-1);
+    }
+    /// `channelsOf`: of a cell, finite numbers.
+    template <class ChannelsOf>
+    [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf) {
+        const int slot = y % 2, first = slot * static_cast<int>(kChannels);
+        if (rows_[slot] != y) fill(y, first, channelsOf);
+        rows_[slot] = y;
+        Wide out;
+        for (std::size_t c = 0; c < kChannels; ++c)
+            out[c] = wide_[first + static_cast<int>(c)];
+        return out;
+    }
+
+private:
+    template <class ChannelsOf>
+    void fill(int y, int first, const ChannelsOf& channelsOf) {
+        const Cell* cells = field_[y];
+        const int last = std::min(taps_->first(end_ - 1) + taps_->taps(), field_.size.width);
+        for (int x = taps_->first(begin_); x < last; ++x) {
+            const Channels values = channelsOf(cells[x]);
+            for (std::size_t c = 0; c < kChannels; ++c)
+                planar_[static_cast<int>(c)][x] = values[c];
+        }
+        for (int c = 0; c < static_cast<int>(kChannels); ++c)
+            resampleRow(planar_[c], taps_->table(), begin_, end_, wide_[first + c]);
+    }
+
+    Rows<const Cell> field_;
+    const RowTaps* taps_ = nullptr;
+    int begin_ = 0, end_ = 0;
+    std::array<int, 2> rows_{-1, -1};
+    AlignedRows<float> planar_, wide_;
+};
+
+/// Two rows and the position between them, by a linear table for columns.
+struct BetweenRows {
+    BetweenRows(const RowTaps& taps, int y)
+        : rows{taps.first(y), taps.first(y) + (taps.taps() > 1 ? 1 : 0)},
+          t(taps.taps() > 1 ? taps.weight(1, y) : 0) {}
+
+    std::array<int, 2> rows;
+    float t;
+};
+
+/// The number, or zero where it is none or is out of bounds.
+[[nodiscard]] inline float boundedOr0(float value, float least, float most) {
+    return value >= least && value <= most ? value : 0;
+}
+
+}  // namespace mfar::simd

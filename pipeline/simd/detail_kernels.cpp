@@ -1,0 +1,254 @@
+#include "pipeline/simd/detail_kernels.h"
+
+#include <cstring>
+
+// Highway compiles what follows once for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/simd/detail_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using F = hn::ScalableTag<float>;
+using I = hn::RebindToSigned<F>;
+using U = hn::RebindToUnsigned<F>;
+
+/// Lanes of 32 bits that may begin at any byte.
+HWY_INLINE hn::Vec<U> GatherAnywhere(const void* base, hn::Vec<I> bytes) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    return hn::GatherOffset(U(), static_cast<const std::uint32_t*>(base), bytes);
+#else
+    // Loads of lanes that are not aligned are not for Highway's emulation.
+    HWY_ALIGN std::int32_t at[hn::MaxLanes(I())];
+    HWY_ALIGN std::uint32_t out[hn::MaxLanes(U())];
+    hn::Store(bytes, I(), at);
+    for (std::size_t i = 0; i < hn::Lanes(I()); ++i)
+        std::memcpy(out + i, static_cast<const char*>(base) + at[i], sizeof(out[0]));
+    return hn::Load(U(), out);
+#endif
+}
+
+struct Positions {
+    hn::Vec<I> x, y;    // whole pixels
+    hn::Vec<F> fx, fy;  // between this one and the next
+    hn::Vec<F> share;
+};
+
+/// Reads the look-ups of one vector after the other.
+class LookUp {
+public:
+    LookUp(const LookUpRows& rows, Size size, int begin)
+        : rows_(rows), t_(hn::Set(F(), rows.t)), stepX_(hn::Set(F(), rows.stepX)),
+          startX_(hn::Set(F(), rows.startX)), startY_(hn::Set(F(), rows.startY)),
+          lastX_(hn::Set(F(), static_cast<float>(size.width - 1))),
+          lastY_(hn::Set(F(), static_cast<float>(size.height - 1))),
+          pixels_(hn::Iota(F(), static_cast<float>(begin))) {}
+
+    HWY_INLINE Positions next(int x) {
+        const F df;
+        const I di;
+        const auto alongX = hn::MulAdd(pixels_, stepX_, hn::Add(between(rows_.x, x), startX_));
+        const auto alongY = hn::Add(between(rows_.y, x), startY_);
+        pixels_ = hn::Add(pixels_, hn::Set(df, static_cast<float>(hn::Lanes(df))));
+        const auto px = hn::Min(hn::Max(alongX, hn::Zero(df)), lastX_);
+        const auto py = hn::Min(hn::Max(alongY, hn::Zero(df)), lastY_);
+        const auto ix = hn::ConvertTo(di, px), iy = hn::ConvertTo(di, py);
+        return {ix, iy, hn::Sub(px, hn::ConvertTo(df, ix)), hn::Sub(py, hn::ConvertTo(df, iy)),
+                between(rows_.share, x)};
+    }
+
+private:
+    HWY_INLINE hn::Vec<F> between(const std::array<const float*, 2>& rows, int x) const {
+        const F df;
+        const auto a = hn::LoadU(df, rows[0] + x);
+        return hn::MulAdd(t_, hn::Sub(hn::LoadU(df, rows[1] + x), a), a);
+    }
+
+    const LookUpRows& rows_;
+    hn::Vec<F> t_, stepX_, startX_, startY_, lastX_, lastY_, pixels_;
+};
+
+/// Bilinear mean of four bytes, 0x(x1y1)(x1y0)(x0y1)(x0y0), times 256.
+HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
+    const F df;
+    const I di;
+    const U du;
+    // Both columns at once: 255 * 256 fits in half a lane.
+    const auto scaled = hn::NearestInt(hn::Mul(at.fy, hn::Set(df, 256.0F)));
+    const auto lower = hn::BitCast(du, scaled);
+    const auto upper = hn::Sub(hn::Set(du, 256), lower);
+    const auto bytes = hn::Set(du, 0x00ff00ffU);
+    const auto columns = hn::Add(hn::Mul(hn::And(texels, bytes), upper),
+                                 hn::Mul(hn::And(hn::ShiftRight<8>(texels), bytes), lower));
+    const auto left = hn::ConvertTo(df, hn::BitCast(di, hn::And(columns, hn::Set(du, 0xffffU))));
+    const auto right = hn::ConvertTo(df, hn::BitCast(di, hn::ShiftRight<16>(columns)));
+    return hn::MulAdd(hn::Sub(right, left), at.fx, left);
+}
+
+void DetailRow(const DetailPairs& detail, const LookUpRows& rows, int begin, int end,
+               std::int16_t* to) {
+    const F df;
+    const I di;
+    const hn::Rebind<std::int16_t, F> d16;
+    const int lanes = static_cast<int>(hn::Lanes(df));
+    const auto pitch = hn::Set(di, static_cast<std::int32_t>(2 * detail.pitch));
+    const auto zero = hn::Set(df, 256.0F * 128), scale = hn::Set(df, 32.0F / 256);
+    LookUp lookUp(rows, detail.size, begin);
+    for (int x = begin; x < end; x += lanes) {
+        const Positions at = lookUp.next(x);
+        const auto bytes = hn::Add(hn::Mul(at.y, pitch), hn::Add(at.x, at.x));
+        const auto mean = MeanOfFour(GatherAnywhere(detail.data, bytes), at);
+        const auto added = hn::Mul(hn::Sub(mean, zero), hn::Mul(at.share, scale));
+        hn::StoreU(hn::DemoteTo(d16, hn::NearestInt(added)), d16, to + x);
+    }
+}
+
+using I16 = hn::ScalableTag<std::int16_t>;
+using U16 = hn::RebindToUnsigned<I16>;
+
+/// A channel of one vector of pixels, in [0, 255].
+class Channel {
+public:
+    explicit Channel(const std::array<std::int16_t, 4>& weights) {
+        for (std::size_t i = 0; i < 4; ++i)
+            weights_[i] = weights[i];
+    }
+
+    HWY_INLINE hn::Vec<U16> operator()(const std::array<const std::int16_t*, 4>& rows, int x,
+                                       hn::Vec<I16> added) const {
+        const I16 d;
+        const auto part = [&](std::size_t i) HWY_ATTR {
+            return hn::MulFixedPoint15(hn::LoadU(d, rows[i] + x), hn::Set(d, weights_[i]));
+        };
+        const auto sum = hn::Add(hn::Add(part(0), part(1)), hn::Add(part(2), part(3)));
+        const auto grey = hn::ShiftRight<5>(hn::Add(sum, added));
+        return hn::BitCast(U16(), hn::Min(hn::Max(grey, hn::Zero(d)), hn::Set(d, 255)));
+    }
+
+private:
+    std::array<std::int16_t, 4> weights_{};
+};
+
+template <bool kAdds>
+HWY_INLINE void Compose(const EnlargedRows& rows, const std::array<std::int16_t, 4>& weights,
+                        const std::int16_t* added, int begin, int end, std::uint32_t* to) {
+    const I16 d;
+    const U16 du;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const Channel channel(weights);
+    const auto half = hn::Set(d, 16);
+    const auto opaque = hn::Set(du, 0xff00);
+    HWY_ALIGN std::uint16_t rest[2 * hn::MaxLanes(I16())];
+    for (int x = begin; x < end; x += lanes) {
+        const auto more = kAdds ? hn::Add(hn::LoadU(d, added + x), half) : half;
+        const auto red = channel(rows[0], x, more), green = channel(rows[1], x, more),
+                   blue = channel(rows[2], x, more);
+        const auto low = hn::Or(red, hn::ShiftLeft<8>(green)), high = hn::Or(blue, opaque);
+        if (x + lanes <= end) {
+            hn::StoreInterleaved2(low, high, du, reinterpret_cast<std::uint16_t*>(to + x));
+        } else {
+            hn::StoreInterleaved2(low, high, du, rest);
+            std::memcpy(to + x, rest, static_cast<std::size_t>(end - x) * sizeof(*to));
+        }
+    }
+}
+
+void ComposeRow(const EnlargedRows& rows, const std::array<std::int16_t, 4>& weights,
+                const std::int16_t* added, int begin, int end, std::uint32_t* to) {
+    if (added != nullptr)
+        Compose<true>(rows, weights, added, begin, end, to);
+    else
+        Compose<false>(rows, weights, nullptr, begin, end, to);
+}
+
+template <int kChannel>
+HWY_INLINE hn::Vec<F> ChannelOf(hn::Vec<U> pixels) {
+    const U du;
+    const auto byte = hn::And(hn::ShiftRight<8 * kChannel>(pixels), hn::Set(du, 255));
+    return hn::ConvertTo(F(), hn::BitCast(I(), byte));
+}
+
+/// The four pixels around a position.
+struct Four {
+    hn::Vec<U> here, right, below, belowRight;
+};
+
+template <int kChannel>
+HWY_INLINE hn::Vec<U> Mixed(hn::Vec<U> under, const Four& four, const Positions& at) {
+    const auto between = [](hn::Vec<F> a, hn::Vec<F> b, hn::Vec<F> t)
+                             HWY_ATTR { return hn::MulAdd(hn::Sub(b, a), t, a); };
+    const auto upper =
+        between(ChannelOf<kChannel>(four.here), ChannelOf<kChannel>(four.right), at.fx);
+    const auto lower =
+        between(ChannelOf<kChannel>(four.below), ChannelOf<kChannel>(four.belowRight), at.fx);
+    const auto over = between(upper, lower, at.fy);
+    const auto grey = hn::NearestInt(between(ChannelOf<kChannel>(under), over, at.share));
+    const auto clamped = hn::Min(hn::Max(grey, hn::Zero(I())), hn::Set(I(), 255));
+    return hn::ShiftLeft<8 * kChannel>(hn::BitCast(U(), clamped));
+}
+
+HWY_INLINE hn::Vec<U> Blended(const BlendPicture& picture, const Positions& at, hn::Vec<U> under) {
+    const I di;
+    const auto pitch = hn::Set(di, static_cast<std::int32_t>(picture.pitch));
+    const auto last = hn::Set(di, picture.size.height - 1);
+    const auto next = hn::Min(hn::Add(at.y, hn::Set(di, 1)), last);
+    const auto upper = hn::Add(hn::Mul(at.y, pitch), at.x);
+    const auto lower = hn::Add(hn::Mul(next, pitch), at.x);
+    const Four four{
+        hn::GatherIndex(U(), picture.data, upper), hn::GatherIndex(U(), picture.data + 1, upper),
+        hn::GatherIndex(U(), picture.data, lower), hn::GatherIndex(U(), picture.data + 1, lower)};
+    return hn::Or(hn::Or(Mixed<0>(under, four, at), Mixed<1>(under, four, at)),
+                  hn::Or(Mixed<2>(under, four, at), hn::Set(U(), 0xff000000U)));
+}
+
+void BlendRow(const BlendPicture& picture, const LookUpRows& rows, int begin, int end,
+              std::uint32_t* inOut) {
+    const U du;
+    const int lanes = static_cast<int>(hn::Lanes(du));
+    LookUp lookUp(rows, picture.size, begin);
+    HWY_ALIGN std::uint32_t rest[hn::MaxLanes(U())] = {};
+    for (int x = begin; x < end; x += lanes) {
+        const Positions at = lookUp.next(x);
+        if (x + lanes <= end) {
+            hn::StoreU(Blended(picture, at, hn::LoadU(du, inOut + x)), du, inOut + x);
+        } else {
+            const std::size_t bytes = static_cast<std::size_t>(end - x) * sizeof(*inOut);
+            std::memcpy(rest, inOut + x, bytes);
+            hn::Store(Blended(picture, at, hn::Load(du, rest)), du, rest);
+            std::memcpy(inOut + x, rest, bytes);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mfar::simd {
+
+HWY_EXPORT(DetailRow);
+HWY_EXPORT(ComposeRow);
+HWY_EXPORT(BlendRow);
+
+void detailRow(const DetailPairs& detail, const LookUpRows& lookUp, int begin, int end,
+               std::int16_t* to) {
+    HWY_DYNAMIC_DISPATCH(DetailRow)(detail, lookUp, begin, end, to);
+}
+
+void composeRow(const EnlargedRows& rows, const std::array<std::int16_t, 4>& weights,
+                const std::int16_t* added, int begin, int end, std::uint32_t* to) {
+    HWY_DYNAMIC_DISPATCH(ComposeRow)(rows, weights, added, begin, end, to);
+}
+
+void blendRow(const BlendPicture& picture, const LookUpRows& lookUp, int begin, int end,
+              std::uint32_t* inOut) {
+    HWY_DYNAMIC_DISPATCH(BlendRow)(picture, lookUp, begin, end, inOut);
+}
+
+}  // namespace mfar::simd
+#endif

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "base/image_view.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace mfar::simd {
+
+// Rows of the output, pixels [begin, end). Rows of fields may be read and written up to 64 bytes
+// behind `end`; of the output nothing else is written.
+
+/// Where the pixels of a row look: two rows of the look-up field at the output's width and the
+/// position in between. Finite numbers.
+struct LookUpRows {
+    std::array<const float*, 2> x, y;   ///< [still px], as LookUpCell
+    std::array<const float*, 2> share;  ///< weight of the detail, or confidence
+    float t;                            ///< 0: the first row, 1: the second
+    /// Position without the field: (stepX px + startX, startY) [still px].
+    float stepX, startX, startY;
+};
+
+/// What the still shows beyond the video, 128 = nothing, a pixel and the one below it (high byte)
+/// together: four neighbours lie in 32 bits. 64 readable bytes behind each row.
+struct DetailPairs {
+    const std::uint16_t* data;
+    std::ptrdiff_t pitch;  ///< pairs from one row to the next
+    Size size;
+};
+
+/// Weighed detail [1/32 grey level], read bilinearly.
+void detailRow(const DetailPairs& detail, const LookUpRows& lookUp, int begin, int end,
+               std::int16_t* to);
+
+/// Rows of the video at the output's width [1/64 grey level], by channel, from the top.
+using EnlargedRows = std::array<std::array<const std::int16_t*, 4>, 3>;
+
+/// RGBA8 of the sum of four rows, times weights [1/16384], and `added` [1/32 grey level] to each
+/// channel. `added` may be null.
+void composeRow(const EnlargedRows& rows, const std::array<std::int16_t, 4>& weights,
+                const std::int16_t* added, int begin, int end, std::uint32_t* to);
+
+/// A picture in RGBA8 with 64 readable bytes behind each row.
+struct BlendPicture {
+    const std::uint32_t* data;
+    std::ptrdiff_t pitch;
+    Size size;
+};
+
+/// Mixes the picture, read bilinearly, over what is there, by LookUpRows::share in [0, 1].
+void blendRow(const BlendPicture& picture, const LookUpRows& lookUp, int begin, int end,
+              std::uint32_t* inOut);
+
+}  // namespace mfar::simd

@@ -1,0 +1,211 @@
+#include "pipeline/simd/detail_step.h"
+
+#include "pipeline/flow/cell_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mfar::simd {
+namespace {
+
+constexpr int kGrain = 32;  // rows of the output
+// Whole frames are drawn in columns of about this width, whose rows in between stay in the
+// processor's first cache.
+constexpr int kStripWidth = 576;
+constexpr int kStripStep = 64;
+// Bounds of what a look-up may say: farther is outside of any still.
+constexpr float kFarthest = 1e5F, kMostWeight = 4;
+
+/// First output pixel whose centre lies in each tile, and the end.
+std::vector<int> tileStarts(int tiles, int video, int output) {
+    std::vector<int> out;
+    for (int i = 0; i < tiles; ++i) {
+        const long doubled = 2L * kTileSize * i * output - video;
+        out.push_back(doubled > 0 ? static_cast<int>((doubled + 2L * video - 1) / (2L * video))
+                                  : 0);
+    }
+    out.push_back(output);
+    return out;
+}
+
+/// Linear between cells, at the output's size.
+RowTaps cellTaps(int cells, int video, int output) {
+    return RowTaps::linear(cells, output, static_cast<double>(video) / output / kCell);
+}
+
+int tileAt(const std::vector<int>& starts, int pixel) {
+    return static_cast<int>(std::ranges::upper_bound(starts, pixel) - starts.begin()) - 1;
+}
+
+}  // namespace
+
+struct DetailStep::Frame {
+    const DetailInput& in;
+    DetailOptions options;
+    Rows<std::uint32_t> out;
+    bool usesStill, linear;
+    DetailPairs detail;
+    BlendPicture picture;
+    const DetailStep& step;
+};
+
+DetailStep::Scratch::Scratch(const DetailStep& step)
+    : video(step.video_, step.output_.width), lookUps(step.cells_.width, step.output_.width),
+      added({step.output_.width, 1}) {
+    segments.reserve(step.tiles_.width);
+}
+
+DetailStep::DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers)
+    : rig_(stillRig), video_(rig_.video.size), output_(output), cells_(cellsOf(video_)),
+      tiles_(tilesOf(video_)), workers_(std::move(workers)), videoTaps_(video_, output),
+      lookUpRows_(cellTaps(cells_.width, video_.width, output.width)),
+      lookUpColumns_(cellTaps(cells_.height, video_.height, output.height)),
+      columnsAt_(tileStarts(tiles_.width, video_.width, output.width)),
+      rowsAt_(tileStarts(tiles_.height, video_.height, output.height)), classes_(video_),
+      shows_(static_cast<std::size_t>(tiles_.width) * tiles_.height),
+      scratch_(workers_->count(), [this] { return Scratch(*this); }) {}
+
+DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) const {
+    const TileWork& work = frame.in.work;
+    const TileWork::Tile& tile = work.at(column, row);
+    if (!work.drawsWhole() && tile.changed == 0) return Show::Nothing;
+    if (!frame.usesStill) return Show::Video;
+    const bool upscaled = classes_.at(column, row) == TileClass::Upscaled;
+    if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
+    const PixelRect& in = work.detailTiles;
+    if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
+    // Tiles that are not matched count as upscaled, but may have a weight of their neighbours.
+    const bool weightless =
+        upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
+    return weightless ? Show::Video : Show::Detail;
+}
+
+void DetailStep::choose(const Frame& frame) {
+    for (int row = 0; row < tiles_.height; ++row)
+        for (int column = 0; column < tiles_.width; ++column)
+            shows_[static_cast<std::size_t>(row) * tiles_.width + column] =
+                showOf(frame, column, row);
+}
+
+TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options,
+                             Rows<std::uint32_t> out) {
+    const bool blends = options.mode == SuperResMode::Blend;
+    const bool usesStill = options.mode != SuperResMode::Off &&
+                           (blends ? in.picture.data != nullptr : in.detail.data != nullptr);
+    const TileSummary summary =
+        classes_.classify(in.work, usesStill ? in.weighed : Rows<const WeighedCell>{}, in.trust,
+                          {options.upscaledTiles, options.plainTiles}, *workers_);
+    if (!in.work.drawsWhole() && in.work.changed == 0) return summary;
+    Frame frame{in, options, out,  usesStill, !options.cubic && options.mode == SuperResMode::Off,
+                {}, {},      *this};
+    if (usesStill && blends)
+        frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
+    else if (usesStill)
+        frame.detail = in.detail;
+    choose(frame);
+    // One pointer and one reference: std::function keeps them without allocating.
+    workers_->forRange(output_.height, kGrain, [this, &frame](int first, int last) {
+        scratch_.with([&](Scratch& scratch) { drawPart(frame, scratch, first, last); });
+    });
+    return summary;
+}
+
+void DetailStep::drawPart(const Frame& frame, Scratch& scratch, int first, int last) const {
+    if (frame.in.work.drawsWhole()) {
+        const int strips = std::max(1, (output_.width + kStripWidth / 2) / kStripWidth);
+        const int even = (output_.width + strips - 1) / strips;
+        const int width = (even + kStripStep - 1) / kStripStep * kStripStep;
+        for (int x = 0; x < output_.width; x += width)
+            drawStrip(frame, scratch, {x, first, std::min(x + width, output_.width), last});
+        return;
+    }
+    for (int row = tileAt(rowsAt_, first); row < tiles_.height && rowsAt_[row] < last; ++row)
+        drawTileRow(frame, scratch, row, std::max(first, rowsAt_[row]),
+                    std::min(last, rowsAt_[row + 1]));
+}
+
+void DetailStep::drawTileRow(const Frame& frame, Scratch& scratch, int row, int first,
+                             int last) const {
+    const Show* shows = &shows_[static_cast<std::size_t>(row) * tiles_.width];
+    for (int begin = 0; begin < tiles_.width;) {
+        int end = begin;
+        while (end < tiles_.width && shows[end] != Show::Nothing)
+            ++end;
+        if (end > begin && columnsAt_[begin] < columnsAt_[end])
+            drawStrip(frame, scratch, {columnsAt_[begin], first, columnsAt_[end], last});
+        begin = end + 1;
+    }
+}
+
+// Of a row of tiles, those pixels that are drawn.
+void DetailStep::cut(int row, int begin, int end, std::vector<Segment>& segments) const {
+    segments.clear();
+    for (int column = tileAt(columnsAt_, begin); column < tiles_.width; ++column) {
+        const int from = std::max(begin, columnsAt_[column]),
+                  to = std::min(end, columnsAt_[column + 1]);
+        if (from >= to) continue;
+        const Show show = shows_[static_cast<std::size_t>(row) * tiles_.width + column];
+        const bool detail = show == Show::Detail;
+        if (!segments.empty() && segments.back().detail == detail)
+            segments.back().end = to;
+        else
+            segments.push_back({from, to, detail});
+    }
+}
+
+LookUpRows DetailStep::lookUpsOf(const Frame& frame, Scratch& scratch, int y) const {
+    const bool blends = frame.options.mode == SuperResMode::Blend;
+    const auto channels = [blends](const LookUpCell& cell) {
+        return std::array{
+            boundedOr0(cell.x, -kFarthest, kFarthest), boundedOr0(cell.y, -kFarthest, kFarthest),
+            blends ? boundedOr0(cell.confidence, 0, 1) : boundedOr0(cell.weight, 0, kMostWeight)};
+    };
+    const BetweenRows between(lookUpColumns_, y);
+    const auto upper = scratch.lookUps.row(between.rows[0], channels),
+               lower = scratch.lookUps.row(between.rows[1], channels);
+    const auto step = [](double still, double video, int videoPixels, int pixels) {
+        return static_cast<float>(still / video * videoPixels / pixels);
+    };
+    const float stepX = step(rig_.still.fx, rig_.video.fx, video_.width, output_.width),
+                stepY = step(rig_.still.fy, rig_.video.fy, video_.height, output_.height);
+    return {{upper[0], lower[0]},
+            {upper[1], lower[1]},
+            {upper[2], lower[2]},
+            between.t,
+            stepX,
+            0.5F * stepX - 0.5F,
+            (static_cast<float>(y) + 0.5F) * stepY - 0.5F};
+}
+
+void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& strip) const {
+    const bool blends = frame.options.mode == SuperResMode::Blend;
+    const bool sharpens = frame.usesStill && !blends;
+    s.video.begin(frame.in.video, sharpens ? frame.in.trust : Rows<const TrustCell>{}, videoTaps_,
+                  frame.linear, strip.x0, strip.x1);
+    if (frame.usesStill) s.lookUps.begin(frame.in.lookUps, lookUpRows_, strip.x0, strip.x1);
+    const RowTaps& columns = frame.linear ? videoTaps_.linearColumns : videoTaps_.cubicColumns;
+    int row = -1;
+    for (int y = strip.y0; y < strip.y1; ++y) {
+        if (row < 0 || y >= rowsAt_[row + 1]) {
+            row = tileAt(rowsAt_, y);
+            cut(row, strip.x0, strip.x1, s.segments);
+        }
+        const ColumnTaps taps = columns.column(y);
+        const EnlargedRows rows = s.video.rows(taps.rows);
+        std::uint32_t* to = frame.out[y];
+        for (const auto& [begin, end, detail] : s.segments) {
+            if (!detail || blends) composeRow(rows, taps.weights, nullptr, begin, end, to);
+            if (!detail) continue;
+            const LookUpRows lookUps = lookUpsOf(frame, s, y);
+            if (blends) {
+                blendRow(frame.picture, lookUps, begin, end, to);
+            } else {
+                detailRow(frame.detail, lookUps, begin, end, s.added[0]);
+                composeRow(rows, taps.weights, s.added[0], begin, end, to);
+            }
+        }
+    }
+}
+
+}  // namespace mfar::simd

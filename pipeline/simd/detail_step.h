@@ -1,0 +1,90 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/rows.h"
+#include "base/workers.h"
+#include "pipeline/engine/cells.h"
+#include "pipeline/plan/rgb_planes.h"
+#include "pipeline/plan/tile_work.h"
+#include "pipeline/quality.h"
+#include "pipeline/simd/cell_rows.h"
+#include "pipeline/simd/detail_kernels.h"
+#include "pipeline/simd/scratch_slots.h"
+#include "pipeline/simd/tile_classes.h"
+#include "pipeline/simd/video_rows.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace mfar::simd {
+
+struct DetailOptions {
+    SuperResMode mode;
+    bool cubic;                      ///< see Quality
+    bool upscaledTiles, plainTiles;  ///< see SkipOptions
+};
+
+struct DetailInput {
+    const RgbPlanes& video;
+    const TileWork& work;
+    // A still's detail, or its RGBA8 picture for mode Blend; both without data: the video is only
+    // enlarged.
+    DetailPairs detail{};
+    Rows<const std::uint32_t> picture{};
+    // Read with a still alone, one entry per 4x4 video pixels.
+    Rows<const WeighedCell> weighed;
+    Rows<const LookUpCell> lookUps;
+    Rows<const TrustCell> trust;
+};
+
+/// Turns video, still and flow into the high-resolution picture on the host: what SuperRes::draw()
+/// draws, to a grey level. Allocates in the constructor. Unlike there, what lies beside drawn
+/// tiles is sharpened as of this frame, too.
+class DetailStep {
+public:
+    /// `stillRig`: StillPreparation::rig(). `output`: size of what is made of the whole video.
+    DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers);
+
+    /// Draws what `work` asks for into RGBA8 (R in the lowest byte, alpha 255) of the output's
+    /// size; the other tiles keep their pixels.
+    TileSummary draw(const DetailInput& in, const DetailOptions& options, Rows<std::uint32_t> out);
+    /// Of every tile in the last draw(), row-major.
+    [[nodiscard]] const std::vector<TileClass>& classes() const { return classes_.classes(); }
+
+private:
+    enum class Show : std::uint8_t { Nothing, Video, Detail };
+    /// Pixels of a row that are drawn alike.
+    struct Segment {
+        int begin, end;
+        bool detail;
+    };
+    struct Frame;
+    struct Scratch {
+        Scratch(const DetailStep& step);
+        VideoRows video;
+        CellRows<LookUpCell, 3> lookUps;
+        AlignedRows<std::int16_t> added;
+        std::vector<Segment> segments;
+    };
+
+    [[nodiscard]] Show showOf(const Frame& frame, int column, int row) const;
+    void choose(const Frame& frame);
+    void drawPart(const Frame& frame, Scratch& scratch, int first, int last) const;
+    void drawTileRow(const Frame& frame, Scratch& scratch, int row, int first, int last) const;
+    void drawStrip(const Frame& frame, Scratch& scratch, const PixelRect& strip) const;
+    void cut(int row, int begin, int end, std::vector<Segment>& segments) const;
+    [[nodiscard]] LookUpRows lookUpsOf(const Frame& frame, Scratch& scratch, int y) const;
+
+    StereoRig rig_;
+    Size video_, output_, cells_, tiles_;
+    std::shared_ptr<Workers> workers_;
+    VideoTaps videoTaps_;
+    RowTaps lookUpRows_, lookUpColumns_;
+    std::vector<int> columnsAt_, rowsAt_;  // first output pixel of each tile, and the end
+    TileClasses classes_;
+    std::vector<Show> shows_;  // per tile
+    ScratchSlots<Scratch> scratch_;
+};
+
+}  // namespace mfar::simd

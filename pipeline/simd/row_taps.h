@@ -1,0 +1,54 @@
+#pragma once
+
+#include "base/rows.h"
+#include "pipeline/simd/resample_kernels.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+
+namespace mfar::simd {
+
+/// Rows, and their weights [1/16384], whose sum is one.
+struct ColumnTaps {
+    std::array<int, 4> rows;
+    std::array<std::int16_t, 4> weights;
+};
+
+/// Where the entries of a resampled row come from: entry x of the result is the sum of `taps`
+/// entries of the source from first(x) on, each times its weight. Entries beyond the source's ends
+/// are the outermost ones; the table already says so. Positions are those of entry centres: x of
+/// the result lies at (x + 0.5) step - 0.5 of the source. The same table serves columns of rows.
+class RowTaps {
+public:
+    /// Keys' cubic with a = -0.75, as cubic.glsl.
+    [[nodiscard]] static RowTaps cubic(int from, int to);
+    [[nodiscard]] static RowTaps linear(int from, int to);
+    /// Linear, with a step that is not the ratio of both lengths.
+    [[nodiscard]] static RowTaps linear(int from, int to, double step);
+    /// A tent as wide as two entries of the result, as still_reduce.frag; `to` is at most `from`.
+    [[nodiscard]] static RowTaps tent(int from, int to);
+    /// Mean of four linear samples a quarter of `footprint` result entries apart, as
+    /// still_low.frag.
+    [[nodiscard]] static RowTaps mean(int from, int to, double footprint);
+
+    [[nodiscard]] int taps() const { return weights_.size().height; }
+    [[nodiscard]] int first(int x) const { return first_[0][x]; }
+    [[nodiscard]] float weight(int tap, int x) const { return weights_[tap][x]; }
+    /// Of a table with up to four taps, used for columns.
+    [[nodiscard]] ColumnTaps column(int y) const;
+    /// For resampleRow(). Sources have at least taps() entries, or zeros in their place.
+    [[nodiscard]] TapTable table() const {
+        return {first_[0], weights_[0], weights_.pitch(), taps()};
+    }
+
+private:
+    /// Calls back with an index of the source, which may lie beyond its ends, and its weight.
+    using Add = std::function<void(int, double)>;
+    RowTaps(int from, int to, const std::function<void(int, const Add&)>& sample);
+
+    AlignedRows<std::int32_t> first_;
+    AlignedRows<float> weights_;
+};
+
+}  // namespace mfar::simd

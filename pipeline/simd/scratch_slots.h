@@ -1,0 +1,46 @@
+#pragma once
+
+#include <atomic>
+#include <deque>
+#include <utility>
+
+namespace mfar::simd {
+
+/// Scratch memory for the parts of a loop in threads: as many as run at a time, made once.
+template <class T>
+class ScratchSlots {
+public:
+    template <class Make>
+    ScratchSlots(int threads, const Make& make) {
+        for (int i = 0; i < threads; ++i)
+            slots_.emplace_back(make());
+    }
+
+    template <class Body>
+    void forEach(const Body& body) {
+        for (Slot& slot : slots_)
+            body(slot.scratch);
+    }
+    /// Calls back with scratch memory that nobody else uses meanwhile.
+    template <class Body>
+    void with(const Body& body) {
+        for (;;) {
+            for (Slot& slot : slots_) {
+                if (slot.taken.test_and_set(std::memory_order_acquire)) continue;
+                body(slot.scratch);
+                slot.taken.clear(std::memory_order_release);
+                return;
+            }
+        }
+    }
+
+private:
+    struct Slot {
+        explicit Slot(T made) : scratch(std::move(made)) {}
+        T scratch;
+        std::atomic_flag taken;
+    };
+    std::deque<Slot> slots_;
+};
+
+}  // namespace mfar::simd

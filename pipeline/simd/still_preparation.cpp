@@ -1,0 +1,189 @@
+#include "pipeline/simd/still_preparation.h"
+
+#include "base/image_layout.h"
+#include "pipeline/superres/still_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+namespace mfar::simd {
+namespace {
+
+constexpr int kStillGrain = 16;  // rows
+
+}  // namespace
+
+StillPreparation::Scratch::Scratch(Size still, const Size& low)
+    : luma(still.width), wide({still.width, 1}), low({low.width, 1}), detail({still.width, 1}),
+      rgb({still.width, 3}) {}
+
+StillPreparation::StillPreparation(const StereoRig& rig, Size output,
+                                   std::shared_ptr<Workers> workers)
+    : workers_(std::move(workers)), whole_(rig.still.size), rig_(stillFor(output, rig)),
+      low_(lowSizeOf(rig_)), luma_(whole_),
+      meanColumns_(RowTaps::mean(rig_.still.size.height, low_.height, kFootprint)),
+      meanRows_(RowTaps::mean(rig_.still.size.width, low_.width, kFootprint)),
+      cubicColumns_(RowTaps::cubic(low_.height, rig_.still.size.height)),
+      cubicRows_(RowTaps::cubic(low_.width, rig_.still.size.width)),
+      lowWide_({rig_.still.size.width, low_.height}), detail_(rig_.still.size),
+      pairs_(rig_.still.size), scratch_(workers_->count(), [&] { return Scratch(whole_, low_); }) {
+    const Size reduced = rig_.still.size;
+    int taps = std::max(meanColumns_.taps(), 1);
+    if (reduced != whole_) {
+        reduction_.emplace(RowTaps::tent(whole_.height, reduced.height),
+                           RowTaps::tent(whole_.width, reduced.width), Luma(reduced));
+        taps = std::max(taps, reduction_->columns.taps());
+    }
+    scratch_.forEach([&](Scratch& scratch) {
+        scratch.rows.resize(taps);
+        scratch.weights.resize(taps);
+    });
+}
+
+void StillPreparation::inParts(int rows, const std::function<void(int, int, Scratch&)>& body) {
+    workers_->forRange(rows, kStillGrain, [&](int first, int last) {
+        scratch_.with([&](Scratch& scratch) { body(first, last, scratch); });
+    });
+}
+
+void StillPreparation::set(const ImageView& still, bool keepsPicture) {
+    takeLuma(still);
+    const Rows<const std::uint8_t> grey = luma();
+    unmade_ =
+        ImageView{grey.data, grey.size, static_cast<std::size_t>(grey.pitch), PixelFormat::Gray8};
+    if (keepsPicture) keep(still);
+    if (reduction_) reduceLuma();
+    makeLow();
+    makeDetail();
+}
+
+void StillPreparation::takeLuma(const ImageView& still) {
+    const StillLuma rows(still);
+    inParts(whole_.height, [&](int first, int last, Scratch& scratch) {
+        for (int y = first; y < last; ++y) {
+            rows.row(y, scratch.luma, luma_[y]);
+            luma_.repeatBorder(y);
+        }
+    });
+}
+
+void StillPreparation::keep(const ImageView& still) {
+    kept_.resize(packedBytes(still.format, still.size));
+    ImageView to = packedView(kept_.data(), still.size, still.format);
+    to.matrix = still.matrix;
+    to.range = still.range;
+    std::uint8_t* data = kept_.data();
+    for (int i = 0; i < planeCount(still.format); ++i) {
+        const PlaneSize plane = planeSize(still.format, still.size, i);
+        const PlaneView from = i == 0 ? PlaneView{still.data, still.stride}
+                                      : still.chroma[static_cast<std::size_t>(i) - 1];
+        workers_->forRange(plane.rows, kStillGrain, [&](int first, int last) {
+            for (int y = first; y < last; ++y)
+                std::memcpy(data + y * plane.rowBytes, from.data + y * from.stride, plane.rowBytes);
+        });
+        data += plane.rowBytes * plane.rows;
+    }
+    unmade_ = to;
+}
+
+// One row of the result's columns into scratch.wide.
+template <class RowAt>
+void StillPreparation::weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt,
+                                   Scratch& scratch) {
+    int number = 0;
+    for (int k = 0; k < taps.taps(); ++k) {
+        const float weight = taps.weight(k, y);
+        if (weight == 0) continue;
+        scratch.rows[number] = rowAt(taps.first(y) + k);
+        scratch.weights[number++] = weight;
+    }
+    weighRows(scratch.rows.data(), scratch.weights.data(), number, from.width, scratch.wide[0]);
+}
+
+void StillPreparation::reduceLuma() {
+    inParts(rig_.still.size.height, [&](int first, int last, Scratch& scratch) {
+        for (int y = first; y < last; ++y) {
+            weighColumn(
+                reduction_->columns, y, whole_, [&](int row) { return luma_[row]; }, scratch);
+            resampleRow(scratch.wide[0], reduction_->rows.table(), 0, rig_.still.size.width,
+                        reduction_->luma[y]);
+            reduction_->luma.repeatBorder(y);
+        }
+    });
+}
+
+void StillPreparation::makeLow() {
+    const Size size = rig_.still.size;
+    inParts(low_.height, [&](int first, int last, Scratch& scratch) {
+        for (int y = first; y < last; ++y) {
+            weighColumn(meanColumns_, y, size, [&](int row) { return detailed()[row]; }, scratch);
+            resampleRow(scratch.wide[0], meanRows_.table(), 0, low_.width, scratch.low[0]);
+            resampleRow(scratch.low[0], cubicRows_.table(), 0, size.width, 64, lowWide_[y]);
+        }
+    });
+}
+
+void StillPreparation::detailRowOf(int y, std::uint8_t* to) {
+    const Size size = rig_.still.size;
+    const ColumnTaps taps = cubicColumns_.column(y);
+    Luma& luma = detailed();
+    StillRows rows{{luma[std::max(y - 1, 0)], luma[y], luma[std::min(y + 1, size.height - 1)]},
+                   {},
+                   taps.weights,
+                   0};
+    for (std::size_t k = 0; k < rows.low.size(); ++k)
+        rows.low[k] = lowWide_[taps.rows[k]];
+    if (!reduction_)
+        rows.neighboursShare = static_cast<std::int16_t>(std::lround(kLinearLoss * 32768));
+    stillDetailRow(rows, static_cast<std::size_t>(size.width), to);
+}
+
+void StillPreparation::makeDetail() {
+    const auto [width, height] = rig_.still.size;
+    inParts(height, [&, width = width, height = height](int first, int last, Scratch& scratch) {
+        for (int y = first; y < last; ++y) {
+            detailRowOf(y, detail_[y]);
+            if (y > first) pairRows(detail_[y - 1], detail_[y], width, pairs_[y - 1]);
+        }
+        // The row below is another part's.
+        std::uint8_t* below = scratch.detail[0];
+        detailRowOf(std::min(last, height - 1), below);
+        pairRows(detail_[last - 1], below, width, pairs_[last - 1]);
+    });
+}
+
+Rows<const std::uint32_t> StillPreparation::picture() {
+    if (!unmade_) return std::as_const(picture_).rows();
+    if (!planes_) {
+        planes_.emplace(whole_);
+        picture_ = AlignedRows<std::uint32_t>(rig_.still.size);
+    }
+    planes_->take(*unmade_);
+    unmade_.reset();
+    inParts(rig_.still.size.height, [&](int first, int last, Scratch& scratch) {
+        const auto width = static_cast<std::size_t>(rig_.still.size.width);
+        for (int y = first; y < last; ++y) {
+            if (reduction_) {
+                reducePictureRow(y, scratch);
+                packRow({scratch.rgb[0], scratch.rgb[1], scratch.rgb[2]}, width, picture_[y]);
+            } else {
+                packRow({planes_->row(0, y), planes_->row(1, y), planes_->row(2, y)}, width,
+                        picture_[y]);
+            }
+        }
+    });
+    return std::as_const(picture_).rows();
+}
+
+void StillPreparation::reducePictureRow(int y, Scratch& scratch) {
+    for (int c = 0; c < 3; ++c) {
+        weighColumn(
+            reduction_->columns, y, whole_, [&](int row) { return planes_->row(c, row); }, scratch);
+        resampleRow(scratch.wide[0], reduction_->rows.table(), 0, rig_.still.size.width,
+                    scratch.rgb[c]);
+    }
+}
+
+}  // namespace mfar::simd

@@ -1,0 +1,109 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/rows.h"
+#include "base/workers.h"
+#include "pipeline/plan/rgb_planes.h"
+#include "pipeline/simd/detail_kernels.h"
+#include "pipeline/simd/row_taps.h"
+#include "pipeline/simd/scratch_slots.h"
+#include "pipeline/simd/still_luma.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace mfar::simd {
+
+/// The newest still, prepared once: luma of all of it, and what it shows beyond the video's
+/// resolution, detail = luma - up(down(luma)), at the output's need. The host's StillReference.
+/// Allocates in the constructor; set() only for another pixel format's copy, picture() once.
+class StillPreparation {
+public:
+    /// `output`: size of what is made of the video's whole picture.
+    StillPreparation(const StereoRig& rig, Size output, std::shared_ptr<Workers> workers);
+
+    /// A sound picture of the still camera's size in any format. `keepsPicture`: copies it for
+    /// picture(), which is grey without.
+    void set(const ImageView& still, bool keepsPicture = true);
+
+    /// The rig with the still camera as detail() has it: the same lens, maybe fewer pixels.
+    [[nodiscard]] const StereoRig& rig() const { return rig_; }
+    /// Rec. 601 luma of the whole still.
+    [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
+    /// Size of rig().still; 128 where the video shows all there is.
+    [[nodiscard]] Rows<const std::uint8_t> detail() const { return detail_.rows(); }
+    /// detail(), for detailRow().
+    [[nodiscard]] DetailPairs detailPairs() const {
+        return {pairs_[0], pairs_.pitch(), pairs_.size()};
+    }
+    /// RGBA8, R in the lowest byte, size of rig().still; 64 readable bytes behind each row. Made by
+    /// the first call after set().
+    [[nodiscard]] Rows<const std::uint32_t> picture();
+
+private:
+    /// Rows of luma whose border pixels are repeated on both sides.
+    class Luma {
+    public:
+        explicit Luma(Size size) : rows_({size.width + 2 * kMargin, size.height}), size_(size) {}
+        [[nodiscard]] std::uint8_t* operator[](int y) { return rows_[y] + kMargin; }
+        [[nodiscard]] Rows<const std::uint8_t> rows() const {
+            return {rows_[0] + kMargin, rows_.pitch(), size_};
+        }
+        void repeatBorder(int y) {
+            std::uint8_t* row = (*this)[y];
+            row[-1] = row[0];
+            row[size_.width] = row[size_.width - 1];
+        }
+
+    private:
+        static constexpr int kMargin = 64;
+        AlignedRows<std::uint8_t> rows_;
+        Size size_;
+    };
+    struct Scratch {
+        Scratch(Size still, const Size& low);
+        StillLuma::Scratch luma;
+        AlignedRows<float> wide, low;           // a row of the still; of `low` size
+        AlignedRows<std::uint8_t> detail, rgb;  // a row; three
+        std::vector<const std::uint8_t*> rows;  // that are weighed
+        std::vector<float> weights;
+    };
+    /// Fewer pixels, without aliasing: see still_reduce.frag.
+    struct Reduction {
+        RowTaps columns, rows;
+        Luma luma;
+    };
+
+    void inParts(int rows, const std::function<void(int, int, Scratch&)>& body);
+    void takeLuma(const ImageView& still);
+    void keep(const ImageView& still);
+    void reduceLuma();
+    void makeLow();
+    void makeDetail();
+    void reducePictureRow(int y, Scratch& scratch);
+    void detailRowOf(int y, std::uint8_t* to);
+    template <class RowAt>
+    void weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt, Scratch& scratch);
+    [[nodiscard]] Luma& detailed() { return reduction_ ? reduction_->luma : luma_; }
+
+    std::shared_ptr<Workers> workers_;
+    Size whole_;
+    StereoRig rig_;
+    Size low_;
+    Luma luma_;
+    std::optional<Reduction> reduction_;
+    RowTaps meanColumns_, meanRows_, cubicColumns_, cubicRows_;
+    AlignedRows<std::int16_t> lowWide_;  // `low` rows at the still's width [1/64 grey level]
+    AlignedRows<std::uint8_t> detail_;
+    AlignedRows<std::uint16_t> pairs_;
+    ScratchSlots<Scratch> scratch_;
+    std::vector<std::uint8_t> kept_;
+    std::optional<ImageView> unmade_;  // what picture() is to be made of
+    std::optional<RgbPlanes> planes_;
+    AlignedRows<std::uint32_t> picture_;
+};
+
+}  // namespace mfar::simd

@@ -1,0 +1,128 @@
+#include "pipeline/simd/tile_classes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar::simd {
+namespace {
+
+// As in SuperRes: below this weight the detail changes no pixel by a grey level; within these
+// spreads of flow [video px] and weight a tile is plain.
+constexpr float kLeastWeight = 0.02F, kPlainFlow = 0.08F, kPlainWeight = 0.25F;
+constexpr int kCells = 4;         // of a tile, along an axis
+constexpr int kWithBorder = 6;    // and one more on each side
+constexpr int kUnexplained = 8;   // of 16 cells
+constexpr int kTileRowGrain = 4;  // rows of tiles
+
+}  // namespace
+
+struct TileClasses::Fields {
+    Rows<const WeighedCell> weighed;
+    Rows<const TrustCell> trust;
+    float leastWeight, plainFlow;
+
+    [[nodiscard]] bool known() const { return weighed.data != nullptr; }
+    template <class Cell>
+    [[nodiscard]] static const Cell& at(const Rows<const Cell>& field, int x, int y) {
+        return field[std::clamp(y, 0, field.size.height - 1)]
+                    [std::clamp(x, 0, field.size.width - 1)];
+    }
+    [[nodiscard]] TileClass classOf(int column, int row) const;
+    [[nodiscard]] int unexplainedCells(int column, int row) const;
+    [[nodiscard]] float confidence(int column, int row) const;
+};
+
+// A tile is plain where its flow is affine and its weight even, within tolerance. NaN is neither.
+TileClass TileClasses::Fields::classOf(int column, int row) const {
+    const int x0 = kCells * column, y0 = kCells * row;
+    std::array<WeighedCell, kWithBorder * kWithBorder> cells;
+    float low = 1e9F, high = -1e9F;
+    for (int i = 0; i < kWithBorder * kWithBorder; ++i) {
+        cells[i] = at(weighed, x0 + i % kWithBorder - 1, y0 + i / kWithBorder - 1);
+        low = std::min(low, cells[i].weight);
+        high = std::max(high, cells[i].weight);
+    }
+    if (!(high > leastWeight)) return TileClass::Upscaled;
+    if (!(high - low < kPlainWeight)) return TileClass::Blended;
+    const WeighedCell &origin = cells[kWithBorder + 1], &right = cells[kWithBorder + 4],
+                      &below = cells[4 * kWithBorder + 1];
+    const auto affine = [&](float WeighedCell::* axis) {
+        const float dx = (right.*axis - origin.*axis) / 3, dy = (below.*axis - origin.*axis) / 3;
+        bool all = true;
+        for (int i = 0; i < kWithBorder * kWithBorder; ++i) {
+            const auto kx = static_cast<float>(i % kWithBorder - 1),
+                       ky = static_cast<float>(i / kWithBorder - 1);
+            const float apart = cells[i].*axis - origin.*axis - kx * dx - ky * dy;
+            all = all && std::abs(apart) < plainFlow;
+        }
+        return all;
+    };
+    return affine(&WeighedCell::x) && affine(&WeighedCell::y) ? TileClass::Trusted
+                                                              : TileClass::Blended;
+}
+
+int TileClasses::Fields::unexplainedCells(int column, int row) const {
+    int out = 0;
+    for (int i = 0; i < kCells * kCells; ++i) {
+        const int x = kCells * column + i % kCells, y = kCells * row + i / kCells;
+        out += at(trust, x, y).unexplained >= 0.5F ? 1 : 0;
+    }
+    return out;
+}
+
+float TileClasses::Fields::confidence(int column, int row) const {
+    float sum = 0;
+    for (int i = 0; i < kCells * kCells; ++i)
+        sum += at(weighed, kCells * column + i % kCells, kCells * row + i / kCells).confidence;
+    return sum > 0 ? std::min(sum, 16.0F) : 0;
+}
+
+TileClasses::TileClasses(Size video)
+    : tiles_(tilesOf(video)), classes_(static_cast<std::size_t>(tiles_.width) * tiles_.height),
+      unexplained_(classes_.size()), rowSums_(tiles_.height) {}
+
+void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int row) {
+    TileSummary sum;
+    for (int column = 0; column < tiles_.width; ++column) {
+        const std::size_t index = static_cast<std::size_t>(row) * tiles_.width + column;
+        const TileWork::Tile& tile = work.at(column, row);
+        TileClass kind = TileClass::Unchanged;
+        if (work.drawsWhole() || tile.changed != 0) {
+            kind = fields.known() && tile.matched != 0 ? fields.classOf(column, row)
+                                                       : TileClass::Upscaled;
+            unexplained_[index] =
+                fields.known() ? fields.unexplainedCells(column, row) : kCells * kCells;
+        }
+        classes_[index] = kind;
+        ++sum.tiles[static_cast<std::size_t>(kind)];
+        if (unexplained_[index] >= kUnexplained) ++sum.unexplained;
+        if (fields.known()) sum.confidence += std::floor(fields.confidence(column, row) * 16);
+    }
+    rowSums_[row] = sum;
+}
+
+TileSummary TileClasses::classify(const TileWork& work, Rows<const WeighedCell> weighed,
+                                  Rows<const TrustCell> trust, Skips skips, Workers& workers) {
+    const Fields fields{weighed, trust, skips.upscaledTiles ? kLeastWeight : -1.0F,
+                        skips.plainTiles ? kPlainFlow : 0.0F};
+    struct Loop {
+        TileClasses& self;
+        const TileWork& work;
+        const Fields& fields;
+    } loop{*this, work, fields};
+    // One reference: std::function keeps it without allocating.
+    workers.forRange(tiles_.height, kTileRowGrain, [&loop](int first, int last) {
+        for (int row = first; row < last; ++row)
+            loop.self.classifyRow(loop.work, loop.fields, row);
+    });
+    TileSummary out;
+    for (const TileSummary& row : rowSums_) {
+        for (std::size_t i = 0; i < kTileClasses; ++i)
+            out.tiles[i] += row.tiles[i];
+        out.unexplained += row.unexplained;
+        out.confidence += row.confidence;
+    }
+    return out;
+}
+
+}  // namespace mfar::simd

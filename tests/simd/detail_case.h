@@ -1,0 +1,33 @@
+#pragma once
+
+#include "pipeline/simd/detail_step.h"
+#include "pipeline/simd/still_preparation.h"
+
+#include <vector>
+
+namespace mfar::simd {
+
+/// Input of the detail step that looks like a real frame: textured pictures, a smooth flow of a
+/// scene of several distances with a border that bends, weights that vary, parts without any.
+struct DetailCase {
+    /// `changedShare`: of the tiles, spread over the picture; 1: a whole frame.
+    DetailCase(Size video, Size still, double changedShare = 1);
+
+    [[nodiscard]] ImageView stillView(PixelFormat format = PixelFormat::Rgba8) const;
+    [[nodiscard]] ImageView videoView() const;
+    [[nodiscard]] DetailInput input(StillPreparation* still) const;
+
+    StereoRig rig;
+    std::vector<std::uint8_t> videoPixels, stillPixels;  // RGBA8
+    RgbPlanes video;
+    TileWork work;
+    Size cells;
+    std::vector<WeighedCell> weighed;
+    std::vector<LookUpCell> lookUps;
+    std::vector<TrustCell> trust;
+};
+
+/// Two ideal cameras at the same place: the still is the video's view at another resolution.
+[[nodiscard]] StereoRig idealRig(Size video, Size still);
+
+}  // namespace mfar::simd
