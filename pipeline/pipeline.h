@@ -36,7 +36,7 @@ struct PipelineOptions {
     SkipOptions skips{};
     /// Which engine does which step. GLES steps need a current GL context; without any, neither
     /// setObjects() nor setScene() may be called.
-    EngineChoice engines{};
+    EngineChoice engines = EngineChoice::fromEnvironment();
     int threads = 0;  ///< host threads that share a step's work; 0: one per processor, at most four
 };
 

@@ -31,6 +31,9 @@ struct EngineChoice {
     [[nodiscard]] static EngineChoice all(EngineKind kind) {
         return {kind, kind, kind, kind, kind, kind};
     }
+    /// All steps on the engine that the environment variable MFAR_ENGINE names, "simd" or "gles"
+    /// (default): for measuring programs and tests, which name none.
+    [[nodiscard]] static EngineChoice fromEnvironment();
     /// Does any step run there?
     [[nodiscard]] bool uses(EngineKind kind) const {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||

@@ -14,7 +14,8 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Up to 15 elements may be written beyond a row's end.
-using Floats = hn::CappedTag<float, 16>;
+constexpr int kMostLanes = 16;
+using Floats = hn::CappedTag<float, kMostLanes>;
 using Vec = hn::Vec<Floats>;
 
 struct Ray {
@@ -90,6 +91,81 @@ std::uint8_t footprintMean(const StillPicture& p, const Taps& x, const Taps& y) 
     return static_cast<std::uint8_t>(std::clamp(sum / (kTaps * kTaps) + 0.5F, 0.0F, 255.0F));
 }
 
+#if HWY_TARGET != HWY_SCALAR
+// Pixels of a row that all taps of a footprint lie in, at most.
+constexpr int kWindow = 16;
+constexpr float kMostFootprint = 16;
+// Grey levels between two rows are kept in 1/16.
+constexpr int kValueBits = 4;
+using Four = hn::FixedTag<float, kTaps>;
+using FourInt = hn::FixedTag<std::int32_t, kTaps>;
+using Taps16 = hn::FixedTag<std::int16_t, 2 * kTaps>;
+
+/// The taps of one axis in lanes.
+struct TapLanes {
+    hn::Vec<FourInt> first, share;
+
+    HWY_INLINE TapLanes(hn::Vec<Four> offsets, float centre) {
+        const Four d;
+        const FourInt dInt;
+        const auto at = hn::Add(hn::Set(d, centre), offsets), whole = hn::Floor(at);
+        first = hn::ConvertTo(dInt, whole);
+        share = hn::ConvertTo(dInt, hn::Mul(hn::Sub(at, whole), hn::Set(d, kShare)));
+    }
+};
+
+/// The pixels left and right of each tap of a row.
+HWY_INLINE hn::Vec<Taps16> tapsOf(const std::uint8_t* window,
+                                  hn::VFromD<hn::FixedTag<std::uint8_t, 2 * kTaps>> at) {
+    const hn::FixedTag<std::uint8_t, kWindow> dWindow;
+    return hn::PromoteTo(Taps16(), hn::TableLookupBytes(hn::LoadU(dWindow, window), at));
+}
+
+/// Four parts of the sum over a footprint whose window lies within the still.
+HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLanes& y, int left,
+                          std::int32_t* parts) {
+    const Taps16 d16;
+    const FourInt dInt;
+    const hn::FixedTag<std::uint16_t, kTaps> dPairs;
+    const hn::FixedTag<std::uint8_t, 2 * kTaps> dBytes;
+    const auto index = hn::Sub(x.first, hn::Set(dInt, left));
+    const auto next = hn::ShiftLeft<8>(hn::Add(index, hn::Set(dInt, 1)));
+    const auto at = hn::BitCast(dBytes, hn::DemoteTo(dPairs, hn::Or(index, next)));
+    const auto rest = hn::Sub(hn::Set(dInt, 1 << kShareBits), x.share);
+    const auto weights = hn::BitCast(d16, hn::Or(rest, hn::ShiftLeft<16>(x.share)));
+    std::int32_t rows[kTaps], shares[kTaps];
+    hn::StoreU(y.first, dInt, rows);
+    hn::StoreU(y.share, dInt, shares);
+    auto sum = hn::Zero(dInt), sum1 = hn::Zero(dInt);
+    for (int j = 0; j < kTaps; ++j) {
+        const std::uint8_t* window = p.pixels + rows[j] * p.pitch + left;
+        const auto upper = tapsOf(window, at), lower = tapsOf(window + p.pitch, at);
+        const auto step = hn::ShiftLeft<kValueBits + 1>(hn::Sub(lower, upper));
+        const auto down = hn::Set(d16, static_cast<std::int16_t>(shares[j]));
+        const auto v = hn::Add(hn::ShiftLeft<kValueBits>(upper), hn::MulFixedPoint15(step, down));
+        sum = hn::ReorderWidenMulAccumulate(dInt, v, weights, sum, sum1);
+    }
+    hn::StoreU(hn::Add(sum, sum1), dInt, parts);
+}
+
+/// Rounded means from the parts of the sums of `count` pixels.
+HWY_INLINE void storeMeans(const std::int32_t (*parts)[4], int count, std::uint8_t* to) {
+    const Floats d;
+    const hn::RebindToSigned<Floats> dInt;
+    const hn::Rebind<std::uint8_t, Floats> dBytes;
+    std::uint8_t means[kMostLanes];
+    const auto unit = hn::Set(d, 1.0F / ((1 << kValueBits) * kShare * kTaps * kTaps));
+    for (int i = 0; i < count; i += static_cast<int>(hn::Lanes(d))) {
+        hn::Vec<decltype(dInt)> a, b, c, e;
+        hn::LoadInterleaved4(dInt, parts[i], a, b, c, e);
+        const auto sum = hn::ConvertTo(d, hn::Add(hn::Add(a, b), hn::Add(c, e)));
+        const auto mean = hn::ConvertTo(dInt, hn::MulAdd(sum, unit, hn::Set(d, 0.5F)));
+        hn::StoreU(hn::DemoteTo(dBytes, mean), dBytes, means + i);
+    }
+    std::copy_n(means, count, to);
+}
+#endif
+
 }  // namespace
 
 void StillPixelRow(const StillLens& lens, int y, int width, float* stillX, float* stillY) {
@@ -119,12 +195,44 @@ void StillPixelRow(const StillLens& lens, int y, int width, float* stillX, float
 
 void FootprintRow(const StillPicture& still, float footprint, const float* stillX,
                   const float* stillY, int width, std::uint8_t* to) {
-    Taps x, y;
-    for (int i = 0; i < width; ++i) {
+    const auto slowly = [&](int i) {
+        Taps x, y;
         placeTaps(stillX[i], footprint, still.width, x);
         placeTaps(stillY[i], footprint, still.height, y);
         to[i] = footprintMean(still, x, y);
+    };
+#if HWY_TARGET == HWY_SCALAR
+    for (int i = 0; i < width; ++i)
+        slowly(i);
+#else
+    const Four d;
+    const auto offsets = hn::Mul(hn::Sub(hn::Iota(d, 0.5F), hn::Set(d, kTaps / 2.0F)),
+                                 hn::Set(d, footprint / kTaps));
+    const float reach = footprint * (kTaps - 1) / (2 * kTaps);
+    // NaN is within nothing.
+    const auto within = [&](float q, int room, int size) {
+        return q - reach >= 0 && q - reach + static_cast<float>(room) <= static_cast<float>(size) &&
+               q + reach + 2 <= static_cast<float>(size);
+    };
+    alignas(64) std::int32_t parts[kMostLanes][4] = {};
+    for (int first = 0; first < width; first += kMostLanes) {
+        const int count = std::min(kMostLanes, width - first);
+        unsigned outside = 0;
+        for (int k = 0; k < count; ++k) {
+            const float x = stillX[first + k], y = stillY[first + k];
+            if (footprint <= kMostFootprint && within(x, kWindow, still.width) &&
+                within(y, 2, still.height)) {
+                const TapLanes across(offsets, x);
+                sumWindow(still, across, TapLanes(offsets, y), hn::GetLane(across.first), parts[k]);
+            } else {
+                outside |= 1U << k;
+            }
+        }
+        storeMeans(parts, count, to + first);
+        for (int k = 0; outside != 0; ++k, outside >>= 1)
+            if ((outside & 1) != 0) slowly(first + k);
     }
+#endif
 }
 
 }  // namespace mfar::simd::HWY_NAMESPACE

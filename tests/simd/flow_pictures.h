@@ -2,6 +2,7 @@
 
 #include "base/geometry.h"
 #include "base/rows.h"
+#include "base/workers.h"
 #include "pipeline/plan/rgb_planes.h"
 #include "pipeline/plan/tile_work.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -77,6 +79,11 @@ inline RgbPlanes planesOf(const FlowPicture& p) {
     RgbPlanes out(p.size);
     out.take({p.pixels.data(), p.size, static_cast<std::size_t>(p.size.width), PixelFormat::Gray8});
     return out;
+}
+
+[[nodiscard]] inline const std::shared_ptr<Workers>& twoWorkers() {
+    static const auto shared = std::make_shared<Workers>(2);
+    return shared;
 }
 
 /// Every tile changed and matched.
