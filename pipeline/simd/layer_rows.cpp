@@ -25,78 +25,152 @@ HWY_INLINE void Along(int count, const Body& body) {
         body(one, x);
 }
 
+/// Entries of a row at ascending columns: those of a vector lie within one where the layer is not
+/// larger than the output.
 template <class D>
-HWY_INLINE hn::Vec<D> Mix(hn::Vec<D> a, hn::Vec<D> b, hn::Vec<D> share) {
-    return hn::MulAdd(hn::Sub(b, a), share, a);
-}
-
-struct Colours {
-    const LayerRows& rows;
-    const LayerColumns& columns;
-    std::uint32_t* out;
-
-    template <class D>
-    HWY_INLINE void operator()(D d, int x) const {
-        const hn::RebindToUnsigned<D> du;
-        const hn::RebindToSigned<D> di;
-        const auto left = hn::LoadU(di, columns.left + x), right = hn::LoadU(di, columns.right + x);
-        const auto a = hn::GatherIndex(du, rows.colourAbove, left);
-        const auto b = hn::GatherIndex(du, rows.colourAbove, right);
-        const auto c = hn::GatherIndex(du, rows.colourBelow, left);
-        const auto e = hn::GatherIndex(du, rows.colourBelow, right);
-        const auto across = hn::LoadU(d, columns.share + x), down = hn::Set(d, rows.share);
-        auto pixels = hn::Zero(du);
-        for (int shift = 24; shift >= 0; shift -= 8) {
-            const auto channel = [&](auto v) HWY_ATTR {
-                const auto byte = hn::And(hn::ShiftRightSame(v, shift), hn::Set(du, 255));
-                return hn::ConvertTo(d, hn::BitCast(di, byte));
-            };
-            const auto above = Mix<D>(channel(a), channel(b), across);
-            const auto below = Mix<D>(channel(c), channel(e), across);
-            const auto value = hn::Add(Mix<D>(above, below, down), hn::Set(d, 0.5F));
-            pixels = hn::Or(hn::ShiftLeft<8>(pixels), hn::BitCast(du, hn::ConvertTo(di, value)));
-        }
-        hn::StoreU(pixels, du, out + x);
+HWY_INLINE hn::Vec<D> Look(D d, const hn::TFromD<D>* row, const std::int32_t* at,
+                           const LayerColumns& columns) {
+    const hn::RebindToSigned<D> di;
+    const auto lanes = static_cast<int>(hn::Lanes(d));
+    const int first = at[0];
+    const auto column = hn::LoadU(di, at);
+    if (at[lanes - 1] - first >= lanes) {
+        // Those of pixels behind the part are not used.
+        const auto inside = hn::Min(column, hn::Set(di, columns.last));
+        return hn::GatherIndex(d, row, hn::Sub(inside, hn::Set(di, columns.origin)));
     }
-};
-
-void EnlargeColours(const LayerRows& rows, const LayerColumns& columns, int count,
-                    std::uint32_t* out) {
-    Along(count, Colours{rows, columns, out});
+    const auto within = hn::IndicesFromVec(d, hn::Sub(column, hn::Set(di, first)));
+    return hn::TableLookupLanes(hn::LoadU(d, row + (first - columns.origin)), within);
 }
 
 struct Depths {
-    const LayerRows& rows;
+    const float *above, *below;
+    float share;
     const LayerColumns& columns;
     float* out;
 
     template <class D>
     HWY_INLINE void operator()(D d, int x) const {
         const hn::RebindToSigned<D> di;
-        const auto left = hn::LoadU(di, columns.left + x), right = hn::LoadU(di, columns.right + x);
         const auto one = hn::Set(d, 1.0F);
-        const auto toRight = hn::LoadU(d, columns.share + x), toLeft = hn::Sub(one, toRight);
-        const auto down = hn::Set(d, rows.share), up = hn::Sub(one, down);
+        const auto shares =
+            hn::BitCast(di, hn::LoadU(hn::RebindToUnsigned<D>(), columns.share + x));
+        const auto toRight = hn::Mul(hn::ConvertTo(d, hn::And(shares, hn::Set(di, 0x7FFF))),
+                                     hn::Set(d, 1.0F / 32768));
+        const auto toLeft = hn::Sub(one, toRight);
+        const auto down = hn::Set(d, share), up = hn::Sub(one, down);
         auto best = hn::Zero(d), depth = hn::Zero(d);
-        const auto consider = [&](const float* row, auto column, auto weight) HWY_ATTR {
-            const auto z = hn::GatherIndex(d, row, column);
+        const auto consider = [&](const float* row, const std::int32_t* at, auto weight) HWY_ATTR {
+            const auto z = Look(d, row, at + x, columns);
             const auto there = hn::And(hn::Gt(z, hn::Set(d, 1e-4F)), hn::Lt(z, hn::Set(d, 1e6F)));
             const auto better = hn::And(there, hn::Gt(weight, best));
             best = hn::IfThenElse(better, weight, best);
             depth = hn::IfThenElse(better, z, depth);
         };
         // The first of equals counts: in the order of textureGather.
-        consider(rows.depthBelow, left, hn::Mul(toLeft, down));
-        consider(rows.depthBelow, right, hn::Mul(toRight, down));
-        consider(rows.depthAbove, right, hn::Mul(toRight, up));
-        consider(rows.depthAbove, left, hn::Mul(toLeft, up));
+        consider(below, columns.left, hn::Mul(toLeft, down));
+        consider(below, columns.right, hn::Mul(toRight, down));
+        consider(above, columns.right, hn::Mul(toRight, up));
+        consider(above, columns.left, hn::Mul(toLeft, up));
         hn::StoreU(depth, d, out + x);
     }
 };
 
-void EnlargeDepths(const LayerRows& rows, const LayerColumns& columns, int count, float* out) {
-    Along(count, Depths{rows, columns, out});
+void EnlargeDepths(const float* above, const float* below, float share, const LayerColumns& columns,
+                   int count, float* out) {
+    Along(count, Depths{above, below, share, columns, out});
 }
+
+#if HWY_TARGET == HWY_SCALAR
+
+std::uint32_t Between(std::uint32_t a, std::uint32_t b, std::uint32_t share) {
+    const int from = static_cast<int>(a), to = static_cast<int>(b);
+    return static_cast<std::uint32_t>(
+        from + (((to - from) * static_cast<int>(share & 0x7FFFU) + (1 << 14)) >> 15));
+}
+
+std::uint32_t BetweenWords(std::uint32_t a, std::uint32_t b, std::uint32_t share) {
+    return Between(a & 0xFFFFU, b & 0xFFFFU, share) | Between(a >> 16, b >> 16, share) << 16;
+}
+
+void BlendLayerRows(const std::uint32_t* above, const std::uint32_t* below, std::uint32_t share,
+                    int count, const BlendedColours& out) {
+    constexpr std::uint32_t kEven = 0x00FF00FF;
+    for (int x = 0; x < count; ++x) {
+        out.redBlue[x] = BetweenWords((above[x] & kEven) << 6, (below[x] & kEven) << 6, share);
+        out.greenAlpha[x] =
+            BetweenWords((above[x] >> 8 & kEven) << 6, (below[x] >> 8 & kEven) << 6, share);
+    }
+}
+
+void EnlargeColours(const BlendedColours& part, const LayerColumns& columns, int count,
+                    std::uint32_t* out) {
+    for (int x = 0; x < count; ++x) {
+        const int left = columns.left[x] - columns.origin,
+                  right = columns.right[x] - columns.origin;
+        const auto at = [&](const std::uint32_t* row) {
+            const std::uint32_t sum = BetweenWords(row[left], row[right], columns.share[x]);
+            return (sum + 0x00200020U) >> 6 & 0x00FF00FFU;
+        };
+        out[x] = at(part.redBlue) | at(part.greenAlpha) << 8;
+    }
+}
+
+#else
+
+using D32 = hn::ScalableTag<std::uint32_t>;
+using D16 = hn::Repartition<std::uint16_t, D32>;
+using V16 = hn::Vec<D16>;
+using V32 = hn::Vec<D32>;
+
+/// Both channels of each word.
+HWY_INLINE V16 Between(V16 a, V16 b, V16 share) {
+    const hn::RebindToSigned<D16> di;
+    const auto from = hn::BitCast(di, a);
+    const auto step =
+        hn::MulFixedPoint15(hn::Sub(hn::BitCast(di, b), from), hn::BitCast(di, share));
+    return hn::BitCast(D16(), hn::Add(from, step));
+}
+
+void BlendLayerRows(const std::uint32_t* above, const std::uint32_t* below, std::uint32_t share,
+                    int count, const BlendedColours& out) {
+    const D32 d;
+    const D16 d16;
+    const auto even = hn::BitCast(d16, hn::Set(d, 0x00FF00FFU));
+    const auto shares = hn::BitCast(d16, hn::Set(d, share));
+    // Rows have room behind their last entry.
+    for (int x = 0; x < count; x += static_cast<int>(hn::Lanes(d))) {
+        const auto a = hn::BitCast(d16, hn::LoadU(d, above + x));
+        const auto b = hn::BitCast(d16, hn::LoadU(d, below + x));
+        const V16 redBlue =
+            Between(hn::ShiftLeft<6>(hn::And(a, even)), hn::ShiftLeft<6>(hn::And(b, even)), shares);
+        const V16 greenAlpha = Between(hn::ShiftLeft<6>(hn::ShiftRight<8>(a)),
+                                       hn::ShiftLeft<6>(hn::ShiftRight<8>(b)), shares);
+        hn::StoreU(hn::BitCast(d, redBlue), d, out.redBlue + x);
+        hn::StoreU(hn::BitCast(d, greenAlpha), d, out.greenAlpha + x);
+    }
+}
+
+void EnlargeColours(const BlendedColours& part, const LayerColumns& columns, int count,
+                    std::uint32_t* out) {
+    const D32 d;
+    const D16 d16;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    // Columns behind the last one repeat it.
+    for (int x = 0; x < count; x += lanes) {
+        const V16 share = hn::BitCast(d16, hn::LoadU(d, columns.share + x));
+        const auto at = [&](const std::uint32_t* row) HWY_ATTR {
+            const auto left = Look(d, row, columns.left + x, columns);
+            const auto right = Look(d, row, columns.right + x, columns);
+            const V16 sum = Between(hn::BitCast(d16, left), hn::BitCast(d16, right), share);
+            return hn::ShiftRight<6>(hn::Add(sum, hn::Set(d16, 32)));
+        };
+        const V16 pixels = hn::Or(at(part.redBlue), hn::ShiftLeft<8>(at(part.greenAlpha)));
+        hn::StoreU(hn::BitCast(d, pixels), d, out + x);
+    }
+}
+
+#endif
 
 std::uint32_t DividedBy255(std::uint32_t product) {
     product = std::min(product + 128, 65535U);
@@ -114,10 +188,6 @@ std::uint32_t BlendPixel(std::uint32_t colour, std::uint32_t visible, std::uint3
 }
 
 #if HWY_TARGET != HWY_SCALAR
-
-using D32 = hn::ScalableTag<std::uint32_t>;
-using D16 = hn::Repartition<std::uint16_t, D32>;
-using V16 = hn::Vec<D16>;
 
 HWY_INLINE V16 DividedBy255(V16 product) {
     const V16 rounded = hn::SaturatedAdd(product, hn::Set(D16(), 128));
@@ -173,17 +243,29 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mfar::simd {
 
+HWY_EXPORT(BlendLayerRows);
 HWY_EXPORT(EnlargeColours);
 HWY_EXPORT(EnlargeDepths);
 HWY_EXPORT(BlendRow);
 
-void enlargeColours(const LayerRows& rows, const LayerColumns& columns, int count,
-                    std::uint32_t* out) {
-    HWY_DYNAMIC_DISPATCH(EnlargeColours)(rows, columns, count, out);
+std::uint32_t twiceInAWord(float share) {
+    const auto bits = static_cast<std::uint32_t>(std::clamp(share * 32768, 0.0F, 32767.0F));
+    return bits | bits << 16;
 }
 
-void enlargeDepths(const LayerRows& rows, const LayerColumns& columns, int count, float* out) {
-    HWY_DYNAMIC_DISPATCH(EnlargeDepths)(rows, columns, count, out);
+void blendLayerRows(const std::uint32_t* above, const std::uint32_t* below, float share, int count,
+                    const BlendedColours& out) {
+    HWY_DYNAMIC_DISPATCH(BlendLayerRows)(above, below, twiceInAWord(share), count, out);
+}
+
+void enlargeColours(const BlendedColours& part, const LayerColumns& columns, int count,
+                    std::uint32_t* out) {
+    HWY_DYNAMIC_DISPATCH(EnlargeColours)(part, columns, count, out);
+}
+
+void enlargeDepths(const float* above, const float* below, float share, const LayerColumns& columns,
+                   int count, float* out) {
+    HWY_DYNAMIC_DISPATCH(EnlargeDepths)(above, below, share, columns, count, out);
 }
 
 void blendRow(const std::uint32_t* colours, const std::uint8_t* visibility, int count,

@@ -48,6 +48,9 @@ struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> colours{};
+    // Of a layer that is enlarged: the columns around the strip, and between its rows.
+    std::array<float, kVisibilityChunk + kSpare> depthAbove{}, depthBelow{};
+    std::array<std::uint32_t, kVisibilityChunk + kSpare> above{}, below{}, redBlue{}, greenAlpha{};
     std::array<std::uint8_t, kVisibilityChunk + kSpare> visibility{};
 };
 
@@ -70,6 +73,10 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
       greatest_({withMargin(video).width, video.height + 1}),
       least_({withMargin(video).width, video.height + 1}), visibility_(output) {
     validate(options);
+    // Its columns of the layer fit a strip, too.
+    const double columnsPerPixel = static_cast<double>(layer.width) / output.width;
+    longestStrip_ =
+        std::clamp(static_cast<int>((kVisibilityChunk - 2) / columnsPerPixel), 1, kVisibilityChunk);
     for (int x = 0; x < output.width; ++x) {
         const int base = columns_.first[static_cast<std::size_t>(x)];
         column_.push_back(std::clamp(base, 0, video.width - 1) - 1 + kSampleMargin);
@@ -79,7 +86,12 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
         const int left = layerColumns_.first[static_cast<std::size_t>(x)];
         layerLeft_.push_back(std::clamp(left, 0, layer.width - 1));
         layerRight_.push_back(std::clamp(left + 1, 0, layer.width - 1));
+        layerShare_.push_back(twiceInAWord(layerColumns_.share[static_cast<std::size_t>(x)]));
     }
+    // Vectors read on behind the last pixel.
+    layerLeft_.resize(layerLeft_.size() + kLayerSpare, layer.width - 1);
+    layerRight_.resize(layerRight_.size() + kLayerSpare, layer.width - 1);
+    layerShare_.resize(layerShare_.size() + kLayerSpare);
 }
 
 void OcclusionStep::run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
@@ -162,9 +174,9 @@ void OcclusionStep::drawRows(const Task& task, int base) {
     rangeOfSamples(nearest, farthest, task.last - task.first + 1, greatest + task.first,
                    least + task.first);
     Strip strip;
-    for (int x = task.bounds.x0; x < task.bounds.x1; x += kVisibilityChunk) {
+    for (int x = task.bounds.x0; x < task.bounds.x1; x += longestStrip_) {
         strip.x = x;
-        strip.count = std::min(kVisibilityChunk, task.bounds.x1 - x);
+        strip.count = std::min(longestStrip_, task.bounds.x1 - x);
         for (int i = 0; i < strip.count; ++i) {
             const int column = column_[static_cast<std::size_t>(x + i)];
             strip.greatest[static_cast<std::size_t>(i)] = greatest[column];
@@ -178,11 +190,8 @@ void OcclusionStep::drawRows(const Task& task, int base) {
 void OcclusionStep::drawPart(const Task& task, Strip& strip, int y) {
     const auto first = static_cast<std::size_t>(strip.x);
     const bool isScaled = layer_ != output_;
-    const LayerRows rows = layerRowsAt(task.layer, y);
-    const LayerColumns columns{&layerLeft_[first], &layerRight_[first],
-                               &layerColumns_.share[first]};
     if (isScaled)
-        enlargeDepths(rows, columns, strip.count, strip.z.data());
+        enlargeDepth(task, strip, y);
     else
         std::copy_n(task.layer.depth[y] + strip.x, strip.count, strip.z.data());
     std::uint8_t* visible = strip.visibility.data();
@@ -197,17 +206,43 @@ void OcclusionStep::drawPart(const Task& task, Strip& strip, int y) {
     std::copy_n(visible, strip.count, visibility_[y] + strip.x);
     const auto isSeen = [](std::uint8_t share) { return share != 0; };
     if (isScaled && std::any_of(visible, visible + strip.count, isSeen))
-        enlargeColours(rows, columns, strip.count, strip.colours.data());
+        enlargeColour(task, strip, y);
     blendRow(isScaled ? strip.colours.data() : task.layer.colour[y] + strip.x, visible, strip.count,
              picture);
 }
 
-LayerRows OcclusionStep::layerRowsAt(const LayerRowsView& layer, int y) const {
+LayerColumns OcclusionStep::layerColumns(const Strip& strip) const {
+    const auto first = static_cast<std::size_t>(strip.x);
+    return {&layerLeft_[first], &layerRight_[first], &layerShare_[first], layerLeft_[first],
+            layerRight_[first + static_cast<std::size_t>(strip.count) - 1]};
+}
+
+/// The layer's rows around an output row, and its share of the lower one.
+OcclusionStep::TwoRows OcclusionStep::layerRowsAt(int y) const {
     const int base = layerRows_.first[static_cast<std::size_t>(y)];
-    const int above = std::clamp(base, 0, layer_.height - 1);
-    const int below = std::clamp(base + 1, 0, layer_.height - 1);
-    return {layer.colour[above], layer.colour[below], layer.depth[above], layer.depth[below],
+    return {std::clamp(base, 0, layer_.height - 1), std::clamp(base + 1, 0, layer_.height - 1),
             layerRows_.share[static_cast<std::size_t>(y)]};
+}
+
+void OcclusionStep::enlargeDepth(const Task& task, Strip& strip, int y) const {
+    const LayerColumns columns = layerColumns(strip);
+    const auto [above, below, share] = layerRowsAt(y);
+    const int count = columns.last - columns.origin + 1;
+    std::copy_n(task.layer.depth[above] + columns.origin, count, strip.depthAbove.data());
+    std::copy_n(task.layer.depth[below] + columns.origin, count, strip.depthBelow.data());
+    enlargeDepths(strip.depthAbove.data(), strip.depthBelow.data(), share, columns, strip.count,
+                  strip.z.data());
+}
+
+void OcclusionStep::enlargeColour(const Task& task, Strip& strip, int y) const {
+    const LayerColumns columns = layerColumns(strip);
+    const auto [above, below, share] = layerRowsAt(y);
+    const int count = columns.last - columns.origin + 1;
+    std::copy_n(task.layer.colour[above] + columns.origin, count, strip.above.data());
+    std::copy_n(task.layer.colour[below] + columns.origin, count, strip.below.data());
+    const BlendedColours blended{strip.redBlue.data(), strip.greenAlpha.data()};
+    blendLayerRows(strip.above.data(), strip.below.data(), share, count, blended);
+    enlargeColours(blended, columns, strip.count, strip.colours.data());
 }
 
 }  // namespace mfar::simd

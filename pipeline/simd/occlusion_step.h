@@ -3,8 +3,8 @@
 #include "base/geometry.h"
 #include "base/rows.h"
 #include "base/workers.h"
-#include "pipeline/engine/occlusion_options.h"
 #include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/engine/occlusion_options.h"
 #include "pipeline/plan/rgb_planes.h"
 #include "pipeline/simd/layer_rows.h"
 #include "pipeline/simd/visibility_rows.h"
@@ -72,13 +72,20 @@ private:
     };
     /// One of the frame's planes, margins included.
     using Plane = AlignedRows<float>;
+    struct TwoRows {
+        int above, below;
+        float share;  ///< of the lower one
+    };
     struct Task;
     struct Strip;
 
     void prepareRow(const Task& task, int y);
     void drawRows(const Task& task, int base);
     void drawPart(const Task& task, Strip& strip, int y);
-    [[nodiscard]] LayerRows layerRowsAt(const LayerRowsView& layer, int y) const;
+    void enlargeDepth(const Task& task, Strip& strip, int y) const;
+    void enlargeColour(const Task& task, Strip& strip, int y) const;
+    [[nodiscard]] TwoRows layerRowsAt(int y) const;
+    [[nodiscard]] LayerColumns layerColumns(const Strip& strip) const;
     [[nodiscard]] SampleRow samplesOf(int y);
     [[nodiscard]] SampleWindow windowOf(int y);
     void forRows(int first, int last, int grain, const std::function<void(int)>& body);
@@ -88,7 +95,9 @@ private:
     VisibilityParams params_;
     std::shared_ptr<Workers> workers_;
     Between columns_, rows_, layerColumns_, layerRows_;
+    int longestStrip_;
     std::vector<std::int32_t> column_, sampleColumn_, layerLeft_, layerRight_;
+    std::vector<std::uint32_t> layerShare_;
     std::vector<float> columnWeights_;
     Plane inverse_, variance_, red_, green_, blue_, nearest_, farthest_, greatest_, least_;
     AlignedRows<std::uint8_t> visibility_;

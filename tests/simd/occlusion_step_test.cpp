@@ -361,11 +361,11 @@ TEST_F(ScaledOcclusion, ColoursAreLinearBetweenItsPixels) {
     run(kHalf, [](int x, int) { return Texel{{static_cast<std::uint8_t>(3 * x), 0, 0, 255}, 2}; },
         {0, 0, kHalf.width, kHalf.height});
     for (int x = 2; x < kOutput.width - 2; ++x)
-        ASSERT_NEAR(red(x, 50), 3 * ((x + 0.5) / 2 - 0.5), 0.51) << x;
+        ASSERT_NEAR(red(x, 50), 3 * ((x + 0.5) / 2 - 0.5), 0.53) << x;
     run(kHalf, [](int, int y) { return Texel{{static_cast<std::uint8_t>(4 * y), 0, 0, 255}, 2}; },
         {0, 0, kHalf.width, kHalf.height});
     for (int y = 2; y < kOutput.height - 2; ++y)
-        ASSERT_NEAR(red(50, y), 4 * ((y + 0.5) / 2 - 0.5), 0.51) << y;
+        ASSERT_NEAR(red(50, y), 4 * ((y + 0.5) / 2 - 0.5), 0.53) << y;
 }
 
 TEST_F(ScaledOcclusion, EdgeTakesDepthOfThePixelThatHasOne) {
@@ -386,7 +386,8 @@ TEST_F(ScaledOcclusion, EdgeTakesDepthOfThePixelThatHasOne) {
 }
 
 TEST_F(ScaledOcclusion, LayersOfAnySizeReachTheBorders) {
-    for (const Size size : {Size{1, 1}, Size{7, 3}, Size{53, 37}, Size{320, 240}}) {
+    for (const Size size :
+         {Size{1, 1}, Size{7, 3}, Size{53, 37}, Size{320, 240}, Size{4001, 700}}) {
         run(size, [](int, int) { return Texel{{100, 0, 0, 255}, 1}; },
             {0, 0, size.width, size.height});
         for (const int x : {0, 1, kOutput.width / 2, kOutput.width - 1})
