@@ -1,6 +1,8 @@
 #include "pipeline/depth/depth_filter.h"
 
 #include "base/se3.h"
+#include "pipeline/simd/depth_rows.h"
+#include "pipeline/simd/field_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +30,17 @@ DepthFilter::DepthFilter(const CameraModel& video, std::shared_ptr<Workers> work
     : lens_(video, 0), focal_(static_cast<float>(std::max(video.fx, video.fy))),
       pixelX_(static_cast<float>(1 / video.fx)), pixelY_(static_cast<float>(1 / video.fy)),
       workers_(std::move(workers)), field_(video.size), carried_(video.size),
-      points_(field_.rho.size()), carriedPoints_(field_.rho.size()) {}
+      points_(field_.rho.size()), carriedPoints_(field_.rho.size()) {
+    for (auto* plane : {&moved_.x, &moved_.y, &moved_.rho, &moved_.variance})
+        plane->resize(field_.rho.size());
+    moved_.pixel.resize(field_.rho.size());
+    moved_.bounds.resize(video.size.height);
+}
 
 void DepthFilter::forget() {
     if (!fieldPose_) return;
     field_ = InverseDepthField(field_.size);
-    std::fill(points_.begin(), points_.end(), Point());
+    points_ = Points(field_.rho.size());
     known_ = {};
     fieldPose_.reset();
 }
@@ -48,13 +55,7 @@ void DepthFilter::predict(const RigidTransform& told, double seconds) {
     const RigidTransform T_now_before = T_world_video->inverse() * *fieldPose_;
     if (seconds > 0) moving_ = std::min(moving_ + seconds, kMostMoving);
     if (!moves(T_now_before)) return;
-    const auto growth = static_cast<float>(kDrift * kDrift * std::exchange(moving_, 0));
-    for (int y = known_.y0; y < known_.y1; ++y) {
-        const auto row = static_cast<std::size_t>(y) * field_.size.width;
-        for (std::size_t i = row + known_.x0; i < row + known_.x1; ++i)
-            field_.variance[i] += growth * field_.rho[i] * field_.rho[i];
-    }
-    carry(T_now_before);
+    carry(T_now_before, static_cast<float>(kDrift * kDrift * std::exchange(moving_, 0)));
     fieldPose_ = *T_world_video;
 }
 
@@ -63,69 +64,87 @@ bool DepthFilter::moves(const RigidTransform& T) const {
     float nearest = 0;
     for (int y = known_.y0; y < known_.y1; ++y) {
         const float* row = field_.rho.data() + static_cast<std::size_t>(y) * field_.size.width;
-        nearest = std::max(nearest, *std::max_element(row + known_.x0, row + known_.x1));
+        nearest = std::max(nearest, simd::greatestOf(row + known_.x0, known_.x1 - known_.x0));
     }
     return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
 }
 
-void DepthFilter::carry(const RigidTransform& T_now_before) {
-    const Eigen::Matrix3f R = T_now_before.rotation.toRotationMatrix().cast<float>();
-    const Eigen::Vector3f t = T_now_before.translation.cast<float>();
-    carriedTo_ = {};
-    for (int y = known_.y0; y < known_.y1; ++y)
-        carryRow(R, t, y);
+// Points are homogeneous, (x, y, 1, rho): what is infinitely far only turns.
+void DepthFilter::carry(const RigidTransform& T_now_before, float growth) {
+    const Eigen::Matrix3d R = T_now_before.rotation.toRotationMatrix();
+    simd::Motion motion{};
+    for (int i = 0; i < 9; ++i)
+        motion.turn[i] = static_cast<float>(R(i / 3, i % 3));
+    for (int i = 0; i < 3; ++i)
+        motion.move[i] = static_cast<float>(T_now_before.translation[i]);
+    const simd::MoveRule rule{pixelX_, pixelY_, kNearestShare, growth};
+    const auto width = static_cast<std::size_t>(known_.x1 - known_.x0);
+    std::fill(moved_.bounds.begin(), moved_.bounds.end(), PixelRect{});
+    workers_->forRange(known_.y1 - known_.y0, 8, [&](int first, int last) {
+        for (int y = known_.y0 + first; y < known_.y0 + last; ++y) {
+            const std::size_t i = static_cast<std::size_t>(y) * field_.size.width + known_.x0;
+            simd::moveRow(lens_.lens(), field_.size, motion, rule,
+                          {lens_.raysX().data() + i, lens_.raysY().data() + i, points_.x.data() + i,
+                           points_.y.data() + i, field_.rho.data() + i, field_.variance.data() + i},
+                          width,
+                          {moved_.pixel.data() + i, moved_.x.data() + i, moved_.y.data() + i,
+                           moved_.rho.data() + i, moved_.variance.data() + i},
+                          moved_.bounds[y]);
+        }
+    });
+    workers_->forRange(field_.size.height, 8,
+                       [&](int first, int last) { takeLanded(first, last); });
     std::swap(field_, carried_);
     std::swap(points_, carriedPoints_);
-    const PixelRect before = std::exchange(known_, carriedTo_);
-    for (int y = before.y0; y < before.y1; ++y)
-        carried_.forgetRow(y, before.x0, before.x1);
+    const PixelRect before = known_;
+    known_ = {};
+    for (const PixelRect& row : moved_.bounds)
+        known_ = around(known_, row);
+    workers_->forRange(before.y1 - before.y0, 32, [&](int first, int last) {
+        for (int y = before.y0 + first; y < before.y0 + last; ++y)
+            carried_.forgetRow(y, before.x0, before.x1);
+    });
     closeCracks();
 }
 
-// Points are homogeneous, (x, y, 1, rho): what is infinitely far only turns.
-void DepthFilter::carryRow(const Eigen::Matrix3f& R, const Eigen::Vector3f& t, int y) {
-    const int width = field_.size.width;
-    const auto first = static_cast<std::size_t>(y) * width;
-    for (std::size_t i = first + known_.x0; i < first + known_.x1; ++i) {
-        if (!field_.isKnown(i)) continue;
-        const float rho = field_.rho[i];
-        const Point& point = points_[i];
-        const Eigen::Vector3f turned = R * Eigen::Vector3f(lens_.rayX(i) + pixelX_ * point.x,
-                                                           lens_.rayY(i) + pixelY_ * point.y, 1);
-        const Eigen::Vector3f p = turned + rho * t;
-        if (!(p.z() > kNearestShare)) continue;
-        const auto q = lens_.project(p.x() / p.z(), p.y() / p.z());
-        const int landed = lens_.pixelAt(q);
-        if (landed < 0) continue;
-        const auto to = static_cast<std::size_t>(landed);
-        const float moved = rho / p.z();
-        if (carried_.isKnown(to) && carried_.rho[to] >= moved) continue;
-        const float slope = turned.z() / (p.z() * p.z());  // of moved by rho
-        const float variance = field_.variance[i] * slope * slope;
-        if (!InverseDepthField::isSound(moved, variance)) continue;
-        carried_.rho[to] = moved;
-        carried_.variance[to] = variance;
-        carried_.filled[to] = field_.filled[i];
-        const int column = landed % width, row = landed / width;
-        carriedTo_ = around(carriedTo_, {column, row, column + 1, row + 1});
-        carriedPoints_[to] = {q.x - static_cast<float>(column), q.y - static_cast<float>(row),
-                              point.outliers};
+void DepthFilter::takeLanded(int firstRow, int lastRow) {
+    const int first = firstRow * field_.size.width, last = lastRow * field_.size.width;
+    for (int y = known_.y0; y < known_.y1; ++y) {
+        const PixelRect& bounds = moved_.bounds[y];
+        if (bounds.empty() || bounds.y1 <= firstRow || bounds.y0 >= lastRow) continue;
+        const auto row = static_cast<std::size_t>(y) * field_.size.width;
+        for (std::size_t i = row + known_.x0; i < row + known_.x1; ++i) {
+            if (moved_.pixel[i] < first || moved_.pixel[i] >= last) continue;
+            const auto to = static_cast<std::size_t>(moved_.pixel[i]);
+            if (carried_.isKnown(to) && carried_.rho[to] >= moved_.rho[i]) continue;
+            carried_.rho[to] = moved_.rho[i];
+            carried_.variance[to] = moved_.variance[i];
+            carried_.filled[to] = field_.filled[i];
+            carriedPoints_.x[to] = moved_.x[i];
+            carriedPoints_.y[to] = moved_.y[i];
+            carriedPoints_.outliers[to] = points_.outliers[i];
+        }
     }
 }
 
 // A surface that comes nearer spreads its points; between them it goes on.
 void DepthFilter::closeCracks() {
     const int width = field_.size.width;
-    for (int y = known_.y0; y < known_.y1; ++y)
-        for (int x = known_.x0 + 1; x + 1 < known_.x1; ++x) {
-            const auto i = static_cast<std::size_t>(y) * width + x;
-            closeCrack(i, i - 1, i + 1);
-        }
-    for (int y = known_.y0 + 1; y + 1 < known_.y1; ++y)
-        for (int x = known_.x0; x < known_.x1; ++x) {
-            const auto i = static_cast<std::size_t>(y) * width + x;
-            closeCrack(i, i - width, i + width);
-        }
+    const int columns = known_.x1 - known_.x0 - 2, rows = known_.y1 - known_.y0;
+    workers_->forRange(columns > 0 ? rows : 0, 16, [&](int first, int last) {
+        for (int y = known_.y0 + first; y < known_.y0 + last; ++y)
+            for (int x = known_.x0 + 1; x + 1 < known_.x1; ++x) {
+                const auto i = static_cast<std::size_t>(y) * width + x;
+                closeCrack(i, i - 1, i + 1);
+            }
+    });
+    workers_->forRange(known_.x1 - known_.x0, 64, [&](int first, int last) {
+        for (int y = known_.y0 + 1; y + 1 < known_.y1; ++y)
+            for (int x = known_.x0 + first; x < known_.x0 + last; ++x) {
+                const auto i = static_cast<std::size_t>(y) * width + x;
+                closeCrack(i, i - width, i + width);
+            }
+    });
 }
 
 void DepthFilter::closeCrack(std::size_t i, std::size_t before, std::size_t after) {
@@ -136,7 +155,7 @@ void DepthFilter::closeCrack(std::size_t i, std::size_t before, std::size_t afte
     field_.rho[i] = 0.5F * field_.rho[before] + 0.5F * field_.rho[after];
     field_.variance[i] = 0.5F * sum + apart * apart;
     field_.filled[i] = 1;
-    points_[i] = {};
+    points_.reset(i);
 }
 
 void DepthFilter::fuse(const InverseDepthField& measured, const PixelRect& where) {
@@ -159,14 +178,16 @@ void DepthFilter::fusePixel(std::size_t i, float rho, float variance) {
         field_.rho[i] += gain * apart;
         field_.variance[i] = std::max((1 - gain) * field_.variance[i], kLeastShare * variance);
         field_.filled[i] = 0;
-        points_[i] = {(1 - gain) * points_[i].x, (1 - gain) * points_[i].y, 0};
+        points_.x[i] *= 1 - gain;
+        points_.y[i] *= 1 - gain;
+        points_.outliers[i] = 0;
         return;
     }
-    if (known && ++points_[i].outliers < kMostOutliers) return;
+    if (known && ++points_.outliers[i] < kMostOutliers) return;
     field_.rho[i] = rho;
     field_.variance[i] = variance;
     field_.filled[i] = 0;
-    points_[i] = {};
+    points_.reset(i);
 }
 
 void DepthFilter::forget(const PixelRect& where) {

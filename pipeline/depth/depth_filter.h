@@ -39,15 +39,22 @@ public:
     [[nodiscard]] const PixelRect& known() const { return known_; }
 
 private:
-    /// Of a pixel: where in it its point lies, from the middle [px], and how many measurements in a
-    /// row disagreed with it.
-    struct Point {
-        float x = 0, y = 0;
-        std::uint8_t outliers = 0;
+    /// Of pixels: where in each its point lies, from the middle [px], and how many measurements in
+    /// a row disagreed with it.
+    struct Points {
+        std::vector<float> x, y;
+        std::vector<std::uint8_t> outliers;
+
+        explicit Points(std::size_t pixels) : x(pixels), y(pixels), outliers(pixels) {}
+        void reset(std::size_t pixel) {
+            x[pixel] = y[pixel] = 0;
+            outliers[pixel] = 0;
+        }
     };
     [[nodiscard]] bool moves(const RigidTransform& T_now_before) const;
-    void carry(const RigidTransform& T_now_before);
-    void carryRow(const Eigen::Matrix3f& R, const Eigen::Vector3f& t, int y);
+    void carry(const RigidTransform& T_now_before, float growth);
+    /// Points that land in these rows of the picture, the nearest where several meet.
+    void takeLanded(int firstRow, int lastRow);
     void closeCracks();
     void closeCrack(std::size_t i, std::size_t before, std::size_t after);
     void fusePixel(std::size_t i, float rho, float variance);
@@ -58,8 +65,15 @@ private:
     std::optional<RigidTransform> fieldPose_;
     double moving_ = 0;                  // since the field was last carried [s]
     InverseDepthField field_, carried_;  // nothing is known in carried_ between two motions
-    PixelRect known_, carriedTo_;
-    std::vector<Point> points_, carriedPoints_;
+    PixelRect known_;
+    Points points_, carriedPoints_;
+    /// Where the points of known_ go in a motion.
+    struct Moved {
+        std::vector<std::int32_t> pixel;
+        std::vector<float> x, y, rho, variance;
+        std::vector<PixelRect> bounds;  // of what each row lands on
+    };
+    Moved moved_;
 };
 
 }  // namespace mfar

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -29,12 +30,13 @@ private:
     void takeField(const EpipolarSearch& search, std::span<const float> cells,
                    const PixelRect& where);
     void land(const EpipolarSearch& search, const Eigen::Matrix3f& R, const PixelRect& where);
+    void findNearest(const PixelRect& where);
 
     EpipolarLens lens_;
     float focal_;
     std::shared_ptr<Workers> workers_;
-    std::vector<int> landing_;        // pixel of the other picture, or -1
-    std::vector<float> s_, nearest_;  // s of what lands there first
+    std::vector<std::int32_t> landing_;  // pixel of the other picture, or -1
+    std::vector<float> s_, nearest_;     // s of what lands there first
 };
 
 }  // namespace mfar

@@ -1,24 +1,26 @@
 #include "pipeline/depth/edge_snap.h"
 
 #include "base/image_layout.h"
+#include "pipeline/simd/field_rows.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 namespace mfar {
 namespace {
 
 constexpr int kBand = 4;         // undecided on both sides of a depth edge [px]
 constexpr int kVoteRadius = 10;  // from where surfaces are taken [px]
-constexpr int kVoters = 2;       // every so manyth column and row votes
+constexpr int kVoters = simd::kVoterStep;
 // An edge, no slope: so much of the nearer inverse depth within 2 kBand + 1 pixels, and more than
 // noise makes.
 constexpr float kJump = 0.08F, kSigmas = 3;
 constexpr float kLikeness = 12;        // colours so far apart are alike by half [grey levels]
 constexpr float kLeastWeight = 0.75F;  // of all voters, each at most one
-constexpr float kLargest = std::numeric_limits<float>::max();
+
+static_assert(kBand <= simd::kMostRange);
 
 constexpr int nextVoter(int from) {
     return (from + kVoters - 1) / kVoters * kVoters;
@@ -76,26 +78,6 @@ private:
     std::array<std::array<int, 4>, 3> rows_{};
 };
 
-float likeness(const Colour& a, const Colour& b) {
-    const int r = a[0] - b[0], g = a[1] - b[1], u = a[2] - b[2];
-    const float square = static_cast<float>(r * r + g * g + u * u) / (kLikeness * kLikeness);
-    return 1 / (1 + square * square);
-}
-
-bool isSound(const InverseDepthField& field, std::size_t pixel) {
-    return InverseDepthField::isSound(field.rho[pixel], field.variance[pixel]);
-}
-
-/// Those that vote for one of two surfaces.
-struct Side {
-    float weight = 0, rho = 0, variance = 0;
-    void add(float w, float r, float v) {
-        weight += w;
-        rho += w * r;
-        variance += w * v;
-    }
-};
-
 }  // namespace
 
 EdgeSnap::EdgeSnap(Size video, std::shared_ptr<Workers> workers)
@@ -104,105 +86,108 @@ EdgeSnap::EdgeSnap(Size video, std::shared_ptr<Workers> workers)
     open_.resize(pixels);
     low_.resize(pixels);
     high_.resize(pixels);
+    const Size voters{nextVoter(video.width) / kVoters, nextVoter(video.height) / kVoters};
+    for (auto* plane :
+         {&voters_.rho, &voters_.variance, &voters_.red, &voters_.green, &voters_.blue})
+        *plane = AlignedRows<float>(voters);
 }
 
 const InverseDepthField& EdgeSnap::run(const InverseDepthField& in, const ImageView& frame,
                                        const PixelRect& where) {
-    for (int y = where_.y0; y < where_.y1; ++y)
-        out_.forgetRow(y, where_.x0, where_.x1);
-    where_ = where;
+    const PixelRect before = std::exchange(where_, where);
     findEdges(in, where);
-    workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
-        for (int y = where.y0 + first; y < where.y0 + last; ++y)
-            snapRow(in, frame, where, y);
+    gatherVoters(in, frame, where);
+    workers_->forRange(size_.height, 8, [&](int first, int last) {
+        for (int y = first; y < last; ++y) {
+            if (y >= before.y0 && y < before.y1) out_.forgetRow(y, before.x0, before.x1);
+            if (y < where.y0 || y >= where.y1) continue;
+            takeRow(in, where, y);
+            snapRow(frame, where, y);
+        }
     });
     return out_;
 }
 
 // Ranges along rows, then along columns.
 void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
-    const int width = size_.width;
+    if (where.empty()) return;
+    const std::ptrdiff_t pitch = size_.width;
+    const auto width = static_cast<std::size_t>(where.x1 - where.x0);
+    const auto at = [&](int y) { return y * pitch + where.x0; };
     workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
-        for (int y = where.y0 + first; y < where.y0 + last; ++y) {
-            const auto row = static_cast<std::size_t>(y) * width;
-            for (int x = where.x0; x < where.x1; ++x) {
-                float low = kLargest, high = -kLargest;
-                for (int u = std::max(x - kBand, where.x0); u < std::min(x + kBand + 1, where.x1);
-                     ++u) {
-                    const bool known = isSound(in, row + u);
-                    low = std::min(low, known ? in.rho[row + u] : kLargest);
-                    high = std::max(high, known ? in.rho[row + u] : -kLargest);
-                }
-                low_[row + x] = low;
-                high_[row + x] = high;
-            }
-        }
+        for (int y = where.y0 + first; y < where.y0 + last; ++y)
+            simd::rangeAlongRow(in.rho.data() + at(y), in.variance.data() + at(y), width, kBand,
+                                low_.data() + at(y), high_.data() + at(y));
     });
     workers_->forRange(where.y1 - where.y0, 8, [&](int first, int last) {
         for (int y = where.y0 + first; y < where.y0 + last; ++y) {
-            for (int x = where.x0; x < where.x1; ++x) {
-                float low = kLargest, high = -kLargest;
-                for (int v = std::max(y - kBand, where.y0); v < std::min(y + kBand + 1, where.y1);
-                     ++v) {
-                    const auto j = static_cast<std::size_t>(v) * width + x;
-                    low = std::min(low, low_[j]);
-                    high = std::max(high, high_[j]);
-                }
-                const auto i = static_cast<std::size_t>(y) * width + x;
-                const bool known = isSound(in, i);
-                const float noise = known ? kSigmas * std::sqrt(in.variance[i]) : 0.0F;
-                const bool edge = high - low > kJump * high + noise;
-                open_[i] = edge || !known ? 1 : 0;
-            }
+            const int begin = std::max(y - kBand, where.y0);
+            const int end = std::min(y + kBand + 1, where.y1);
+            simd::openRow(low_.data() + at(begin), high_.data() + at(begin), pitch, end - begin,
+                          in.rho.data() + at(y), in.variance.data() + at(y), width,
+                          {kJump, kSigmas}, open_.data() + at(y));
         }
     });
 }
 
-void EdgeSnap::take(const InverseDepthField& in, std::size_t i) {
-    if (!isSound(in, i)) {
-        out_.forget(i);
-        return;
-    }
-    out_.rho[i] = in.rho[i];
-    out_.variance[i] = in.variance[i];
-    out_.filled[i] = in.filled[i];
-}
-
-void EdgeSnap::snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
-                       int y) {
-    const int width = size_.width;
+void EdgeSnap::gatherVoters(const InverseDepthField& in, const ImageView& frame,
+                            const PixelRect& where) {
     const Colours colours(frame);
+    const int first = nextVoter(where.y0) / kVoters, last = nextVoter(where.y1) / kVoters;
+    workers_->forRange(last - first, 4, [&](int begin, int end) {
+        for (int j = first + begin; j < first + end; ++j) {
+            const int y = kVoters * j;
+            const auto row = static_cast<std::size_t>(y) * size_.width;
+            for (int x = nextVoter(where.x0); x < where.x1; x += kVoters) {
+                const int i = x / kVoters;
+                voters_.rho[j][i] = -1;
+                if (open_[row + x] != 0) continue;
+                voters_.rho[j][i] = in.rho[row + x];
+                voters_.variance[j][i] = in.variance[row + x];
+                const Colour colour = colours.at(x, y);
+                voters_.red[j][i] = static_cast<float>(colour[0]);
+                voters_.green[j][i] = static_cast<float>(colour[1]);
+                voters_.blue[j][i] = static_cast<float>(colour[2]);
+            }
+        }
+    });
+}
+
+void EdgeSnap::takeRow(const InverseDepthField& in, const PixelRect& where, int y) {
+    const auto row = static_cast<std::size_t>(y) * size_.width;
+    for (std::size_t i = row + where.x0; i < row + where.x1; ++i) {
+        const bool sound = InverseDepthField::isSound(in.rho[i], in.variance[i]);
+        out_.rho[i] = sound ? in.rho[i] : 0;
+        out_.variance[i] = sound ? in.variance[i] : InverseDepthField::kUnknown;
+        out_.filled[i] = sound ? in.filled[i] : std::uint8_t{0};
+    }
+}
+
+void EdgeSnap::snapRow(const ImageView& frame, const PixelRect& where, int y) {
+    const Colours colours(frame);
+    const std::uint8_t* open = open_.data() + static_cast<std::ptrdiff_t>(y) * size_.width;
+    std::array<simd::OpenPixel, 64> pixels;
+    std::size_t count = 0;
     for (int x = where.x0; x < where.x1; ++x) {
-        const auto i = static_cast<std::size_t>(y) * width + x;
-        take(in, i);
-        if (open_[i] == 0) continue;
-        const int x0 = nextVoter(std::max(x - kVoteRadius, where.x0));
-        const int y0 = nextVoter(std::max(y - kVoteRadius, where.y0));
-        const int x1 = std::min(x + kVoteRadius + 1, where.x1);
-        const int y1 = std::min(y + kVoteRadius + 1, where.y1);
-        float low = kLargest, high = -kLargest;
-        for (int v = y0; v < y1; v += kVoters)
-            for (int u = x0; u < x1; u += kVoters) {
-                const auto j = static_cast<std::size_t>(v) * width + u;
-                if (open_[j] != 0) continue;
-                low = std::min(low, in.rho[j]);
-                high = std::max(high, in.rho[j]);
-            }
-        if (low > high) continue;
-        const float middle = 0.5F * (low + high);
+        if (open[x] == 0) continue;
         const Colour own = colours.at(x, y);
-        std::array<Side, 2> sides;
-        for (int v = y0; v < y1; v += kVoters)
-            for (int u = x0; u < x1; u += kVoters) {
-                const auto j = static_cast<std::size_t>(v) * width + u;
-                if (open_[j] != 0) continue;
-                sides[in.rho[j] > middle ? 1 : 0].add(likeness(own, colours.at(u, v)), in.rho[j],
-                                                      in.variance[j]);
-            }
-        const Side& side = sides[sides[1].weight > sides[0].weight ? 1 : 0];
-        if (side.weight < kLeastWeight) continue;
-        out_.rho[i] = side.rho / side.weight;
-        out_.variance[i] = side.variance / side.weight;
+        pixels[count++] = {x, static_cast<float>(own[0]), static_cast<float>(own[1]),
+                           static_cast<float>(own[2])};
+        if (count == pixels.size())
+            decide(where, y, std::span(pixels).first(std::exchange(count, 0)));
+    }
+    decide(where, y, std::span(pixels).first(count));
+}
+
+void EdgeSnap::decide(const PixelRect& where, int y, std::span<simd::OpenPixel> pixels) {
+    const simd::Voters voters{voters_.rho.rows(), voters_.variance.rows(), voters_.red.rows(),
+                              voters_.green.rows(), voters_.blue.rows()};
+    simd::votePixels(voters, {kVoteRadius, kLikeness, kLeastWeight}, where, y, pixels);
+    for (const simd::OpenPixel& pixel : pixels) {
+        if (!pixel.decided) continue;
+        const auto i = static_cast<std::size_t>(y) * size_.width + pixel.x;
+        out_.rho[i] = pixel.rho;
+        out_.variance[i] = pixel.variance;
         out_.filled[i] = 1;
     }
 }

@@ -1,10 +1,13 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "base/rows.h"
 #include "base/workers.h"
 #include "pipeline/depth/inverse_depth_field.h"
+#include "pipeline/simd/edge_rows.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace mfar {
@@ -31,10 +34,11 @@ public:
 
 private:
     void findEdges(const InverseDepthField& in, const PixelRect& where);
+    void gatherVoters(const InverseDepthField& in, const ImageView& frame, const PixelRect& where);
     /// As it is, where it is sound.
-    void take(const InverseDepthField& in, std::size_t pixel);
-    void snapRow(const InverseDepthField& in, const ImageView& frame, const PixelRect& where,
-                 int y);
+    void takeRow(const InverseDepthField& in, const PixelRect& where, int y);
+    void snapRow(const ImageView& frame, const PixelRect& where, int y);
+    void decide(const PixelRect& where, int y, std::span<simd::OpenPixel> pixels);
 
     Size size_;
     std::shared_ptr<Workers> workers_;
@@ -42,6 +46,10 @@ private:
     PixelRect where_;
     std::vector<std::uint8_t> open_;  // 1: to be decided by likeness
     std::vector<float> low_, high_;   // rho along a row
+    /// simd::Voters' memory.
+    struct {
+        AlignedRows<float> rho, variance, red, green, blue;
+    } voters_;
 };
 
 }  // namespace mfar

@@ -19,7 +19,8 @@ constexpr int kGrid = 4;  // points a side, spread over a part
 }  // namespace
 
 double brightnessOf(const LumaImage& luma) {
-    const double sum = std::accumulate(luma.pixels.begin(), luma.pixels.end(), 0.0);
+    const auto sum = static_cast<double>(
+        std::accumulate(luma.pixels.begin(), luma.pixels.end(), std::uint64_t{0}));
     return luma.pixels.empty() ? 0 : sum / static_cast<double>(luma.pixels.size());
 }
 

@@ -175,17 +175,22 @@ int EpipolarSearch::finestLevel() const {
 void EpipolarSearch::readInverseDepth() {
     const int finest = finestLevel();
     const Level& level = levels_[finest];
-    std::vector<float>& smooth = finest > 0 ? scratch_ : inverseDepth_;
-    median3x3(level.labels, level.lens.size(), *workers_, smooth);
     const auto perLabel = static_cast<float>((1 << finest) / pixelsPerUnit_);
+    if (finest == 0) {
+        median3x3(level.labels, level.lens.size(), *workers_, inverseDepth_, perLabel);
+        return;
+    }
+    median3x3(level.labels, level.lens.size(), *workers_, scratch_, perLabel);
     const Size size = levels_[0].lens.size();
     const int columns = level.lens.size().width;
-    for (int y = 0; y < size.height; ++y) {
-        const std::size_t row = static_cast<std::size_t>(y) * size.width;
-        const std::size_t from = static_cast<std::size_t>(y >> finest) * columns;
-        for (int x = 0; x < size.width; ++x)
-            inverseDepth_[row + x] = perLabel * smooth[from + (x >> finest)];
-    }
+    workers_->forRange(size.height, 32, [&](int first, int last) {
+        for (int y = first; y < last; ++y) {
+            const float* from = scratch_.data() + static_cast<std::size_t>(y >> finest) * columns;
+            float* to = inverseDepth_.data() + static_cast<std::size_t>(y) * size.width;
+            for (int x = 0; x < size.width; ++x)
+                to[x] = from[x >> finest];
+        }
+    });
 }
 
 bool EpipolarSearch::place(const RigidTransform& told) {
@@ -357,11 +362,17 @@ void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
                                  : std::clamp(scale * scratch_[i], low + kHalf, high - kHalf);
         range_.low[i] = std::round(centre - 0.5F * (SemiGlobal::kLabels - 1));
     }
-    for (int y = 0; y < to.height; ++y)
-        for (int x = 0; x < to.width; ++x)
-            fine.base[static_cast<std::size_t>(y) * to.width + x] = static_cast<std::int16_t>(
-                range_.low[static_cast<std::size_t>(y >> coarse.shift) * from.width +
-                           (x >> coarse.shift)]);
+    const int side = 1 << coarse.shift;
+    workers_->forRange((to.height + side - 1) / side, 4, [&](int first, int last) {
+        for (int j = first; j < last; ++j) {
+            const float* low = range_.low.data() + static_cast<std::size_t>(j) * from.width;
+            std::int16_t* row = fine.base.data() + static_cast<std::size_t>(j) * side * to.width;
+            for (int x = 0; x < to.width; ++x)
+                row[x] = static_cast<std::int16_t>(low[x >> coarse.shift]);
+            for (int k = 1; k < std::min(side, to.height - j * side); ++k)
+                std::copy_n(row, to.width, row + static_cast<std::ptrdiff_t>(k) * to.width);
+        }
+    });
 }
 
 }  // namespace mfar
