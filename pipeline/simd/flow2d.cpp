@@ -87,13 +87,10 @@ void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) 
         const bool read = tile.matched != 0 && (tile.changed != 0 || !keepsUnchanged);
         wanted_.flags[i] = read ? 1 : 0;
     }
+    wantsAll_ = std::ranges::find(wanted_.flags, 0) == wanted_.flags.end();
     widen(wanted_, margin, between_, fine_);
     // The finest level takes vectors from cells beside, and those took some from theirs.
     widen(fine_, 1, between_, next_);
-}
-
-bool Flow2d::wantsAll() const {
-    return std::ranges::find(wanted_.flags, 0) == wanted_.flags.end();
 }
 
 // Cells that vectors of the video end in are confirmed there, between the cells around; the
@@ -116,7 +113,7 @@ void Flow2d::chooseBackward() {
 
 const TileMask* Flow2d::maskOf(const Direction& direction, int level) const {
     const int coarsest = static_cast<int>(direction.stages.size()) - 1;
-    if (level >= std::min(kMaskedLevels, coarsest) || wantsAll()) return nullptr;
+    if (level >= std::min(kMaskedLevels, coarsest) || wantsAll_) return nullptr;
     if (&direction == &backwards_) return &endsAround_;
     return level == 0 ? &fine_ : &next_;
 }
@@ -218,13 +215,12 @@ void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
     const bool keepsUnchanged = usePrior && !work.drawsWhole();
     const int reach = kCleanUpRadius + options_.propagations;
     chooseTiles(work, keepsUnchanged, (reach + kCellsPerTile - 1) / kCellsPerTile);
-    const bool all = wantsAll();
     for (int level = static_cast<int>(forwards_.stages.size()) - 1; level >= 0; --level) {
-        const bool together = level > backwardLevel_ || (all && level == backwardLevel_);
+        const bool together = level > backwardLevel_ || (wantsAll_ && level == backwardLevel_);
         searchLevel(together ? both : forwardAlone, level);
     }
     cleanUpForward(work, keepsUnchanged);
-    if (!all) {
+    if (!wantsAll_) {
         chooseBackward();
         searchLevel(backwardAlone, backwardLevel_);
     }

@@ -89,7 +89,6 @@ private:
 
     void chooseTiles(const TileWork& work, bool keepsUnchanged, int margin);
     void chooseBackward();
-    [[nodiscard]] bool wantsAll() const;
     /// The tiles that a level is searched in; null: all.
     [[nodiscard]] const TileMask* maskOf(const Direction& direction, int level) const;
     [[nodiscard]] int roundsAt(const Way& way, int level) const;
@@ -112,6 +111,7 @@ private:
     std::vector<FlowCell> forward_, backward_;
     std::vector<ErrorCell> errors_;
     bool errorsGiven_ = false;
+    bool wantsAll_ = false;       // every tile is in wanted_
     TileMask wanted_;             // tiles with results that are read
     TileMask fine_, next_;        // searched at the finest level, at the next
     TileMask ends_, endsAround_;  // where vectors end; searched for those

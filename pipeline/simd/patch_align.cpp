@@ -19,6 +19,9 @@ constexpr float kSteepest = 0.25F;
 // little along the row that they stay as close to their own places as four do at the steepest.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
+// Below this a patch counts as flat: its corners move by a hundredth of a pixel, less than the
+// slope of a field is known by.
+constexpr float kFlat = 1.0F / 256;
 // Shares of a pixel, in 16 bits with room for those of its neighbours.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
@@ -65,7 +68,7 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
-    std::int32_t x[kCount], upper[kCount], lower[kCount];  // columns, rows [px]
+    std::int32_t upper[kCount], lower[kCount];  // of the first pixel [bytes]
     // Shares of the next pixel, twice in 32 bits.
     std::int32_t shareX[kCount], shareY[kCount];
 };
@@ -94,6 +97,7 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     const auto toX = hn::Set(d, static_cast<float>(kCellSize * column - 2) + u.x);
     const auto toY = hn::Set(d, static_cast<float>(kCellSize * row - 2) + u.y);
     const auto last = hn::Set(dInt, p.height - 1), zero = hn::Zero(dInt);
+    const auto pitch = hn::Set(dInt, static_cast<std::int32_t>(p.pitch));
     const auto share = [&](auto value, auto whole, std::int32_t* to) HWY_ATTR {
         const auto s = hn::ConvertTo(dInt, hn::Mul(hn::Sub(value, whole), hn::Set(d, kShare)));
         hn::StoreU(hn::Or(s, hn::ShiftLeft<16>(s)), dInt, to);
@@ -117,11 +121,13 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
         const auto left = hn::Floor(x), top = hn::Floor(y);
         share(x, left, out.shareX + i);
         share(y, top, out.shareY + i);
-        const auto upper = hn::ConvertTo(dInt, top);
-        const auto lower = hn::Add(upper, hn::Set(dInt, 1));
-        hn::StoreU(hn::ConvertTo(dInt, left), dInt, out.x + i);
-        hn::StoreU(hn::Min(hn::Max(upper, zero), last), dInt, out.upper + i);
-        hn::StoreU(hn::Min(hn::Max(lower, zero), last), dInt, out.lower + i);
+        const auto columns = hn::ConvertTo(dInt, left), rows = hn::ConvertTo(dInt, top);
+        const auto offset = [&](auto lines) HWY_ATTR {
+            const auto held = hn::Min(hn::Max(lines, zero), last);
+            return hn::Add(hn::Mul(held, pitch), columns);
+        };
+        hn::StoreU(offset(rows), dInt, out.upper + i);
+        hn::StoreU(offset(hn::Add(rows, hn::Set(dInt, 1))), dInt, out.lower + i);
     }
 }
 
@@ -175,8 +181,8 @@ HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int colum
     const auto slopeY = hn::Set(d16, static_cast<std::int16_t>(bend.dx.y * (kShare / 2)));
     const auto middle = hn::Set(d16, 128 << kValueBits), most = hn::Set(d16, kMostValue);
     const auto least = hn::Neg(most);
-    RowProducts products;
-    ProductSum b;
+    RowProducts<Row16> products;
+    ProductSum<Row16> b;
     for (int c = 0; c < kPatch; c += kRowLanes) {
         const auto alongX = hn::Mul(alongPart<kParts>(c), slopeX);
         const auto alongY = hn::Mul(alongPart<kParts>(c), slopeY);
@@ -184,10 +190,10 @@ HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int colum
             const int first = kParts * r;
             const auto shareX = hn::Add(loadShares<kParts>(places.shareX + first, c), alongX);
             const auto shareY = hn::Add(loadShares<kParts>(places.shareY + first, c), alongY);
-            const auto between = [&](const std::int32_t* rows) HWY_ATTR {
+            const auto between = [&](const std::int32_t* offsets) HWY_ATTR {
                 const std::uint8_t* parts[kParts];
                 for (int i = first; i < first + kParts; ++i)
-                    parts[i - first] = p.pixels + rows[i] * p.pitch + places.x[i];
+                    parts[i - first] = p.pixels + offsets[i];
                 const auto here = loadParts<kParts>(parts, 0, c);
                 const auto step = hn::Sub(loadParts<kParts>(parts, 1, c), here);
                 return hn::Add(hn::ShiftLeft<kValueBits>(here),
@@ -228,9 +234,15 @@ HWY_INLINE void alignBatch(const AlignStep& step, AlignRoom& room) {
     const auto compare = [&](int i) HWY_ATTR {
         const Bend& bend = room.bend[i];
         const Vector2 u{batch.trial.x.of[i], batch.trial.y.of[i]};
-        const bool gentle = std::max(std::abs(bend.dx.x), std::abs(bend.dx.y)) < kGentle;
-        (gentle ? compareBent<1> : compareBent<2>)(batch.patch[i], step.to, batch.column[i],
-                                                   batch.row[i], u, bend, i, room.sums);
+        const Patch& patch = batch.patch[i];
+        const float alongRow = std::max(std::abs(bend.dx.x), std::abs(bend.dx.y));
+        const float downRows = std::max(std::abs(bend.dy.x), std::abs(bend.dy.y));
+        if (std::max(alongRow, downRows) < kFlat)
+            comparePatch(patch, step.to, batch.column[i], batch.row[i], u, i, room.sums);
+        else if (alongRow < kGentle)
+            compareBent<1>(patch, step.to, batch.column[i], batch.row[i], u, bend, i, room.sums);
+        else
+            compareBent<2>(patch, step.to, batch.column[i], batch.row[i], u, bend, i, room.sums);
     };
     for (int k = 0;; ++k) {
         tryActive(compare, room.sums, batch);

@@ -58,10 +58,8 @@ HWY_INLINE float bounded(float v, float low, float high) {
 }
 
 /// The patch of a cell: its pixels and twice its central differences.
-struct Patch {
-    alignas(16) std::int16_t pixels[64];
-    alignas(16) std::int16_t gx[64];
-    alignas(16) std::int16_t gy[64];
+struct alignas(64) Patch {
+    std::int16_t pixels[64], gx[64], gy[64];
 };
 
 /// A value for each cell of a batch.
@@ -102,18 +100,27 @@ struct alignas(64) Parts {
     }
 };
 
-/// Sum of products of 16-bit lanes.
+/// Sum of products of 16-bit lanes of one row, or of two.
+template <class D16>
 struct ProductSum {
-    Vec32 even, odd;
+    using D32 = hn::CappedTag<std::int32_t, HWY_MAX(hn::MaxLanes(D16()) / 2, 1)>;
+    hn::Vec<D32> even, odd;
 
     // Those that a compiler makes are for no instruction set.
-    HWY_INLINE ProductSum() : even(hn::Zero(Sum32())), odd(hn::Zero(Sum32())) {}
-    HWY_INLINE void add(Vec16 a, Vec16 b) {
-        even = hn::ReorderWidenMulAccumulate(Sum32(), a, b, even, odd);
+    HWY_INLINE ProductSum() : even(hn::Zero(D32())), odd(hn::Zero(D32())) {}
+    HWY_INLINE void add(hn::Vec<D16> a, hn::Vec<D16> b) {
+        even = hn::ReorderWidenMulAccumulate(D32(), a, b, even, odd);
     }
-    HWY_INLINE void store(Parts& parts, int cell) const {
-        hn::StoreU(hn::Add(even, odd), Sum32(), parts.of[cell]);
+    [[nodiscard]] HWY_INLINE Vec32 parts() const {
+        const auto all = hn::Add(even, odd);
+#if HWY_MAX_BYTES >= 32
+        if constexpr (hn::MaxLanes(D16()) > kPatch)
+            return hn::Add(hn::LowerHalf(Sum32(), all), hn::UpperHalf(Sum32(), all));
+        else
+#endif
+            return all;
     }
+    HWY_INLINE void store(Parts& to, int cell) const { hn::StoreU(parts(), Sum32(), to.of[cell]); }
 };
 
 HWY_INLINE Vec16 loadPixels(const std::uint8_t* from) {
@@ -184,7 +191,7 @@ HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, 
     const Row16 d16;
     const PatchRows rows(p, kCellSize * column - 3, kCellSize * row - 3, kPatch + 2, kPatch + 2);
     const auto middle = hn::Set(d16, 128), one = hn::Set(d16, 1);
-    ProductSum aa, ax, ay, xx, xy, yy, sumA, sumX, sumY;
+    ProductSum<Row16> aa, ax, ay, xx, xy, yy, sumA, sumX, sumY;
     for (int c = 0; c < kPatch; c += kRowLanes) {
         auto above = loadPixels(rows[0] + c + 1), here = loadPixels(rows[1] + c + 1);
         // Eight times 255 at most.
@@ -258,13 +265,14 @@ struct CompareSums {
     Parts b, bb, ab, xb, yb;
 };
 
-/// All of these but the first, row by row.
+/// All of these but the first, by rows.
+template <class D16>
 struct RowProducts {
-    ProductSum bb, ab, xb, yb;
+    ProductSum<D16> bb, ab, xb, yb;
 
     HWY_INLINE RowProducts() : bb(), ab(), xb(), yb() {}
-    HWY_INLINE void add(const Patch& patch, int at, Vec16 value) {
-        const Row16 d16;
+    HWY_INLINE void add(const Patch& patch, int at, hn::Vec<D16> value) {
+        const D16 d16;
         bb.add(value, value);
         ab.add(hn::Load(d16, patch.pixels + at), value);
         xb.add(hn::Load(d16, patch.gx + at), value);
@@ -278,29 +286,61 @@ struct RowProducts {
     }
 };
 
-/// The patch against a level, displaced by u pixels. Positions outside are held at the border.
-HWY_INLINE void comparePatch(const Patch& patch, const PatchPicture& p, int column, int row,
-                             Vector2 u, int cell, CompareSums& out) {
-    const Row16 d16;
-    const float x = bounded(static_cast<float>(kCellSize * column - 2) + u.x, -7.0F,
-                            static_cast<float>(p.width - 2));
-    const float y = bounded(static_cast<float>(kCellSize * row - 2) + u.y, -7.0F,
-                            static_cast<float>(p.height - 2));
-    const float left = std::floor(x), top = std::floor(y);
-    const PatchRows rows(p, static_cast<int>(left), static_cast<int>(top), kPatch + 1, kPatch + 1);
-    const auto right = hn::Set(d16, static_cast<std::int16_t>((x - left) * 32767));
-    const auto down = hn::Set(d16, static_cast<std::int16_t>((y - top) * 32767));
-    const auto middle = hn::Set(d16, 128 << kValueBits);
-    const auto between = [&](const std::uint8_t* from) HWY_ATTR {
-        const auto here = loadPixels(from);
-        const auto step = hn::ShiftLeft<kValueBits>(hn::Sub(loadPixels(from + 1), here));
-        return hn::Add(hn::Sub(hn::ShiftLeft<kValueBits>(here), middle),
-                       hn::MulFixedPoint15(step, right));
+/// Pixels between those of a row and their neighbours on the right, less 128.
+template <class D16>
+HWY_INLINE hn::Vec<D16> betweenColumns(hn::Vec<D16> here, hn::Vec<D16> next, hn::Vec<D16> right) {
+    const auto step = hn::ShiftLeft<kValueBits>(hn::Sub(next, here));
+    const auto middle = hn::Set(D16(), 128 << kValueBits);
+    return hn::Add(hn::Sub(hn::ShiftLeft<kValueBits>(here), middle),
+                   hn::MulFixedPoint15(step, right));
+}
+
+#if HWY_MAX_BYTES >= 32
+// Two rows of a patch in one vector.
+using Rows16 = hn::CappedTag<std::int16_t, 2 * kPatch>;
+
+HWY_INLINE hn::Vec<Rows16> loadTwoRows(const std::uint8_t* upper, const std::uint8_t* lower) {
+    const hn::FixedTag<std::uint8_t, 2 * kPatch> d8;
+    return hn::PromoteTo(Rows16(),
+                         hn::Combine(d8, hn::LoadU(Row8(), lower), hn::LoadU(Row8(), upper)));
+}
+
+/// Adds up the products of a patch with the pixels between rows of the other picture.
+HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_t across,
+                          std::int16_t along, int cell, CompareSums& out) {
+    const Rows16 d;
+    const auto right = hn::Set(d, across), down = hn::Set(d, along);
+    const auto between = [&](int upper, int lower) HWY_ATTR {
+        return betweenColumns<Rows16>(loadTwoRows(rows[upper], rows[lower]),
+                                      loadTwoRows(rows[upper] + 1, rows[lower] + 1), right);
     };
-    RowProducts products;
-    ProductSum b;
+    RowProducts<Rows16> products;
+    auto above = between(0, 1), columns = hn::Zero(d);
+    for (int r = 0; r < kPatch; r += 2) {
+        const auto next = between(r + 2, std::min(r + 3, kPatch));
+        const auto below = hn::ConcatLowerUpper(d, next, above);
+        const auto v = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
+        columns = hn::Add(columns, v);
+        products.add(patch, kPatch * r, v);
+        above = next;
+    }
+    ProductSum<Rows16> b;
+    b.add(columns, hn::Set(d, 1));
+    products.store(out, cell);
+    b.store(out.b, cell);
+}
+#else
+HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_t across,
+                          std::int16_t along, int cell, CompareSums& out) {
+    const Row16 d;
+    const auto right = hn::Set(d, across), down = hn::Set(d, along);
+    const auto between = [&](const std::uint8_t* from) HWY_ATTR {
+        return betweenColumns<Row16>(loadPixels(from), loadPixels(from + 1), right);
+    };
+    RowProducts<Row16> products;
+    ProductSum<Row16> b;
     for (int c = 0; c < kPatch; c += kRowLanes) {
-        auto above = between(rows[0] + c), columns = hn::Zero(d16);
+        auto above = between(rows[0] + c), columns = hn::Zero(d);
         for (int r = 0; r < kPatch; ++r) {
             const auto below = between(rows[r + 1] + c);
             const auto v = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
@@ -308,10 +348,25 @@ HWY_INLINE void comparePatch(const Patch& patch, const PatchPicture& p, int colu
             products.add(patch, kPatch * r + c, v);
             above = below;
         }
-        b.add(columns, hn::Set(d16, 1));
+        b.add(columns, hn::Set(d, 1));
     }
     products.store(out, cell);
     b.store(out.b, cell);
+}
+#endif
+
+/// The patch against a level, displaced by u pixels. Positions outside are held at the border.
+HWY_INLINE void comparePatch(const Patch& patch, const PatchPicture& p, int column, int row,
+                             Vector2 u, int cell, CompareSums& out) {
+    const float x = bounded(static_cast<float>(kCellSize * column - 2) + u.x, -7.0F,
+                            static_cast<float>(p.width - 2));
+    const float y = bounded(static_cast<float>(kCellSize * row - 2) + u.y, -7.0F,
+                            static_cast<float>(p.height - 2));
+    const float left = std::floor(x), top = std::floor(y);
+    const auto shareOf = [](float v) { return static_cast<std::int16_t>(v * 32767); };
+    addUpRows(patch,
+              PatchRows(p, static_cast<int>(left), static_cast<int>(top), kPatch + 1, kPatch + 1),
+              shareOf(x - left), shareOf(y - top), cell, out);
 }
 
 /// Takes the trials that are active and fit better than the best so far; the others are active no

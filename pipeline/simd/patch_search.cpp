@@ -75,7 +75,7 @@ HWY_INLINE void sumWhole(const Patch& patch, const PatchRows& rows, std::size_t 
     const Row16 d16;
     const Sum32 d32;
     const auto middle = hn::Set(d16, 128);
-    ProductSum bb, ab, b;
+    ProductSum<Row16> bb, ab, b;
     for (int c = 0; c < kPatch; c += kRowLanes) {
         auto columns = hn::Zero(d16);
         for (int r = 0; r < kPatch; ++r) {
@@ -86,8 +86,8 @@ HWY_INLINE void sumWhole(const Patch& patch, const PatchRows& rows, std::size_t 
         }
         b.add(columns, hn::Set(d16, 1));
     }
-    const auto sum = [&](const ProductSum& s) HWY_ATTR {
-        return static_cast<float>(hn::GetLane(hn::SumOfLanes(d32, hn::Add(s.even, s.odd))));
+    const auto sum = [&](const ProductSum<Row16>& s) HWY_ATTR {
+        return static_cast<float>(hn::GetLane(hn::SumOfLanes(d32, s.parts())));
     };
     out.b[at] = sum(b);
     out.bb[at] = sum(bb);
