@@ -6,7 +6,7 @@
 // clang-format off: in this order alone
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include "pipeline/simd/patch_inl.h"
+#include "pipeline/simd/patch_batch_inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -164,51 +164,111 @@ HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
 
 /// Twice the columns of a row's pixels from the middle of their part.
 template <int kParts>
-HWY_INLINE Vec16 alongPart(int c) {
+HWY_INLINE const std::int16_t* alongPart() {
     alignas(16) static constexpr std::int16_t kAlong[2][kPatch] = {{-7, -5, -3, -1, 1, 3, 5, 7},
                                                                    {-3, -1, 1, 3, -3, -1, 1, 3}};
-    return hn::Load(Row16(), kAlong[kParts - 1] + c);
+    return kAlong[kParts - 1];
 }
 
-/// comparePatch() with a flow that changes over the patch.
+/// What a bent patch sees between the pixels of two rows and their neighbours on the right.
+template <class D16>
+struct BentPixels {
+    hn::Vec<D16> shareX, shareY;
+
+    /// Between the pixels of one row.
+    HWY_INLINE hn::Vec<D16> across(hn::Vec<D16> here, hn::Vec<D16> next) const {
+        const auto step = hn::ShiftLeft<kValueBits + 1>(hn::Sub(next, here));
+        return hn::Add(hn::ShiftLeft<kValueBits>(here), hn::MulFixedPoint15(step, shareX));
+    }
+    /// Less 128.
+    HWY_INLINE hn::Vec<D16> down(hn::Vec<D16> upper, hn::Vec<D16> lower) const {
+        const D16 d;
+        const auto most = hn::Set(d, kMostValue), middle = hn::Set(d, 128 << kValueBits);
+        const auto step = hn::ShiftLeft<1>(hn::Sub(lower, upper));
+        const auto v = hn::Sub(hn::Add(upper, hn::MulFixedPoint15(step, shareY)), middle);
+        return hn::Min(hn::Max(v, hn::Neg(most)), most);
+    }
+};
+
+/// Adds up the products of a patch with the pixels of the other picture at its places. `slopeX`,
+/// `slopeY`: change of the shares by half a pixel along the row.
 template <int kParts>
-HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int column, int row,
-                            Vector2 u, const Bend& bend, int cell, CompareSums& out) {
+HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
+                           const BentPlaces<kParts>& places, std::int16_t slopeX,
+                           std::int16_t slopeY, int cell, CompareSums& out) {
     const Row16 d16;
-    BentPlaces<kParts> places;
-    placeParts<kParts>(p, column, row, u, bend, places);
-    const auto slopeX = hn::Set(d16, static_cast<std::int16_t>(bend.dx.x * (kShare / 2)));
-    const auto slopeY = hn::Set(d16, static_cast<std::int16_t>(bend.dx.y * (kShare / 2)));
-    const auto middle = hn::Set(d16, 128 << kValueBits), most = hn::Set(d16, kMostValue);
-    const auto least = hn::Neg(most);
     RowProducts<Row16> products;
     ProductSum<Row16> b;
     for (int c = 0; c < kPatch; c += kRowLanes) {
-        const auto alongX = hn::Mul(alongPart<kParts>(c), slopeX);
-        const auto alongY = hn::Mul(alongPart<kParts>(c), slopeY);
+        const auto along = hn::Load(d16, alongPart<kParts>() + c);
+        const auto alongX = hn::Mul(along, hn::Set(d16, slopeX));
+        const auto alongY = hn::Mul(along, hn::Set(d16, slopeY));
         for (int r = 0; r < kPatch; ++r) {
             const int first = kParts * r;
-            const auto shareX = hn::Add(loadShares<kParts>(places.shareX + first, c), alongX);
-            const auto shareY = hn::Add(loadShares<kParts>(places.shareY + first, c), alongY);
+            const BentPixels<Row16> bent{
+                hn::Add(loadShares<kParts>(places.shareX + first, c), alongX),
+                hn::Add(loadShares<kParts>(places.shareY + first, c), alongY)};
             const auto between = [&](const std::int32_t* offsets) HWY_ATTR {
                 const std::uint8_t* parts[kParts];
                 for (int i = first; i < first + kParts; ++i)
-                    parts[i - first] = p.pixels + offsets[i];
-                const auto here = loadParts<kParts>(parts, 0, c);
-                const auto step = hn::Sub(loadParts<kParts>(parts, 1, c), here);
-                return hn::Add(hn::ShiftLeft<kValueBits>(here),
-                               hn::MulFixedPoint15(hn::ShiftLeft<kValueBits + 1>(step), shareX));
+                    parts[i - first] = pixels + offsets[i];
+                return bent.across(loadParts<kParts>(parts, 0, c), loadParts<kParts>(parts, 1, c));
             };
-            const auto upper = between(places.upper), lower = between(places.lower);
-            const auto step = hn::ShiftLeft<1>(hn::Sub(lower, upper));
-            auto v = hn::Sub(hn::Add(upper, hn::MulFixedPoint15(step, shareY)), middle);
-            v = hn::Min(hn::Max(v, least), most);
+            const auto v = bent.down(between(places.upper), between(places.lower));
             products.add(patch, kPatch * r + c, v);
             b.add(v, hn::Set(d16, 1));
         }
     }
     products.store(out, cell);
     b.store(out.b, cell);
+}
+
+#if HWY_MAX_BYTES >= 32
+/// The same where whole rows have one place, two rows at once.
+HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
+                             const BentPlaces<1>& places, std::int16_t slopeX, std::int16_t slopeY,
+                             int cell, CompareSums& out) {
+    const Rows16 d;
+    const Row16 dRow;
+    RowProducts<Rows16> products;
+    ProductSum<Rows16> b;
+    const auto inBoth = [&](auto row) HWY_ATTR { return hn::Combine(d, row, row); };
+    const auto along = inBoth(hn::Load(dRow, alongPart<1>()));
+    const auto alongX = hn::Mul(along, hn::Set(d, slopeX));
+    const auto alongY = hn::Mul(along, hn::Set(d, slopeY));
+    for (int r = 0; r < kPatch; r += 2) {
+        const auto share = [&](const std::int32_t* of) HWY_ATTR {
+            return hn::Combine(d, loadShares<1>(of + r + 1, 0), loadShares<1>(of + r, 0));
+        };
+        const BentPixels<Rows16> bent{hn::Add(share(places.shareX), alongX),
+                                      hn::Add(share(places.shareY), alongY)};
+        const auto between = [&](const std::int32_t* offsets) HWY_ATTR {
+            const std::uint8_t *first = pixels + offsets[r], *second = pixels + offsets[r + 1];
+            return bent.across(loadTwoRows(first, second), loadTwoRows(first + 1, second + 1));
+        };
+        const auto v = bent.down(between(places.upper), between(places.lower));
+        products.add(patch, kPatch * r, v);
+        b.add(v, hn::Set(d, 1));
+    }
+    products.store(out, cell);
+    b.store(out.b, cell);
+}
+#endif
+
+/// comparePatch() with a flow that changes over the patch.
+template <int kParts>
+HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int column, int row,
+                            Vector2 u, const Bend& bend, int cell, CompareSums& out) {
+    BentPlaces<kParts> places;
+    placeParts<kParts>(p, column, row, u, bend, places);
+    const auto slopeX = static_cast<std::int16_t>(bend.dx.x * (kShare / 2));
+    const auto slopeY = static_cast<std::int16_t>(bend.dx.y * (kShare / 2));
+#if HWY_MAX_BYTES >= 32
+    if constexpr (kParts == 1)
+        addUpTwoRows(patch, p.pixels, places, slopeX, slopeY, cell, out);
+    else
+#endif
+        addUpParts<kParts>(patch, p.pixels, places, slopeX, slopeY, cell, out);
 }
 
 /// Room for a batch and what is added up for it.

@@ -6,7 +6,7 @@
 // clang-format off: in this order alone
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-#include "pipeline/simd/patch_inl.h"
+#include "pipeline/simd/patch_batch_inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();

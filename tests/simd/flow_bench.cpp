@@ -56,14 +56,20 @@ void measure(int threads, int runs) {
     row("flow, 30 tiles of 1200", leastMs(runs, [&] { flow.run(luma, few, true); }));
     const Size cells = cellsOf(kVideo);
     const std::size_t count = static_cast<std::size_t>(cells.width) * cells.height;
-    std::vector<std::array<float, 4>> seed(count, {6.1F, -2.3F, 0, 0}), errors(count);
-    for (std::size_t i = 0; i < count; ++i)
-        seed[i][0] += 0.01F * static_cast<float>(i % 160) - 0.8F;
-    row("refine, slanted", leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
-    std::printf("  searched tiles: %d\n", flow.searchedCount());
-    for (auto& s : seed)
-        s = {6.1F, -2.3F, 0, 0};
-    row("refine, even", leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
+    const std::vector<std::array<float, 4>> errors(count);
+    for (const double stretch : {1.0, 1.02, 1.12}) {
+        const FlowPicture bent = wavesMoved(kVideo, {6.3, -2.4}, 1, 0, 1, stretch);
+        pyramids.buildSecond(bent.rows());
+        std::vector<std::array<float, 4>> seed(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = 4 * static_cast<double>(i % 160) + 1.5;
+            seed[i] = {static_cast<float>(x * (stretch - 1) + 6.1), -2.3F, 0, 0};
+        }
+        char what[32];
+        std::snprintf(what, sizeof what, "refine, stretched by %.2f", stretch);
+        row(what, leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
+        std::printf("  searched tiles: %d\n", flow.searchedCount());
+    }
 }
 
 }  // namespace

@@ -34,9 +34,10 @@ struct FlowPicture {
 };
 
 /// A sum of plane waves of 6 to 80 px that is known at every position, moved by `shift`: what a
-/// pixel of the picture without a shift shows lies `shift` farther.
+/// pixel of the picture without a shift shows lies `shift` farther. `stretch`: along x, from the
+/// left border on.
 inline FlowPicture wavesMoved(Size size, Eigen::Vector2d shift, double gain = 1, double offset = 0,
-                              unsigned seed = 1) {
+                              unsigned seed = 1, double stretch = 1) {
     constexpr int kWaves = 24;
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -48,7 +49,7 @@ inline FlowPicture wavesMoved(Size size, Eigen::Vector2d shift, double gain = 1,
         const double kx = k * std::cos(angle), ky = k * std::sin(angle);
         std::vector<double> sine(static_cast<std::size_t>(size.width)), cosine(sine.size());
         for (std::size_t x = 0; x < sine.size(); ++x) {
-            const double p = kx * (static_cast<double>(x) - shift.x()) + phase;
+            const double p = kx * (static_cast<double>(x) - shift.x()) / stretch + phase;
             sine[x] = 9 * std::sin(p);
             cosine[x] = 9 * std::cos(p);
         }
