@@ -44,7 +44,7 @@ void DepthStage::forget() {
     source_ = DepthSource::None;
 }
 
-void DepthStage::run(const LumaImage& luma, const Pose& pose,
+void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
                      const std::optional<StillSearch>& still, const PixelRect& where) {
     const double seconds = last_ ? static_cast<double>((pose.time - *last_).count()) * 1e-9 : 0;
     last_ = pose.time;
@@ -103,7 +103,7 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
 
 // One search a frame: against the keyframe of the part that knows least, for all parts that chose
 // it.
-void DepthStage::searchKeyframe(const LumaImage& luma, const Pose& pose) {
+void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };
     const Keyframe& frame =
@@ -114,7 +114,7 @@ void DepthStage::searchKeyframe(const LumaImage& luma, const Pose& pose) {
     const UnitPose relative = unitPose({}, frame.pose, pose);
     if (!(relative.lengthError < kMostLengthError)) return;
     if (frame.number != searchedKey_) {
-        search_.setStill(viewOf(frame.luma));
+        search_.setStill(frame.luma);
         searchedKey_ = frame.number;
     }
     search_.setArea(widened(where, kSupport, luma.size));

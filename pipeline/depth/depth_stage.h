@@ -33,8 +33,8 @@ public:
     /// What is there to measure against has changed: another still.
     void renew() { measuredPose_.reset(); }
     /// A frame that changed. Measures inside of `where`, which may be empty.
-    void run(const LumaImage& luma, const Pose& pose, const std::optional<StillSearch>& still,
-             const PixelRect& where);
+    void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
+             const std::optional<StillSearch>& still, const PixelRect& where);
     /// Something moves in these pixels: nothing is known of them.
     void forget(const PixelRect& where) { filter_.forget(where); }
 
@@ -56,7 +56,7 @@ private:
     [[nodiscard]] bool seesMore(const Pose& pose, double rho, const PixelRect& where) const;
     void findNeeds(const Pose& pose, double brightness, double stillBaseline,
                    const PixelRect& where);
-    void searchKeyframe(const LumaImage& luma, const Pose& pose);
+    void searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose);
     [[nodiscard]] std::span<const float> predicted(const UnitPose& relative,
                                                    const PixelRect& where);
 

@@ -1,7 +1,9 @@
 #include "pipeline/depth/keyframes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -18,10 +20,12 @@ constexpr int kGrid = 4;  // points a side, spread over a part
 
 }  // namespace
 
-double brightnessOf(const LumaImage& luma) {
-    const auto sum = static_cast<double>(
-        std::accumulate(luma.pixels.begin(), luma.pixels.end(), std::uint64_t{0}));
-    return luma.pixels.empty() ? 0 : sum / static_cast<double>(luma.pixels.size());
+double brightnessOf(const Rows<const std::uint8_t>& luma) {
+    const auto [width, height] = luma.size;
+    std::uint64_t sum = 0;
+    for (int y = 0; y < height; ++y)
+        sum += std::accumulate(luma[y], luma[y] + width, std::uint32_t{0});
+    return width > 0 && height > 0 ? static_cast<double>(sum) / (1.0 * width * height) : 0;
 }
 
 Keyframes::Keyframes(const CameraModel& video, const KeyframeOptions& options)
@@ -31,7 +35,8 @@ void Keyframes::forget() {
     frames_.clear();
 }
 
-void Keyframes::add(const LumaImage& luma, const Pose& pose, double brightness, double rho) {
+void Keyframes::add(const Rows<const std::uint8_t>& luma, const Pose& pose, double brightness,
+                    double rho) {
     ++count_;
     if (!frames_.empty()) {
         const RigidTransform T = frames_.front().pose.T_world_video.inverse() * pose.T_world_video;
@@ -43,42 +48,43 @@ void Keyframes::add(const LumaImage& luma, const Pose& pose, double brightness, 
         frame = std::move(frames_.back());  // its memory
         frames_.pop_back();
     }
-    frame.luma = luma;
+    cut(luma, {0, 0, luma.size.width, luma.size.height}, frame.luma);
     frame.pose = pose;
     frame.brightness = brightness;
     frame.number = count_;
     frames_.push_front(std::move(frame));
 }
 
-Keyframes::Relation Keyframes::relationOf(const RigidTransform& T_key_now, const PixelRect& part,
-                                          double rho) const {
+Keyframes::Relation Keyframes::relationOf(const RigidTransform& T_key_now,
+                                          std::span<const Eigen::Vector2d> rays, double rho) const {
     Relation out;
-    for (int j = 0; j < kGrid; ++j) {
-        for (int i = 0; i < kGrid; ++i) {
-            const Eigen::Vector2d ray =
-                video_.unproject({std::lerp(part.x0, part.x1, (i + 0.5) / kGrid) - 0.5,
-                                  std::lerp(part.y0, part.y1, (j + 0.5) / kGrid) - 0.5});
-            const Eigen::Vector3d turned = T_key_now.rotation * ray.homogeneous();
-            const Eigen::Vector3d p = turned + rho * T_key_now.translation;
-            out.angle += std::atan2(turned.cross(p).norm(), turned.dot(p)) / (kGrid * kGrid);
-            if (!(p.z() > 0)) continue;
-            const Eigen::Vector2d q = video_.project(p.hnormalized());
-            if (q.minCoeff() >= 0 && q.x() < video_.size.width && q.y() < video_.size.height)
-                out.overlap += 1.0 / (kGrid * kGrid);
-        }
+    const double share = 1.0 / static_cast<double>(rays.size());
+    for (const Eigen::Vector2d& ray : rays) {
+        const Eigen::Vector3d turned = T_key_now.rotation * ray.homogeneous();
+        const Eigen::Vector3d p = turned + rho * T_key_now.translation;
+        out.angle += share * std::atan2(turned.cross(p).norm(), turned.dot(p));
+        if (!(p.z() > 0)) continue;
+        const Eigen::Vector2d q = video_.project(p.hnormalized());
+        if (q.minCoeff() >= 0 && q.x() < video_.size.width && q.y() < video_.size.height)
+            out.overlap += share;
     }
     return out;
 }
 
 std::optional<Keyframes::Choice> Keyframes::choose(const Pose& pose, double brightness,
                                                    const PixelRect& part, double rho) const {
+    std::array<Eigen::Vector2d, static_cast<std::size_t>(kGrid) * kGrid> rays;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        rays[i] = video_.unproject(
+            {std::lerp(part.x0, part.x1, (static_cast<double>(i % kGrid) + 0.5) / kGrid) - 0.5,
+             std::lerp(part.y0, part.y1, (static_cast<double>(i / kGrid) + 0.5) / kGrid) - 0.5});
     std::optional<Choice> best;
     double least = 0;
     for (const Keyframe& frame : frames_) {
         const long age = count_ + 1 - frame.number;
         if (options_.rule == KeyframeRule::Fixed && age < options_.distance) continue;
         const RigidTransform T_key_now = frame.pose.T_world_video.inverse() * pose.T_world_video;
-        const auto [angle, overlap] = relationOf(T_key_now, part, rho);
+        const auto [angle, overlap] = relationOf(T_key_now, rays, rho);
         if (!(angle >= options_.leastAngle && overlap >= options_.leastOverlap)) continue;
         if (options_.rule == KeyframeRule::Angle && angle < options_.angle) continue;
         const double exposure = std::abs(std::log((brightness + 1) / (frame.brightness + 1)));

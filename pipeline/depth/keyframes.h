@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <span>
 
 namespace mfar {
 
@@ -27,7 +28,7 @@ public:
     void forget();
     /// Takes a frame, if the camera has moved by more than rounding since the newest. `rho`: of the
     /// scene [1/m], what a typical point of it has. `brightness`: of the luma.
-    void add(const LumaImage& luma, const Pose& pose, double brightness, double rho);
+    void add(const Rows<const std::uint8_t>& luma, const Pose& pose, double brightness, double rho);
 
     struct Choice {
         const Keyframe* frame;
@@ -45,8 +46,8 @@ private:
         double angle = 0;    ///< mean parallax [rad]
         double overlap = 0;  ///< share of them that is in the picture there
     };
-    [[nodiscard]] Relation relationOf(const RigidTransform& T_key_now, const PixelRect& part,
-                                      double rho) const;
+    [[nodiscard]] Relation relationOf(const RigidTransform& T_key_now,
+                                      std::span<const Eigen::Vector2d> rays, double rho) const;
 
     CameraModel video_;
     KeyframeOptions options_;
@@ -55,6 +56,6 @@ private:
 };
 
 /// Mean of the pixels.
-[[nodiscard]] double brightnessOf(const LumaImage& luma);
+[[nodiscard]] double brightnessOf(const Rows<const std::uint8_t>& luma);
 
 }  // namespace mfar

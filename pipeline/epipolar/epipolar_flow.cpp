@@ -1,9 +1,11 @@
 #include "pipeline/epipolar/epipolar_flow.h"
 
+#include "base/image_layout.h"
 #include "pipeline/epipolar/near_plane.h"
 #include "pipeline/flow/cell_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mfar {
@@ -25,22 +27,57 @@ PixelRect searchedFor(const PixelRect& where, Size video) {
             up(around.y1, video.height)};
 }
 
+/// The middle two columns, or rows, of a cell, as far as the picture has them.
+struct Middle {
+    int first, last;
+    [[nodiscard]] float middle() const { return 0.5F * static_cast<float>(first + last); }
+};
+
+Middle middleOf(int cell, int pixels) {
+    const int first = std::clamp(kCell * cell + 1, 0, std::max(pixels - 2, 0));
+    return {first, std::min(first + 1, pixels - 1)};
+}
+
 }  // namespace
 
 EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                            const EpipolarOptions& options)
-    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, workers, options),
+    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, workers, options), workers_(workers),
       mostPredicted_(options.mostPredicted), prediction_(rig.video), lens_(rig.video, 0),
       cellRays_(rig.video, 2), rotation_(Eigen::Matrix3f::Identity()) {
     if (options.bothWays) twoWay_.emplace(rig, std::move(workers), options);
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);
     hidden_.resize(count);
+    landing_.resize(count);
+    const Size video = rig.video.size;
+    for (int i = 0; i < cells_.width; ++i)
+        middlesX_.push_back(middleOf(i, video.width).middle());
+    for (int j = 0; j < cells_.height; ++j)
+        middlesY_.push_back(middleOf(j, video.height).middle());
+    for (int j = 0; j < cells_.height; ++j) {
+        const Middle y = middleOf(j, video.height);
+        for (int i = 0; i < cells_.width; ++i) {
+            const Middle x = middleOf(i, video.width);
+            const auto pixel = [&](int u, int v) {
+                return static_cast<std::size_t>(v) * video.width + u;
+            };
+            const std::size_t first = pixel(x.first, y.first), last = pixel(x.last, y.last);
+            middleRaysX_.push_back(0.5F * (lens_.rayX(first) + lens_.rayX(last)));
+            middleRaysY_.push_back(0.5F * (lens_.rayY(first) + lens_.rayY(last)));
+        }
+    }
     nearness_.resize(count);
     nearest_.resize(count);
 }
 
 void EpipolarFlow::setStill(const ImageView& still, const Pose& pose) {
+    search_.setStill(still);
+    stillPose_ = pose;
+    prediction_.forget();
+}
+
+void EpipolarFlow::setStill(const Rows<const std::uint8_t>& still, const Pose& pose) {
     search_.setStill(still);
     stillPose_ = pose;
     prediction_.forget();
@@ -57,7 +94,19 @@ void EpipolarFlow::dropStill() {
 }
 
 void EpipolarFlow::run(const ImageView& video, const Pose& pose, const PixelRect& where) {
+    if (const auto plane = lumaPlane(video)) {
+        run(Rows<const std::uint8_t>{plane->data, static_cast<std::ptrdiff_t>(plane->stride),
+                                     plane->size},
+            pose, where);
+        return;
+    }
     lumaOf(video, luma_);
+    run(luma_.rows(), pose, where);
+}
+
+void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
+                       const PixelRect& where) {
+    frame_ = video;
     const UnitPose relative = unitPose(rig_.T_still_video, *stillPose_, pose);
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
@@ -68,7 +117,7 @@ void EpipolarFlow::run(const ImageView& video, const Pose& pose, const PixelRect
                     .cast<float>();
     fillForward();
     if (twoWay_)
-        testBothWays(video);
+        testBothWays();
     else
         testDepth();
     if (search_.pixelsPerUnit() > 0)
@@ -86,7 +135,7 @@ void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
                                : std::span<const float>();
     predictedFrames_ = predicted.empty() ? 0 : predictedFrames_ + 1;
     if (predicted.empty()) search_.setArea(wanted);
-    search_.run(luma_, relative.T_other_frame, relative.covariance, ofArea(predicted));
+    search_.run(frame_, relative.T_other_frame, relative.covariance, ofArea(predicted));
 }
 
 // The cells of the search's area, of all.
@@ -138,21 +187,36 @@ std::vector<float> EpipolarFlow::flow() const {
     return out;
 }
 
+simd::FlowEnds EpipolarFlow::flowEnds() const {
+    const Eigen::Vector3f& t = search_.translation();
+    simd::FlowEnds out{
+        lens_.lens(), {{}, {t.x(), t.y(), t.z()}}, static_cast<float>(kNearPlane), kNowhere};
+    for (int i = 0; i < 9; ++i)
+        out.motion.turn[i] = rotation_(i / 3, i % 3);
+    return out;
+}
+
+// Rays of all cells.
+simd::CellRow EpipolarFlow::cellRow(int j, const float* raysX, const float* raysY) const {
+    const std::size_t first = static_cast<std::size_t>(j) * cells_.width;
+    return {raysX + first, raysY + first, middlesX_.data(), middlesY_[j],
+            static_cast<std::size_t>(cells_.width)};
+}
+
 const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
     aligned_ = nearness_;
     if (!(search_.pixelsPerUnit() > 0)) return aligned_;
     const auto pixel = static_cast<float>(1 / search_.pixelsPerUnit());
-    for (std::size_t cell = 0; cell < aligned_.size(); ++cell) {
-        const float rx = cellRays_.rayX(cell), ry = cellRays_.rayY(cell), s = aligned_[cell];
-        const auto next = endOf(rx, ry, s + pixel), on = endOf(rx, ry, s);
-        const float wayX = next.x - on.x, wayY = next.y - on.y;
-        const float square = wayX * wayX + wayY * wayY;
-        if (!(square > kLeastWay * kLeastWay)) continue;
-        // Both start in the middle of the cell.
-        const float offX = flow[cell][0] - forward_[cell][0],
-                    offY = flow[cell][1] - forward_[cell][1];
-        aligned_[cell] += pixel * (offX * wayX + offY * wayY) / square;
-    }
+    const simd::FlowEnds ends = flowEnds();
+    workers_->forRange(cells_.height, 8, [&](int first, int last) {
+        for (int j = first; j < last; ++j) {
+            const std::size_t cell = static_cast<std::size_t>(j) * cells_.width;
+            // Both start in the middle of the cell.
+            simd::alignCells(ends, cellRow(j, cellRays_.raysX().data(), cellRays_.raysY().data()),
+                             flow.data() + cell, forward_.data() + cell, pixel, kLeastWay,
+                             aligned_.data() + cell);
+        }
+    });
     return aligned_;
 }
 
@@ -171,69 +235,63 @@ float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
     return std::abs(dx * wayY - dy * wayX) / way;
 }
 
-// The middle two of a cell's four central pixels: an edge between them does not pull it off.
 void EpipolarFlow::fillForward() {
-    const Size video = rig_.video.size;
-    for (int j = 0; j < cells_.height; ++j) {
-        for (int i = 0; i < cells_.width; ++i) {
-            const int x = std::clamp(kCell * i + 1, 0, std::max(video.width - 2, 0));
-            const int y = std::clamp(kCell * j + 1, 0, std::max(video.height - 2, 0));
-            const int right = video.width > 1 ? 1 : 0, below = video.height > 1 ? 1 : 0;
-            const std::size_t p = static_cast<std::size_t>(y) * video.width + x;
-            const std::size_t last = p + static_cast<long>(below) * video.width + right;
-            std::array<float, 4> s{nearnessAt(x, y), nearnessAt(x + right, y),
-                                   nearnessAt(x, y + below), nearnessAt(x + right, y + below)};
-            std::sort(s.begin(), s.end());
-            const float nearness = 0.5F * (s[1] + s[2]);
-            const float rx = 0.5F * (lens_.rayX(p) + lens_.rayX(last));
-            const float ry = 0.5F * (lens_.rayY(p) + lens_.rayY(last));
-            const auto q = endOf(rx, ry, nearness);
-            const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
-            nearness_[cell] = nearness;
-            forward_[cell] = {q.x - static_cast<float>(x) - 0.5F * static_cast<float>(right),
-                              q.y - static_cast<float>(y) - 0.5F * static_cast<float>(below), 0, 0};
+    const simd::FlowEnds ends = flowEnds();
+    workers_->forRange(cells_.height, 8, [&](int first, int last) {
+        for (int j = first; j < last; ++j) {
+            fillDepths(j);
+            const std::size_t cell = static_cast<std::size_t>(j) * cells_.width;
+            simd::cellFlow(ends, cellRow(j, middleRaysX_.data(), middleRaysY_.data()),
+                           nearness_.data() + cell, forward_.data() + cell);
+            simd::cellLandings(forward_.data() + cell, j, cells_, landing_.data() + cell);
         }
-    }
+    });
 }
 
-// The still's cell that a cell of the video lands on.
-std::optional<std::size_t> EpipolarFlow::landing(int i, int j) const {
-    const auto& u = forward_[static_cast<std::size_t>(j) * cells_.width + i];
-    const float x = static_cast<float>(i) + u[0] / kCell, y = static_cast<float>(j) + u[1] / kCell;
-    if (!(x > -0.5F && y > -0.5F && x < static_cast<float>(cells_.width) - 0.5F &&
-          y < static_cast<float>(cells_.height) - 0.5F))
-        return std::nullopt;
-    return static_cast<std::size_t>(std::lround(y)) * cells_.width + std::lround(x);
+// The middle two of a cell's four central pixels: an edge between them does not pull it off.
+float EpipolarFlow::depthOf(int i, int j) const {
+    const Middle x = middleOf(i, rig_.video.size.width), y = middleOf(j, rig_.video.size.height);
+    std::array<float, 4> s{nearnessAt(x.first, y.first), nearnessAt(x.last, y.first),
+                           nearnessAt(x.first, y.last), nearnessAt(x.last, y.last)};
+    std::sort(s.begin(), s.end());
+    return 0.5F * (s[1] + s[2]);
+}
+
+void EpipolarFlow::fillDepths(int j) {
+    const PixelRect& area = search_.area();
+    float* out = nearness_.data() + static_cast<std::size_t>(j) * cells_.width;
+    const int y = kCell * j;
+    int first = (area.x0 + kCell - 1) / kCell, last = area.x1 / kCell;  // whole cells of the area
+    if (y < area.y0 || y + kCell > area.y1 || first >= last) first = last = 0;
+    for (int i = 0; i < first; ++i)
+        out[i] = depthOf(i, j);
+    for (int i = last; i < cells_.width; ++i)
+        out[i] = depthOf(i, j);
+    if (first == last) return;
+    const std::ptrdiff_t pitch = area.x1 - area.x0;
+    const float* pixels =
+        search_.inverseDepth().data() + (y - area.y0 + 1) * pitch + kCell * first - area.x0;
+    simd::cellDepths(pixels, pixels + pitch, last - first, out + first);
 }
 
 void EpipolarFlow::testDepth() {
     std::fill(nearest_.begin(), nearest_.end(), -kNowhere);
-    for (int j = 0; j < cells_.height; ++j)
-        for (int i = 0; i < cells_.width; ++i)
-            if (const auto to = landing(i, j))
-                nearest_[*to] = std::max(nearest_[*to],
-                                         nearness_[static_cast<std::size_t>(j) * cells_.width + i]);
-    const auto pixels = static_cast<float>(search_.pixelsPerUnit());
-    for (int j = 0; j < cells_.height; ++j) {
-        for (int i = 0; i < cells_.width; ++i) {
-            const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
-            const auto to = landing(i, j);
-            const float error = to ? (nearest_[*to] - nearness_[cell]) * pixels - kSlope : kNowhere;
-            hidden_[cell] = {std::clamp(error, 0.0F, kNowhere), 0, 0, 0};
-        }
+    for (std::size_t cell = 0; cell < landing_.size(); ++cell) {
+        if (landing_[cell] < 0) continue;
+        float& nearest = nearest_[static_cast<std::size_t>(landing_[cell])];
+        nearest = std::max(nearest, nearness_[cell]);
     }
+    simd::cellsHidden(landing_.data(), nearest_.data(), nearness_.data(),
+                      {static_cast<float>(search_.pixelsPerUnit()), kSlope, kNowhere},
+                      hidden_.size(), hidden_.data());
 }
 
-void EpipolarFlow::testBothWays(const ImageView& video) {
-    twoWay_->run(search_, video);
-    for (int j = 0; j < cells_.height; ++j) {
-        for (int i = 0; i < cells_.width; ++i) {
-            const std::size_t cell = static_cast<std::size_t>(j) * cells_.width + i;
-            const Eigen::Vector2d centre = Eigen::Vector2d(i, j) * kCell;
-            const Eigen::Vector2d ray = rig_.video.unproject(centre.array() + 0.5 * (kCell - 1));
-            const float error = twoWay_->error(ray, nearness_[cell]).value_or(kNowhere);
-            hidden_[cell] = {std::min(error, kNowhere), 0, 0, 0};
-        }
+void EpipolarFlow::testBothWays() {
+    twoWay_->run(search_, frame_);
+    for (std::size_t cell = 0; cell < hidden_.size(); ++cell) {
+        const Eigen::Vector2d ray(cellRays_.rayX(cell), cellRays_.rayY(cell));
+        const float error = twoWay_->error(ray, nearness_[cell]).value_or(kNowhere);
+        hidden_[cell] = {std::min(error, kNowhere), 0, 0, 0};
     }
 }
 

@@ -4,8 +4,9 @@
 #include "pipeline/epipolar/field_prediction.h"
 #include "pipeline/epipolar/two_way.h"
 #include "pipeline/epipolar/unit_pose.h"
+#include "pipeline/simd/cell_flow_rows.h"
 
-#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,7 +18,7 @@ namespace mfar {
 class EpipolarFlow {
 public:
     /// Row-major, one entry per cell of 4x4 video pixels.
-    using Cells = std::vector<std::array<float, 4>>;
+    using Cells = std::vector<simd::CellVector>;
 
     EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                  const EpipolarOptions& options = {});
@@ -27,6 +28,8 @@ public:
 
     /// The new reference as its sensor took it, and where the video camera was then.
     void setStill(const ImageView& still, const Pose& pose);
+    /// The same of its luma.
+    void setStill(const Rows<const std::uint8_t>& still, const Pose& pose);
     void dropStill();
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
@@ -38,6 +41,8 @@ public:
     void run(const ImageView& video, const Pose& pose) {
         run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});
     }
+    /// The same of the frame's luma.
+    void run(const Rows<const std::uint8_t>& video, const Pose& pose, const PixelRect& where);
 
     /// Video -> still: flow x, y [video px at the video's geometry], -, -.
     [[nodiscard]] const Cells& forward() const { return forward_; }
@@ -61,25 +66,29 @@ public:
     [[nodiscard]] double lengthError() const { return lengthError_; }
     /// Turns the frame's rays into the still at the video's geometry.
     [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
-    /// Luma of the frame.
-    [[nodiscard]] const LumaImage& luma() const { return luma_; }
+    /// Luma of the frame; valid as long as what run() was given.
+    [[nodiscard]] const Rows<const std::uint8_t>& luma() const { return frame_; }
     /// Was the last frame searched around what the one before it showed?
     [[nodiscard]] bool predicted() const { return predictedFrames_ > 0; }
 
 private:
     [[nodiscard]] EpipolarLens::Point endOf(float rayX, float rayY, float s) const;
+    [[nodiscard]] simd::FlowEnds flowEnds() const;
+    [[nodiscard]] simd::CellRow cellRow(int j, const float* raysX, const float* raysY) const;
     void search(const UnitPose& relative, const PixelRect& where);
     [[nodiscard]] std::span<const float> ofArea(std::span<const float> cells);
     [[nodiscard]] float nearnessAt(int x, int y) const;
     void fillForward();
+    void fillDepths(int j);
+    [[nodiscard]] float depthOf(int i, int j) const;
     void testDepth();
-    void testBothWays(const ImageView& video);
-    [[nodiscard]] std::optional<std::size_t> landing(int i, int j) const;
+    void testBothWays();
 
     StereoRig rig_;
     Size cells_;
     EpipolarSearch search_;
     std::optional<TwoWayTest> twoWay_;
+    std::shared_ptr<Workers> workers_;
     int mostPredicted_;
     FieldPrediction prediction_;
     int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
@@ -87,11 +96,16 @@ private:
     Eigen::Matrix3f rotation_;
     double unit_ = 1, lengthError_ = 0;
     std::optional<Pose> stillPose_;
-    LumaImage luma_;
+    LumaImage luma_;  // where run() was given another format
+    Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;
     std::vector<float> nearness_, aligned_,
         nearest_;  // s per cell of the video, and landed per cell of the still
+    std::vector<std::int32_t> landing_;  // cell of the still
+    // Of the four middle pixels of each cell.
+    std::vector<float> middleRaysX_, middleRaysY_;
+    std::vector<float> middlesX_, middlesY_;  // [px], by column and by row
 };
 
 }  // namespace mfar

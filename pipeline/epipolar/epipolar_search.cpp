@@ -2,6 +2,7 @@
 
 #include "pipeline/epipolar/census.h"
 #include "pipeline/flow/cell_field.h"
+#include "pipeline/simd/luma_filters.h"
 
 #include <algorithm>
 #include <cassert>
@@ -142,7 +143,12 @@ void EpipolarSearch::setStill(const ImageView& still) {
     stillNoise_ = noiseOf(picture_);
 }
 
-bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_video,
+void EpipolarSearch::setStill(const Rows<const std::uint8_t>& still) {
+    shrinkLuma(still, still_.size, *workers_, picture_);
+    stillNoise_ = noiseOf(picture_);
+}
+
+bool EpipolarSearch::run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
                          const std::optional<Matrix6>& covariance,
                          std::span<const float> predicted) {
     assert(predicted.empty() || predicted.size() == pixelsOf(cellsOf(video_.size)));
@@ -150,11 +156,23 @@ bool EpipolarSearch::run(const LumaImage& video, const RigidTransform& T_still_v
     videoNoise_ = noiseOf(levels_[0].video);
     refinement_ = {};
     normalError_ = 0;
-    std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
-    if (!place(T_still_video)) return false;
+    // What is predicted is searched for at one level; patches need two.
+    const int all = static_cast<int>(levels_.size());
+    const int searched = predicted.empty() ? all : finestLevel() + 1;
+    const int drawn = covariance ? std::min(std::max(searched, 2), all) : searched;
+    for (int l = 1; l < drawn; ++l)
+        halve(levels_[l - 1].video, levels_[l].video);
+    const bool found = place(T_still_video, drawn) && matchAll(covariance, predicted, searched);
+    if (!found || !(pixelsPerUnit_ > 0))
+        std::fill(inverseDepth_.begin(), inverseDepth_.end(), 0.0F);
+    return found;
+}
+
+bool EpipolarSearch::matchAll(const std::optional<Matrix6>& covariance,
+                              std::span<const float> predicted, int levels) {
     if (predicted.empty()) searchCoarsest();
     if (covariance) refine(*covariance, predicted);
-    if (refinement_.accepted && !place(T_still_video * refinement_.motion)) return false;
+    if (refinement_.accepted && !place(pose_ * refinement_.motion, levels)) return false;
     const bool again = refinement_.accepted || hasSlack(static_cast<int>(levels_.size()) - 1);
     if (again && predicted.empty()) searchCoarsest();
     if (!(pixelsPerUnit_ > 0)) return true;
@@ -193,14 +211,14 @@ void EpipolarSearch::readInverseDepth() {
     });
 }
 
-bool EpipolarSearch::place(const RigidTransform& told) {
+bool EpipolarSearch::place(const RigidTransform& told, int levels) {
     const std::optional<RigidTransform> T_still_video = soundMotion(told);
     pose_ = T_still_video.value_or(RigidTransform{});
     const Eigen::Matrix3d R_still_video = pose_.rotation.toRotationMatrix();
     translation_ = (R_still_video.transpose() * pose_.translation).cast<float>();
     labels_ = 0;
     pixelsPerUnit_ = 0;
-    if (!T_still_video || !turnStill(R_still_video)) return false;
+    if (!T_still_video || !turnStill(R_still_video, levels)) return false;
     measureParallax();
     if (pixelsPerUnit_ > 0)
         labels_ = static_cast<int>(options_.longestParallax * whole_.size.width);
@@ -233,7 +251,7 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
 
 // The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
 // holds what of it a parallax can reach.
-bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video) {
+bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels) {
     const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
     turned_.place(video_, still_, R_still_video, beyond);
     if (turned_.size().width < kSmallestCanvas || turned_.size().height < kSmallestCanvas)
@@ -241,18 +259,17 @@ bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video) {
     Level& fine = levels_[0];
     turned_.draw(picture_, *workers_, fine.still, fine.seen);
     fine.origin = turned_.origin();
-    for (std::size_t l = 1; l < levels_.size(); ++l) {
+    for (int l = 1; l < levels; ++l) {
         const Level& finer = levels_[l - 1];
         Level& level = levels_[l];
-        halve(finer.video, level.video);
         halve(finer.still, level.still);
         level.origin = {finer.origin.x / 2, finer.origin.y / 2};
         const Size s = level.still.size;
         level.seen.resize(static_cast<std::size_t>(s.width) * s.height);
         for (int y = 0; y < s.height; ++y)
-            for (int x = 0; x < s.width; ++x)
-                level.seen[static_cast<std::size_t>(y) * s.width + x] =
-                    finer.seen[static_cast<std::size_t>(2 * y) * finer.still.size.width + 2 * x];
+            simd::thinRow(finer.seen.data() +
+                              static_cast<std::size_t>(2 * y) * finer.still.size.width,
+                          s.width, level.seen.data() + static_cast<std::size_t>(y) * s.width);
     }
     return true;
 }

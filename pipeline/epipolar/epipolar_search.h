@@ -37,6 +37,8 @@ public:
 
     /// The still as its sensor took it.
     void setStill(const ImageView& still);
+    /// The same of its luma.
+    void setStill(const Rows<const std::uint8_t>& still);
 
     /// Searches for these pixels of the video alone from now on, and for what is around them up to
     /// a grid of a few pixels. At first the area is the whole picture.
@@ -49,7 +51,7 @@ public:
     /// `predicted`: about s of every cell of 4x4 pixels of the area, row-major; the coarser levels,
     /// which would find it, are then left out. Returns false, and a field of zeros, where nothing
     /// of the still is in reach or the pose is none (soundMotion()). `video`: the whole picture.
-    bool run(const LumaImage& video, const RigidTransform& T_still_video,
+    bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
@@ -85,8 +87,11 @@ private:
         [[nodiscard]] TurnedPair pair() const { return {lens, origin, video, still, seen}; }
     };
 
-    [[nodiscard]] bool place(const RigidTransform& T_still_video);
-    [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video);
+    /// Draws the still for the first `levels` levels.
+    [[nodiscard]] bool place(const RigidTransform& T_still_video, int levels);
+    [[nodiscard]] bool turnStill(const Eigen::Matrix3d& R_still_video, int levels);
+    [[nodiscard]] bool matchAll(const std::optional<Matrix6>& covariance,
+                                std::span<const float> predicted, int levels);
     void measureParallax();
     void searchCoarsest();
     void searchFiner();

@@ -1,9 +1,9 @@
 #include "pipeline/epipolar/field_prediction.h"
 
 #include "pipeline/epipolar/near_plane.h"
+#include "pipeline/simd/cell_flow_rows.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace mfar {
 namespace {
@@ -35,28 +35,29 @@ void FieldPrediction::land(const RigidTransform& T_still_frame, double unit) {
     RigidTransform T_still_next = T_still_frame, T_still_last = keptPose_;
     T_still_next.translation *= unit / unit_;
     const RigidTransform T_next_last = T_still_next.inverse() * T_still_last;
-    const Eigen::Matrix3f R = T_next_last.rotation.toRotationMatrix().cast<float>();
-    const Eigen::Vector3f t = T_next_last.translation.cast<float>();
     const auto behind = [](const RigidTransform& T_still) {
         return static_cast<float>((T_still.rotation.conjugate() * T_still.translation).z());
     };
-    const float lastZ = behind(T_still_last), nextZ = behind(T_still_next);
-    const auto perUnit = static_cast<float>(unit / unit_);
-    const Size size = cells_.size();
+    simd::CellMotion motion{cells_.lens(),
+                            {},
+                            behind(T_still_last),
+                            behind(T_still_next),
+                            static_cast<float>(unit / unit_),
+                            static_cast<float>(kNearPlane)};
+    const Eigen::Matrix3d R = T_next_last.rotation.toRotationMatrix();
+    for (int i = 0; i < 9; ++i)
+        motion.motion.turn[i] = static_cast<float>(R(i / 3, i % 3));
+    for (int i = 0; i < 3; ++i)
+        motion.motion.move[i] = static_cast<float>(T_next_last.translation[i]);
+    landing_.resize(kept_.size());
+    moved_.resize(kept_.size());
+    simd::predictCells(motion, cells_.raysX().data(), cells_.raysY().data(), kept_.data(),
+                       kept_.size(), cells_.size(), landing_.data(), moved_.data());
     landed_.assign(kept_.size(), kUnknown);
     for (std::size_t i = 0; i < kept_.size(); ++i) {
-        const float s = kept_[i], depth = 1 - s * lastZ;
-        const Eigen::Vector3f p =
-            R * Eigen::Vector3f(cells_.rayX(i) * depth, cells_.rayY(i) * depth, depth) + s * t;
-        const float whole = p.z() + s * nextZ;
-        if (!(p.z() > kNearPlane && whole > kNearPlane)) continue;
-        const auto at = cells_.project(p.x() / p.z(), p.y() / p.z());
-        const float x = std::round(at.x), y = std::round(at.y);
-        if (!(x >= 0 && y >= 0 && x < static_cast<float>(size.width) &&
-              y < static_cast<float>(size.height)))
-            continue;
-        float& to = landed_[static_cast<std::size_t>(y) * size.width + static_cast<std::size_t>(x)];
-        to = std::max(to, s / whole * perUnit);
+        if (landing_[i] < 0) continue;
+        float& to = landed_[static_cast<std::size_t>(landing_[i])];
+        to = std::max(to, moved_[i]);
     }
 }
 

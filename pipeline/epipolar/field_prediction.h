@@ -3,6 +3,7 @@
 #include "base/geometry.h"
 #include "pipeline/epipolar/epipolar_lens.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,8 @@ private:
 
     EpipolarLens cells_;
     std::vector<float> kept_, landed_, filled_;
+    std::vector<std::int32_t> landing_;  // of kept_'s cells
+    std::vector<float> moved_;           // s there
     RigidTransform keptPose_;
     double unit_ = 1;
 };

@@ -21,7 +21,8 @@ public:
           scale_(half.video.size.width < full.video.size.width ? 2 : 1) {}
 
     [[nodiscard]] std::optional<RayMatch> match(PatchPlace place) const {
-        const Eigen::Vector2d ray = prior_.camera.unproject(toFull(place.middle()));
+        const Eigen::Vector2d ray =
+            prior_.camera.unproject(toFull(place.middle()), rayNear(place.middle()));
         const auto found = atHalf_.find(place, windowFor(place, ray));
         if (!found) return std::nullopt;
         const auto placed = atHalf_.polish(place, *found);
@@ -33,7 +34,7 @@ public:
             if (const auto finer = atFull_.polish(inner, seen - originOf(full_)))
                 seen = *finer + originOf(full_);
         }
-        return RayMatch{ray, prior_.camera.unproject(seen)};
+        return RayMatch{ray, prior_.camera.unproject(seen, ray)};
     }
 
 private:
@@ -43,6 +44,13 @@ private:
 
     [[nodiscard]] Eigen::Vector2d toFull(const Eigen::Vector2d& pixel) const {
         return ((pixel.array() + 0.5) * scale_ - 0.5).matrix();
+    }
+
+    /// That of the pixel at half size in which a point lies, which is in the picture.
+    [[nodiscard]] Eigen::Vector2d rayNear(const Eigen::Vector2d& point) const {
+        const auto pixel = static_cast<std::size_t>(point.y()) * half_.lens.size().width +
+                           static_cast<std::size_t>(point.x());
+        return {half_.lens.rayX(pixel), half_.lens.rayY(pixel)};
     }
 
     /// Camera pixel at half size.
@@ -67,7 +75,7 @@ private:
             if (length > 0) out.along = way / length;
         }
         const Eigen::Vector2d expected = pointAt(ray, s);
-        const Eigen::Vector2d seen = prior_.camera.unproject(toFull(expected));
+        const Eigen::Vector2d seen = prior_.camera.unproject(toFull(expected), ray);
         const Eigen::Matrix2d spread = spreadOf({ray, seen}, prior_.pose);
         out.middle = expected - originOf(half_);
         const Eigen::Vector2d across(-out.along.y(), out.along.x());

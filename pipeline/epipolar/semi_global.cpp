@@ -40,12 +40,16 @@ void SemiGlobal::run(const LumaImage& guide, const std::vector<std::int16_t>& ba
         const double jump = std::max<double>(smoothness.step + 3, smoothness.jump * 8 / (8 + edge));
         jumps_[d] = static_cast<std::uint8_t>(jump);
     }
+    int differences = 255;
+    while (differences > 0 && jumps_[differences - 1] == jumps_[255])
+        --differences;
     const auto [width, height] = guide.size;
     const simd::PathVolume volume{guide.pixels.data(),
                                   base.data(),
                                   guide.size,
                                   vectors,
                                   static_cast<std::uint8_t>(smoothness.step),
+                                  differences,
                                   jumps_.data(),
                                   costs_.data(),
                                   sums_.data()};

@@ -27,8 +27,17 @@ TwoWayTest::TwoWayTest(const StereoRig& rig, std::shared_ptr<Workers> workers,
       backward_({still_, video_, rig.T_still_video.inverse()}, std::move(workers), options) {}
 
 void TwoWayTest::run(const EpipolarSearch& forward, const ImageView& frame) {
-    pose_ = forward.pose();
     backward_.setStill(frame);
+    searchBack(forward);
+}
+
+void TwoWayTest::run(const EpipolarSearch& forward, const Rows<const std::uint8_t>& frame) {
+    backward_.setStill(frame);
+    searchBack(forward);
+}
+
+void TwoWayTest::searchBack(const EpipolarSearch& forward) {
+    pose_ = forward.pose();
     backward_.run(forward.stillPicture(), pose_.inverse());
 }
 

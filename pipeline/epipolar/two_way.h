@@ -17,12 +17,16 @@ public:
 
     /// The search from the still to the frame, at the pose that the forward search settled on.
     void run(const EpipolarSearch& forward, const ImageView& frame);
+    /// The same of the frame's luma.
+    void run(const EpipolarSearch& forward, const Rows<const std::uint8_t>& frame);
 
     /// How far from itself a point of the frame comes back [px]; nothing: the still cannot show it.
     /// `ray` of the frame, `s` its inverse depth in the forward search.
     [[nodiscard]] std::optional<float> error(const Eigen::Vector2d& ray, double s) const;
 
 private:
+    void searchBack(const EpipolarSearch& forward);
+
     CameraModel video_, still_;
     EpipolarSearch backward_;
     RigidTransform pose_;

@@ -136,12 +136,8 @@ private:
 /// What lies between neighbours: the penalty of a jump, and how far the window moves.
 class Neighbours {
 public:
-    explicit Neighbours(const PathVolume& volume) : jumps_(volume.jumps) {
-        // From some difference on the penalty is the same.
-        while (chunks_ > 1 && std::all_of(jumps_ + 16L * (chunks_ - 1), jumps_ + 256,
-                                          [&](std::uint8_t j) { return j == jumps_[255]; }))
-            --chunks_;
-    }
+    explicit Neighbours(const PathVolume& volume)
+        : jumps_(volume.jumps), chunks_((volume.jumpDifferences + 15) / 16) {}
 
     /// Of `count` pixels, at most kMost, from those beside them. Writes whole vectors.
     static constexpr int kMost = 64, kRoom = 2 * kMost;
@@ -188,7 +184,7 @@ private:
     }
 
     const std::uint8_t* jumps_;
-    int chunks_ = 16;
+    int chunks_;
 };
 
 /// The neighbours of a run of pixels in `Blocks` rows, interleaved.

@@ -27,6 +27,7 @@ struct PathVolume {
     Size size;
     int vectors;
     std::uint8_t step;          ///< penalty of one label's difference
+    int jumpDifferences;        ///< jumps are the same from this difference of the guide on
     const std::uint8_t* jumps;  ///< of more, by the difference of the guide: 256
     const std::uint8_t* costs;  ///< kLabels * vectors a pixel
     std::uint8_t* sums;         ///< as many: of the paths
