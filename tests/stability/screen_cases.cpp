@@ -26,7 +26,7 @@ Size sizeFor(Context& c, Size screen) {
 // Each pixel is the mean of what it covers; beside the picture there is black.
 void screens(Context& c) {
     const Size screen = c.size(1, 120), size = sizeFor(c, screen);
-    const Picture picture = c.hostile.picture(size);
+    const TestPicture picture = c.hostile.picture(size);
     const gpu::Texture texture = uploaded(picture);
     ScreenScaler scaler;
     ScreenReader reader(screen, scaler);
