@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@ constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
 constexpr double kLineShare = 1.0 / 24;  // of the picture's height
 constexpr double kLetterShare = 0.55;    // of a line's height
 constexpr int kMostLines = 4;
+constexpr std::uint32_t kBlack = 0xff000000;  // bytes 0 0 0 255
 
 int widthOf(const std::string& text, double scale) {
     return cv::getTextSize(text, kFont, scale, 1, nullptr).width;
@@ -42,53 +44,73 @@ std::vector<std::string> broken(const std::string& text, double scale, int width
     return lines;
 }
 
-void copyTo(const gpu::Framebuffer& target, const gpu::Framebuffer& from, int y, Size size) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, from.id());
+void copyTo(const gpu::Framebuffer& target, GLuint from, int y, Size size) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.id());
     glBlitFramebuffer(0, 0, size.width, size.height, 0, y, size.width, y + size.height,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
+void copyRows(Rows<const std::uint32_t> from, Rows<std::uint32_t> to, int y) {
+    for (int row = 0; row < from.size.height; ++row)
+        std::copy_n(from[row], from.size.width, to[y + row]);
+}
+
 }  // namespace
 
-GlImage Banner::over(const GlImage& picture, const std::string& text) {
-    if (picture_.id() == 0) {
-        picture_ = gpu::Texture(size_, gpu::TexelFormat::Rgba8);
-        pictureTarget_ = gpu::Framebuffer(picture_);
-    }
+Picture Banner::over(const Picture& picture, const std::string& text) {
     if (text != text_) write(text);
-    if (picture.texture != 0) {
-        GLuint source = 0;
-        glGenFramebuffers(1, &source);
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
-        glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
-                               picture.texture, 0);
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, pictureTarget_.id());
-        glBlitFramebuffer(0, 0, size_.width, size_.height, 0, 0, size_.width, size_.height,
-                          GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        glDeleteFramebuffers(1, &source);
-    } else {
-        pictureTarget_.bind();
-        glClearColor(0, 0, 0, 1);
-        glClear(GL_COLOR_BUFFER_BIT);
+    return picture.isOnHost() || picture.isEmpty() ? overRows(picture) : overTexture(picture);
+}
+
+Picture Banner::overRows(const Picture& picture) {
+    if (rows_.size() != size_) rows_ = AlignedRows<std::uint32_t>(size_);
+    if (!picture.isEmpty())
+        copyRows(picture.rows(), rows_.rows(), 0);
+    else
+        for (int y = 0; y < size_.height; ++y)
+            std::fill_n(rows_[y], size_.width, kBlack);
+    copyRows(strip_.rows(), rows_.rows(), size_.height - strip_.size().height);
+    return Rows<const std::uint32_t>(rows_.rows());
+}
+
+Picture Banner::overTexture(const Picture& picture) {
+    if (texture_.id() == 0) {
+        texture_ = gpu::Texture(size_, gpu::TexelFormat::Rgba8);
+        target_ = gpu::Framebuffer(texture_);
     }
-    copyTo(pictureTarget_, stripTarget_, size_.height - strip_.size().height, strip_.size());
+    if (!stripUploaded_) {
+        stripTexture_ = gpu::Texture(strip_.size(), gpu::TexelFormat::Rgba8);
+        const ImageView pixels = viewOf(strip_.rows());
+        stripTexture_.upload({pixels.data, pixels.stride});
+        stripTarget_ = gpu::Framebuffer(stripTexture_);
+        stripUploaded_ = true;
+    }
+    GLuint source = 0;
+    glGenFramebuffers(1, &source);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, source);
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
+                           picture.image().texture, 0);
+    copyTo(target_, source, 0, size_);
+    glDeleteFramebuffers(1, &source);
+    copyTo(target_, stripTarget_.id(), size_.height - strip_.size().height, strip_.size());
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    return {picture_.id(), size_};
+    return GlImage{texture_.id(), size_};
 }
 
 void Banner::write(const std::string& text) {
     const int line = std::max(static_cast<int>(size_.height * kLineShare), 1);
     const double scale = cv::getFontScaleFromHeight(kFont, std::max(int(line * kLetterShare), 1));
     const std::vector<std::string> lines = broken(text, scale, size_.width - line);
-    cv::Mat rgba(std::min(line * (int(lines.size()) + 1), size_.height), size_.width, CV_8UC4,
-                 kBackground);
+    const int height = std::min(line * (int(lines.size()) + 1), size_.height);
+    strip_ = AlignedRows<std::uint32_t>({size_.width, height});
+    cv::Mat rgba(height, size_.width, CV_8UC4, strip_[0],
+                 static_cast<std::size_t>(strip_.pitch()) * sizeof(std::uint32_t));
+    rgba = kBackground;
     for (std::size_t i = 0; i < lines.size(); ++i)
         cv::putText(rgba, lines[i], {line / 2, static_cast<int>(line * (i + 1.25))}, kFont, scale,
                     kLetters, std::max(line / 16, 1), cv::LINE_AA);
-    strip_ = gpu::Texture({rgba.cols, rgba.rows}, gpu::TexelFormat::Rgba8);
-    strip_.upload({rgba.ptr(), rgba.step});
-    stripTarget_ = gpu::Framebuffer(strip_);
+    stripUploaded_ = false;
     text_ = text;
 }
 

@@ -5,7 +5,6 @@
 #include "hal/device/display_auto.h"
 #include "hal/device/trigger_safe_level.h"
 #include "hal/virtual/display_files.h"
-#include "hal/virtual/gl_readback.h"
 #include "hal/virtual/recorder.h"
 #include "hal/virtual/recording_player.h"
 #include "hal/virtual/synthetic_board.h"
@@ -314,10 +313,12 @@ std::optional<std::string> sourceFault(std::string_view source) {
     return std::nullopt;
 }
 
-ScreenPicture copyOf(const GlImage& picture) {
-    ScreenPicture copy{picture.size, PixelFormat::Rgba8, {}};
-    copy.pixels.resize(std::size_t{4} * picture.size.width * picture.size.height);
-    readBack(picture, copy.pixels.data());
+ScreenPicture copyOf(const Picture& picture) {
+    const Size size = picture.size();
+    ScreenPicture copy{size, PixelFormat::Rgba8, {}};
+    const std::size_t stride = std::size_t{4} * size.width;
+    copy.pixels.resize(stride * size.height);
+    copyPicture(picture, copy.pixels.data(), stride);
     return copy;
 }
 

@@ -100,8 +100,8 @@ void releaseTrigger(const TriggerLineConfig& line);
 [[nodiscard]] std::unique_ptr<Display> openDisplay(const Config& config, double rateHz,
                                                    std::stop_token cancel);
 
-/// A copy of a picture in the current GL context. Waits for the GPU. Throws std::runtime_error.
-[[nodiscard]] ScreenPicture copyOf(const GlImage& picture);
+/// A copy of a picture, see copyPicture().
+[[nodiscard]] ScreenPicture copyOf(const Picture& picture);
 
 /// This display writes every picture that show() took, so its finish() is worth waiting for.
 [[nodiscard]] bool keepsPictures(std::string_view display);

@@ -107,10 +107,10 @@ private:
     double deadlineMs_;                 ///< 0: none
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
     std::optional<Governor> governor_;
-    Governor::Choice choice_{};     ///< the pipeline's
-    GlImage last_;                  ///< the pipeline's, without banner; no texture before the first
-    std::optional<GlImage> shown_;  ///< what the display got last
-    std::string faultShown_;        ///< over it
+    Governor::Choice choice_{};          ///< the pipeline's
+    Picture last_;                       ///< the pipeline's, without banner; empty before the first
+    std::optional<Picture> shown_;       ///< what the display got last
+    std::string faultShown_;             ///< over it
     std::vector<StageTime> stages_;      ///< of the last picture
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;

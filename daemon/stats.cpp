@@ -17,7 +17,7 @@ double rate(std::uint64_t intervals, Timestamp from, Timestamp to) {
 
 }  // namespace
 
-void Stats::picture(const Picture& picture) {
+void Stats::picture(const FinishedPicture& picture) {
     const std::lock_guard lock(mutex_);
     ++counted_.frames;
     if (!firstShown_) {

@@ -74,7 +74,7 @@ struct Counted {
 };
 
 /// One finished picture.
-struct Picture {
+struct FinishedPicture {
     FrameStats stats;
     const std::vector<StageTime>& stages;
     Timestamp arrived;  ///< of the video frame in the daemon, CLOCK_MONOTONIC
@@ -86,7 +86,7 @@ struct Picture {
 /// Collects what the threads report. Thread-safe.
 class Stats {
 public:
-    void picture(const Picture& picture);
+    void picture(const FinishedPicture& picture);
     /// What is missing, as the picture says it; nothing when all is well.
     void fault(const std::optional<std::string>& fault);
     /// The log is to say this, once.

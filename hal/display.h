@@ -2,6 +2,7 @@
 
 #include "base/time.h"
 #include "hal/frame.h"
+#include "hal/picture.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,12 +11,6 @@
 #include <vector>
 
 namespace mfar {
-
-/// A finished picture in the current GL context: RGBA8 2-D texture, row 0 = top row of the picture.
-struct GlImage {
-    unsigned texture = 0;
-    Size size;
-};
 
 /// A copy of a shown picture, rows without padding, row 0 on top.
 struct ScreenPicture {
@@ -28,21 +23,23 @@ struct ScreenPicture {
     }
 };
 
-/// Where finished pictures go. Called on the GL thread with the pipeline's context current.
+/// Where finished pictures go. Called on one thread; where pictures are textures, or the display
+/// draws with GL, that is the GL thread with the pipeline's context current. Pictures on the host
+/// that go to a display which is written by the CPU take no GL: there need be no context.
 class Display {
 public:
     virtual ~Display() = default;
 
-    /// Shows the picture (or queues it for that). May wait for the device's pace; must not keep the
+    /// Shows the picture (or queues it for that). May wait for the device's pace; must not keep a
     /// texture after returning. Throws std::runtime_error when the device is lost.
-    virtual void show(const GlImage& image, Timestamp time) = 0;
+    virtual void show(const Picture& picture, Timestamp time) = 0;
     /// The same where the picture is the last one, to the bit: a screen that shows it needs
     /// nothing.
-    virtual void showAgain(const GlImage& image, Timestamp time) { show(image, time); }
+    virtual void showAgain(const Picture& picture, Timestamp time) { show(picture, time); }
     /// Blocks until everything shown is out (files written). Throws like show().
     virtual void finish() = 0;
     /// What the last show() sent to a screen, screen-sized. Nothing where there is no screen. Waits
-    /// for the GPU.
+    /// for the GPU. Pixels on the host that it got must still be there.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const { return std::nullopt; }
     /// Of the screen that pictures go to, looked for if need be; nothing where there is none now.
     [[nodiscard]] virtual std::optional<Size> screenSize() { return std::nullopt; }

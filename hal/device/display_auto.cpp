@@ -28,11 +28,7 @@ ScreenDisplay::ScreenDisplay(std::unique_ptr<ScreenScaler> scaler,
     : scaler_(std::move(scaler)), screens_(std::move(screens)), clock_(std::move(clock)),
       changed_(std::move(changed)) {}
 
-ScreenDisplay::~ScreenDisplay() {
-    const KeptTarget kept;
-    screens_.clear();
-    scaler_.reset();
-}
+ScreenDisplay::~ScreenDisplay() = default;
 
 void ScreenDisplay::refresh() {
     const bool changed = changed_();
@@ -50,16 +46,16 @@ std::optional<Size> ScreenDisplay::screenSize() {
     return active_->size();
 }
 
-void ScreenDisplay::show(const GlImage& image, Timestamp) {
-    const KeptTarget kept;
+void ScreenDisplay::show(const Picture& picture, Timestamp) {
     refresh();
     if (active_ == nullptr) {
-        if (scaler_) scaler_->warmUp(image);
+        if (picture.isOnHost()) return;
+        if (scaler_) scaler_->warmUp(picture.image());
         glFinish();  // without a screen nothing else would hold the renderer back
         return;
     }
     try {
-        active_->show(image);
+        active_->show(picture);
         shown_ = std::min(shown_ + 1, kProven);
         failed_ = nullptr;
         fault_.clear();
@@ -69,9 +65,9 @@ void ScreenDisplay::show(const GlImage& image, Timestamp) {
 }
 
 // The first pictures prove the screen, see kProven.
-void ScreenDisplay::showAgain(const GlImage& image, Timestamp time) {
+void ScreenDisplay::showAgain(const Picture& picture, Timestamp time) {
     refresh();
-    if (active_ == nullptr || shown_ < kProven) show(image, time);
+    if (active_ == nullptr || shown_ < kProven) show(picture, time);
 }
 
 void ScreenDisplay::lose(const std::string& why) {
@@ -113,7 +109,6 @@ std::string ScreenDisplay::name() const {
 
 std::optional<ScreenPicture> ScreenDisplay::lastShown() const {
     if (active_ == nullptr) return std::nullopt;
-    const KeptTarget kept;
     return active_->lastShown();
 }
 

@@ -34,15 +34,15 @@ public:
     ScreenDisplay& operator=(const ScreenDisplay&) = delete;
     ~ScreenDisplay() override;
 
-    void show(const GlImage& image, Timestamp time) override;
+    void show(const Picture& picture, Timestamp time) override;
     void finish() override {}
     [[nodiscard]] std::optional<Size> screenSize() override;
-    void showAgain(const GlImage& image, Timestamp time) override;
+    void showAgain(const Picture& picture, Timestamp time) override;
     [[nodiscard]] std::string name() const override;
 
     /// The picture that the last show() sent to the screen, screen-sized, black bars included; on a
     /// screen of 24 or 32 bits a screenshot shows the same to the bit, with 16 bits its upper 5, 6
-    /// and 5. Nothing while there is no screen. Waits for the GPU; GL thread, context current.
+    /// and 5. Nothing while there is no screen. Waits for the GPU.
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
 
 private:
@@ -51,7 +51,7 @@ private:
     void lose(const std::string& why);
 
     std::unique_ptr<ScreenScaler> scaler_;
-    std::vector<std::unique_ptr<Screen>> screens_;
+    std::vector<std::unique_ptr<Screen>> screens_;  // go before the scaler
     Clock clock_;
     Events changed_;
     Screen* active_ = nullptr;
@@ -62,8 +62,8 @@ private:
 };
 
 /// Opens a screen: "auto" (KMS, where none can be used a framebuffer), "kms[:cardN][,CONNECTOR]
-/// [,WxH[@Hz]]" or "fbdev[:/dev/fbN]". Needs the current context for its whole life. Throws
-/// std::runtime_error for malformed words alone, never for a missing device.
+/// [,WxH[@Hz]]" or "fbdev[:/dev/fbN]". Once it has been given a texture, it needs the context for
+/// its whole life. Throws std::runtime_error for malformed words alone, never for a missing device.
 [[nodiscard]] std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec);
 
 /// What is wrong with the words of a screen; nothing when openScreen() takes them.

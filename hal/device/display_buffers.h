@@ -12,11 +12,11 @@ namespace mfar {
 enum class ScanoutMethod {
     GbmFenced,  ///< GPU draws into the screen's memory, the kernel waits for a fence of it
     Gbm,        ///< the same, this process waits for the GPU
-    Dumb,       ///< GPU draws into a texture, the CPU copies it
+    Dumb,       ///< the CPU copies it, after the GPU has drawn it into a texture if need be
 };
 [[nodiscard]] const char* name(ScanoutMethod method);
 
-/// Buffers of a screen's size in the screen's memory, drawn into in turn. Used from the GL thread;
+/// Buffers of a screen's size in the screen's memory, drawn into in turn. Used from one thread;
 /// pictures go begin(), complete(), and on the screen before the next complete().
 class ScanoutBuffers {
 public:
@@ -28,7 +28,7 @@ public:
     virtual ~ScanoutBuffers() = default;
 
     /// Starts drawing. The picture before may still be on its way to the screen.
-    virtual void begin(const GlImage& image) = 0;
+    virtual void begin(const Picture& picture) = 0;
     /// The picture begun. The one before must be on the screen by now.
     [[nodiscard]] virtual Ready complete() = 0;
     /// The picture begun last, as it is sent to the screen.

@@ -1,4 +1,5 @@
 #include "hal/device/display_buffers.h"
+#include "hal/device/display_pixels.h"
 
 #include <fmt/format.h>
 
@@ -59,20 +60,19 @@ private:
     std::uint8_t* data_ = nullptr;
 };
 
+constexpr PixelLayout kXrgb8888{32, {16, 8}, {8, 8}, {0, 8}, {24, 0}};
+
 class DumbBuffers final : public ScanoutBuffers {
 public:
     DumbBuffers(int fd, Size size, ScreenScaler& scaler)
         : reader_(size, scaler), buffers_{{{fd, size}, {fd, size}}} {}
 
-    void begin(const GlImage& image) override { reader_.begin(image); }
+    void begin(const Picture& picture) override { reader_.begin(picture); }
     Ready complete() override {
         Buffer& to = buffers_[next_];
         next_ = 1 - next_;
         reader_.finish([&](const ImageView& picture) {
-            for (int y = 0; y < picture.size.height; ++y)
-                std::memcpy(to.memory.data() + static_cast<std::size_t>(y) * to.memory.pitch(),
-                            picture.data + static_cast<std::size_t>(y) * picture.stride,
-                            picture.stride);
+            packPixels(picture, kXrgb8888, to.memory.data(), to.memory.pitch());
         });
         return {to.framebuffer.id(), OwnedFd()};
     }

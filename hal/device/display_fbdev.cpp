@@ -161,19 +161,19 @@ void FbdevScreen::waitForBlank() {
     if (blankTold_) blankTold_ = ioctl(fd_.get(), FBIO_WAITFORVSYNC, &screen) == 0;
 }
 
-void FbdevScreen::show(const GlImage& image) {
+void FbdevScreen::show(const Picture& picture) {
     if (!reader_) reader_ = std::make_unique<ScreenReader>(geometry_.size, scaler_);
     if (!shown_) before_.assign(mapping_->data(), mapping_->data() + geometry_.bytes);
     shown_ = true;
-    reader_->begin(image);
+    reader_->begin(picture);
     // Where it pans: the last pan has taken effect, the other page is hidden now.
     waitForBlank();
     page_ = 1 - page_;
     const std::size_t page = geometry_.page0 + static_cast<std::size_t>(page_) * geometry_.stride *
                                                    geometry_.size.height;
     std::uint8_t* to = mapping_->data() + (pans_ ? page : geometry_.visible);
-    reader_->finish([&](const ImageView& picture) {
-        packPixels(picture, geometry_.layout, to, geometry_.stride);
+    reader_->finish([&](const ImageView& pixels) {
+        packPixels(pixels, geometry_.layout, to, geometry_.stride);
     });
     if (pans_) panTo(page_ * geometry_.size.height);
 }

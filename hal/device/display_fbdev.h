@@ -29,7 +29,7 @@ struct FbGeometry {
 [[nodiscard]] FbGeometry checkedGeometry(const fb_var_screeninfo& var,
                                          const fb_fix_screeninfo& fix);
 
-/// A Linux framebuffer, /dev/fbN. The picture is scaled on the GPU and copied by the CPU, into the
+/// A Linux framebuffer, /dev/fbN. The picture is scaled where it is and copied by the CPU, into the
 /// hidden page where the driver pans, after the vertical blank where the driver tells it. What was
 /// on the screen is put back at close(). The text cursor of a console on the same screen is not
 /// hidden: that takes rights this program does without (kernel option vt.global_cursor_default=0).
@@ -42,7 +42,7 @@ public:
 
     Presence look(bool thorough) override;
     [[nodiscard]] Size size() const override { return geometry_.size; }
-    void show(const GlImage& image) override;
+    void show(const Picture& picture) override;
     void close() override;
     [[nodiscard]] std::string status() const override;
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;

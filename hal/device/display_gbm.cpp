@@ -43,6 +43,7 @@ struct Importer {
     PFNGLEGLIMAGETARGETRENDERBUFFERSTORAGEOESPROC imageStorage = nullptr;
 
     Importer() {
+        if (display == EGL_NO_DISPLAY) throw std::runtime_error("there is no GL context");
         const char* egl = eglExtensions(display);
         if (isSoftware(glText(GL_RENDERER))) throw std::runtime_error("the renderer is no GPU");
         if (!hasExtension(egl, "EGL_EXT_image_dma_buf_import") ||
@@ -108,6 +109,7 @@ public:
           image_(import(size)) {
         if (image_ == EGL_NO_IMAGE_KHR)
             throw std::runtime_error("the GPU's driver does not import the screen's buffer");
+        const KeptTarget kept;
         glGenRenderbuffers(1, &renderbuffer_);
         glBindRenderbuffer(GL_RENDERBUFFER, renderbuffer_);
         importer_.imageStorage(GL_RENDERBUFFER, image_);
@@ -168,9 +170,10 @@ public:
     }
 
     // One buffer is on the screen, one may be on its way there: the third is free.
-    void begin(const GlImage& image) override {
+    void begin(const Picture& picture) override {
+        const KeptTarget kept;
         current_ = (current_ + 1) % targets_.size();
-        scaler_.draw(image, targets_[current_].framebuffer(), size_, ScreenScaler::Order::Rgba);
+        scaler_.draw(picture, targets_[current_].framebuffer(), size_, ScreenScaler::Order::Rgba);
         if (fences_) fence_ = fences_->insert();
     }
     Ready complete() override {
@@ -178,6 +181,7 @@ public:
         return {targets_[current_].scanout(), std::move(fence_)};
     }
     [[nodiscard]] ScreenPicture last() const override {
+        const KeptTarget kept;
         return readFramebuffer(targets_[current_].framebuffer(), size_, PixelFormat::Rgba8);
     }
 

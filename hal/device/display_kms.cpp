@@ -112,17 +112,17 @@ Size KmsScreen::size() const {
     return output_ ? output_->size() : Size{};
 }
 
-void KmsScreen::show(const GlImage& image) {
+void KmsScreen::show(const Picture& picture) {
     if (!buffers_) {
-        startOutput(image);
+        startOutput(picture);
         return;
     }
-    buffers_->begin(image);
+    buffers_->begin(picture);
     waitForFlip();
     commit(buffers_->complete(), Commit::Flip);
 }
 
-void KmsScreen::startOutput(const GlImage& image) {
+void KmsScreen::startOutput(const Picture& picture) {
     const int fd = card_->fd();
     properties_ = {DrmProperties(fd, output_->connector, DRM_MODE_OBJECT_CONNECTOR),
                    DrmProperties(fd, output_->crtc, DRM_MODE_OBJECT_CRTC),
@@ -134,7 +134,7 @@ void KmsScreen::startOutput(const GlImage& image) {
         try {
             if (method == ScanoutMethod::GbmFenced) (void)properties_.plane.id("IN_FENCE_FD");
             buffers_ = makeScanoutBuffers(*card_, output_->size(), method, scaler_);
-            buffers_->begin(image);
+            buffers_->begin(picture);
             commit(buffers_->complete(), Commit::ModeSet);
             method_ = method;
             return;

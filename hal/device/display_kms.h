@@ -19,7 +19,7 @@ public:
 
     Presence look(bool thorough) override;
     [[nodiscard]] Size size() const override;
-    void show(const GlImage& image) override;
+    void show(const Picture& picture) override;
     void close() override;
     [[nodiscard]] std::string status() const override;
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
@@ -33,7 +33,7 @@ private:
 
     void openCard();
     void leaveOutput();
-    void startOutput(const GlImage& image);
+    void startOutput(const Picture& picture);
     void commit(ScanoutBuffers::Ready ready, Commit kind);
     void addModeSet(drmModeAtomicReq& request, std::uint32_t modeBlob) const;
     void waitForFlip();

@@ -10,19 +10,49 @@ constexpr std::uint32_t ones(int bits) {
     return bits >= 32 ? ~0U : (1U << bits) - 1;
 }
 
-constexpr std::uint32_t put(std::uint8_t value, PixelChannel channel) {
-    return static_cast<std::uint32_t>(value >> (8 - channel.length)) << channel.offset;
+/// How a colour gets from a pixel of 8 bits each into the word of the screen.
+struct Move {
+    int from, drop, to;  ///< bits to shift right, of the colour to leave out, to shift left
+
+    Move(int offset, PixelChannel channel)
+        : from(offset), drop(8 - channel.length), to(channel.offset) {}
+    [[nodiscard]] std::uint32_t operator()(std::uint32_t pixel) const {
+        return ((pixel >> from & 0xff) >> drop) << to;
+    }
+};
+
+/// Writes the lower `Bytes` of a word. Of 2 or 4 bytes, loops over it become vectors.
+template <std::size_t Bytes>
+void store(std::uint32_t word, std::uint8_t* out) {
+    if constexpr (Bytes == 2) {
+        const auto half = static_cast<std::uint16_t>(word);
+        std::memcpy(out, &half, 2);
+    } else {
+        std::memcpy(out, &word, Bytes);
+    }
 }
 
 template <std::size_t Bytes>
-void packRow(const std::uint8_t* bgra, int width, const PixelLayout& layout, std::uint8_t* out) {
-    const PixelLayout l = layout;  // a copy that no byte written below can alias
-    const std::uint32_t opaque = l.alpha.length > 0 ? ones(l.alpha.length) << l.alpha.offset : 0;
-    for (int x = 0; x < width; ++x, bgra += 4, out += Bytes) {
-        const std::uint32_t word =
-            put(bgra[2], l.red) | put(bgra[1], l.green) | put(bgra[0], l.blue) | opaque;
-        for (std::size_t i = 0; i < Bytes; ++i)
-            out[i] = static_cast<std::uint8_t>(word >> (8 * i));
+void packRow(const std::uint8_t* __restrict pixels, int width, const PixelLayout& layout,
+             int redOffset, std::uint8_t* __restrict out) {
+    const Move red(redOffset, layout.red), green(8, layout.green),
+        blue(16 - redOffset, layout.blue);
+    const std::uint32_t opaque =
+        layout.alpha.length > 0 ? ones(layout.alpha.length) << layout.alpha.offset : 0;
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+        std::uint32_t pixel = 0;
+        std::memcpy(&pixel, pixels + 4 * x, 4);
+        store<Bytes>(red(pixel) | green(pixel) | blue(pixel) | opaque, out + Bytes * x);
+    }
+}
+
+// Bytes B G R 255, from R G B and anything.
+void swapRow(const std::uint8_t* __restrict rgba, int width, std::uint8_t* __restrict out) {
+    for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
+        std::uint32_t pixel = 0;
+        std::memcpy(&pixel, rgba + 4 * x, 4);
+        pixel = (pixel & 0x0000ff00) | (pixel & 0xff) << 16 | (pixel >> 16 & 0xff) | 0xff000000;
+        std::memcpy(out + 4 * x, &pixel, 4);
     }
 }
 
@@ -43,20 +73,24 @@ bool PixelLayout::valid() const {
     return fits(red, 1) && fits(green, 1) && fits(blue, 1) && (alpha.length == 0 || fits(alpha, 1));
 }
 
-void packPixels(const ImageView& bgra, const PixelLayout& layout, std::uint8_t* out,
+void packPixels(const ImageView& picture, const PixelLayout& layout, std::uint8_t* out,
                 std::size_t stride) {
-    assert(layout.valid() && bgra.format == PixelFormat::Bgra8);
-    const auto width = static_cast<std::size_t>(bgra.size.width);
-    for (int y = 0; y < bgra.size.height; ++y) {
-        const std::uint8_t* from = bgra.data + static_cast<std::size_t>(y) * bgra.stride;
+    assert(layout.valid());
+    assert(picture.format == PixelFormat::Bgra8 || picture.format == PixelFormat::Rgba8);
+    const bool blueFirst = picture.format == PixelFormat::Bgra8;
+    const int width = picture.size.width, red = blueFirst ? 16 : 0;
+    for (int y = 0; y < picture.size.height; ++y) {
+        const std::uint8_t* from = picture.data + static_cast<std::size_t>(y) * picture.stride;
         std::uint8_t* to = out + static_cast<std::size_t>(y) * stride;
-        if (isBgra(layout)) {
-            std::memcpy(to, from, width * 4);
+        if (isBgra(layout) && blueFirst) {
+            std::memcpy(to, from, static_cast<std::size_t>(width) * 4);
+        } else if (isBgra(layout)) {
+            swapRow(from, width, to);
         } else {
             switch (layout.bits) {
-            case 16: packRow<2>(from, bgra.size.width, layout, to); break;
-            case 24: packRow<3>(from, bgra.size.width, layout, to); break;
-            default: packRow<4>(from, bgra.size.width, layout, to);
+            case 16: packRow<2>(from, width, layout, red, to); break;
+            case 24: packRow<3>(from, width, layout, red, to); break;
+            default: packRow<4>(from, width, layout, red, to);
             }
         }
     }

@@ -25,9 +25,9 @@ struct PixelLayout {
     [[nodiscard]] bool valid() const;
 };
 
-/// Writes a Bgra8 picture (alpha 255) in another layout, the uppermost bits of each colour; row
-/// after row, `stride` bytes apart. `layout` must be valid().
-void packPixels(const ImageView& bgra, const PixelLayout& layout, std::uint8_t* out,
+/// Writes a picture, Rgba8 or Bgra8 with alpha 255, in another layout, the uppermost bits of each
+/// colour; row after row, `stride` bytes apart. `layout` must be valid(). Not in place.
+void packPixels(const ImageView& picture, const PixelLayout& layout, std::uint8_t* out,
                 std::size_t stride);
 
 }  // namespace mfar

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 
 namespace mfar {
@@ -44,6 +45,34 @@ GLsizeiptr bytesOf(Size size) {
     return static_cast<GLsizeiptr>(size.width) * size.height * 4;
 }
 
+void requirePixels(const Picture& picture) {
+    if (picture.size().width < 1 || picture.size().height < 1)
+        throw std::runtime_error("a picture without pixels cannot be shown");
+}
+
+GLuint linearSampler() {
+    GLuint sampler = 0;
+    glGenSamplers(1, &sampler);
+    glSamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glSamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glSamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return sampler;
+}
+
+ScreenPicture opaqueCopy(const Rows<const std::uint32_t>& rows) {
+    ScreenPicture copy{rows.size, PixelFormat::Rgba8, {}};
+    copy.pixels.resize(static_cast<std::size_t>(bytesOf(rows.size)));
+    const std::size_t stride = static_cast<std::size_t>(rows.size.width) * 4;
+    for (int y = 0; y < rows.size.height; ++y) {
+        std::uint8_t* to = copy.pixels.data() + stride * static_cast<std::size_t>(y);
+        std::memcpy(to, rows[y], stride);
+        for (std::size_t x = 0; x < stride; x += 4)
+            to[x + 3] = 255;
+    }
+    return copy;
+}
+
 }  // namespace
 
 KeptTarget::KeptTarget() {
@@ -60,16 +89,8 @@ KeptTarget::~KeptTarget() {
     glViewport(viewport_[0], viewport_[1], viewport_[2], viewport_[3]);
 }
 
-ScreenScaler::ScreenScaler() {
-    glGenSamplers(1, &sampler_);
-    glSamplerParameteri(sampler_, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glSamplerParameteri(sampler_, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glSamplerParameteri(sampler_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glSamplerParameteri(sampler_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
 ScreenScaler::~ScreenScaler() {
-    glDeleteSamplers(1, &sampler_);
+    if (sampler_ != 0) glDeleteSamplers(1, &sampler_);
 }
 
 gpu::Program& ScreenScaler::programFor(int pairs) {
@@ -82,17 +103,25 @@ gpu::Program& ScreenScaler::programFor(int pairs) {
     return *program;
 }
 
-void ScreenScaler::draw(const GlImage& picture, GLuint framebuffer, Size screen, Order order) {
-    if (picture.size.width < 1 || picture.size.height < 1)
-        throw std::runtime_error("a picture without pixels cannot be shown");
+void ScreenScaler::draw(const Picture& picture, GLuint framebuffer, Size screen, Order order) {
+    requirePixels(picture);
+    const GlImage image = picture.isOnHost() ? uploaded(picture.rows()) : picture.image();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, screen.width, screen.height);
-    render(picture, screen, order);
+    render(image, screen, order);
+}
+
+GlImage ScreenScaler::uploaded(const Rows<const std::uint32_t>& rows) {
+    if (upload_.size() != rows.size) upload_ = gpu::Texture(rows.size, gpu::TexelFormat::Rgba8);
+    const ImageView pixels = viewOf(rows);
+    upload_.upload({pixels.data, pixels.stride});
+    return {upload_.id(), rows.size};
 }
 
 // The renderer compiles with the first use, for which a few pixels will do.
 void ScreenScaler::warmUp(const GlImage& picture) {
     if (copy_ || picture.size.width < 1 || picture.size.height < 1) return;
+    const KeptTarget kept;
     const gpu::Texture few(kFewPixels, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer target(few);
     glBindFramebuffer(GL_FRAMEBUFFER, target.id());
@@ -104,6 +133,7 @@ void ScreenScaler::warmUp(const GlImage& picture) {
 
 // Into what is bound.
 void ScreenScaler::render(const GlImage& picture, Size screen, Order order) {
+    if (sampler_ == 0) sampler_ = linearSampler();
     const ScaleParams params = scaleParams(picture.size, screen, order);
     programFor(pairsFor(params))
         .use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});
@@ -113,41 +143,55 @@ void ScreenScaler::render(const GlImage& picture, Size screen, Order order) {
 }
 
 ScreenReader::ScreenReader(Size screen, ScreenScaler& scaler)
-    : scaler_(scaler), texture_(screen, gpu::TexelFormat::Rgba8), framebuffer_(texture_) {
-    glGenBuffers(1, &packBuffer_);
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
+    : screen_(screen), scaler_(scaler), hostScaler_(screen) {}
+
+ScreenReader::~ScreenReader() = default;
+
+ScreenReader::Target::Target(Size screen)
+    : texture(screen, gpu::TexelFormat::Rgba8), framebuffer(texture) {
+    glGenBuffers(1, &packBuffer);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer);
     glBufferData(GL_PIXEL_PACK_BUFFER, bytesOf(screen), nullptr, GL_STREAM_READ);
 }
 
-ScreenReader::~ScreenReader() {
-    glDeleteBuffers(1, &packBuffer_);
+ScreenReader::Target::~Target() {
+    glDeleteBuffers(1, &packBuffer);
 }
 
-void ScreenReader::begin(const GlImage& picture) {
-    const Size size = texture_.size();
-    scaler_.draw(picture, framebuffer_.id(), size, ScreenScaler::Order::Bgra);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.id());
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
-    glReadPixels(0, 0, size.width, size.height, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+void ScreenReader::begin(const Picture& picture) {
+    requirePixels(picture);
+    onHost_.reset();
+    if (picture.isOnHost()) {
+        onHost_ = hostScaler_.scaled(picture.rows());
+        return;
+    }
+    const KeptTarget kept;
+    if (!target_) target_.emplace(screen_);
+    scaler_.draw(picture, target_->framebuffer.id(), screen_, ScreenScaler::Order::Bgra);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, target_->framebuffer.id());
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, target_->packBuffer);
+    glReadPixels(0, 0, screen_.width, screen_.height, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     glFlush();
 }
 
 ImageView ScreenReader::map() {
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, target_->packBuffer);
     const void* pixels =
-        glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, bytesOf(texture_.size()), GL_MAP_READ_BIT);
+        glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, bytesOf(screen_), GL_MAP_READ_BIT);
     if (pixels == nullptr) throw std::runtime_error("the picture for the screen cannot be read");
-    return {static_cast<const std::uint8_t*>(pixels), texture_.size(),
-            static_cast<std::size_t>(texture_.size().width) * 4, PixelFormat::Bgra8};
+    return {static_cast<const std::uint8_t*>(pixels), screen_,
+            static_cast<std::size_t>(screen_.width) * 4, PixelFormat::Bgra8};
 }
 
 void ScreenReader::unmap() {
-    glBindBuffer(GL_PIXEL_PACK_BUFFER, packBuffer_);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, target_->packBuffer);
     glUnmapBuffer(GL_PIXEL_PACK_BUFFER);
 }
 
 ScreenPicture ScreenReader::last() const {
-    return readFramebuffer(framebuffer_.id(), texture_.size(), PixelFormat::Bgra8);
+    if (onHost_) return opaqueCopy(*onHost_);
+    const KeptTarget kept;
+    return readFramebuffer(target_->framebuffer.id(), screen_, PixelFormat::Bgra8);
 }
 
 ScreenPicture readFramebuffer(GLuint framebuffer, Size size, PixelFormat format) {

@@ -8,7 +8,7 @@
 namespace mfar {
 
 /// One way to a screen: a kind of device that may be absent, without a screen, or lost at any time.
-/// Used from the GL thread with the pipeline's context current.
+/// Used from the thread of Display::show().
 class Screen {
 public:
     enum class Presence {
@@ -27,7 +27,7 @@ public:
     [[nodiscard]] virtual Size size() const = 0;
     /// Shows a picture, at the pace of the screen. Only after look() said Ready.
     /// Throws std::runtime_error when the screen is lost; close() it then.
-    virtual void show(const GlImage& image) = 0;
+    virtual void show(const Picture& picture) = 0;
     /// Gives the device back as it was found. Idempotent.
     virtual void close() = 0;
     /// "kms:card0,HDMI-A-1,1280x720@60 ..." while ready, otherwise what is missing.

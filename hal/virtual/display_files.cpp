@@ -1,7 +1,6 @@
 #include "hal/virtual/display_files.h"
 
 #include "hal/virtual/background_writer.h"
-#include "hal/virtual/gl_readback.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/y4m.h"
 
@@ -27,30 +26,33 @@ constexpr std::chrono::milliseconds kErrorPoll{100};
 class NoDisplay final : public Display {
 public:
     // Without this a renderer may queue frames without end, and no frame rate would be true.
-    void show(const GlImage&, Timestamp) override { glFinish(); }
+    void show(const Picture& picture, Timestamp) override {
+        if (!picture.isOnHost()) glFinish();
+    }
     void finish() override {}
     [[nodiscard]] std::string name() const override { return "none"; }
 };
 
-/// Reads pictures back into a few buffers and hands them to a writer.
+/// Copies pictures into a few buffers and hands them to a writer.
 class FileDisplay : public Display {
 public:
     explicit FileDisplay(int threads) : writer_(threads) {}
 
-    void show(const GlImage& image, Timestamp time) final {
-        if (!pool_ || pool_->size() != image.size) {
-            checkSize(image.size);
-            pool_.emplace(image.size, PixelFormat::Rgba8, kBuffers);
+    void show(const Picture& picture, Timestamp time) final {
+        if (!pool_ || pool_->size() != picture.size()) {
+            checkSize(picture.size());
+            pool_.emplace(picture.size(), PixelFormat::Rgba8, kBuffers);
         }
         const FramePool::Slot slot = waitForBuffer();
         const auto loan = std::make_shared<Frame>(pool_->lend(slot, time));
-        readBack(image, slot.data);
+        copyPicture(picture, slot.data, slot.stride);
         writer_.post([this, loan] { write(*loan); });
     }
     void finish() final { writer_.drain(); }
 
 protected:
-    /// Called on the GL thread before the first picture of a size. Throws when it cannot be taken.
+    /// Called on the thread of show() before the first picture of a size. Throws when it cannot be
+    /// taken.
     virtual void checkSize(Size size) = 0;
     /// Called on a writer thread.
     virtual void write(const Frame& picture) = 0;

@@ -11,14 +11,10 @@ constexpr Size kPictureSize{320, 240};
 
 using BannerText = GlTest;
 
-std::vector<std::uint8_t> pixelsOf(const GlImage& image) {
-    std::vector<std::uint8_t> out(std::size_t{4} * image.size.width * image.size.height);
-    GLuint target = 0;
-    glGenFramebuffers(1, &target);
-    glBindFramebuffer(GL_FRAMEBUFFER, target);
-    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image.texture, 0);
-    glReadPixels(0, 0, image.size.width, image.size.height, GL_RGBA, GL_UNSIGNED_BYTE, out.data());
-    glDeleteFramebuffers(1, &target);
+std::vector<std::uint8_t> pixelsOf(const Picture& picture) {
+    const std::size_t stride = std::size_t{4} * picture.size().width;
+    std::vector<std::uint8_t> out(stride * picture.size().height);
+    copyPicture(picture, out.data(), stride);
     return out;
 }
 
@@ -42,7 +38,7 @@ int rowsOf(const std::vector<std::uint8_t>& pixels, std::uint8_t level) {
 TEST_F(BannerText, StandsBelowThePictureAndLeavesItAlone) {
     Banner banner(kPictureSize);
     const gpu::Texture picture = plainPicture(90);
-    const GlImage source{picture.id(), kPictureSize};
+    const Picture source = GlImage{picture.id(), kPictureSize};
     const auto shown = pixelsOf(banner.over(source, "the camera has gone"));
     EXPECT_GE(rowsOf(shown, 90), 200);
     EXPECT_LT(rowsOf(shown, 90), 235);
@@ -52,7 +48,7 @@ TEST_F(BannerText, StandsBelowThePictureAndLeavesItAlone) {
 TEST_F(BannerText, TextsDifferAndLongOnesTakeMoreLines) {
     Banner banner(kPictureSize);
     const gpu::Texture picture = plainPicture(90);
-    const GlImage source{picture.id(), kPictureSize};
+    const Picture source = GlImage{picture.id(), kPictureSize};
     const auto first = pixelsOf(banner.over(source, "one"));
     const auto second = pixelsOf(banner.over(source, "two"));
     EXPECT_NE(first, second);
@@ -64,8 +60,25 @@ TEST_F(BannerText, TextsDifferAndLongOnesTakeMoreLines) {
     EXPECT_GT(rowsOf(pixelsOf(banner.over(source, endless + " " + endless)), 90), 120);
 }
 
-TEST_F(BannerText, WithoutAPictureItIsBlack) {
+TEST_F(BannerText, OnTheHostItIsTheSame) {
     Banner banner(kPictureSize);
+    const gpu::Texture texture = plainPicture(90);
+    AlignedRows<std::uint32_t> rows(kPictureSize);
+    for (int y = 0; y < kPictureSize.height; ++y)
+        std::fill_n(rows[y], kPictureSize.width, 90 * 0x01010101U);
+    for (const char* text : {"the camera has gone", "the still camera has gone as well"}) {
+        const Picture onHost = banner.over(Rows<const std::uint32_t>(rows.rows()), text);
+        ASSERT_TRUE(onHost.isOnHost());
+        EXPECT_EQ(pixelsOf(onHost),
+                  pixelsOf(banner.over(GlImage{texture.id(), kPictureSize}, text)));
+    }
+    EXPECT_EQ(rows[239][319], 90 * 0x01010101U);
+}
+
+// There may be no GL.
+TEST_F(BannerText, WithoutAPictureItIsBlackOnTheHost) {
+    Banner banner(kPictureSize);
+    ASSERT_TRUE(banner.over({}, "no picture yet").isOnHost());
     const auto shown = pixelsOf(banner.over({}, "no picture yet"));
     EXPECT_GE(rowsOf(shown, 0), 200);
     EXPECT_LT(rowsOf(shown, 0), 235);

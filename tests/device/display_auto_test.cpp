@@ -32,7 +32,7 @@ public:
         return device_.presence;
     }
     [[nodiscard]] Size size() const override { return device_.size; }
-    void show(const GlImage&) override {
+    void show(const Picture&) override {
         if (device_.refuses || device_.shown >= device_.refusesAfter ||
             device_.presence != Presence::Ready)
             throw std::runtime_error(name_ + " is broken");

@@ -47,6 +47,26 @@ TEST(PixelLayout, SixteenBitsKeepTheUppermostBits) {
     EXPECT_EQ(packed(kArgb1555, 4), (Bytes{0xc2, 0xa8, 0x1f, 0xc0, 0xe0, 0x83, 0x00, 0xfc}));
 }
 
+// As of a GPU's picture, also where a row is no whole number of vectors; alpha means nothing.
+TEST(PixelLayout, RowsOfTheHostBecomeTheSame) {
+    constexpr Size kSize{37, 3};
+    Bytes bgra(4UL * kSize.width * kSize.height, 255), rgba(bgra.size());
+    for (std::size_t i = 0; i < bgra.size(); i += 4) {
+        for (std::size_t k = 0; k < 3; ++k)
+            bgra[i + k] = rgba[i + 2 - k] = static_cast<std::uint8_t>((i + k) * 7 + i / 5);
+        rgba[i + 3] = static_cast<std::uint8_t>(i);
+    }
+    for (const PixelLayout& layout : {kXrgb, kRgbx, kRgb888, kBgr888, kRgb565, kArgb1555}) {
+        const std::size_t stride = kSize.width * layout.bytes() + 3;
+        Bytes fromGpu(kSize.height * stride, 0xee), fromHost = fromGpu;
+        packPixels({bgra.data(), kSize, 4UL * kSize.width, PixelFormat::Bgra8}, layout,
+                   fromGpu.data(), stride);
+        packPixels({rgba.data(), kSize, 4UL * kSize.width, PixelFormat::Rgba8}, layout,
+                   fromHost.data(), stride);
+        EXPECT_EQ(fromHost, fromGpu) << layout.bits << " bits, red at " << layout.red.offset;
+    }
+}
+
 TEST(PixelLayout, ChannelsOutsideOfTheWordAreRefused) {
     for (const PixelLayout& good : {kXrgb, kRgbx, kRgb888, kBgr888, kRgb565, kArgb1555})
         EXPECT_TRUE(good.valid());

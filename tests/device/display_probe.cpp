@@ -85,7 +85,7 @@ private:
         texture_.upload({pixels.data(), std::size_t{4} * kSize.width});
     }
     void show() {
-        display_->show({texture_.id(), kSize}, Timestamp::now());
+        display_->show(GlImage{texture_.id(), kSize}, Timestamp::now());
         if (std::string name = display_->name(); name != name_) {
             say(name);
             name_ = std::move(name);

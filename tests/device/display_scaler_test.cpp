@@ -37,7 +37,7 @@ protected:
     static std::vector<Colour> shown(ScreenScaler& scaler, const gpu::Texture& picture,
                                      Size screen) {
         ScreenReader reader(screen, scaler);
-        reader.begin({picture.id(), picture.size()});
+        reader.begin(GlImage{picture.id(), picture.size()});
         std::vector<Colour> out;
         reader.finish([&](const ImageView& view) {
             EXPECT_EQ(view.size, screen);
@@ -166,11 +166,69 @@ TEST_F(DisplayScaler, KeptTargetGivesTheCallersTargetBack) {
     EXPECT_EQ(viewport, (std::array<GLint, 4>{0, 0, 31, 17}));
 }
 
+AlignedRows<std::uint32_t> noiseRows(Size size) {
+    AlignedRows<std::uint32_t> rows(size);
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const Colour c = noise(x, y);
+            rows[y][x] = static_cast<std::uint32_t>(c[0] | c[1] << 8 | c[2] << 16 | 7 << 24);
+        }
+    return rows;
+}
+
+TEST_F(DisplayScaler, RowsOfTheHostAreDrawnAsATextureIs) {
+    const AlignedRows<std::uint32_t> small = noiseRows({96, 54}), large = noiseRows({230, 172});
+    ScreenScaler scaler;
+    const Size screen{128, 72};
+    const gpu::Texture target(screen, gpu::TexelFormat::Rgba8);
+    const gpu::Framebuffer framebuffer(target);
+    const auto drawn = [&](const Picture& from) {
+        scaler.draw(from, framebuffer.id(), screen, ScreenScaler::Order::Rgba);
+        return target.readRgba8();
+    };
+    for (const auto* rows : {&small, &large, &small}) {
+        const gpu::Texture texture = picture(rows->size(), noise);
+        EXPECT_EQ(drawn(rows->rows()), drawn(GlImage{texture.id(), rows->size()}));
+    }
+}
+
+TEST_F(DisplayScaler, ReaderTakesBothKindsOfPictures) {
+    const Size size{230, 172}, screen{128, 72};
+    const gpu::Texture texture = picture(size, noise);
+    const AlignedRows<std::uint32_t> rows = noiseRows(size);
+    ScreenScaler scaler;
+    ScreenReader reader(screen, scaler);
+    reader.begin(GlImage{texture.id(), size});
+    const ScreenPicture fromTexture = reader.last();
+    reader.begin(rows.rows());
+    std::vector<std::uint8_t> sent;
+    reader.finish([&](const ImageView& view) {
+        EXPECT_EQ(view.size, screen);
+        ASSERT_EQ(view.format, PixelFormat::Rgba8);
+        for (int y = 0; y < screen.height; ++y)
+            sent.insert(sent.end(), view.data + y * view.stride,
+                        view.data + y * view.stride + 4UL * screen.width);
+    });
+    const ScreenPicture fromRows = reader.last();
+    ASSERT_EQ(sent.size(), fromRows.pixels.size());
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        if (i % 4 == 3) {
+            EXPECT_EQ(fromRows.pixels[i], 255);
+            continue;
+        }
+        ASSERT_EQ(fromRows.pixels[i], sent[i]);
+        const std::size_t other = i / 4 * 4 + 2 - i % 4;
+        ASSERT_NEAR(fromRows.pixels[i], fromTexture.pixels[other], 3) << i;
+    }
+    reader.begin(GlImage{texture.id(), size});
+    EXPECT_EQ(reader.last().pixels, fromTexture.pixels);
+}
+
 TEST_F(DisplayScaler, LastIsWhatWasShown) {
     const gpu::Texture from = picture({230, 172}, noise);
     ScreenScaler scaler;
     ScreenReader reader({128, 72}, scaler);
-    reader.begin({from.id(), from.size()});
+    reader.begin(GlImage{from.id(), from.size()});
     std::vector<std::uint8_t> sent;
     reader.finish(
         [&](const ImageView& view) { sent.assign(view.data, view.data + 128UL * 72 * 4); });

@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(BackwardScales, AssessFields, testing::Values(1, 2));
 
 TEST_F(Assess, AgreeingFieldsAreFullyConfident) {
     const StereoRig rig = plainRig(kVideo, kStill);
-    const Picture p = randomPicture(kVideo, 1);
+    const TestPicture p = randomPicture(kVideo, 1);
     const Assessed got = assess(LevelPair(p, p), rig, constantFields({2, 1}, {-2, -1}));
     for (int i = 0; i < kGridArea; ++i) {
         const int column = i % 16, row = i / 16;
@@ -157,7 +157,7 @@ TEST_F(Assess, AgreeingFieldsAreFullyConfident) {
 
 TEST_F(Assess, DisagreementBeyondAlphaAndLookUpsOutsideHaveNoConfidence) {
     const StereoRig rig = plainRig(kVideo, kStill);
-    const Picture p = randomPicture(kVideo, 1);
+    const TestPicture p = randomPicture(kVideo, 1);
     const LevelPair pair(p, p);
     for (const Fields& f : {constantFields({0, 0}, {kAlpha, 0}), constantFields({99, 0}, {-99, 0}),
                             constantFields({0, -1e6}, {0, 1e6})}) {

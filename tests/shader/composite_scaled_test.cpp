@@ -24,7 +24,7 @@ protected:
         gpu::Texture colour(layerSize, TexelFormat::Rgba8, gpu::Filter::Linear);
         gpu::Texture depth(layerSize, TexelFormat::R32F);
         gpu::Texture real(kVideoOf, TexelFormat::Rg32F), video(kVideoOf, TexelFormat::Rgba8);
-        Picture p(layerSize);
+        TestPicture p(layerSize);
         std::vector<float> z;
         for (int y = 0; y < layerSize.height; ++y) {
             for (int x = 0; x < layerSize.width; ++x) {
@@ -35,7 +35,7 @@ protected:
         }
         colour.upload(PlaneView{p.view().data, p.view().stride});
         depth.upload(z);
-        const gpu::Texture picture = uploaded(Picture(kOutputOf, PixelFormat::Rgba8, 0));
+        const gpu::Texture picture = uploaded(TestPicture(kOutputOf, PixelFormat::Rgba8, 0));
         const gpu::Framebuffer target(picture);
         LayerComposite composite(kVideoOf, kOutputOf, layerSize);
         composite.run({&colour, &depth, bounds}, real, video, picture, target);

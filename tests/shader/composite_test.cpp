@@ -36,7 +36,7 @@ protected:
     void run(const twin::Scene& scene, const Virtual& layer, const CompositeOptions& options = {}) {
         gpu::Texture colour(kFine, TexelFormat::Rgba8), depth(kFine, TexelFormat::R32F);
         gpu::Texture real(kCoarse, TexelFormat::Rg32F);
-        Picture p(kFine);
+        TestPicture p(kFine);
         for (std::size_t i = 0; i < p.bytes.size(); ++i)
             p.bytes[i] = layer.colour[i % 4];
         colour.upload(PlaneView{p.view().data, p.view().stride});
@@ -232,8 +232,8 @@ struct EdgeScene {
         const double a = degrees * std::numbers::pi / 180;
         return (u - 26.3) * std::cos(a) + (v - 18) * std::sin(a);
     }
-    [[nodiscard]] Picture shoot(Size size) const {
-        Picture p(size, PixelFormat::Rgba8, 255);
+    [[nodiscard]] TestPicture shoot(Size size) const {
+        TestPicture p(size, PixelFormat::Rgba8, 255);
         const double step = static_cast<double>(kCoarse.width) / size.width;
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {

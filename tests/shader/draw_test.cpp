@@ -37,7 +37,7 @@ gpu::Texture cellTexture(std::array<float, 4> value, TexelFormat format) {
 
 /// Weights image: half the detail's weight, confidence, signal share, unexplained; bytes.
 gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
-    Picture p({14, 10});
+    TestPicture p({14, 10});
     for (std::size_t i = 0; i < p.bytes.size(); i += 4) {
         p.bytes[i] = half;
         p.bytes[i + 2] = signal;
@@ -46,7 +46,7 @@ gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
 }
 
 TEST_F(Draw, SharpeningMatchesTwin) {
-    const Picture p = Waves(1, 4, 40, 30).shoot(kSmallVideo, {});
+    const TestPicture p = Waves(1, 4, 40, 30).shoot(kSmallVideo, {});
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     params.tune[0] = 1;
     struct Case {
@@ -68,7 +68,7 @@ TEST_F(Draw, SharpeningKeepsAConstantPicture) {
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     params.tune[0] = 1;
     for (const std::uint8_t level : {0, 1, 100, 254, 255}) {
-        const Picture p(kSmallVideo, PixelFormat::Rgba8, level);
+        const TestPicture p(kSmallVideo, PixelFormat::Rgba8, level);
         const gpu::Texture out =
             drawn("superres_sharpen.frag", params,
                   {gpu::sampler(0, uploaded(p)), gpu::sampler(1, weights(0, 255))}, kSmallVideo);
@@ -77,15 +77,15 @@ TEST_F(Draw, SharpeningKeepsAConstantPicture) {
     }
 }
 
-gpu::Texture columnsOf(const Picture& p, const TileParams& params) {
+gpu::Texture columnsOf(const TestPicture& p, const TileParams& params) {
     return drawn("superres_vertical.frag", params, {gpu::sampler(0, uploaded(p))},
                  {kSmallVideo.width, kOutput.height});
 }
 
 TEST_F(Draw, UpscalingMatchesTwin) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
-    for (const Picture& p : {randomPicture(kSmallVideo, 2), checkerboard(kSmallVideo),
-                             Waves(1, 5, 40, 40).shoot(kSmallVideo, {})}) {
+    for (const TestPicture& p : {randomPicture(kSmallVideo, 2), checkerboard(kSmallVideo),
+                                 Waves(1, 5, 40, 40).shoot(kSmallVideo, {})}) {
         const gpu::Texture columns = columnsOf(p, params);
         const gpu::Texture out =
             drawn("composite_upscale.frag", params, {gpu::sampler(0, columns)}, kOutput);
@@ -102,7 +102,7 @@ TEST_F(Draw, UpscalingMatchesTwin) {
 
 TEST_F(Draw, UpscalingIsOpenCvsBicubic) {
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
-    Picture p = Waves(1, 6, 40, 30).shoot(kSmallVideo, {});
+    TestPicture p = Waves(1, 6, 40, 30).shoot(kSmallVideo, {});
     const gpu::Texture out =
         drawn("composite_upscale.frag", params, {gpu::sampler(0, columnsOf(p, params))}, kOutput);
     cv::Mat peer;
@@ -126,8 +126,9 @@ double stillAt(const twin::Grey& still, int x, int y, const LookUp& l) {
 }
 
 TEST_F(Draw, DetailIsAddedByItsWeight) {
-    const Picture p = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
-    const Picture detail = Waves(3, 8, 40, 20).shoot(kSmallStill, {.format = PixelFormat::Gray8});
+    const TestPicture p = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
+    const TestPicture detail =
+        Waves(3, 8, 40, 20).shoot(kSmallStill, {.format = PixelFormat::Gray8});
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(p, params);
     const twin::Grey up = twin::upscaled(twin::luma(p.view()), kOutput);
@@ -151,8 +152,8 @@ TEST_F(Draw, DetailIsAddedByItsWeight) {
 }
 
 TEST_F(Draw, BlendMixesByConfidence) {
-    const Picture p = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
-    const Picture still = Waves(3, 8, 40, 30).shoot(kSmallStill, {});
+    const TestPicture p = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
+    const TestPicture still = Waves(3, 8, 40, 30).shoot(kSmallStill, {});
     const TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
     const gpu::Texture columns = columnsOf(p, params);
     const twin::Grey up = twin::upscaled(twin::luma(p.view()), kOutput);
@@ -216,7 +217,7 @@ TEST_F(Draw, PlainTilesEqualTheField) {
 }
 
 TEST_F(Draw, StillLowMatchesTwin) {
-    const Picture still = Waves(4, 8, 60, 35).shoot(kSmallStill, {});
+    const TestPicture still = Waves(4, 8, 60, 35).shoot(kSmallStill, {});
     const Size low{57, 40};
     struct Params {
         float step[4];
@@ -235,7 +236,7 @@ TEST_F(Draw, StillDetailIsWhatTheVideoCannotShow) {
     gpu::PictureTexture picture(gpu::Filter::Linear);
     StillReference reference(rig, kSmallStill, picture);
     for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
-        const Picture still = Waves(5, 4, 60, 30).shoot(kSmallStill, {.format = format});
+        const TestPicture still = Waves(5, 4, 60, 30).shoot(kSmallStill, {.format = format});
         reference.set(still.view());
         const twin::Grey luma = twin::luma(still.view());
         const twin::Grey up = twin::upscaled(twin::stillLow(luma, rig.video.size), kSmallStill);
@@ -253,7 +254,7 @@ TEST_F(Draw, AConstantStillHasNoDetail) {
     gpu::PictureTexture picture(gpu::Filter::Linear);
     StillReference reference(plainRig({50, 35}, kSmallStill), kSmallStill, picture);
     for (const std::uint8_t level : {0, 90, 255}) {
-        reference.set(Picture(kSmallStill, PixelFormat::Rgba8, level).view());
+        reference.set(TestPicture(kSmallStill, PixelFormat::Rgba8, level).view());
         for (const double v : channelOf(reference.detail(), 0).values)
             ASSERT_EQ(v, 128);
     }

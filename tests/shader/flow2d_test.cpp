@@ -43,8 +43,8 @@ Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth
 /// `a` at rest against the same pattern moved by `truth`.
 Errors shiftErrors(const Waves& waves, Size size, const Vector2d& truth, int border,
                    double gain = 1, double offset = 0) {
-    const Picture a = waves.shoot(size, {});
-    const Picture b = waves.shoot(size, {.shift = -truth, .gain = gain, .offset = offset});
+    const TestPicture a = waves.shoot(size, {});
+    const TestPicture b = waves.shoot(size, {.shift = -truth, .gain = gain, .offset = offset});
     return errorsOf(flowBetween(a.view(), b.view()), size, truth, border);
 }
 
@@ -78,7 +78,7 @@ TEST_F(Flow, GainAndOffsetMakeNoDifference) {
 
 TEST_F(Flow, FlatPicturesDoNotMove) {
     for (const std::uint8_t level : {0, 128, 255}) {
-        const Picture a(kSmall, PixelFormat::Rgba8, level), b(kSmall, PixelFormat::Rgba8, 77);
+        const TestPicture a(kSmall, PixelFormat::Rgba8, level), b(kSmall, PixelFormat::Rgba8, 77);
         for (const float v : flowBetween(a.view(), b.view())) {
             ASSERT_TRUE(std::isfinite(v));
             ASSERT_LE(std::abs(v), 1e-3F);
@@ -87,8 +87,8 @@ TEST_F(Flow, FlatPicturesDoNotMove) {
 }
 
 TEST_F(Flow, UnrelatedPicturesGiveBoundedFlow) {
-    const Picture noise = randomPicture(kSmall, 1), other = randomPicture(kSmall, 2);
-    for (const Picture& b : {other, checkerboard(kSmall), Picture(kSmall)})
+    const TestPicture noise = randomPicture(kSmall, 1), other = randomPicture(kSmall, 2);
+    for (const TestPicture& b : {other, checkerboard(kSmall), TestPicture(kSmall)})
         for (const float v : flowBetween(noise.view(), b.view())) {
             ASSERT_TRUE(std::isfinite(v));
             ASSERT_LE(std::abs(v), 2.0F * kSmall.width);
@@ -98,15 +98,15 @@ TEST_F(Flow, UnrelatedPicturesGiveBoundedFlow) {
 TEST_F(Flow, OddSizesAndGreyPicturesWork) {
     for (const Size size : {Size{101, 59}, Size{16, 16}, Size{67, 53}}) {
         const Waves waves(5, 8, 60, 35);
-        const Picture a = waves.shoot(size, {.format = PixelFormat::Gray8});
-        const Picture b = waves.shoot(size, {.shift = {-1, 0.5}, .format = PixelFormat::Gray8});
+        const TestPicture a = waves.shoot(size, {.format = PixelFormat::Gray8});
+        const TestPicture b = waves.shoot(size, {.shift = {-1, 0.5}, .format = PixelFormat::Gray8});
         const Errors e = errorsOf(flowBetween(a.view(), b.view()), size, {1, -0.5}, 6);
         EXPECT_LT(e.mean, 0.2) << size.width << "x" << size.height;
     }
 }
 
 TEST_F(Flow, SizesThatDoNotFitAreRefused) {
-    const Picture a({64, 48}), b({64, 47}), tiny({15, 64});
+    const TestPicture a({64, 48}), b({64, 47}), tiny({15, 64});
     EXPECT_THROW(static_cast<void>(flowBetween(a.view(), b.view())), std::invalid_argument);
     EXPECT_THROW(static_cast<void>(flowBetween(tiny.view(), tiny.view())), std::invalid_argument);
 }

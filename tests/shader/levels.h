@@ -29,7 +29,7 @@ inline twin::Grey readLevel(const LumaPyramids& pyramids, const LumaLevel& level
 
 /// The pyramids of two pictures of the same size.
 struct LevelPair {
-    LevelPair(const Picture& a, const Picture& b) : tiles(a.size), pyramids(a.size) {
+    LevelPair(const TestPicture& a, const TestPicture& b) : tiles(a.size), pyramids(a.size) {
         pyramids.buildVideo(uploaded(a));
         pyramids.buildSecond(uploaded(b));
     }

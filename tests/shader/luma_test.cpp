@@ -23,7 +23,8 @@ void expectNear(const twin::Grey& gpu, const twin::Grey& twin, double tolerance)
 TEST_F(Luma, VideoMatchesTwin) {
     for (const Size size : {Size{64, 48}, Size{101, 59}})
         for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
-            const Picture a = randomPicture(size, 1, format), b = randomPicture(size, 2, format);
+            const TestPicture a = randomPicture(size, 1, format),
+                              b = randomPicture(size, 2, format);
             const LevelPair pair(a, b);
             expectNear(pair.first(), twin::smoothed(twin::luma(a.view())), kRounding);
             expectNear(pair.second(), twin::smoothed(twin::luma(b.view())), kRounding);
@@ -31,7 +32,7 @@ TEST_F(Luma, VideoMatchesTwin) {
 }
 
 TEST_F(Luma, CoarserLevelsAreExactMeans) {
-    const Picture a = randomPicture({213, 119}, 1), b = randomPicture({213, 119}, 2);
+    const TestPicture a = randomPicture({213, 119}, 1), b = randomPicture({213, 119}, 2);
     const LevelPair pair(a, b);
     ASSERT_EQ(pair.pyramids.video().size(), 3U);
     for (int level = 1; level < 3; ++level) {
@@ -42,7 +43,7 @@ TEST_F(Luma, CoarserLevelsAreExactMeans) {
 
 TEST_F(Luma, LevelsKeepTheRange) {
     for (const std::uint8_t fill : {0, 255}) {
-        const Picture flat({70, 60}, PixelFormat::Rgba8, fill);
+        const TestPicture flat({70, 60}, PixelFormat::Rgba8, fill);
         const LevelPair pair(flat, flat);
         for (int level = 0; level < 2; ++level)
             for (const double v : pair.first(level).values)
@@ -51,7 +52,7 @@ TEST_F(Luma, LevelsKeepTheRange) {
 }
 
 void expectStillMatches(const StereoRig& rig) {
-    const Picture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
+    const TestPicture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
     LumaPyramids pyramids(rig.video.size);
     pyramids.buildStill(uploaded(still, gpu::Filter::Linear), rig);
     expectNear(readLevel(pyramids, pyramids.still()[0]),

@@ -9,9 +9,9 @@
 namespace mfar {
 
 /// A picture in memory that owns its pixels.
-struct Picture {
-    Picture() = default;
-    explicit Picture(Size s, PixelFormat f = PixelFormat::Rgba8, std::uint8_t fill = 0)
+struct TestPicture {
+    TestPicture() = default;
+    explicit TestPicture(Size s, PixelFormat f = PixelFormat::Rgba8, std::uint8_t fill = 0)
         : size(s), format(f),
           bytes(static_cast<std::size_t>(s.width) * s.height * bytesPerPixel(f), fill) {}
     [[nodiscard]] ImageView view() const {

@@ -32,7 +32,7 @@ Waves::Waves(unsigned seed, double shortest, double longest, double contrast, in
     }
 }
 
-Picture Waves::shoot(Size size, const Shot& shot) const {
+TestPicture Waves::shoot(Size size, const Shot& shot) const {
     std::vector<double> sum(static_cast<std::size_t>(size.width) * size.height, 128.0);
     std::vector<double> s(size.width), c(size.width);
     for (const Wave& w : waves_) {
@@ -51,30 +51,30 @@ Picture Waves::shoot(Size size, const Shot& shot) const {
                 row[x] += s[x] * cy + c[x] * sy;
         }
     }
-    Picture out(size, shot.format, 255);
+    TestPicture out(size, shot.format, 255);
     const int n = bytesPerPixel(shot.format);
     for (std::size_t i = 0; i < sum.size(); ++i)
         std::fill_n(&out.bytes[i * n], std::min(n, 3), toByte(shot.gain * sum[i] + shot.offset));
     return out;
 }
 
-Picture randomPicture(Size size, unsigned seed, PixelFormat f) {
-    Picture out(size, f);
+TestPicture randomPicture(Size size, unsigned seed, PixelFormat f) {
+    TestPicture out(size, f);
     std::mt19937 random(seed);
     for (auto& b : out.bytes)
         b = static_cast<std::uint8_t>(random() >> 24);
     return out;
 }
 
-Picture checkerboard(Size size) {
-    Picture out(size);
+TestPicture checkerboard(Size size) {
+    TestPicture out(size);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
             std::fill_n(out.at(x, y), 4, (x + y) % 2 * 255);
     return out;
 }
 
-void addNoise(Picture& picture, double sigma, unsigned seed) {
+void addNoise(TestPicture& picture, double sigma, unsigned seed) {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0, sigma);
     const std::size_t n = bytesPerPixel(picture.format);
@@ -112,14 +112,14 @@ StereoRig bentRig(Size video, Size still) {
     return rig;
 }
 
-gpu::Texture uploaded(const Picture& p, gpu::Filter f) {
+gpu::Texture uploaded(const TestPicture& p, gpu::Filter f) {
     const bool grey = p.format == PixelFormat::Gray8;
     gpu::Texture t(p.size, grey ? gpu::TexelFormat::R8 : gpu::TexelFormat::Rgba8, f);
     t.upload(PlaneView{p.view().data, p.view().stride});
     return t;
 }
 
-RgbPlanes planesOf(const Picture& p) {
+RgbPlanes planesOf(const TestPicture& p) {
     RgbPlanes out(p.size);
     out.take(p.view());
     return out;

@@ -29,7 +29,7 @@ class Waves {
 public:
     /// Wavelengths in pattern units; contrast = standard deviation [grey levels].
     Waves(unsigned seed, double shortest, double longest, double contrast, int count = 48);
-    [[nodiscard]] Picture shoot(Size size, const Shot& shot) const;
+    [[nodiscard]] TestPicture shoot(Size size, const Shot& shot) const;
 
 private:
     struct Wave {
@@ -38,11 +38,12 @@ private:
     std::vector<Wave> waves_;
 };
 
-[[nodiscard]] Picture randomPicture(Size size, unsigned seed, PixelFormat f = PixelFormat::Rgba8);
+[[nodiscard]] TestPicture randomPicture(Size size, unsigned seed,
+                                        PixelFormat f = PixelFormat::Rgba8);
 /// One pixel black, one white.
-[[nodiscard]] Picture checkerboard(Size size);
+[[nodiscard]] TestPicture checkerboard(Size size);
 /// Adds the same Gaussian noise to all channels of each pixel.
-void addNoise(Picture& picture, double sigma, unsigned seed);
+void addNoise(TestPicture& picture, double sigma, unsigned seed);
 /// Root of the mean squared difference, turned into decibels against 255.
 [[nodiscard]] double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 
@@ -51,8 +52,8 @@ void addNoise(Picture& picture, double sigma, unsigned seed);
 /// Two different lenses, rotated by some degrees against each other.
 [[nodiscard]] StereoRig bentRig(Size video, Size still);
 
-[[nodiscard]] gpu::Texture uploaded(const Picture& p, gpu::Filter f = gpu::Filter::Nearest);
-[[nodiscard]] RgbPlanes planesOf(const Picture& p);
+[[nodiscard]] gpu::Texture uploaded(const TestPicture& p, gpu::Filter f = gpu::Filter::Nearest);
+[[nodiscard]] RgbPlanes planesOf(const TestPicture& p);
 /// What shaders sample, swizzled as it is: RGBA8.
 [[nodiscard]] std::vector<std::uint8_t> sampled(const gpu::Texture& texture);
 /// Four floats a texel.

@@ -12,12 +12,12 @@ struct PipelineCase {
         : rig(plainRig(video, {video.width * 18 / 5, video.height * 18 / 5})) {}
 
     /// What the video sees after moving by `shift`: each pixel averages its area.
-    [[nodiscard]] Picture video(const Eigen::Vector2d& shift = {0, 0}) const {
+    [[nodiscard]] TestPicture video(const Eigen::Vector2d& shift = {0, 0}) const {
         return waves.shoot(rig.video.size, {.shift = shift});
     }
-    [[nodiscard]] Picture still() const { return fine(rig.still.size, {0, 0}); }
+    [[nodiscard]] TestPicture still() const { return fine(rig.still.size, {0, 0}); }
     /// The video's view at another resolution.
-    [[nodiscard]] Picture fine(Size size, const Eigen::Vector2d& shift) const {
+    [[nodiscard]] TestPicture fine(Size size, const Eigen::Vector2d& shift) const {
         const double step = static_cast<double>(rig.video.size.width) / size.width;
         return waves.shoot(size, {.step = step, .shift = shift, .footprint = step});
     }

@@ -11,7 +11,7 @@ using PipelineFormats = GlTest;
 using test::PaddedPicture;
 
 /// The grey picture in another format: its levels as luma, no colour.
-void paint(const Picture& grey, YuvRange range, PaddedPicture& out) {
+void paint(const TestPicture& grey, YuvRange range, PaddedPicture& out) {
     const ImageView view = out.view();
     const int step = bytesPerPixel(view.format);
     std::fill(out.plane(0).begin(), out.plane(0).end(), std::uint8_t{128});
@@ -30,8 +30,8 @@ void paint(const Picture& grey, YuvRange range, PaddedPicture& out) {
 
 TEST_F(PipelineFormats, EveryFormatGivesThePictureOfGreyFrames) {
     const PipelineCase c;
-    const Picture video = c.waves.shoot(c.rig.video.size, {.format = PixelFormat::Gray8});
-    const Picture still =
+    const TestPicture video = c.waves.shoot(c.rig.video.size, {.format = PixelFormat::Gray8});
+    const TestPicture still =
         c.waves.shoot(c.rig.still.size, {.step = 160.0 / 576, .format = PixelFormat::Gray8});
     const auto run = [&](const ImageView& s, const ImageView& v) {
         Pipeline p(c.rig, {});

@@ -23,7 +23,7 @@ TEST_F(PipelineInputs, FramesOfAnotherSizeAreRefused) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     for (const Size wrong : {Size{160, 119}, Size{161, 120}, Size{120, 160}, Size{0, 0}})
-        EXPECT_THROW(p.run(Picture(wrong).view(), {}), std::invalid_argument);
+        EXPECT_THROW(p.run(TestPicture(wrong).view(), {}), std::invalid_argument);
     EXPECT_THROW(p.run({}, {}), std::invalid_argument);
     EXPECT_THROW(p.setStill(c.video().view(), {}), std::invalid_argument);
     p.run(c.video().view(), {});  // and nothing is broken afterwards
@@ -57,7 +57,8 @@ TEST_F(PipelineInputs, FlowHasTheLevelsAskedFor) {
 }
 
 TEST_F(PipelineInputs, AStillMuchNarrowerThanTheVideoHasAnOutputOfARow) {
-    const Picture video({160, 40}, PixelFormat::Rgba8, 90), still({1, 7}, PixelFormat::Rgba8, 90);
+    const TestPicture video({160, 40}, PixelFormat::Rgba8, 90),
+        still({1, 7}, PixelFormat::Rgba8, 90);
     Pipeline p(plainRig(video.size, still.size), {});
     EXPECT_EQ(p.outputSize(), (Size{1, 1}));
     p.setStill(still.view(), {});
@@ -69,7 +70,7 @@ TEST_F(PipelineInputs, OddSizesWork) {
     for (const Size size : {Size{641, 479}, Size{648, 432}, Size{100, 60}, Size{61, 45}}) {
         const PipelineCase c(size);
         Pipeline p(c.rig, {});
-        const Picture video = c.video({1.5, 0.5});
+        const TestPicture video = c.video({1.5, 0.5});
         const auto truth = c.fine(p.outputSize(), {1.5, 0.5}).bytes;
         p.run(video.view(), {});
         const double upscaled = psnr(p.readImage(), truth);
@@ -107,14 +108,14 @@ TEST_F(PipelineInputs, TheFormatMayChangeFromFrameToFrame) {
 TEST_F(PipelineInputs, ExtremePicturesGiveNoNan) {
     const PipelineCase c({100, 60});
     const auto extremes = [](Size s) {
-        return std::vector<Picture>{Picture(s), Picture(s, PixelFormat::Rgba8, 255),
-                                    checkerboard(s), randomPicture(s, 1)};
+        return std::vector<TestPicture>{TestPicture(s), TestPicture(s, PixelFormat::Rgba8, 255),
+                                        checkerboard(s), randomPicture(s, 1)};
     };
     for (const SuperResMode mode : {SuperResMode::Detail, SuperResMode::Blend}) {
         Pipeline p(c.rig, {mode, {}, true});
-        for (const Picture& still : extremes(c.rig.still.size)) {
+        for (const TestPicture& still : extremes(c.rig.still.size)) {
             p.setStill(still.view(), {});
-            for (const Picture& video : extremes(c.rig.video.size)) {
+            for (const TestPicture& video : extremes(c.rig.video.size)) {
                 p.run(video.view(), {});
                 expectFinite(p);
             }
@@ -126,8 +127,8 @@ TEST_F(PipelineInputs, FlatPicturesStayFlat) {
     const PipelineCase c({100, 60});
     Pipeline p(c.rig, {});
     for (const std::uint8_t level : {0, 128, 255}) {
-        p.setStill(Picture(c.rig.still.size, PixelFormat::Rgba8, level).view(), {});
-        p.run(Picture(c.rig.video.size, PixelFormat::Rgba8, level).view(), {});
+        p.setStill(TestPicture(c.rig.still.size, PixelFormat::Rgba8, level).view(), {});
+        p.run(TestPicture(c.rig.video.size, PixelFormat::Rgba8, level).view(), {});
         const auto image = p.readImage();
         for (std::size_t i = 0; i < image.size(); i += 4)
             ASSERT_EQ(image[i], level);

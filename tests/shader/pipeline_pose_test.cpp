@@ -41,11 +41,11 @@ void expectSound(const Pipeline& p, const std::string& what) {
 TEST_F(PipelinePose, ExtremePicturesAndPosesGiveNoNan) {
     const PipelineCase c;
     const Size video = c.rig.video.size, fine = c.rig.still.size;
-    const std::vector<Picture> frames{Picture(video, PixelFormat::Rgba8, 0),
-                                      Picture(video, PixelFormat::Rgba8, 255), checkerboard(video),
-                                      randomPicture(video, 1), c.video()};
-    const std::vector<Picture> stills{Picture(fine, PixelFormat::Rgba8, 255), checkerboard(fine),
-                                      randomPicture(fine, 2), c.still()};
+    const std::vector<TestPicture> frames{TestPicture(video, PixelFormat::Rgba8, 0),
+                                          TestPicture(video, PixelFormat::Rgba8, 255),
+                                          checkerboard(video), randomPicture(video, 1), c.video()};
+    const std::vector<TestPicture> stills{TestPicture(fine, PixelFormat::Rgba8, 255),
+                                          checkerboard(fine), randomPicture(fine, 2), c.still()};
     Pipeline p(c.rig, {});
     for (std::size_t s = 0; s < stills.size(); ++s) {
         p.setStill(stills[s].view(), {}, poseAt(Vector3d::Zero()));

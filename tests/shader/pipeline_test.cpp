@@ -21,7 +21,7 @@ int tileCount(const Pipeline& p) {
 TEST_F(PipelineTest, WithoutAStillTheVideoIsUpscaled) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
-    const Picture video = c.video();
+    const TestPicture video = c.video();
     const FrameResult& r = p.run(video.view(), {});
     EXPECT_FALSE(r.stats.usedStill);
     EXPECT_EQ(r.image.size, (Size{576, 432}));
@@ -35,7 +35,7 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsUpscaled) {
 
 TEST_F(PipelineTest, AStillBringsThePictureCloserToTheTruth) {
     const PipelineCase c;
-    const Picture video = c.video(kShift), still = c.still();
+    const TestPicture video = c.video(kShift), still = c.still();
     Pipeline p(c.rig, {});
     const auto truth = c.fine(p.outputSize(), kShift).bytes;
     p.run(video.view(), {});
@@ -82,10 +82,10 @@ TEST_F(PipelineTest, FlowAndConfidenceFollowTheMotion) {
 TEST_F(PipelineTest, AnUnrelatedStillAddsNothing) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
-    const Picture video = Waves(9, 6, 60, 30).shoot(c.rig.video.size, {});
+    const TestPicture video = Waves(9, 6, 60, 30).shoot(c.rig.video.size, {});
     p.run(video.view(), {});
     const auto upscaled = p.readImage();
-    Picture noise = randomPicture(c.rig.still.size, 1);
+    TestPicture noise = randomPicture(c.rig.still.size, 1);
     p.setStill(noise.view(), {});
     p.run(video.view(), {});
     EXPECT_GT(psnr(p.readImage(), upscaled), 35);
@@ -96,7 +96,7 @@ TEST_F(PipelineTest, AnIdenticalFrameCostsNothingAndChangesNothing) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setStill(c.still().view(), {});
-    const Picture video = c.video(kShift);
+    const TestPicture video = c.video(kShift);
     p.run(video.view(), {});
     EXPECT_EQ(unchangedTiles(p), 0);
     const auto before = p.readImage();
@@ -113,7 +113,7 @@ TEST_F(PipelineTest, OnlyTilesAroundAChangeAreDrawn) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setStill(c.still().view(), {});
-    Picture video = c.video(kShift);
+    TestPicture video = c.video(kShift);
     p.run(video.view(), {});
     const auto before = p.readImage();
     for (int y = 40; y < 56; ++y)
@@ -145,10 +145,10 @@ TEST_F(PipelineTest, NoiseIsNoChange) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setStill(c.still().view(), {});
-    const Picture clean = Waves(3, 20, 90, 30).shoot(c.rig.video.size, {});
+    const TestPicture clean = Waves(3, 20, 90, 30).shoot(c.rig.video.size, {});
     int unchanged = 0;
     for (unsigned i = 0; i < 24; ++i) {
-        Picture noisy = clean;
+        TestPicture noisy = clean;
         addNoise(noisy, 2, i);
         p.run(noisy.view(), {});
         unchanged = unchangedTiles(p);

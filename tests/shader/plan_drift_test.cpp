@@ -47,11 +47,11 @@ struct NoisySensor {
     double sigma = 1, shared = 0;
     std::mt19937 random{3};
 
-    Picture shoot(const Light& light) {
+    TestPicture shoot(const Light& light) {
         const std::size_t first = random(), firstBlock = random();
         const auto own = static_cast<float>(std::sqrt(1 - shared)),
                    common = static_cast<float>(std::sqrt(shared));
-        Picture out(kDriftVideo);
+        TestPicture out(kDriftVideo);
         for (std::size_t i = 0; i < kDriftPixels; ++i) {
             const std::size_t x = i % kDriftVideo.width, y = i / kDriftVideo.width;
             const std::size_t block = y / 2 * kDriftVideo.width + x / 2;
@@ -78,11 +78,11 @@ struct DriftOutcome {
 DriftOutcome watch(const DriftScene& scene, NoisySensor sensor, int settled, int frames) {
     WorkPlan plan(kDriftVideo);
     Light drawnLight = lightOf(scene, 0), light = drawnLight;
-    Picture drawn = sensor.shoot(drawnLight);
+    TestPicture drawn = sensor.shoot(drawnLight);
     DriftOutcome out;
     for (int frame = 1; frame <= settled + frames; ++frame) {
         light = lightOf(scene, frame);
-        const Picture now = sensor.shoot(light);
+        const TestPicture now = sensor.shoot(light);
         plan.update(planesOf(now), planesOf(drawn), false);
         const std::vector<TileWork::Tile>& tiles = plan.work().flags;
         double stale = 0;

@@ -36,8 +36,8 @@ std::vector<TileState> tilesOf(const WorkPlan& plan) {
 }
 
 /// `base` with the first `tiles` tiles turned by some grey levels.
-Picture changedIn(Picture base, int tiles, int by) {
-    Picture out = base;
+TestPicture changedIn(TestPicture base, int tiles, int by) {
+    TestPicture out = base;
     for (int t = 0; t < tiles; ++t)
         for (int i = 0; i < 64; ++i) {
             // Not at the border to another tile, but where the tile is cut.
@@ -49,8 +49,8 @@ Picture changedIn(Picture base, int tiles, int by) {
 }
 
 TEST_F(Plan, FlagsAndNoiseMatchTwin) {
-    const Picture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
-    Picture now = drawn;
+    const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
+    TestPicture now = drawn;
     std::mt19937 random(7);
     for (int tile = 0; tile < 28; ++tile)  // from hardly any change to much, in one channel
         for (int i = 0; i < 256; ++i) {
@@ -86,8 +86,8 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
 }
 
 TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
-    const Picture base = Waves(1, 6, 60, 30).shoot(kSize, {});
-    const Picture oneTile = changedIn(base, 1, 64);
+    const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
+    const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
     plan.drawnOver({2, 1, 4, 9}, WorkPlan::Redraw::WithOthers);
     plan.update(planesOf(base), planesOf(base), false);
@@ -113,8 +113,8 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
 }
 
 TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithItsTilesOrTheWhole) {
-    const Picture base = Waves(1, 6, 60, 30).shoot(kSize, {});
-    const Picture oneTile = changedIn(base, 1, 64);  // the first
+    const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
+    const TestPicture oneTile = changedIn(base, 1, 64);  // the first
     WorkPlan plan(kSize);
     plan.drawnOver({2, 0, 4, 2}, WorkPlan::Redraw::WithThem);
     plan.update(planesOf(oneTile), planesOf(base), false);
@@ -132,7 +132,7 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
     for (const double sigma : {1.0, 2.0, 3.0}) {
         WorkPlan plan({320, 240});
         for (unsigned i = 0; i < 24; ++i) {
-            Picture noisy = Waves(5, 40, 300, 30).shoot({320, 240}, {});
+            TestPicture noisy = Waves(5, 40, 300, 30).shoot({320, 240}, {});
             addNoise(noisy, sigma, i);
             plan.update(planesOf(noisy), planesOf(noisy), false);
         }
@@ -142,7 +142,7 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
 
 // Enlarging looks two pixels beyond a tile.
 TEST_F(Plan, AChangeAtATilesBorderIsOneOfTheTileBesideIt) {
-    const Picture base = Waves(1, 6, 60, 30).shoot(kSize, {});
+    const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     struct Case {
         int x, y;
         std::vector<int> tiles;
@@ -151,7 +151,7 @@ TEST_F(Plan, AChangeAtATilesBorderIsOneOfTheTileBesideIt) {
          {Case{16 + 6, 16 + 6, {8}}, Case{16, 16 + 6, {7, 8}}, Case{16 + 12, 16 + 6, {8, 9}},
           Case{16 + 6, 16, {1, 8}}, Case{16 + 6, 16 + 12, {8, 15}}, Case{16, 16, {0, 1, 7, 8}},
           Case{0, 0, {0}}}) {
-        Picture now = base;
+        TestPicture now = base;
         for (int i = 0; i < 16; ++i)
             now.at(c.x + i % 4, c.y + i / 4)[1] ^= 64;
         WorkPlan plan(kSize);
@@ -165,7 +165,7 @@ TEST_F(Plan, AChangeAtATilesBorderIsOneOfTheTileBesideIt) {
 }
 
 TEST_F(Plan, NothingChangedDrawsNothing) {
-    const Picture p = randomPicture(kSize, 1);
+    const TestPicture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
     plan.update(planesOf(p), planesOf(p), false);
     for (const TileState& t : tilesOf(plan))
@@ -175,7 +175,7 @@ TEST_F(Plan, NothingChangedDrawsNothing) {
 }
 
 TEST_F(Plan, AForcedFrameChangesEverything) {
-    const Picture p = randomPicture(kSize, 1);
+    const TestPicture p = randomPicture(kSize, 1);
     WorkPlan plan(kSize);
     plan.update(planesOf(p), planesOf(p), true);
     for (const TileState& t : tilesOf(plan))
@@ -199,7 +199,7 @@ TEST_F(Plan, TheBufferHoldsEveryTilesFlags) {
 }
 
 TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
-    const Picture base = Waves(2, 20, 100, 20).shoot(kSize, {});
+    const TestPicture base = Waves(2, 20, 100, 20).shoot(kSize, {});
     const int last = 12;  // 0.45 of 28 tiles are 12.6
     for (const int tiles : {1, last, last + 1, 28}) {
         WorkPlan plan(kSize);
@@ -215,8 +215,8 @@ TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
 }
 
 /// A slope and noise, with as many columns of dots as the contrasts that are told, two tiles apart.
-Picture dotted(Size size, const std::vector<int>& contrasts) {
-    Picture out(size);
+TestPicture dotted(Size size, const std::vector<int>& contrasts) {
+    TestPicture out(size);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
             for (int c = 0; c < 3; ++c)
@@ -252,7 +252,7 @@ std::vector<int> matchedColumns(const WorkPlan& plan) {
 
 TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
     const Size size{256, 96};  // 16 columns
-    const Picture picture = dotted(size, {20, 60, 0, 40});
+    const TestPicture picture = dotted(size, {20, 60, 0, 40});
     WorkPlan plan(size);
     const auto update = [&] {
         for (int i = 0; i < 20; ++i)  // until the noise is known
@@ -274,7 +274,7 @@ TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
 
 TEST_F(Plan, NoiseMakesNoDetailComeAndGo) {
     const Size size{512, 256};  // 32x16 tiles
-    Picture quiet(size, PixelFormat::Rgba8, 90);
+    TestPicture quiet(size, PixelFormat::Rgba8, 90);
     std::mt19937 random(5);
     for (int tile = 0; tile < 512; ++tile) {
         const int contrast = std::uniform_int_distribution(4, 24)(random);
@@ -288,7 +288,7 @@ TEST_F(Plan, NoiseMakesNoDetailComeAndGo) {
     std::vector<TileState> last;
     int turns = 0;
     for (unsigned frame = 0; frame < 40; ++frame) {
-        Picture now = quiet;
+        TestPicture now = quiet;
         addNoise(now, 1.5, frame);
         plan.update(planesOf(now), planesOf(now), true);
         const auto tiles = tilesOf(plan);
@@ -303,13 +303,13 @@ TEST_F(Plan, NoiseMakesNoDetailComeAndGo) {
 
 TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
     const Size size{256, 96};
-    const Picture drawn = dotted(size, {60});
+    const TestPicture drawn = dotted(size, {60});
     WorkPlan plan(size);
     plan.matchStructured(1);
     for (const bool inStructure : {false, true}) {
         for (int i = 0; i < 20; ++i)
             plan.update(planesOf(drawn), planesOf(drawn), false);
-        Picture now = drawn;
+        TestPicture now = drawn;
         for (int i = 0; i < 256; ++i)  // a tile, evenly
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
@@ -319,7 +319,7 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
 }
 
 /// Of a picture all of which changed, after the noise is known.
-void planWhole(WorkPlan& plan, const Picture& picture) {
+void planWhole(WorkPlan& plan, const TestPicture& picture) {
     for (int i = 0; i < 20; ++i)
         plan.update(planesOf(picture), planesOf(picture), true);
 }

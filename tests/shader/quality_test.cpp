@@ -49,7 +49,7 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
     p.setQuality({.mode = SuperResMode::Off, .cubic = false});
     cubic.setQuality({.mode = SuperResMode::Off});
     detail.setQuality({.cubic = false});
-    Picture frame = c.video({2, 0});
+    TestPicture frame = c.video({2, 0});
     for (const bool inTiles : {false, true}) {
         for (int x = 50; inTiles && x < 54; ++x)
             std::fill_n(frame.at(x, 40), 3, static_cast<std::uint8_t>(60 * (x - 50)));
@@ -72,7 +72,7 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
 TEST_F(QualityTest, WhatAChangeReachesIntoIsDrawnAnewWithIt) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), whole(c.rig, {});
-    Picture frame = c.video({2, 0});
+    TestPicture frame = c.video({2, 0});
     for (Pipeline* each : {&p, &whole})
         each->run(frame.view(), {});
     for (int x = 32; x < 48; ++x)
@@ -180,7 +180,7 @@ TEST_F(QualityTest, WorkThatIsNotLeftOutDrawsTheSamePicture) {
 }
 
 /// All but a patch in the middle of this grey.
-Picture evenButForAPatch(Picture picture, int grey) {
+TestPicture evenButForAPatch(TestPicture picture, int grey) {
     const Size size = picture.view().size;
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
@@ -223,7 +223,7 @@ std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     options.skips = skips;
     Pipeline p(c.rig, options);
     p.setStill(c.still().view(), {});
-    Picture frame = c.video({2, 0});
+    TestPicture frame = c.video({2, 0});
     p.run(frame.view(), {});
     for (int y = 0; y < 12; ++y)
         for (int x = 0; x < 12; ++x)

@@ -30,7 +30,7 @@ std::vector<double> reduced(const std::vector<double>& line, int to) {
     return out;
 }
 
-std::vector<double> twinOf(const Picture& picture, Size to) {
+std::vector<double> twinOf(const TestPicture& picture, Size to) {
     const Size from = picture.size;
     std::vector<double> narrow(static_cast<std::size_t>(to.width) * from.height),
         out(static_cast<std::size_t>(to.width) * to.height);
@@ -56,7 +56,7 @@ TEST_F(StillReducerTest, MatchesItsTwin) {
                                    {Size{37, 41}, Size{36, 11}},
                                    {Size{9, 1}, Size{2, 1}},
                                    {Size{16, 12}, Size{1, 1}}}) {
-        const Picture picture = randomPicture(from, 5);
+        const TestPicture picture = randomPicture(from, 5);
         StillReducer reducer(from, to);
         reducer.run(uploaded(picture));
         ASSERT_EQ(reducer.picture().size(), to);

@@ -159,24 +159,24 @@ struct MovedSquare {
         const Waves ground(1, 6, 60, 40), object(2, 6, 60, 40);
         now = ground.shoot(kVideoSize, {});
         then = now;
-        const Picture square = object.shoot(kVideoSize, {});
+        const TestPicture square = object.shoot(kVideoSize, {});
         for (int y = kFirst; y < kEnd; ++y)
             for (int x = kFirst; x < kEnd; ++x) {
-                std::copy_n(Picture(square).at(x, y), 4, now.at(x, y));
-                std::copy_n(Picture(square).at(x, y), 4, then.at(x, y + kBy));
+                std::copy_n(TestPicture(square).at(x, y), 4, now.at(x, y));
+                std::copy_n(TestPicture(square).at(x, y), 4, then.at(x, y + kBy));
             }
     }
     [[nodiscard]] static bool within(int x, int y, int border) {
         return std::min(x, y) >= kFirst + border && std::max(x, y) < kEnd - border;
     }
 
-    Picture now, then;
+    TestPicture now, then;
 };
 
 /// What refine() makes of a field of no motion.
 class Refined {
 public:
-    Refined(const Picture& now, const Picture& then) : pyramids_(now.size), flow(now.size) {
+    Refined(const TestPicture& now, const TestPicture& then) : pyramids_(now.size), flow(now.size) {
         pyramids_.buildVideo(uploaded(now));
         pyramids_.buildSecond(uploaded(then));
         const std::vector<Cell> none(kCount);
@@ -220,7 +220,7 @@ TEST_F(TileListsGl, WhatMovedIsFoundAndTheRestStays) {
 }
 
 TEST_F(TileListsGl, WhereNothingMovedNothingIsSearched) {
-    const Picture still = Waves(3, 6, 60, 40).shoot(kVideoSize, {});
+    const TestPicture still = Waves(3, 6, 60, 40).shoot(kVideoSize, {});
     const Refined r(still, still);
     EXPECT_EQ(r.flow.searched().count(), 0);
     EXPECT_EQ(r.flow.searched().read(), std::vector<bool>(kTiles.width * kTiles.height));

@@ -145,7 +145,7 @@ struct Classified {
 Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& changed,
                     bool hasStill) {
     const gpu::Texture cells = floatTexture(kWhole, gpu::TexelFormat::Rgba32F, field.values);
-    const gpu::Texture weights = uploaded(Picture(kWhole));
+    const gpu::Texture weights = uploaded(TestPicture(kWhole));
     gpu::Buffer changedBuffer(changed.size() * 4), classes(8 * kTileCount);
     gpu::Buffer draws(sizeof(Draws)), lists(16 * kTileCount);
     changedBuffer.write(std::span(changed));

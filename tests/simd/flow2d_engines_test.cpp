@@ -22,7 +22,7 @@ using Cell = std::array<float, 4>;
 /// Both engines on the same pictures.
 class Engines {
 public:
-    Engines(const Picture& now, const Picture& then)
+    Engines(const TestPicture& now, const TestPicture& then)
         : size_(now.size), tiles_(size_), glPyramids_(size_), glFlow_(size_),
           workers_(std::make_shared<Workers>()), pyramids_(size_, workers_),
           flow_(size_, {}, workers_) {
@@ -120,7 +120,7 @@ TEST_F(Flow2dEngines, BothWaysAgreeOnAPhotograph) {
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is absent";
     const auto load = [&](const char* name) {
         const cv::Mat grey = cv::imread((folder / name).string(), cv::IMREAD_GRAYSCALE);
-        Picture out({grey.cols, grey.rows}, PixelFormat::Gray8);
+        TestPicture out({grey.cols, grey.rows}, PixelFormat::Gray8);
         std::memcpy(out.bytes.data(), grey.data, out.bytes.size());
         return out;
     };

@@ -44,7 +44,7 @@ struct EngineScene {
     [[nodiscard]] PixelRect bounds() const { return {0, 0, layerSize.width, layerSize.height}; }
 
     Size layerSize;
-    Picture video, picture, colour;
+    TestPicture video, picture, colour;
     std::vector<float> z;
     InverseDepthField depth;
 };

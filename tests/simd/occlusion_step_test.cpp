@@ -23,8 +23,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kRounded = 0.51 / 255;
 
 /// Smooth waves, seen alike at any size.
-Picture wavyPicture(Size size) {
-    Picture out(size, PixelFormat::Rgba8, 255);
+TestPicture wavyPicture(Size size) {
+    TestPicture out(size, PixelFormat::Rgba8, 255);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const double u = (x + 0.5) * kCoarse.width / size.width;
@@ -37,8 +37,8 @@ Picture wavyPicture(Size size) {
     return out;
 }
 
-Picture noisyPicture(Size size, unsigned seed) {
-    Picture out(size);
+TestPicture noisyPicture(Size size, unsigned seed) {
+    TestPicture out(size);
     std::mt19937 random(seed);
     for (auto& b : out.bytes)
         b = static_cast<std::uint8_t>(random() >> 24);
@@ -176,7 +176,8 @@ TEST_P(OcclusionSizes, ThreadsAndBoundsChangeNothingInside) {
 
 INSTANTIATE_TEST_SUITE_P(LayerSizes, OcclusionSizes,
                          testing::Values(LayerSizes{kCoarse, kFine}, LayerSizes{{16, 16}, {16, 16}},
-                                         LayerSizes{{17, 31}, {601, 40}}, LayerSizes{{64, 48}, {33, 21}},
+                                         LayerSizes{{17, 31}, {601, 40}},
+                                         LayerSizes{{64, 48}, {33, 21}},
                                          LayerSizes{{40, 30}, {160, 120}}));
 
 class OcclusionTest : public testing::Test, protected Occlusion {

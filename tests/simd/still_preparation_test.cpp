@@ -39,8 +39,8 @@ struct Still {
 };
 
 /// An RGBA picture of random texture.
-struct Picture {
-    explicit Picture(Size size, int smooth = 2)
+struct TestPicture {
+    explicit TestPicture(Size size, int smooth = 2)
         : bytes(mixedBytes(4UL * size.width * size.height, 7, smooth)),
           view{bytes.data(), size, 4UL * size.width, PixelFormat::Rgba8} {}
     std::vector<std::uint8_t> bytes;
@@ -56,7 +56,7 @@ TEST(StillPreparation, LumaAndDetailAreThoseOfTheOracleAtAnySize) {
           Sizes{{16, 16}, {17, 19}, {64, 64}}, Sizes{{160, 120}, {100, 75}, {320, 240}},
           Sizes{{33, 20}, {700, 424}, {700, 424}}}) {
         Still s(video, still, output);
-        const Picture picture(still);
+        const TestPicture picture(still);
         s.preparation.set(picture.view);
         EXPECT_EQ(s.preparation.rig().still.size, still);
         const Plane luma = lumaOf(picture.view);
@@ -69,7 +69,7 @@ TEST(StillPreparation, LumaAndDetailAreThoseOfTheOracleAtAnySize) {
 TEST(StillPreparation, StillFinerThanTheOutputIsReducedFirst) {
     const Size still{300, 225}, output{100, 75};
     Still s({80, 60}, still, output);
-    const Picture picture(still);
+    const TestPicture picture(still);
     s.preparation.set(picture.view);
     const Size size = s.preparation.rig().still.size;
     ASSERT_EQ(size, (Size{140, 105}));
@@ -82,7 +82,7 @@ TEST(StillPreparation, StillFinerThanTheOutputIsReducedFirst) {
 
 TEST(StillPreparation, PairsHoldEachPixelAndTheOneBelow) {
     Still s({40, 30}, {131, 97}, {131, 97});
-    s.preparation.set(Picture({131, 97}).view);
+    s.preparation.set(TestPicture({131, 97}).view);
     const DetailPairs pairs = s.preparation.detailPairs();
     const Rows<const std::uint8_t> detail = s.preparation.detail();
     ASSERT_EQ(pairs.size, detail.size);
@@ -97,7 +97,7 @@ TEST(StillPreparation, ConstantStillHasNoDetail) {
     for (const int level : {0, 90, 255}) {
         for (const Size output : {Size{200, 140}, Size{60, 42}}) {
             Still s({50, 35}, {200, 140}, output);
-            Picture picture({200, 140});
+            TestPicture picture({200, 140});
             std::ranges::fill(picture.bytes, static_cast<std::uint8_t>(level));
             s.preparation.set(picture.view);
             const Rows<const std::uint8_t> detail = s.preparation.detail();
@@ -168,7 +168,7 @@ TEST(StillPreparation, GreyAndBlueFirstAreRead) {
 
 TEST(StillPreparation, PictureHasTheColoursAndOutlivesWhatItWasMadeOf) {
     Still s({40, 25}, {91, 60}, {91, 60});
-    auto picture = std::make_unique<Picture>(Size{91, 60});
+    auto picture = std::make_unique<TestPicture>(Size{91, 60});
     s.preparation.set(picture->view);
     const std::vector<std::uint8_t> bytes = picture->bytes;
     picture.reset();
@@ -182,7 +182,7 @@ TEST(StillPreparation, PictureHasTheColoursAndOutlivesWhatItWasMadeOf) {
 
 TEST(StillPreparation, PictureThatIsNotKeptIsGrey) {
     Still s({40, 25}, {90, 60}, {90, 60});
-    s.preparation.set(Picture({90, 60}).view, false);
+    s.preparation.set(TestPicture({90, 60}).view, false);
     const Rows<const std::uint32_t> got = s.preparation.picture();
     for (int x = 0; x < 90; ++x)
         ASSERT_EQ(got[7][x], 0xff000000U | 0x10101U * s.preparation.luma()[7][x]);
@@ -190,7 +190,7 @@ TEST(StillPreparation, PictureThatIsNotKeptIsGrey) {
 
 TEST(StillPreparation, ReducedPictureIsThatOfTheOracle) {
     Still s({80, 60}, {300, 225}, {100, 75});
-    const Picture picture({300, 225});
+    const TestPicture picture({300, 225});
     s.preparation.set(picture.view);
     const Rows<const std::uint32_t> got = s.preparation.picture();
     ASSERT_EQ(got.size, s.preparation.rig().still.size);
@@ -205,7 +205,7 @@ TEST(StillPreparation, ReducedPictureIsThatOfTheOracle) {
 }
 
 TEST(StillPreparation, AnyNumberOfThreadsGivesTheSame) {
-    const Picture picture({200, 140});
+    const TestPicture picture({200, 140});
     Still one({50, 35}, {200, 140}, {200, 140}, 1), four({50, 35}, {200, 140}, {200, 140}, 4);
     one.preparation.set(picture.view);
     four.preparation.set(picture.view);

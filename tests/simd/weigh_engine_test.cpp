@@ -27,7 +27,7 @@ TEST_F(WeighEngines, BothWeighAStillAlike) {
     LumaPyramids pyramids(kVideo);
     Flow2d flow(kVideo);
     CellWeigher weigher(rig);
-    Picture picture = waves.shoot(kVideo, {});
+    TestPicture picture = waves.shoot(kVideo, {});
     addNoise(picture, 1.5, 1);
     plan.matchStructured(0.6);
     for (int i = 0; i < 20; ++i)  // until the noise is known
@@ -35,7 +35,7 @@ TEST_F(WeighEngines, BothWeighAStillAlike) {
     const TileWork& work = plan.work();
     tiles.set(work);
     pyramids.buildVideo(uploaded(picture));
-    const Picture still = waves.shoot(kStill, {.step = step, .footprint = step});
+    const TestPicture still = waves.shoot(kStill, {.step = step, .footprint = step});
     pyramids.buildStill(uploaded(still, gpu::Filter::Linear), rig);
     flow.run(pyramids.luma(), tiles, false);
     weigher.run({pyramids.video(), pyramids.still(), pyramids.words(), flow.patches(),

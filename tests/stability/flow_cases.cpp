@@ -35,8 +35,8 @@ void checkFlow(Context& c, const std::vector<float>& flow, Size size) {
 
 void hostileFlow(Context& c) {
     const Size size = c.size(16, 200);
-    const Picture a = c.hostile.picture(size);
-    const Picture b =
+    const TestPicture a = c.hostile.picture(size);
+    const TestPicture b =
         c.hostile.picture(size, c.hostile.chance(0.3) ? PixelFormat::Gray8 : PixelFormat::Rgba8);
     checkFlow(c, flowBetween(a.view(), b.view()), size);
 }
@@ -44,15 +44,15 @@ void hostileFlow(Context& c) {
 // Whatever the picture, nothing has moved in it.
 void samePicture(Context& c) {
     const Size size = c.hostile.size(16, 150);
-    const Picture a = c.hostile.picture(size);
+    const TestPicture a = c.hostile.picture(size);
     const auto flow = flowBetween(a.view(), a.view());
     checkFlow(c, flow, size);
     for (const float v : flow)
         c.checks.within(v, -0.02, 0.02, "flow of a picture to itself");
 }
 
-Picture mirrored(const Picture& p) {
-    Picture out = p;
+TestPicture mirrored(const TestPicture& p) {
+    TestPicture out = p;
     for (int y = 0; y < p.size.height; ++y)
         for (int x = 0; x < p.size.width; ++x) {
             const std::size_t from =
@@ -68,8 +68,8 @@ void shiftedPicture(Context& c) {
     const Waves waves(static_cast<unsigned>(c.hostile.integer(1, 1 << 30)), 6, 60, 35);
     const Eigen::Vector2d shift(c.hostile.real(-6, 6), c.hostile.real(-6, 6));
     const double gain = c.hostile.real(0.6, 1.2), offset = c.hostile.real(-15, 15);
-    const Picture a = waves.shoot(size, {});
-    const Picture b = waves.shoot(size, {.shift = -shift, .gain = gain, .offset = offset});
+    const TestPicture a = waves.shoot(size, {});
+    const TestPicture b = waves.shoot(size, {.shift = -shift, .gain = gain, .offset = offset});
     const auto there = flowBetween(a.view(), b.view());
     checkFlow(c, there, size);
     c.checks.within(errorOf(there, size, shift).median, 0, 0.08, "error of a shift [px]");

@@ -61,7 +61,7 @@ int Hostile::greyAt(int kind, int x, int y, Size size, int level) {
     }
 }
 
-Picture Hostile::picture(Size size, PixelFormat format) {
+TestPicture Hostile::picture(Size size, PixelFormat format) {
     const int kind = integer(0, kPatterns), level = integer(0, 255);
     if (kind == kPatterns) {
         const double gain = pick({0.05, 1.0, 1.0, 30.0});
@@ -71,7 +71,7 @@ Picture Hostile::picture(Size size, PixelFormat format) {
                                   .offset = 128 * (1 - gain),
                                   .format = format});
     }
-    Picture out(size, format, 255);
+    TestPicture out(size, format, 255);
     const int channels = std::min(bytesPerPixel(format), 3);
     const bool grey = chance(0.7);
     for (int y = 0; y < size.height; ++y)

@@ -36,7 +36,7 @@ public:
 
     /// Constant, saturated, checkerboard and columns at Nyquist, impulse, noise, extreme gain,
     /// ramp, photographs' like.
-    [[nodiscard]] Picture picture(Size size, PixelFormat format = PixelFormat::Rgba8);
+    [[nodiscard]] TestPicture picture(Size size, PixelFormat format = PixelFormat::Rgba8);
     [[nodiscard]] LumaImage luma(Size size);
 
     /// A lens for such a picture, from none to a strong barrel or cushion, off centre.

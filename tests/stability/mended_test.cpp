@@ -80,7 +80,7 @@ TEST(Mended, ATimeThatIsNoneAddsNoDoubt) {
 
 TEST(Mended, DepthThatIsNoneStaysUnknownAtEdges) {
     EdgeSnap snap({8, 6}, oneWorker());
-    const Picture picture({8, 6});
+    const TestPicture picture({8, 6});
     for (const auto& [rho, variance] : {std::pair(kNan, 0.01F), {kInf, 0.01F}, {0.5F, -1.0F}}) {
         const auto& out = snap.run(fieldOf({8, 6}, rho, variance), picture.view(), {0, 0, 8, 6});
         EXPECT_FALSE(out.isKnown(20)) << rho << ", " << variance;
@@ -100,7 +100,7 @@ TEST(Mended, APictureOfOnePixelHasALens) {
 TEST(Mended, PicturesOneOrTwoPixelsWideHaveAFlow) {
     for (const Size size : {Size{1, 1}, Size{1, 40}, Size{40, 1}, Size{2, 3}}) {
         EpipolarFlow flow({smallCamera(size), smallCamera(size), {}}, oneWorker());
-        const Picture picture = randomPicture(size, 1);
+        const TestPicture picture = randomPicture(size, 1);
         Pose aside;
         aside.T_world_video.translation.x() = 0.1;
         flow.setStill(picture.view(), {});
@@ -112,7 +112,7 @@ TEST(Mended, PicturesOneOrTwoPixelsWideHaveAFlow) {
 
 TEST(Mended, APredictionThatIsNoNumberIsSearchedFromInfinity) {
     const CameraModel camera = smallCamera({64, 48});
-    const Picture picture = randomPicture({64, 48}, 1);
+    const TestPicture picture = randomPicture({64, 48}, 1);
     const auto searched = [&](float predicted) {
         EpipolarSearch search({camera, camera, {}}, oneWorker());
         search.setStill(picture.view());
@@ -129,7 +129,7 @@ TEST(Mended, APredictionThatIsNoNumberIsSearchedFromInfinity) {
 
 TEST(Mended, ACovarianceThatIsNoneLeavesTheSearchSound) {
     const CameraModel camera = smallCamera({64, 48});
-    const Picture picture = randomPicture({64, 48}, 1);
+    const TestPicture picture = randomPicture({64, 48}, 1);
     LumaImage luma;
     lumaOf(picture.view(), luma);
     for (const double bad : {double(kNan), double(kInf), -1.0}) {

@@ -54,7 +54,7 @@ void pictureFormats(Context& c) {
 // Rounded twice on the way: once a level more at most.
 void lumaPyramids(Context& c) {
     const Size size = c.size(1, 120);
-    const Picture a = c.hostile.picture(size), b = c.hostile.picture(size);
+    const TestPicture a = c.hostile.picture(size), b = c.hostile.picture(size);
     const LevelPair pair(a, b);
     const auto compare = [&](const twin::Grey& got, const twin::Grey& wanted, const char* what) {
         for (std::size_t i = 0; i < got.values.size(); ++i)
@@ -69,10 +69,10 @@ void lumaPyramids(Context& c) {
 }
 
 /// Another picture, or one that differs by a pixel, by a few pixels, or not at all.
-Picture changed(Context& c, const Picture& before) {
+TestPicture changed(Context& c, const TestPicture& before) {
     const Size size = before.size;
     if (c.hostile.chance(0.3)) return c.hostile.picture(size);
-    Picture out = before;
+    TestPicture out = before;
     const int x0 = c.hostile.integer(0, size.width - 1), y0 = c.hostile.integer(0, size.height - 1);
     if (c.hostile.chance(0.5)) out.at(x0, y0)[1] ^= 64;
     if (c.hostile.chance(0.5)) return out;
@@ -86,7 +86,7 @@ Picture changed(Context& c, const Picture& before) {
 
 void changePlan(Context& c) {
     const Size size = c.size(1, 120);
-    const Picture before = c.hostile.picture(size), now = changed(c, before);
+    const TestPicture before = c.hostile.picture(size), now = changed(c, before);
     WorkPlan plan(size);
     plan.update(planesOf(now), planesOf(before), false);
     const Size tiles = plan.tileCount();
@@ -113,7 +113,9 @@ void changePlan(Context& c) {
     // Bounds as WorkPlan::update() sets them before anything is measured.
     const auto wanted = twin::changedTiles(twins, tiles.width, {1 + 2 * 0.29, 1.5 + 4 * 0.29});
     for (std::size_t t = 0; t < count; ++t)
-        c.checks.require(!wanted[t] || (got[static_cast<std::size_t>(t)].changed != 0) == *wanted[t], "a tile's change");
+        c.checks.require(!wanted[t] ||
+                             (got[static_cast<std::size_t>(t)].changed != 0) == *wanted[t],
+                         "a tile's change");
     c.checks.require(plan.work().changed == changed, "the number of changed tiles");
     c.checks.through("TileMeasure", pixelsOf(size));
     c.gl.frame(c.checks, pixelsOf(size));
@@ -124,7 +126,7 @@ void enlargement(Context& c) {
     const Size video = c.size(1, 60);
     const Size output{video.width * c.hostile.integer(1, 4) + c.hostile.integer(0, 3),
                       video.height * c.hostile.integer(1, 4) + c.hostile.integer(0, 3)};
-    const Picture picture = c.hostile.picture(video);
+    const TestPicture picture = c.hostile.picture(video);
     PipelineOptions options;
     options.mode = SuperResMode::Off;
     options.output = output;
@@ -154,7 +156,7 @@ void evenPicture(Context& c) {
     Pipeline pipeline(plainRig(video, still), options);
     pipeline.setStill(c.hostile.picture(still).view(), {});
     for (int i = 0; i < 2; ++i)
-        pipeline.run(Picture(video, PixelFormat::Rgba8, level).view(), {});
+        pipeline.run(TestPicture(video, PixelFormat::Rgba8, level).view(), {});
     c.gl.frame(c.checks, pixelsOf(video));
     for (const std::uint8_t v : pipeline.readImage())
         if (v != 255)  // alpha

@@ -118,7 +118,7 @@ void knownTruth(Context& c) {
     options.mode = c.hostile.pick({SuperResMode::Detail, SuperResMode::Blend});
     options.output = c.hostile.pick({rig.still.size, Size{2 * video.width, 2 * video.height}});
     Pipeline pipeline(rig, options);
-    const Picture frame = waves.shoot(video, {.shift = shift});
+    const TestPicture frame = waves.shoot(video, {.shift = shift});
     const auto truth = fine(pipeline.outputSize(), shift).bytes;
     pipeline.run(frame.view(), {});
     const double enlarged = psnr(pipeline.readImage(), truth);
@@ -136,8 +136,8 @@ void scaledWorld(Context& c) {
     StereoRig rig = bentRig(video, {3 * video.width, 3 * video.height});
     rig.T_still_video.translation = {0.014, 0, 0};
     const Waves waves(static_cast<unsigned>(c.hostile.integer(1, 1 << 30)), 2, 60, 40);
-    const Picture frame = waves.shoot(video, {.shift = {3, 1}});
-    const Picture still = waves.shoot(rig.still.size, {.step = 1 / 3.0, .footprint = 1 / 3.0});
+    const TestPicture frame = waves.shoot(video, {.shift = {3, 1}});
+    const TestPicture still = waves.shoot(rig.still.size, {.step = 1 / 3.0, .footprint = 1 / 3.0});
     const RigidTransform moved = c.hostile.gentle();
     const auto flowIn = [&](double unit) {
         StereoRig scaled = rig;

@@ -136,7 +136,7 @@ void hostileTracker(Context& c) {
     Timestamp time{};
     for (int frame = 0; frame < 2; ++frame) {
         time = time + std::chrono::milliseconds(33);
-        const Picture picture = c.hostile.picture(size, PixelFormat::Gray8);
+        const TestPicture picture = c.hostile.picture(size, PixelFormat::Gray8);
         if (const auto pose = tracker.track(picture.view(), time))
             checkPose(c, pose->T_world_video, pose->covariance);
         if (const auto pose = tracker.trackStill(picture.view(), time))

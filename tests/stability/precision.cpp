@@ -96,7 +96,7 @@ struct AssessParams {
 void stillPixels() {
     const StereoRig rig = bentRig({640, 480}, {2304, 1728});
     const Size cells = cellsOf(rig.video.size);
-    const Picture even(rig.video.size, PixelFormat::Rgba8, 128);
+    const TestPicture even(rig.video.size, PixelFormat::Rgba8, 128);
     const LevelPair pair(even, even);
     const gpu::Buffer patches(32UL * cells.width * cells.height);
     const gpu::Texture displacement(cells, gpu::TexelFormat::Rgba32F);

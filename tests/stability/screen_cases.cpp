@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace mfar::stress {
 namespace {
@@ -23,14 +24,36 @@ Size sizeFor(Context& c, Size screen) {
     return {side(screen.width), side(screen.height)};
 }
 
+// The same without GL: all weights are rounded to 16 bits and their products cut off.
+void onTheHost(Context& c, const TestPicture& picture, Size screen, const ScreenRect& to) {
+    AlignedRows<std::uint32_t> rows(picture.size);
+    for (int y = 0; y < picture.size.height; ++y)
+        std::memcpy(rows[y], &picture.bytes[std::size_t{4} * y * picture.size.width],
+                    std::size_t{4} * picture.size.width);
+    HostScaler scaler(screen);
+    const Rows<const std::uint32_t> shown = scaler.scaled(rows.rows());
+    const auto colour = [&](int x, int y) {
+        const std::uint32_t p = rows[y][x];
+        return std::array<int, 3>{int(p & 255), int(p >> 8 & 255), int(p >> 16 & 255)};
+    };
+    for (int y = 0; y < to.size.height; ++y)
+        for (int x = 0; x < to.size.width; ++x) {
+            const auto wanted = twin::scaledPixel(picture.size, colour, to, x, y);
+            const std::uint32_t got = shown[y + to.y][x + to.x];
+            for (std::size_t k = 0; k < 3; ++k)
+                c.checks.within((got >> (8 * k) & 255) - wanted[k], -1, 1,
+                                "error of a pixel that the host scales");
+        }
+}
+
 // Each pixel is the mean of what it covers; beside the picture there is black.
 void screens(Context& c) {
     const Size screen = c.size(1, 120), size = sizeFor(c, screen);
-    const Picture picture = c.hostile.picture(size);
+    const TestPicture picture = c.hostile.picture(size);
     const gpu::Texture texture = uploaded(picture);
     ScreenScaler scaler;
     ScreenReader reader(screen, scaler);
-    reader.begin({texture.id(), size});
+    reader.begin(GlImage{texture.id(), size});
     const ScreenPicture shown = reader.last();
     const ScreenRect to = letterbox(size, screen);
     const auto colour = [&](int x, int y) {
@@ -48,6 +71,7 @@ void screens(Context& c) {
                 c.checks.within(got[2 - k] - wanted[k], -kSampling, kSampling,
                                 "error of a pixel on the screen");
         }
+    onTheHost(c, picture, screen, to);
     c.checks.through("display_scale.frag", pixelsOf(screen));
     c.gl.frame(c.checks, pixelsOf(screen));
 }

@@ -130,7 +130,7 @@ void hostileFlowOfPoses(Context& c) {
         const int top = c.hostile.integer(0, rig.video.size.height - 1);
         const PixelRect where{left, top, c.hostile.integer(left + 1, rig.video.size.width),
                               c.hostile.integer(top + 1, rig.video.size.height)};
-        const Picture video = c.hostile.picture(rig.video.size);
+        const TestPicture video = c.hostile.picture(rig.video.size);
         if (c.hostile.chance(0.5))
             flow.run(video.view(), pose());
         else
@@ -244,7 +244,7 @@ void hostileAggregation(Context& c) {
 
 void hostileLuma(Context& c) {
     const Size size = c.size(1, 120);
-    const Picture picture = c.hostile.picture(
+    const TestPicture picture = c.hostile.picture(
         size, c.hostile.pick({PixelFormat::Gray8, PixelFormat::Rgba8, PixelFormat::Bgra8}));
     LumaImage luma, half, soft, small;
     lumaOf(picture.view(), luma);

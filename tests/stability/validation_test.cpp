@@ -94,7 +94,7 @@ constexpr std::size_t kLumaBytes = std::size_t{4} * 8 * 8;
 TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
     const auto gl = context();
     gpu::Validation validation;
-    const gpu::Texture picture = uploaded(Picture({16, 8}));
+    const gpu::Texture picture = uploaded(TestPicture({16, 8}));
     const gpu::Buffer words(kLumaBytes);
     gpu::ComputePass<LumaParams> pass("luma_from_video.comp");
     const auto run = [&] {
@@ -123,7 +123,7 @@ TEST_F(ValidationTest, NothingIsWatchedOnceItIsGone) {
 TEST(WatchedShaders, AnIndexOutOfRangeIsCounted) {
     GlWatch gl;
     Checks checks;
-    const gpu::Texture picture = uploaded(Picture({16, 8}));
+    const gpu::Texture picture = uploaded(TestPicture({16, 8}));
     const gpu::Buffer words(kLumaBytes - 8);
     gpu::ComputePass<LumaParams> pass("luma_from_video.comp");
     pass.run(kLuma, {gpu::sampler(0, picture), gpu::storage(0, words)}, {});

@@ -131,7 +131,7 @@ void knownWarp(Context& c) {
 
 using Pixels = std::vector<std::array<std::uint8_t, 4>>;
 
-Pixels unpacked(const Picture& picture) {
+Pixels unpacked(const TestPicture& picture) {
     Pixels out;
     for (std::size_t i = 0; i < picture.bytes.size(); i += 4)
         out.push_back(

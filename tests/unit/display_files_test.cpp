@@ -34,7 +34,7 @@ protected:
     void show(Display& display, const StoredImage& picture, Timestamp time) {
         gpu::Texture texture(picture.size, gpu::TexelFormat::Rgba8);
         texture.upload(PlaneView{picture.view().data, picture.view().stride});
-        display.show({texture.id(), picture.size}, time);
+        display.show(GlImage{texture.id(), picture.size}, time);
     }
 
     std::unique_ptr<GlContext> gl_ = createGlContext();
@@ -51,6 +51,30 @@ TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
     show(*display, picture, {123});
     display->finish();
     EXPECT_EQ(loadImage(folder_ / "out/frames/123.png").pixels, picture.pixels);
+}
+
+TEST_F(FileDisplays, RowsOfTheHostAreWrittenAsATextureIs) {
+    AlignedRows<std::uint32_t> rows({7, 5});  // padded
+    StoredImage picture = plain({7, 5}, 0);
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 7; ++x) {
+            const std::size_t i = 4UL * (y * 7 + x);
+            rows[y][x] = 0x12000000U + static_cast<std::uint32_t>(x + 16 * y + 256 * (x * y) + 77);
+            for (std::size_t k = 0; k < 4; ++k)
+                picture.pixels[i + k] = static_cast<std::uint8_t>(rows[y][x] >> (8 * k));
+        }
+    const auto png = openFileDisplay("png:" + folder_.path().string(), 30);
+    const auto y4m = openFileDisplay("y4m:" + (folder_ / "a.y4m").string(), 30);
+    for (Display* display : {png.get(), y4m.get()}) {
+        show(*display, picture, {1});
+        display->show(Rows<const std::uint32_t>(rows.rows()), {2});
+        display->finish();
+    }
+    EXPECT_EQ(loadImage(folder_ / "2.png").pixels, loadImage(folder_ / "1.png").pixels);
+    const std::string video = test::readFile(folder_ / "a.y4m");
+    const std::size_t frame = 6 + 7 * 5 + 2 * 4 * 3;
+    ASSERT_GT(video.size(), 2 * frame);
+    EXPECT_EQ(video.substr(video.size() - frame), video.substr(video.size() - 2 * frame, frame));
 }
 
 TEST_F(FileDisplays, EveryPictureIsWrittenThoughTheBuffersAreFew) {

@@ -29,7 +29,7 @@ struct TileChange {
 
 /// Difference of two pictures, none beyond their border.
 struct Difference {
-    const Picture &now, &drawn;
+    const TestPicture &now, &drawn;
 
     /// Of red, green or blue.
     [[nodiscard]] double of(int x, int y, int colour) const {
@@ -113,8 +113,8 @@ inline double structureOf(const Grey& grey, int x0, int y0) {
 }
 
 /// `grey`: luma of `now`.
-inline TileChange tileChange(const Picture& now, const Picture& drawn, const Grey& grey, int tileX,
-                             int tileY, double grain = 1) {
+inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, const Grey& grey,
+                             int tileX, int tileY, double grain = 1) {
     TileChange out;
     const Difference d{now, drawn};
     driftOf(d, 16 * tileX, 16 * tileY, grain, out);

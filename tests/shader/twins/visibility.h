@@ -28,7 +28,7 @@ inline double visibleOver(const RealSample& real, double inverse, const Composit
 
 /// What both pictures and the real depth say of output pixel (x, y).
 struct Scene {
-    Picture video, picture;
+    TestPicture video, picture;
     std::vector<RealSample> real;
 
     [[nodiscard]] double visibility(int x, int y, double z, const CompositeOptions& o) {
