@@ -54,6 +54,7 @@ ordered_json App::statusNow() {
     const RunDescription& run = running_->description;
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
     out.update({{"seconds", elapsed},
+                {"engine", run.engine},
                 {"renderer", run.renderer},
                 {"source", run.source},
                 {"poses", run.poses},

@@ -79,4 +79,15 @@ std::string describe(const EngineChoice& choice) {
     return out;
 }
 
+// There are few: all are compared.
+std::optional<EngineChoice> parseEngineChoice(std::string_view text) {
+    for (unsigned bits = 0; bits < 1U << kSteps.size(); ++bits) {
+        EngineChoice choice;
+        for (std::size_t i = 0; i < kSteps.size(); ++i)
+            choice.*(kSteps[i].kind) = (bits >> i & 1U) != 0 ? EngineKind::Simd : EngineKind::Gles;
+        if (describe(choice) == text) return choice;
+    }
+    return std::nullopt;
+}
+
 }  // namespace mfar

@@ -40,5 +40,7 @@ void readEngine(TomlReader& file, EngineConfig& engine);
 
 /// "simd" where all steps run there, else each step: "still gles, flow simd, ...".
 [[nodiscard]] std::string describe(const EngineChoice& choice);
+/// The choice that describe() gave this text for; nothing for another text.
+[[nodiscard]] std::optional<EngineChoice> parseEngineChoice(std::string_view text);
 
 }  // namespace mfar

@@ -13,16 +13,6 @@ namespace {
 /// How often is looked for a fault while no frames come.
 constexpr std::chrono::milliseconds kFaultInterval{30};
 
-// The only place where it is noticed that this machine has no OpenGL ES: an engine that needs none
-// is to be chosen here.
-std::unique_ptr<GlContext> openGl() {
-    try {
-        return createGlContext();
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::Unavailable, error.what());
-    }
-}
-
 }  // namespace
 
 // The context comes after the rig: a synthetic source has its own, and this one has to be current
@@ -30,13 +20,12 @@ std::unique_ptr<GlContext> openGl() {
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), rig_(config),
-      poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl()),
+      poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl(config)),
       validation_(config.validate ? std::make_unique<gpu::Validation>() : nullptr),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
-      pipeline_(rig_.geometry(),
-                {config.superres.mode,
-                 outputSizeFor(config.size, rig_.geometry(), display_->screenSize()),
-                 config.superres.skipUnchanged}),
+      output_(outputSizeFor(config.size, rig_.geometry(), display_->screenSize())),
+      engines_(chooseEngines(config.engine, gl_.context.get(), rig_.geometry(), output_)),
+      pipeline_(rig_.geometry(), pipelineOptions(config)),
       virtual_(config.virtualLayer, rig_.geometry(), pipeline_), policy_(config.trigger),
       mode_(config.superres.mode), banner_(pipeline_.outputSize()),
       deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
@@ -44,19 +33,35 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       tags_(poses_.tags()) {
     rig_.recordTags(tags_);
     pipeline_.setMeasure(config.status.measure);
-    pipeline_.setImporter(gl_->planeImporter());
+    PlaneImporter* importer = gl_.context ? gl_.context->planeImporter() : nullptr;
+    pipeline_.setImporter(importer);
+    if (!gl_.without.empty())
+        stats_.warn("without OpenGL ES the processor's vector units compute the pictures: " +
+                    gl_.without);
     placeObjects();
     setUpQuality(config.superres.mode);
-    description_ = {gl_->description(),  rig_.description(),
-                    display_->name(),    std::string(name(config.superres.mode)),
-                    rig_.videoFrames(),  std::nullopt,
-                    poses_.description()};
+    description_ = {gl_.context ? gl_.context->description() : "without OpenGL ES",
+                    rig_.description(),
+                    display_->name(),
+                    std::string(name(config.superres.mode)),
+                    rig_.videoFrames(),
+                    std::nullopt,
+                    poses_.description(),
+                    describe(engines_)};
     if (description_.source.starts_with("cameras"))
-        description_.source +=
-            gl_->planeImporter() != nullptr ? ", read in place by the GPU" : ", copied";
+        description_.source += importer != nullptr ? ", read in place by the GPU" : ", copied";
 }
 
 Session::~Session() = default;
+
+PipelineOptions Session::pipelineOptions(const Config& config) const {
+    PipelineOptions options;
+    options.mode = config.superres.mode;
+    options.output = output_;
+    options.skipUnchanged = config.superres.skipUnchanged;
+    options.engines = engines_;
+    return options;
+}
 
 void Session::setUpQuality(SuperResMode best) {
     if (levels_.empty()) return;
@@ -71,9 +76,9 @@ void Session::setUpQuality(SuperResMode best) {
 
 std::string Session::startLine() const {
     const Size out = pipeline_.outputSize();
-    return fmt::format("{}; {}; {}; display {}, {}x{}{}", description_.renderer,
-                       description_.source, description_.poses, description_.display, out.width,
-                       out.height,
+    return fmt::format("engine {}; {}; {}; {}; display {}, {}x{}{}", description_.engine,
+                       description_.renderer, description_.source, description_.poses,
+                       description_.display, out.width, out.height,
                        TracedLayer::isAvailable() ? "" : "; this build has no path tracer");
 }
 
@@ -120,7 +125,23 @@ void Session::apply(const Tunables& wanted) {
     policy_.configure(wanted.trigger);
 }
 
+// Layers of virtual objects are drawn with GL, whatever engine does the steps.
+bool Session::canShowObjects() {
+    if (gl_.context || objects_.empty()) return true;
+    if (gl_.without.empty()) {
+        try {
+            gl_.context = createGlContext();
+            return true;
+        } catch (const std::runtime_error& error) {
+            gl_.without = error.what();
+        }
+    }
+    stats_.warn("virtual objects are drawn with OpenGL ES 3.1 and are not shown: " + gl_.without);
+    return false;
+}
+
 void Session::placeObjects() {
+    if (!canShowObjects()) return;
     virtual_.set(objects_, light_, tags_);
     if (tags_.empty() && poses_.mayFindTags()) return;
     for (std::string& text : leftOut(objects_, tags_, virtual_.shapesAlone()))
@@ -142,7 +163,7 @@ void Session::process(CapturedFrame captured) {
     // Before the display, which may wait: the exposure runs meanwhile.
     fireIfNeeded(time, result.stats);
     previous_ = time;
-    last_ = result.image;
+    last_ = result.picture;
     const Timestamp drawn = Timestamp::now();
     show(time, result.unchanged);
     ++pictures_;

@@ -9,6 +9,7 @@
 #include "daemon/mailbox.h"
 #include "daemon/pose_finder.h"
 #include "daemon/rig.h"
+#include "daemon/session_engines.h"
 #include "daemon/stats.h"
 #include "daemon/status.h"
 #include "daemon/still_policy.h"
@@ -75,6 +76,9 @@ public:
 
 private:
     void apply(const Tunables& wanted);
+    [[nodiscard]] PipelineOptions pipelineOptions(const Config& config) const;
+    /// Opens GL for the objects where it is not open yet; reports where that fails.
+    bool canShowObjects();
     void placeObjects();
     void process(CapturedFrame captured);
     void takeStill(CapturedStill still);
@@ -94,9 +98,11 @@ private:
     StopTokens stop_;
     Rig rig_;
     PoseFinder poses_;
-    std::unique_ptr<GlContext> gl_;
+    OpenedGl gl_;
     std::unique_ptr<gpu::Validation> validation_;  ///< of all that the pipeline writes
     std::unique_ptr<Display> display_;
+    Size output_;
+    EngineChoice engines_;
     Pipeline pipeline_;
     VirtualWorld virtual_;
     StillPolicy policy_;

@@ -210,6 +210,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
         {"version", MFAR_VERSION},
         {"exit_reason", exitReason},
         {"exit_code", exitCode},
+        {"engine", run.engine},
         {"renderer", run.renderer},
         {"source", run.source},
         {"display", run.display},

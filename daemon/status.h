@@ -19,6 +19,7 @@ struct RunDescription {
     std::optional<std::uint64_t> plannedFrames;  ///< recording or --frames: how many there will be
     std::optional<double> plannedSeconds;        ///< --seconds
     std::string poses;                           ///< where they come from
+    std::string engine{};                        ///< see describe() in engine_config.h
 };
 
 /// One line for the terminal: with a bar where the end is known. `elapsedS` since the first frame.

@@ -45,9 +45,10 @@ Size Pipeline::fullSize(const StereoRig& rig) {
 
 Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     : rig(rigIn), options(optionsIn), output(outputSize(rig, options.output)),
-      workers(std::make_shared<Workers>(options.threads)), now(rig.video.size), drawn(rig.video.size),
-      plan(rig.video.size, workers), epipolar(rig, workers, options.epipolar),
-      depth(rig.video, workers, options.depth), snap(rig.video.size, workers) {
+      workers(std::make_shared<Workers>(options.threads)), now(rig.video.size),
+      drawn(rig.video.size), plan(rig.video.size, workers),
+      epipolar(rig, workers, options.epipolar), depth(rig.video, workers, options.depth),
+      snap(rig.video.size, workers) {
     const StepSetup setup{rig, output, options.flow2d, workers, &transfers};
     if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
     if (options.engines.uses(EngineKind::Simd)) simd = makeSimdEngine(setup);
@@ -224,10 +225,11 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
                        transfers.downloadedBytes - transfersBefore.downloadedBytes};
     transfersBefore = transfers;
     const Field<std::uint32_t>& picture = detail->output();
-    result.picture = &picture;
-    result.image = {
-        picture.isOnDevice() ? textureOf(picture, gpu::TexelFormat::Rgba8).texture().id() : 0,
-        output};
+    if (picture.isOnDevice())
+        result.picture =
+            GlImage{textureOf(picture, gpu::TexelFormat::Rgba8).texture().id(), output};
+    else
+        result.picture = picture.host();
     keepDrawn(work);
     redraw = false;
     if (gles) gles->finishReading();  // long done

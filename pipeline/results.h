@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hal/display.h"
+#include "hal/picture.h"
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/engine/field.h"
 #include "pipeline/plan/tiles.h"
@@ -38,9 +38,7 @@ struct FrameStats {
 
 /// What Pipeline::run gives back. Valid until the next run.
 struct FrameResult {
-    /// RGBA8, row 0 on top, alpha 255; where the engine left it.
-    const Field<std::uint32_t>* picture = nullptr;
-    GlImage image;           ///< the same as a texture; no texture where it is on the host
+    Picture picture;         ///< where the engine left it, alpha 255
     bool unchanged = false;  ///< the image is that of the run before, to the bit
     FrameStats stats;
 };

@@ -131,6 +131,8 @@ void KmsScreen::startOutput(const Picture& picture) {
     std::string faults;
     for (const ScanoutMethod method :
          {ScanoutMethod::GbmFenced, ScanoutMethod::Gbm, ScanoutMethod::Dumb}) {
+        // Rows of the host are written straight into a dumb buffer.
+        if (picture.isOnHost() && method != ScanoutMethod::Dumb) continue;
         try {
             if (method == ScanoutMethod::GbmFenced) (void)properties_.plane.id("IN_FENCE_FD");
             buffers_ = makeScanoutBuffers(*card_, output_->size(), method, scaler_);

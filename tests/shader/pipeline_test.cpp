@@ -24,7 +24,7 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsUpscaled) {
     const TestPicture video = c.video();
     const FrameResult& r = p.run(video.view(), {});
     EXPECT_FALSE(r.stats.usedStill);
-    EXPECT_EQ(r.image.size, (Size{576, 432}));
+    EXPECT_EQ(r.picture.size(), (Size{576, 432}));
     EXPECT_TRUE(p.readFlow().empty());
     EXPECT_TRUE(p.readConfidence().empty());
     const twin::Grey wanted = twin::upscaled(twin::luma(video.view()), p.outputSize());

@@ -1,0 +1,47 @@
+#include "daemon/session_engines.h"
+
+#include "daemon/engine_memory.h"
+#include "pipeline/engine_trial.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace mfar {
+
+OpenedGl openGl(const Config& config) {
+    const bool drawsElsewhere = !config.objects.empty() || config.validate;
+    if (config.engine.isSimdAlone() && !drawsElsewhere) return {};
+    std::unique_ptr<GlContext> context;
+    try {
+        context = createGlContext();
+    } catch (const std::runtime_error& error) {
+        if (config.engine.needsGles() || config.validate)
+            throw Failure(ExitCode::Unavailable, error.what());
+        return {nullptr, error.what()};
+    }
+    if (context->isSoftware() && !config.engine.needsGles() && !drawsElsewhere) return {};
+    return {std::move(context), ""};
+}
+
+EngineChoice chooseEngines(const EngineConfig& engine, const GlContext* gl, const StereoRig& rig,
+                           Size output) {
+    if (gl == nullptr || gl->isSoftware())
+        return withWishes(engine, EngineChoice::all(EngineKind::Simd));
+    const std::string key =
+        fmt::format("{}; video {}x{}, still {}x{}, output {}x{}", gl->description(),
+                    rig.video.size.width, rig.video.size.height, rig.still.size.width,
+                    rig.still.size.height, output.width, output.height);
+    const std::filesystem::path file = engineMemoryFile();
+    std::optional<EngineChoice> decided = rememberedEngines(file, key);
+    const bool isOpen = withWishes(engine, EngineChoice::all(EngineKind::Gles)) !=
+                        withWishes(engine, EngineChoice::all(EngineKind::Simd));
+    if (!decided && isOpen) {
+        decided = tryEngines(rig, output, EngineKind::Gles).front().engines;
+        rememberEngines(file, key, *decided);
+    }
+    return withWishes(engine, decided.value_or(EngineChoice::all(EngineKind::Gles)));
+}
+
+}  // namespace mfar
