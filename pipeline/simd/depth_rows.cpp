@@ -89,7 +89,8 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
     const auto least = [&](auto v) HWY_ATTR { return hn::GetLane(hn::MinOfLanes(dBounds, v)); };
     const auto most = [&](auto v) HWY_ATTR { return hn::GetLane(hn::MaxOfLanes(dBounds, v)); };
     const PixelRect wide{least(lowX), least(lowY), most(highX) + 1, most(highY) + 1};
-    bounds = around(bounds, around(all, wide));
+    if (!wide.empty()) all = around(all, wide);
+    if (!all.empty()) bounds = around(bounds, all);
 }
 
 void MeasureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count, float* rho,
