@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tests/shader/pictures.h"
+#include "tests/shader/picture.h"
 #include "tests/shader/twins/luma.h"
 
 #include <algorithm>

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "pipeline/plan/tile_measure.h"
+#include "pipeline/plan/tiles.h"
+
+#include <array>
+#include <cstdint>
+
+namespace mfar::simd {
+
+inline constexpr int kTileGroup = 16;  ///< tiles that are measured at a time
+
+/// Tiles beside each other in both pictures: 16 bytes of each row per tile.
+struct TilePixels {
+    /// Rows of red, green and blue.
+    using Channels = std::array<std::array<const std::uint8_t*, kTileSize>, 3>;
+    Channels now, drawn;
+    int tiles;  ///< up to kTileGroup
+};
+
+/// Measures each tile: the same bits on every processor.
+void measureTileGroup(const TilePixels& pixels, const ChangeBounds& bounds, TileMeasure* out);
+
+}  // namespace mfar::simd
