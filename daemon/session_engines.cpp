@@ -25,8 +25,10 @@ OpenedGl openGl(const Config& config) {
     return {std::move(context), ""};
 }
 
-EngineChoice chooseEngines(const EngineConfig& engine, const GlContext* gl, const StereoRig& rig,
+EngineChoice chooseEngines(const Config& config, const GlContext* gl, const StereoRig& rig,
                            Size output) {
+    const EngineConfig& engine = config.engine;
+    if (config.validate) return withWishes(engine, EngineChoice::all(EngineKind::Gles));
     if (gl == nullptr || gl->isSoftware())
         return withWishes(engine, EngineChoice::all(EngineKind::Simd));
     const std::string key =

@@ -22,7 +22,8 @@ struct OpenedGl {
 
 /// Which engine does which step: as configured; where that leaves it open, SIMD without GL and on a
 /// software renderer, else what was measured to be faster on this GPU, now or at an earlier start.
-[[nodiscard]] EngineChoice chooseEngines(const EngineConfig& engine, const GlContext* gl,
+/// Validation is of shaders: with it, GLES.
+[[nodiscard]] EngineChoice chooseEngines(const Config& config, const GlContext* gl,
                                          const StereoRig& rig, Size output);
 
 }  // namespace mfar

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# On a machine without EGL, or without GLES, mfard starts, says what to install and ends: 69 is the
-# code for a device that cannot be had.
+# On a machine without EGL, or without GLES, the SIMD engine makes the pictures, and mfard reports why.
+# What draws with GL ends with 69, the code for a missing device, and says what to install.
 . "$(dirname "$0")/lib.sh"
 
 record take 3 --source synthetic:flat --display none
+run 0 --recording take --frames 2 --engine simd --display png:with
 
 # The dynamic linker takes the first file of a name, and gives up where that is no library.
 mkdir hidden
@@ -12,12 +13,22 @@ for library in libEGL.so.1 libGLESv2.so.2; do
     export LD_LIBRARY_PATH=$PWD/hidden${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
     run 0 --version
     run 0 --check-config
-    for source in "--recording take" "--source synthetic:flat"; do
+    missing="$library cannot be loaded: .*; install libegl1 and libgles2, or use the SIMD engine"
+    for needing in "--recording take --engine gles" "--source synthetic:flat"; do
         # shellcheck disable=SC2086 # a list of words
-        run 69 $source --frames 1 --display png:shown
-        says err "error: (synthetic:flat: )?$library cannot be loaded: .*; install libegl1 and libgles2, or use the SIMD engine"
+        run 69 $needing --frames 1 --display png:refused
+        says err "error: (synthetic:flat: )?$missing"
     done
-    [ ! -e shown ] || fail "there are pictures"
+    [ ! -e refused ] || fail "there are pictures"
+    for engine in auto simd; do
+        run 0 --recording take --frames 2 --engine $engine --display "png:shown-$engine"
+        says err "engine simd"
+        cmp "shown-$engine/$(ls "shown-$engine" | head -n 1)" "with/$(ls with | head -n 1)" ||
+            fail "the picture differs from that of a machine with OpenGL ES"
+        rm -r "shown-$engine"
+    done
+    run 0 --recording take --frames 1 --display none
+    says err "warning: without OpenGL ES the processor's vector units compute the pictures: $missing"
     rm "hidden/$library"
 done
 run 0 --recording take --frames 1 --display none

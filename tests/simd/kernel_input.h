@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace mfar::simd::test {
+namespace mfar::test {
 
 /// Lengths with and without whole vectors.
 inline constexpr std::array<std::size_t, 8> kLengths{1, 2, 3, 7, 16, 33, 64, 131};
@@ -27,12 +27,12 @@ struct Ray {
     double x, y;
 };
 
-inline Lens barrel() {
+inline simd::Lens barrel() {
     return {100, 102, 49, 38, -0.1F, 0.02F, 0.001F, -0.002F, 0.003F, 4};
 }
 
 /// Brown and Conrady in double precision, rays within the rim.
-inline Ray project(const Lens& lens, double x, double y) {
+inline Ray project(const simd::Lens& lens, double x, double y) {
     const double q = x * x + y * y;
     const double radial = 1 + lens.k1 * q + lens.k2 * q * q + lens.k3 * q * q * q;
     return {lens.fx * (x * radial + 2 * lens.p1 * x * y + lens.p2 * (q + 2 * x * x)) + lens.cx,
@@ -60,4 +60,4 @@ inline bool isBetween(double v) {
     return part < 0.01 || part > 0.99;
 }
 
-}  // namespace mfar::simd::test
+}  // namespace mfar::test

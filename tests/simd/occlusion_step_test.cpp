@@ -112,11 +112,11 @@ private:
     std::vector<std::uint8_t> shown_, visibility_;
 };
 
-struct LayerSizes {
+struct Sides {
     Size video, output;
 };
 
-class OcclusionSizes : public testing::TestWithParam<LayerSizes> {
+class OcclusionSizes : public testing::TestWithParam<Sides> {
 protected:
     [[nodiscard]] twin::Scene roughScene() const {
         const auto& [video, output] = GetParam();
@@ -174,11 +174,10 @@ TEST_P(OcclusionSizes, ThreadsAndBoundsChangeNothingInside) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(LayerSizes, OcclusionSizes,
-                         testing::Values(LayerSizes{kCoarse, kFine}, LayerSizes{{16, 16}, {16, 16}},
-                                         LayerSizes{{17, 31}, {601, 40}},
-                                         LayerSizes{{64, 48}, {33, 21}},
-                                         LayerSizes{{40, 30}, {160, 120}}));
+INSTANTIATE_TEST_SUITE_P(Sides, OcclusionSizes,
+                         testing::Values(Sides{kCoarse, kFine}, Sides{{16, 16}, {16, 16}},
+                                         Sides{{17, 31}, {601, 40}}, Sides{{64, 48}, {33, 21}},
+                                         Sides{{40, 30}, {160, 120}}));
 
 class OcclusionTest : public testing::Test, protected Occlusion {
 protected:

@@ -14,8 +14,8 @@ namespace mfar {
 namespace {
 
 /// What both tests need of a scene: waves, an edge and noise that grows with `sigma`.
-Picture tilePicture(Size size, unsigned seed, double sigma) {
-    Picture out(size, PixelFormat::Rgba8, 255);
+TestPicture tilePicture(Size size, unsigned seed, double sigma) {
+    TestPicture out(size, PixelFormat::Rgba8, 255);
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0, sigma);
     for (int y = 0; y < size.height; ++y)
@@ -29,7 +29,7 @@ Picture tilePicture(Size size, unsigned seed, double sigma) {
     return out;
 }
 
-RgbPlanes planesFrom(const Picture& picture) {
+RgbPlanes planesFrom(const TestPicture& picture) {
     RgbPlanes out(picture.size);
     out.take(picture.view());
     return out;
@@ -37,7 +37,7 @@ RgbPlanes planesFrom(const Picture& picture) {
 
 constexpr ChangeBounds kTileBounds{3, 5.5, 1.2F};
 
-std::vector<TileMeasure> measured(const Picture& now, const Picture& drawn,
+std::vector<TileMeasure> measured(const TestPicture& now, const TestPicture& drawn,
                                   Workers* workers = nullptr) {
     std::vector<TileMeasure> out;
     measureTiles(planesFrom(now), planesFrom(drawn), kTileBounds, workers, out);
@@ -59,7 +59,7 @@ class TileRows : public testing::TestWithParam<Size> {};
 TEST_P(TileRows, EveryTileIsThatOfTheTwin) {
     const Size size = GetParam();
     for (const double sigma : {0.0, 1.0, 3.0}) {
-        const Picture now = tilePicture(size, 1, sigma), drawn = tilePicture(size, 2, sigma);
+        const TestPicture now = tilePicture(size, 1, sigma), drawn = tilePicture(size, 2, sigma);
         const twin::Grey grey = twin::luma(now.view());
         const auto got = measured(now, drawn);
         const int columns = tilesOf(size).width;
@@ -84,7 +84,8 @@ TEST_P(TileRows, EveryTileIsThatOfTheTwin) {
 }
 
 TEST_P(TileRows, InstructionSetsAndThreadsMeasureTheSameBits) {
-    const Picture now = tilePicture(GetParam(), 1, 1.3), drawn = tilePicture(GetParam(), 2, 1.3);
+    const TestPicture now = tilePicture(GetParam(), 1, 1.3),
+                      drawn = tilePicture(GetParam(), 2, 1.3);
     const auto wanted = measured(now, drawn);
     test::onEveryTarget([&] { EXPECT_TRUE(same(measured(now, drawn), wanted)); });
     Workers workers(3);
