@@ -74,10 +74,14 @@ Keyframes::Relation Keyframes::relationOf(const RigidTransform& T_key_now,
 std::optional<Keyframes::Choice> Keyframes::choose(const Pose& pose, double brightness,
                                                    const PixelRect& part, double rho) const {
     std::array<Eigen::Vector2d, static_cast<std::size_t>(kGrid) * kGrid> rays;
-    for (std::size_t i = 0; i < rays.size(); ++i)
-        rays[i] = video_.unproject(
-            {std::lerp(part.x0, part.x1, (static_cast<double>(i % kGrid) + 0.5) / kGrid) - 0.5,
-             std::lerp(part.y0, part.y1, (static_cast<double>(i / kGrid) + 0.5) / kGrid) - 0.5});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const std::size_t column = i % kGrid, row = i / kGrid;
+        const auto middle = [](std::size_t cell) {
+            return (static_cast<double>(cell) + 0.5) / kGrid;
+        };
+        rays[i] = video_.unproject({std::lerp(part.x0, part.x1, middle(column)) - 0.5,
+                                    std::lerp(part.y0, part.y1, middle(row)) - 0.5});
+    }
     std::optional<Choice> best;
     double least = 0;
     for (const Keyframe& frame : frames_) {

@@ -43,11 +43,35 @@ void LandRow(const Lens& lens, Size size, const Motion& motion, const float* ray
     });
 }
 
+/// The least rectangle around pixels that are given some lanes at a time.
+class LaneBounds {
+public:
+    HWY_INLINE explicit LaneBounds(Size size)
+        : lowX_(hn::Set(D(), size.width)), lowY_(hn::Set(D(), size.height)),
+          highX_(hn::Set(D(), -1)), highY_(highX_) {}
+
+    template <class Columns, class Mask>
+    HWY_INLINE void add(Columns columns, Columns rows, Mask valid) {
+        lowX_ = hn::Min(lowX_, hn::IfThenElse(valid, columns, lowX_));
+        lowY_ = hn::Min(lowY_, hn::IfThenElse(valid, rows, lowY_));
+        highX_ = hn::Max(highX_, hn::IfThenElse(valid, columns, highX_));
+        highY_ = hn::Max(highY_, hn::IfThenElse(valid, rows, highY_));
+    }
+    [[nodiscard]] HWY_INLINE PixelRect rect() const {
+        const auto lane = [](hn::Vec<D> v) HWY_ATTR { return hn::GetLane(v); };
+        return {lane(hn::MinOfLanes(D(), lowX_)), lane(hn::MinOfLanes(D(), lowY_)),
+                lane(hn::MaxOfLanes(D(), highX_)) + 1, lane(hn::MaxOfLanes(D(), highY_)) + 1};
+    }
+
+private:
+    using D = hn::ScalableTag<std::int32_t>;
+    hn::Vec<D> lowX_, lowY_, highX_, highY_;
+};
+
 void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& rule,
              const DepthPoints& from, std::size_t count, const MovedPoints& to, PixelRect& bounds) {
     const hn::ScalableTag<std::int32_t> dBounds;
-    auto lowX = hn::Set(dBounds, size.width), lowY = hn::Set(dBounds, size.height);
-    auto highX = hn::Set(dBounds, -1), highY = highX;
+    LaneBounds lanes(size);
     PixelRect all;
     forLanes(hn::ScalableTag<float>(), count, [&](auto d, std::size_t i) HWY_ATTR {
         const hn::RebindToSigned<decltype(d)> dInt;
@@ -76,19 +100,13 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
         hn::StoreU(moved, d, to.rho + i);
         hn::StoreU(variance, d, to.variance + i);
         if constexpr (hn::MaxLanes(decltype(d)()) == hn::MaxLanes(decltype(dBounds)())) {
-            const auto here = hn::RebindMask(dInt, valid);
-            lowX = hn::Min(lowX, hn::IfThenElse(here, at.column, lowX));
-            lowY = hn::Min(lowY, hn::IfThenElse(here, at.row, lowY));
-            highX = hn::Max(highX, hn::IfThenElse(here, at.column, highX));
-            highY = hn::Max(highY, hn::IfThenElse(here, at.row, highY));
+            lanes.add(at.column, at.row, hn::RebindMask(dInt, valid));
         } else if (to.pixel[i] >= 0) {
             const int column = to.pixel[i] % size.width, row = to.pixel[i] / size.width;
             all = around(all, {column, row, column + 1, row + 1});
         }
     });
-    const auto least = [&](auto v) HWY_ATTR { return hn::GetLane(hn::MinOfLanes(dBounds, v)); };
-    const auto most = [&](auto v) HWY_ATTR { return hn::GetLane(hn::MaxOfLanes(dBounds, v)); };
-    const PixelRect wide{least(lowX), least(lowY), most(highX) + 1, most(highY) + 1};
+    const PixelRect wide = lanes.rect();
     if (!wide.empty()) all = around(all, wide);
     if (!all.empty()) bounds = around(bounds, all);
 }

@@ -133,12 +133,36 @@ struct PatchSums {
     Parts a, x, y, aa, ax, ay, xx, xy, yy;
 };
 
+/// Products of pixels and gradients, summed over a patch.
+struct PatchProducts {
+    ProductSum<Row16> aa, ax, ay, xx, xy, yy;
+
+    HWY_INLINE PatchProducts() : aa(), ax(), ay(), xx(), xy(), yy() {}
+    HWY_INLINE void add(hn::Vec<Row16> a, hn::Vec<Row16> gx, hn::Vec<Row16> gy) {
+        aa.add(a, a);
+        ax.add(a, gx);
+        ay.add(a, gy);
+        xx.add(gx, gx);
+        xy.add(gx, gy);
+        yy.add(gy, gy);
+    }
+    HWY_INLINE void store(PatchSums& sums, int cell) {
+        aa.store(sums.aa, cell);
+        ax.store(sums.ax, cell);
+        ay.store(sums.ay, cell);
+        xx.store(sums.xx, cell);
+        xy.store(sums.xy, cell);
+        yy.store(sums.yy, cell);
+    }
+};
+
 HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, Patch& out,
                           PatchSums& sums) {
     const Row16 d16;
     const PatchRows rows(p, kCellSize * column - 3, kCellSize * row - 3, kPatch + 2, kPatch + 2);
     const auto middle = hn::Set(d16, 128), one = hn::Set(d16, 1);
-    ProductSum<Row16> aa, ax, ay, xx, xy, yy, sumA, sumX, sumY;
+    PatchProducts products;
+    ProductSum<Row16> sumA, sumX, sumY;
     for (int c = 0; c < kPatch; c += kRowLanes) {
         auto above = loadPixels(rows[0] + c + 1), here = loadPixels(rows[1] + c + 1);
         // Eight times 255 at most.
@@ -155,12 +179,7 @@ HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, 
             columnsA = hn::Add(columnsA, a);
             columnsX = hn::Add(columnsX, gx);
             columnsY = hn::Add(columnsY, gy);
-            aa.add(a, a);
-            ax.add(a, gx);
-            ay.add(a, gy);
-            xx.add(gx, gx);
-            xy.add(gx, gy);
-            yy.add(gy, gy);
+            products.add(a, gx, gy);
             above = here;
             here = below;
         }
@@ -171,12 +190,7 @@ HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, 
     sumA.store(sums.a, cell);
     sumX.store(sums.x, cell);
     sumY.store(sums.y, cell);
-    aa.store(sums.aa, cell);
-    ax.store(sums.ax, cell);
-    ay.store(sums.ay, cell);
-    xx.store(sums.xx, cell);
-    xy.store(sums.xy, cell);
-    yy.store(sums.yy, cell);
+    products.store(sums, cell);
 }
 
 /// Sums over the other picture's pixels, their squares, their products with the patch's pixels and

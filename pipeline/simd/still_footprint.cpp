@@ -66,7 +66,8 @@ HWY_INLINE void placeTaps(float centre, float footprint, int size, Taps& out) {
         const float held = at > -1 ? std::min(at, static_cast<float>(size)) : -1.0F;
         const float whole = std::floor(held);
         out.first[i] = static_cast<int>(whole);
-        out.share[i] = static_cast<int>((held - whole) * kShare + 0.5F);
+        const float rounding = 0.5F;
+        out.share[i] = static_cast<int>(std::floor((held - whole) * kShare + rounding));
     }
 }
 

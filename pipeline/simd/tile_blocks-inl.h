@@ -149,7 +149,7 @@ HWY_INLINE Block<D> BlockOf(const Quad<D>& q) {
 
 /// Luma of three channels times `scale`, a power of 2.
 template <class D>
-HWY_INLINE void StoreLuma(D d, float scale, hn::Vec<D> red, hn::Vec<D> green, hn::Vec<D> blue,
+HWY_INLINE void StoreLuma(D, float scale, hn::Vec<D> red, hn::Vec<D> green, hn::Vec<D> blue,
                           bool absolute, float* to) {
     const hn::Repartition<std::int32_t, D> di;
     const hn::RebindToFloat<decltype(di)> df;

@@ -50,8 +50,8 @@ TileClass TileClasses::Fields::classOf(int column, int row) const {
         const float dx = (right.*axis - origin.*axis) / 3, dy = (below.*axis - origin.*axis) / 3;
         bool all = true;
         for (int i = 0; i < kWithBorder * kWithBorder; ++i) {
-            const auto kx = static_cast<float>(i % kWithBorder - 1),
-                       ky = static_cast<float>(i / kWithBorder - 1);
+            const int across = i % kWithBorder, down = i / kWithBorder;
+            const auto kx = static_cast<float>(across - 1), ky = static_cast<float>(down - 1);
             const float apart = cells[i].*axis - origin.*axis - kx * dx - ky * dy;
             all = all && std::abs(apart) < plainFlow;
         }

@@ -1,6 +1,7 @@
 #include "pipeline/simd/visibility_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 // Highway compiles what follows once for each instruction set.
@@ -121,7 +122,7 @@ std::uint8_t WeighPixel(const Taps& taps, const float* columnWeights, std::uint3
     }
     const float share =
         hn::GetLane(hn::SumOfLanes(d, sum)) / hn::GetLane(hn::SumOfLanes(d, weights));
-    return static_cast<std::uint8_t>(255 * std::clamp(share, 0.0F, 1.0F) + 0.5F);
+    return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0F, 1.0F)));
 }
 
 void WeighOpenPixels(const OpenRow& row, const SampleWindow& samples,

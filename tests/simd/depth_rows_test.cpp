@@ -88,7 +88,8 @@ TEST(MoveRow, CarriesPointsWithTheirVariance) {
             const double grown = variance[i] + rule.growth * rho[i] * rho[i];
             ASSERT_NEAR(toVariance[i], grown * slope * slope, 1e-4 * grown * slope * slope);
             ASSERT_NEAR(toX[i], q.x - expected % kPicture.width, 2e-3);
-            ASSERT_NEAR(toY[i], q.y - expected / kPicture.width, 2e-3);
+            const int row = expected / kPicture.width;
+            ASSERT_NEAR(toY[i], q.y - row, 2e-3);
         }
         EXPECT_EQ(bounds, expectedBounds);
     }

@@ -38,9 +38,9 @@ struct Plane {
         if (linear) return bilinear(x, y);
         const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
         double sum = 0;
-        for (int k = 0; k < 16; ++k)
-            sum += keys(k % 4 - 1 - (x - i)) * keys(k / 4 - 1 - (y - j)) *
-                   at(i + k % 4 - 1, j + k / 4 - 1);
+        for (int row = -1; row < 3; ++row)
+            for (int column = -1; column < 3; ++column)
+                sum += keys(column - (x - i)) * keys(row - (y - j)) * at(i + column, j + row);
         return sum;
     }
 

@@ -27,16 +27,38 @@ double leastMs(int runs, const std::function<void()>& body) {
     return least;
 }
 
+constexpr Size kVideo{640, 480}, kStill{2304, 1728};
+
+void row(const char* what, double ms) {
+    std::printf("  %-28s %7.3f ms\n", what, ms);
+}
+
+void measureRefine(Flow2d& flow, LumaPyramids& pyramids, const TileWork& work, int runs) {
+    const Flow2d::Luma luma{pyramids.video(), pyramids.still(), pyramids.words()};
+    const Size cells = cellsOf(kVideo);
+    const std::size_t count = static_cast<std::size_t>(cells.width) * cells.height;
+    const std::vector<std::array<float, 4>> errors(count);
+    for (const double stretch : {1.0, 1.02, 1.12}) {
+        const FlowPicture bent = wavesMoved(kVideo, {6.3, -2.4}, 1, 0, 1, stretch);
+        pyramids.buildSecond(bent.rows());
+        std::vector<std::array<float, 4>> seed(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = 4 * static_cast<double>(i % 160) + 1.5;
+            seed[i] = {static_cast<float>(x * (stretch - 1) + 6.1), -2.3F, 0, 0};
+        }
+        char what[32];
+        std::snprintf(what, sizeof what, "refine, stretched by %.2f", stretch);
+        row(what, leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
+        std::printf("  searched tiles: %d\n", flow.searchedCount());
+    }
+}
+
 void measure(int threads, int runs) {
-    constexpr Size kVideo{640, 480}, kStill{2304, 1728};
     const auto workers = std::make_shared<Workers>(threads);
     const FlowPicture first = wavesMoved(kVideo, {0, 0}), second = wavesMoved(kVideo, {6.3, -2.4});
     const FlowPicture still = wavesMoved(kStill, {0, 0});
     const RgbPlanes planes = planesOf(first);
     LumaPyramids pyramids(kVideo, workers);
-    const auto row = [](const char* what, double ms) {
-        std::printf("  %-28s %7.3f ms\n", what, ms);
-    };
     std::printf("%d threads\n", threads);
     row("video pyramid", leastMs(runs, [&] { pyramids.buildVideo(planes); }));
     const StereoRig rig = rigOf(kVideo, kStill);
@@ -54,22 +76,7 @@ void measure(int threads, int runs) {
     for (int i = 0; i < 30; ++i)
         few.flags[static_cast<std::size_t>(600 + i % 5 + i / 5 * few.tiles.width)].changed = 1;
     row("flow, 30 tiles of 1200", leastMs(runs, [&] { flow.run(luma, few, true); }));
-    const Size cells = cellsOf(kVideo);
-    const std::size_t count = static_cast<std::size_t>(cells.width) * cells.height;
-    const std::vector<std::array<float, 4>> errors(count);
-    for (const double stretch : {1.0, 1.02, 1.12}) {
-        const FlowPicture bent = wavesMoved(kVideo, {6.3, -2.4}, 1, 0, 1, stretch);
-        pyramids.buildSecond(bent.rows());
-        std::vector<std::array<float, 4>> seed(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            const double x = 4 * static_cast<double>(i % 160) + 1.5;
-            seed[i] = {static_cast<float>(x * (stretch - 1) + 6.1), -2.3F, 0, 0};
-        }
-        char what[32];
-        std::snprintf(what, sizeof what, "refine, stretched by %.2f", stretch);
-        row(what, leastMs(runs, [&] { flow.refine(luma, work, seed, errors); }));
-        std::printf("  searched tiles: %d\n", flow.searchedCount());
-    }
+    measureRefine(flow, pyramids, work, runs);
 }
 
 }  // namespace

@@ -124,7 +124,8 @@ double footprintMean(const FlowPicture& still, const StereoRig& rig, int x, int 
     double sum = 0;
     for (int i = 0; i < 16; ++i) {
         const double px = q.x() + ((i % 4 + 0.5) / 4 - 0.5) * footprint;
-        const double py = q.y() + ((i / 4 + 0.5) / 4 - 0.5) * footprint;
+        const int row = i / 4;
+        const double py = q.y() + ((row + 0.5) / 4 - 0.5) * footprint;
         const int left = static_cast<int>(std::floor(px)), top = static_cast<int>(std::floor(py));
         sum += std::lerp(std::lerp(at(left, top), at(left + 1, top), px - left),
                          std::lerp(at(left, top + 1), at(left + 1, top + 1), px - left), py - top);
