@@ -9,15 +9,15 @@
 namespace mfar::simd {
 
 /// Rows of a field of cells, at the width of a picture: linear between cell centres, borders held.
-/// Of the rows asked for last two are kept. kChannels of a cell's numbers, chosen by the caller.
-template <class Cell, std::size_t kChannels>
+/// Of the rows asked for last two are kept. Count of a cell's numbers, chosen by the caller.
+template <class Cell, std::size_t Count>
 class CellRows {
 public:
-    using Channels = std::array<float, kChannels>;
-    using Wide = std::array<const float*, kChannels>;
+    using Channels = std::array<float, Count>;
+    using Wide = std::array<const float*, Count>;
 
     CellRows(int cells, int width)
-        : planar_({cells, kChannels}), wide_({width, 2 * static_cast<int>(kChannels)}) {}
+        : planar_({cells, Count}), wide_({width, 2 * static_cast<int>(Count)}) {}
 
     /// Starts with a field, for pixels [begin, end) of the picture alone.
     void begin(Rows<const Cell> field, const RowTaps& taps, int begin, int end) {
@@ -30,11 +30,11 @@ public:
     /// `channelsOf`: of a cell, finite numbers.
     template <class ChannelsOf>
     [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf) {
-        const int slot = y % 2, first = slot * static_cast<int>(kChannels);
+        const int slot = y % 2, first = slot * static_cast<int>(Count);
         if (rows_[slot] != y) fill(y, first, channelsOf);
         rows_[slot] = y;
         Wide out;
-        for (std::size_t c = 0; c < kChannels; ++c)
+        for (std::size_t c = 0; c < Count; ++c)
             out[c] = wide_[first + static_cast<int>(c)];
         return out;
     }
@@ -46,10 +46,10 @@ private:
         const int last = std::min(taps_->first(end_ - 1) + taps_->taps(), field_.size.width);
         for (int x = taps_->first(begin_); x < last; ++x) {
             const Channels values = channelsOf(cells[x]);
-            for (std::size_t c = 0; c < kChannels; ++c)
+            for (std::size_t c = 0; c < Count; ++c)
                 planar_[static_cast<int>(c)][x] = values[c];
         }
-        for (int c = 0; c < static_cast<int>(kChannels); ++c)
+        for (int c = 0; c < static_cast<int>(Count); ++c)
             resampleRow(planar_[c], taps_->table(), begin_, end_, wide_[first + c]);
     }
 
