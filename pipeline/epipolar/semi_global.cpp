@@ -55,11 +55,10 @@ void SemiGlobal::run(const LumaImage& guide, const std::vector<std::int16_t>& ba
                                   sums_.data()};
     const std::size_t row = static_cast<std::size_t>(width) * kLabels * vectors;
     constexpr int kRows = simd::kRowsTogether, kColumns = simd::kColumnsTogether;
-    // Single vectors stay in registers. Workers makes at most four parts a thread.
-    const int parts = vectors > 1 ? 4 * workers.count() : 0;
+    const int parts = 4 * workers.count();  // that Workers makes at most
     Slots forRows(scratch_, simd::pathScratch(vectors, 1), parts);
     workers.forRange((height + kRows - 1) / kRows, 1, [&](int first, int last) {
-        std::uint8_t* scratch = vectors > 1 ? forRows.next() : nullptr;
+        std::uint8_t* scratch = forRows.next();
         for (int y = kRows * first; y < std::min(kRows * last, height); y += kRows) {
             const int end = std::min(y + kRows, height);
             for (int j = y; j < end; ++j)
@@ -69,7 +68,7 @@ void SemiGlobal::run(const LumaImage& guide, const std::vector<std::int16_t>& ba
     });
     Slots forColumns(scratch_, simd::pathScratch(vectors, kColumns), parts);
     workers.forRange((width + kColumns - 1) / kColumns, 1, [&](int first, int last) {
-        std::uint8_t* scratch = vectors > 1 ? forColumns.next() : nullptr;
+        std::uint8_t* scratch = forColumns.next();
         for (int x = kColumns * first; x < std::min(kColumns * last, width); x += kColumns)
             simd::pathsAlongColumns(volume, x, std::min(x + kColumns, width), scratch, out.data());
     });

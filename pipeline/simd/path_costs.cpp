@@ -14,6 +14,13 @@
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
+std::size_t PathScratch(int vectors, int columns) {
+#if HWY_TARGET != HWY_SCALAR
+    if (vectors == 1) return 0;
+#endif
+    return strideOf(vectors) * (std::max(columns, 1) + 1);
+}
+
 void PathsAlongRows(const PathVolume& volume, int first, int last, std::uint8_t* scratch) {
 #if HWY_TARGET != HWY_SCALAR
     if (volume.vectors == 1) {
@@ -47,12 +54,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mfar::simd {
 
+HWY_EXPORT(PathScratch);
 HWY_EXPORT(PathsAlongRows);
 HWY_EXPORT(PathsAlongColumns);
 
 std::size_t pathScratch(int vectors, int columns) {
-    const int stride = kLabels * vectors + 2 * kLabels * (vectors + 1);
-    return static_cast<std::size_t>(stride) * (std::max(columns, 1) + 1);
+    return HWY_DYNAMIC_DISPATCH(PathScratch)(vectors, columns);
 }
 
 void pathsAlongRows(const PathVolume& volume, int first, int last, std::uint8_t* scratch) {

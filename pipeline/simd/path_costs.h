@@ -36,7 +36,8 @@ struct PathVolume {
 /// Rows and columns that are fastest together: boundaries between threads at multiples of them.
 inline constexpr int kRowsTogether = 4, kColumnsTogether = 32;
 
-/// Bytes of scratch that the paths of these columns, or of any rows, need.
+/// Bytes of scratch that the paths of these columns, or of any rows, need; none for paths that stay
+/// in registers.
 [[nodiscard]] std::size_t pathScratch(int vectors, int columns);
 
 /// Sums of the paths from the left and from the right, rows [first, last).
