@@ -111,7 +111,11 @@ void ReadBlocks(const TilePixels& pixels, Blocks& out) {
 
 template <class D>
 struct Block {
-    hn::Vec<D> sum, twist, absolute;
+    using V = hn::Vec<D>;
+    // A constructor that the compiler makes is for no instruction set: NEON's vectors refuse it.
+    HWY_INLINE Block() {}  // NOLINT(modernize-use-equals-default)
+    HWY_INLINE Block(V s, V t, V a) : sum(s), twist(t), absolute(a) {}
+    V sum, twist, absolute;
 };
 
 /// A channel's pixels of two rows: a b over c d.
