@@ -12,11 +12,20 @@ Size Context::size(int least, int most) {
     return {640 + hostile.integer(-1, 1), 480 + hostile.integer(-1, 1)};
 }
 
+StereoRig hostileRig(Context& c) {
+    if (c.scale == Scale::Product) return bentRig(c.size(1, 1), {2304, 1728});
+    if (c.scale == Scale::Mixed && c.hostile.chance(0.3)) return bentRig({640, 480}, {1152, 864});
+    const Size video = c.hostile.size(1, 150), still = c.hostile.size(1, 260);
+    StereoRig rig{c.hostile.camera(video), c.hostile.camera(still), c.hostile.gentle(0.05)};
+    if (c.hostile.chance(0.2)) rig.T_still_video = c.hostile.motion(0.1);
+    return rig;
+}
+
 std::vector<Case> allCases() {
     std::vector<Case> out;
-    for (const auto& some :
-         {flowCases(), triangulationCases(), pipelineCases(), pictureCases(), virtualCases(),
-          searchCases(), depthCases(), poseCases(), warpCases(), screenCases(), tracerCases()})
+    for (const auto& some : {flowCases(), triangulationCases(), pipelineCases(), engineCases(),
+                             pictureCases(), virtualCases(), searchCases(), depthCases(),
+                             poseCases(), warpCases(), screenCases(), tracerCases()})
         out.insert(out.end(), some.begin(), some.end());
     return out;
 }

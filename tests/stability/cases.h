@@ -29,6 +29,9 @@ struct Context {
     [[nodiscard]] Size size(int least, int most);
 };
 
+/// Two cameras beside each other: small ones, or with lenses bent at the product's size.
+[[nodiscard]] StereoRig hostileRig(Context& context);
+
 struct Case {
     const char* name;
     void (*run)(Context& context);
@@ -41,6 +44,7 @@ struct Case {
 [[nodiscard]] std::vector<Case> flowCases();
 [[nodiscard]] std::vector<Case> triangulationCases();
 [[nodiscard]] std::vector<Case> pipelineCases();
+[[nodiscard]] std::vector<Case> engineCases();
 [[nodiscard]] std::vector<Case> pictureCases();
 [[nodiscard]] std::vector<Case> virtualCases();
 [[nodiscard]] std::vector<Case> searchCases();

@@ -10,15 +10,6 @@
 namespace mfar::stress {
 namespace {
 
-StereoRig rigFor(Context& c) {
-    if (c.scale == Scale::Product) return bentRig(c.size(1, 1), {2304, 1728});
-    if (c.scale == Scale::Mixed && c.hostile.chance(0.3)) return bentRig({640, 480}, {1152, 864});
-    const Size video = c.hostile.size(1, 150), still = c.hostile.size(1, 260);
-    StereoRig rig{c.hostile.camera(video), c.hostile.camera(still), c.hostile.gentle(0.05)};
-    if (c.hostile.chance(0.2)) rig.T_still_video = c.hostile.motion(0.1);
-    return rig;
-}
-
 std::optional<Pose> poseFor(Context& c, double unit) {
     if (c.hostile.chance(0.25)) return std::nullopt;
     Pose pose;
@@ -26,6 +17,13 @@ std::optional<Pose> poseFor(Context& c, double unit) {
     if (c.hostile.chance(0.15)) pose.T_world_video = c.hostile.spoilt(pose.T_world_video);
     pose.covariance = c.hostile.covariance();
     return pose;
+}
+
+/// One engine for all steps, or a mixture: fields move between host and GPU then.
+EngineChoice enginesFor(Context& c) {
+    const auto kind = [&] { return c.hostile.pick({EngineKind::Gles, EngineKind::Simd}); };
+    if (c.hostile.chance(0.6)) return EngineChoice::all(kind());
+    return {kind(), kind(), kind(), kind(), kind(), kind()};
 }
 
 /// Before, around, behind the camera; with a plane through it; tiny and huge.
@@ -62,12 +60,13 @@ void checkPipeline(Context& c, const Pipeline& p, const StereoRig& rig) {
 }
 
 void frames(Context& c) {
-    const StereoRig rig = rigFor(c);
+    const StereoRig rig = hostileRig(c);
     const double unit = c.hostile.pick({1e-6, 1e-3, 1.0, 1.0, 1.0, 1e3});
     PipelineOptions options;
     options.mode =
         c.hostile.pick({SuperResMode::Detail, SuperResMode::Detail, SuperResMode::Blend});
     options.depthEverywhere = c.hostile.chance(0.5);
+    options.engines = enginesFor(c);
     options.epipolar.bothWays = c.hostile.chance(0.2);
     if (c.scale == Scale::Product)
         options.output = c.hostile.pick({rig.still.size, Size{1440, 1080}, Size{1067, 800}});
@@ -117,6 +116,7 @@ void knownTruth(Context& c) {
     PipelineOptions options;
     options.mode = c.hostile.pick({SuperResMode::Detail, SuperResMode::Blend});
     options.output = c.hostile.pick({rig.still.size, Size{2 * video.width, 2 * video.height}});
+    options.engines = enginesFor(c);
     Pipeline pipeline(rig, options);
     const TestPicture frame = waves.shoot(video, {.shift = shift});
     const auto truth = fine(pipeline.outputSize(), shift).bytes;
@@ -139,12 +139,14 @@ void scaledWorld(Context& c) {
     const TestPicture frame = waves.shoot(video, {.shift = {3, 1}});
     const TestPicture still = waves.shoot(rig.still.size, {.step = 1 / 3.0, .footprint = 1 / 3.0});
     const RigidTransform moved = c.hostile.gentle();
+    PipelineOptions options;
+    options.engines = enginesFor(c);
     const auto flowIn = [&](double unit) {
         StereoRig scaled = rig;
         scaled.T_still_video.translation *= unit;
         Pose pose{{}, moved};
         pose.T_world_video.translation *= unit;
-        Pipeline p(scaled, {});
+        Pipeline p(scaled, options);
         p.setStill(still.view(), {}, Pose{});
         p.run(frame.view(), {}, pose);
         c.gl.frame(c.checks, pixelsOf(video));

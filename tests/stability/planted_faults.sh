@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Plants faults in shaders and host sources, one at a time, and runs the cases that have to find them.
-# Usage: planted_faults.sh BUILD-FOLDER [shaders|host]. Prints each with what found it; exit status 1
+# Usage: planted_faults.sh BUILD-FOLDER [shaders|host|kernels]. Prints each with what found it; exit status 1
 # when one was not found. Shaders are changed as the program is handed them; a host source is changed
 # in a copy, compiled as its unity file is, and linked before the library that has the sound one.
 set -euo pipefail
@@ -33,14 +33,18 @@ inShaders() {
     done < <("$program" --list-planted)
 }
 
-# The compiler's command for a source's unity file, with the source and the object exchanged.
+# Arguments: source, object. Compiles the changed copy of the source, which lies in $scratch under its own
+# path: a kernel includes itself once per instruction set. The command is that of the source's unity file
+# or, where it has none, its own.
 compile() {
-    local source=$1 changed=$2 object=$3 unity command
-    unity=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
-        "$build"/pipeline/*/CMakeFiles/*/Unity/*.cxx | head -n 1)
-    command=$(ninja -C "$build" -t commands | grep -F -- "-c $unity" | head -n 1)
+    local source=$1 object=$2 unit command
+    unit=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
+        "$build"/pipeline/*/CMakeFiles/*/Unity/*.cxx | head -n 1 || true)
+    command=$(ninja -C "$build" -t commands mfar-stress | grep -E -- "-c (${unit:-.*/$source})\$" | head -n 1)
+    [[ -n $command ]] || { echo "no command compiles $source" >&2; exit 2; }
     command=${command%% -MD*}
-    (cd "$build" && eval "$command -w -I$PWD -c $changed -o $object")
+    command=${command/ -I/ -I$scratch -I}
+    (cd "$build" && eval "$command -w -I$PWD -c $scratch/$source -o $object")
 }
 
 # Arguments: source, its text, what comes instead, what that is, cases.
@@ -51,8 +55,10 @@ inHost() {
         missed=$((missed + 1))
         return
     fi
-    FROM=$from TO=$to perl -pe 's/\Q$ENV{FROM}\E/$ENV{TO}/' "$source" >"$scratch/changed.cpp"
-    compile "$source" "$scratch/changed.cpp" "$scratch/changed.o"
+    rm -rf "${scratch:?}"/*
+    mkdir -p "$scratch/$(dirname "$source")"
+    FROM=$from TO=$to perl -pe 's/\Q$ENV{FROM}\E/$ENV{TO}/' "$source" >"$scratch/$source"
+    compile "$source" "$scratch/changed.o"
     link=$(ninja -C "$build" -t commands mfar-stress | grep -F -- '-o tests/stability/mfar-stress ')
     link=${link/-o tests\/stability\/mfar-stress /-Wl,--allow-multiple-definition $scratch/changed.o -o $scratch/program }
     (cd "$build" && eval "$link")
@@ -88,7 +94,32 @@ hostFaults() {
         'tile.farthest = farthest;' 'a range that forgets' silhouette
 }
 
-if [[ $which != host ]]; then inShaders; fi
-if [[ $which != shaders ]]; then hostFaults; fi
+# In kernels of the SIMD engine.
+kernelFaults() {
+    local simd=pipeline/simd
+    inHost $simd/luma_kernels.cpp 'hn::Set(d, 0.587F)' 'hn::Set(d, 0.614F)' 'wrong weight of green' engines
+    inHost $simd/still_footprint.cpp 'return std::clamp(i, 0, p.width - 1);' 'return std::clamp(i + 1, 0, p.width - 1);' \
+        'a column off' engines
+    inHost $simd/still_kernels.cpp 'const auto share = hn::Set(d, rows.neighboursShare), zero' \
+        'const auto share = hn::Set(d, std::int16_t(0)), zero' 'neighbours left out' engines
+    inHost $simd/still_look_up.cpp 'hn::Lt(error, Const(params.alpha))' 'hn::Lt(error, Const(1e9F))' \
+        'missing guard: confidence below zero' engines,pipeline
+    inHost $simd/cell_weights.cpp 'SmoothStep(0.2F, 0.6F, ncc2)' 'SmoothStep(0.1F, 0.6F, ncc2)' 'wrong threshold' engines
+    inHost $simd/patch_sums.cpp 'hn::MulFixedPoint15(hn::Sub(b, a), f)' 'hn::MulFixedPoint15(hn::Sub(a, b), f)' \
+        'wrong sign between pixels' engines
+    inHost $simd/detail_kernels.cpp 'zero = hn::Set(df, 256.0F * 128)' 'zero = hn::Set(df, 256.0F * 100)' \
+        'an offset that is wrong' engines
+    inHost $simd/sharpen_kernels.cpp 'kNearTap = -0.14123' 'kNearTap = 0.14123' 'wrong sign of a tap' engines
+    inHost $simd/patch_search.cpp 'hn::NegMulAdd(hn::Add(gain, gain), covariance, energy)' \
+        'hn::MulAdd(hn::Add(gain, gain), covariance, energy)' 'wrong sign in a cost' pipeline-truth
+    inHost $simd/field_rows.cpp 'return hn::Max(low, middle);' 'return hn::Min(low, middle);' \
+        'another value for the median' filters
+    inHost $simd/luma_filters.cpp 'hn::ShiftRight<2>(hn::Add(sum, hn::Set(d, 2)))' 'hn::ShiftRight<1>(hn::Add(sum, hn::Set(d, 2)))' \
+        'wrong divisor of a mean' luma
+}
+
+if [[ $which != host && $which != kernels ]]; then inShaders; fi
+if [[ $which == all || $which == host ]]; then hostFaults; fi
+if [[ $which == all || $which == kernels ]]; then kernelFaults; fi
 printf '%d found, %d missed\n' "$found" "$missed"
 [[ $missed == 0 ]]

@@ -8,6 +8,7 @@
 #include "tests/stability/cases.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -198,6 +199,20 @@ void exactRefinement(Context& c) {
     c.checks.within(out.normalAfter, 0, 0.05, "distance of exact matches from their lines [px]");
 }
 
+/// Of 3x3 values; the border repeats.
+float medianAround(const std::vector<float>& in, Size size, long at) {
+    const int x = static_cast<int>(at % size.width), y = static_cast<int>(at / size.width);
+    std::array<float, 9> values{};
+    for (int i = 0; i < 9; ++i) {
+        const int column = std::clamp(x + i % 3 - 1, 0, size.width - 1);
+        const int row = std::clamp(y + i / 3 - 1, 0, size.height - 1);
+        values[static_cast<std::size_t>(i)] =
+            in[static_cast<std::size_t>(row) * size.width + column];
+    }
+    std::ranges::nth_element(values, values.begin() + 4);
+    return values[4];
+}
+
 void hostileFilters(Context& c) {
     const Size size = c.size(1, 130);
     std::vector<float> in(pixelsOf(size)), out(in.size());
@@ -211,8 +226,7 @@ void hostileFilters(Context& c) {
         c.checks.require(range.low[i] <= in[i] && in[i] <= range.high[i], "a local range");
     const std::size_t step = in.size() / 2000 + 1;
     for (std::size_t i = 0; i < in.size(); i += step)
-        c.checks.require(std::ranges::find(in, out[i]) != in.end(),
-                         "a median that is none of the values");
+        c.checks.require(out[i] == medianAround(in, size, static_cast<long>(i)), "a median");
     c.checks.through("median3x3", pixelsOf(size));
 }
 

@@ -1,0 +1,182 @@
+// Both engines on the same hostile input: each step reads what the GLES step before it wrote, so
+// that one search that decides otherwise does not make all that follows differ.
+#include "pipeline/engine/engine.h"
+#include "pipeline/plan/work_plan.h"
+#include "tests/stability/cases.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+namespace mfar::stress {
+namespace {
+
+/// Pictures of both sensors: of one scene, which the still then shows, or anything hard to bear.
+struct Sensors {
+    StereoRig rig;
+    TestPicture video, still;
+};
+
+Sensors matchingSensors(Context& c) {
+    const Size video{c.hostile.integer(60, 130), c.hostile.integer(50, 110)};
+    const StereoRig rig = plainRig(video, {video.width * 18 / 5, video.height * 18 / 5});
+    const Waves waves(static_cast<unsigned>(c.hostile.integer(1, 1 << 30)), 1.2, 60, 12, 96);
+    const double step = static_cast<double>(video.width) / rig.still.size.width;
+    TestPicture now = waves.shoot(video, {.shift = {c.hostile.real(-3, 3), c.hostile.real(-3, 3)}});
+    return {rig, std::move(now), waves.shoot(rig.still.size, {.step = step, .footprint = step})};
+}
+
+Sensors hostileSensors(Context& c) {
+    Sensors out{hostileRig(c), {}, {}};
+    out.video = c.hostile.picture(out.rig.video.size);
+    out.still = c.hostile.picture(out.rig.still.size);
+    // Leaves room for what sharpening and enlarging overshoot: the GPU clamps between passes.
+    for (std::uint8_t& byte : out.video.bytes)
+        byte = static_cast<std::uint8_t>(96 + byte / 4);
+    return out;
+}
+
+/// The plan of a frame.
+struct Shot {
+    RgbPlanes planes;
+    TileWork work;
+
+    Shot(Context& c, const TestPicture& picture) : planes(picture.size) {
+        planes.take(picture.view());
+        WorkPlan plan(picture.size);
+        if (c.hostile.chance(0.5)) plan.matchStructured(0.6);
+        plan.update(planes, planes, true);
+        work = plan.work();
+    }
+};
+
+int largestDifference(Rows<const std::uint8_t> a, Rows<const std::uint8_t> b) {
+    int most = 0;
+    for (int y = 0; y < a.size.height; ++y)
+        for (int x = 0; x < a.size.width; ++x)
+            most = std::max(most, std::abs(a[y][x] - b[y][x]));
+    return most;
+}
+
+int channelDifference(std::uint32_t a, std::uint32_t b) {
+    int most = 0;
+    for (int shift = 0; shift < 32; shift += 8)
+        most = std::max(most, std::abs(static_cast<int>(a >> shift & 255U) -
+                                       static_cast<int>(b >> shift & 255U)));
+    return most;
+}
+
+/// Pixels of a level that differ by more than rounding.
+long differingPixels(const LumaPyramid& a, const LumaPyramid& b, const LumaLevel& level) {
+    const std::uint32_t* words[] = {a.words.host()[0], b.words.host()[0]};
+    const auto pixel = [&](int which, int x, int y) {
+        const std::uint32_t word =
+            words[which][level.offset + y * level.pitch + x / 4 + kLumaMarginWords];
+        return static_cast<int>(word >> (8 * (x % 4)) & 255U);
+    };
+    long count = 0;
+    for (int y = 0; y < level.height; ++y)
+        for (int x = 0; x < level.width; ++x)
+            if (std::abs(pixel(0, x, y) - pixel(1, x, y)) > 1) ++count;
+    return count;
+}
+
+// Where a strong lens folds back on itself, rounding decides which branch a ray takes.
+constexpr double kFolded = 0.1;
+
+void comparePyramids(Context& c, const LumaPyramid& gles, const LumaPyramid& simd) {
+    for (const LumaLevel& level : gles.video)
+        c.checks.within(static_cast<double>(differingPixels(gles, simd, level)), 0, 0,
+                        "differing pixels of the video's pyramid");
+    for (const LumaLevel& level : gles.still) {
+        const long pixels = pixelsOf(Size{level.width, level.height});
+        c.checks.within(static_cast<double>(differingPixels(gles, simd, level)), 0,
+                        1 + kFolded * static_cast<double>(pixels),
+                        "differing pixels of the still's pyramid");
+    }
+}
+
+void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd) {
+    const auto a = gles.weighed.host(), b = simd.weighed.host();
+    const auto la = gles.lookUps.host(), lb = simd.lookUps.host();
+    for (int y = 0; y < a.size.height; ++y)
+        for (int x = 0; x < a.size.width; ++x) {
+            c.checks.within(b[y][x].weight - a[y][x].weight, -0.02, 0.02, "difference of a weight");
+            c.checks.within(b[y][x].confidence - a[y][x].confidence, -0.02, 0.02,
+                            "difference of a confidence");
+            // The GPU keeps look-ups in half precision.
+            const double slack = 0.01 + 1e-3 * std::abs(lb[y][x].x) + 1e-3 * std::abs(lb[y][x].y);
+            c.checks.within(lb[y][x].x - la[y][x].x, -slack, slack, "difference of a look-up");
+            c.checks.within(lb[y][x].y - la[y][x].y, -slack, slack, "difference of a look-up");
+        }
+}
+
+// Unlike detail, blending trusts cells whose patches differ, if only the way there and back agrees.
+// Between two such cells a look-up may jump by many pixels, and the GPU filters it in 8 bits.
+constexpr double kJumps = 0.05;
+constexpr int kRounding = 5;  // of the GPU's passes in 8 bits, three of them [grey levels]
+
+void compareDrawn(Context& c, SuperResMode mode, DetailStep& gles, DetailStep& simd) {
+    const auto a = gles.output().host(), b = simd.output().host();
+    long off = 0;
+    for (int y = 0; y < a.size.height; ++y)
+        for (int x = 0; x < a.size.width; ++x)
+            if (channelDifference(a[y][x], b[y][x]) > kRounding) ++off;
+    const double most = mode == SuperResMode::Blend ? kJumps : 0;
+    c.checks.within(static_cast<double>(off) / static_cast<double>(pixelsOf(a.size)), 0, most,
+                    "share of drawn pixels that differ");
+}
+
+void stepByStep(Context& c) {
+    const Sensors sensors = c.hostile.chance(0.3) ? matchingSensors(c) : hostileSensors(c);
+    const StereoRig& rig = sensors.rig;
+    const Size output = c.scale == Scale::Product
+                            ? rig.still.size
+                            : Size{2 * rig.video.size.width, 2 * rig.video.size.height};
+    const StepSetup setup{rig, output, {}, std::make_shared<Workers>(2), nullptr};
+    const std::unique_ptr<Engine> engines[] = {makeGlesEngine(setup), makeSimdEngine(setup)};
+    const auto mode = c.hostile.pick({SuperResMode::Detail, SuperResMode::Blend});
+    const Shot shot(c, sensors.video);
+    const VideoFrame frame{sensors.video.view(), shot.planes, 1};
+
+    const auto glesStill = engines[0]->still(), simdStill = engines[1]->still();
+    const StillPictures& still = glesStill->run(sensors.still.view(), mode);
+    const StillPictures& simdPictures = simdStill->run(sensors.still.view(), mode);
+    c.checks.within(largestDifference(still.luma.host(), simdPictures.luma.host()), 0, 1,
+                    "difference of a still's luma");
+    if (mode == SuperResMode::Detail)
+        c.checks.within(largestDifference(still.detail.host(), simdPictures.detail.host()), 0, 3,
+                        "difference of a still's detail");
+
+    const auto glesPyramid = engines[0]->pyramid(), simdPyramid = engines[1]->pyramid();
+    glesPyramid->still(still);
+    simdPyramid->still(still);
+    const LumaPyramid& pyramid = glesPyramid->video(frame, shot.work);
+    const LumaPyramid& other = simdPyramid->video(frame, shot.work);
+    if (shot.work.matched > 0) comparePyramids(c, pyramid, other);
+
+    const auto flow = engines[0]->flow();
+    const FlowCells& cells = flow->run(pyramid, shot.work, false);
+    const auto glesWeigh = engines[0]->weigh(), simdWeigh = engines[1]->weigh();
+    const CellWeights& weights = glesWeigh->run(pyramid, cells, shot.work);
+    if (shot.work.matched > 0)
+        compareWeights(c, weights, simdWeigh->run(pyramid, cells, shot.work));
+
+    const auto glesDetail = engines[0]->detail(), simdDetail = engines[1]->detail();
+    const DetailStep::Matched glesMatched{still, weights}, simdMatched{simdPictures, weights};
+    glesDetail->draw(frame, &glesMatched, shot.work, {.mode = mode});
+    simdDetail->draw(frame, &simdMatched, shot.work, {.mode = mode});
+    compareDrawn(c, mode, *glesDetail, *simdDetail);
+    c.gl.frame(c.checks, pixelsOf(rig.video.size));
+    for (const char* step : {"simd still", "simd pyramid", "simd weigh", "simd detail"})
+        c.checks.through(step, pixelsOf(rig.video.size));
+}
+
+}  // namespace
+
+std::vector<Case> engineCases() {
+    return {{"engines", stepByStep, true}};
+}
+
+}  // namespace mfar::stress
