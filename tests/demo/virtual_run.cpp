@@ -3,7 +3,7 @@
 #include "daemon/virtual_world.h"
 #include "tests/demo/picture_layout.h"
 #include "tests/demo/still_feed.h"
-#include "tests/eval/picture.h"
+#include "tests/measure/eval/picture.h"
 
 #include <fmt/format.h>
 

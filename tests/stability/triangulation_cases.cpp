@@ -1,6 +1,6 @@
 // Depth from flow by both methods, against double precision, scaled, mirrored, exchanged.
 #include "pipeline/depth/triangulation.h"
-#include "tests/shader/twins/triangulation.h"
+#include "tests/oracle/triangulation.h"
 #include "tests/stability/cases.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include "pipeline/warp/depth_splat.h"
-#include "tests/shader/gl_test.h"
+#include "tests/engine/gl_test.h"
 #include "tests/warp/cast_scene.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include "pipeline/warp/warp.h"
-#include "tests/shader/gl_test.h"
+#include "tests/engine/gl_test.h"
 #include "tests/warp/warp_support.h"
 
 #include <limits>
