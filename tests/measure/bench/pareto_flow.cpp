@@ -39,7 +39,6 @@ std::vector<FlowSetting> flowSettings(bool withPoses) {
     if (withPoses) {
         add("finest 1", {}, {.finest = 1});
         add("finest 1, windowRadius 1", {}, {.windowRadius = 1, .finest = 1});
-        add("bothWays", {}, {.bothWays = true});
     } else {
         add("steps 1, planeFits 0", {.steps = 1, .planeFits = 0}, {});
         add("candidates 1, steps 1, planeFits 1", {.candidates = 1, .steps = 1, .planeFits = 1},

@@ -89,7 +89,6 @@ public:
             const bool fits = made.flow2d.levels == options.flow2d.levels &&
                               made.epipolar.levels == options.epipolar.levels &&
                               made.epipolar.longestParallax == options.epipolar.longestParallax &&
-                              made.epipolar.bothWays == options.epipolar.bothWays &&
                               made.depth.search == options.depth.search;
             if (!fits) continue;
             pipeline->setQuality({.mode = options.mode,

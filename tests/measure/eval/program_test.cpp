@@ -294,7 +294,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/tiny", "no truth"},
         {"superres " + dir + "/tiny --methods detail,wonder",
          "unknown method 'wonder' (valid: detail, detail2d, blend, bilinear, "
-         "bicubic, paper, detail-two-way, blend-two-way)"},
+         "bicubic, paper)"},
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},

@@ -17,11 +17,9 @@ namespace {
 
 class PipelineMethod final : public SuperResMethod {
 public:
-    PipelineMethod(const StereoRig& rig, SuperResMode mode, bool usePoses, bool bothWays)
-        : usePoses_(usePoses), pipeline_(rig, {.mode = mode,
-                                               .output = {},
-                                               .skipUnchanged = false,
-                                               .epipolar = {.bothWays = bothWays}}) {}
+    PipelineMethod(const StereoRig& rig, SuperResMode mode, bool usePoses)
+        : usePoses_(usePoses),
+          pipeline_(rig, {.mode = mode, .output = {}, .skipUnchanged = false}) {}
 
     void setStill(const Shot& still) override {
         const cv::Mat rgba = toRgba(still.picture);
@@ -87,9 +85,8 @@ private:
 }  // namespace
 
 const std::vector<std::string>& superResMethodNames() {
-    static const std::vector<std::string> names{"detail",         "detail2d",     "blend",
-                                                "bilinear",       "bicubic",      "paper",
-                                                "detail-two-way", "blend-two-way"};
+    static const std::vector<std::string> names{"detail",   "detail2d", "blend",
+                                                "bilinear", "bicubic",  "paper"};
     return names;
 }
 
@@ -98,11 +95,12 @@ std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
     if (name == "bicubic") return std::make_unique<Upscaling>(outputSize(rig), cv::INTER_CUBIC);
     if (name == "bilinear") return std::make_unique<Upscaling>(outputSize(rig), cv::INTER_LINEAR);
     if (name == "paper") return std::make_unique<PaperMethod>(rig, alpha_);
-    const bool detail = name.starts_with("detail"), blend = name.starts_with("blend");
-    if (!detail && !blend) throw std::invalid_argument(fmt::format("unknown method '{}'", name));
+    const bool blend = name == "blend";
+    if (!blend && name != "detail" && name != "detail2d")
+        throw std::invalid_argument(fmt::format("unknown method '{}'", name));
     if (!context_) context_ = createGlContext();
     return std::make_unique<PipelineMethod>(rig, blend ? SuperResMode::Blend : SuperResMode::Detail,
-                                            name != "detail2d", name.ends_with("-two-way"));
+                                            name != "detail2d");
 }
 
 }  // namespace mfar::eval
