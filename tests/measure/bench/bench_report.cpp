@@ -33,9 +33,11 @@ nlohmann::json json(const CaseResult& result) {
 }
 
 nlohmann::json json(const WarpTimes& t) {
-    return {{"objects", json(t.objects)},     {"whole", json(t.whole)},
-            {"splatted", json(t.splatted)},   {"still", json(t.still)},
-            {"reference", json(t.reference)}, {"remap", json(t.remap)}};
+    return {{"objects", json(t.objects)},
+            {"whole", json(t.whole)},
+            {"still", json(t.still)},
+            {"reference", json(t.reference)},
+            {"remap", json(t.remap)}};
 }
 
 std::string line(const std::string& name, const Summary& s) {
@@ -145,7 +147,6 @@ std::string toTable(const BenchResult& result) {
                line("depth, whole picture", result.depth.whole) + '\n';
     out += line("warp, objects", result.warp.objects) + '\n' +
            line("warp, whole picture", result.warp.whole) + '\n' +
-           line("warp, objects, splatted", result.warp.splatted) + '\n' +
            line("warp, camera at rest", result.warp.still) + '\n' +
            line("warp, new reference", result.warp.reference) + '\n' +
            line("peer cv::remap", result.warp.remap) + '\n';

@@ -26,8 +26,8 @@ Summary timed(int runs, const std::function<void()>& call) {
 /// A scene, and its picture at no turn.
 class WarpCase {
 public:
-    WarpCase(const test::CastScene& scene, Size size, WarpDepth depth)
-        : warp_(test::bentCamera(size), size, {.depth = depth, .filling = HoleFilling::PushPull}) {
+    WarpCase(const test::CastScene& scene, Size size)
+        : warp_(test::bentCamera(size), size, {.filling = HoleFilling::PushPull}) {
         warp_.setScene(scene.scene());
         picture_ = scene.cast({warp_.camera(), test::orbit(0)});
         warp_.setReference(warpReference(picture_));
@@ -68,13 +68,11 @@ Summary timeRemap(Size size, int runs) {
 
 WarpTimes measureWarp(Size size, int runs) {
     WarpTimes out;
-    WarpCase objects(test::twoBalls(), size, WarpDepth::Model);
+    WarpCase objects(test::twoBalls(), size);
     out.objects = objects.frames(runs, kTurn);
     out.still = objects.frames(runs, 0);
     out.reference = objects.references(runs);
-    out.whole =
-        WarpCase({{{{0, 0, 0.1}, 0.5}}, false, 1}, size, WarpDepth::Model).frames(runs, kTurn);
-    out.splatted = WarpCase(test::twoBalls(), size, WarpDepth::Splatted).frames(runs, kTurn);
+    out.whole = WarpCase({{{{0, 0, 0.1}, 0.5}}, false, 1}, size).frames(runs, kTurn);
     out.remap = timeRemap(size, runs);
     return out;
 }

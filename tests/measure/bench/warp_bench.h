@@ -10,7 +10,6 @@ namespace mfar::bench {
 struct WarpTimes {
     Summary objects;    ///< balls that fill a ninth of the picture, with their shadows
     Summary whole;      ///< a ball larger than the picture
-    Summary splatted;   ///< as `objects`, with the picture's depth instead of the models'
     Summary still;      ///< as `objects`, the camera at rest
     Summary reference;  ///< of `objects`: making a new picture ready, on the host, and its upload
     Summary remap;      ///< the peer: cv::remap, bilinear, of the whole picture

@@ -95,8 +95,7 @@ public:
         options.holeSamples = request_.holeSamples;
         options.leastMotion = 0;
         if (method == "none") options.filling = HoleFilling::None;
-        if (method == "push-pull" || method == "splatted") options.filling = HoleFilling::PushPull;
-        if (method == "splatted") options.depth = WarpDepth::Splatted;
+        if (method == "push-pull") options.filling = HoleFilling::PushPull;
         if (method == "re-render") options.filling = HoleFilling::Rerender;
         Warp warp(view_.camera, request_.size, options);
         return ours(warp, shot);
@@ -205,7 +204,7 @@ void savePicture(const WarpRequest& request, const std::string& name, const Rgba
 }  // namespace
 
 std::vector<std::string> warpMethodNames() {
-    return {"none", "push-pull", "re-render", "both", "splatted", "inpaint", "full"};
+    return {"none", "push-pull", "re-render", "both", "inpaint", "full"};
 }
 
 Report evaluateWarp(const WarpRequest& request) {
