@@ -37,7 +37,8 @@ inShaders() {
 compile() {
     local source=$1 changed=$2 object=$3 unity command
     unity=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
-        "$build"/pipeline/*/CMakeFiles/*/Unity/*.cxx | head -n 1)
+        "$build"/pipeline/*/CMakeFiles/*/Unity/*.cxx \
+        "$build"/tests/measure/*/CMakeFiles/*/Unity/*.cxx | head -n 1)
     command=$(ninja -C "$build" -t commands | grep -F -- "-c $unity" | head -n 1)
     command=${command%% -MD*}
     (cd "$build" && eval "$command -w -I$PWD -c $changed -o $object")
@@ -86,6 +87,13 @@ hostFaults() {
         'tag.T_world_tag * T_camera_tag;' 'an inverse left out' tag-exact
     inHost pipeline/composite/silhouette.cpp 'tile.farthest = std::max(tile.farthest, farthest);' \
         'tile.farthest = farthest;' 'a range that forgets' silhouette
+    local triangulation=tests/measure/triangulation/triangulation.cpp
+    inHost $triangulation 'd = s.e.squaredNorm() - s.b.z() * along;' \
+        'd = s.e.squaredNorm() + s.b.z() * along;' 'wrong sign' triangulation-usual
+    inHost $triangulation 'along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm()' \
+        'crossOf(s.e, s.u) / along' 'removed guard where there is no epipolar line' triangulation
+    inHost $triangulation 'rho > 0 && rho < kLargestRho && distance <= mostDistance_;' \
+        'distance <= mostDistance_;' 'removed guard' triangulation
 }
 
 if [[ $which != host ]]; then inShaders; fi

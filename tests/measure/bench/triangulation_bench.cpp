@@ -1,10 +1,9 @@
 #include "tests/measure/bench/triangulation_bench.h"
 
-#include "pipeline/depth/triangulation.h"
 #include "tests/measure/bench/summary.h"
 #include "tests/measure/eval/stopwatch.h"
+#include "tests/measure/triangulation/triangulation.h"
 
-#include <GLES3/gl31.h>
 #include <opencv2/calib3d.hpp>
 
 #include <utility>
@@ -35,7 +34,7 @@ struct Views {
     RigidTransform T_b_a;
 };
 
-gpu::Texture flowOf(const Views& views) {
+std::vector<float> flowOf(const Views& views) {
     const Size size = views.camera.size;
     std::vector<float> flow;
     for (int y = 0; y < size.height; ++y)
@@ -44,9 +43,7 @@ gpu::Texture flowOf(const Views& views) {
             flow.push_back(static_cast<float>(end.x() - x));
             flow.push_back(static_cast<float>(end.y() - y));
         }
-    gpu::Texture out(size, gpu::TexelFormat::Rg32F);
-    out.upload(flow);
-    return out;
+    return flow;
 }
 
 class OpenCv {
@@ -80,12 +77,9 @@ TriangulationTimes measureTriangulation(Size video) {
     const Views views(video);
     Triangulation stage(views.camera, views.camera);
     OpenCv opencv(views);
-    const gpu::Texture flow = flowOf(views);
+    const std::vector<float> flow = flowOf(views);
     const auto ours = [&](TriangulationMethod method) {
-        return eval::wallMs([&] {
-            stage.run(flow, views.T_b_a, {.method = method});
-            glFinish();
-        });
+        return eval::wallMs([&] { stage.run(flow, views.T_b_a, {.method = method}); });
     };
     std::vector<double> fast, midpoint, peer;
     for (int i = 0; i <= kRuns; ++i) {

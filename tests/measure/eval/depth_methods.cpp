@@ -1,11 +1,10 @@
 #include "tests/measure/eval/depth_methods.h"
 
-#include "pipeline/depth/triangulation.h"
 #include "pipeline/pipeline.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/stopwatch.h"
+#include "tests/measure/triangulation/triangulation.h"
 
-#include <GLES3/gl31.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,13 +37,9 @@ public:
         const RigidTransform turn{rig_.T_still_video.rotation.conjugate(), {0, 0, 0}};
         const RigidTransform T_b_a = turn * stillFromFrame(rig_, *frame.pose, *stillPose_);
         const std::span<const float> vectors(found.flow.ptr<float>(), 2 * found.flow.total());
-        out.ms += medianOfThree([&] {
-            return wallMs([&] {
-                stage_.run(vectors, T_b_a, {.method = method_});
-                glFinish();
-            });
-        });
-        const auto points = stage_.read();
+        out.ms += medianOfThree(
+            [&] { return wallMs([&] { stage_.run(vectors, T_b_a, {.method = method_}); }); });
+        const auto& points = stage_.run(vectors, T_b_a, {.method = method_});
         for (std::size_t i = 0; i < points.size(); ++i)
             out.inverseDepth.ptr<float>()[i] = points[i].inverseDepth;
         return out;

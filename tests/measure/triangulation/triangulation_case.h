@@ -1,9 +1,9 @@
 #pragma once
 
-#include "pipeline/depth/triangulation.h"
-#include "tests/engine/gl_test.h"
-#include "tests/engine/pictures.h"
+#include "tests/measure/triangulation/triangulation.h"
 #include "tests/oracle/triangulation.h"
+
+#include <gtest/gtest.h>
 
 #include <numbers>
 #include <vector>
@@ -43,7 +43,7 @@ std::vector<float> fieldOf(Size size, F vectorAt) {
     return out;
 }
 
-/// Pixel i of a field as the shader gets it.
+/// Pixel i of a field as the triangulation gets it.
 inline Eigen::Vector2d vectorAt(const std::vector<float>& field, std::size_t i) {
     return {field[2 * i], field[2 * i + 1]};
 }
@@ -52,8 +52,7 @@ inline std::vector<TriangulatedPoint> triangulated(const twin::TwoViews& views,
                                                    const std::vector<float>& flow,
                                                    const TriangulationOptions& options = {}) {
     Triangulation stage(views.a, views.b);
-    stage.run(flow, views.T_b_a, options);
-    return stage.read();
+    return stage.run(flow, views.T_b_a, options);
 }
 
 }  // namespace mfar

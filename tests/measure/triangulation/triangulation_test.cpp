@@ -1,4 +1,4 @@
-#include "tests/engine/gles/triangulation_case.h"
+#include "tests/measure/triangulation/triangulation_case.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,6 @@ constexpr int kComparedEvery = 37;  // pixels
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using TriangulationGl = GlTest;
 
 constexpr auto kMethods = {TriangulationMethod::Flow, TriangulationMethod::Midpoint};
 
@@ -29,32 +28,32 @@ struct Errors {
     int compared = 0;
 };
 
-/// The shader against the twin: the same cameras, pose and flow, the flow rounded to the shader's
-/// precision before either gets it. Every pixel of kComparedEvery whose flow ends in view b.
-template <class Twin>
+/// Against double precision: the same cameras, pose and flow, the flow rounded to single precision
+/// before either gets it. Every pixel of kComparedEvery whose flow ends in view b.
+template <class Oracle>
 Errors compare(const twin::TwoViews& views, const std::vector<float>& flow,
-               TriangulationMethod method, Twin twin) {
+               TriangulationMethod method, Oracle oracle) {
     const auto points = triangulated(views, flow, {.method = method});
     Errors out;
     for (std::size_t i = 0; i < points.size(); i += kComparedEvery) {
         const auto x = static_cast<int>(i % 640), y = static_cast<int>(i / 640);
         const Vector2d pixel(x, y), end = pixel + vectorAt(flow, i);
         if (!(end.x() > 0 && end.y() > 0 && end.x() < 639 && end.y() < 479)) continue;
-        const double wanted = twin(views, pixel, vectorAt(flow, i));
+        const double wanted = oracle(views, pixel, vectorAt(flow, i));
         out.worst = std::max(out.worst, std::abs(points[i].inverseDepth / wanted - 1));
         ++out.compared;
     }
     return out;
 }
 
-double twinOfFlow(const twin::TwoViews& v, const Vector2d& p, const Vector2d& f) {
+double inverseDepthOfFlow(const twin::TwoViews& v, const Vector2d& p, const Vector2d& f) {
     return twin::depthFromFlow(v, p, f, 1).inverseDepth;
 }
-double twinOfMidpoint(const twin::TwoViews& v, const Vector2d& p, const Vector2d& f) {
+double inverseDepthOfMidpoint(const twin::TwoViews& v, const Vector2d& p, const Vector2d& f) {
     return twin::midpoint(v, p, f).inverseDepth;
 }
 
-TEST_F(TriangulationGl, IsWithinAMillionthDownToAHundredthOfADegree) {
+TEST(Triangulation, IsWithinAMillionthDownToAHundredthOfADegree) {
     const RigidTransform motions[] = {moved(0, Vector3d::UnitX(), {-0.1, 0, 0}),
                                       moved(1, {1, 2, 3}, {0.02, 0.1, 0.03}),
                                       moved(10, {-1, 2, -2}, {-0.3, -0.05, 0.05})};
@@ -66,17 +65,17 @@ TEST_F(TriangulationGl, IsWithinAMillionthDownToAHundredthOfADegree) {
                 if (index++ % kComparedEvery != 0) return {0, 0};
                 return views.flow(p, inverseDepthAt(views, p, degrees * kDegree));
             });
-            const Errors fast = compare(views, flow, TriangulationMethod::Flow, twinOfFlow);
+            const Errors fast = compare(views, flow, TriangulationMethod::Flow, inverseDepthOfFlow);
             EXPECT_GT(fast.compared, 3000);
             EXPECT_LT(fast.worst, 1e-6) << degrees << ", " << motion.translation.transpose();
             const Errors middle =
-                compare(views, flow, TriangulationMethod::Midpoint, twinOfMidpoint);
+                compare(views, flow, TriangulationMethod::Midpoint, inverseDepthOfMidpoint);
             EXPECT_LT(middle.worst, 1e-6) << degrees << ", " << motion.translation.transpose();
         }
 }
 
 // The camera moves into the picture: at the epipole itself nothing can be known.
-TEST_F(TriangulationGl, IsWithinATenThousandthAroundTheEpipole) {
+TEST(Triangulation, IsWithinATenThousandthAroundTheEpipole) {
     const twin::TwoViews views = bentViews(moved(3, {1, 1, 2}, {0.002, 0.003, -0.1}));
     const auto flow = fieldOf(views.a.size, [&](const Vector2d& p) { return views.flow(p, 0.5); });
     const Vector3d direction = views.T_b_a.inverse().translation;
@@ -90,24 +89,24 @@ TEST_F(TriangulationGl, IsWithinATenThousandthAroundTheEpipole) {
             if (away < 1 || away > 20) continue;
             ++near;
             const double wanted = method == TriangulationMethod::Flow
-                                      ? twinOfFlow(views, pixel, vectorAt(flow, i))
-                                      : twinOfMidpoint(views, pixel, vectorAt(flow, i));
+                                      ? inverseDepthOfFlow(views, pixel, vectorAt(flow, i))
+                                      : inverseDepthOfMidpoint(views, pixel, vectorAt(flow, i));
             ASSERT_NEAR(points[i].inverseDepth / wanted, 1, 1e-4) << pixel.transpose();
         }
     }
     EXPECT_GT(near, 2000);
 }
 
-TEST_F(TriangulationGl, FindsTheDepthThatMadeTheFlow) {
+TEST(Triangulation, FindsTheDepthThatMadeTheFlow) {
     const twin::TwoViews views = bentViews(moved(4, {2, 1, 1}, {-0.2, 0.05, 0.02}));
     const auto rho = [](const Vector2d& p) { return 0.2 + 0.001 * p.x() + 0.002 * p.y(); };
     const auto flow =
         fieldOf(views.a.size, [&](const Vector2d& p) { return views.flow(p, rho(p)); });
     for (const TriangulationMethod method : kMethods) {
-        const auto twin = [&](const twin::TwoViews&, const Vector2d& p, const Vector2d&) {
+        const auto rhoOf = [&](const twin::TwoViews&, const Vector2d& p, const Vector2d&) {
             return rho(p);
         };
-        const Errors errors = compare(views, flow, method, twin);
+        const Errors errors = compare(views, flow, method, rhoOf);
         EXPECT_GT(errors.compared, 3000);
         EXPECT_LT(errors.worst, 1e-5);  // of the flow's own rounding
     }
@@ -133,7 +132,7 @@ struct OffLine {
     }
 };
 
-TEST_F(TriangulationGl, TellsErrorResidualAndRayDistanceAsTheTwins) {
+TEST(Triangulation, ErrorResidualAndRayDistanceAreThoseOfDoublePrecision) {
     const OffLine wall;
     for (const TriangulationMethod method : kMethods) {
         const auto points = triangulated(wall.views, wall.flow, {.method = method, .flowSigma = 2});
@@ -151,7 +150,7 @@ TEST_F(TriangulationGl, TellsErrorResidualAndRayDistanceAsTheTwins) {
     }
 }
 
-TEST_F(TriangulationGl, WhatIsBehindACameraIsUnknown) {
+TEST(Triangulation, WhatIsBehindACameraIsUnknown) {
     const OffLine wall;
     int behind = 0;
     const auto fast = triangulated(wall.views, wall.flow, {});
@@ -167,13 +166,13 @@ TEST_F(TriangulationGl, WhatIsBehindACameraIsUnknown) {
         }
     EXPECT_EQ(behind, 2 * 640 * 480);
     wall.eachInside([&](std::size_t i, const Vector2d& pixel, const Vector2d& flow) {
-        EXPECT_EQ(fast[i].inverseDepth > 0, twinOfFlow(wall.views, pixel, flow) > 0);
+        EXPECT_EQ(fast[i].inverseDepth > 0, inverseDepthOfFlow(wall.views, pixel, flow) > 0);
         const auto wanted = twin::midpoint(wall.views, pixel, flow);
         EXPECT_EQ(middle[i].inverseDepth > 0, wanted.ahead && wanted.inverseDepth > 0);
     });
 }
 
-TEST_F(TriangulationGl, RaysThatPassFarFromEachOtherAreRefused) {
+TEST(Triangulation, RaysThatPassFarFromEachOtherAreRefused) {
     const OffLine wall;
     for (const TriangulationMethod method : kMethods) {
         const auto all = triangulated(wall.views, wall.flow, {.method = method});
@@ -193,7 +192,7 @@ TEST_F(TriangulationGl, RaysThatPassFarFromEachOtherAreRefused) {
     }
 }
 
-TEST_F(TriangulationGl, SigmaIsWhatAnErrorAlongTheLineDoes) {
+TEST(Triangulation, SigmaIsWhatAnErrorAlongTheLineDoes) {
     const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-0.2, 0.1, 0.05}));
     const double step = 0.1;  // [px]
     const auto shifted = [&](double by) {
@@ -211,7 +210,7 @@ TEST_F(TriangulationGl, SigmaIsWhatAnErrorAlongTheLineDoes) {
                     1e-3 * at[i].sigma);
 }
 
-TEST_F(TriangulationGl, SigmaGrowsWithoutBoundAsTheBaselineVanishes) {
+TEST(Triangulation, SigmaGrowsWithoutBoundAsTheBaselineVanishes) {
     double before = 0;
     for (const double baseline : {1e-1, 1e-3, 1e-5, 1e-7}) {
         const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-baseline, 0, 0}));
@@ -224,7 +223,7 @@ TEST_F(TriangulationGl, SigmaGrowsWithoutBoundAsTheBaselineVanishes) {
     }
 }
 
-TEST_F(TriangulationGl, TheResidualHasTheSignAndTheLengthOfTheFlowBesideTheLine) {
+TEST(Triangulation, TheResidualHasTheSignAndTheLengthOfTheFlowBesideTheLine) {
     const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-0.2, 0, 0}));
     // Nearer points lie to the left: clockwise of that is up.
     for (const double off : {-3.0, 0.5}) {

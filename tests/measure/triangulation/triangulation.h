@@ -1,11 +1,10 @@
 #pragma once
 
 #include "base/geometry.h"
-#include "base/gl/buffer.h"
-#include "base/gl/pass.h"
-#include "base/gl/texture.h"
 
-#include <cstdint>
+#include <Eigen/Core>
+
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
@@ -41,46 +40,32 @@ struct TriangulatedPoint {
 };
 inline constexpr float kUnknownSigma = 1e9F;  ///< [1/m]
 
-/// Depth from a dense flow field between two views with lenses and poses of their own. In single
-/// precision within 1e-6 of double precision down to 0.01 degrees of parallax, for rotations up to
-/// 10 degrees; beyond, errors grow as plain single precision's do. Lives on the GL thread.
+/// A number in two parts: the head on a grid of 2^-12, so that products of two heads, and their
+/// sums below 1, are exact in single precision, and the rest.
+struct SplitVector {
+    Eigen::Vector2f head, tail;
+};
+
+/// Depth of a flow method that is measured, between two views with lenses and poses of their own.
+/// In single precision within 1e-6 of double precision down to 0.01 degrees of parallax, for
+/// rotations up to 10 degrees; beyond, errors grow as plain single precision's do.
 class Triangulation {
 public:
     /// Allocates everything, and undistorts every pixel of both views.
     Triangulation(const CameraModel& a, const CameraModel& b);
 
-    /// `flow`: x, y [px of b] for every pixel of a, 32-bit floats: a(p) looks like b(p + flow).
-    /// Values that are not finite or lead out of b are no usable flow. `T_b_a` maps coordinates of
-    /// a into b; without a finite one nothing is known. Throws std::invalid_argument for another
-    /// size.
-    void run(const gpu::Texture& flow, const RigidTransform& T_b_a,
-             const TriangulationOptions& options);
-    /// The same for a flow in memory, row-major, such as Pipeline::readFlow gives.
-    void run(std::span<const float> flow, const RigidTransform& T_b_a,
-             const TriangulationOptions& options);
-
     /// TriangulatedPoint of every pixel of view a, row-major.
-    [[nodiscard]] const gpu::Buffer& points() const { return points_; }
-    /// Waits for the GPU.
-    [[nodiscard]] std::vector<TriangulatedPoint> read() const;
+    /// `flow`: x, y [px of b] for every pixel of a: a(p) looks like b(p + flow). Values that are
+    /// not finite or lead out of b are no usable flow. `T_b_a` maps coordinates of a into b;
+    /// without a finite one nothing is known. Throws std::invalid_argument for another size.
+    const std::vector<TriangulatedPoint>& run(std::span<const float> flow,
+                                              const RigidTransform& T_b_a,
+                                              const TriangulationOptions& options);
 
 private:
-    struct Params {  // triangulation.glsl
-        std::int32_t sizes[4];
-        float lensB[4], tangentialB[4];
-        float turnHead[3][4], turnTail[3][4];
-        float baselineHead[4], baselineTail[4];
-        float tune[4];
-    };
-
-    [[nodiscard]] Params params(const RigidTransform& T_b_a,
-                                const TriangulationOptions& options) const;
-    [[nodiscard]] std::size_t pixels() const;
-
     CameraModel a_, b_;
-    gpu::Texture raysA_, raysB_, flow_;
-    gpu::Buffer points_;
-    gpu::ComputePass<Params> fromFlow_, midpoint_;
+    std::vector<SplitVector> raysA_, raysB_;  // normalised
+    std::vector<TriangulatedPoint> points_;
 };
 
 }  // namespace mfar
