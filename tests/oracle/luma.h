@@ -42,6 +42,21 @@ Grey greyOf(Size size, F valueAt) {
     return out;
 }
 
+/// Position of a pixel of a picture of another size: both have their centres at the same places.
+inline double centre(int x, int from, int to) {
+    return (x + 0.5) * from / to - 0.5;
+}
+
+/// Greatest difference to rows of bytes, which hold no more than [0, 255].
+template <class Row>
+double worst(const Grey& wanted, const Row& rows) {
+    double out = 0;
+    for (int y = 0; y < wanted.size.height; ++y)
+        for (int x = 0; x < wanted.size.width; ++x)
+            out = std::max(out, std::abs(std::clamp(wanted.at(x, y), 0.0, 255.0) - rows[y][x]));
+    return out;
+}
+
 /// Rec. 601, unrounded grey levels.
 inline Grey luma(const ImageView& v) {
     return greyOf(v.size, [&](int x, int y) {

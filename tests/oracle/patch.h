@@ -4,7 +4,7 @@
 
 #include <Eigen/Dense>
 
-/// Scalar twin of patch.glsl.
+/// Comparison of 8x8 patches, of patch.glsl and of the kernels, in double precision.
 namespace mfar::twin {
 
 inline constexpr double kPatchNoise = 128;   // below this energy a patch counts as flat
@@ -56,22 +56,23 @@ inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eig
     return matchPatch(a, cx, cy, vb);
 }
 
-/// The same with a flow that changes by dx, dy per pixel: four pixels of a row share the pixels
+/// The same with a flow that changes by dx, dy per pixel: `span` pixels of a row share the pixels
 /// between which they lie.
 inline PatchMatch compareBentPatch(const Grey& a, const Grey& b, int cx, int cy,
                                    const Eigen::Vector2d& u, const Eigen::Vector2d& dx,
-                                   const Eigen::Vector2d& dy) {
+                                   const Eigen::Vector2d& dy, int span = 4) {
+    const double middle = (span - 1) / 2.0;
     Patch vb;
     for (int i = 0; i < 64; ++i) {
-        const int first = i % 8 < 4 ? 0 : 4, column = i % 4, row = i / 8;
+        const int first = i % 8 / span * span, column = i % span, row = i / 8;
         const Eigen::Vector2d block = Eigen::Vector2d(4 * cx - 2 + first, 4 * cy - 2 + row) + u +
-                                      (first - 2) * dx + (row - 3.5) * dy;
+                                      (first + middle - 3.5) * dx + (row - 3.5) * dy;
         const double x = std::clamp(block.x(), -7.0, b.size.width + 2.0);
         const double y = std::clamp(block.y(), -7.0, b.size.height + 2.0);
         const int left = static_cast<int>(std::floor(x)) + column;
         const int top = static_cast<int>(std::floor(y));
         const Eigen::Vector2d f =
-            Eigen::Vector2d(x - std::floor(x), y - std::floor(y)) + (column - 1.5) * dx;
+            Eigen::Vector2d(x - std::floor(x), y - std::floor(y)) + (column - middle) * dx;
         vb[i] = (1 - f.y()) * ((1 - f.x()) * b.at(left, top) + f.x() * b.at(left + 1, top)) +
                 f.y() * ((1 - f.x()) * b.at(left, top + 1) + f.x() * b.at(left + 1, top + 1));
     }

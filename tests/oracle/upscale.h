@@ -4,7 +4,8 @@
 
 #include <array>
 
-/// Scalar twins of the passes that draw: one channel, grey levels.
+/// What draws the enlarged video, in double precision: one channel, grey levels, nothing rounded
+/// and nothing clamped.
 namespace mfar::twin {
 
 /// Keys' cubic with a = -0.75: weights of the four samples around a fraction t.
@@ -18,43 +19,46 @@ inline std::array<double, 4> cubic(double t) {
     return {w(1 + t), w(t), w(1 - t), w(2 - t)};
 }
 
-inline double rounded(double v) {
-    return std::floor(std::clamp(v, 0.0, 255.0) + 0.5);
-}
-
 /// Of Keys' cubic or, with the outer two zero, linear.
 inline std::array<double, 4> enlargingWeights(double t, bool linear) {
     if (linear) return {0, 1 - t, t, 0};
     return cubic(t);
 }
 
-/// Columns first, kept in 8 bits, then rows.
-inline Grey upscaledColumns(const Grey& g, int height, bool linear = false) {
+/// Most that the weights of a cubic add up to without their signs: what an error of each sample
+/// grows by along one axis.
+inline constexpr double kCubicGain = 1.375;
+
+inline Grey enlargedColumns(const Grey& g, int height, bool linear = false) {
     return greyOf({g.size.width, height}, [&](int x, int y) {
-        const double p = (y + 0.5) * g.size.height / height - 0.5;
+        const double p = centre(y, g.size.height, height);
         const int i = static_cast<int>(std::floor(p));
         double sum = 0;
         for (int k = 0; k < 4; ++k)
             sum += enlargingWeights(p - i, linear)[k] * g.at(x, i + k - 1);
-        return rounded(sum);
+        return sum;
     });
 }
-inline Grey upscaled(const Grey& g, Size to, bool linear = false) {
-    const Grey columns = upscaledColumns(g, to.height, linear);
-    return greyOf(to, [&](int x, int y) {
-        const double p = (x + 0.5) * g.size.width / to.width - 0.5;
+inline Grey enlargedRows(const Grey& g, int width, bool linear = false) {
+    return greyOf({width, g.size.height}, [&](int x, int y) {
+        const double p = centre(x, g.size.width, width);
         const int i = static_cast<int>(std::floor(p));
         double sum = 0;
         for (int k = 0; k < 4; ++k)
-            sum += enlargingWeights(p - i, linear)[k] * columns.at(i + k - 1, y);
+            sum += enlargingWeights(p - i, linear)[k] * g.at(i + k - 1, y);
         return sum;
     });
+}
+inline Grey enlarged(const Grey& g, Size to, bool linear = false) {
+    return enlargedRows(enlargedColumns(g, to.height, linear), to.width, linear);
 }
 
 inline constexpr double kNearTap = -0.14123, kFarTap = 0.0385;
 
-/// The prefilter along both axes, with the product of the nearest taps across.
-inline Grey sharpened(const Grey& g, double strength) {
+/// The prefilter along both axes, with the product of the nearest taps across. `strengthAt`: of a
+/// pixel.
+template <class F>
+Grey sharpened(const Grey& g, F strengthAt) {
     return greyOf(g.size, [&](int x, int y) {
         const double c = g.at(x, y);
         double high = 0;
@@ -65,23 +69,7 @@ inline Grey sharpened(const Grey& g, double strength) {
                 high += kNearTap * kNearTap *
                         (g.at(x + s, y + t) - g.at(x + s, y) - g.at(x, y + t) + c);
         }
-        return c + strength * high;
-    });
-}
-
-inline constexpr double kLowFootprint = 1.25;  // in pixels of the low picture
-
-/// The still's luma on a coarser grid: mean of 4x4 bilinear taps over the footprint.
-inline Grey stillLow(const Grey& still, Size low) {
-    return greyOf(low, [&](int x, int y) {
-        double sum = 0;
-        for (int i = 0; i < 16; ++i) {
-            const double u = (x + 0.5 + kLowFootprint * (i % 4 - 1.5) / 4) / low.width;
-            const int row = i / 4;
-            const double v = (y + 0.5 + kLowFootprint * (row - 1.5) / 4) / low.height;
-            sum += still.bilinear(u * still.size.width - 0.5, v * still.size.height - 0.5) / 16;
-        }
-        return sum;
+        return c + strengthAt(x, y) * high;
     });
 }
 

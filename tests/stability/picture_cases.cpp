@@ -140,7 +140,10 @@ void enlargement(Context& c) {
         const twin::Grey grey = twin::greyOf(video, [&](int x, int y) {
             return double(picture.bytes[4UL * (1UL * y * video.width + x) + channel]);
         });
-        const twin::Grey wanted = twin::upscaled(grey, output, linear);
+        twin::Grey columns = twin::enlargedColumns(grey, output.height, linear);
+        for (double& value : columns.values)
+            value = std::floor(std::clamp(value, 0.0, 255.0) + 0.5);
+        const twin::Grey wanted = twin::enlargedRows(columns, output.width, linear);
         for (std::size_t i = 0; i < wanted.values.size(); ++i)
             c.checks.within(image[4 * i + channel] - std::clamp(wanted.values[i], 0.0, 255.0), -2,
                             2, "error of an enlarged pixel");

@@ -1,6 +1,6 @@
 #include "pipeline/simd/detail_step.h"
 #include "tests/engine/simd/detail_case.h"
-#include "tests/oracle/detail.h"
+#include "tests/oracle/still.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace mfar::simd {
 namespace {
 
-using oracle::Plane;
+using twin::Grey;
 
 constexpr std::uint32_t kBefore = 0x12345678;  // what the output held
 constexpr DetailOptions kDetail{SuperResMode::Detail, true, true, true};
@@ -42,14 +42,18 @@ public:
         : frame_(frame), output_(output), options_(options), usesStill_(usesStill) {
         const bool linear = !options.cubic && options.mode == SuperResMode::Off;
         for (int c = 0; c < 3; ++c) {
-            Plane plane = Plane::of(frame.rig.video.size,
-                                    [&](int x, int y) { return double(frame.video.row(c, y)[x]); });
-            if (usesStill && options.mode == SuperResMode::Detail)
-                plane = oracle::sharpened(plane, [&](int x, int y) { return strength(x, y); });
-            video_[c] = oracle::enlarged(plane, output, linear);
+            Grey plane = twin::greyOf(frame.rig.video.size, [&](int x, int y) {
+                return double(frame.video.row(c, y)[x]);
+            });
+            if (usesStill && options.mode == SuperResMode::Detail) {
+                plane = twin::sharpened(plane, [&](int x, int y) { return strength(x, y); });
+                for (double& value : plane.values)
+                    value = std::clamp(value, 0.0, 255.0);
+            }
+            video_[c] = twin::enlarged(plane, output, linear);
         }
         const auto field = [&](auto member) {
-            return Plane::of(frame.cells, [&](int x, int y) {
+            return twin::greyOf(frame.cells, [&](int x, int y) {
                 return double(frame.lookUps[y * frame.cells.width + x].*member);
             });
         };
@@ -61,7 +65,7 @@ public:
         return std::clamp(video_[c].at(x, y), 0.0, 255.0);
     }
     /// `stillAt`: detail, or a channel of the still, at (x, y) of it.
-    [[nodiscard]] double withStill(int x, int y, int c, const Plane& still) const {
+    [[nodiscard]] double withStill(int x, int y, int c, const Grey& still) const {
         const Size video = frame_.rig.video.size;
         const double vx = (x + 0.5) * video.width / output_.width,
                      vy = (y + 0.5) * video.height / output_.height;
@@ -81,7 +85,7 @@ public:
 private:
     [[nodiscard]] double strength(int x, int y) const {
         const auto field = [&](auto member) {
-            return Plane::of({2, 2}, [&](int i, int j) {
+            return twin::greyOf({2, 2}, [&](int i, int j) {
                 const int cx = std::clamp((x - 2 + 4 * i) >> 2, 0, frame_.cells.width - 1),
                           cy = std::clamp((y - 2 + 4 * j) >> 2, 0, frame_.cells.height - 1);
                 return double(frame_.trust[cy * frame_.cells.width + cx].*member);
@@ -96,13 +100,13 @@ private:
     Size output_;
     DetailOptions options_;
     bool usesStill_;
-    std::array<Plane, 3> video_;
-    std::array<Plane, 4> lookUp_;
+    std::array<Grey, 3> video_;
+    std::array<Grey, 4> lookUp_;
 };
 
-Plane detailPlane(const StillPreparation& still) {
+Grey detailPlane(const StillPreparation& still) {
     const Rows<const std::uint8_t> rows = still.detail();
-    return Plane::of(rows.size, [&](int x, int y) { return double(rows[y][x]); });
+    return twin::greyOf(rows.size, [&](int x, int y) { return double(rows[y][x]); });
 }
 
 struct Sizes {
@@ -118,7 +122,7 @@ TEST(DetailStep, WholeFrameIsTheOraclesAtAnySize) {
         const DetailCase frame(video, still);
         const Drawn drawn(frame, output, {SuperResMode::Detail, true, false, true});
         const Wanted wanted(frame, output, kDetail, true);
-        const Plane detail = detailPlane(drawn.still);
+        const Grey detail = detailPlane(drawn.still);
         for (int y = 0; y < output.height; ++y)
             for (int x = 0; x < output.width; ++x) {
                 for (int c = 0; c < 3; ++c)
@@ -155,7 +159,7 @@ TEST(DetailStep, BlendMixesTheStillByItsConfidence) {
         const Wanted wanted(frame, output, options, true);
         const Rows<const std::uint32_t> picture = drawn.still.picture();
         for (int c = 0; c < 3; ++c) {
-            const Plane channel = Plane::of(
+            const Grey channel = twin::greyOf(
                 picture.size, [&](int x, int y) { return double(picture[y][x] >> (8 * c) & 255); });
             for (int y = 0; y < output.height; ++y)
                 for (int x = 0; x < output.width; ++x)
@@ -205,7 +209,7 @@ TEST(DetailStep, NothingChangedDrawsNothing) {
 void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
                     const std::function<bool(int, int)>& inTile) {
     const Wanted wanted(frame, output, kDetail, true);
-    const Plane detail = detailPlane(drawn.still);
+    const Grey detail = detailPlane(drawn.still);
     const Size video = frame.rig.video.size;
     double most = 0;
     for (int y = 0; y < output.height; ++y)
@@ -288,7 +292,7 @@ TEST(DetailStep, LookUpsBeyondTheStillShowItsBorder) {
     }
     const Drawn drawn(frame, output, {SuperResMode::Detail, true, false, true});
     const Wanted wanted(frame, output, kDetail, true);
-    const Plane detail = detailPlane(drawn.still);
+    const Grey detail = detailPlane(drawn.still);
     for (int y = 0; y < output.height; ++y)
         for (int x = 0; x < output.width; ++x)
             ASSERT_NEAR(drawn.channel(x, y, 0), wanted.withStill(x, y, 0, detail), 0.8);

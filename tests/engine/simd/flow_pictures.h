@@ -5,6 +5,7 @@
 #include "base/workers.h"
 #include "pipeline/plan/rgb_planes.h"
 #include "pipeline/plan/tile_work.h"
+#include "tests/oracle/luma.h"
 
 #include <Eigen/Core>
 
@@ -66,6 +67,10 @@ inline FlowPicture wavesMoved(Size size, Eigen::Vector2d shift, double gain = 1,
         out.pixels[i] = static_cast<std::uint8_t>(
             std::lround(std::clamp(gain * (sum[i] - 128) + 128 + offset, 0.0, 255.0)));
     return out;
+}
+
+[[nodiscard]] inline twin::Grey greyOf(const FlowPicture& p) {
+    return {p.size, {p.pixels.begin(), p.pixels.end()}};
 }
 
 inline FlowPicture noiseOf(Size size, unsigned seed) {

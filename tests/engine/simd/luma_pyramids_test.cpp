@@ -33,18 +33,6 @@ private:
     LumaLevel level_;
 };
 
-double smoothed(const FlowPicture& p, int x, int y) {
-    constexpr double kWeights[] = {0.18, 0.64, 0.18};
-    double sum = 0;
-    for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i)
-            sum += kWeights[i + 1] * kWeights[j + 1] *
-                   p.pixels[static_cast<std::size_t>(std::clamp(y + j, 0, p.size.height - 1)) *
-                                p.size.width +
-                            std::clamp(x + i, 0, p.size.width - 1)];
-    return sum;
-}
-
 TEST(LumaPyramids, FinestLevelIsSmoothed) {
     for (const Size size : {Size{640, 48}, Size{101, 59}, Size{16, 16}, Size{273, 33}}) {
         const FlowPicture first = noiseOf(size, 1), second = noiseOf(size, 2);
@@ -52,12 +40,14 @@ TEST(LumaPyramids, FinestLevelIsSmoothed) {
         pyramids.buildFirst(first.rows());
         pyramids.buildSecond(second.rows());
         const Stored video(pyramids, pyramids.video()[0]), still(pyramids, pyramids.still()[0]);
+        const twin::Grey wanted = twin::smoothed(greyOf(first)),
+                         wantedStill = twin::smoothed(greyOf(second));
         video.checkMargins();
         still.checkMargins();
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
-                ASSERT_NEAR(video.at(x, y), smoothed(first, x, y), kRounding) << x << ", " << y;
-                ASSERT_NEAR(still.at(x, y), smoothed(second, x, y), kRounding) << x << ", " << y;
+                ASSERT_NEAR(video.at(x, y), wanted.at(x, y), kRounding) << x << ", " << y;
+                ASSERT_NEAR(still.at(x, y), wantedStill.at(x, y), kRounding) << x << ", " << y;
             }
     }
 }
@@ -109,30 +99,6 @@ TEST(LumaPyramids, CoarserLevelsAreExactMeans) {
     }
 }
 
-/// luma_from_still.comp in double precision.
-double footprintMean(const FlowPicture& still, const StereoRig& rig, int x, int y) {
-    const Eigen::Vector3d ray =
-        rig.T_still_video.rotation * rig.video.unproject(Eigen::Vector2d(x, y)).homogeneous();
-    const Eigen::Vector2d q = rig.still.project(ray.hnormalized());
-    const double footprint = lumaBoxWidening() * rig.still.fx / rig.video.fx;
-    const auto at = [&](int px, int py) {
-        return double(
-            still.pixels[static_cast<std::size_t>(std::clamp(py, 0, still.size.height - 1)) *
-                             still.size.width +
-                         std::clamp(px, 0, still.size.width - 1)]);
-    };
-    double sum = 0;
-    for (int i = 0; i < 16; ++i) {
-        const double px = q.x() + ((i % 4 + 0.5) / 4 - 0.5) * footprint;
-        const int row = i / 4;
-        const double py = q.y() + ((row + 0.5) / 4 - 0.5) * footprint;
-        const int left = static_cast<int>(std::floor(px)), top = static_cast<int>(std::floor(py));
-        sum += std::lerp(std::lerp(at(left, top), at(left + 1, top), px - left),
-                         std::lerp(at(left, top + 1), at(left + 1, top + 1), px - left), py - top);
-    }
-    return sum / 16;
-}
-
 StereoRig bentRigOf(Size video, Size still) {
     StereoRig rig = rigOf(video, still);
     rig.video.distortion = {-0.12, 0.03, 0.001, -0.0005, 0.002};
@@ -152,10 +118,11 @@ TEST(LumaPyramids, StillsAreSeenThroughTheRig) {
             LumaPyramids pyramids(video, twoWorkers());
             pyramids.buildStill(still.rows(), rig);
             const Stored level(pyramids, pyramids.still()[0]);
+            const twin::Grey wanted = twin::lumaFromStill(greyOf(still), rig);
             level.checkMargins();
             for (int y = 0; y < video.height; ++y)
                 for (int x = 0; x < video.width; ++x)
-                    ASSERT_NEAR(level.at(x, y), footprintMean(still, rig, x, y), kRounding + 0.15)
+                    ASSERT_NEAR(level.at(x, y), wanted.at(x, y), kRounding + 0.15)
                         << x << ", " << y << " of " << size.width;
         }
     }

@@ -1,6 +1,7 @@
 #include "pipeline/simd/flow_field.h"
 #include "pipeline/simd/patch_flow.h"
-#include "tests/oracle/patch_flow.h"
+#include "tests/engine/simd/flow_pictures.h"
+#include "tests/oracle/patch.h"
 
 #include <gtest/gtest.h>
 
@@ -19,9 +20,10 @@ class Level {
 public:
     explicit Level(const FlowPicture& p)
         : rows_({p.size.width + 19, p.size.height}), size_(p.size) {
+        const twin::Grey grey = greyOf(p);
         for (int y = 0; y < p.size.height; ++y)
             for (int x = -8; x < p.size.width + 11; ++x)
-                rows_[y][x + 8] = static_cast<std::uint8_t>(oracle::pixelAt(p, x, y));
+                rows_[y][x + 8] = static_cast<std::uint8_t>(grey.at(x, y));
     }
     [[nodiscard]] PatchPicture picture() const {
         return {rows_[0] + 8, rows_.pitch(), size_.width, size_.height};
@@ -62,16 +64,17 @@ FlowField searched(const Level& a, const Level& b, const std::vector<float>& vec
 
 void expectCostsOf(const FlowPicture& first, const FlowPicture& second) {
     const auto vectors = randomVectors(4, 9);
+    const twin::Grey a = greyOf(first), b = greyOf(second);
     FlowField out = searched(Level(first), Level(second), vectors, 0);
     const FlowPlanes field = out.planes();
     for (int y = 0; y < kCells.height; ++y)
         for (int x = 0; x < kCells.width; ++x) {
             const float* v = &vectors[4UL * (1UL * y * kCells.width + x)];
-            const auto m = oracle::compare(first, second, x, y, {v[0], v[1]});
+            const auto m = twin::comparePatch(a, b, x, y, {v[0], v[1]});
             const std::ptrdiff_t at = y * field.pitch + x;
             EXPECT_EQ(field.x[at], v[0]);
             EXPECT_NEAR(field.cost[at], m.cost, kTolerance) << x << ", " << y;
-            EXPECT_NEAR(field.texture[at], m.texture, 1e-4 * (m.texture + 1)) << x << ", " << y;
+            EXPECT_NEAR(field.texture[at], m.varianceA, 1e-4 * (m.varianceA + 1)) << x << ", " << y;
         }
 }
 
@@ -88,6 +91,7 @@ TEST(PatchFlow, CostAndTextureAreThoseOfTheOracle) {
 TEST(PatchFlow, OneStepIsThatOfTheOracle) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {1.3, -0.6});
     const auto vectors = randomVectors(5, 1);
+    const twin::Grey a = greyOf(first), b = greyOf(second);
     FlowField out = searched(Level(first), Level(second), vectors, 1);
     const FlowPlanes field = out.planes();
     int taken = 0;
@@ -95,9 +99,9 @@ TEST(PatchFlow, OneStepIsThatOfTheOracle) {
         for (int x = 0; x < kCells.width; ++x) {
             const float* v = &vectors[4UL * (1UL * y * kCells.width + x)];
             const Vector2d u(v[0], v[1]);
-            const auto before = oracle::compare(first, second, x, y, u);
+            const auto before = twin::comparePatch(a, b, x, y, u);
             const Vector2d next = u + before.step;
-            const auto after = oracle::compare(first, second, x, y, next);
+            const auto after = twin::comparePatch(a, b, x, y, next);
             if (std::abs(after.cost - before.cost) < 1e-3) continue;
             const bool falls = after.cost < before.cost;
             taken += falls ? 1 : 0;
@@ -130,6 +134,7 @@ TEST(PatchFlow, TheCoarsestLevelFindsWholePixels) {
 TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {4, 2});
     const Level a(first), b(second);
+    const twin::Grey greyA = greyOf(first), greyB = greyOf(second);
     FlowField in = searched(a, b, randomVectors(6, 6), 0), out(kCells);
     const PropagateStep step{a.picture(), b.picture(), out.planes(), in.planes(), 0};
     for (int row = 0; row < kCells.height; ++row)
@@ -147,7 +152,7 @@ TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
                  {index(x - 1, y), index(x + 1, y), index(x, y - 1), index(x, y + 1)}) {
                 const Vector2d u(step.in.x[at], step.in.y[at]);
                 if ((u - best).norm() < 0.5) continue;
-                const double cost = oracle::compare(first, second, x, y, u).cost;
+                const double cost = twin::comparePatch(greyA, greyB, x, y, u).cost;
                 if (cost < least) best = u;
                 least = std::min(least, cost);
             }
@@ -163,6 +168,7 @@ TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
 void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = noiseOf(kSize, 3);
     const Level a(first), b(second);
+    const twin::Grey greyA = greyOf(first), greyB = greyOf(second);
     std::vector<float> seeds(4UL * kCells.width * kCells.height);
     for (int i = 0; i < kCells.width * kCells.height; ++i) {
         const Vector2d u = Vector2d(-3.123, 1.417) + 4 * (i % kCells.width - 8) * dx +
@@ -177,7 +183,7 @@ void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     for (int y = 2; y < kCells.height - 2; ++y)
         for (int x = 3; x < kCells.width - 3; ++x) {
             const float* v = &seeds[4UL * (1UL * y * kCells.width + x)];
-            const auto m = oracle::compareBent(first, second, x, y, {v[0], v[1]}, dx, dy, span);
+            const auto m = twin::compareBentPatch(greyA, greyB, x, y, {v[0], v[1]}, dx, dy, span);
             EXPECT_NEAR(step.out.cost[y * step.out.pitch + x], m.cost, kTolerance)
                 << x << ", " << y;
         }

@@ -2,14 +2,14 @@
 #include "pipeline/simd/still_preparation.h"
 #include "pipeline/superres/still_scale.h"
 #include "tests/engine/simd/detail_case.h"
-#include "tests/oracle/detail.h"
+#include "tests/oracle/still.h"
 
 #include <gtest/gtest.h>
 
 namespace mfar::simd {
 namespace {
 
-using oracle::Plane;
+using twin::Grey;
 
 std::vector<std::uint8_t> mixedBytes(std::size_t count, unsigned seed, int smooth) {
     std::vector<std::uint8_t> out(count);
@@ -23,8 +23,8 @@ std::vector<std::uint8_t> mixedBytes(std::size_t count, unsigned seed, int smoot
     return out;
 }
 
-Plane lumaOf(const ImageView& rgba) {
-    return Plane::of(rgba.size, [&](int x, int y) {
+Grey lumaOf(const ImageView& rgba) {
+    return twin::greyOf(rgba.size, [&](int x, int y) {
         const std::uint8_t* t = rgba.data + y * rgba.stride + 4 * x;
         return 0.299 * t[0] + 0.587 * t[1] + 0.114 * t[2];
     });
@@ -59,10 +59,10 @@ TEST(StillPreparation, LumaAndDetailAreThoseOfTheOracleAtAnySize) {
         const TestPicture picture(still);
         s.preparation.set(picture.view);
         EXPECT_EQ(s.preparation.rig().still.size, still);
-        const Plane luma = lumaOf(picture.view);
-        EXPECT_LE(oracle::worst(luma, s.preparation.luma()), 1);
-        const Plane wanted = oracle::detail(luma, lowSizeOf(s.rig), 0.08);
-        EXPECT_LE(oracle::worst(wanted, s.preparation.detail()), 2.2) << still.width;
+        const Grey luma = lumaOf(picture.view);
+        EXPECT_LE(twin::worst(luma, s.preparation.luma()), 1);
+        const Grey wanted = twin::stillDetail(luma, lowSizeOf(s.rig), 0.08);
+        EXPECT_LE(twin::worst(wanted, s.preparation.detail()), 2.2) << still.width;
     }
 }
 
@@ -73,11 +73,11 @@ TEST(StillPreparation, StillFinerThanTheOutputIsReducedFirst) {
     s.preparation.set(picture.view);
     const Size size = s.preparation.rig().still.size;
     ASSERT_EQ(size, (Size{140, 105}));
-    const Plane luma = oracle::reduced(lumaOf(picture.view), size);
-    const Plane wanted = oracle::detail(luma, lowSizeOf(s.preparation.rig()), 0);
+    const Grey luma = twin::reduced(lumaOf(picture.view), size);
+    const Grey wanted = twin::stillDetail(luma, lowSizeOf(s.preparation.rig()), 0);
     EXPECT_EQ(s.preparation.detail().size, size);
     EXPECT_EQ(s.preparation.luma().size, still);
-    EXPECT_LE(oracle::worst(wanted, s.preparation.detail()), 2.2);
+    EXPECT_LE(twin::worst(wanted, s.preparation.detail()), 2.2);
 }
 
 TEST(StillPreparation, PairsHoldEachPixelAndTheOneBelow) {
@@ -109,21 +109,21 @@ TEST(StillPreparation, ConstantStillHasNoDetail) {
 }
 
 /// R G B of a picture in Y U V, not clamped: chroma between the pixels that share it.
-Plane lumaOfYuv(const ImageView& p) {
+Grey lumaOfYuv(const ImageView& p) {
     const YuvToRgb rows = yuvToRgb(p.matrix, p.range);
     const bool packed = p.format == PixelFormat::Yuyv, pairs = p.format == PixelFormat::Nv12;
     const Size half{p.size.width / 2, packed ? p.size.height : p.size.height / 2};
     const auto chroma = [&](int which) {
-        return Plane::of(half, [&, which](int x, int y) {
+        return twin::greyOf(half, [&, which](int x, int y) {
             if (packed) return double(p.data[y * p.stride + 4 * x + 1 + 2 * which]);
             if (pairs) return double(p.chroma[0].data[y * p.chroma[0].stride + 2 * x + which]);
             return double(p.chroma[which].data[y * p.chroma[which].stride + x]);
         });
     };
-    const Plane u = chroma(0), v = chroma(1);
-    return Plane::of(p.size, [&](int x, int y) {
-        const double at = packed ? y : oracle::centre(y, half.height, p.size.height);
-        const double cx = oracle::centre(x, half.width, p.size.width);
+    const Grey u = chroma(0), v = chroma(1);
+    return twin::greyOf(p.size, [&](int x, int y) {
+        const double at = packed ? y : twin::centre(y, half.height, p.size.height);
+        const double cx = twin::centre(x, half.width, p.size.width);
         const double yuv[] = {double(p.data[y * p.stride + (packed ? 2 * x : x)]),
                               u.bilinear(cx, at), v.bilinear(cx, at)};
         double sum = 0;
@@ -146,7 +146,7 @@ TEST(StillPreparation, CameraFormatsGiveTheLumaOfTheirColours) {
                 view.range = range;
                 Still s({40, 25}, size, size);
                 s.preparation.set(view);
-                EXPECT_LE(oracle::worst(lumaOfYuv(view), s.preparation.luma()), 1)
+                EXPECT_LE(twin::worst(lumaOfYuv(view), s.preparation.luma()), 1)
                     << nameOf(format) << static_cast<int>(matrix) << static_cast<int>(range);
             }
 }
@@ -159,11 +159,11 @@ TEST(StillPreparation, GreyAndBlueFirstAreRead) {
         for (int x = 0; x < 90; ++x)
             ASSERT_EQ(s.preparation.luma()[y][x], bytes[y * 90 + x]);
     s.preparation.set({bytes.data(), {90, 60}, 360, PixelFormat::Bgra8});
-    const Plane wanted = Plane::of({90, 60}, [&](int x, int y) {
+    const Grey wanted = twin::greyOf({90, 60}, [&](int x, int y) {
         const std::uint8_t* t = bytes.data() + y * 360 + 4 * x;
         return 0.114 * t[0] + 0.587 * t[1] + 0.299 * t[2];
     });
-    EXPECT_LE(oracle::worst(wanted, s.preparation.luma()), 1);
+    EXPECT_LE(twin::worst(wanted, s.preparation.luma()), 1);
 }
 
 TEST(StillPreparation, PictureHasTheColoursAndOutlivesWhatItWasMadeOf) {
@@ -195,9 +195,9 @@ TEST(StillPreparation, ReducedPictureIsThatOfTheOracle) {
     const Rows<const std::uint32_t> got = s.preparation.picture();
     ASSERT_EQ(got.size, s.preparation.rig().still.size);
     for (int c = 0; c < 3; ++c) {
-        const Plane channel = Plane::of(
+        const Grey channel = twin::greyOf(
             {300, 225}, [&](int x, int y) { return double(picture.bytes[4 * (y * 300 + x) + c]); });
-        const Plane wanted = oracle::reduced(channel, got.size);
+        const Grey wanted = twin::reduced(channel, got.size);
         for (int y = 0; y < got.size.height; ++y)
             for (int x = 0; x < got.size.width; ++x)
                 ASSERT_NEAR(got[y][x] >> (8 * c) & 255, wanted.at(x, y), 0.51);
