@@ -8,9 +8,6 @@ using Luma = GlTest;
 
 // 8-bit steps, and single precision where a value lies between two of them.
 constexpr double kRounding = 0.501;
-// The same, and what a texture unit's bilinear filter may lose: a grey level on software renderers,
-// whose weights have 8 bits.
-constexpr double kFiltered = kRounding + 1;
 
 void expectNear(const twin::Grey& gpu, const twin::Grey& twin, double tolerance) {
     ASSERT_EQ(gpu.size, twin.size);
@@ -39,33 +36,6 @@ TEST_F(Luma, CoarserLevelsAreExactMeans) {
         expectNear(pair.first(level), twin::halved(pair.first(level - 1)), 0);
         expectNear(pair.second(level), twin::halved(pair.second(level - 1)), 0);
     }
-}
-
-TEST_F(Luma, LevelsKeepTheRange) {
-    for (const std::uint8_t fill : {0, 255}) {
-        const TestPicture flat({70, 60}, PixelFormat::Rgba8, fill);
-        const LevelPair pair(flat, flat);
-        for (int level = 0; level < 2; ++level)
-            for (const double v : pair.first(level).values)
-                ASSERT_EQ(v, fill);
-    }
-}
-
-void expectStillMatches(const StereoRig& rig) {
-    const TestPicture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
-    LumaPyramids pyramids(rig.video.size);
-    pyramids.buildStill(uploaded(still, gpu::Filter::Linear), rig);
-    expectNear(readLevel(pyramids, pyramids.still()[0]),
-               twin::lumaFromStill(twin::luma(still.view()), rig), kFiltered);
-}
-
-TEST_F(Luma, StillMatchesTwin) {
-    expectStillMatches(plainRig({96, 72}, {345, 259}));
-    expectStillMatches(plainRig({96, 72}, {96, 72}));
-}
-
-TEST_F(Luma, StillMatchesTwinThroughTwoLensesAndARotation) {
-    expectStillMatches(bentRig({97, 71}, {350, 256}));
 }
 
 }  // namespace
