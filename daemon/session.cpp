@@ -159,7 +159,6 @@ void Session::process(CapturedFrame captured) {
     }
     const Timestamp time = captured.video.time();
     const FrameResult& result = pipeline_.run(captured.video.view(), time, captured.pose);
-    virtual_.follow(captured.video.view(), rig_.geometry().video, captured.pose, time);
     // Before the display, which may wait: the exposure runs meanwhile.
     fireIfNeeded(time, result.stats);
     previous_ = time;

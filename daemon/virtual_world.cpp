@@ -1,5 +1,6 @@
 #include "daemon/virtual_world.h"
 
+#include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/models/environment_map.h"
 #include "pipeline/models/shape_model.h"
 
@@ -10,8 +11,6 @@
 namespace mfar {
 namespace {
 
-// How often the camera's pictures are asked for light [s].
-constexpr double kLightInterval = 0.5;
 // Light that a shiny thing throws onto others is noise for very many samples; 1 is white as it is
 // shown.
 constexpr float kBrightestCaustic = 1;
@@ -73,10 +72,6 @@ std::string_view VirtualWorld::shapesAlone() const {
     return "virtual.rendering = \"preview\" shows simple shapes alone";
 }
 
-void VirtualWorld::show(std::shared_ptr<const Scene> scene) {
-    if (scene) pipeline_.setScene(std::move(scene), layerOptions());
-}
-
 void VirtualWorld::set(const std::vector<PlacedObject>& objects, const LightOptions& light,
                        const TagMap& tags) {
     if (!traced_) {
@@ -84,31 +79,9 @@ void VirtualWorld::set(const std::vector<PlacedObject>& objects, const LightOpti
         return;
     }
     exposure_ = light.exposure;
-    sun_ = light.sun;
-    light_.reset();
-    lightSeen_.reset();
-    if (light.source == LightSource::Camera) light_.emplace();
-    Scene scene = sceneOf(objects, light, tags);
-    if (scene.objects.empty())
-        pipeline_.setScene(nullptr, layerOptions());
-    else
-        show(follower_.set(std::move(scene)));
-}
-
-void VirtualWorld::follow(const ImageView& frame, const CameraModel& video,
-                          const std::optional<Pose>& pose, Timestamp time) {
-    if (!traced_ || !pose || pipeline_.objectsRegion().empty()) return;
-    show(follower_.follow(pipeline_.inverseDepth(), video, pose->T_world_video,
-                          pipeline_.objectsRegion(), time));
-    const bool due = !lightSeen_ || (time - *lightSeen_).count() > kLightInterval * 1e9;
-    if (!light_ || !due) return;
-    lightSeen_ = time;
-    light_->add(frame, video, pose->T_world_video, time);
-    const std::optional<LightEstimate> estimate = light_->estimate();
-    if (!estimate) return;
-    Lighting lighting = lightingOf(*estimate);
-    if (sun_) lighting.sun = sun_;
-    show(follower_.relight(std::move(lighting)));
+    std::optional<LightFollower> seen;
+    if (light.source == LightSource::Camera) seen.emplace(light.sun);
+    pipeline_.setScene(sceneOf(objects, light, tags), layerOptions(), std::move(seen));
 }
 
 }  // namespace mfar

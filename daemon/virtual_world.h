@@ -1,12 +1,9 @@
 #pragma once
 
 #include "daemon/objects_config.h"
-#include "pipeline/composite/scene_follower.h"
-#include "pipeline/models/light_estimate.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/scene/virtual_options.h"
 
-#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -24,24 +21,14 @@ public:
     /// Why models are not shown; empty when they are.
     [[nodiscard]] std::string_view shapesAlone() const;
 
-    /// After a frame: shadows follow the measured depth and, where it is asked for, light follows
-    /// the camera's pictures.
-    void follow(const ImageView& frame, const CameraModel& video, const std::optional<Pose>& pose,
-                Timestamp time);
-
 private:
     [[nodiscard]] TracedLayerOptions layerOptions() const;
-    void show(std::shared_ptr<const Scene> scene);
 
     VirtualOptions options_;
     Size fullSize_;  // of the still's resolution
     Pipeline& pipeline_;
     bool traced_;
     float exposure_ = 1;
-    SceneFollower follower_;
-    std::optional<LightEstimator> light_;  // of the camera's pictures
-    std::optional<Sun> sun_;
-    std::optional<Timestamp> lightSeen_;
 };
 
 /// A scene of these objects, placed by the tag map, in this light. Light that the camera is to

@@ -4,7 +4,6 @@
 // premultiplied; z [m], 0 = nothing; state: 0, 1 if the pixel is left, 0, number of what fills it.
 // Source: paper, eq. 5.
 // Range: depth 0..1e6
-// Variant: #define SPLATTED_DEPTH
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
 #include "warp_surface.glsl"
@@ -13,10 +12,6 @@ layout(binding = 0) uniform usampler2D silhouette;
 layout(binding = 1) uniform sampler2D rays;  // normalised, of each pixel of the layer
 layout(binding = 2) uniform sampler2D colours;
 layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); number 254: nothing is known
-#ifdef SPLATTED_DEPTH
-layout(binding = 6) uniform sampler2D objectDepth;
-layout(binding = 7) uniform sampler2D catcherDepth;
-#endif
 layout(location = 0) out vec4 colour;
 layout(location = 1) out float depth;
 layout(location = 2) out vec4 state;
@@ -32,12 +27,6 @@ void main() {
     z = open ? planeDepth(ray) : z;
     id = open ? kCatcher : id;
     bool empty = open && z == 0.0;
-#ifdef SPLATTED_DEPTH
-    float splatted = id == kCatcher ? texelFetch(catcherDepth, p, 0).r : texelFetch(objectDepth, p, 0).r;
-    bool here = abs(splatted - z) < kSplattedLayer * z;
-    // Of the catcher: where nothing was splatted, there may be nothing to see, too.
-    z = here ? splatted : id == kCatcher ? z : 0.0;
-#endif
     vec3 at = inView(0, z * vec3(ray, 1.0));
     // The corner that the four texels share: a rounding of the filter's own must not choose others.
     vec2 corner = floor(at.xy) + 1.0;

@@ -5,7 +5,6 @@
 // of what fills the pixel alone; holes[] = pixel, bit 31: the same 1, bit 30: edge; colour so far (RGBA8). holeCommands[0] = groups of 64,
 // count; [l] = the pyramid's levels, once there is any hole.
 // Range: depth 0..1e6
-// Variant: #define SPLATTED_DEPTH
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
 #include "warp_surface.glsl"
@@ -18,10 +17,6 @@ layout(binding = 2) uniform sampler2D colours;
 layout(binding = 3) uniform sampler2D surfaces;  // WarpSurface: z [m], number, tolerance [m], known
 layout(binding = 4) uniform sampler2D patchColours;
 layout(binding = 5) uniform sampler2D patchSurfaces;
-#ifdef SPLATTED_DEPTH
-layout(binding = 6) uniform sampler2D objectDepth;
-layout(binding = 7) uniform sampler2D catcherDepth;
-#endif
 layout(binding = 0, rgba8) writeonly uniform image2D colour;
 layout(binding = 1, r32f) writeonly uniform image2D depth;
 layout(binding = 2, rgba8) writeonly uniform image2D state;
@@ -61,9 +56,9 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
     return weights > slack.y ? weights : 0.0;
 }
 
-// How much of the colour of the surface at `point` is known; at the depth of `seen` to the reference.
-float known(vec3 point, vec3 seen, float id, out vec4 found) {
-    if (lookUp(colours, surfaces, sizes.xy, 0, inView(0, seen), id, slack.x, found) > 0.0) return 1.0;
+// How much of the colour of the surface at `point` is known.
+float known(vec3 point, float id, out vec4 found) {
+    if (lookUp(colours, surfaces, sizes.xy, 0, inView(0, point), id, slack.x, found) > 0.0) return 1.0;
     float share_ = 0.0;  // that of the patch shown most: one that fades in takes nothing away
     for (int i = 0; i < counts.x; ++i) {
         vec4 own;
@@ -76,11 +71,6 @@ float known(vec3 point, vec3 seen, float id, out vec4 found) {
     // Of the catcher, nothing is known beyond the reference, and nothing is missed.
     found = vec4(0.0);
     return id == 255.0 && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
-}
-
-vec3 seenAt(sampler2D splattedDepth, ivec2 p, vec3 point, vec3 otherwise) {
-    float splatted = texelFetch(splattedDepth, p, 0).r;
-    return abs(splatted - point.z) < kSplattedLayer * point.z ? splatted / point.z * point : otherwise;
 }
 
 void main() {
@@ -97,14 +87,9 @@ void main() {
     float below = catcher.z > 0.0 ? 1.0 - covered : 0.0;
     vec3 point = object.z * vec3(ray + object.xy / pinhole[1].xy, 1.0);
     vec3 under = catcher.z * vec3(ray + catcher.xy / pinhole[1].xy, 1.0);
-#ifdef SPLATTED_DEPTH
-    vec3 seen = seenAt(objectDepth, p, point, vec3(0.0)), seenUnder = seenAt(catcherDepth, p, under, under);
-#else
-    vec3 seen = point, seenUnder = under;
-#endif
     vec4 ofObject, ofCatcher;
-    float objectKnown = covered > 0.0 ? known(point, seen, float(id), ofObject) : 1.0;
-    float catcherKnown = below > 0.0 ? known(under, seenUnder, 255.0, ofCatcher) : 1.0;
+    float objectKnown = covered > 0.0 ? known(point, float(id), ofObject) : 1.0;
+    float catcherKnown = below > 0.0 ? known(under, 255.0, ofCatcher) : 1.0;
     vec4 shown = vec4(0.0);
     if (covered > 0.0) shown += covered * objectKnown * ofObject;
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;

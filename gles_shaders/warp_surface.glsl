@@ -13,5 +13,4 @@ uint surfaceId(uint surface) {
 
 // Of z, as shown: a shadow is so much nearer than what it lies on; kShadowLift of virtual_layer.h.
 const float kShadowLift = 0.02;
-const float kSameDepth = 0.003;     // of z: surfaces as close as that are one
-const float kSplattedLayer = 0.02;  // of z: what was splatted farther from a model is of another one
+const float kSameDepth = 0.003;  // of z: surfaces as close as that are one

@@ -144,6 +144,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     if (task.measures) s.measureDepth(frame, {time, pose->T_world_video, pose->covariance}, task);
     s.showObjects(frame);
     s.publish(work, usesStill, usesPose);
+    s.followScene(frame, pose, time);
     return s.result;
 }
 

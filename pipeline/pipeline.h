@@ -8,6 +8,7 @@
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/engine/engine.h"
 #include "pipeline/flow/flow_options.h"
+#include "pipeline/models/light_follower.h"
 #include "pipeline/quality.h"
 #include "pipeline/results.h"
 #include "pipeline/skip_options.h"
@@ -78,9 +79,12 @@ public:
     /// Shown in frames with a pose, as seen from there and hidden behind what is nearer. The first
     /// call with any allocates what they need.
     void setObjects(std::vector<VirtualObject> objects);
-    /// The same, path traced; null: nothing is shown. The first call with a scene allocates what it
-    /// needs, as do later ones with other options. Throws as TracedLayer does.
-    void setScene(std::shared_ptr<const Scene> scene, const TracedLayerOptions& options);
+    /// The same, path traced. After each frame the scene is kept as the real one around it is found
+    /// to be: shadows fall onto the measured surface and, with `light`, light follows the video.
+    /// The first call with any object allocates what it needs, as do later ones with other options.
+    /// Throws as TracedLayer does.
+    void setScene(Scene scene, const TracedLayerOptions& options,
+                  std::optional<LightFollower> light = {});
     /// Video pixels in and around the virtual objects and their shadows in the last frame; empty
     /// without any in view.
     [[nodiscard]] PixelRect objectsRegion() const;

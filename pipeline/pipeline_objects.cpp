@@ -19,6 +19,8 @@ int tilesIn(const PixelRect& videoPixels) {
 
 void Pipeline::setObjects(std::vector<VirtualObject> objects) {
     State& s = *state_;
+    s.sceneFollower.reset();
+    s.lightFollower.reset();
     if (!s.objects && objects.empty()) return;
     if (!s.objects || s.objects->traced() != nullptr) {
         s.objects.emplace(s.rig.video, s.output, s.engineOf(s.options.engines.occlusion));
@@ -28,9 +30,13 @@ void Pipeline::setObjects(std::vector<VirtualObject> objects) {
     s.objects->setObjects(std::move(objects));
 }
 
-void Pipeline::setScene(std::shared_ptr<const Scene> scene, const TracedLayerOptions& options) {
+void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
+                        std::optional<LightFollower> light) {
     State& s = *state_;
-    if (!s.objects && !scene) return;
+    s.sceneFollower.reset();
+    s.lightFollower = std::move(light);
+    const bool isEmpty = scene.objects.empty();
+    if (!s.objects && isEmpty) return;
     TracedLayerOptions wanted = options;
     if (wanted.size.width <= 0 || wanted.size.height <= 0)
         wanted.size = {(s.output.width + 1) / 2, (s.output.height + 1) / 2};
@@ -40,7 +46,19 @@ void Pipeline::setScene(std::shared_ptr<const Scene> scene, const TracedLayerOpt
         s.traced = wanted;
         s.redraw = true;
     }
-    s.objects->setScene(std::move(scene));
+    s.objects->setScene(isEmpty ? nullptr : s.sceneFollower.emplace().set(std::move(scene)));
+}
+
+void Pipeline::State::followScene(const VideoFrame& frame, const std::optional<Pose>& pose,
+                                  Timestamp time) {
+    if (!sceneFollower || !pose || !inView()) return;
+    const RigidTransform& T_world_video = pose->T_world_video;
+    if (auto scene =
+            sceneFollower->follow(snap.field(), rig.video, T_world_video, objects->region(), time))
+        objects->setScene(std::move(scene));
+    if (!lightFollower) return;
+    if (auto light = lightFollower->follow(frame.view, rig.video, T_world_video, time))
+        objects->setScene(sceneFollower->relight(*std::move(light)));
 }
 
 PixelRect Pipeline::objectsRegion() const {

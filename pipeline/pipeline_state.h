@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/composite/scene_follower.h"
 #include "pipeline/composite/virtual_view.h"
 #include "pipeline/depth/depth_stage.h"
 #include "pipeline/depth/edge_snap.h"
@@ -47,6 +48,8 @@ struct Pipeline::State {
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
     void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
+    /// For the next frame: what this one has shown of the real scene around the objects.
+    void followScene(const VideoFrame& frame, const std::optional<Pose>& pose, Timestamp time);
     void publish(const TileWork& work, bool usedStill, bool usedPose);
 
     [[nodiscard]] PixelRect pixelsOf(const PixelRect& tiles) const;
@@ -81,6 +84,8 @@ struct Pipeline::State {
     LumaImage luma;  // of a frame without a search along lines
     std::optional<VirtualView> objects;
     TracedLayerOptions traced;  // of path traced objects
+    std::optional<SceneFollower> sceneFollower;
+    std::optional<LightFollower> lightFollower;
     Quality quality;
     const StillPictures* stillPictures = nullptr;  // the newest still's
     const FlowCells* lastFlow = nullptr;           // belongs to that still

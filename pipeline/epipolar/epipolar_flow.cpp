@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -42,10 +43,9 @@ Middle middleOf(int cell, int pixels) {
 
 EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                            const EpipolarOptions& options)
-    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, workers, options), workers_(workers),
-      mostPredicted_(options.mostPredicted), prediction_(rig.video), lens_(rig.video, 0),
-      cellRays_(rig.video, 2), rotation_(Eigen::Matrix3f::Identity()) {
-    if (options.bothWays) twoWay_.emplace(rig, std::move(workers), options);
+    : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, workers, options),
+      workers_(std::move(workers)), mostPredicted_(options.mostPredicted), prediction_(rig.video),
+      lens_(rig.video, 0), cellRays_(rig.video, 2), rotation_(Eigen::Matrix3f::Identity()) {
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);
     hidden_.resize(count);
@@ -116,10 +116,7 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
                     .toRotationMatrix()
                     .cast<float>();
     fillForward();
-    if (twoWay_)
-        testBothWays();
-    else
-        testDepth();
+    testDepth();
     if (search_.pixelsPerUnit() > 0)
         prediction_.keep(nearness_, search_.pose(), unit_);
     else
@@ -284,15 +281,6 @@ void EpipolarFlow::testDepth() {
     simd::cellsHidden(landing_.data(), nearest_.data(), nearness_.data(),
                       {static_cast<float>(search_.pixelsPerUnit()), kSlope, kNowhere},
                       hidden_.size(), hidden_.data());
-}
-
-void EpipolarFlow::testBothWays() {
-    twoWay_->run(search_, frame_);
-    for (std::size_t cell = 0; cell < hidden_.size(); ++cell) {
-        const Eigen::Vector2d ray(cellRays_.rayX(cell), cellRays_.rayY(cell));
-        const float error = twoWay_->error(ray, nearness_[cell]).value_or(kNowhere);
-        hidden_[cell] = {std::min(error, kNowhere), 0, 0, 0};
-    }
 }
 
 }  // namespace mfar

@@ -2,7 +2,6 @@
 
 #include "pipeline/epipolar/epipolar_search.h"
 #include "pipeline/epipolar/field_prediction.h"
-#include "pipeline/epipolar/two_way.h"
 #include "pipeline/epipolar/unit_pose.h"
 #include "pipeline/simd/cell_flow_rows.h"
 
@@ -47,8 +46,7 @@ public:
     /// Video -> still: flow x, y [video px at the video's geometry], -, -.
     [[nodiscard]] const Cells& forward() const { return forward_; }
     /// What eq. 2 calls the two-way error [px], -, -, -. From a z-test: how much less parallax a
-    /// cell has than the nearest surface that lands on the same place of the still; with
-    /// EpipolarOptions::bothWays from a search back instead.
+    /// cell has than the nearest surface that lands on the same place of the still.
     [[nodiscard]] const Cells& hidden() const { return hidden_; }
     /// s of every cell, as close as its line comes to where a flow field ends, such as forward()
     /// once it was refined in both dimensions.
@@ -82,12 +80,10 @@ private:
     void fillDepths(int j);
     [[nodiscard]] float depthOf(int i, int j) const;
     void testDepth();
-    void testBothWays();
 
     StereoRig rig_;
     Size cells_;
     EpipolarSearch search_;
-    std::optional<TwoWayTest> twoWay_;
     std::shared_ptr<Workers> workers_;
     int mostPredicted_;
     FieldPrediction prediction_;

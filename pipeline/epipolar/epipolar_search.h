@@ -55,8 +55,6 @@ public:
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
-    /// Luma of the still at that scale.
-    [[nodiscard]] const LumaImage& stillPicture() const { return picture_; }
     /// The T_still_video whose lines were searched, and what led to it.
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }

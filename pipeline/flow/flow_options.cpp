@@ -46,7 +46,6 @@ EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wante
     EpipolarOptions out = validated(wanted);
     out.levels = now.levels;
     out.longestParallax = now.longestParallax;
-    out.bothWays = now.bothWays;
     return out;
 }
 

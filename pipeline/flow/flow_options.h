@@ -21,10 +21,9 @@ struct Flow2dOptions {
 struct EpipolarOptions {
     int levels = 4;                ///< at most; one has 60 px at least on its short side; [1, 4]
     double longestParallax = 0.8;  ///< longest way sought, as a share of the width; (0, 1]
-    int windowRadius = 2;   ///< of the coarser level's labels that a window covers [px]; [0, 8]
-    int stepPenalty = 12;   ///< Smoothness::step without noise; [1, 30]
-    int jumpPenalty = 60;   ///< Smoothness::jump; [1, 60]
-    bool bothWays = false;  ///< eq. 2's error from a search back, not from the z-test
+    int windowRadius = 2;  ///< of the coarser level's labels that a window covers [px]; [0, 8]
+    int stepPenalty = 12;  ///< Smoothness::step without noise; [1, 30]
+    int jumpPenalty = 60;  ///< Smoothness::jump; [1, 60]
     int finest = 0;  ///< level the search ends at: 1, 2: a half, a quarter of the pixels; [0, 2]
     /// Of EpipolarFlow: frames in a row searched around what the one before showed; [0, 60].
     int mostPredicted = 7;
@@ -33,7 +32,7 @@ struct EpipolarOptions {
 };
 
 /// `now` with what of `wanted` may change between frames: all but what memory is laid out for
-/// (levels, longestParallax, bothWays).
+/// (levels, longestParallax).
 [[nodiscard]] Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted);
 [[nodiscard]] EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted);
 

@@ -10,16 +10,9 @@
 namespace mfar {
 namespace {
 
-// A splatted z is that of a point up to half a pixel away, on either side of an already
-// tolerated step.
-constexpr float kSplattedSlack = 2;
 // Less of a surface's own texels than so much tells little of its colour there.
 constexpr float kLeastWeight = 0.2F;
 constexpr int kListGroup = 8;  // each way, as in the shaders
-
-const char* definesOf(WarpDepth depth) {
-    return depth == WarpDepth::Splatted ? "#define SPLATTED_DEPTH\n" : "";
-}
 
 /// n . point = w, in the frame of the camera.
 Eigen::Vector4d planeIn(const Eigen::Vector4d& world, const RigidTransform& T_world_camera) {
@@ -30,16 +23,15 @@ Eigen::Vector4d planeIn(const Eigen::Vector4d& world, const RigidTransform& T_wo
 
 }  // namespace
 
-ViewLookUp::ViewLookUp(const LensProjection& layer, WarpDepth depth)
-    : layer_(layer), depthFrom_(depth), rays_(rayTexture(layer.camera)),
+ViewLookUp::ViewLookUp(const LensProjection& layer)
+    : layer_(layer), rays_(rayTexture(layer.camera)),
       colour_(layer.camera.size, gpu::TexelFormat::Rgba8, gpu::Filter::Linear),
       depth_(layer.camera.size, gpu::TexelFormat::R32F),
       state_(layer.camera.size, gpu::TexelFormat::Rgba8),
       target_(std::array<const gpu::Texture*, 3>{&colour_, &depth_, &state_}),
       commands_(sizeof(HoleFiller::Command)),
       list_(sizeof(std::uint32_t) * layer.camera.size.width * layer.camera.size.height),
-      plain_("warp_look_up.frag", definesOf(depth)), restList_("warp_rest_list.comp"),
-      rest_("warp_rest.comp", definesOf(depth)) {
+      plain_("warp_look_up.frag"), restList_("warp_rest_list.comp"), rest_("warp_rest.comp") {
     clear({0, 0, layer.camera.size.width, layer.camera.size.height});
 }
 
@@ -66,7 +58,7 @@ ViewLookUp::Params ViewLookUp::params(const Input& input,
     storeLens(p.pinhole[1], p.distortion[1], p.lens[1], layer_);
     const Eigen::Vector4f plane = planeIn(input.plane, T_world_camera).cast<float>();
     std::copy_n(plane.data(), 4, p.plane);
-    p.slack[0] = depthFrom_ == WarpDepth::Splatted ? kSplattedSlack : 1;
+    p.slack[0] = 1;
     p.slack[1] = kLeastWeight;
     p.sizes[0] = from.width;
     p.sizes[1] = from.height;
@@ -86,22 +78,14 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
     {
         const gpu::Scissor scissor(where);
         const gpu::Texture &colour = input.reference.colour(), &packed = input.reference.packed();
-        if (depthFrom_ == WarpDepth::Splatted)
-            plain_.run(p,
-                       {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
-                        gpu::sampler(2, colour), gpu::sampler(3, packed),
-                        gpu::sampler(6, *input.objectDepth), gpu::sampler(7, *input.catcherDepth)},
-                       target_);
-        else
-            plain_.run(p,
-                       {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
-                        gpu::sampler(2, colour), gpu::sampler(3, packed)},
-                       target_);
+        plain_.run(p,
+                   {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
+                    gpu::sampler(2, colour), gpu::sampler(3, packed)},
+                   target_);
     }
     runRest(p, input, where, holes);
 }
 
-// Samplers of the splatted depth are bound in any case; a shader without them leaves them alone.
 void ViewLookUp::runRest(const Params& params, const Input& input, const PixelRect& where,
                          const HoleFiller& holes) {
     constexpr HoleFiller::Command kNone{0, 1, 1, 0};
@@ -110,16 +94,13 @@ void ViewLookUp::runRest(const Params& params, const Input& input, const PixelRe
                   {gpu::sampler(0, state_), gpu::storage(0, commands_), gpu::storage(1, list_)},
                   {gpu::groupsFor((where.x1 - where.x0 + 1) / 2, kListGroup),
                    gpu::groupsFor((where.y1 - where.y0 + 1) / 2, kListGroup), 1});
-    const gpu::Texture& objects = input.objectDepth != nullptr ? *input.objectDepth : depth_;
-    const gpu::Texture& catcher = input.catcherDepth != nullptr ? *input.catcherDepth : depth_;
     rest_.runIndirect(
         params,
         {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
          gpu::sampler(2, input.reference.colour()), gpu::sampler(3, input.reference.surface()),
          gpu::sampler(4, input.patches.colour()), gpu::sampler(5, input.patches.surface()),
-         gpu::sampler(6, objects), gpu::sampler(7, catcher), gpu::imageWrite(0, colour_),
-         gpu::imageWrite(1, depth_), gpu::imageWrite(2, state_), gpu::storage(0, commands_),
-         gpu::storage(1, list_), gpu::storage(2, holes.commands()),
+         gpu::imageWrite(0, colour_), gpu::imageWrite(1, depth_), gpu::imageWrite(2, state_),
+         gpu::storage(0, commands_), gpu::storage(1, list_), gpu::storage(2, holes.commands()),
          gpu::storage(3, holes.entries())},
         commands_, 0);
 }

@@ -13,18 +13,13 @@
 
 namespace mfar {
 
-/// Where the depth of the look-up comes from.
-enum class WarpDepth {
-    Model,    ///< the models, rasterised at the current pose
-    Splatted  ///< the reference's depth, moved to the current pose (paper, eq. 5)
-};
-
-/// The second pass of the warp: every pixel of the layer that shows a surface looks its colour up
+/// The look-up of the warp (paper, eq. 5), whose depth is that of the models, rasterised at the
+/// current pose: every pixel of the layer that shows a surface looks its colour up
 /// in the reference or, where that does not show it, in the patches. Plain pixels are done by a
 /// draw, edges and what else is not as simple by a compute shader over their list.
 class ViewLookUp {
 public:
-    ViewLookUp(const LensProjection& layer, WarpDepth depth);
+    explicit ViewLookUp(const LensProjection& layer);
 
     struct Input {
         const gpu::Texture& silhouette;  ///< ModelSilhouette::surface() at the current pose
@@ -34,8 +29,6 @@ public:
         /// The catcher, if it is one plane: n . point = w in the world [m]; zero: it is in the
         /// silhouette, or there is none.
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();
-        const gpu::Texture* objectDepth = nullptr;   ///< R32F, layer size, with WarpDepth::Splatted
-        const gpu::Texture* catcherDepth = nullptr;  ///< the same
     };
     /// Writes every pixel of `where`, and no other; appends to the list that `holes` has begun.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where,
@@ -64,7 +57,6 @@ private:
     [[nodiscard]] Params params(const Input& input, const RigidTransform& T_world_camera) const;
 
     LensProjection layer_;
-    WarpDepth depthFrom_;
     gpu::Texture rays_, colour_, depth_, state_;
     gpu::Framebuffer target_;
     gpu::Buffer commands_, list_;  // of the pixels that are not plain

@@ -45,9 +45,8 @@ void thinOut(std::vector<std::uint32_t>& pixels, std::size_t most, unsigned widt
 
 Warp::Warp(const CameraModel& video, Size output, const WarpOptions& options)
     : lens_(video.scaledTo(output)), options_(validated(options)), silhouette_(lens_.camera),
-      lookUp_(lens_, options.depth), filler_(output),
+      lookUp_(lens_), filler_(output),
       patches_(output, options.filling == HoleFilling::Both ? options.fadeFrames : 0) {
-    if (options.depth == WarpDepth::Splatted) splat_.emplace(lens_);
     if (rerenders() && options.sharpenShare > 0)
         refiner_.emplace(output, options.sharpenShare, options.mostRequested,
                          options.filling == HoleFilling::Both ? options.fadeFrames : 0);
@@ -105,13 +104,8 @@ void Warp::warp(const RigidTransform& T_world_camera, const PixelRect& bounds) {
     if (!(around(drawn_, bounds) == bounds)) lookUp_.clear(drawn_);
     drawn_ = bounds;
     silhouette_.draw(T_world_camera, bounds);
-    ViewLookUp::Input input{silhouette_.surface(), textures_, reference_->T_world_camera, patches_,
-                            silhouette_.plane()};
-    if (splat_) {
-        splat_->run(*reference_, textures_, T_world_camera, bounds);
-        input.objectDepth = &splat_->objects();
-        input.catcherDepth = &splat_->catcher();
-    }
+    const ViewLookUp::Input input{silhouette_.surface(), textures_, reference_->T_world_camera,
+                                  patches_, silhouette_.plane()};
     filler_.begin(bounds, options_.filling == HoleFilling::PushPull ||
                               options_.filling == HoleFilling::Both);
     lookUp_.run(input, T_world_camera, bounds, filler_);

@@ -2,7 +2,6 @@
 
 #include "pipeline/composite/virtual_layer.h"
 #include "pipeline/slices/hole_request.h"
-#include "pipeline/warp/depth_splat.h"
 #include "pipeline/warp/edge_refiner.h"
 #include "pipeline/warp/hole_filler.h"
 #include "pipeline/warp/model_silhouette.h"
@@ -87,7 +86,6 @@ private:
     ViewLookUp lookUp_;
     HoleFiller filler_;
     PatchPictures patches_;
-    std::optional<DepthSplat> splat_;
     std::optional<EdgeRefiner> refiner_;
     std::optional<WarpReference> reference_;
     std::uint64_t scene_ = 0;

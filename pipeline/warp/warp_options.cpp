@@ -17,7 +17,6 @@ void requireOption(const char* name, double value, double least, double most) {
 
 void validate(const WarpOptions& options) {
     constexpr double kMostPixels = 16384.0 * 16384;
-    requireOption("depth", static_cast<int>(options.depth), 0, 1);
     requireOption("filling", static_cast<int>(options.filling), 0, 3);
     requireOption("mostRequested", options.mostRequested, 1, kMostPixels);
     requireOption("holeSamples", options.holeSamples, 1, 4096);

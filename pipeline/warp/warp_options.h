@@ -14,7 +14,6 @@ enum class HoleFilling {
 };
 
 struct WarpOptions {
-    WarpDepth depth = WarpDepth::Model;
     HoleFilling filling = HoleFilling::Both;
     /// Pixels rendered for themselves at a time, at most, from 1 on: 5 % of 640x480.
     int mostRequested = 15360;

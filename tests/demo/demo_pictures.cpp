@@ -1,8 +1,8 @@
 #include "tests/demo/demo_pictures.h"
 
 #include "tests/demo/picture_layout.h"
-#include "tests/eval/metrics/luma.h"
-#include "tests/eval/metrics/psnr.h"
+#include "tests/measure/eval/metrics/luma.h"
+#include "tests/measure/eval/metrics/psnr.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>

@@ -2,11 +2,11 @@
 
 #include "pipeline/pipeline.h"
 #include "tests/demo/still_feed.h"
-#include "tests/eval/metrics/harm_rate.h"
-#include "tests/eval/metrics/luma.h"
-#include "tests/eval/metrics/psnr.h"
-#include "tests/eval/metrics/ssim.h"
-#include "tests/eval/picture.h"
+#include "tests/measure/eval/metrics/harm_rate.h"
+#include "tests/measure/eval/metrics/luma.h"
+#include "tests/measure/eval/metrics/psnr.h"
+#include "tests/measure/eval/metrics/ssim.h"
+#include "tests/measure/eval/picture.h"
 
 #include <GLES3/gl31.h>
 #include <opencv2/imgproc.hpp>

@@ -7,7 +7,7 @@
 #include "tests/demo/occlusion_pictures.h"
 #include "tests/demo/occlusion_run.h"
 #include "tests/demo/virtual_run.h"
-#include "tests/eval/picture.h"
+#include "tests/measure/eval/picture.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -3,11 +3,11 @@
 #include "hal/virtual/synthetic_truth.h"
 #include "pipeline/composite/preview_renderer.h"
 #include "tests/demo/still_feed.h"
-#include "tests/eval/metrics/depth_error.h"
-#include "tests/eval/metrics/occlusion_score.h"
-#include "tests/eval/picture.h"
-#include "tests/eval/scene_run.h"
-#include "tests/eval/virtual_truth.h"
+#include "tests/measure/eval/metrics/depth_error.h"
+#include "tests/measure/eval/metrics/occlusion_score.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/scene_run.h"
+#include "tests/measure/eval/virtual_truth.h"
 
 #include <opencv2/imgproc.hpp>
 

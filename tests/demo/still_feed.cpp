@@ -1,6 +1,6 @@
 #include "tests/demo/still_feed.h"
 
-#include "tests/eval/picture.h"
+#include "tests/measure/eval/picture.h"
 
 #include <optional>
 

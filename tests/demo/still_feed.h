@@ -2,7 +2,7 @@
 
 #include "hal/virtual/recording.h"
 #include "pipeline/pipeline.h"
-#include "tests/eval/pose_source.h"
+#include "tests/measure/eval/pose_source.h"
 
 #include <cstddef>
 

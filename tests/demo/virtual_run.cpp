@@ -3,7 +3,7 @@
 #include "daemon/virtual_world.h"
 #include "tests/demo/picture_layout.h"
 #include "tests/demo/still_feed.h"
-#include "tests/eval/picture.h"
+#include "tests/measure/eval/picture.h"
 
 #include <fmt/format.h>
 
@@ -76,10 +76,7 @@ public:
     }
 
 private:
-    void show() {
-        pipeline_.run(eval::viewOf(rgba_), time_, pose_);
-        world_.follow(eval::viewOf(rgba_), recording_.rig.video, pose_, time_);
-    }
+    void show() { pipeline_.run(eval::viewOf(rgba_), time_, pose_); }
 
     const Recording& recording_;
     eval::KnownPoses poses_;

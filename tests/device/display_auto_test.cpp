@@ -1,5 +1,5 @@
 #include "hal/device/display_auto.h"
-#include "tests/shader/gl_test.h"
+#include "tests/engine/gl_test.h"
 
 #include <filesystem>
 #include <gmock/gmock.h>

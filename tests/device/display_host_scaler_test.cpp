@@ -1,5 +1,5 @@
 #include "hal/device/display_host_scaler.h"
-#include "tests/shader/twins/area_mean.h"
+#include "tests/oracle/area_mean.h"
 
 #include <gtest/gtest.h>
 

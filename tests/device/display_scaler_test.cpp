@@ -1,7 +1,7 @@
 #include "hal/device/display_scaler.h"
 #include "hal/device/display_spec.h"
-#include "tests/shader/gl_test.h"
-#include "tests/shader/twins/area_mean.h"
+#include "tests/engine/gl_test.h"
+#include "tests/oracle/area_mean.h"
 
 #include <algorithm>
 #include <array>

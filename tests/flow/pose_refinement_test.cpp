@@ -25,7 +25,7 @@ CameraModel pageBarrel() {
     return {{240, 180}, 195, 196, 123, 87, {-0.29, 0.08, 0.001, -0.0012, 0.002}};
 }
 
-Scene stepScene() {
+Scene panelScene() {
     return {{{{0.1, 0.1, 1}, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
 
@@ -96,10 +96,10 @@ double depthErrorOf(const EpipolarSearch& search, const View& view) {
 const Matrix6 kUsual = covarianceOf(0.4, 0.002);
 
 std::vector<View> views() {
-    return {{pagePlain(), stepScene(), motion({0, 0, 0}, {-0.2, 0.02, 0})},
-            {pagePlain(), stepScene(), motion({2, -3, 10}, {0.1, 0.15, 0.05})},
-            {pageBarrel(), stepScene(), motion({-3, 5, -8}, {0.2, 0.05, -0.1})},
-            {pagePlain(), stepScene(), motion({0, 0, 0}, {0.02, 0.01, 0.4})}};
+    return {{pagePlain(), panelScene(), motion({0, 0, 0}, {-0.2, 0.02, 0})},
+            {pagePlain(), panelScene(), motion({2, -3, 10}, {0.1, 0.15, 0.05})},
+            {pageBarrel(), panelScene(), motion({-3, 5, -8}, {0.2, 0.05, -0.1})},
+            {pagePlain(), panelScene(), motion({0, 0, 0}, {0.02, 0.01, 0.4})}};
 }
 
 // 2 px at this focal length are half a degree.
@@ -134,14 +134,14 @@ TEST(PoseRefinement, LeavesAGoodPoseAsItIs) {
 }
 
 TEST(PoseRefinement, AnUncertainPoseIsSoughtFartherAway) {
-    const View view{pagePlain(), stepScene(), motion({3, -4, 5}, {0, 0, 0})};
+    const View view{pagePlain(), panelScene(), motion({3, -4, 5}, {0, 0, 0})};
     const RigidTransform error = motion({1.5, -1, 0.3}, {0, 0, 0});
     EXPECT_LT(missOf(searched(view, error, covarianceOf(1, 0)).pose(), view), 0.1);
     EXPECT_GT(missOf(searched(view, error, covarianceOf(0.1, 0)).pose(), view), 1);
 }
 
 TEST(PoseRefinement, PureRotationIsRefinedWithoutASearch) {
-    const View view{pagePlain(), stepScene(), motion({3, -4, 5}, {0, 0, 0})};
+    const View view{pagePlain(), panelScene(), motion({3, -4, 5}, {0, 0, 0})};
     const EpipolarSearch search =
         searched(view, motion({0.3, 0.4, -0.3}, {0, 0, 0}), covarianceOf(0.4, 0));
     EXPECT_TRUE(search.refinement().accepted);
@@ -151,7 +151,7 @@ TEST(PoseRefinement, PureRotationIsRefinedWithoutASearch) {
 
 // A panel before a wall moves by itself, across the lines; it holds nearly half of the patches.
 TEST(PoseRefinement, FollowsTheSceneAndNotWhatMovesInIt) {
-    View view{pagePlain(), stepScene(), motion({0, 0, 0}, {-0.2, 0, 0})};
+    View view{pagePlain(), panelScene(), motion({0, 0, 0}, {-0.2, 0, 0})};
     view.scene.surfaces[1].least = {-0.75, -0.75};
     view.scene.surfaces[1].greatest = {0.65, 0.35};
     const LumaImage video = view.video();
@@ -178,7 +178,7 @@ TEST(PoseRefinement, FollowsTheSceneAndNotWhatMovesInIt) {
 
 TEST(PoseRefinement, PicturesThatShowNothingKeepThePrior) {
     const CameraModel camera = pagePlain();
-    const LumaImage scene = stepScene().render(camera, {});
+    const LumaImage scene = panelScene().render(camera, {});
     std::vector<LumaImage> pictures;
     for (const int grey : {0, 128, 255}) {
         pictures.emplace_back(camera.size);

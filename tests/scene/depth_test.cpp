@@ -1,8 +1,8 @@
 // The depth of synthetic scenes while the camera does what people do, against the truth.
 #include "hal/gl_context.h"
-#include "tests/eval/picture.h"
-#include "tests/eval/scene_objects.h"
-#include "tests/eval/scene_run.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/scene_objects.h"
+#include "tests/measure/eval/scene_run.h"
 #include "tests/scene/depth_watch.h"
 #include "tests/scene/stopped_camera.h"
 

@@ -1,8 +1,8 @@
 #include "tests/scene/depth_watch.h"
 
 #include "hal/virtual/synthetic_ray.h"
-#include "tests/eval/metrics/depth_error.h"
-#include "tests/eval/virtual_truth.h"
+#include "tests/measure/eval/metrics/depth_error.h"
+#include "tests/measure/eval/virtual_truth.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Real depth is measured only where it may decide about a virtual object.
 #include "hal/gl_context.h"
-#include "tests/eval/scene_run.h"
+#include "tests/measure/eval/scene_run.h"
 
 #include <gtest/gtest.h>
 

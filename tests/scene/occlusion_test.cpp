@@ -1,9 +1,9 @@
 // Virtual objects behind real things of the synthetic scenes, against the truth.
 #include "hal/gl_context.h"
-#include "tests/eval/metrics/occlusion_score.h"
-#include "tests/eval/scene_objects.h"
-#include "tests/eval/scene_run.h"
-#include "tests/eval/virtual_truth.h"
+#include "tests/measure/eval/metrics/occlusion_score.h"
+#include "tests/measure/eval/scene_objects.h"
+#include "tests/measure/eval/scene_run.h"
+#include "tests/measure/eval/virtual_truth.h"
 #include "tests/scene/stopped_camera.h"
 
 #include <gtest/gtest.h>

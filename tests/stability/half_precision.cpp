@@ -70,13 +70,6 @@ T likenessOf(double distance, double strength) {
     return T(std::exp(static_cast<double>(T(0) - T(strength) * (d * d))));
 }
 
-/// rho = (u . e) / (|e|^2 - b_z (u . e)), u of two rays.
-template <class T>
-T inverseDepth(double rayA, double rayB, double bx, double bz) {
-    const T u = T(rayB) - T(rayA), e = T(bx) - T(rayA) * T(bz), along = u * e;
-    return along / (e * e - T(bz) * along);
-}
-
 void printVerdict(ErrorTable& table, double most) {
     table.print();
     fmt::print("    {}\n", table.worst() <= most ? "may use mediump" : "needs highp");
@@ -122,7 +115,6 @@ void colours(Hostile& h) {
 
 void places(Hostile& h) {
     ErrorTable lens("rig, lens: still pixel", "px"), look("look-up: place in the still", "px");
-    ErrorTable depth("depth_from_flow: along the line", "px");
     ErrorTable stored("superres_weigh: offset in rgba16f", "px");
     const CameraModel still{{2304, 1728}, 2300, 2300, 1150, 860, {-0.12, 0.03, 1e-3, -2e-3, 0}};
     for (int i = 0; i < kDraws; ++i) {
@@ -132,13 +124,8 @@ void places(Hostile& h) {
         const double at = h.integer(0, 2303) + 0.5, offset = h.real(-40, 40);
         look.add(std::abs(static_cast<double>(half(at) + half(offset)) - (at + offset)));
         stored.add(std::abs(static_cast<double>(half(offset)) - offset));
-        const double rho = h.real(0.1, 1), bx = 1, bz = h.real(-0.2, 0.2), e = bx - x * bz;
-        const double there = x + 0.05 * rho * e / (1 + 0.05 * rho * bz);
-        depth.add(600 * e *
-                  std::abs(static_cast<double>(inverseDepth<half>(x, there, bx, bz)) -
-                           inverseDepth<double>(x, there, bx, bz)));
     }
-    for (ErrorTable* one : {&lens, &look, &depth, &stored})
+    for (ErrorTable* one : {&lens, &look, &stored})
         printVerdict(*one, kMostPixels);
 }
 

@@ -3,7 +3,7 @@
 #include "base/geometry.h"
 #include "base/se3.h"
 #include "pipeline/flow/luma_image.h"
-#include "tests/shader/pictures.h"
+#include "tests/engine/pictures.h"
 
 #include <array>
 #include <cstdint>

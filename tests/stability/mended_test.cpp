@@ -3,7 +3,7 @@
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/track/pose_filter.h"
-#include "tests/shader/pictures.h"
+#include "tests/engine/pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -3,12 +3,12 @@
 #include "pipeline/gles/picture_texture.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/plan/work_plan.h"
-#include "tests/shader/levels.h"
-#include "tests/shader/tile_pass.h"
-#include "tests/shader/twins/plan.h"
-#include "tests/shader/twins/superres.h"
-#include "tests/shader/twins/upscale.h"
-#include "tests/shader/twins/yuv.h"
+#include "tests/engine/gles/levels.h"
+#include "tests/engine/gles/tile_pass.h"
+#include "tests/oracle/plan.h"
+#include "tests/oracle/superres.h"
+#include "tests/oracle/upscale.h"
+#include "tests/oracle/yuv.h"
 #include "tests/stability/cases.h"
 #include "tests/unit/padded_picture.h"
 
@@ -140,7 +140,10 @@ void enlargement(Context& c) {
         const twin::Grey grey = twin::greyOf(video, [&](int x, int y) {
             return double(picture.bytes[4UL * (1UL * y * video.width + x) + channel]);
         });
-        const twin::Grey wanted = twin::upscaled(grey, output, linear);
+        twin::Grey columns = twin::enlargedColumns(grey, output.height, linear);
+        for (double& value : columns.values)
+            value = std::floor(std::clamp(value, 0.0, 255.0) + 0.5);
+        const twin::Grey wanted = twin::enlargedRows(columns, output.width, linear);
         for (std::size_t i = 0; i < wanted.values.size(); ++i)
             c.checks.within(image[4 * i + channel] - std::clamp(wanted.values[i], 0.0, 255.0), -2,
                             2, "error of an enlarged pixel");

@@ -67,7 +67,6 @@ void frames(Context& c) {
         c.hostile.pick({SuperResMode::Detail, SuperResMode::Detail, SuperResMode::Blend});
     options.depthEverywhere = c.hostile.chance(0.5);
     options.engines = enginesFor(c);
-    options.epipolar.bothWays = c.hostile.chance(0.2);
     if (c.scale == Scale::Product)
         options.output = c.hostile.pick({rig.still.size, Size{1440, 1080}, Size{1067, 800}});
     // A still narrower than the video has no output of its own.

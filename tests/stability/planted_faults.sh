@@ -39,7 +39,8 @@ inShaders() {
 compile() {
     local source=$1 object=$2 unit command
     unit=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
-        "$build"/pipeline/*/CMakeFiles/*/Unity/*.cxx | head -n 1 || true)
+        "$build"/pipeline/*/CMakeFiles/*/Unity/*.cxx \
+        "$build"/tests/measure/*/CMakeFiles/*/Unity/*.cxx | head -n 1 || true)
     command=$(ninja -C "$build" -t commands mfar-stress | grep -E -- "-c (${unit:-.*/$source})\$" | head -n 1)
     [[ -n $command ]] || { echo "no command compiles $source" >&2; exit 2; }
     command=${command%% -MD*}
@@ -92,6 +93,13 @@ hostFaults() {
         'tag.T_world_tag * T_camera_tag;' 'an inverse left out' tag-exact
     inHost pipeline/composite/silhouette.cpp 'tile.farthest = std::max(tile.farthest, farthest);' \
         'tile.farthest = farthest;' 'a range that forgets' silhouette
+    local triangulation=tests/measure/triangulation/triangulation.cpp
+    inHost $triangulation 'd = s.e.squaredNorm() - s.b.z() * along;' \
+        'd = s.e.squaredNorm() + s.b.z() * along;' 'wrong sign' triangulation-usual
+    inHost $triangulation 'along > kNoAngle ? crossOf(s.e, s.u) / along : s.u.norm()' \
+        'crossOf(s.e, s.u) / along' 'removed guard where there is no epipolar line' triangulation
+    inHost $triangulation 'rho > 0 && rho < kLargestRho && distance <= mostDistance_;' \
+        'distance <= mostDistance_;' 'removed guard' triangulation
 }
 
 # In kernels of the SIMD engine.

@@ -2,11 +2,11 @@
 
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/depth/depth_filter.h"
-#include "pipeline/depth/triangulation.h"
 #include "pipeline/flow/cell_field.h"
-#include "tests/shader/levels.h"
-#include "tests/shader/twins/ray_cast.h"
-#include "tests/shader/twins/triangulation.h"
+#include "tests/engine/gles/levels.h"
+#include "tests/measure/triangulation/triangulation.h"
+#include "tests/oracle/ray_cast.h"
+#include "tests/oracle/triangulation.h"
 #include "tests/stability/error_table.h"
 #include "tests/stability/gl_watch.h"
 #include "tests/stability/half_precision.h"
@@ -69,8 +69,7 @@ void triangulation(TriangulationMethod method, const char* what) {
     TriangulationOptions options;
     options.method = method;
     Triangulation stage(views.a, views.b);
-    stage.run(flow, views.T_b_a, options);
-    const auto points = stage.read();
+    const auto& points = stage.run(flow, views.T_b_a, options);
     ErrorTable table(what, "px");
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (!(points[i].inverseDepth > 0)) continue;
@@ -192,8 +191,8 @@ void printPrecision() {
     const GlWatch gl;
     fmt::print("Single precision against double\n");
     ErrorTable::printHead();
-    triangulation(TriangulationMethod::Flow, "depth_from_flow: inverse depth");
-    triangulation(TriangulationMethod::Midpoint, "depth_midpoint: inverse depth");
+    triangulation(TriangulationMethod::Flow, "triangulation: inverse depth");
+    triangulation(TriangulationMethod::Midpoint, "midpoint: inverse depth");
     stillPixels();
     previewDepth();
     hostLens();

@@ -1,6 +1,6 @@
 // The picture on a screen: sizes that hardly fit, from a pixel to many times the screen.
 #include "hal/device/display_scaler.h"
-#include "tests/shader/twins/area_mean.h"
+#include "tests/oracle/area_mean.h"
 #include "tests/stability/cases.h"
 
 #include <algorithm>

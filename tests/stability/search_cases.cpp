@@ -117,7 +117,6 @@ void hostileFlowOfPoses(Context& c) {
     const StereoRig rig{c.hostile.camera(c.size(1, 120)), c.hostile.camera(c.hostile.size(1, 200)),
                         c.hostile.motion(0.05)};
     EpipolarOptions options;
-    options.bothWays = c.hostile.chance(0.3);
     EpipolarFlow flow(rig, workers(), options);
     const auto pose = [&] {
         Pose out{{}, c.hostile.chance(0.7) ? c.hostile.gentle() : c.hostile.motion()};

@@ -1,6 +1,6 @@
 // Depth from flow by both methods, against double precision, scaled, mirrored, exchanged.
-#include "pipeline/depth/triangulation.h"
-#include "tests/shader/twins/triangulation.h"
+#include "tests/measure/triangulation/triangulation.h"
+#include "tests/oracle/triangulation.h"
 #include "tests/stability/cases.h"
 
 #include <algorithm>
@@ -20,9 +20,7 @@ constexpr auto kMethods = {TriangulationMethod::Flow, TriangulationMethod::Midpo
 Points triangulate(Context& c, const twin::TwoViews& views, const std::vector<float>& flow,
                    const TriangulationOptions& options) {
     Triangulation stage(views.a, views.b);
-    stage.run(flow, views.T_b_a, options);
-    Points points = stage.read();
-    c.gl.frame(c.checks, pixelsOf(views.a.size));
+    Points points = stage.run(flow, views.T_b_a, options);
     for (const TriangulatedPoint& p : points) {
         c.checks.within(p.inverseDepth, 0, 1e6, "inverse depth");
         c.checks.within(p.sigma, 0, kUnknownSigma, "sigma");

@@ -1,7 +1,7 @@
 #include "base/gl/pass.h"
 #include "base/gl/validation.h"
 #include "gles_shaders/shaders.h"
-#include "tests/shader/pictures.h"
+#include "tests/engine/pictures.h"
 #include "tests/stability/gl_watch.h"
 
 #include <gtest/gtest.h>

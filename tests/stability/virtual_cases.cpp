@@ -3,8 +3,8 @@
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/gles/layer_composite.h"
 #include "pipeline/results.h"
-#include "tests/shader/twins/ray_cast.h"
-#include "tests/shader/twins/visibility.h"
+#include "tests/oracle/ray_cast.h"
+#include "tests/oracle/visibility.h"
 #include "tests/stability/cases.h"
 
 #include <algorithm>

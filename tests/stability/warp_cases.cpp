@@ -43,7 +43,6 @@ void spoilPicture(Context& c, std::vector<float>& depth, std::vector<std::uint8_
 
 WarpOptions warpOptions(Context& c) {
     WarpOptions out;
-    out.depth = c.hostile.pick({WarpDepth::Model, WarpDepth::Splatted});
     out.filling = c.hostile.pick({HoleFilling::None, HoleFilling::PushPull, HoleFilling::Rerender,
                                   HoleFilling::Both, HoleFilling::Both});
     out.mostRequested = c.hostile.pick({1, 100, 15360});

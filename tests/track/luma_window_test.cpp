@@ -1,6 +1,6 @@
 #include "pipeline/track/corner_refine.h"
 #include "pipeline/track/luma_window.h"
-#include "tests/shader/twins/yuv.h"
+#include "tests/oracle/yuv.h"
 #include "tests/track/tag_scene.h"
 #include "tests/unit/padded_picture.h"
 

@@ -1,5 +1,5 @@
 #include "base/image_layout.h"
-#include "tests/shader/twins/yuv.h"
+#include "tests/oracle/yuv.h"
 #include "tests/unit/padded_picture.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 #include "hal/virtual/recorder.h"
 #include "hal/virtual/recording.h"
 #include "hal/virtual/recording_player.h"
-#include "tests/shader/twins/yuv.h"
+#include "tests/oracle/yuv.h"
 #include "tests/unit/padded_picture.h"
 #include "tests/unit/same_camera.h"
 #include "tests/unit/small_recording.h"

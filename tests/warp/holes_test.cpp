@@ -1,4 +1,4 @@
-#include "tests/shader/gl_test.h"
+#include "tests/engine/gl_test.h"
 #include "tests/warp/warp_support.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include "pipeline/warp/model_silhouette.h"
-#include "tests/shader/gl_test.h"
+#include "tests/engine/gl_test.h"
 
 #include <algorithm>
 #include <array>

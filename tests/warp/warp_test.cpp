@@ -1,5 +1,5 @@
 #include "pipeline/warp/warp.h"
-#include "tests/shader/gl_test.h"
+#include "tests/engine/gl_test.h"
 #include "tests/warp/warp_support.h"
 
 #include <limits>
@@ -48,11 +48,9 @@ TEST_F(WarpGl, UnmovedPoseShowsTheReferenceItself) {
 }
 
 TEST_F(WarpGl, SmallTurnsAreAsSharpAsInterpolationAllows) {
-    for (const WarpDepth depth : {WarpDepth::Model, WarpDepth::Splatted}) {
-        Shown s({.depth = depth, .filling = HoleFilling::PushPull});
-        for (const double degrees : {0.5, 1.0, 2.0})
-            EXPECT_GT(s.psnrAt(degrees), 35) << degrees << " " << static_cast<int>(depth);
-    }
+    Shown s({.filling = HoleFilling::PushPull});
+    for (const double degrees : {0.5, 1.0, 2.0})
+        EXPECT_GT(s.psnrAt(degrees), 35) << degrees;
 }
 
 TEST_F(WarpGl, RenderedHolesAreBetterThanFilledOnesAndThoseThanNone) {
@@ -193,8 +191,7 @@ TEST_F(WarpGl, OptionsOutOfRangeAreRefused) {
     for (const WarpOptions& options :
          {WarpOptions{.mostRequested = 0}, WarpOptions{.fadeFrames = -1},
           WarpOptions{.fadeFrames = 101}, WarpOptions{.leastMotion = kNan},
-          WarpOptions{.leastMotion = -0.1}, WarpOptions{.depth = static_cast<WarpDepth>(2)},
-          WarpOptions{.filling = static_cast<HoleFilling>(4)}})
+          WarpOptions{.leastMotion = -0.1}, WarpOptions{.filling = static_cast<HoleFilling>(4)}})
         EXPECT_THROW(Warp(camera, kLayer, options), std::invalid_argument);
 }
 

@@ -1,0 +1,23 @@
+#include "pipeline/models/light_follower.h"
+
+namespace mfar {
+namespace {
+
+constexpr double kInterval = 0.5;  // [s]
+
+}  // namespace
+
+std::optional<Lighting> LightFollower::follow(const ImageView& frame, const CameraModel& camera,
+                                              const RigidTransform& T_world_camera,
+                                              Timestamp time) {
+    if (seen_ && !((time - *seen_).count() > kInterval * 1e9)) return std::nullopt;
+    seen_ = time;
+    estimator_.add(frame, camera, T_world_camera, time);
+    const std::optional<LightEstimate> estimate = estimator_.estimate();
+    if (!estimate) return std::nullopt;
+    Lighting lighting = lightingOf(*estimate);
+    if (sun_) lighting.sun = sun_;
+    return lighting;
+}
+
+}  // namespace mfar

@@ -1,9 +1,0 @@
-#include "tests/bench/render_bench.h"
-
-namespace mfar::bench {
-
-RenderFigures measureRender(bool /*quick*/) {
-    return {};
-}
-
-}  // namespace mfar::bench

@@ -1,0 +1,262 @@
+#include "pipeline/gles/flow2d.h"
+#include "pipeline/pipeline.h"
+#include "tests/engine/gl_test.h"
+#include "tests/engine/gles/levels.h"
+#include "tests/oracle/patch.h"
+#include "tests/oracle/plane_filter.h"
+
+#include <array>
+
+namespace mfar {
+namespace {
+
+using FlowPasses = GlTest;
+using Eigen::Vector2d;
+
+// Of cost, texture and pixels: single precision sums of 64 squares of up to 255.
+constexpr double kTolerance = 2e-3;
+constexpr Size kSize{61, 45};  // one level, the last cells cut
+constexpr Size kCells{16, 12};
+constexpr int kArea = 16 * 12;
+
+using Cell = std::array<float, 4>;  // flow (x, y), cost, texture
+
+struct SearchParams {
+    LumaLevel from, to;
+    std::int32_t cells[4], offsets[4], search[4];
+    float prior[4];
+    std::int32_t listed[4];
+};
+struct LevelParams {
+    LumaLevel from, to;
+    std::int32_t cells[4], offsets[4], search[4];
+};
+struct FilterParams {
+    std::int32_t cells[4], offsets[4];
+};
+
+/// Random flow vectors; every eighth far outside.
+std::vector<Cell> randomField(unsigned seed, float reach) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> flow(-reach, reach);
+    std::vector<Cell> out(kArea);
+    for (int i = 0; i < kArea; ++i) {
+        const float far = i % 8 == 0 ? 40.0F : 1.0F;
+        out[i] = {far * flow(random), far * flow(random), 0, 0};
+    }
+    return out;
+}
+
+/// Lets flow_search.comp start from `prior` alone and take `steps` steps.
+std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, int steps) {
+    gpu::Buffer patches(2 * kArea * sizeof(Cell));
+    patches.write(std::span(prior), kArea * sizeof(Cell));
+    gpu::ComputePass<SearchParams> pass("flow_search.comp");
+    const SearchParams p{pair.pyramids.video()[0],
+                         pair.pyramids.still()[0],
+                         {kCells.width, kCells.height, 0, 0},
+                         {0, -1, kArea, 0},
+                         {0, 1, steps, kCells.width},
+                         {1, 1, 1, 0},
+                         {}};
+    pass.run(p, {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
+    return patches.read<Cell>(kArea);
+}
+
+TEST_F(FlowPasses, CostAndTextureMatchTwin) {
+    const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
+    const auto a = pair.first(), b = pair.second();
+    const auto prior = randomField(4, 9);
+    const auto found = search(pair, prior, 0);
+    for (int i = 0; i < kArea; ++i) {
+        const auto m = twin::comparePatch(a, b, i % 16, i / 16, {prior[i][0], prior[i][1]});
+        EXPECT_EQ(found[i][0], prior[i][0]);
+        EXPECT_NEAR(found[i][2], m.cost, kTolerance) << "cell " << i;
+        EXPECT_NEAR(found[i][3], m.varianceA, kTolerance * (m.varianceA + 1)) << "cell " << i;
+    }
+}
+
+TEST_F(FlowPasses, OneStepMatchesTwin) {
+    const Waves waves(2, 10, 60, 40);
+    const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {1.3, -0.6}}));
+    const auto a = pair.first(), b = pair.second();
+    const auto prior = randomField(5, 1);
+    const auto found = search(pair, prior, 1);
+    int taken = 0;
+    for (int i = 0; i < kArea; ++i) {
+        const Vector2d u(prior[i][0], prior[i][1]);
+        const auto before = twin::comparePatch(a, b, i % 16, i / 16, u);
+        const Vector2d next = u + before.step;
+        const auto after = twin::comparePatch(a, b, i % 16, i / 16, next);
+        if (std::abs(after.cost - before.cost) < 1e-4) continue;
+        const bool falls = after.cost < before.cost;
+        taken += falls ? 1 : 0;
+        EXPECT_NEAR(found[i][0], falls ? next.x() : u.x(), 5e-3) << "cell " << i;
+        EXPECT_NEAR(found[i][1], falls ? next.y() : u.y(), 5e-3) << "cell " << i;
+    }
+    EXPECT_GT(taken, kArea / 2);
+}
+
+TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
+    const Waves waves(3, 6, 60, 40);
+    const LevelPair pair(waves.shoot(kSize, {}), waves.shoot(kSize, {.shift = {4, 2}}));
+    const auto a = pair.first(), b = pair.second();
+    const auto in = search(pair, randomField(6, 6), 0);
+    gpu::Buffer patches(2 * kArea * sizeof(Cell));
+    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::ComputePass<LevelParams> pass("flow_propagate.comp");
+    pass.run({pair.pyramids.video()[0],
+              pair.pyramids.still()[0],
+              {kCells.width, kCells.height, 0, 0},
+              {0, kArea, 0, 0},
+              {0, 0, 0, 0}},
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
+    const auto out = patches.read<Cell>(kArea);
+    const auto cellAt = [&](int x, int y) {
+        return in[std::clamp(y, 0, kCells.height - 1) * kCells.width +
+                  std::clamp(x, 0, kCells.width - 1)];
+    };
+    int moved = 0;
+    for (int i = 0; i < kArea; ++i) {
+        const int x = i % 16, y = i / 16;
+        Cell best = in[i];
+        for (const Cell& n :
+             {cellAt(x - 1, y), cellAt(x + 1, y), cellAt(x, y - 1), cellAt(x, y + 1)}) {
+            if (std::hypot(n[0] - best[0], n[1] - best[1]) < 0.5) continue;
+            const double cost = twin::comparePatch(a, b, x, y, {n[0], n[1]}).cost;
+            if (cost < best[2]) best = {n[0], n[1], static_cast<float>(cost), 0};
+        }
+        EXPECT_NEAR(out[i][2], best[2], kTolerance) << "cell " << i;
+        moved += out[i][0] != in[i][0] ? 1 : 0;
+    }
+    EXPECT_GT(moved, kArea / 4);
+}
+
+/// Lets flow_align.comp take `steps` steps from `in`.
+std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int steps) {
+    gpu::Buffer patches(2 * kArea * sizeof(Cell));
+    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::ComputePass<LevelParams> pass("flow_align.comp");
+    pass.run({pair.pyramids.video()[0],
+              pair.pyramids.still()[0],
+              {kCells.width, kCells.height, 0, 0},
+              {0, kArea, 0, 0},
+              {steps, 0, 0, 0}},
+             {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
+              gpu::storage(2, pair.tiles.buffer())},
+             {4, 3, 1});
+    return patches.read<Cell>(kArea);
+}
+
+TEST_F(FlowPasses, BentPatchesMatchTwin) {
+    const LevelPair pair(Waves(1, 5, 40, 40).shoot(kSize, {}), randomPicture(kSize, 3));
+    const auto a = pair.first(), b = pair.second();
+    // A plane, and a fold where the slopes disagree in sign.
+    const Vector2d dx(0.1137, -0.0613), dy(0.0419, 0.1931);
+    std::vector<Cell> in(kArea);
+    for (int i = 0; i < kArea; ++i) {
+        const Vector2d u =
+            Vector2d(-7.123, 3.417) + 4 * (i % 16) * dx - 4 * std::abs(i / 16 - 6) * dy;
+        in[i] = {static_cast<float>(u.x()), static_cast<float>(u.y()), 0, 0};
+    }
+    const auto out = align(pair, in, 0);
+    for (int i = 0; i < kArea; ++i) {
+        const int x = i % 16, y = i / 16;
+        // At the border the field is repeated: no slope on one side, thus none.
+        const Vector2d alongX =
+            x < 1 || x > 14 ? Vector2d(0, 0) : dx * (x == 1 || x == 14 ? 0.5 : 1);
+        Vector2d alongY = y < 6 ? dy : Vector2d(-dy);
+        if (y == 0 || y == 6 || y == 11) alongY.setZero();
+        if (y == 1 || y == 5 || y == 7 || y == 10) alongY *= y == 5 || y == 7 ? 0 : 0.5;
+        const auto m = twin::compareBentPatch(a, b, x, y, {in[i][0], in[i][1]}, alongX, alongY);
+        EXPECT_EQ(out[i][0], in[i][0]);
+        EXPECT_NEAR(out[i][2], m.cost, kTolerance) << "cell " << x << ", " << y;
+        EXPECT_NEAR(out[i][3], m.varianceA, kTolerance * (m.varianceA + 1));
+    }
+}
+
+// A surface seen from another side: stretched by 15 % along x.
+TEST_F(FlowPasses, BentPatchesAlignWhereShiftedOnesCannot) {
+    const Waves waves(4, 5, 40, 40);
+    constexpr double kStretch = 1 / 1.15;
+    const LevelPair pair(waves.shoot(kSize, {}),
+                         waves.shoot(kSize, {.step = kStretch, .shift = {4, 3}}));
+    const auto truth = [&](int i) {
+        const int x = i % 16, y = i / 16;
+        const Vector2d p(4 * x + 1.5, 4 * y + 1.5);
+        return Vector2d((p + Vector2d(0.5, 0.5) - Vector2d(4, 3)) / kStretch - Vector2d(0.5, 0.5) -
+                        p);
+    };
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0, 0.15);
+    std::vector<Cell> in(kArea);
+    for (int i = 0; i < kArea; ++i) {
+        const Vector2d u = truth(i) + Vector2d(noise(random), noise(random));
+        in[i] = {static_cast<float>(u.x()), static_cast<float>(u.y()), 0, 0};
+    }
+    const auto rms = [&](const std::vector<Cell>& found) {
+        double sum = 0;
+        int cells = 0;
+        for (int i = 0; i < kArea; ++i) {
+            if (i % 16 < 2 || i % 16 > 12 || i / 16 < 2 || i / 16 > 8) continue;
+            sum += (Vector2d(found[i][0], found[i][1]) - truth(i)).squaredNorm();
+            ++cells;
+        }
+        return std::sqrt(sum / cells);
+    };
+    const double bent = rms(align(pair, in, 2)), shifted = rms(search(pair, in, 2));
+    EXPECT_LT(bent, 0.05);
+    EXPECT_LT(bent, 0.5 * shifted);
+}
+
+std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
+    gpu::Buffer patches(2 * kArea * sizeof(Cell));
+    patches.write(std::span(in), kArea * sizeof(Cell));
+    gpu::ComputePass<FilterParams> pass("flow_filter.comp");
+    pass.run({{kCells.width, kCells.height, planeFits, 0}, {0, kArea, 0, 0}},
+             {gpu::storage(1, patches)}, {4, 3, 1});
+    return patches.read<Cell>(kArea);
+}
+
+TEST_F(FlowPasses, FilterMatchesTwin) {
+    // From nearly a plane with well known cells to vectors that have nothing in common.
+    for (const float reach : {0.2F, 0.7F, 5.0F}) {
+        auto in = randomField(8, reach);
+        std::mt19937 random(9);
+        std::uniform_real_distribution<float> unit(0, 1);
+        for (int i = 0; i < kArea; ++i) {
+            in[i][0] += 0.1F * static_cast<float>(i % 16);
+            in[i][2] = unit(random);
+            in[i][3] = 2e4F * unit(random) * unit(random);
+        }
+        for (const int fits : {0, 1, 2}) {
+            const auto out = filtered(in, fits);
+            for (int i = 0; i < kArea; ++i) {
+                const Vector2d t =
+                    twin::filterCell({in, kCells.width, kCells.height}, i % 16, i / 16, fits);
+                EXPECT_NEAR(out[i][0], t.x(), 2e-3) << "cell " << i << ", reach " << reach;
+                EXPECT_NEAR(out[i][1], t.y(), 2e-3) << "cell " << i << ", reach " << reach;
+            }
+        }
+    }
+}
+
+TEST_F(FlowPasses, FilterKeepsPlanesAndTheStepBetweenThem) {
+    std::vector<Cell> in(kArea);
+    for (int i = 0; i < kArea; ++i) {
+        const int column = i % 16, row = i / 16;
+        const auto x = static_cast<float>(column), y = static_cast<float>(row);
+        in[i] = column < 8 ? Cell{0.1F * x - 0.05F * y, 0.2F * y, 0, 1e5F}
+                           : Cell{9.0F + 0.05F * x, -4.0F, 0, 1e5F};
+    }
+    const auto out = filtered(in);
+    for (int i = 0; i < kArea; ++i) {
+        const int x = i % 16, y = i / 16;
+        if (x < 2 || x > 13 || y < 2 || y > 9) continue;  // there the border is repeated
+        EXPECT_NEAR(out[i][0], in[i][0], 5e-3) << "cell " << i;
+        EXPECT_NEAR(out[i][1], in[i][1], 5e-3) << "cell " << i;
+    }
+}
+
+}  // namespace
+}  // namespace mfar

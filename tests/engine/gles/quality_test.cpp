@@ -1,0 +1,248 @@
+// Settings that change between frames, and work that is not left out.
+#include "tests/engine/gl_test.h"
+#include "tests/engine/gles/pipeline_case.h"
+#include "tests/oracle/upscale.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+
+namespace mfar {
+namespace {
+
+using QualityTest = GlTest;
+using Image = std::vector<std::uint8_t>;
+
+Pose posed(double x) {
+    Pose pose;
+    pose.T_world_video.translation = {x, 0, 0};
+    return pose;
+}
+
+Quality quick() {
+    return {.mode = SuperResMode::Blend,
+            .flow2d = {.searchRadius = 4, .candidates = 1, .steps = 1, .planeFits = 0},
+            .epipolar = {.windowRadius = 1, .finest = 1, .mostPredicted = 1}};
+}
+
+PipelineOptions madeWith(const Quality& quality) {
+    PipelineOptions out;
+    out.mode = quality.mode;
+    out.flow2d = quality.flow2d;
+    out.epipolar = quality.epipolar;
+    return out;
+}
+
+/// Two frames after a still, the second's picture.
+Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
+    const auto pose = [&](double x) { return withPoses ? std::optional(posed(x)) : std::nullopt; };
+    p.setStill(c.still().view(), {}, pose(0));
+    p.run(c.video({2, 0}).view(), {}, pose(0.02));
+    p.run(c.video({3, 0}).view(), {}, pose(0.03));
+    return p.readImage();
+}
+
+TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {}), cubic(c.rig, {}), detail(c.rig, {});
+    p.setQuality({.mode = SuperResMode::Off, .cubic = false});
+    cubic.setQuality({.mode = SuperResMode::Off});
+    detail.setQuality({.cubic = false});
+    TestPicture frame = c.video({2, 0});
+    for (const bool inTiles : {false, true}) {
+        for (int x = 50; inTiles && x < 54; ++x)
+            std::fill_n(frame.at(x, 40), 3, static_cast<std::uint8_t>(60 * (x - 50)));
+        for (Pipeline* each : {&p, &cubic})
+            each->run(frame.view(), {});
+        EXPECT_EQ(p.readStats().changed < 1, inTiles);
+        const Image image = p.readImage();
+        EXPECT_FALSE(image == cubic.readImage());
+        const twin::Grey red = twin::greyOf(
+            c.rig.video.size, [&](int x, int y) { return static_cast<double>(frame.at(x, y)[0]); });
+        const twin::Grey wanted = twin::enlarged(red, p.outputSize(), true);
+        for (std::size_t i = 0; i < wanted.values.size(); ++i)
+            ASSERT_NEAR(image[4 * i], wanted.values[i], 1.02) << i;  // columns in 8 bits
+    }
+    Pipeline usual(c.rig, {});
+    EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false)) << "of the still alone";
+}
+
+// Two rows at the lower end of a tile.
+TEST_F(QualityTest, WhatAChangeReachesIntoIsDrawnAnewWithIt) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {}), whole(c.rig, {});
+    TestPicture frame = c.video({2, 0});
+    for (Pipeline* each : {&p, &whole})
+        each->run(frame.view(), {});
+    for (int x = 32; x < 48; ++x)
+        for (int y = 46; y < 48; ++y)
+            for (int channel = 0; channel < 3; ++channel)
+                frame.at(x, y)[channel] = static_cast<std::uint8_t>(255 - frame.at(x, y)[channel]);
+    whole.redraw();
+    for (Pipeline* each : {&p, &whole})
+        each->run(frame.view(), {});
+    EXPECT_GE(p.readStats().tiles[0], 70);
+    EXPECT_TRUE(p.readImage() == whole.readImage());
+}
+
+// All have seen the same frames before: the noise of the video is known from them.
+TEST_F(QualityTest, ChangedBetweenFramesIsAsFromTheStart) {
+    const PipelineCase c;
+    for (const bool withPoses : {false, true}) {
+        Pipeline made(c.rig, madeWith(quick())), usual(c.rig, {}), changed(c.rig, {});
+        for (Pipeline* p : {&made, &usual, &changed})
+            (void)pictureOf(*p, c, withPoses);
+        const Image wanted = pictureOf(made, c, withPoses);
+        const Image sharp = pictureOf(usual, c, withPoses);
+        changed.setQuality(quick());
+        EXPECT_TRUE(pictureOf(changed, c, withPoses) == wanted) << withPoses;
+        EXPECT_TRUE(wanted != sharp) << withPoses;
+        changed.setQuality({});
+        EXPECT_TRUE(pictureOf(changed, c, withPoses) == pictureOf(usual, c, withPoses))
+            << withPoses;
+    }
+}
+
+TEST_F(QualityTest, WithoutLinesAFrameIsMatchedAsWithoutItsPose) {
+    const PipelineCase c;
+    Pipeline blind(c.rig, {}), posed(c.rig, {});
+    posed.setQuality({.alongLines = false});
+    EXPECT_TRUE(pictureOf(posed, c, true) == pictureOf(blind, c, false));
+    EXPECT_FALSE(posed.readStats().usedPose);
+}
+
+TEST_F(QualityTest, WhatDoesNotChangeStaysAsItWasDrawn) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {});
+    const Image sharp = pictureOf(p, c, false);
+    p.setQuality({.mode = SuperResMode::Off});
+    p.run(c.video({3, 0}).view(), {});
+    EXPECT_TRUE(p.readImage() == sharp);
+    p.redraw();
+    p.run(c.video({3, 0}).view(), {});
+    EXPECT_TRUE(p.readImage() != sharp);
+    EXPECT_EQ(p.readStats().changed, 1);
+    p.setQuality({});
+    p.redraw();
+    p.run(c.video({3, 0}).view(), {});
+    EXPECT_TRUE(p.readStats().usedStill);
+}
+
+TEST_F(QualityTest, SettingsOutOfRangeAreRefusedAndChangeNothing) {
+    const PipelineCase c;
+    Pipeline p(c.rig, {}), untouched(c.rig, {});
+    EXPECT_TRUE(pictureOf(p, c, true) == pictureOf(untouched, c, true));
+    for (const Quality& wrong :
+         {Quality{.flow2d = {.steps = 17}}, Quality{.epipolar = {.finest = 3}},
+          Quality{.detailShare = 0}, Quality{.detailShare = 1.01},
+          Quality{.detailShare = std::numeric_limits<double>::quiet_NaN()},
+          Quality{.depthEvery = 0}, Quality{.depthEvery = std::numeric_limits<int>::max()},
+          Quality{.mode = SuperResMode::Off, .epipolar = {.windowRadius = -1}}})
+        EXPECT_THROW(p.setQuality(wrong), std::invalid_argument);
+    EXPECT_TRUE(pictureOf(p, c, true) == pictureOf(untouched, c, true));
+}
+
+TEST_F(QualityTest, AShareOfTheTilesGetsDetail) {
+    const PipelineCase c;
+    std::size_t before = 0;
+    for (const double share : {0.3, 1.0}) {
+        Pipeline p(c.rig, {});
+        p.setQuality({.detailShare = share});
+        (void)pictureOf(p, c, true);
+        const std::vector<TileClass> classes = p.readTileClasses();
+        const auto detailed = static_cast<std::size_t>(
+            classes.size() - std::ranges::count(classes, TileClass::Upscaled));
+        EXPECT_LE(static_cast<double>(detailed), share * static_cast<double>(classes.size()) + 1);
+        EXPECT_GT(detailed, before);
+        before = detailed;
+    }
+}
+
+int mostDifference(const Image& a, const Image& b) {
+    int out = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        out = std::max(out, std::abs(a[i] - b[i]));
+    return out;
+}
+
+TEST_F(QualityTest, WorkThatIsNotLeftOutDrawsTheSamePicture) {
+    const PipelineCase c;
+    Pipeline usual(c.rig, {});
+    const Image wanted = pictureOf(usual, c, false);
+    for (bool SkipOptions::* skip : {&SkipOptions::upscaledTiles, &SkipOptions::smoothTiles,
+                                     &SkipOptions::plainTiles, &SkipOptions::tileLists}) {
+        PipelineOptions options;
+        options.skips.*skip = false;
+        Pipeline p(c.rig, options);
+        EXPECT_LE(mostDifference(pictureOf(p, c, false), wanted), 3);
+    }
+}
+
+/// All but a patch in the middle of this grey.
+TestPicture evenButForAPatch(TestPicture picture, int grey) {
+    const Size size = picture.view().size;
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x)
+            if (5 * x < size.width || 2 * x > size.width || 3 * y < size.height ||
+                4 * y > 3 * size.height)
+                std::fill_n(picture.at(x, y), 3, static_cast<std::uint8_t>(grey));
+    return picture;
+}
+
+// The search along lines covers the patch, detail is drawn in it.
+TEST_F(QualityTest, APatchIsDrawnAsWellAsAWholePicture) {
+    const PipelineCase c;
+    const auto frame = [&](double shift) {
+        return evenButForAPatch(c.video({shift, 0}), 90 + static_cast<int>(4 * shift));
+    };
+    for (const bool withPoses : {false, true}) {
+        const auto qualityWith = [&](bool lists) {
+            PipelineOptions options;
+            options.skips.tileLists = lists;
+            Pipeline p(c.rig, options);
+            const auto pose = [&](double x) {
+                return withPoses ? std::optional(posed(x)) : std::nullopt;
+            };
+            p.setStill(evenButForAPatch(c.still(), 96).view(), {}, pose(0));
+            for (const double shift : {2.0, 3.0, 4.0, 3.0, 2.0})
+                p.run(frame(shift).view(), {}, pose(0.01 * shift));
+            const auto classes = p.readTileClasses();
+            EXPECT_GT(std::ranges::count(classes, TileClass::Blended), 2);
+            EXPECT_GT(std::ranges::count(classes, TileClass::Upscaled), 20);
+            return psnr(p.readImage(), evenButForAPatch(c.fine(p.outputSize(), {2, 0}), 98).bytes);
+        };
+        EXPECT_GT(qualityWith(true), std::max(37.0, qualityWith(false) - 0.1));
+    }
+}
+
+/// A small change in one corner: what is drawn by tiles, of which classes.
+std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
+    const PipelineCase c;
+    PipelineOptions options;
+    options.skips = skips;
+    Pipeline p(c.rig, options);
+    p.setStill(c.still().view(), {});
+    TestPicture frame = c.video({2, 0});
+    p.run(frame.view(), {});
+    for (int y = 0; y < 12; ++y)
+        for (int x = 0; x < 12; ++x)
+            frame.at(x, y)[0] = static_cast<std::uint8_t>(255 - frame.at(x, y)[0]);
+    p.run(frame.view(), {});
+    return p.readTileClasses();
+}
+
+TEST_F(QualityTest, SkipsThatAreOffAreNotTaken) {
+    const auto count = [](const std::vector<TileClass>& classes, TileClass which) {
+        return std::ranges::count(classes, which);
+    };
+    const auto usual = classesAfterAChange({});
+    EXPECT_GT(count(usual, TileClass::Unchanged), 60);
+    EXPECT_EQ(count(classesAfterAChange({.tileLists = false}), TileClass::Unchanged), 0);
+    const auto blended = classesAfterAChange({.upscaledTiles = false, .plainTiles = false});
+    EXPECT_EQ(count(blended, TileClass::Unchanged), count(usual, TileClass::Unchanged));
+    EXPECT_EQ(count(blended, TileClass::Trusted) + count(blended, TileClass::Upscaled), 0);
+}
+
+}  // namespace
+}  // namespace mfar

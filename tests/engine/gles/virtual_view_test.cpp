@@ -1,0 +1,89 @@
+#include "pipeline/composite/shadow_catcher.h"
+#include "pipeline/composite/virtual_view.h"
+#include "tests/engine/gl_test.h"
+
+#include <memory>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+constexpr Size kSeen{320, 240};
+const CameraModel kAbove{kSeen, 300, 300, 159.5, 119.5, {}};
+constexpr double kTable = 0.5;  // [m] from the camera
+
+/// A thing that hovers 4 cm above the table and casts its shadow onto that.
+std::shared_ptr<const Scene> hovering() {
+    auto model = std::make_shared<Model>();
+    model->materials.resize(1);
+    model->meshes.resize(1);
+    model->meshes[0].positions = {
+        {-0.03F, -0.03F, 0.04F}, {0.03F, -0.03F, 0.04F}, {0, 0.03F, 0.07F}};
+    model->meshes[0].triangles = {{0, 1, 2}};
+    auto scene = std::make_shared<Scene>();
+    scene->objects.push_back({model, {}, 1});
+    scene->catcher = planeCatcher(boundsOf(*scene));
+    return scene;
+}
+
+InverseDepthField tableField(double share) {
+    InverseDepthField field(kSeen);
+    for (std::size_t i = 0; i < field.rho.size(); ++i) {
+        field.rho[i] = 1 / static_cast<float>(kTable);
+        field.variance[i] = static_cast<float>(share * share) * field.rho[i] * field.rho[i];
+    }
+    return field;
+}
+
+/// Where a camera above the table needs real depth, frame after frame.
+class ShadowDepthGl : public GlTest {
+protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        if (!TracedLayer::isAvailable()) GTEST_SKIP() << "no path tracer in this build";
+        engine_ = makeGlesEngine({.rig = {kAbove, kAbove, {}}, .output = kSeen});
+        view_ = std::make_unique<VirtualView>(kAbove, *engine_, TracedLayerOptions{.size = kSeen});
+        view_->setScene(hovering());
+    }
+    std::vector<PixelRect> placed(const InverseDepthField& known, int frames = 18) {
+        const RigidTransform down{Eigen::Quaterniond(0, 1, 0, 0), {0, 0, kTable}};
+        std::vector<PixelRect> out;
+        for (int i = 0; i < frames; ++i)
+            out.push_back(view_->place(down, Timestamp::fromSeconds(i), known));
+        return out;
+    }
+    [[nodiscard]] bool isAll(const PixelRect& r) const { return r == view_->region(); }
+
+private:
+    std::unique_ptr<Engine> engine_;
+    std::unique_ptr<VirtualView> view_;
+};
+
+TEST_F(ShadowDepthGl, TheSurfaceItLiesOnIsMeasuredNowAndThen) {
+    int all = 0, none = 0;
+    for (const PixelRect& r : placed(tableField(0.01))) {
+        all += isAll(r) ? 1 : 0;
+        none += r.empty() ? 1 : 0;
+    }
+    EXPECT_EQ(all, 2);
+    EXPECT_EQ(none, 16);
+}
+
+TEST_F(ShadowDepthGl, WhatIsKnownBadlyIsMeasuredAlways) {
+    for (const InverseDepthField& field : {tableField(0.03), InverseDepthField(kSeen)})
+        for (const PixelRect& r : placed(field))
+            EXPECT_TRUE(isAll(r));
+}
+
+TEST_F(ShadowDepthGl, ThingsBeforeItAreMeasuredAlways) {
+    InverseDepthField field = tableField(0.01);
+    constexpr PixelRect kThing{110, 130, 116, 136};
+    for (int y = kThing.y0; y < kThing.y1; ++y)
+        for (int x = kThing.x0; x < kThing.x1; ++x)
+            field.rho[static_cast<std::size_t>(y) * kSeen.width + x] *= 1.1F;
+    for (const PixelRect& r : placed(field))
+        EXPECT_EQ(around(r, kThing), r);
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,252 @@
+#include "base/gl/pass.h"
+#include "tests/engine/gl_test.h"
+#include "tests/engine/pictures.h"
+#include "tests/oracle/superres.h"
+
+#include <set>
+
+namespace mfar {
+namespace {
+
+using Weigh = GlTest;
+using Classify = GlTest;
+
+constexpr Size kWhole{25, 15};
+constexpr Size kHalf{13, 8};
+constexpr double kSigma = 1.5;
+
+struct WeighParams {
+    std::int32_t cells[4];
+    float tune[4];
+};
+struct ClassifyParams {
+    std::int32_t tiles[4];
+    float tune[4];
+};
+
+/// Covariance, variances, confidence from flat to strong contrast and from alike to unrelated.
+twin::Cells randomStatistics(Size size, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(0, 1);
+    twin::Cells out{size, {}};
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const float level = std::pow(10.0F, 1 + 4.0F * static_cast<float>(x) / size.width);
+            const float a = level * (0.5F + unit(random)), b = level * (0.3F + unit(random));
+            const float alike = 0.2F + 0.8F * static_cast<float>(y) / size.height;
+            const float values[]{alike * std::sqrt(a * b), a, b, std::sqrt(unit(random))};
+            out.values.insert(out.values.end(), values, values + 4);
+        }
+    return out;
+}
+
+struct Weighed {
+    twin::Cells field, look;
+    std::vector<std::uint8_t> weights;
+};
+
+Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
+              const twin::Cells& half, double sigma) {
+    using gpu::TexelFormat;
+    const gpu::Texture d = floatTexture(kWhole, TexelFormat::Rgba32F, displacement.values);
+    const gpu::Texture s = floatTexture(kWhole, TexelFormat::Rgba32F, statistics.values);
+    const gpu::Texture h = floatTexture(kHalf, TexelFormat::Rgba32F, half.values);
+    const gpu::Texture field(kWhole, TexelFormat::Rgba32F), weights(kWhole, TexelFormat::Rgba8);
+    const gpu::Texture look(kWhole, TexelFormat::Rgba16F);
+    gpu::ComputePass<WeighParams> pass("superres_weigh.comp");
+    pass.run({{kWhole.width, kWhole.height, kHalf.width, kHalf.height},
+              {static_cast<float>(sigma), 0, 0, 0}},
+             {gpu::sampler(0, d), gpu::sampler(1, s), gpu::sampler(2, h), gpu::imageWrite(0, field),
+              gpu::imageWrite(1, weights), gpu::imageWrite(2, look)},
+             {gpu::groupsFor(kWhole.width, 8), gpu::groupsFor(kWhole.height, 8), 1});
+    return {{kWhole, field.readRgba32F()}, {kWhole, look.readRgba32F()}, weights.readRgba8()};
+}
+
+TEST_F(Weigh, WeightsMatchTwin) {
+    // From an even flow on the left to one that bends on the right.
+    twin::Cells displacement{kWhole, {}};
+    for (int y = 0; y < kWhole.height; ++y)
+        for (int x = 0; x < kWhole.width; ++x)
+            for (const float v :
+                 {0.012F * static_cast<float>(x * x), 0.3F * static_cast<float>(y % 2),
+                  10.0F + static_cast<float>(x), 20.0F})
+                displacement.values.push_back(v);
+    const twin::Cells statistics = randomStatistics(kWhole, 1), half = randomStatistics(kHalf, 2);
+    const Weighed got = weigh(displacement, statistics, half, kSigma);
+    int zero = 0, strong = 0, unexplained = 0;
+    for (int y = 0; y < kWhole.height; ++y)
+        for (int x = 0; x < kWhole.width; ++x) {
+            const twin::Weight t = twin::weigh(displacement, statistics, half, x, y, kSigma);
+            const Eigen::Vector4d f = got.field.at(x, y), d = displacement.at(x, y);
+            EXPECT_NEAR(f[2], t.weight, 1e-3 * t.weight + 1e-6) << x << ", " << y;
+            EXPECT_NEAR(f[3], t.confidence, 1e-6);
+            EXPECT_EQ(f.head<2>(), d.head<2>());
+            const Eigen::Vector4d l = got.look.at(x, y);  // half precision
+            EXPECT_NEAR(l[0], std::min(d[2], 65504.0), 1e-3 * d[2]);
+            EXPECT_NEAR(l[2], t.weight, 1e-3 * t.weight + 1e-4);
+            const std::uint8_t* w = &got.weights[4UL * (1UL * y * kWhole.width + x)];
+            EXPECT_NEAR(w[0], std::min(127.5 * t.weight, 255.0), 1);
+            EXPECT_NEAR(w[1], 255 * t.confidence, 1);
+            EXPECT_NEAR(w[2], 255 * t.signal, 1);
+            EXPECT_EQ(w[3], 255 * t.unexplained) << x << ", " << y;
+            zero += t.weight == 0 ? 1 : 0;
+            strong += t.weight > 0.3 ? 1 : 0;
+            unexplained += t.unexplained > 0 ? 1 : 0;
+        }
+    EXPECT_GT(zero, 10);
+    EXPECT_GT(strong, 10);
+    EXPECT_GT(unexplained, 10);
+}
+
+twin::Cells constantCells(Size size, std::array<float, 4> value) {
+    twin::Cells out{size, {}};
+    for (int i = 0; i < size.width * size.height; ++i)
+        out.values.insert(out.values.end(), value.begin(), value.end());
+    return out;
+}
+
+// Half of the variance in common: enough where the sensors look from the same side, a quarter of
+// the weight where they do not.
+TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
+    const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
+    const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
+    twin::Cells bent{kWhole, {}};
+    for (int i = 0; i < kWhole.width * kWhole.height; ++i)
+        for (const float v : {0.5F * static_cast<float>(i % kWhole.width), 0.0F, 0.0F, 0.0F})
+            bent.values.push_back(v);
+    const double even = weigh(matched, matched, half, 0.3).field.at(5, 5)[2];
+    EXPECT_LT(weigh(bent, matched, half, 0.3).field.at(5, 5)[2], 0.4 * even);
+}
+
+TEST_F(Weigh, AlikeTextureCountsFullyAndUnrelatedNotAtAll) {
+    const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
+    const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
+    for (const float v : {weigh(alike, alike, half, 0.3).field.at(5, 5)[2]})
+        EXPECT_NEAR(v, twin::kLookUpLoss, 0.01);
+    for (const std::array<float, 4>& s :
+         {std::array<float, 4>{0, 1e5F, 1e5F, 1}, std::array<float, 4>{-1e5F, 1e5F, 1e5F, 1},
+          std::array<float, 4>{1e5F, 1e5F, 1e5F, 0}, std::array<float, 4>{0, 0, 0, 1}})
+        EXPECT_EQ(weigh(alike, constantCells(kWhole, s), half, 0.3).field.at(5, 5)[2], 0);
+}
+
+constexpr Size kClassified{7, 4};
+constexpr unsigned kTileCount = 28;
+
+struct Draws {
+    std::array<std::array<std::uint32_t, 4>, 4> commands{};
+    std::array<std::uint32_t, 8> counts{};
+};
+struct Classified {
+    Draws draws;
+    std::vector<std::array<std::uint32_t, 2>> classes;
+    std::vector<std::uint32_t> lists;
+};
+
+Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& changed,
+                    bool hasStill) {
+    const gpu::Texture cells = floatTexture(kWhole, gpu::TexelFormat::Rgba32F, field.values);
+    const gpu::Texture weights = uploaded(TestPicture(kWhole));
+    gpu::Buffer changedBuffer(changed.size() * 4), classes(8 * kTileCount);
+    gpu::Buffer draws(sizeof(Draws)), lists(16 * kTileCount);
+    changedBuffer.write(std::span(changed));
+    const twin::ClassLimits limits;
+    gpu::ComputePass<ClassifyParams> pass("superres_classify.comp");
+    pass.run({{kClassified.width, kClassified.height, kWhole.width, kWhole.height},
+              {static_cast<float>(limits.leastWeight), static_cast<float>(limits.plainFlow),
+               static_cast<float>(limits.plainWeight), hasStill ? 0.0F : 1.0F}},
+             {gpu::storage(0, changedBuffer), gpu::storage(1, classes), gpu::storage(2, draws),
+              gpu::storage(3, lists), gpu::sampler(0, cells), gpu::sampler(1, weights)},
+             {1, 1, 1});
+    return {draws.read<Draws>(1)[0], classes.read<std::array<std::uint32_t, 2>>(kTileCount),
+            lists.read<std::uint32_t>(4UL * kTileCount)};
+}
+
+/// Affine, broken and weightless tiles side by side.
+twin::Cells mixedField() {
+    twin::Cells out{kWhole, {}};
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int y = 0; y < kWhole.height; ++y)
+        for (int x = 0; x < kWhole.width; ++x) {
+            const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
+            const float bump = y > 10 ? unit(random) : 0.0F;
+            const float weight = x < 9 ? 0.01F : x > 20 ? 0.4F + 0.6F * unit(random) : 0.8F;
+            const float values[]{2 + 0.3F * fx - 0.1F * fy + bump, 0.2F * fy, weight, 0.5F};
+            out.values.insert(out.values.end(), values, values + 4);
+        }
+    return out;
+}
+
+/// Header (whole, changed tiles), then changed and matched of each tile: every third unchanged,
+/// every fifth not matched.
+std::vector<std::uint32_t> changes(std::uint32_t whole) {
+    std::vector<std::uint32_t> out{whole, 0};
+    for (unsigned i = 0; i < kTileCount; ++i)
+        out.insert(out.end(), {i % 3 == 0 ? 0U : 1U, i % 5 == 0 ? 0U : 1U});
+    return out;
+}
+
+/// Of a tile of mixedField() that changed.
+unsigned classIn(const twin::Cells& field, int tile) {
+    if (tile % 5 == 0) return 1;
+    return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width, {});
+}
+
+TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
+    const twin::Cells field = mixedField();
+    const Classified got = classify(field, changes(0), true);
+    std::array<std::set<std::uint32_t>, 4> wanted;  // all, upscaled, trusted, blended
+    std::array<unsigned, 4> counts{};
+    for (int i = 0; i < static_cast<int>(kTileCount); ++i) {
+        const int x = i % kClassified.width, y = i / kClassified.width;
+        const unsigned kind = i % 3 == 0 ? 0 : classIn(field, i);
+        EXPECT_EQ(got.classes[i][0], kind) << "tile " << i;
+        ++counts[kind];
+        const auto packed = static_cast<std::uint32_t>(x | (y << 16));
+        if (kind != 0) {
+            wanted[0].insert(packed);
+            wanted[kind].insert(packed);
+        }
+    }
+    for (unsigned k = 0; k < 4; ++k) {
+        EXPECT_GT(counts[k], 0U) << "the field shows every class";
+        EXPECT_EQ(got.draws.counts[k], counts[k]);
+        const auto* list = &got.lists[k * kTileCount];
+        EXPECT_EQ(got.draws.commands[k][1], wanted[k].size());
+        EXPECT_EQ(std::set<std::uint32_t>(list, list + wanted[k].size()), wanted[k]);
+    }
+    EXPECT_EQ(got.draws.counts[6], kTileCount * 128);  // mean confidence 1/2, in 1/256
+}
+
+TEST_F(Classify, AWholeFrameListsNothing) {
+    const Classified got = classify(mixedField(), changes(1), true);
+    EXPECT_EQ(got.draws.counts[0], 0U);
+    for (const auto& command : got.draws.commands)
+        EXPECT_EQ(command[1], 0U);
+}
+
+TEST_F(Classify, AnEnlargedFrameListsTheTilesWithDetail) {
+    const twin::Cells field = mixedField();
+    const Classified got = classify(field, changes(2), true);
+    std::array<unsigned, 4> counts{};
+    for (int i = 0; i < static_cast<int>(kTileCount); ++i)
+        ++counts[classIn(field, i)];
+    EXPECT_EQ(got.draws.commands[0][1], 0U);
+    EXPECT_EQ(got.draws.commands[1][1], 0U);
+    for (const unsigned k : {2U, 3U}) {
+        EXPECT_GT(counts[k], 0U);
+        EXPECT_EQ(got.draws.commands[k][1], counts[k]);
+        EXPECT_EQ(got.draws.counts[k], counts[k]);
+    }
+}
+
+TEST_F(Classify, WithoutAStillChangedTilesAreUpscaledAndUnexplained) {
+    const Classified got = classify(mixedField(), changes(0), false);
+    EXPECT_EQ(got.draws.counts[0], 10U);
+    EXPECT_EQ(got.draws.counts[1], 18U);
+    EXPECT_EQ(got.draws.counts[5], 18U);
+    EXPECT_EQ(got.draws.counts[6], 0U);
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,218 @@
+#include "base/image_layout.h"
+#include "pipeline/simd/still_preparation.h"
+#include "pipeline/superres/still_scale.h"
+#include "tests/engine/simd/detail_case.h"
+#include "tests/oracle/still.h"
+
+#include <gtest/gtest.h>
+
+namespace mfar::simd {
+namespace {
+
+using twin::Grey;
+
+std::vector<std::uint8_t> mixedBytes(std::size_t count, unsigned seed, int smooth) {
+    std::vector<std::uint8_t> out(count);
+    std::uint32_t state = seed;
+    double value = 128;
+    for (std::uint8_t& byte : out) {
+        state = state * 1664525U + 1013904223U;
+        value += (static_cast<double>(state >> 24) - value) / smooth;
+        byte = static_cast<std::uint8_t>(value);
+    }
+    return out;
+}
+
+Grey lumaOf(const ImageView& rgba) {
+    return twin::greyOf(rgba.size, [&](int x, int y) {
+        const std::uint8_t* t = rgba.data + y * rgba.stride + 4 * x;
+        return 0.299 * t[0] + 0.587 * t[1] + 0.114 * t[2];
+    });
+}
+
+struct Still {
+    Still(Size video, Size size, Size output, int threads = 2)
+        : rig(idealRig(video, size)), preparation(rig, output, std::make_shared<Workers>(threads)) {
+    }
+    StereoRig rig;
+    StillPreparation preparation;
+};
+
+/// An RGBA picture of random texture.
+struct TestPicture {
+    explicit TestPicture(Size size, int smooth = 2)
+        : bytes(mixedBytes(4UL * size.width * size.height, 7, smooth)),
+          view{bytes.data(), size, 4UL * size.width, PixelFormat::Rgba8} {}
+    std::vector<std::uint8_t> bytes;
+    ImageView view;
+};
+
+TEST(StillPreparation, LumaAndDetailAreThoseOfTheOracleAtAnySize) {
+    struct Sizes {
+        Size video, still, output;
+    };
+    for (const auto& [video, still, output] :
+         {Sizes{{50, 35}, {200, 140}, {200, 140}}, Sizes{{53, 37}, {201, 133}, {400, 300}},
+          Sizes{{16, 16}, {17, 19}, {64, 64}}, Sizes{{160, 120}, {100, 75}, {320, 240}},
+          Sizes{{33, 20}, {700, 424}, {700, 424}}}) {
+        Still s(video, still, output);
+        const TestPicture picture(still);
+        s.preparation.set(picture.view);
+        EXPECT_EQ(s.preparation.rig().still.size, still);
+        const Grey luma = lumaOf(picture.view);
+        EXPECT_LE(twin::worst(luma, s.preparation.luma()), 1);
+        const Grey wanted = twin::stillDetail(luma, lowSizeOf(s.rig), 0.08);
+        EXPECT_LE(twin::worst(wanted, s.preparation.detail()), 2.2) << still.width;
+    }
+}
+
+TEST(StillPreparation, StillFinerThanTheOutputIsReducedFirst) {
+    const Size still{300, 225}, output{100, 75};
+    Still s({80, 60}, still, output);
+    const TestPicture picture(still);
+    s.preparation.set(picture.view);
+    const Size size = s.preparation.rig().still.size;
+    ASSERT_EQ(size, (Size{140, 105}));
+    const Grey luma = twin::reduced(lumaOf(picture.view), size);
+    const Grey wanted = twin::stillDetail(luma, lowSizeOf(s.preparation.rig()), 0);
+    EXPECT_EQ(s.preparation.detail().size, size);
+    EXPECT_EQ(s.preparation.luma().size, still);
+    EXPECT_LE(twin::worst(wanted, s.preparation.detail()), 2.2);
+}
+
+TEST(StillPreparation, PairsHoldEachPixelAndTheOneBelow) {
+    Still s({40, 30}, {131, 97}, {131, 97});
+    s.preparation.set(TestPicture({131, 97}).view);
+    const DetailPairs pairs = s.preparation.detailPairs();
+    const Rows<const std::uint8_t> detail = s.preparation.detail();
+    ASSERT_EQ(pairs.size, detail.size);
+    for (int y = 0; y < detail.size.height; ++y)
+        for (int x = 0; x < detail.size.width; ++x) {
+            const int below = detail[std::min(y + 1, detail.size.height - 1)][x];
+            ASSERT_EQ(pairs.data[y * pairs.pitch + x], detail[y][x] | below << 8) << x << " " << y;
+        }
+}
+
+TEST(StillPreparation, ConstantStillHasNoDetail) {
+    for (const int level : {0, 90, 255}) {
+        for (const Size output : {Size{200, 140}, Size{60, 42}}) {
+            Still s({50, 35}, {200, 140}, output);
+            TestPicture picture({200, 140});
+            std::ranges::fill(picture.bytes, static_cast<std::uint8_t>(level));
+            s.preparation.set(picture.view);
+            const Rows<const std::uint8_t> detail = s.preparation.detail();
+            for (int y = 0; y < detail.size.height; ++y)
+                for (int x = 0; x < detail.size.width; ++x)
+                    ASSERT_EQ(detail[y][x], 128);
+        }
+    }
+}
+
+/// R G B of a picture in Y U V, not clamped: chroma between the pixels that share it.
+Grey lumaOfYuv(const ImageView& p) {
+    const YuvToRgb rows = yuvToRgb(p.matrix, p.range);
+    const bool packed = p.format == PixelFormat::Yuyv, pairs = p.format == PixelFormat::Nv12;
+    const Size half{p.size.width / 2, packed ? p.size.height : p.size.height / 2};
+    const auto chroma = [&](int which) {
+        return twin::greyOf(half, [&, which](int x, int y) {
+            if (packed) return double(p.data[y * p.stride + 4 * x + 1 + 2 * which]);
+            if (pairs) return double(p.chroma[0].data[y * p.chroma[0].stride + 2 * x + which]);
+            return double(p.chroma[which].data[y * p.chroma[which].stride + x]);
+        });
+    };
+    const Grey u = chroma(0), v = chroma(1);
+    return twin::greyOf(p.size, [&](int x, int y) {
+        const double at = packed ? y : twin::centre(y, half.height, p.size.height);
+        const double cx = twin::centre(x, half.width, p.size.width);
+        const double yuv[] = {double(p.data[y * p.stride + (packed ? 2 * x : x)]),
+                              u.bilinear(cx, at), v.bilinear(cx, at)};
+        double sum = 0;
+        const double weights[] = {0.299, 0.587, 0.114};
+        for (int i = 0; i < 3; ++i)
+            sum += weights[i] *
+                   (rows[i][0] * yuv[0] + rows[i][1] * yuv[1] + rows[i][2] * yuv[2] + rows[i][3]);
+        return std::clamp(sum, 0.0, 255.0);
+    });
+}
+
+TEST(StillPreparation, CameraFormatsGiveTheLumaOfTheirColours) {
+    const Size size{118, 74};
+    for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420})
+        for (const YuvMatrix matrix : {YuvMatrix::Bt601, YuvMatrix::Bt709})
+            for (const YuvRange range : {YuvRange::Limited, YuvRange::Full}) {
+                const auto bytes = mixedBytes(packedBytes(format, size), 3, 3);
+                ImageView view = packedView(bytes.data(), size, format);
+                view.matrix = matrix;
+                view.range = range;
+                Still s({40, 25}, size, size);
+                s.preparation.set(view);
+                EXPECT_LE(twin::worst(lumaOfYuv(view), s.preparation.luma()), 1)
+                    << nameOf(format) << static_cast<int>(matrix) << static_cast<int>(range);
+            }
+}
+
+TEST(StillPreparation, GreyAndBlueFirstAreRead) {
+    Still s({40, 25}, {90, 60}, {90, 60});
+    const auto bytes = mixedBytes(4UL * 90 * 60, 3, 3);
+    s.preparation.set({bytes.data(), {90, 60}, 90, PixelFormat::Gray8});
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 90; ++x)
+            ASSERT_EQ(s.preparation.luma()[y][x], bytes[y * 90 + x]);
+    s.preparation.set({bytes.data(), {90, 60}, 360, PixelFormat::Bgra8});
+    const Grey wanted = twin::greyOf({90, 60}, [&](int x, int y) {
+        const std::uint8_t* t = bytes.data() + y * 360 + 4 * x;
+        return 0.114 * t[0] + 0.587 * t[1] + 0.299 * t[2];
+    });
+    EXPECT_LE(twin::worst(wanted, s.preparation.luma()), 1);
+}
+
+TEST(StillPreparation, PictureHasTheColoursAndOutlivesWhatItWasMadeOf) {
+    Still s({40, 25}, {91, 60}, {91, 60});
+    auto picture = std::make_unique<TestPicture>(Size{91, 60});
+    s.preparation.set(picture->view);
+    const std::vector<std::uint8_t> bytes = picture->bytes;
+    picture.reset();
+    const Rows<const std::uint32_t> got = s.preparation.picture();
+    ASSERT_EQ(got.size, (Size{91, 60}));
+    for (int y = 0; y < 60; ++y)
+        for (int x = 0; x < 91; ++x)
+            for (int c = 0; c < 4; ++c)
+                ASSERT_EQ(got[y][x] >> (8 * c) & 255, c < 3 ? bytes[4 * (y * 91 + x) + c] : 255);
+}
+
+TEST(StillPreparation, PictureThatIsNotKeptIsGrey) {
+    Still s({40, 25}, {90, 60}, {90, 60});
+    s.preparation.set(TestPicture({90, 60}).view, false);
+    const Rows<const std::uint32_t> got = s.preparation.picture();
+    for (int x = 0; x < 90; ++x)
+        ASSERT_EQ(got[7][x], 0xff000000U | 0x10101U * s.preparation.luma()[7][x]);
+}
+
+TEST(StillPreparation, ReducedPictureIsThatOfTheOracle) {
+    Still s({80, 60}, {300, 225}, {100, 75});
+    const TestPicture picture({300, 225});
+    s.preparation.set(picture.view);
+    const Rows<const std::uint32_t> got = s.preparation.picture();
+    ASSERT_EQ(got.size, s.preparation.rig().still.size);
+    for (int c = 0; c < 3; ++c) {
+        const Grey channel = twin::greyOf(
+            {300, 225}, [&](int x, int y) { return double(picture.bytes[4 * (y * 300 + x) + c]); });
+        const Grey wanted = twin::reduced(channel, got.size);
+        for (int y = 0; y < got.size.height; ++y)
+            for (int x = 0; x < got.size.width; ++x)
+                ASSERT_NEAR(got[y][x] >> (8 * c) & 255, wanted.at(x, y), 0.51);
+    }
+}
+
+TEST(StillPreparation, AnyNumberOfThreadsGivesTheSame) {
+    const TestPicture picture({200, 140});
+    Still one({50, 35}, {200, 140}, {200, 140}, 1), four({50, 35}, {200, 140}, {200, 140}, 4);
+    one.preparation.set(picture.view);
+    four.preparation.set(picture.view);
+    for (int y = 0; y < 140; ++y)
+        ASSERT_TRUE(std::equal(one.preparation.detail()[y], one.preparation.detail()[y] + 200,
+                               four.preparation.detail()[y]));
+}
+
+}  // namespace
+}  // namespace mfar::simd

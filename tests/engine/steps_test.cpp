@@ -1,0 +1,164 @@
+#include "base/workers.h"
+#include "pipeline/engine/engine.h"
+#include "tests/engine/engine_name.h"
+#include "tests/engine/gl_test.h"
+#include "tests/engine/pictures.h"
+#include "tests/oracle/still.h"
+
+namespace mfar {
+namespace {
+
+// 8-bit steps, and single precision where a value lies between two of them.
+constexpr double kToABit = 0.501;
+
+/// What the steps of both engines have to do, through the interface that the pipeline sees.
+class StepsTest : public GlTest, public testing::WithParamInterface<EngineKind> {
+protected:
+    static std::unique_ptr<Engine> engineFor(const StereoRig& rig, Size output = {64, 48}) {
+        const StepSetup setup{rig, output, {}, std::make_shared<Workers>(2)};
+        return GetParam() == EngineKind::Gles ? makeGlesEngine(setup) : makeSimdEngine(setup);
+    }
+    static bool isGles() { return GetParam() == EngineKind::Gles; }
+};
+INSTANTIATE_TEST_SUITE_P(Engines, StepsTest, testing::Values(EngineKind::Gles, EngineKind::Simd),
+                         engineOfTest);
+
+/// All tiles changed and matched.
+TileWork everything(Size video) {
+    TileWork work;
+    work.tiles = tilesOf(video);
+    const int count = work.tiles.width * work.tiles.height;
+    work.flags.assign(static_cast<std::size_t>(count), {1, 1});
+    work.changed = work.matched = count;
+    return work;
+}
+
+/// A level as it is stored, its margin checked to repeat the border.
+twin::Grey levelOf(const LumaPyramid& pyramid, const LumaLevel& level) {
+    const std::uint32_t* words = pyramid.words.host().data + level.offset;
+    const auto stored = [&](int x, int y) {  // x from -8 on
+        const std::uint32_t word =
+            words[static_cast<std::ptrdiff_t>(y) * level.pitch + (x + 8) / 4];
+        return static_cast<double>((word >> (8 * (x & 3))) & 255U);
+    };
+    twin::Grey out = twin::greyOf({level.width, level.height}, stored);
+    for (int y = 0; y < level.height; ++y)
+        for (int x = -8; x < 4 * level.pitch - 8; ++x)
+            if (stored(x, y) != out.at(x, y)) {
+                ADD_FAILURE() << "margin at " << x << ", " << y;
+                return out;
+            }
+    return out;
+}
+
+double worstOf(const twin::Grey& got, const twin::Grey& wanted) {
+    EXPECT_EQ(got.size, wanted.size);
+    double out = 0;
+    for (std::size_t i = 0; i < got.values.size(); ++i)
+        out = std::max(out, std::abs(got.values[i] - wanted.values[i]));
+    return out;
+}
+
+TEST_P(StepsTest, PyramidOfTheVideoIsSmoothedAndHalved) {
+    for (const Size size : {Size{64, 48}, Size{101, 59}, Size{213, 119}})
+        for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
+            const TestPicture picture = randomPicture(size, 1, format);
+            const auto engine = engineFor(plainRig(size, size));
+            const auto step = engine->pyramid();
+            const RgbPlanes planes = planesOf(picture);
+            const ImageView view = picture.view();
+            const LumaPyramid& pyramid = step->video({view, planes, 1}, everything(size));
+            twin::Grey finer = levelOf(pyramid, pyramid.video[0]);
+            EXPECT_LE(worstOf(finer, twin::smoothed(twin::luma(view))), isGles() ? kToABit : 1);
+            for (std::size_t i = 1; i < pyramid.video.size(); ++i) {
+                const twin::Grey coarser = levelOf(pyramid, pyramid.video[i]);
+                EXPECT_EQ(worstOf(coarser, twin::halved(finer)), 0) << "level " << i;
+                finer = coarser;
+            }
+        }
+}
+
+TEST_P(StepsTest, PyramidOfTheStillIsSeenThroughTheRig) {
+    for (const StereoRig& rig : {plainRig({96, 72}, {345, 259}), plainRig({96, 72}, {96, 72}),
+                                 bentRig({97, 71}, {350, 256})}) {
+        const TestPicture still = Waves(3, 12, 200, 40).shoot(rig.still.size, {});
+        const auto engine = engineFor(rig, rig.still.size);
+        const auto prepare = engine->still();
+        const auto step = engine->pyramid();
+        const LumaPyramid& pyramid = step->still(prepare->run(still.view(), SuperResMode::Detail));
+        // A filter of 8-bit weights, or luma that is rounded before.
+        EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
+                          twin::lumaFromStill(twin::luma(still.view()), rig)),
+                  kToABit + 1);
+    }
+}
+
+TEST_P(StepsTest, PyramidsKeepTheRange) {
+    const Size size{70, 60};
+    for (const std::uint8_t fill : {0, 255}) {
+        const TestPicture flat(size, PixelFormat::Rgba8, fill);
+        const auto engine = engineFor(plainRig(size, size));
+        const auto step = engine->pyramid();
+        const RgbPlanes planes = planesOf(flat);
+        const ImageView view = flat.view();
+        const LumaPyramid& pyramid = step->video({view, planes, 1}, everything(size));
+        for (const LumaLevel& level : pyramid.video)
+            for (const double value : levelOf(pyramid, level).values)
+                ASSERT_EQ(value, fill);
+    }
+}
+
+TEST_P(StepsTest, DetailOfTheStillIsWhatTheVideoCannotShow) {
+    const StereoRig rig = plainRig({50, 35}, {200, 140});
+    for (const PixelFormat format : {PixelFormat::Rgba8, PixelFormat::Gray8}) {
+        const TestPicture still = Waves(5, 4, 60, 30).shoot(rig.still.size, {.format = format});
+        const auto engine = engineFor(rig, rig.still.size);
+        const auto step = engine->still();
+        const StillPictures& made = step->run(still.view(), SuperResMode::Detail);
+        const twin::Grey wanted = twin::stillDetail(twin::luma(still.view()), rig.video.size, 0.08);
+        EXPECT_LE(twin::worst(wanted, made.detail.host()), 2.7);
+    }
+}
+
+/// One channel of a picture.
+twin::Grey channelOf(const TestPicture& picture, int channel) {
+    return twin::greyOf(picture.size, [&](int x, int y) {
+        return double(picture.bytes[4UL * (1UL * y * picture.size.width + x) + channel]);
+    });
+}
+
+void expectEnlarged(Engine& engine, const TestPicture& picture, Size output, bool cubic,
+                    double most) {
+    const auto step = engine.detail();
+    const RgbPlanes planes = planesOf(picture);
+    const ImageView view = picture.view();
+    step->draw({view, planes, 1}, nullptr, everything(picture.size), {SuperResMode::Off, cubic});
+    const Rows<const std::uint32_t> shown = step->output().host();
+    for (int channel = 0; channel < 3; ++channel) {
+        const twin::Grey wanted = twin::enlarged(channelOf(picture, channel), output, !cubic);
+        for (int y = 0; y < output.height; ++y)
+            for (int x = 0; x < output.width; ++x)
+                ASSERT_NEAR(shown[y][x] >> (8 * channel) & 255U,
+                            std::clamp(wanted.at(x, y), 0.0, 255.0), most)
+                    << output.width << ": " << x << ", " << y;
+    }
+}
+
+TEST_P(StepsTest, WithoutAStillTheVideoIsEnlarged) {
+    const Size video{53, 37};
+    for (const Size output : {Size{191, 133}, Size{61, 140}, Size{424, 296}})
+        for (const bool cubic : {true, false}) {
+            const auto engine = engineFor(plainRig(video, output), output);
+            // Columns in 8 bits, or rows in 1/64 grey level and products in 1/32.
+            const double gain = cubic ? twin::kCubicGain : 1;
+            const double most = isGles() ? 0.51 * (1 + gain) : 0.65;
+            expectEnlarged(*engine, Waves(1, 3, 40, 20).shoot(video, {}), output, cubic, most);
+            // The shaders clamp columns that leave the range of a byte, the kernels no rows.
+            if (isGles()) continue;
+            expectEnlarged(*engine, randomPicture(video, 2), output, cubic, most);
+            expectEnlarged(*engine, checkerboard(video), output, cubic, most);
+        }
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,265 @@
+#include "tests/measure/bench/bench.h"
+
+#include "tests/measure/bench/gpu_timer.h"
+#include "tests/measure/eval/paper_pipeline.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/stopwatch.h"
+
+#include <GLES3/gl31.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace mfar::bench {
+namespace {
+
+constexpr double kRestNoise = 2;  // grey levels
+constexpr std::size_t kWarmUp = 3;
+constexpr std::size_t kSetStillRuns = 5;
+
+std::optional<Pose> poseOf(const std::vector<std::optional<Pose>>& poses, std::size_t i) {
+    return poses.empty() ? std::nullopt : poses[i];
+}
+
+Workload withoutPoses(Workload work) {
+    work.framePoses.clear();
+    work.stillPoses.clear();
+    return work;
+}
+
+/// Our pipeline fed with a workload's frames; brings in the stills outside the measured time.
+class Ours {
+public:
+    Ours(const Workload& work, SuperResMode mode, EngineKind engine, int threads = 0,
+         Size output = {})
+        : work_(work), engine_(engine),
+          pipeline_(work.rig, optionsFor(mode, engine, threads, output)) {
+        for (const cv::Mat& still : work.stills)
+            stills_.push_back(eval::toRgba(still));
+        for (const cv::Mat& frame : work.frames)
+            frames_.push_back(eval::toRgba(frame));
+    }
+
+    /// Time of frame i from upload to finished picture [ms].
+    double run(std::size_t i) {
+        if (still_ != work_.stillOf[i]) setStill(work_.stillOf[i]);
+        return eval::wallMs([&] {
+            stats_ =
+                pipeline_.run(eval::viewOf(frames_[i]), nextTime(), poseOf(work_.framePoses, i))
+                    .stats;
+            pipeline_.finish(engine_);
+        });
+    }
+    double setStill(std::size_t index) {
+        still_ = index;
+        pipeline_.finish(engine_);
+        return eval::wallMs([&] {
+            pipeline_.setStill(eval::viewOf(stills_[index]), nextTime(),
+                               poseOf(work_.stillPoses, index));
+            pipeline_.finish(engine_);
+        });
+    }
+    [[nodiscard]] Pipeline& pipeline() { return pipeline_; }
+    [[nodiscard]] const FrameStats& stats() const { return stats_; }
+
+private:
+    static PipelineOptions optionsFor(SuperResMode mode, EngineKind engine, int threads,
+                                      Size output) {
+        PipelineOptions options;
+        options.mode = mode;
+        options.output = output;
+        options.engines = EngineChoice::all(engine);
+        options.threads = threads;
+        return options;
+    }
+    Timestamp nextTime() {
+        time_ = time_ + std::chrono::nanoseconds{33'333'333};
+        return time_;
+    }
+
+    const Workload& work_;
+    EngineKind engine_;
+    Pipeline pipeline_;
+    std::vector<cv::Mat> stills_, frames_;
+    std::optional<std::size_t> still_;
+    Timestamp time_;
+    FrameStats stats_;
+};
+
+void warmUp(Ours& ours, std::size_t frames) {
+    for (std::size_t i = 0; i < std::min(kWarmUp, frames); ++i)
+        ours.run(i);
+}
+
+void addTiles(CaseResult& result, const FrameStats& stats) {
+    double all = 0;
+    for (const int count : stats.tiles)
+        all += count;
+    for (std::size_t c = 0; c < kTileClasses && all > 0; ++c)
+        result.tileShare[c] += stats.tiles[c] / all / static_cast<double>(result.frame.runs);
+}
+
+/// Runs `frames` once more with each stage timed by itself.
+void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
+    std::vector<std::pair<std::string, std::vector<double>>> stages;
+    gpu::Timer timer;
+    std::vector<double> gpuMs;
+    ours.pipeline().setMeasure(true);
+    for (std::size_t i = 0; i < frames; ++i) {
+        timer.start();
+        ours.run(i);
+        timer.stop();
+        glFinish();
+        if (const auto ms = timer.read()) gpuMs.push_back(*ms);
+        for (const StageTime& time : ours.pipeline().stageTimes()) {
+            auto found = std::find_if(stages.begin(), stages.end(),
+                                      [&](const auto& s) { return s.first == time.stage; });
+            if (found == stages.end()) found = stages.insert(found, {time.stage, {}});
+            found->second.push_back(time.ms);
+        }
+    }
+    ours.pipeline().setMeasure(false);
+    for (const auto& [stage, ms] : stages)
+        result.stages.push_back({stage, summarise(ms)});
+    if (!gpuMs.empty()) result.stages.push_back({"all, by the GPU's clock", summarise(gpuMs)});
+}
+
+/// The paper's method with one of OpenCV's flows.
+class Peer {
+public:
+    Peer(std::string name, eval::DisPreset flow, const Workload& work, Size output)
+        : name_(std::move(name)), work_(work), paper_(work.rig, output, {flow, 2}) {}
+
+    double run(std::size_t i) {
+        if (still_ != work_.stillOf[i]) {
+            still_ = work_.stillOf[i];
+            paper_.setStill(work_.stills[*still_]);
+        }
+        return eval::wallMs([&] { paper_.run(work_.frames[i]); });
+    }
+    void measure(std::size_t i) { ms_.push_back(run(i)); }
+    /// `ours`: time of each frame, run in turn with this.
+    [[nodiscard]] PeerResult result(const CaseResult& of, const std::vector<double>& ours) const {
+        const Summary own = summarise(ms_);
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < ms_.size(); ++i)
+            ratios.push_back(ours[i] / ms_[i]);
+        std::ranges::sort(ratios);
+        const auto at = [&](double share) {
+            return ratios[static_cast<std::size_t>(share * static_cast<double>(ratios.size() - 1))];
+        };
+        return {name_, of.name, own, of.frame.median / own.median, at(0.1), at(0.9)};
+    }
+
+private:
+    std::string name_;
+    const Workload& work_;
+    eval::PaperPipeline paper_;
+    std::optional<std::size_t> still_;
+    std::vector<double> ms_;
+};
+
+using Peers = std::vector<std::unique_ptr<Peer>>;
+
+CaseResult measureCase(const std::string& name, Ours& ours, const Workload& work,
+                       const Peers& peers, std::vector<PeerResult>& results) {
+    const std::size_t frames = work.frames.size();
+    CaseResult result;
+    result.name = name;
+    result.frame.runs = frames;
+    warmUp(ours, frames);
+    for (const auto& peer : peers)
+        peer->run(0);
+    std::vector<double> ms;
+    for (std::size_t i = 0; i < frames; ++i) {
+        ms.push_back(ours.run(i));
+        addTiles(result, ours.stats());
+        for (const auto& peer : peers)
+            peer->measure(i);
+    }
+    result.frame = summarise(ms);
+    for (const auto& peer : peers)
+        results.push_back(peer->result(result, ms));
+    measureStages(ours, frames, result);
+    return result;
+}
+
+void measureAgainstPeers(const std::string& name, Ours& ours, const Workload& work,
+                         BenchResult& out) {
+    const Size output = ours.pipeline().outputSize();
+    Peers peers;
+    peers.push_back(std::make_unique<Peer>("paper", eval::DisPreset::Medium, work, output));
+    peers.push_back(std::make_unique<Peer>("paper-fast", eval::DisPreset::Fast, work, output));
+    out.cases.push_back(measureCase(name, ours, work, peers, out.peers));
+}
+
+}  // namespace
+
+BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
+                     EngineKind engine, const std::string& renderer) {
+    const Workload blind = withoutPoses(moving);
+    Ours ours(blind, mode, engine);
+    BenchResult out;
+    out.workload = moving.name;
+    out.posed = posed.name;
+    out.renderer = renderer;
+    out.video = moving.rig.video.size;
+    out.still = moving.rig.still.size;
+    out.output = ours.pipeline().outputSize();
+    ours.setStill(0);
+    std::vector<double> setStill(kSetStillRuns);
+    for (double& ms : setStill)
+        ms = ours.setStill(0);
+    out.setStill = summarise(std::move(setStill));
+
+    measureAgainstPeers("moving", ours, blind, out);
+    if (!posed.frames.empty()) {
+        Ours handheld(posed, mode, engine);
+        measureAgainstPeers("handheld", handheld, posed, out);
+    }
+    for (const double noise : {0.0, kRestNoise}) {
+        const Workload rest = atRest(blind, noise);
+        Ours resting(rest, mode, engine);
+        out.cases.push_back(
+            measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, {}, out.peers));
+    }
+    out.depth = measureDepth(posed);
+    out.warp = measureWarp(out.video, static_cast<int>(moving.frames.size()));
+    out.triangulation = measureTriangulation(out.video);
+    return out;
+}
+
+namespace {
+
+Summary framesOf(const Workload& work, SuperResMode mode, EngineKind engine, int threads,
+                 Size output) {
+    if (work.frames.empty()) return {};
+    Ours ours(work, mode, engine, threads, output);
+    warmUp(ours, work.frames.size());
+    std::vector<double> ms;
+    for (std::size_t i = 0; i < work.frames.size(); ++i)
+        ms.push_back(ours.run(i));
+    return summarise(std::move(ms));
+}
+
+}  // namespace
+
+std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
+                                      SuperResMode mode, EngineKind engine) {
+    const Workload blind = withoutPoses(moving);
+    const Size full = Pipeline::fullSize(moving.rig);
+    std::vector<ScalingResult> out;
+    for (const int threads : {1, 2})
+        for (const double share : {5.0 / 9, 5.0 / 6, 1.0}) {
+            const Size output{static_cast<int>(std::lround(full.width * share)),
+                              static_cast<int>(std::lround(full.height * share))};
+            out.push_back({threads, output, framesOf(blind, mode, engine, threads, output),
+                           framesOf(posed, mode, engine, threads, output)});
+        }
+    return out;
+}
+
+}  // namespace mfar::bench

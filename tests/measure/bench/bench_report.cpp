@@ -1,0 +1,160 @@
+#include "tests/measure/bench/bench_report.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+namespace mfar::bench {
+namespace {
+
+constexpr std::array<const char*, kTileClasses> kClassNames{"unchanged", "upscaled", "trusted",
+                                                            "blended", "hidden"};
+
+nlohmann::json json(const Summary& s) {
+    return {{"median_ms", s.median}, {"p99_ms", s.p99}, {"min_ms", s.min}, {"runs", s.runs}};
+}
+
+nlohmann::json json(Size size) {
+    return {size.width, size.height};
+}
+
+nlohmann::json json(const CaseResult& result) {
+    nlohmann::json stages = nlohmann::json::array(), tiles = nlohmann::json::object();
+    for (const StageSummary& stage : result.stages) {
+        stages.push_back(json(stage.ms));
+        stages.back()["stage"] = stage.stage;
+    }
+    for (std::size_t c = 0; c < kTileClasses; ++c)
+        tiles[kClassNames[c]] = result.tileShare[c];
+    return {{"name", result.name},
+            {"frame", json(result.frame)},
+            {"stages", stages},
+            {"tile_share", tiles}};
+}
+
+nlohmann::json json(const WarpTimes& t) {
+    return {{"objects", json(t.objects)},
+            {"whole", json(t.whole)},
+            {"still", json(t.still)},
+            {"reference", json(t.reference)},
+            {"remap", json(t.remap)}};
+}
+
+std::string line(const std::string& name, const Summary& s) {
+    return fmt::format("{:<28} {:>9.2f} {:>9.2f} {:>9.2f} {:>6}", name, s.median, s.p99, s.min,
+                       s.runs);
+}
+
+std::string tileLine(const CaseResult& result) {
+    std::string out = "  tiles:";
+    for (std::size_t c = 0; c < kTileClasses; ++c)
+        if (result.tileShare[c] > 0)
+            out += fmt::format(" {} {:.1f} %", kClassNames[c], 100 * result.tileShare[c]);
+    return out;
+}
+
+nlohmann::json json(const RenderFigures& render) {
+    nlohmann::json rates = nlohmann::json::array(), errors = nlohmann::json::array();
+    for (const RayRates& r : render.rates)
+        rates.push_back({{"triangles", r.triangles},
+                         {"embree_mray_s", r.bare},
+                         {"camera_mray_s", r.ours},
+                         {"share", r.ours / r.bare},
+                         {"msample_s", r.samples}});
+    for (const SamplingError& e : render.errors)
+        errors.push_back({{"scene", e.scene},
+                          {"rmse", e.ours},
+                          {"rmse_independent", e.independent},
+                          {"ratio", e.independent / e.ours}});
+    return {{"rates", rates}, {"errors_at_16_samples", errors}};
+}
+
+std::string toTable(const RenderFigures& render) {
+    std::string out;
+    for (const RayRates& r : render.rates)
+        out += fmt::format("rays [M/s], {:>6} triangles: Embree {:.2f}, camera {:.2f} = {:.0f} %; "
+                           "samples {:.2f}\n",
+                           r.triangles, r.bare, r.ours, 100 * r.ours / r.bare, r.samples);
+    for (const SamplingError& e : render.errors)
+        out += fmt::format("RMSE at 16 samples, {:<30} {:.5f}, independent {:.5f} = {:.1f} times\n",
+                           e.scene + ":", e.ours, e.independent, e.independent / e.ours);
+    return out;
+}
+
+}  // namespace
+
+nlohmann::json toJson(const BenchResult& result) {
+    nlohmann::json cases = nlohmann::json::array(), peers = nlohmann::json::array(),
+                   scaling = nlohmann::json::array();
+    for (const CaseResult& c : result.cases)
+        cases.push_back(json(c));
+    for (const PeerResult& peer : result.peers)
+        peers.push_back({{"name", peer.name},
+                         {"case", peer.of},
+                         {"frame", json(peer.frame)},
+                         {"ratio", peer.ratio},
+                         {"ratio_p10", peer.low},
+                         {"ratio_p90", peer.high}});
+    for (const ScalingResult& s : result.scaling)
+        scaling.push_back({{"threads", s.threads},
+                           {"output", json(s.output)},
+                           {"moving", json(s.moving)},
+                           {"handheld", json(s.handheld)}});
+    return {{"workload", result.workload},
+            {"posed", result.posed},
+            {"renderer", result.renderer},
+            {"opencv", CV_VERSION},
+            {"opencv_threads", cv::getNumThreads()},
+            {"video", json(result.video)},
+            {"still", json(result.still)},
+            {"output", json(result.output)},
+            {"set_still", json(result.setStill)},
+            {"cases", cases},
+            {"peers", peers},
+            {"depth", {{"tenth", json(result.depth.tenth)}, {"whole", json(result.depth.whole)}}},
+            {"warp", json(result.warp)},
+            {"triangulation_ns_per_point",
+             {{"flow", result.triangulation.flow},
+              {"midpoint", result.triangulation.midpoint},
+              {"opencv", result.triangulation.opencv}}},
+            {"scaling", scaling},
+            {"render", json(result.render)}};
+}
+
+std::string toTable(const BenchResult& result) {
+    std::string out =
+        fmt::format("{}\nworkload {}; with poses {}; video {}x{}, still {}x{}, output {}x{}\n\n",
+                    result.renderer, result.workload, result.posed.empty() ? "none" : result.posed,
+                    result.video.width, result.video.height, result.still.width,
+                    result.still.height, result.output.width, result.output.height);
+    out += fmt::format("{:<28} {:>9} {:>9} {:>9} {:>6}\n", "[ms]", "median", "p99", "min", "runs");
+    out += line("new still", result.setStill) + '\n';
+    for (const CaseResult& c : result.cases) {
+        out += line(c.name, c.frame) + tileLine(c) + '\n';
+        for (const StageSummary& stage : c.stages)
+            out += line("  " + stage.stage, stage.ms) + '\n';
+    }
+    for (const PeerResult& peer : result.peers)
+        out += line("peer " + peer.name, peer.frame) +
+               fmt::format("  {} / {} = {:.2f}, frame by frame {:.2f} to {:.2f}\n", peer.of,
+                           peer.name, peer.ratio, peer.low, peer.high);
+    for (const ScalingResult& s : result.scaling)
+        out += fmt::format("{} thread{}, {:>4}x{:<4}  moving {:>7.2f}  handheld {:>7.2f}\n",
+                           s.threads, s.threads == 1 ? " " : "s", s.output.width, s.output.height,
+                           s.moving.median, s.handheld.median);
+    if (result.depth.whole.runs > 0)
+        out += line("depth, tenth of the picture", result.depth.tenth) + '\n' +
+               line("depth, whole picture", result.depth.whole) + '\n';
+    out += line("warp, objects", result.warp.objects) + '\n' +
+           line("warp, whole picture", result.warp.whole) + '\n' +
+           line("warp, camera at rest", result.warp.still) + '\n' +
+           line("warp, new reference", result.warp.reference) + '\n' +
+           line("peer cv::remap", result.warp.remap) + '\n';
+    const TriangulationTimes& t = result.triangulation;
+    out += fmt::format("triangulation [ns a point]: flow {:.1f}, midpoint {:.1f}, "
+                       "cv::triangulatePoints {:.0f} = {:.0f} times flow\n",
+                       t.flow, t.midpoint, t.opencv, t.opencv / t.flow);
+    return out + toTable(result.render);
+}
+
+}  // namespace mfar::bench

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "tests/measure/bench/bench.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace mfar::bench {
+
+/// The whole result, times in ms, sizes as [width, height].
+[[nodiscard]] nlohmann::json toJson(const BenchResult& result);
+/// For people: one line per case, stage and peer.
+[[nodiscard]] std::string toTable(const BenchResult& result);
+
+}  // namespace mfar::bench

@@ -1,0 +1,45 @@
+#include "tests/measure/bench/curve_report.h"
+
+#include "tests/measure/eval/report.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace mfar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string measured(const CurvePoint& p) {
+    return fmt::format("{:.3f},{:.4f},{:.6f}\n", p.ms, p.epe, p.bad1);
+}
+
+void write(const fs::path& file, const std::string& text) {
+    std::ofstream out(file);
+    out << text;
+    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file.string()));
+}
+
+}  // namespace
+
+std::string curvesCsv(const Curves& curves) {
+    std::string out = "method,knob,value,default,ms,epe_px,bad1\n";
+    for (const Curve& curve : curves.curves)
+        for (const CurvePoint& p : curve.points)
+            out += fmt::format("{},{},{:g},{},", curve.method, curve.knob, p.value,
+                               p.isDefault ? 1 : 0) +
+                   measured(p);
+    for (const CurvePeer& peer : curves.peers)
+        out += fmt::format("{},,,,", peer.name) + measured(peer.point);
+    return out;
+}
+
+void writeCurves(const Curves& curves, const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);  // what went wrong shows when a file is written
+    write(folder / "curves.csv", curvesCsv(curves));
+    write(folder / "curves.svg", curvesSvg(curves));
+}
+
+}  // namespace mfar::bench

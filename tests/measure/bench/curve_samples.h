@@ -1,0 +1,30 @@
+#pragma once
+
+#include "tests/measure/eval/shot.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mfar::bench {
+
+/// A frame, its still and the true flow between them: what a setting is measured on.
+struct CurveSample {
+    std::string name;
+    StereoRig rig;
+    eval::Shot frame, still;
+    cv::Mat truth;  ///< CV_32FC2 [video px], NaN or above 1e9 = unknown
+
+    [[nodiscard]] bool hasPoses() const { return frame.pose && still.pose; }
+};
+
+/// The first `most` samples of each folder that mfar-eval flow takes. Throws EvalError,
+/// RecordingError and ImageFileError.
+[[nodiscard]] std::vector<CurveSample>
+curveSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
+
+/// A frame each of the first `most` of the synthetic office and shelf, hand-held, at the video size
+/// asked for (a fraction of 640x480). Repeatable.
+[[nodiscard]] std::vector<CurveSample> syntheticCurveSamples(Size video, std::size_t most = 2);
+
+}  // namespace mfar::bench

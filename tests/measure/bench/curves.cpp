@@ -1,0 +1,124 @@
+#include "tests/measure/bench/curves.h"
+
+#include "pipeline/pipeline.h"
+#include "tests/measure/bench/knobs.h"
+#include "tests/measure/bench/summary.h"
+#include "tests/measure/eval/metrics/flow_error.h"
+#include "tests/measure/eval/paper_pipeline.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/rig_resample.h"
+#include "tests/measure/eval/stopwatch.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string_view>
+
+namespace mfar::bench {
+namespace {
+
+CurvePoint pointOf(const CurveSample& sample, const cv::Mat& flow, double ms) {
+    const eval::FlowError error = eval::flowError(flow, sample.truth);
+    return {0, false, ms, error.epe, error.bad1};
+}
+
+void addShare(CurvePoint& sum, const CurvePoint& part, std::size_t parts) {
+    const auto n = static_cast<double>(parts);
+    sum.ms += part.ms / n;
+    sum.epe += part.epe / n;
+    sum.bad1 += part.bad1 / n;
+}
+
+double flowMs(const std::vector<StageTime>& stages, bool alongLines) {
+    double out = 0;
+    for (const StageTime& stage : stages) {
+        const std::string_view name = stage.stage;
+        if (alongLines ? name == "epipolar" : name == "pyramid" || name == "flow") out += stage.ms;
+    }
+    return out;
+}
+
+CurvePoint measure(const CurveSample& sample, PipelineOptions options, bool alongLines) {
+    options.output = sample.rig.video.size;
+    options.skipUnchanged = false;
+    Pipeline pipeline(sample.rig, options);
+    pipeline.setMeasure(true);
+    const cv::Mat frame = eval::toRgba(sample.frame.picture);
+    const cv::Mat still = eval::toRgba(sample.still.picture);
+    const auto run = [&] {
+        // A new still: no run starts from the answer of the one before.
+        pipeline.setStill(eval::viewOf(still), sample.still.time,
+                          alongLines ? sample.still.pose : std::nullopt);
+        pipeline.run(eval::viewOf(frame), sample.frame.time,
+                     alongLines ? sample.frame.pose : std::nullopt);
+        return flowMs(pipeline.stageTimes(), alongLines);
+    };
+    run();
+    std::vector<float> vectors = pipeline.readFlow();
+    const cv::Mat flow(frame.size(), CV_32FC2, vectors.data());
+    return pointOf(sample, flow, summarise({run(), run(), run()}).median);
+}
+
+/// Along lines: of the samples with poses.
+CurvePoint mean(const std::vector<CurveSample>& samples, const PipelineOptions& options,
+                bool alongLines) {
+    const auto fits = [&](const CurveSample& s) { return !alongLines || s.hasPoses(); };
+    const auto count = static_cast<std::size_t>(std::ranges::count_if(samples, fits));
+    CurvePoint out;
+    for (const CurveSample& sample : samples)
+        if (fits(sample)) addShare(out, measure(sample, options, alongLines), count);
+    return out;
+}
+
+CurvePeer peer(const char* name, eval::DisPreset preset, const std::vector<CurveSample>& samples) {
+    CurvePeer out{name, {}};
+    const auto dis = eval::createDis(preset);
+    for (const CurveSample& sample : samples) {
+        cv::Mat frame, still, flow;
+        cv::cvtColor(sample.frame.picture, frame, cv::COLOR_BGR2GRAY);
+        cv::cvtColor(eval::resampleStill(sample.still.picture, sample.rig), still,
+                     cv::COLOR_BGR2GRAY);
+        const auto run = [&] { return eval::wallMs([&] { dis->calc(frame, still, flow); }); };
+        run();
+        const double ms = summarise({run(), run(), run()}).median;
+        addShare(out.point, pointOf(sample, flow, ms), samples.size());
+    }
+    return out;
+}
+
+Curve measure(const Knob& knob, const std::vector<CurveSample>& samples,
+              const CurvePoint& byDefault, bool alongLines) {
+    Curve out{knob.method, knob.name, {}};
+    for (const double value : knob.values) {
+        PipelineOptions options;
+        const bool isDefault = value == knob.get(options);
+        knob.set(options, value);
+        CurvePoint point = isDefault ? byDefault : mean(samples, options, alongLines);
+        point.value = value;
+        point.isDefault = isDefault;
+        out.points.push_back(point);
+    }
+    return out;
+}
+
+}  // namespace
+
+Curves measureCurves(const std::vector<CurveSample>& samples) {
+    if (samples.empty()) throw std::invalid_argument("nothing to measure the curves on");
+    Curves out;
+    for (const CurveSample& sample : samples)
+        out.samples.push_back(sample.name);
+    const bool anyPoses = std::ranges::any_of(samples, &CurveSample::hasPoses);
+    const CurvePoint defaults[] = {mean(samples, {}, false), mean(samples, {}, true)};
+    for (const Knob& knob : flowKnobs()) {
+        const bool alongLines = knob.method == "epipolar";
+        if (!alongLines || anyPoses)
+            out.curves.push_back(measure(knob, samples, defaults[alongLines ? 1 : 0], alongLines));
+    }
+    out.peers.push_back(peer("DIS fast", eval::DisPreset::Fast, samples));
+    out.peers.push_back(peer("DIS medium", eval::DisPreset::Medium, samples));
+    return out;
+}
+
+}  // namespace mfar::bench

@@ -1,0 +1,42 @@
+#include "tests/measure/bench/governor_command.h"
+
+#include "daemon/governor_config.h"
+#include "hal/gl_context.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace mfar::bench {
+
+GovernorCommand::GovernorCommand(CLI::App& app)
+    : command_(app.add_subcommand(
+          "governor", "how deadlines are kept: four scenes one after the other under the governor, "
+                      "for each deadline p95, late frames, frames until it settled, and levels")) {
+    command_->add_option("--deadlines", request_.deadlinesMs, "of a frame [ms] (default 33,66,133)")
+        ->delimiter(',')
+        ->check(CLI::Range(0.1, 10000.0));
+    command_->add_option("--frames", request_.frames, "of each scene")
+        ->check(CLI::Range(2, 100000))
+        ->capture_default_str();
+    command_->add_option("--table", table_, "levels, of mfar-bench pareto --table FILE");
+    const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
+                                              {"processor", Clock::Processor}};
+    command_
+        ->add_option("--clock", request_.clock,
+                     "wall, or processor: its time over the number of cores, for a machine "
+                     "that others use as well")
+        ->transform(CLI::CheckedTransformer(clocks));
+}
+
+void GovernorCommand::run() const {
+    GovernorConfig config;
+    config.deadlineMs = request_.deadlinesMs.front();
+    config.table = table_;
+    const std::vector<QualityLevel> levels = governedLevels(config);
+    const auto context = createGlContext();
+    const auto runs = measureGovernor(request_, levels);
+    fmt::print("{}\n\n{}", context->description(), governorTable(runs));
+}
+
+}  // namespace mfar::bench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "tests/measure/bench/governor_run.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+
+namespace mfar::bench {
+
+/// `mfar-bench governor`: how deadlines are kept.
+class GovernorCommand {
+public:
+    explicit GovernorCommand(CLI::App& app);
+
+    [[nodiscard]] bool asked() const { return command_->parsed(); }
+    /// Throws ConfigError for a faulty table, Failure for one that cannot be read.
+    void run() const;
+
+private:
+    CLI::App* command_;
+    GovernorRequest request_;
+    std::filesystem::path table_;
+};
+
+}  // namespace mfar::bench

@@ -1,0 +1,69 @@
+#include "tests/measure/bench/governor_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar::bench {
+namespace {
+
+constexpr std::size_t kSettling = 30;  // frames that a change of scene may take
+
+double percentile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    const auto rank =
+        static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size())));
+    return values[std::max<std::size_t>(rank, 1) - 1];
+}
+
+std::string levelsOf(const GovernedScene& scene) {
+    std::vector<std::pair<int, std::string>> byFrames;
+    for (const auto& [name, frames] : scene.levels)
+        byFrames.emplace_back(frames, name);
+    std::ranges::sort(byFrames, std::greater<>());
+    std::string out;
+    for (const auto& [frames, name] : byFrames)
+        out += fmt::format(" {} ({})", name, frames);
+    return out;
+}
+
+}  // namespace
+
+int settledAfter(std::span<const double> ms, double deadlineMs) {
+    std::size_t late = 0, settled = ms.size();
+    for (std::size_t i = ms.size(); i-- > 0;) {
+        late += ms[i] > deadlineMs ? 1 : 0;
+        if (20 * late <= ms.size() - i) settled = i;
+    }
+    return static_cast<int>(settled);
+}
+
+double p95(const GovernedRun& run, std::size_t from) {
+    std::vector<double> ms;
+    for (const GovernedScene& scene : run.scenes)
+        ms.insert(ms.end(), scene.ms.begin() + static_cast<long>(std::min(from, scene.ms.size())),
+                  scene.ms.end());
+    return percentile(std::move(ms), 0.95);
+}
+
+std::string governorTable(std::span<const GovernedRun> runs) {
+    std::string out;
+    for (const GovernedRun& run : runs) {
+        out += fmt::format("deadline {:.0f} ms: p95 {:.1f} ms of all frames, {:.1f} ms from the "
+                           "{}th after each change of scene on\n",
+                           run.deadlineMs, p95(run, 0), p95(run, kSettling), kSettling);
+        out += fmt::format("  {:<10}{:>9}{:>9}{:>7}{:>9}  levels (frames)\n", "scene", "median",
+                           "p95", "late", "settled");
+        for (const GovernedScene& scene : run.scenes)
+            out += fmt::format(
+                "  {:<10}{:>9.1f}{:>9.1f}{:>7}{:>9} {}\n", scene.name, percentile(scene.ms, 0.5),
+                percentile(scene.ms, 0.95),
+                std::ranges::count_if(scene.ms, [&](double ms) { return ms > run.deadlineMs; }),
+                settledAfter(scene.ms, run.deadlineMs), levelsOf(scene));
+    }
+    return out;
+}
+
+}  // namespace mfar::bench

@@ -1,0 +1,57 @@
+#include "tests/measure/bench/gpu_timer.h"
+
+#include <string_view>
+
+namespace mfar::gpu {
+namespace {
+
+// The same numbers in EXT_disjoint_timer_query and ARB_timer_query; not in the core header.
+constexpr GLenum kTimeElapsed = 0x88BF;
+constexpr GLenum kGpuDisjoint = 0x8FBB;
+
+bool hasExtension(std::string_view wanted) {
+    GLint count = 0;
+    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLint i = 0; i < count; ++i) {
+        const GLubyte* name = glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i));
+        if (name != nullptr && reinterpret_cast<const char*>(name) == wanted) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+Timer::Timer() : disjointKnown_(hasExtension("GL_EXT_disjoint_timer_query")) {
+    if (disjointKnown_ || hasExtension("GL_ARB_timer_query")) glGenQueries(1, &query_);
+    checkErrors("Timer");
+}
+
+Timer::~Timer() {
+    if (query_ != 0) glDeleteQueries(1, &query_);
+}
+
+void Timer::start() {
+    if (query_ == 0) return;
+    GLint changed = 0;
+    if (disjointKnown_) glGetIntegerv(kGpuDisjoint, &changed);  // reading it resets it
+    glBeginQuery(kTimeElapsed, query_);
+}
+
+void Timer::stop() {
+    if (query_ != 0) glEndQuery(kTimeElapsed);
+}
+
+std::optional<double> Timer::read() const {
+    if (query_ == 0) return std::nullopt;
+    GLuint done = GL_FALSE;
+    glGetQueryObjectuiv(query_, GL_QUERY_RESULT_AVAILABLE, &done);
+    if (done == GL_FALSE) return std::nullopt;
+    GLint changed = 0;
+    if (disjointKnown_) glGetIntegerv(kGpuDisjoint, &changed);
+    if (changed != 0) return std::nullopt;
+    GLuint nanoseconds = 0;
+    glGetQueryObjectuiv(query_, GL_QUERY_RESULT, &nanoseconds);
+    return nanoseconds * 1e-6;
+}
+
+}  // namespace mfar::gpu

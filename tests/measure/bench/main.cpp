@@ -1,0 +1,172 @@
+#include "daemon/exit_code.h"
+#include "hal/gl_context.h"
+#include "hal/virtual/image_files.h"
+#include "hal/virtual/recording.h"
+#include "tests/measure/bench/bench.h"
+#include "tests/measure/bench/bench_report.h"
+#include "tests/measure/bench/curve_report.h"
+#include "tests/measure/bench/governor_command.h"
+#include "tests/measure/bench/pareto_command.h"
+#include "tests/measure/bench/skip_command.h"
+#include "tests/measure/bench/workload.h"
+#include "tests/measure/eval/report.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+using namespace mfar;
+using namespace mfar::bench;
+
+constexpr int kUsage = 2;
+
+constexpr const char* kHelp =
+    "mfar-bench: run time of every stage and of the whole super-resolution frame.\n"
+    "moving: every frame differs from the one before, no poses; handheld: the synthetic board's "
+    "office by a hand-held camera with its exact poses, or the recording's frames with its poses; "
+    "rest: the same frame again; rest-noise: the same view with sensor noise of sigma 2.\n"
+    "Whole frames run undisturbed until the picture is finished; stages are timed in a run of "
+    "their own. "
+    "The peers are the paper's method on OpenCV (DIS medium, DIS fast), run in turn with ours.";
+
+struct Options {
+    std::string recording, json, mode = "detail", engine = "auto";
+    int frames = 0;
+    bool quick = false, scaling = false;
+    std::filesystem::path curves;
+    std::vector<std::filesystem::path> data;
+};
+
+/// What moves without and with poses; no frames where there are none.
+struct Workloads {
+    Workload moving, posed;
+};
+
+Workloads workloadsFor(const Options& o) {
+    const int frames = o.frames > 0 ? o.frames : (o.quick ? 4 : 40);
+    if (o.recording.empty()) {
+        const Size video = o.quick ? Size{160, 120} : Size{640, 480};
+        const Size still = o.quick ? Size{576, 432} : Size{2304, 1728};
+        return {syntheticWorkload(video, still, frames), handheldWorkload(video, still, frames)};
+    }
+    Workloads out{recordedWorkload(o.recording, frames), {}};
+    const auto known = [](const std::vector<std::optional<Pose>>& poses) {
+        return std::ranges::all_of(poses, [](const auto& pose) { return pose.has_value(); });
+    };
+    if (known(out.moving.framePoses) && known(out.moving.stillPoses)) out.posed = out.moving;
+    return out;
+}
+
+std::vector<CurveSample> curveSamplesFor(const Options& o) {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> folders = o.data;
+    if (folders.empty() && !o.quick)
+        for (const char* name : {"motorcycle", "books", "dolls", "teddy"})
+            if (const fs::path folder = fs::path(MFAR_SHARED_DATA) / name; fs::exists(folder))
+                folders.push_back(folder);
+    if (folders.empty())
+        return o.quick ? syntheticCurveSamples({160, 120}, 1) : syntheticCurveSamples({640, 480});
+    return curveSamplesOf(folders, o.frames > 0 ? static_cast<std::size_t>(o.frames) : 2);
+}
+
+void drawCurves(const Options& o) {
+    const std::vector<CurveSample> samples = curveSamplesFor(o);
+    const auto context = createGlContext();
+    const Curves curves = measureCurves(samples);
+    writeCurves(curves, o.curves);
+    fmt::print("{}\n{}", context->description(), curvesCsv(curves));
+}
+
+void writeJson(const std::string& file, const nlohmann::json& value) {
+    std::ofstream out(file);
+    out << value.dump(2) << '\n';
+    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file));
+}
+
+void addOptions(CLI::App& app, Options& o) {
+    app.add_option("--recording", o.recording, "frames and stills of a recording instead");
+    app.add_option("--frames", o.frames, "frames per case (default 40, quick 4)")
+        ->check(CLI::Range(1, 100000));
+    app.add_option("--mode", o.mode, "of the super-resolution")
+        ->check(CLI::IsMember({"detail", "blend"}))
+        ->capture_default_str();
+    app.add_option("--engine", o.engine,
+                   "of all steps; auto: simd where GLES is a software renderer")
+        ->check(CLI::IsMember({"auto", "gles", "simd"}))
+        ->capture_default_str();
+    app.add_flag("--scaling", o.scaling, "also one thread against two at three output sizes");
+    app.add_option("--json", o.json, "file for all results");
+    app.add_flag("--quick", o.quick, "few small frames: shows that it runs, not how fast");
+    app.add_option("--curves", o.curves,
+                   "folder for curves.csv and curves.svg: time against error of the flow for each "
+                   "of its knobs, instead of the other measurements");
+    app.add_option("--data", o.data,
+                   "what the curves are measured on: recordings or pairs as for mfar-eval flow, "
+                   "with --frames samples of each (default 2). Default: the stereo pairs of "
+                   "../shared/data or, where they are absent and with --quick, synthetic scenes")
+        ->needs("--curves");
+}
+
+int run(int argc, char** argv) {
+    CLI::App app(kHelp);
+    Options o;
+    addOptions(app, o);
+    ParetoCommand pareto(app);
+    SkipCommand skip(app);
+    GovernorCommand governor(app);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : kUsage;
+    }
+    if (pareto.asked()) return pareto.run(), 0;
+    if (skip.asked()) return skip.run(), 0;
+    if (governor.asked()) return governor.run(), 0;
+    if (!o.curves.empty()) return drawCurves(o), 0;
+    const auto [moving, posed] = workloadsFor(o);
+    const auto context = createGlContext();
+    const SuperResMode mode = o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail;
+    const EngineKind engine = o.engine == "simd" || (o.engine == "auto" && context->isSoftware())
+                                  ? EngineKind::Simd
+                                  : EngineKind::Gles;
+    BenchResult result =
+        runBench(moving, posed, mode, engine,
+                 fmt::format("engine {}; {}", nameOf(engine), context->description()));
+    if (o.scaling) result.scaling = runScaling(moving, posed, mode, engine);
+    result.render = measureRender(o.quick);
+    fmt::print("{}", toTable(result));
+    if (!o.json.empty()) writeJson(o.json, toJson(result));
+    return 0;
+}
+
+int fail(int status, const std::exception& e) {
+    fmt::print(stderr, "mfar-bench: {}\n", e.what());
+    return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const eval::EvalError& e) {
+        return fail(kUsage, e);
+    } catch (const RecordingError& e) {
+        return fail(kUsage, e);
+    } catch (const ImageFileError& e) {
+        return fail(kUsage, e);
+    } catch (const Failure& e) {
+        return fail(kUsage, e);
+    } catch (const std::exception& e) {
+        return fail(1, e);
+    }
+}

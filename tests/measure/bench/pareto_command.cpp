@@ -1,0 +1,142 @@
+#include "tests/measure/bench/pareto_command.h"
+
+#include "daemon/quality_table.h"
+#include "hal/gl_context.h"
+#include "tests/measure/bench/pareto.h"
+#include "tests/measure/eval/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <utility>
+
+namespace mfar::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+void writeText(const fs::path& file, const std::string& text) {
+    if (file.empty()) return;
+    std::ofstream out(file);
+    out << text;
+    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file.string()));
+}
+
+// Levels that take hardly longer than a less accurate one replace it: the governor has nothing to
+// choose between them.
+constexpr double kLeastStep = 1.05;
+
+/// The front of our own points as levels, from fast to accurate.
+std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
+    std::vector<ParetoPoint> ours;
+    for (const ParetoPoint& p : superres.points)
+        if (p.kind != ParetoPoint::Kind::Peer) ours.push_back(p);
+    std::map<std::string, Quality> settings;
+    for (QualitySetting& setting : qualitySettings())
+        settings[setting.name] = setting.quality;
+    std::vector<QualityLevel> out;
+    for (const std::size_t i : paretoFront(ours)) {
+        const ParetoPoint& p = ours[i];
+        const double psnr = 20 * std::log10(255 / std::max(p.error, 1e-3));
+        if (!out.empty() && p.ms < kLeastStep * out.back().ms) out.pop_back();
+        out.push_back({p.name, p.ms, psnr, settings.at(p.name)});
+    }
+    return out;
+}
+
+}  // namespace
+
+ParetoCommand::ParetoCommand(CLI::App& app)
+    : command_(app.add_subcommand("pareto",
+                                  "run time against error: every setting of flow, "
+                                  "super-resolution, depth, slicing and warp and every peer as a "
+                                  "point (median time, error), measured in turn in one run")) {
+    command_->add_option("--stages", stages_, fmt::format("of {}", fmt::join(stages_, ", ")))
+        ->delimiter(',')
+        ->check(CLI::IsMember(stages_));
+    command_->add_option("--data", data_,
+                         "what flow and depth are measured on: recordings or pairs as for "
+                         "mfar-eval depth. Default: the stereo pairs of ../shared/data or, where "
+                         "they are absent and with --quick, synthetic scenes");
+    command_
+        ->add_option("--frames", frames_,
+                     "samples of each folder (default 2), frames of a sequence (12)")
+        ->check(CLI::Range(1, 1000));
+    command_->add_option("--rounds", run_.rounds, "every way is timed so often")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
+                                              {"processor", Clock::Processor}};
+    command_
+        ->add_option("--clock", run_.clock,
+                     "wall, or processor: its time over the number of cores, for a machine "
+                     "that others use as well")
+        ->transform(CLI::CheckedTransformer(clocks));
+    command_->add_option("--csv", csv_, "file for all points");
+    command_->add_option("--svg", svg_, "file for a plot with the fronts");
+    command_->add_option("--table", table_,
+                         "file for the governor's levels: the front of super-resolution");
+    command_->add_flag("--quick", quick_, "few small frames: shows that it runs, not how fast");
+}
+
+bool ParetoCommand::wants(const char* stage) const {
+    return std::ranges::find(stages_, stage) != stages_.end();
+}
+
+std::vector<fs::path> ParetoCommand::folders() const {
+    std::vector<fs::path> out = data_;
+    if (out.empty() && !quick_)
+        for (const char* name : {"motorcycle", "books", "dolls", "teddy"})
+            if (const fs::path folder = fs::path(MFAR_SHARED_DATA) / name; fs::exists(folder))
+                out.push_back(folder);
+    return out;
+}
+
+std::vector<ParetoStage> ParetoCommand::measure() const {
+    const Size video = quick_ ? Size{160, 120} : Size{640, 480};
+    const Size still = quick_ ? Size{576, 432} : Size{2304, 1728};
+    const auto given = folders();
+    const std::size_t scenes = quick_ ? 1 : 2;
+    const auto samples = static_cast<std::size_t>(frames_ > 0 ? frames_ : 2);
+    std::vector<ParetoStage> out;
+    if (wants("flow")) {
+        auto shots =
+            given.empty() ? syntheticCurveSamples(video, scenes) : curveSamplesOf(given, samples);
+        if (quick_) shots.resize(1);
+        out.push_back(flowStage(shots, true, run_));
+        out.push_back(flowStage(shots, false, run_));
+    }
+    if (wants("superres")) {
+        const int frames = frames_ > 0 ? frames_ : (quick_ ? 3 : 12);
+        out.push_back(superResStage(syntheticSequences(video, still, frames, scenes), run_));
+    }
+    if (wants("depth")) {
+        auto shots =
+            given.empty() ? syntheticDepthSamples(video, scenes) : depthSamplesOf(given, samples);
+        if (quick_) shots.resize(1);
+        out.push_back(depthStage(shots, run_));
+    }
+    if (wants("slicing")) out.push_back(slicingStage(quick_));
+    if (wants("warp")) out.push_back(warpStage(quick_));
+    std::erase_if(out, [](const ParetoStage& stage) { return stage.points.empty(); });
+    return out;
+}
+
+void ParetoCommand::run() const {
+    if (!table_.empty() && !wants("superres"))
+        throw eval::EvalError("--table needs the stage superres");
+    const auto context = createGlContext();
+    const std::vector<ParetoStage> stages = measure();
+    fmt::print("{}\n\n{}", context->description(), paretoSummary(stages));
+    writeText(csv_, paretoCsv(stages));
+    writeText(svg_, paretoSvg(stages));
+    for (const ParetoStage& stage : stages)
+        if (stage.name == "super-resolution")
+            writeText(table_, "# Measured by mfar-bench pareto: " + context->description() +
+                                  "\n\n" + toToml(levelsOf(stage)));
+}
+
+}  // namespace mfar::bench

@@ -1,0 +1,110 @@
+#pragma once
+
+#include "pipeline/pipeline.h"
+#include "tests/measure/bench/clock.h"
+#include "tests/measure/bench/pareto.h"
+#include "tests/measure/bench/summary.h"
+#include "tests/measure/eval/shot.h"
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace mfar::bench {
+
+/// Times and errors of one way, gathered sample by sample.
+class WayTimes {
+public:
+    void time(double ms) { ms_.push_back(ms); }
+    void error(double value) {
+        sum_ += value;
+        ++count_;
+    }
+    /// Of the sample that ends here the median counts.
+    void endSample() { medians_.push_back(summarise(std::exchange(ms_, {})).median); }
+    /// Mean over the samples of their medians.
+    [[nodiscard]] double ms() const {
+        double sum = 0;
+        for (const double ms : medians_)
+            sum += ms / static_cast<double>(medians_.size());
+        return sum;
+    }
+    [[nodiscard]] double meanError() const { return sum_ / count_; }
+
+private:
+    std::vector<double> ms_, medians_;
+    double sum_ = 0;
+    int count_ = 0;
+};
+
+/// The points of a stage: the first of ours is the default, peers come after ours in `times`.
+[[nodiscard]] inline std::vector<ParetoPoint> pointsOf(const std::vector<std::string>& ours,
+                                                       const std::vector<std::string>& peers,
+                                                       const std::vector<WayTimes>& times) {
+    using Kind = ParetoPoint::Kind;
+    std::vector<ParetoPoint> out;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const bool isPeer = i >= ours.size();
+        const Kind kind = i == 0 ? Kind::Default : Kind::Ours;
+        out.push_back({isPeer ? peers[i - ours.size()] : ours[i], isPeer ? Kind::Peer : kind,
+                       times[i].ms(), times[i].meanError()});
+    }
+    return out;
+}
+
+/// Of the stages of the last run, which was measured, those of these names.
+[[nodiscard]] inline double shareOfStages(const Pipeline& pipeline,
+                                          const std::vector<std::string_view>& names) {
+    double some = 0, all = 0;
+    for (const StageTime& stage : pipeline.stageTimes()) {
+        all += stage.ms;
+        if (std::ranges::find(names, std::string_view(stage.stage)) != names.end())
+            some += stage.ms;
+    }
+    return all > 0 ? some / all : 0;
+}
+
+/// A peer's answer with its time by this clock; `method`: a FlowMethod or DepthMethod.
+template <class Method>
+[[nodiscard]] auto timed(Method& method, const eval::Shot& frame, Clock clock) {
+    constexpr double kRuns = 4;  // once for the answer, three for its time
+    typename Method::Result out;
+    const double ms = msOf(clock, [&] { out = method.run(frame); });
+    if (clock == Clock::Processor) out.ms = ms / kRuns;
+    return out;
+}
+
+/// Pipelines for one rig; settings that may change between frames share one.
+class PipelinePool {
+public:
+    explicit PipelinePool(const StereoRig& rig) : rig_(rig) {}
+
+    /// With these options from its next run on. What only Quality does not cover has to be the same
+    /// for all calls.
+    Pipeline& with(const PipelineOptions& options) {
+        for (auto& [made, pipeline] : made_) {
+            const bool fits = made.flow2d.levels == options.flow2d.levels &&
+                              made.epipolar.levels == options.epipolar.levels &&
+                              made.epipolar.longestParallax == options.epipolar.longestParallax &&
+                              made.depth.search == options.depth.search;
+            if (!fits) continue;
+            pipeline->setQuality({.mode = options.mode,
+                                  .alongLines = true,
+                                  .flow2d = options.flow2d,
+                                  .epipolar = options.epipolar,
+                                  .depthEvery = 1});
+            return *pipeline;
+        }
+        made_.emplace_back(options, std::make_unique<Pipeline>(rig_, options));
+        return *made_.back().second;
+    }
+
+private:
+    StereoRig rig_;
+    std::vector<std::pair<PipelineOptions, std::unique_ptr<Pipeline>>> made_;
+};
+
+}  // namespace mfar::bench

@@ -1,0 +1,46 @@
+#include "tests/measure/bench/skip_command.h"
+
+#include "hal/gl_context.h"
+#include "tests/measure/eval/report.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <map>
+
+namespace mfar::bench {
+
+SkipCommand::SkipCommand(CLI::App& app)
+    : command_(app.add_subcommand(
+          "skip", "what each kind of work that is left out saves and which error it adds: every "
+                  "case with all of them and with each switched off, frame by frame in turn")) {
+    command_->add_option("--cases", request_.cases, "of these alone")
+        ->delimiter(',')
+        ->check(CLI::IsMember(skipCaseNames()));
+    command_->add_option("--skips", request_.skips, "these alone")
+        ->delimiter(',')
+        ->check(CLI::IsMember(skipNames()));
+    command_->add_option("--frames", request_.frames, "frames that count, of each case")
+        ->check(CLI::Range(1, 100000))
+        ->capture_default_str();
+    const std::map<std::string, Clock> clocks{{"wall", Clock::Wall},
+                                              {"processor", Clock::Processor}};
+    command_
+        ->add_option("--clock", request_.clock,
+                     "wall, or processor: its time over the number of cores, for a machine "
+                     "that others use as well")
+        ->transform(CLI::CheckedTransformer(clocks));
+    command_->add_option("--csv", csv_, "file for all results");
+}
+
+void SkipCommand::run() const {
+    const auto context = createGlContext();
+    const SkipReport report = measureSkips(request_);
+    fmt::print("{}\n\n{}", context->description(), skipTable(report));
+    if (csv_.empty()) return;
+    std::ofstream out(csv_);
+    out << skipCsv(report);
+    if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", csv_.string()));
+}
+
+}  // namespace mfar::bench

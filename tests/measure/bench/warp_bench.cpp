@@ -1,0 +1,80 @@
+#include "tests/measure/bench/warp_bench.h"
+
+#include "pipeline/warp/warp.h"
+#include "tests/measure/eval/stopwatch.h"
+#include "tests/warp/cast_scene.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace mfar::bench {
+namespace {
+
+constexpr double kTurn = 2;  // [degrees]
+
+Summary timed(int runs, const std::function<void()>& call) {
+    std::vector<double> ms;
+    call();
+    for (int i = 0; i < runs; ++i)
+        ms.push_back(eval::wallMs(call));
+    return summarise(std::move(ms));
+}
+
+/// A scene, and its picture at no turn.
+class WarpCase {
+public:
+    WarpCase(const test::CastScene& scene, Size size)
+        : warp_(test::bentCamera(size), size, {.filling = HoleFilling::PushPull}) {
+        warp_.setScene(scene.scene());
+        picture_ = scene.cast({warp_.camera(), test::orbit(0)});
+        warp_.setReference(warpReference(picture_));
+    }
+
+    Summary frames(int runs, double degrees) {
+        const RigidTransform pose = test::orbit(degrees);
+        return timed(runs, [&] {
+            warp_.run(pose);
+            glFinish();
+        });
+    }
+    Summary references(int runs) {
+        return timed(runs, [&] {
+            warp_.setReference(warpReference(picture_));
+            glFinish();
+        });
+    }
+
+private:
+    Warp warp_;
+    RenderedPicture picture_;
+};
+
+/// A turn of the camera about its axis: neighbours stay neighbours, as those of a warp do.
+Summary timeRemap(Size size, int runs) {
+    const cv::Mat4b from(size.height, size.width, cv::Vec4b(90, 120, 60, 255));
+    cv::Mat2f map(from.size());
+    for (int y = 0; y < map.rows; ++y)
+        for (int x = 0; x < map.cols; ++x)
+            map(y, x) = {static_cast<float>(x) + 0.03F * static_cast<float>(y),
+                         static_cast<float>(y) - 0.03F * static_cast<float>(x)};
+    cv::Mat to;
+    return timed(runs, [&] { cv::remap(from, to, map, cv::noArray(), cv::INTER_LINEAR); });
+}
+
+}  // namespace
+
+WarpTimes measureWarp(Size size, int runs) {
+    WarpTimes out;
+    WarpCase objects(test::twoBalls(), size);
+    out.objects = objects.frames(runs, kTurn);
+    out.still = objects.frames(runs, 0);
+    out.reference = objects.references(runs);
+    out.whole = WarpCase({{{{0, 0, 0.1}, 0.5}}, false, 1}, size).frames(runs, kTurn);
+    out.remap = timeRemap(size, runs);
+    return out;
+}
+
+}  // namespace mfar::bench

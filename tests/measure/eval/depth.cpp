@@ -1,0 +1,111 @@
+#include "tests/measure/eval/depth.h"
+
+#include "hal/virtual/image_files.h"
+#include "tests/measure/eval/depth_methods.h"
+#include "tests/measure/eval/labels.h"
+#include "tests/measure/eval/metrics/depth_error.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace mfar::eval {
+namespace {
+
+constexpr double kEdgeReach = 4;  // [px]
+
+/// What a sample's depths are measured against.
+struct DepthTruth {
+    cv::Mat visible;  ///< CV_32F [1/m], NaN where unknown or hidden in the still
+    cv::Mat all, edges, inner;
+    double disparity;  ///< of a point at 1 m [px]
+};
+
+DepthTruth loadDepthTruth(const FlowSet& set, const FlowSample& sample) {
+    const cv::Mat flow = loadTruth(set, sample);  // checks the size, knows what is hidden
+    FloatImage image = loadPfm(sample.truth);
+    const cv::Mat rho(flow.size(), CV_32F, image.values.data());
+    DepthTruth out;
+    out.visible = rho.clone();
+    for (int y = 0; y < flow.rows; ++y)
+        for (int x = 0; x < flow.cols; ++x)
+            if (std::isnan(flow.at<cv::Vec2f>(y, x)[0]))
+                out.visible.at<float>(y, x) = std::numeric_limits<float>::quiet_NaN();
+    out.all = cv::Mat(flow.size(), CV_8U, cv::Scalar(255));
+    out.edges = nearDepthEdge(rho, kEdgeReach);
+    out.inner = ~out.edges;
+    const RigidTransform T_still_frame =
+        stillFromFrame(set.rig, *sample.poses.frame, *sample.poses.still);
+    out.disparity = set.rig.video.fx * T_still_frame.translation.norm();
+    return out;
+}
+
+void addRow(Report& report, const std::string& label, const FlowSample& sample,
+            const std::string& method, const DepthMethod::Result& result, const DepthTruth& truth) {
+    const auto within = [&](const cv::Mat& mask) {
+        return depthError(result.inverseDepth, truth.visible, truth.disparity, mask);
+    };
+    const DepthError all = within(truth.all), edge = within(truth.edges),
+                     inner = within(truth.inner);
+    if (all.pixels == 0)
+        throw EvalError(fmt::format("{}: no depth is known", sample.truth.string()));
+    const auto measured = [](double value) {
+        return std::isnan(value) ? std::nullopt : std::optional(value);
+    };
+    Sparsification sparse{{}, {}, NAN, NAN};
+    if (!result.variance.empty())
+        sparse = depthSparsification(result.inverseDepth, result.variance, truth.visible,
+                                     truth.disparity);
+    report.add(label, sample.frame, method,
+               {all.completeness > 0 ? std::optional(result.ms) : std::nullopt,
+                measured(all.absrel), all.bad1, all.completeness, measured(edge.absrel),
+                measured(edge.bad1), measured(inner.absrel), measured(inner.bad1), all.delta[0],
+                all.delta[1], all.delta[2], measured(sparse.ause), measured(sparse.ausePerRandom)});
+}
+
+void measure(const SampleRun& run, const std::vector<std::string>& names, DepthFactory& factory,
+             Report& report) {
+    std::vector<std::unique_ptr<DepthMethod>> methods;
+    for (const std::string& name : names)
+        methods.push_back(factory.create(name, run.set().rig));
+    run.each(
+        [&](const Shot& still) {
+            for (const auto& method : methods)
+                method->setStill(still);
+        },
+        [&](const FlowSample& sample, const Shot& frame) {
+            const DepthTruth truth = loadDepthTruth(run.set(), sample);
+            for (std::size_t i = 0; i < methods.size(); ++i)
+                addRow(report, run.label(), sample, names[i], methods[i]->run(frame), truth);
+        });
+}
+
+}  // namespace
+
+Report evaluateDepth(const SampleRequest& request) {
+    Report report({{"ms", 1},
+                   {"absrel", 4},
+                   {"bad1", 4},
+                   {"completeness", 4},
+                   {"edge_absrel", 4},
+                   {"edge_bad1", 4},
+                   {"inner_absrel", 4},
+                   {"inner_bad1", 4},
+                   {"delta1", 4},
+                   {"delta2", 4},
+                   {"delta3", 4},
+                   {"ause", 4},
+                   {"ause_rel", 3}});
+    DepthFactory factory;
+    const auto labels = labelsOf(request.folders);
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        measure(
+            SampleRun(request, request.folders[i], labels[i], depthSamplesOf(request.folders[i])),
+            request.methods, factory, report);
+    report.addMeans();
+    return report;
+}
+
+}  // namespace mfar::eval

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tests/measure/eval/report.h"
+#include "tests/measure/eval/sample_run.h"
+
+namespace mfar::eval {
+
+/// Measures every method of depthMethodNames() that is asked for on every sample of
+/// depthSamplesOf(). Throws EvalError and RecordingError.
+[[nodiscard]] Report evaluateDepth(const SampleRequest& request);
+
+}  // namespace mfar::eval

@@ -1,0 +1,113 @@
+#include "tests/measure/eval/depth_methods.h"
+
+#include "pipeline/pipeline.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/stopwatch.h"
+#include "tests/measure/triangulation/triangulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace mfar::eval {
+namespace {
+
+/// A dense flow, triangulated pixel by pixel. A flow method's still has the video's lens and
+/// orientation: both views are the video camera.
+class TriangulatedFlow final : public DepthMethod {
+public:
+    TriangulatedFlow(const StereoRig& rig, std::unique_ptr<FlowMethod> flow,
+                     TriangulationMethod method)
+        : rig_(rig), flow_(std::move(flow)), method_(method), stage_(rig.video, rig.video) {}
+
+    void setStill(const Shot& still) override {
+        flow_->setStill(still);
+        stillPose_ = still.pose;
+    }
+
+    Result run(const Shot& frame) override {
+        FlowMethod::Result found = flow_->run(frame);
+        Result out{cv::Mat(frame.picture.size(), CV_32F, cv::Scalar(0)), found.ms};
+        if (!frame.pose || !stillPose_) return out;
+        const RigidTransform turn{rig_.T_still_video.rotation.conjugate(), {0, 0, 0}};
+        const RigidTransform T_b_a = turn * stillFromFrame(rig_, *frame.pose, *stillPose_);
+        const std::span<const float> vectors(found.flow.ptr<float>(), 2 * found.flow.total());
+        out.ms += medianOfThree(
+            [&] { return wallMs([&] { stage_.run(vectors, T_b_a, {.method = method_}); }); });
+        const auto& points = stage_.run(vectors, T_b_a, {.method = method_});
+        for (std::size_t i = 0; i < points.size(); ++i)
+            out.inverseDepth.ptr<float>()[i] = points[i].inverseDepth;
+        return out;
+    }
+
+private:
+    StereoRig rig_;
+    std::unique_ptr<FlowMethod> flow_;
+    TriangulationMethod method_;
+    Triangulation stage_;
+    std::optional<Pose> stillPose_;
+};
+
+/// The product: measured along epipolar lines, filtered over the frames. Its time is that of all
+/// that depth needs.
+class FilteredDepth final : public DepthMethod {
+public:
+    explicit FilteredDepth(const StereoRig& rig)
+        : pipeline_(rig,
+                    {.output = rig.video.size, .skipUnchanged = false, .depthEverywhere = true}) {
+        pipeline_.setMeasure(true);
+    }
+
+    void setStill(const Shot& still) override {
+        const cv::Mat rgba = toRgba(still.picture);
+        pipeline_.setStill(viewOf(rgba), still.time, still.pose);
+    }
+
+    Result run(const Shot& frame) override {
+        const cv::Mat rgba = toRgba(frame.picture);
+        pipeline_.run(viewOf(rgba), frame.time, frame.pose);
+        const InverseDepthField& field = pipeline_.inverseDepth();
+        Result out{cv::Mat(frame.picture.size(), CV_32F, cv::Scalar(0)), 0};
+        for (std::size_t i = 0; i < field.rho.size(); ++i)
+            if (field.isKnown(i)) out.inverseDepth.ptr<float>()[i] = field.rho[i];
+        out.variance = cv::Mat(frame.picture.size(), CV_32F);
+        std::copy(field.variance.begin(), field.variance.end(), out.variance.begin<float>());
+        for (const StageTime& stage : pipeline_.stageTimes()) {
+            const std::string_view name = stage.stage;
+            if (name == "pyramid" || name == "epipolar" || name == "flow" || name == "depth")
+                out.ms += stage.ms;
+        }
+        return out;
+    }
+
+private:
+    Pipeline pipeline_;
+};
+
+}  // namespace
+
+const std::vector<std::string>& depthMethodNames() {
+    static const std::vector<std::string> names{"depth", "flow", "midpoint", "sgbm", "stereobm"};
+    return names;
+}
+
+std::unique_ptr<DepthMethod> DepthFactory::create(const std::string& name, const StereoRig& rig) {
+    if (name == "depth") {
+        flows_.context().makeCurrent();
+        return std::make_unique<FilteredDepth>(rig);
+    }
+    const bool peer = name == "sgbm" || name == "stereobm";
+    if (!peer && name != "flow" && name != "midpoint")
+        throw std::invalid_argument(fmt::format("unknown method '{}'", name));
+    flows_.context().makeCurrent();
+    return std::make_unique<TriangulatedFlow>(rig, flows_.create(peer ? name : "epipolar", rig),
+                                              name == "midpoint" ? TriangulationMethod::Midpoint
+                                                                 : TriangulationMethod::Flow);
+}
+
+}  // namespace mfar::eval

@@ -1,0 +1,118 @@
+#include "tests/measure/eval/figure7.h"
+
+#include "hal/virtual/bgr_picture.h"
+#include "tests/measure/eval/labels.h"
+#include "tests/measure/eval/metrics/luma.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/scene_run.h"
+#include "tests/measure/eval/superres_methods.h"
+#include "tests/measure/eval/superres_samples.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+namespace mfar::eval {
+namespace {
+
+constexpr int kStillEvery = 10;  // synthetic frames
+constexpr int kScoredFrame = 5;  // after the one in which a still is asked for
+
+/// All methods on the frames of one scene.
+class Figure7Run {
+public:
+    Figure7Run(const Figure7Request& request, std::string name, const StereoRig& rig,
+               SuperResFactory& factory)
+        : request_(request) {
+        scene_.name = std::move(name);
+        for (const Figure7Method& method : figure7Methods())
+            if (method.name != std::string("truth"))
+                methods_.push_back(factory.create(method.name, rig));
+        scene_.scores.resize(methods_.size() + 1);
+    }
+
+    void setStill(const Shot& still) {
+        if (stillTime_ == still.time) return;
+        for (const auto& method : methods_)
+            method->setStill(still);
+        stillTime_ = still.time;
+    }
+
+    void measure(const Shot& frame, const cv::Mat& truth) {
+        const std::string name = std::to_string(frame.time.ns);
+        fmt::print(stderr, "mfar-eval: {}, frame {}\n", scene_.name, name);
+        scene_.frames.push_back(name);
+        const cv::Mat wanted = luma(withoutBorder(truth));
+        for (std::size_t i = 0; i < scene_.scores.size(); ++i) {
+            const cv::Mat picture = i == 0 ? truth : methods_[i - 1]->run(frame).picture;
+            scene_.scores[i].push_back(
+                scoreOf(luma(withoutBorder(picture)), wanted, request_.metrics));
+            save(name, figure7Methods()[i].name, picture);
+        }
+    }
+
+    [[nodiscard]] const Figure7Scene& result() const { return scene_; }
+
+private:
+    void save(const std::string& frame, const char* method, const cv::Mat& picture) const {
+        if (request_.save.empty()) return;
+        std::error_code error;
+        std::filesystem::create_directories(request_.save, error);
+        savePicture(request_.save / fmt::format("{}_{}_{}.png", scene_.name, frame, method),
+                    picture);
+    }
+
+    const Figure7Request& request_;
+    Figure7Scene scene_;
+    std::vector<std::unique_ptr<SuperResMethod>> methods_;
+    std::optional<Timestamp> stillTime_;
+};
+
+Figure7Scene ofScene(const Figure7Request& request, synthetic::Scene scene,
+                     SuperResFactory& factory) {
+    SyntheticOptions options;
+    options.scene = scene;
+    SceneRun board(options, PoseSource::Recorded);
+    Figure7Run run(request, std::string(synthetic::name(scene)), board.rig(), factory);
+    for (int i = 0; i < kStillEvery * (request.frames - 1) + kScoredFrame + 1; ++i) {
+        const SceneRun::Shots shots = board.next();
+        if (i % kStillEvery == 0) board.fire();
+        if (shots.still)
+            run.setStill({bgrPicture(shots.still->view()), shots.still->time(), shots.stillPose});
+        if (i % kStillEvery != kScoredFrame) continue;
+        const StoredImage truth = board.board().highRes(shots.frame.time());
+        run.measure({bgrPicture(shots.frame.view()), shots.frame.time(), shots.pose},
+                    bgrPicture(truth.view()));
+    }
+    return run.result();
+}
+
+Figure7Scene ofRecording(const Figure7Request& request, const std::filesystem::path& folder,
+                         const std::string& name, SuperResFactory& factory) {
+    const Recording recording = loadRecording(folder);
+    Figure7Run run(request, name, recording.rig, factory);
+    for (const SuperResSample& sample : superResSamplesOf(recording, request.frames)) {
+        const PosePair poses = posesOf(recording, sample.video.time, sample.still.time);
+        run.setStill({loadPicture(sample.still.file), sample.still.time, poses.still});
+        run.measure({loadPicture(sample.video.file), sample.video.time, poses.frame},
+                    loadHighRes(sample, recording.rig));
+    }
+    return run.result();
+}
+
+}  // namespace
+
+std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request) {
+    SuperResFactory factory(2);  // the paper's alpha [video px]
+    std::vector<Figure7Scene> out;
+    for (const synthetic::Scene scene : request.scenes)
+        out.push_back(ofScene(request, scene, factory));
+    const auto labels = labelsOf(request.recordings);
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        out.push_back(ofRecording(request, request.recordings[i], labels[i], factory));
+    return out;
+}
+
+}  // namespace mfar::eval

@@ -1,0 +1,54 @@
+#include "tests/measure/eval/figure7_command.h"
+
+#include "tests/measure/eval/name_options.h"
+#include "tests/measure/eval/picture_metrics_option.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace mfar::eval {
+namespace {
+
+constexpr const char* kFigure7Help =
+    "The paper's Figure 7 again: ground truth, the product (detail), the paper's blending on the\n"
+    "product's flow (blend), the paper's method on OpenCV (paper), bicubic and bilinear\n"
+    "up-scaling, on luma (Rec. 601) without 32 px of border. Synthetic scenes are hand-held with\n"
+    "exact poses; a still every ten frames, the fifth after it is measured. Recordings as for\n"
+    "superres. A frame of 2304x1728 takes about 80 s of CPU time.\n";
+
+}  // namespace
+
+CLI::App* addFigure7Command(CLI::App& app, Figure7Request& request, std::string& csv) {
+    CLI::App* sub = app.add_subcommand("figure7", "quality and sharpness as in the paper's figure");
+    sub->footer(std::string(kFigure7Help) + kPictureMetricsHelp);
+    sub->add_option("recording", request.recordings, "folders with truth/highres");
+    addNames(*sub, "--scenes", request.scenes, "of mfar-sim's (default: office,shelf,outdoor)",
+             synthetic::sceneNamed);
+    sub->add_flag_callback(
+           "--recordings-only", [&request] { request.scenes.clear(); }, "no synthetic scenes")
+        ->excludes("--scenes");
+    sub->add_option("--frames", request.frames, "of each scene, at most")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
+    addMetricParameters(*sub, request.metrics);
+    sub->add_option("--svg", request.svg, "file for the figure");
+    sub->add_option("--save", request.save, "folder for the pictures");
+    sub->add_option("--csv", csv, "file for the table");
+    return sub;
+}
+
+Report runFigure7(const Figure7Request& request) {
+    const auto scenes = evaluateFigure7(request);
+    if (scenes.empty()) throw EvalError("figure7 needs a scene or a recording");
+    if (!request.svg.empty()) {
+        std::ofstream out(request.svg);
+        out << figure7Svg(scenes, request.metrics);
+        if (!out.flush())
+            throw EvalError(fmt::format("{}: cannot be written", request.svg.string()));
+    }
+    fmt::print("{}", figure7Summary(scenes));
+    return figure7Report(scenes, request.metrics);
+}
+
+}  // namespace mfar::eval

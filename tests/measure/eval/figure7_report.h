@@ -1,0 +1,43 @@
+#pragma once
+
+#include "tests/measure/eval/picture_metrics.h"
+#include "tests/measure/eval/report.h"
+
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+/// The methods in the order of the figure; the truth is the first, the product the second.
+struct Figure7Method {
+    const char* name;   ///< of superResMethodNames(), or "truth"
+    const char* title;  ///< in the legend
+};
+[[nodiscard]] const std::vector<Figure7Method>& figure7Methods();
+
+/// What one scene came to.
+struct Figure7Scene {
+    std::string name;
+    std::vector<std::string> frames;
+    std::vector<std::vector<PictureScores>> scores;  ///< of each method, of each frame
+
+    /// Mean over the frames. `value`: of a frame's scores.
+    template <class F>
+    [[nodiscard]] double mean(std::size_t method, F&& value) const {
+        double sum = 0;
+        for (const PictureScores& score : scores[method])
+            sum += value(score);
+        return sum / static_cast<double>(frames.size());
+    }
+};
+
+/// Every frame and method, then the means.
+[[nodiscard]] Report figure7Report(const std::vector<Figure7Scene>& scenes,
+                                   const PictureMetrics& metrics);
+/// A line for each scene: the product against the paper's method, bilinear and the truth.
+[[nodiscard]] std::string figure7Summary(const std::vector<Figure7Scene>& scenes);
+/// Means as bars, frames as dots, quantiles of the tiles beside LPC-SI.
+[[nodiscard]] std::string figure7Svg(const std::vector<Figure7Scene>& scenes,
+                                     const PictureMetrics& metrics);
+
+}  // namespace mfar::eval

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tests/measure/eval/report.h"
+#include "tests/measure/eval/sample_run.h"
+
+namespace mfar::eval {
+
+/// Measures every method of flowMethodNames() that is asked for on every sample of
+/// flowSamplesOf(); columns as in design.md, section 10. Throws EvalError and RecordingError.
+[[nodiscard]] Report evaluateFlow(const SampleRequest& request);
+
+}  // namespace mfar::eval

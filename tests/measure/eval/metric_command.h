@@ -1,0 +1,25 @@
+#pragma once
+
+#include "tests/measure/eval/picture_metrics.h"
+#include "tests/measure/eval/report.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace mfar::eval {
+
+struct MetricRequest {
+    std::filesystem::path test, reference;
+    PictureMetrics metrics{pictureMetricNames(), {}};
+    bool colour = false;  ///< HDR-VDP-2 of the colours, not of luma
+};
+
+/// `mfar-eval metric`: measures of one picture against another.
+CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& csv);
+
+/// One row. Throws ImageFileError and, for pictures of different size, EvalError.
+[[nodiscard]] Report evaluateMetric(const MetricRequest& request);
+
+}  // namespace mfar::eval

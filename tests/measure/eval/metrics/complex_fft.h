@@ -1,0 +1,22 @@
+#pragma once
+
+#include "tests/measure/eval/metrics/fftw_plan.h"
+
+#include <opencv2/core.hpp>
+
+namespace mfar::eval {
+
+/// Complex two-dimensional Fourier transform of pictures of one size, CV_64FC2, in place and not
+/// scaled. Made on one thread at a time; run() is thread-safe.
+class ComplexFft {
+public:
+    enum class Direction { Forward, Inverse };
+    ComplexFft(cv::Size size, Direction direction);
+    void run(cv::Mat& values) const;
+
+private:
+    cv::Size size_;
+    FftwPlan plan_;
+};
+
+}  // namespace mfar::eval

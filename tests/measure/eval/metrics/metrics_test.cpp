@@ -1,0 +1,128 @@
+#include "tests/measure/eval/metrics/flow_error.h"
+#include "tests/measure/eval/metrics/harm_rate.h"
+#include "tests/measure/eval/metrics/luma.h"
+#include "tests/measure/eval/metrics/psnr.h"
+#include "tests/measure/eval/metrics/ssim.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace mfar::eval {
+namespace {
+
+cv::Mat constant(double value, cv::Size size = {32, 24}) {
+    return {size, CV_64F, cv::Scalar(value)};
+}
+
+cv::Mat noise(cv::Size size = {64, 48}) {
+    cv::Mat out(size, CV_64F);
+    cv::RNG(7).fill(out, cv::RNG::UNIFORM, 0, 255);
+    return out;
+}
+
+TEST(Luma, WeighsThePrimariesByRec601) {
+    const cv::Mat blue(1, 1, CV_8UC3, cv::Scalar(255, 0, 0));
+    const cv::Mat green(1, 1, CV_8UC3, cv::Scalar(0, 255, 0));
+    const cv::Mat red(1, 1, CV_8UC3, cv::Scalar(0, 0, 255));
+    EXPECT_NEAR(luma(blue).at<double>(0), 29.07, 1e-9);
+    EXPECT_NEAR(luma(green).at<double>(0), 149.685, 1e-9);
+    EXPECT_NEAR(luma(red).at<double>(0), 76.245, 1e-9);
+}
+
+TEST(Luma, GreyPassesUnchanged) {
+    const cv::Mat grey(2, 2, CV_8UC1, cv::Scalar(77));
+    EXPECT_EQ(luma(grey).at<double>(1, 1), 77);
+    EXPECT_THROW((void)luma(cv::Mat(2, 2, CV_16UC1)), std::invalid_argument);
+}
+
+TEST(Psnr, FollowsFromTheMeanSquaredError) {
+    EXPECT_DOUBLE_EQ(meanSquaredError(constant(10), constant(15)), 25);
+    EXPECT_NEAR(psnr(constant(10), constant(15)), 10 * std::log10(65025.0 / 25), 1e-12);
+    EXPECT_NEAR(psnr(constant(0), constant(255)), 0, 1e-12);
+}
+
+TEST(Psnr, EqualPicturesAreInfinitelyGood) {
+    EXPECT_EQ(psnr(noise(), noise()), std::numeric_limits<double>::infinity());
+}
+
+TEST(Ssim, EqualPicturesScoreOne) {
+    EXPECT_NEAR(ssim(noise(), noise()), 1, 1e-12);
+}
+
+TEST(Ssim, ConstantPicturesLeaveTheLuminanceTerm) {
+    const double c1 = 6.5025, x = 100, y = 150;
+    EXPECT_NEAR(ssim(constant(x), constant(y)), (2 * x * y + c1) / (x * x + y * y + c1), 1e-9);
+}
+
+TEST(Ssim, InvertedStructureScoresNegative) {
+    const cv::Mat picture = noise();
+    EXPECT_LT(ssim(255 - picture, picture), -0.5);
+}
+
+TEST(HarmRate, CountsPixelsWorseThanBicubicByMoreThanTwo) {
+    const cv::Mat truth = constant(100, {10, 10}), bicubic = constant(104, {10, 10});
+    cv::Mat picture = truth.clone();
+    EXPECT_EQ(harmRate(picture, bicubic, truth), 0);
+    picture.at<double>(0, 0) = 106;  // two levels beyond the bicubic error: still allowed
+    picture.at<double>(0, 1) = 106.5;
+    picture.at<double>(0, 2) = 93;  // the error's sign plays no role
+    EXPECT_DOUBLE_EQ(harmRate(picture, bicubic, truth), 0.02);
+}
+
+TEST(FlowError, MeasuresDistanceAndShares) {
+    const cv::Mat truth(1, 4, CV_32FC2, cv::Scalar(1, 2));
+    cv::Mat flow = truth.clone();
+    flow.at<cv::Vec2f>(0, 1) += cv::Vec2f(0.3F, 0.4F);
+    flow.at<cv::Vec2f>(0, 2) += cv::Vec2f(1.5F, 0);
+    flow.at<cv::Vec2f>(0, 3) += cv::Vec2f(3, 4);
+    const FlowError error = flowError(flow, truth);
+    EXPECT_EQ(error.known, 4U);
+    EXPECT_NEAR(error.epe, (0 + 0.5 + 1.5 + 5) / 4, 1e-6);
+    EXPECT_DOUBLE_EQ(error.bad1, 0.5);
+    EXPECT_DOUBLE_EQ(error.bad2, 0.25);
+    EXPECT_DOUBLE_EQ(error.coverage, 1);
+}
+
+TEST(FlowError, AngleIsThatOfDirectionsInSpaceAndTime) {
+    const cv::Mat truth(1, 2, CV_32FC2, cv::Scalar(0, 0));
+    cv::Mat flow = truth.clone();
+    EXPECT_EQ(flowError(flow, truth).angular, 0);
+    flow.at<cv::Vec2f>(0, 1) = {0, -1};
+    EXPECT_NEAR(flowError(flow, truth).angular, 45 / 2.0, 1e-6);
+}
+
+TEST(FlowSparsification, LowConfidenceShouldMeanLargeErrors) {
+    const cv::Mat truth(1, 4, CV_32FC2, cv::Scalar(1, 2));
+    cv::Mat flow = truth.clone();
+    flow.at<cv::Vec2f>(0, 1) += cv::Vec2f(1, 0);
+    flow.at<cv::Vec2f>(0, 2) += cv::Vec2f(0, 3);
+    flow.at<cv::Vec2f>(0, 3) = {std::nanf(""), 0};  // no answer, no error
+    const cv::Mat right = (cv::Mat_<float>(1, 4) << 0.9F, 0.5F, 0.1F, 0);
+    EXPECT_NEAR(flowSparsification(flow, truth, right).ause, 0, 1e-9);
+    EXPECT_GT(flowSparsification(flow, truth, 1 - right).ausePerRandom, 1);
+}
+
+TEST(FlowError, UnknownTruthIsLeftOutAndMissingAnswersAreBad) {
+    cv::Mat truth(1, 4, CV_32FC2, cv::Scalar(0, 0)), flow = truth.clone();
+    truth.at<cv::Vec2f>(0, 0) = {1.6e9F, 1.6e9F};
+    truth.at<cv::Vec2f>(0, 1) = {std::nanf(""), 0};
+    flow.at<cv::Vec2f>(0, 2) = {std::nanf(""), 0};
+    const FlowError error = flowError(flow, truth);
+    EXPECT_EQ(error.known, 2U);
+    EXPECT_DOUBLE_EQ(error.epe, 0);
+    EXPECT_DOUBLE_EQ(error.bad1, 0.5);
+    EXPECT_DOUBLE_EQ(error.coverage, 0.5);
+}
+
+TEST(FlowError, NothingKnownGivesNoNumber) {
+    const cv::Mat truth(2, 2, CV_32FC2, cv::Scalar(2e9, 2e9));
+    const FlowError error = flowError(truth, truth);
+    EXPECT_EQ(error.known, 0U);
+    EXPECT_TRUE(std::isnan(error.epe));
+}
+
+}  // namespace
+}  // namespace mfar::eval

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "hal/virtual/synthetic_scene.h"
+#include "tests/measure/eval/pose_source.h"
+#include "tests/measure/eval/report.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+struct OcclusionRequest {
+    std::vector<synthetic::Scene> scenes{synthetic::Scene::Office, synthetic::Scene::Shelf};
+    std::vector<synthetic::Path> paths{synthetic::Path::Handheld, synthetic::Path::Rest};
+    std::filesystem::path objects;  ///< a configuration of mfard; empty: sceneObjects()
+    PoseSource poses = PoseSource::Recorded;
+    int frames = 24;   ///< scored, per run
+    double noise = 1;  ///< of both sensors, see SyntheticOptions
+};
+
+/// Every object alone in every scene, on every path: rows of `SCENE/PATH/OBJECT`, `method` is the
+/// source of poses. Columns: ms of the stages depth and composite, iou, boundary_px (see
+/// OcclusionScore), flicker of a camera at rest, as a share of the object's pixels at the output's
+/// resolution. Then means and medians. Throws EvalError, and Failure for a faulty configuration.
+[[nodiscard]] Report evaluateOcclusion(const OcclusionRequest& request);
+
+}  // namespace mfar::eval

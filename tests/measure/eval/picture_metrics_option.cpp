@@ -1,0 +1,61 @@
+#include "tests/measure/eval/picture_metrics_option.h"
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace mfar::eval {
+namespace {
+
+/// CLI::Range lets NaN pass.
+CLI::Validator within(double least, double most) {
+    return CLI::Validator(
+        [least, most](const std::string& text) {
+            double value = 0;
+            const bool number = CLI::detail::lexical_cast(text, value);
+            return number && value >= least && value <= most
+                       ? std::string()
+                       : fmt::format("{} is not in [{:g}, {:g}]", text, least, most);
+        },
+        fmt::format("FLOAT in [{:g} - {:g}]", least, most));
+}
+
+}  // namespace
+
+const char* const kPictureMetricsHelp =
+    "msssim: five scales. lpc_si: local phase coherence (Hassen et al. 2013), release 1.0; the\n"
+    "sharpest few pixels decide it, so lpc_si_tiles gives quantiles over 8x8 tiles beside it.\n"
+    "hdrvdp: hdrvdp_q is Q of HDR-VDP 2.2.1 and 2.2.2 (100: no difference, no lower bound),\n"
+    "hdrvdp_qmos Q_MOS of 2.2.0; luma V shown as black + (peak - black) (V/255)^gamma in a\n"
+    "surround of 1e-5 cd/m2. Compare either only at one ppd and size.";
+
+void addMetricParameters(CLI::App& sub, PictureMetrics& metrics) {
+    HdrVdpDisplay& display = metrics.display;
+    sub.add_option("--ppd", display.pixelsPerDegree, "pixels per degree of the visual field")
+        ->check(within(1, 1000))
+        ->capture_default_str();
+    sub.add_option("--peak", display.peak, "luminance of white [cd/m2]")
+        ->check(within(0.1, 10000))
+        ->capture_default_str();
+    sub.add_option("--black", display.black, "luminance of black [cd/m2]")
+        ->check(within(1e-4, 1000))
+        ->capture_default_str();
+    sub.add_option("--gamma", display.gamma, "of the display")
+        ->check(within(0.5, 4))
+        ->capture_default_str();
+    sub.add_option("--lpc-ratio", metrics.lpcRatio,
+                   "bandwidth ratio of LPC-SI's filters: 0.75 of release 1.0, 0.33 of a variant")
+        ->check(within(0.1, 0.95))
+        ->capture_default_str();
+}
+
+void addPictureMetrics(CLI::App& sub, PictureMetrics& metrics) {
+    sub.add_option("--metrics", metrics.names,
+                   fmt::format("of: {}", fmt::join(pictureMetricNames(), ", ")))
+        ->delimiter(',')
+        ->check(CLI::IsMember(pictureMetricNames()))
+        ->option_text(fmt::format("NAMES (default: {})", fmt::join(metrics.names, ",")));
+    addMetricParameters(sub, metrics);
+}
+
+}  // namespace mfar::eval

@@ -1,0 +1,340 @@
+#include "hal/virtual/image_files.h"
+#include "hal/virtual/recorder.h"
+#include "tests/measure/bench/workload.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/unit/run_program.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/// The programs as a user runs them, on tiny pictures: they must not rot. How good and how fast the
+/// product is, is not asserted here.
+namespace mfar::eval {
+namespace {
+
+using test::execute;
+using test::Outcome;
+using test::TempFolder;
+namespace fs = std::filesystem;
+
+std::vector<std::string> split(const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream in(line + ",");
+    for (std::string field; std::getline(in, field, ',');)
+        out.push_back(field);
+    return out;
+}
+
+std::vector<std::vector<std::string>> readCsv(const fs::path& file) {
+    std::vector<std::vector<std::string>> out;
+    std::istringstream in(test::readFile(file));
+    for (std::string line; std::getline(in, line);)
+        out.push_back(split(line));
+    return out;
+}
+
+/// Two video frames and a still of a synthetic scene, with the true high-resolution picture of
+/// both.
+void writeRecording(const fs::path& root, bool withTruth) {
+    const bench::Workload work = bench::syntheticWorkload({160, 120}, {576, 432}, 2);
+    Recorder recorder(root, work.rig, 30);
+    const cv::Mat still = toRgba(work.stills[0]);
+    ASSERT_TRUE(recorder.still(viewOf(still), {500}));
+    for (std::size_t i = 0; i < work.frames.size(); ++i) {
+        const Timestamp time{static_cast<std::int64_t>(1000 + i)};
+        const cv::Mat frame = toRgba(work.frames[i]);
+        ASSERT_TRUE(recorder.video(viewOf(frame), time));
+        if (!withTruth) continue;
+        cv::Mat truth;
+        cv::resize(frame, truth, {576, 432}, 0, 0, cv::INTER_LANCZOS4);
+        fs::create_directories(root / "truth" / "highres");
+        savePng(root / "truth" / "highres" / fmt::format("{}.png", time.ns), viewOf(truth));
+    }
+    recorder.finish();
+}
+
+/// A texture and the same moved by (3, -2) pixels, with the flow that says so.
+void writePair(const fs::path& folder) {
+    const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
+    const cv::Size size(160, 120);
+    fs::create_directories(folder);
+    savePicture(folder / "frame10.png", world(cv::Rect({40, 40}, size)).clone());
+    savePicture(folder / "frame11.png", world(cv::Rect({37, 42}, size)).clone());
+    FlowImage flow{{160, 120}, {}};
+    flow.vectors.assign(160 * 120, {3, -2});
+    saveFlo(folder / "flow10.flo", flow);
+}
+
+TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const Outcome outcome =
+        execute(folder, fmt::format("{0} superres {1}/tiny --degrade gain=0.9,noise=1 --csv "
+                                    "{1}/out.csv --save {1}/pictures",
+                                    MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    ASSERT_EQ(rows.size(), 1U + 2 * 8 + 8) << outcome.text;
+    EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate"));
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        ASSERT_EQ(rows[i].size(), rows[0].size());
+        EXPECT_EQ(rows[i][0], "tiny");
+        EXPECT_GT(std::stod(rows[i][3]), 0);
+        EXPECT_GT(std::stod(rows[i][4]), 10);
+        EXPECT_LE(std::stod(rows[i][5]), 1);
+        EXPECT_TRUE(rows[i][6].empty() && rows[i][7].empty());
+        EXPECT_LE(std::stod(rows[i][8]), 1);
+    }
+    EXPECT_EQ(rows[2][2], "detail2d");
+    EXPECT_EQ(rows[4][2], "bilinear");
+    EXPECT_EQ(rows[5][2], "bicubic");
+    EXPECT_EQ(std::stod(rows[5][8]), 0);
+    EXPECT_EQ(rows.back()[1], "mean");
+    EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1000_detail.png"));
+    EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1001_truth.png"));
+}
+
+TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const Outcome outcome =
+        execute(folder, fmt::format("{0} superres {1}/tiny --methods bicubic --frames 1 --metrics "
+                                    "psnr,msssim,lpc_si,lpc_si_tiles,hdrvdp --ppd 40 --csv "
+                                    "{1}/out.csv",
+                                    MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    EXPECT_EQ(rows.at(0), split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
+                                "msssim,lpc_si_p10,lpc_si_median,lpc_si_p90,lpc_ratio,hdrvdp_qmos,"
+                                "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma"));
+    ASSERT_EQ(rows.at(1).size(), rows[0].size());
+    EXPECT_TRUE(rows[1][5].empty());  // ssim was not asked for
+    EXPECT_GT(std::stod(rows[1][6]), 0);
+    EXPECT_LT(std::stod(rows[1][7]), 100);
+    EXPECT_EQ(std::stod(rows[1][15]), 40);
+}
+
+TEST(MfarEval, MetricComparesTwoPictures) {
+    const TempFolder folder;
+    const cv::Mat picture = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
+    cv::Mat blurred;
+    cv::GaussianBlur(picture, blurred, {0, 0}, 1);
+    savePicture(folder / "sharp.png", picture);
+    savePicture(folder / "soft.png", blurred);
+    const auto row = [&](const std::string& options) {
+        const Outcome outcome =
+            execute(folder, fmt::format("{0} metric {1}/soft.png {1}/sharp.png {2} --csv "
+                                        "{1}/out.csv",
+                                        MFAR_EVAL, folder.path().string(), options));
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        const auto rows = readCsv(folder / "out.csv");
+        EXPECT_EQ(rows.size(), 2U);
+        return rows.at(1);
+    };
+    const auto some = row("--metrics psnr,hdrvdp"), colour = row("--metrics psnr,hdrvdp --colour");
+    EXPECT_EQ(some[0], "sharp.png");
+    EXPECT_EQ(some[1], "soft.png");
+    EXPECT_EQ(some[3], colour[3]);
+    EXPECT_NE(some[6], colour[6]);
+    EXPECT_TRUE(some[4].empty() && some[5].empty());
+    EXPECT_TRUE(colour.back().empty());
+}
+
+TEST(MfarEval, Figure7OfARecordingIsToldAndDrawn) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const Outcome outcome =
+        execute(folder, fmt::format("{0} figure7 {1}/tiny --recordings-only --frames 1 --csv "
+                                    "{1}/out.csv --svg {1}/out.svg",
+                                    MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_NE(outcome.text.find("tiny: HDR-VDP-2 Q"), std::string::npos) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    ASSERT_EQ(rows.size(), 1U + 6 + 6);
+    EXPECT_EQ(rows[1][2], "truth");
+    EXPECT_EQ(std::stod(rows[1][4]), 100);
+    EXPECT_NE(test::readFile(folder / "out.svg").find(">tiny<"), std::string::npos);
+}
+
+TEST(MfarEval, FlowMeasuresAKnownShift) {
+    const TempFolder folder;
+    writePair(folder / "shift");
+    const Outcome outcome = execute(folder, fmt::format("{0} flow {1}/shift --csv {1}/out.csv",
+                                                        MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    ASSERT_EQ(rows.size(), 1U + 9 + 9) << outcome.text;
+    EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage,angular_deg,"
+                             "ause,ause_rel"));
+    EXPECT_LT(std::stod(rows[4].at(8)), 5);  // of a method without confidence
+    EXPECT_TRUE(rows[4].at(9).empty());
+    EXPECT_EQ(rows[5][2], "dis-medium-both");
+    EXPECT_GE(std::stod(rows[5].at(10)), 0);
+    EXPECT_EQ(rows[1][2], "epipolar");
+    EXPECT_EQ(rows[2][2], "flow2d");
+    EXPECT_EQ(rows[4][2], "dis-medium");
+    EXPECT_LT(std::stod(rows[4][4]), 0.5);
+    EXPECT_EQ(std::stod(rows[4][7]), 1);
+}
+
+/// A flat wall at 2 m, taken by both sensors at one time: 1/m and a baseline, no flow.
+void writeStereo(const fs::path& root) {
+    const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
+    const cv::Size size(160, 120);
+    StereoRig rig;
+    rig.video = {{160, 120}, 160, 160, 79.5, 59.5, {}};
+    rig.still = rig.video;
+    rig.T_still_video.translation = {-0.1, 0, 0};  // 8 px of parallax
+    Recorder recorder(root, rig, 30);
+    const cv::Mat left = toRgba(world(cv::Rect({40, 40}, size)).clone());
+    const cv::Mat right = toRgba(world(cv::Rect({48, 40}, size)).clone());
+    ASSERT_TRUE(recorder.video(viewOf(left), {1000}));
+    ASSERT_TRUE(recorder.still(viewOf(right), {1000}));
+    recorder.finish();
+    fs::create_directories(root / "truth/inverse_depth");
+    savePfm(root / "truth/inverse_depth/1000.pfm",
+            {{160, 120}, std::vector<float>(160 * 120, 0.5F)});
+}
+
+TEST(MfarEval, FlowOfAStereoPairKnowsItsPoseAndHowFarItIsOff) {
+    const TempFolder folder;
+    writeStereo(folder / "wall");
+    const auto bad1 = [&](const std::string& options) {
+        const Outcome outcome = execute(
+            folder, fmt::format("{0} flow {1}/wall --methods flow2d,dis-medium,sgbm {2} --csv "
+                                "{1}/out.csv",
+                                MFAR_EVAL, folder.path().string(), options));
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        const auto rows = readCsv(folder / "out.csv");
+        EXPECT_EQ(rows.size(), 1U + 3 + 3) << outcome.text;
+        std::vector<double> out;
+        for (std::size_t i = 1; i < rows.size() && i < 4; ++i) {
+            EXPECT_EQ(rows[i][1], "1000_1000");
+            out.push_back(std::stod(rows[i].at(5)));
+        }
+        out.resize(3, -1);
+        return out;
+    };
+    const auto clean = bad1(""), worse = bad1("--degrade gain=0.3,noise=25");
+    const auto off = bad1("--pose-noise-deg 3"), other = bad1("--pose-noise-deg 3 "
+                                                              "--pose-noise-seed 1");
+    for (const double share : clean)
+        EXPECT_LT(share, 0.05);
+    EXPECT_GT(worse[1], clean[1] + 0.05);
+    EXPECT_EQ(off[1], clean[1]);  // knows no pose
+    EXPECT_GT(off[2], 0.5);
+    EXPECT_GT(other[2], 0.5);
+    EXPECT_NE(off[2], other[2]);
+}
+
+TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
+    const TempFolder folder;
+    writeStereo(folder / "wall");
+    const Outcome outcome = execute(folder, fmt::format("{0} depth {1}/wall --csv {1}/out.csv",
+                                                        MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    ASSERT_EQ(rows.size(), 1U + 5 + 5) << outcome.text;
+    EXPECT_EQ(rows[0],
+              split("recording,frame,method,ms,absrel,bad1,completeness,edge_absrel,"
+                    "edge_bad1,inner_absrel,inner_bad1,delta1,delta2,delta3,ause,ause_rel"));
+    const char* names[] = {"depth", "flow", "midpoint", "sgbm", "stereobm"};
+    for (std::size_t i = 0; i < 5; ++i) {
+        EXPECT_EQ(rows[i + 1][2], names[i]);
+        EXPECT_GT(std::stod(rows[i + 1][3]), 0);
+        EXPECT_LT(std::stod(rows[i + 1][4]), 0.05) << names[i];
+        EXPECT_LT(std::stod(rows[i + 1][5]), 0.2) << names[i];
+        EXPECT_GT(std::stod(rows[i + 1][6]), 0.8) << names[i];
+        EXPECT_TRUE(rows[i + 1][7].empty());  // a wall has no edges
+        EXPECT_GT(std::stod(rows[i + 1][11]), 0.8);
+        EXPECT_GE(std::stod(rows[i + 1][13]), std::stod(rows[i + 1][11]));
+        EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // who tells a variance
+    }
+    const Outcome blind = execute(
+        folder, fmt::format("{0} depth {1}/wall --methods flow --poses none --csv {1}/out.csv",
+                            MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(blind.status, 0) << blind.text;
+    EXPECT_EQ(std::stod(readCsv(folder / "out.csv").at(1).at(6)), 0);  // no pose, no depth
+}
+
+// Without poses the epipolar method has to do what the one in two dimensions does.
+TEST(MfarEval, PosesCanBeKeptFromTheMethods) {
+    const TempFolder folder;
+    writeStereo(folder / "wall");
+    const auto epe = [&](const std::string& source) {
+        const Outcome outcome = execute(
+            folder, fmt::format("{0} flow {1}/wall --methods epipolar,flow2d --poses {2} --csv "
+                                "{1}/out.csv",
+                                MFAR_EVAL, folder.path().string(), source));
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        const auto rows = readCsv(folder / "out.csv");
+        return std::pair(rows.at(1).at(4), rows.at(2).at(4));
+    };
+    const auto recorded = epe("recorded"), none = epe("none");
+    EXPECT_NE(recorded.first, recorded.second);
+    EXPECT_EQ(none.first, none.second);
+    EXPECT_EQ(none.second, recorded.second);
+}
+
+TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
+    const TempFolder folder;
+    const std::string dir = folder.path().string();
+    writeRecording(folder / "tiny", false);
+    writeRecording(folder / "truth", true);
+    writePair(folder / "pair");
+    const std::pair<std::string, std::string> cases[] = {
+        {"superres " + dir + "/absent", "absent"},
+        {"superres " + dir + "/tiny", "no truth"},
+        {"superres " + dir + "/tiny --methods detail,wonder",
+         "unknown method 'wonder' (valid: detail, detail2d, blend, bilinear, "
+         "bicubic, paper)"},
+        {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
+        {"flow " + dir + "/absent", "no such folder"},
+        {"flow " + dir + "/tiny", "no truth"},
+        {"flow " + dir, "neither a recording"},
+        {"flow " + dir + "/tiny --degrade noise=-1", "noise=-1"},
+        {"flow " + dir + "/tiny --pose-noise-deg 181", "--pose-noise-deg"},
+        {"superres " + dir + "/tiny --pose-noise-deg nan", "--pose-noise-deg"},
+        {"superres " + dir + "/tiny --poses guessed", "--poses"},
+        {"superres " + dir + "/truth --poses tags", "tags.toml: no such file"},
+        {"flow " + dir + "/pair --poses tags", "no recording, so no tags"},
+        {"depth " + dir + "/absent", "no such folder"},
+        {"depth " + dir + "/tiny", "no truth"},
+        {"depth " + dir + "/pair", "pair"},
+        {"depth " + dir + "/tiny --methods depths", "unknown method 'depths'"},
+        {"metric " + dir + "/pair/frame10.png " + dir + "/absent.png", "absent.png"},
+        {"metric " + dir + "/pair/frame10.png " + dir + "/pair/frame11.png", "msssim needs"},
+        {"metric a.png b.png --metrics sharpness", "sharpness"},
+        {"figure7 --recordings-only", "needs a scene"},
+        {"figure7 --scenes mars", "mars"},
+        {"metric a.png b.png --ppd nan", "--ppd"},
+        {"warp " + dir, ""},
+    };
+    for (const auto& [arguments, message] : cases) {
+        const Outcome outcome = execute(folder, std::string(MFAR_EVAL) + ' ' + arguments);
+        EXPECT_EQ(outcome.status, 2) << arguments;
+        EXPECT_NE(outcome.text.find(message), std::string::npos) << outcome.text;
+    }
+}
+
+TEST(MfarEval, TruthOfAnotherSizeIsRefused) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    savePicture(folder / "tiny/truth/highres/1000.png", cv::Mat(400, 576, CV_8UC3, {1, 2, 3}));
+    const Outcome outcome = execute(folder, fmt::format("{} superres {}/tiny --methods bicubic",
+                                                        MFAR_EVAL, folder.path().string()));
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.text.find("1000.png: truth has 576x400 pixels, the output 576x432"),
+              std::string::npos)
+        << outcome.text;
+}
+
+}  // namespace
+}  // namespace mfar::eval

@@ -1,0 +1,108 @@
+#include "tests/measure/eval/superres.h"
+
+#include "hal/virtual/recording.h"
+#include "tests/measure/eval/labels.h"
+#include "tests/measure/eval/metrics/harm_rate.h"
+#include "tests/measure/eval/metrics/luma.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/superres_methods.h"
+#include "tests/measure/eval/superres_samples.h"
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+namespace mfar::eval {
+namespace {
+
+/// One recording with the methods set up for its rig.
+class SuperResRun {
+public:
+    SuperResRun(const SuperResRequest& request, const Recording& recording, std::string label,
+                SuperResFactory& factory)
+        : request_(request), recording_(recording), poses_(recording, request.poses),
+          label_(std::move(label)) {
+        for (const std::string& name : request.methods)
+            methods_.push_back(factory.create(name, recording.rig));
+    }
+
+    void measure(const SuperResSample& sample, Report& report) {
+        const Shot frame = loadFrame(sample);
+        const cv::Mat truthPicture = loadHighRes(sample, recording_.rig);
+        const cv::Mat truth = luma(withoutBorder(truthPicture));
+        cv::Mat bicubicPicture;
+        cv::resize(frame.picture, bicubicPicture, truthPicture.size(), 0, 0, cv::INTER_CUBIC);
+        const cv::Mat bicubic = luma(withoutBorder(bicubicPicture));
+        setStill(sample);
+        const std::string name = std::to_string(sample.video.time.ns);
+        save(name, "truth", truthPicture);
+        for (std::size_t i = 0; i < methods_.size(); ++i) {
+            const auto result = methods_[i]->run(frame);
+            CV_Assert(result.picture.size() == truthPicture.size());
+            const cv::Mat picture = luma(withoutBorder(result.picture));
+            const PictureScores scores = scoreOf(picture, truth, request_.metrics);
+            report.add(label_, name, request_.methods[i],
+                       followedBy({result.ms, scores.psnr, scores.ssim, scores.lpcSi,
+                                   scores.hdrVdpQ, harmRate(picture, bicubic, truth)},
+                                  furtherValues(scores, request_.metrics)));
+            save(name, request_.methods[i], result.picture);
+        }
+    }
+
+private:
+    [[nodiscard]] Shot loadFrame(const SuperResSample& sample) const {
+        const Timestamp time = sample.video.time;
+        Shot out{loadPicture(sample.video.file), time, poses_.of(time, sample.still.time).frame};
+        if (out.pose) out.pose = turned(*out.pose, request_.poseNoise, label_);
+        return out;
+    }
+
+    void setStill(const SuperResSample& sample) {
+        const Timestamp time = sample.still.time;
+        if (time == stillTime_) return;
+        const cv::Mat picture = degrade(loadPicture(sample.still.file), request_.degradation,
+                                        static_cast<std::uint64_t>(time.ns));
+        const Shot still{picture, time, poses_.of(sample.video.time, time).still};
+        for (const auto& method : methods_)
+            method->setStill(still);
+        stillTime_ = time;
+    }
+
+    void save(const std::string& frame, const std::string& name, const cv::Mat& picture) const {
+        if (request_.save.empty()) return;
+        std::string folder = label_;
+        for (char& c : folder)
+            if (c == '/') c = '_';
+        const auto dir = request_.save / folder;
+        std::error_code error;
+        std::filesystem::create_directories(dir, error);
+        savePicture(dir / fmt::format("{}_{}.png", frame, name), picture);
+    }
+
+    const SuperResRequest& request_;
+    const Recording& recording_;
+    KnownPoses poses_;
+    std::string label_;
+    std::vector<std::unique_ptr<SuperResMethod>> methods_;
+    std::optional<Timestamp> stillTime_;
+};
+
+}  // namespace
+
+Report evaluateSuperRes(const SuperResRequest& request) {
+    Report report(followedBy<Column>(
+        {{"ms", 1}, {"psnr_db", 2}, {"ssim", 4}, {"lpc_si", 4}, {"hdrvdp_q", 2}, {"harm_rate", 4}},
+        furtherColumns(request.metrics)));
+    const auto labels = labelsOf(request.recordings);
+    SuperResFactory factory(request.alpha);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        const Recording recording = loadRecording(request.recordings[i]);
+        const auto samples = superResSamplesOf(recording, request.frames);
+        SuperResRun run(request, recording, labels[i], factory);
+        for (const SuperResSample& sample : samples)
+            run.measure(sample, report);
+    }
+    report.addMeans();
+    return report;
+}
+
+}  // namespace mfar::eval

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "tests/measure/eval/degrade.h"
+#include "tests/measure/eval/picture_metrics.h"
+#include "tests/measure/eval/pose_source.h"
+#include "tests/measure/eval/report.h"
+#include "tests/measure/eval/shot.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+struct SuperResRequest {
+    std::vector<std::filesystem::path> recordings;
+    std::vector<std::string> methods;  ///< of superResMethodNames()
+    Degradation degradation;           ///< done to every still
+    PoseSource poses = PoseSource::Recorded;
+    PoseNoise poseNoise;         ///< of every frame
+    double alpha = 2;            ///< of the paper's confidence [video px]
+    int frames = 0;              ///< per recording, 0 = all that have truth
+    std::filesystem::path save;  ///< folder for the pictures, empty = none
+    PictureMetrics metrics{{"psnr", "ssim"}, {}};
+};
+
+/// Measures every method on every frame with truth/highres; columns as in design.md, section 10.
+/// One line per frame left out goes to stderr. Throws EvalError and RecordingError.
+[[nodiscard]] Report evaluateSuperRes(const SuperResRequest& request);
+
+}  // namespace mfar::eval

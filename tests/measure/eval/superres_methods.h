@@ -1,0 +1,41 @@
+#pragma once
+
+#include "hal/gl_context.h"
+#include "tests/measure/eval/shot.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+/// One way to bring a video frame to the still's resolution. Pictures are CV_8UC3, B G R.
+class SuperResMethod {
+public:
+    virtual ~SuperResMethod() = default;
+
+    virtual void setStill(const Shot& still) = 0;
+    struct Result {
+        cv::Mat picture;
+        double ms = 0;  ///< wall time of a second run on the same frame, work finished
+    };
+    [[nodiscard]] virtual Result run(const Shot& frame) = 0;
+};
+
+/// What --methods accepts for superres.
+[[nodiscard]] const std::vector<std::string>& superResMethodNames();
+
+/// The methods of this product need a GL context: it is created on first need and stays current.
+/// Throws std::invalid_argument for an unknown name.
+class SuperResFactory {
+public:
+    explicit SuperResFactory(double alpha) : alpha_(alpha) {}
+    [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
+                                                         const StereoRig& rig);
+
+private:
+    double alpha_;  ///< of the paper's confidence [video px]
+    std::unique_ptr<GlContext> context_;
+};
+
+}  // namespace mfar::eval

@@ -1,0 +1,56 @@
+#include "tests/measure/eval/superres_samples.h"
+
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/report.h"
+#include "tests/measure/eval/rig_resample.h"
+#include "tests/measure/eval/still_choice.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace mfar::eval {
+
+std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit) {
+    std::vector<SuperResSample> out;
+    bool anyTruth = false;
+    for (const RecordedImage& video : recording.video) {
+        if (limit > 0 && static_cast<int>(out.size()) == limit) break;
+        const auto truth = recording.truthHighRes(video.time);
+        if (!truth) continue;
+        anyTruth = true;
+        const auto still = referenceStill(recording, video.time);
+        if (still)
+            out.push_back({video, recording.stills[*still], *truth});
+        else
+            fmt::print(stderr, "mfar-eval: {}: no other still for frame {}, left out\n",
+                       recording.root.string(), video.time.ns);
+    }
+    if (!anyTruth)
+        throw EvalError(fmt::format("{}: no truth: truth/highres has no picture of a video frame",
+                                    recording.root.string()));
+    if (out.empty())
+        throw EvalError(fmt::format("{}: no frame has a still that may be its reference",
+                                    recording.root.string()));
+    return out;
+}
+
+cv::Mat withoutBorder(const cv::Mat& picture) {
+    const int b = kSuperResBorder;
+    return picture(cv::Rect(b, b, picture.cols - 2 * b, picture.rows - 2 * b));
+}
+
+cv::Mat loadHighRes(const SuperResSample& sample, const StereoRig& rig) {
+    cv::Mat truth = loadPicture(sample.truth);
+    const Size wanted = outputSize(rig);
+    if (truth.cols != wanted.width || truth.rows != wanted.height)
+        throw EvalError(fmt::format("{}: truth has {}x{} pixels, the output {}x{}",
+                                    sample.truth.string(), truth.cols, truth.rows, wanted.width,
+                                    wanted.height));
+    if (truth.cols < 2 * kSuperResBorder + 11 || truth.rows < 2 * kSuperResBorder + 11)
+        throw EvalError(fmt::format("{}: too small to leave {} px borders out",
+                                    sample.truth.string(), kSuperResBorder));
+    return truth;
+}
+
+}  // namespace mfar::eval

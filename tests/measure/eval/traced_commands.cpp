@@ -1,0 +1,22 @@
+#include "tests/measure/eval/traced_commands.h"
+
+#include "tests/measure/eval/slicing_command.h"
+#include "tests/measure/eval/warp_command.h"
+
+#include <memory>
+
+namespace mfar::eval {
+
+std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv) {
+    const auto slicing = std::make_shared<SlicingRequest>();
+    const auto warp = std::make_shared<WarpRequest>();
+    const auto files = std::make_shared<WarpFiles>();
+    std::vector<EvalCommand> out{
+        {addSlicingCommand(app, *slicing), [slicing] { return evaluateSlicing(*slicing); }},
+        {addWarpCommand(app, *warp, *files), [=] { return runWarpCommand(*warp, *files); }}};
+    for (const EvalCommand& traced : out)
+        traced.command->add_option("--csv", csv, "file for the table");
+    return out;
+}
+
+}  // namespace mfar::eval

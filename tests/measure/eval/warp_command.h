@@ -1,0 +1,22 @@
+#pragma once
+
+#include "tests/measure/eval/warp.h"
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace mfar::eval {
+
+/// What the subcommand writes besides its table.
+struct WarpFiles {
+    std::filesystem::path svg;
+};
+
+/// The subcommand `warp` with its options.
+CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files);
+/// Evaluates, and writes the plot.
+[[nodiscard]] Report runWarpCommand(const WarpRequest& request, const WarpFiles& files);
+
+}  // namespace mfar::eval

@@ -1,0 +1,111 @@
+#include "tests/measure/eval/warp_scenes.h"
+
+#include "pipeline/models/environment_map.h"
+#include "pipeline/models/gltf_model.h"
+#include "pipeline/models/showpiece.h"
+#include "pipeline/render/picture_resolver.h"
+#include "tests/measure/eval/report.h"
+#include "tests/render/still_life.h"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numbers>
+#include <thread>
+
+namespace mfar::eval {
+namespace {
+
+constexpr double kElevation = 35, kFocal = 1.2;  // [degrees], [picture widths]
+constexpr double kFill = 0.6;                    // of the picture's height, by the objects' ball
+
+Scene sceneOf(Model model) {
+    Scene scene;
+    scene.objects.push_back({std::make_shared<const Model>(std::move(model)), {}, 1});
+    scene.catcher.positions = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}};
+    scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.lighting.environment = std::make_shared<const Environment>(studioEnvironment());
+    scene.lighting.sun = Sun{};
+    return scene;
+}
+
+Eigen::AlignedBox3d boxOf(const Scene& scene) {
+    Eigen::AlignedBox3d box;
+    for (const SceneObject& object : scene.objects)
+        for (const Mesh& mesh : object.model->meshes)
+            for (const Eigen::Vector3f& p : mesh.positions)
+                box.extend(object.T_world_object * (object.scale * p.cast<double>()));
+    return box;
+}
+
+std::vector<std::uint32_t> pixelsIn(const PixelRect& r, int width) {
+    std::vector<std::uint32_t> out;
+    for (int y = r.y0; y < r.y1; ++y)
+        for (int x = r.x0; x < r.x1; ++x)
+            out.push_back(static_cast<std::uint32_t>(y * width + x));
+    return out;
+}
+
+}  // namespace
+
+std::vector<std::string> warpSceneNames() {
+    return {"still-life", "showpiece"};
+}
+
+std::shared_ptr<const Scene> warpScene(const std::string& name) {
+    if (name == "still-life") return render_scenes::stillLife();
+    if (name == "showpiece") return std::make_shared<const Scene>(sceneOf(showpiece()));
+    if (!std::filesystem::exists(name))
+        throw EvalError(fmt::format("there is no scene or file '{}'", name));
+    try {
+        return std::make_shared<const Scene>(sceneOf(loadGltf(name)));
+    } catch (const ModelError& e) {
+        throw EvalError(e.what());
+    }
+}
+
+RenderView warpView(const Scene& scene, Size size, double degrees) {
+    const Eigen::AlignedBox3d box = boxOf(scene);
+    const double azimuth = degrees * std::numbers::pi / 180;
+    const double elevation = kElevation * std::numbers::pi / 180;
+    const Eigen::Vector3d back(std::cos(elevation) * std::sin(azimuth),
+                               -std::cos(elevation) * std::cos(azimuth), std::sin(elevation));
+    const double focal = kFocal * size.width;
+    const double distance = focal * box.diagonal().norm() / (kFill * size.height);
+    const Eigen::Vector3d z = -back, x = z.cross(Eigen::Vector3d::UnitZ()).normalized();
+    Eigen::Matrix3d R;
+    R << x, z.cross(x), z;
+    return {{size,
+             focal,
+             focal,
+             0.5 * (size.width - 1),
+             0.5 * (size.height - 1),
+             {-0.1, 0.02, 0, 0, 0}},
+            {Eigen::Quaterniond(R).normalized(), box.center() + distance * back}};
+}
+
+RenderedPicture tracePixels(const PathTracer& tracer, const RenderView& view,
+                            std::span<const std::uint32_t> pixels, int samples) {
+    Film film(view.camera.size);
+    const std::size_t threads = std::max(1U, std::thread::hardware_concurrency());
+    {
+        std::vector<std::jthread> workers;
+        for (std::size_t i = 0; i < threads; ++i) {
+            const std::size_t first = pixels.size() * i / threads;
+            const auto part = pixels.subspan(first, pixels.size() * (i + 1) / threads - first);
+            workers.emplace_back([&, part] { tracer.trace(view, part, samples, film); });
+        }
+    }
+    RenderedPicture out;
+    resolve(film, view, {}, out);
+    return out;
+}
+
+RenderedPicture tracePicture(const PathTracer& tracer, const RenderView& view, int samples) {
+    return tracePixels(tracer, view, pixelsIn(tracer.bounds(view), view.camera.size.width),
+                       samples);
+}
+
+}  // namespace mfar::eval

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "tests/oracle/luma.h"
+
+#include <Eigen/Dense>
+
+/// Comparison of 8x8 patches, of patch.glsl and of the kernels, in double precision.
+namespace mfar::twin {
+
+inline constexpr double kPatchNoise = 128;   // below this energy a patch counts as flat
+inline constexpr double kPatchDamping = 64;  // on the diagonal of the Hessian
+
+struct PatchMatch {
+    double cost, gain, covariance, varianceA, varianceB;
+    Eigen::Vector2d step;  ///< Gauss-Newton, at most a pixel long
+};
+
+using Patch = Eigen::Matrix<double, 64, 1>;
+
+/// The 8x8 patch around cell (cx, cy) of `a` against the pixels `vb` of the other picture.
+inline PatchMatch matchPatch(const Grey& a, int cx, int cy, Patch vb) {
+    const int x0 = 4 * cx - 2, y0 = 4 * cy - 2;
+    Patch va;
+    Eigen::Matrix<double, 64, 2> g;
+    for (int i = 0; i < 64; ++i) {
+        const int x = x0 + i % 8, y = y0 + i / 8;
+        va[i] = a.at(x, y);
+        g(i, 0) = 0.5 * (a.at(x + 1, y) - a.at(x - 1, y));
+        g(i, 1) = 0.5 * (a.at(x, y + 1) - a.at(x, y - 1));
+    }
+    va.array() -= va.mean();
+    vb.array() -= vb.mean();
+    g.rowwise() -= g.colwise().mean().eval();
+    PatchMatch m{};
+    m.varianceA = va.squaredNorm();
+    m.varianceB = vb.squaredNorm();
+    m.covariance = va.dot(vb);
+    m.gain = std::sqrt((m.varianceA + kPatchNoise) / (m.varianceB + kPatchNoise));
+    const double energy = m.varianceA + m.gain * m.gain * m.varianceB;
+    m.cost = std::max(energy - 2 * m.gain * m.covariance, 0.0) / (energy + kPatchNoise);
+    const Eigen::Matrix2d hessian = g.transpose() * g + kPatchDamping * Eigen::Matrix2d::Identity();
+    m.step = hessian.inverse() * (g.transpose() * (va - m.gain * vb));
+    if (m.step.norm() > 1) m.step.normalize();
+    return m;
+}
+
+/// The same against `b`, displaced by u.
+inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eigen::Vector2d u) {
+    const double bx = std::clamp(4 * cx - 2 + u.x(), -7.0, b.size.width - 2.0);
+    const double by = std::clamp(4 * cy - 2 + u.y(), -7.0, b.size.height - 2.0);
+    Patch vb;
+    for (int i = 0; i < 64; ++i) {
+        const int column = i % 8, row = i / 8;
+        vb[i] = b.bilinear(bx + column, by + row);
+    }
+    return matchPatch(a, cx, cy, vb);
+}
+
+/// The same with a flow that changes by dx, dy per pixel: `span` pixels of a row share the pixels
+/// between which they lie.
+inline PatchMatch compareBentPatch(const Grey& a, const Grey& b, int cx, int cy,
+                                   const Eigen::Vector2d& u, const Eigen::Vector2d& dx,
+                                   const Eigen::Vector2d& dy, int span = 4) {
+    const double middle = (span - 1) / 2.0;
+    Patch vb;
+    for (int i = 0; i < 64; ++i) {
+        const int first = i % 8 / span * span, column = i % span, row = i / 8;
+        const Eigen::Vector2d block = Eigen::Vector2d(4 * cx - 2 + first, 4 * cy - 2 + row) + u +
+                                      (first + middle - 3.5) * dx + (row - 3.5) * dy;
+        const double x = std::clamp(block.x(), -7.0, b.size.width + 2.0);
+        const double y = std::clamp(block.y(), -7.0, b.size.height + 2.0);
+        const int left = static_cast<int>(std::floor(x)) + column;
+        const int top = static_cast<int>(std::floor(y));
+        const Eigen::Vector2d f =
+            Eigen::Vector2d(x - std::floor(x), y - std::floor(y)) + (column - middle) * dx;
+        vb[i] = (1 - f.y()) * ((1 - f.x()) * b.at(left, top) + f.x() * b.at(left + 1, top)) +
+                f.y() * ((1 - f.x()) * b.at(left, top + 1) + f.x() * b.at(left + 1, top + 1));
+    }
+    return matchPatch(a, cx, cy, vb);
+}
+
+}  // namespace mfar::twin

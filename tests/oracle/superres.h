@@ -1,0 +1,114 @@
+#pragma once
+
+#include "tests/oracle/luma.h"
+
+#include <Eigen/Dense>
+
+#include <array>
+
+/// Scalar twins of the passes that weigh the still and sort the tiles.
+namespace mfar::twin {
+
+/// A field of cells with four channels; cells outside are held at the border.
+struct Cells {
+    Size size;
+    std::vector<float> values;
+
+    [[nodiscard]] Eigen::Vector4d at(int x, int y) const {
+        x = std::clamp(x, 0, size.width - 1);
+        y = std::clamp(y, 0, size.height - 1);
+        return Eigen::Vector4f(&values[4UL * (1UL * y * size.width + x)]).cast<double>();
+    }
+    [[nodiscard]] Eigen::Vector4d bilinear(double x, double y) const {
+        const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+        const double fx = x - x0, fy = y - y0;
+        return (1 - fy) * ((1 - fx) * at(x0, y0) + fx * at(x0 + 1, y0)) +
+               fy * ((1 - fx) * at(x0, y0 + 1) + fx * at(x0 + 1, y0 + 1));
+    }
+};
+
+/// Eq. 2 with lambda(x) = min(x, 1).
+inline double confidence(const Eigen::Vector2d& forward, const Eigen::Vector2d& backward,
+                         double alpha) {
+    return 1 - std::min((forward + backward).norm() / alpha, 1.0);
+}
+
+inline constexpr double kPatchPixels = 64;
+inline constexpr double kByteVariance = 0.083;  // of 8-bit steps
+inline constexpr double kLowContrast = 8;       // half-resolution variance that counts half
+inline constexpr double kLargestGain = 2;
+inline constexpr double kSmallestWeight = 0.004;
+inline constexpr double kTextured = 8;  // times the noise, and a grey level
+inline constexpr double kUnexplainedBelow = 0.25;
+
+inline constexpr double kLookUpLoss = 1.15;
+inline constexpr double kEven = 0.015, kBent = 0.07;  // change of flow [px per px]
+
+struct Weight {
+    double weight, confidence, signal, unexplained;
+};
+
+/// How much the flow changes around a cell [px per px].
+inline double bendAt(const Cells& flow, int x, int y) {
+    const Eigen::Vector4d dx = flow.at(x + 1, y) - flow.at(x - 1, y);
+    const Eigen::Vector4d dy = flow.at(x, y + 1) - flow.at(x, y - 1);
+    return std::sqrt(dx.head<2>().squaredNorm() + dy.head<2>().squaredNorm()) / 8;
+}
+
+inline double smoothstep(double low, double high, double v) {
+    const double t = std::clamp((v - low) / (high - low), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+/// statistics: covariance, variance of the video, of the still, confidence.
+inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& half, int x, int y,
+                    double sigma) {
+    Eigen::Vector4d s = Eigen::Vector4d::Zero(), h = Eigen::Vector4d::Zero();
+    for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i)
+            s += (2 - std::abs(i)) * (2 - std::abs(j)) / 16.0 * statistics.at(x + i, y + j);
+    for (int j = 0; j <= 1; ++j)
+        for (int i = 0; i <= 1; ++i)
+            h += 0.25 * half.at(x / 2 + (x % 2 == 1 ? i : -i), y / 2 + (y % 2 == 1 ? j : -j));
+    const double noise = kPatchPixels * (sigma * sigma + kByteVariance);
+    const double halfNoise = kPatchPixels * (0.25 * sigma * sigma + kByteVariance);
+    const double covariance = std::max(s[0], 0.0);
+    const double gain = covariance / (s[2] + noise);
+    const double halfGain = std::max(h[0], 0.0) / (h[2] + halfNoise);
+    const double share = h[2] / (h[2] + kLowContrast * halfNoise);
+    const double ncc2 = covariance * covariance / ((s[1] + noise) * (s[2] + noise));
+    const double conf = statistics.at(x, y)[3];
+    const double a = std::min(std::lerp(gain, std::max(gain, halfGain), share), kLargestGain);
+    const double trust = std::lerp(kLookUpLoss * smoothstep(0.2, 0.6, ncc2), ncc2 * ncc2,
+                                   smoothstep(kEven, kBent, bendAt(flow, x, y)));
+    const double w = a * trust * conf;
+    const bool textured = s[1] >= kTextured * (noise + kPatchPixels);
+    return {w > kSmallestWeight ? w : 0, conf,
+            std::clamp((s[1] - 2 * noise) / (s[1] + noise), 0.0, 1.0),
+            textured && ncc2 * conf <= kUnexplainedBelow ? 1.0 : 0.0};
+}
+
+struct ClassLimits {
+    double leastWeight = 0.02, plainFlow = 0.08, plainWeight = 0.25;
+};
+
+/// 1 upscaled, 2 trusted (affine flow, even weight), 3 blended; over the tile and a ring of cells.
+inline unsigned tileClass(const Cells& field, int tileX, int tileY, const ClassLimits& limits) {
+    const int x0 = 4 * tileX, y0 = 4 * tileY;
+    const Eigen::Vector4d origin = field.at(x0, y0);
+    const Eigen::Vector4d dx = (field.at(x0 + 3, y0) - origin) / 3;
+    const Eigen::Vector4d dy = (field.at(x0, y0 + 3) - origin) / 3;
+    double low = 1e9, high = -1e9, spread = 0;
+    for (int y = -1; y <= 4; ++y)
+        for (int x = -1; x <= 4; ++x) {
+            const Eigen::Vector4d c = field.at(x0 + x, y0 + y);
+            low = std::min(low, c[2]);
+            high = std::max(high, c[2]);
+            const Eigen::Vector4d off = c - origin - x * dx - y * dy;
+            spread = std::max(spread, off.head<2>().cwiseAbs().maxCoeff());
+        }
+    if (high <= limits.leastWeight) return 1;
+    return high - low < limits.plainWeight && spread < limits.plainFlow ? 2 : 3;
+}
+
+}  // namespace mfar::twin
