@@ -1,4 +1,4 @@
-#include "pipeline/warp/depth_splat.h"
+#include "pipeline/gles/depth_splat.h"
 #include "tests/shader/gl_test.h"
 #include "tests/warp/cast_scene.h"
 

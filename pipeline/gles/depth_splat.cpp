@@ -1,4 +1,4 @@
-#include "pipeline/warp/depth_splat.h"
+#include "pipeline/gles/depth_splat.h"
 
 #include "pipeline/warp/warp_params.h"
 

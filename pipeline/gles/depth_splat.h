@@ -2,7 +2,7 @@
 
 #include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/warp/reference_textures.h"
+#include "pipeline/gles/reference_textures.h"
 
 #include <cstdint>
 #include <optional>

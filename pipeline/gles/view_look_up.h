@@ -2,9 +2,10 @@
 
 #include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/warp/hole_filler.h"
-#include "pipeline/warp/patch_pictures.h"
-#include "pipeline/warp/reference_textures.h"
+#include "pipeline/gles/hole_filler.h"
+#include "pipeline/gles/patch_textures.h"
+#include "pipeline/gles/reference_textures.h"
+#include "pipeline/warp/warp_options.h"
 
 #include <Eigen/Core>
 
@@ -12,12 +13,6 @@
 #include <cstdint>
 
 namespace mfar {
-
-/// Where the depth of the look-up comes from.
-enum class WarpDepth {
-    Model,    ///< the models, rasterised at the current pose
-    Splatted  ///< the reference's depth, moved to the current pose (paper, eq. 5)
-};
 
 /// The second pass of the warp: every pixel of the layer that shows a surface looks its colour up
 /// in the reference or, where that does not show it, in the patches. Plain pixels are done by a
@@ -31,6 +26,7 @@ public:
         const ReferenceTextures& reference;
         const RigidTransform& T_world_reference;
         const PatchPictures& patches;
+        const PatchTextures& patchTextures;
         /// The catcher, if it is one plane: n . point = w in the world [m]; zero: it is in the
         /// silhouette, or there is none.
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();
