@@ -26,7 +26,8 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       output_(outputSizeFor(config.size, rig_.geometry(), display_->screenSize())),
       engines_(chooseEngines(config, gl_.context.get(), rig_.geometry(), output_)),
       pipeline_(rig_.geometry(), pipelineOptions(config)),
-      virtual_(config.virtualLayer, rig_.geometry(), pipeline_), policy_(config.trigger),
+      virtual_(config.virtualLayer, rig_.geometry(), pipeline_),
+      previews_(VirtualWorld::drawsPreviews(config.virtualLayer)), policy_(config.trigger),
       mode_(config.superres.mode), banner_(pipeline_.outputSize()),
       deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
       levels_(governedLevels(config.governor)), objects_(config.objects), light_(config.light),
@@ -125,9 +126,9 @@ void Session::apply(const Tunables& wanted) {
     policy_.configure(wanted.trigger);
 }
 
-// Layers of virtual objects are drawn with GL, whatever engine does the steps.
+// Previews of virtual objects are drawn with GL, whatever engine does the steps.
 bool Session::canShowObjects() {
-    if (gl_.context || objects_.empty()) return true;
+    if (gl_.context || objects_.empty() || !previews_) return true;
     if (gl_.without.empty()) {
         try {
             gl_.context = createGlContext();
@@ -136,7 +137,8 @@ bool Session::canShowObjects() {
             gl_.without = error.what();
         }
     }
-    stats_.warn("virtual objects are drawn with OpenGL ES 3.1 and are not shown: " + gl_.without);
+    stats_.warn("previews of virtual objects are drawn with OpenGL ES 3.1 and are not shown: " +
+                gl_.without);
     return false;
 }
 

@@ -105,6 +105,7 @@ private:
     EngineChoice engines_;
     Pipeline pipeline_;
     VirtualWorld virtual_;
+    bool previews_;  // of virtual objects
     StillPolicy policy_;
     SuperResMode mode_;
     std::optional<CapturedStill> newestStill_;  ///< not used yet

@@ -1,6 +1,7 @@
 #include "daemon/session_engines.h"
 
 #include "daemon/engine_memory.h"
+#include "daemon/virtual_world.h"
 #include "pipeline/engine_trial.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,9 @@
 namespace mfar {
 
 OpenedGl openGl(const Config& config) {
-    const bool drawsElsewhere = !config.objects.empty() || config.validate;
+    const bool drawsElsewhere =
+        (!config.objects.empty() && VirtualWorld::drawsPreviews(config.virtualLayer)) ||
+        config.validate;
     if (config.engine.isSimdAlone() && !drawsElsewhere) return {};
     std::unique_ptr<GlContext> context;
     try {

@@ -43,7 +43,11 @@ Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& ligh
 
 VirtualWorld::VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline)
     : options_(options), fullSize_(Pipeline::fullSize(rig)), pipeline_(pipeline),
-      traced_(options.rendering == VirtualRendering::PathTraced && TracedLayer::isAvailable()) {}
+      traced_(!drawsPreviews(options)) {}
+
+bool VirtualWorld::drawsPreviews(const VirtualOptions& options) {
+    return options.rendering == VirtualRendering::Preview || !TracedLayer::isAvailable();
+}
 
 TracedLayerOptions VirtualWorld::layerOptions() const {
     const Size output = pipeline_.outputSize();

@@ -18,6 +18,9 @@ public:
     /// Shows these, placed by the tag map, without those that are leftOut().
     void set(const std::vector<PlacedObject>& objects, const LightOptions& light,
              const TagMap& tags);
+    /// Whether `options` show previews, which are drawn with OpenGL ES, whatever engine does the
+    /// steps.
+    [[nodiscard]] static bool drawsPreviews(const VirtualOptions& options);
     /// Why models are not shown; empty when they are.
     [[nodiscard]] std::string_view shapesAlone() const;
 

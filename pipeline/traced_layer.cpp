@@ -9,9 +9,9 @@
 namespace mfar {
 
 struct TracedLayer::State {
-    State(const CameraModel& video, const TracedLayerOptions& options)
+    State(const CameraModel& video, Engine& warps, const TracedLayerOptions& options)
         : camera(video.scaledTo(options.size)), renderer(options.reference),
-          warp(camera, options.size, options.warp), fadeFrames(options.warp.fadeFrames) {}
+          warp(camera, options.size, warps, options.warp), fadeFrames(options.warp.fadeFrames) {}
 
     /// Pictures of another scene come with their models.
     void take(const RenderedPicture& picture) {
@@ -38,8 +38,8 @@ bool TracedLayer::isAvailable() {
     return true;
 }
 
-TracedLayer::TracedLayer(const CameraModel& video, const TracedLayerOptions& options)
-    : state_(std::make_unique<State>(video, options)) {}
+TracedLayer::TracedLayer(const CameraModel& video, Engine& warps, const TracedLayerOptions& options)
+    : state_(std::make_unique<State>(video, warps, options)) {}
 TracedLayer::~TracedLayer() = default;
 
 void TracedLayer::setScene(std::shared_ptr<const Scene> scene) {
@@ -65,7 +65,7 @@ bool TracedLayer::isStale() const {
     return state_->changing > 0;
 }
 
-const VirtualLayer& TracedLayer::render(const RigidTransform& T_world_video) {
+LayerPicture& TracedLayer::render(const RigidTransform& T_world_video) {
     if (state_->changing > 0) --state_->changing;
     return state_->warp.run(T_world_video);
 }

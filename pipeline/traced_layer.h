@@ -1,6 +1,6 @@
 #pragma once
 
-#include "pipeline/composite/virtual_layer.h"
+#include "pipeline/engine/engine.h"
 #include "pipeline/scene/scene.h"
 #include "pipeline/slices/reference_options.h"
 #include "pipeline/warp/warp_options.h"
@@ -31,16 +31,17 @@ struct TracedLayerCounters {
 };
 
 /// The virtual layer, path traced: reference pictures that take many frames are made in threads of
-/// low priority and warped to every frame's pose; what they do not show is traced for itself. Lives
-/// on the GL thread with its context current, and never waits for the others.
+/// low priority and warped to every frame's pose; what they do not show is traced for itself. Never
+/// waits for the others.
 class TracedLayer {
 public:
     /// Whether this build has a path tracer: one for 32-bit ARM has none.
     [[nodiscard]] static bool isAvailable();
 
-    /// `video`: any resolution of the camera. Throws std::invalid_argument for options out of
-    /// range, std::runtime_error where there is no path tracer, GlError from set-up.
-    TracedLayer(const CameraModel& video, const TracedLayerOptions& options);
+    /// `video`: any resolution of the camera. `warps` must outlive this. Throws
+    /// std::invalid_argument for options out of range, std::runtime_error where there is no path
+    /// tracer, GlError from set-up.
+    TracedLayer(const CameraModel& video, Engine& warps, const TracedLayerOptions& options);
     ~TracedLayer();
     TracedLayer(const TracedLayer&) = delete;
     TracedLayer& operator=(const TracedLayer&) = delete;
@@ -55,7 +56,7 @@ public:
     [[nodiscard]] bool isStale() const;
 
     /// Empty before the first picture. Valid until the next call of any member.
-    const VirtualLayer& render(const RigidTransform& T_world_video);
+    LayerPicture& render(const RigidTransform& T_world_video);
 
     [[nodiscard]] TracedLayerCounters counters() const;
     /// What was wrong with a scene that could not be used, once.

@@ -11,7 +11,7 @@ bool TracedLayer::isAvailable() {
     return false;
 }
 
-TracedLayer::TracedLayer(const CameraModel&, const TracedLayerOptions&) {
+TracedLayer::TracedLayer(const CameraModel&, Engine&, const TracedLayerOptions&) {
     throw std::runtime_error("this build has no path tracer: virtual objects can be shown as a "
                              "preview only");
 }
@@ -23,9 +23,9 @@ void TracedLayer::update(const RigidTransform&, Timestamp) {}
 bool TracedLayer::isStale() const {
     return false;
 }
-const VirtualLayer& TracedLayer::render(const RigidTransform&) {
-    static const VirtualLayer kNothing;
-    return kNothing;
+LayerPicture& TracedLayer::render(const RigidTransform&) {
+    static LayerPicture nothing;
+    return nothing;
 }
 TracedLayerCounters TracedLayer::counters() const {
     return {};

@@ -63,7 +63,7 @@ VirtualView::VirtualView(const CameraModel& video, Size output, Engine& occludes
 
 VirtualView::VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options)
     : video_(video.size), silhouette_(video, kMargin), catcherSilhouette_(video, kMargin),
-      traced_(std::make_unique<TracedLayer>(video, options)),
+      traced_(std::make_unique<TracedLayer>(video, occludes, options)),
       occlusion_(occludes.occlusion(options.size)), focal_(std::max(video.fx, video.fy)) {}
 
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
@@ -180,32 +180,29 @@ void VirtualView::draw(const InverseDepthField& real, const PixelRect& where,
     drawnPose_ = placedPose_;
     drawn_ = {};
     if (!shown_) return;
-    setLayer(traced_ ? traced_->render(*placedPose_) : preview_->render(objects_, *placedPose_));
-    if (layer_.bounds.empty()) return;
-    const PixelRect bounds = layer_.bounds;
-    const Size layer = layer_.colour.size();
-    if (!skips_.objectBounds) layer_.bounds = {0, 0, layer.width, layer.height};
-    occlusion_->draw(layer_, real, where, frame, picture);
-    layer_.bounds = bounds;
-    drawn_ = common(tilesOf(layer_.bounds, layer, video_),
+    layer_ = traced_ ? &traced_->render(*placedPose_) : &renderPreview();
+    if (layer_->bounds.empty()) return;
+    const PixelRect bounds = layer_->bounds;
+    const Size layer = layer_->colour.size();
+    if (!skips_.objectBounds) layer_->bounds = {0, 0, layer.width, layer.height};
+    occlusion_->draw(*layer_, real, where, frame, picture);
+    layer_->bounds = bounds;
+    drawn_ = common(tilesOf(layer_->bounds, layer, video_),
                     {0, 0, silhouette_.tileCount().width, silhouette_.tileCount().height});
 }
 
-void VirtualView::setLayer(const VirtualLayer& layer) {
-    colourCopy_.emplace(*layer.colour);
-    depthCopy_.emplace(*layer.depth);
-    layer_.colour.writtenOnDevice(*colourCopy_, layer.colour->size());
-    layer_.depth.writtenOnDevice(*depthCopy_, layer.depth->size());
-    layer_.bounds = layer.bounds;
+LayerPicture& VirtualView::renderPreview() {
+    const VirtualLayer& drawn = preview_->render(objects_, *placedPose_);
+    return previewLayer_.show(*drawn.colour, *drawn.depth, drawn.bounds);
 }
 
 std::vector<float> VirtualView::readShown(Size output) const {
     std::vector<float> out(static_cast<std::size_t>(output.width) * output.height);
     if (drawn_.empty()) return out;
     const std::vector<float> visible = occlusion_->visibility();
-    const Rows<const std::uint32_t> colour = layer_.colour.host();
-    const Size layer = layer_.colour.size();
-    const PixelRect& drawn = layer_.bounds;
+    const Rows<const std::uint32_t> colour = layer_->colour.host();
+    const Size layer = layer_->colour.size();
+    const PixelRect& drawn = layer_->bounds;
     for (int y = 0; y < output.height; ++y) {
         const int v = static_cast<int>(static_cast<std::int64_t>(y) * layer.height / output.height);
         if (v < drawn.y0 || v >= drawn.y1) continue;

@@ -6,7 +6,7 @@
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/engine/engine.h"
 #include "pipeline/engine/occlusion_options.h"
-#include "pipeline/gles/device_copies.h"
+#include "pipeline/gles/texture_layer.h"
 #include "pipeline/plan/work_plan.h"
 #include "pipeline/skip_options.h"
 #include "pipeline/traced_layer.h"
@@ -22,7 +22,7 @@ namespace mfar {
 class VirtualView {
 public:
     /// Objects are drawn by the preview renderer; `occludes` makes the step that lays them over the
-    /// picture and must outlive this.
+    /// picture, and where they are path traced the one that warps them. It must outlive this.
     VirtualView(const CameraModel& video, Size output, Engine& occludes);
     /// They are path traced. Throws as TracedLayer does.
     VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options);
@@ -72,7 +72,7 @@ private:
                                      const InverseDepthField& known) const;
     [[nodiscard]] bool isHidden(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const;
-    void setLayer(const VirtualLayer& layer);
+    LayerPicture& renderPreview();
 
     Size video_;
     SkipOptions skips_;
@@ -87,10 +87,9 @@ private:
     double focal_, nearest_ = 0;  // [px]; of the objects' inverse depths, as placed [1/m]
     std::optional<RigidTransform> placedPose_, drawnPose_;
     PixelRect region_, drawn_;  // video pixels, tiles
-    // As last drawn.
-    std::optional<TextureCopy> colourCopy_, depthCopy_;
-    LayerPicture layer_;
-    int relied_ = 0;  // frames in a row on what was known before
+    TextureLayer previewLayer_;
+    LayerPicture* layer_ = nullptr;  // as last drawn
+    int relied_ = 0;                 // frames in a row on what was known before
     bool changed_ = false, hidden_ = false, shown_ = false;
 };
 

@@ -10,7 +10,9 @@
 
 namespace mfar {
 
+class WarpStep;
 class Workers;
+struct WarpOptions;
 
 enum class EngineKind : std::uint8_t {
     Gles,  ///< OpenGL ES 3.1 shaders
@@ -61,6 +63,10 @@ public:
     [[nodiscard]] virtual std::unique_ptr<WeighStep> weigh() = 0;
     [[nodiscard]] virtual std::unique_ptr<DetailStep> detail() = 0;
     [[nodiscard]] virtual std::unique_ptr<OcclusionStep> occlusion(Size layer) = 0;
+    /// `layer`: the camera at the layer's resolution. What it draws lies where occlusion() reads
+    /// it. Throws std::invalid_argument for an option out of range.
+    [[nodiscard]] virtual std::unique_ptr<WarpStep> warp(const CameraModel& layer,
+                                                         const WarpOptions& options) = 0;
 
     /// Lets the work begin that has been asked for.
     virtual void flush() {}

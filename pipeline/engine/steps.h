@@ -150,6 +150,11 @@ public:
     [[nodiscard]] virtual std::vector<TileClass> classes() const = 0;
 };
 
+/// A shadow on the real scene is laid over that as if it were so much nearer [share of its z]: what
+/// depth cannot tell from the surface that it lies on does not hide it, and what lies on that is in
+/// the shadow as well.
+inline constexpr float kShadowLift = 0.02F;
+
 /// Virtual objects alone, as the video camera sees them; it may have fewer pixels than the output.
 struct LayerPicture {
     Field<std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage

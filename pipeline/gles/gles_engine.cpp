@@ -1,5 +1,6 @@
 #include "base/gl/gl.h"
 #include "pipeline/gles/gles_steps.h"
+#include "pipeline/warp/warp_step.h"
 
 namespace mfar {
 namespace {
@@ -23,6 +24,9 @@ public:
     }
     std::unique_ptr<OcclusionStep> occlusion(Size layer) override {
         return gles::makeOcclusionStep(setup_, layer, frame_);
+    }
+    std::unique_ptr<WarpStep> warp(const CameraModel& layer, const WarpOptions& options) override {
+        return gles::makeWarpStep(setup_, layer, options);
     }
 
     void flush() override { glFlush(); }

@@ -46,5 +46,7 @@ makeWeighStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& fra
 makeDetailStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<OcclusionStep> makeOcclusionStep(const StepSetup& setup, Size layer,
                                                                FrameOnGpu& frame);
+[[nodiscard]] std::unique_ptr<WarpStep>
+makeWarpStep(const StepSetup& setup, const CameraModel& layer, const WarpOptions& options);
 
 }  // namespace mfar::gles

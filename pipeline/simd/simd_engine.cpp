@@ -3,6 +3,7 @@
 #include "pipeline/simd/flow2d.h"
 #include "pipeline/simd/luma_pyramids.h"
 #include "pipeline/simd/occlusion_step.h"
+#include "pipeline/simd/simd_warp.h"
 #include "pipeline/simd/still_kernels.h"
 #include "pipeline/simd/still_preparation.h"
 #include "pipeline/simd/weigh_step.h"
@@ -263,6 +264,9 @@ public:
     std::unique_ptr<DetailStep> detail() override { return std::make_unique<SimdDetail>(setup_); }
     std::unique_ptr<OcclusionStep> occlusion(Size layer) override {
         return std::make_unique<SimdOcclusion>(setup_, layer);
+    }
+    std::unique_ptr<WarpStep> warp(const CameraModel& layer, const WarpOptions& options) override {
+        return simd::makeWarpStep(layer, options, setup_.workers, setup_.transfers);
     }
 
 private:

@@ -8,13 +8,9 @@ namespace mfar {
 
 PatchPictures::PatchPictures(Size layer, int fadeFrames)
     : layer_(layer), fadeFrames_(fadeFrames),
-      colours_(static_cast<std::size_t>(layer.width) * layer.height), surfaces_(colours_.size()),
-      colour_({layer.width, kPatches * layer.height}, gpu::TexelFormat::Rgba8),
-      surface_(colour_.size(), gpu::TexelFormat::Rgba32F) {
-    for (int i = 0; i < kPatches; ++i) {
+      colours_(static_cast<std::size_t>(layer.width) * layer.height), surfaces_(colours_.size()) {
+    for (int i = 0; i < kPatches; ++i)
         patches_[i].slot = i;
-        upload(i, 0, layer.height);
-    }
 }
 
 void PatchPictures::clear() {
@@ -28,7 +24,8 @@ void PatchPictures::age() {
         if (patch.share > 0) patch.share = std::min(1.0, patch.share + step);
 }
 
-void PatchPictures::add(const HoleAnswer& answer) {
+void PatchPictures::add(const HoleAnswer& answer,
+                        const std::function<void(const StoredRows&)>& store) {
     const auto& pixels = answer.pixels;
     std::rotate(patches_.begin(), patches_.end() - 1, patches_.end());
     Patch& patch = patches_.front();
@@ -49,7 +46,7 @@ void PatchPictures::add(const HoleAnswer& answer) {
             surfaces_, layer_, static_cast<int>(i % static_cast<unsigned>(layer_.width)),
             static_cast<int>(i / static_cast<unsigned>(layer_.width)));
     const PixelRect rows = around(bounds, patch.bounds);  // what was there before is cleared
-    upload(patch.slot, rows.y0, rows.y1);
+    store(rowsOf(patch.slot, rows.y0, rows.y1));
     for (const std::uint32_t i : pixels) {
         surfaces_[i] = {};
         colours_[i] = {};
@@ -58,13 +55,11 @@ void PatchPictures::add(const HoleAnswer& answer) {
              fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1};
 }
 
-void PatchPictures::upload(int slot, int firstRow, int lastRow) {
+PatchPictures::StoredRows PatchPictures::rowsOf(int slot, int firstRow, int lastRow) const {
     const std::size_t width = layer_.width;
     const std::size_t first = firstRow * width, count = (lastRow - firstRow) * width;
-    const int top = slot * layer_.height + firstRow;
-    const auto texels = std::span(surfaces_).subspan(first, count);
-    surface_.upload(std::span(&texels.front().z, 4 * count), top);
-    colour_.uploadRows(std::span(colours_).subspan(first, count), top);
+    return {slot, firstRow, lastRow, std::span(colours_).subspan(first, count),
+            std::span(surfaces_).subspan(first, count)};
 }
 
 }  // namespace mfar

@@ -11,12 +11,12 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-Eigen::Vector3f positionOf(const gpu::MeshVertex& v) {
+Eigen::Vector3f positionOf(const SurfaceVertex& v) {
     return {v.position[0], v.position[1], v.position[2]};
 }
 
-gpu::MeshVertex middle(const gpu::MeshVertex& a, const gpu::MeshVertex& b) {
-    gpu::MeshVertex m{};
+SurfaceVertex middle(const SurfaceVertex& a, const SurfaceVertex& b) {
+    SurfaceVertex m{};
     for (int i = 0; i < 3; ++i)
         m.position[i] = 0.5F * (a.position[i] + b.position[i]);
     for (int i = 0; i < 2; ++i)
@@ -65,7 +65,7 @@ bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
 }
 
 struct Cell {
-    gpu::MeshVertex sum{};
+    SurfaceVertex sum{};
     float count = 0;
     std::uint32_t vertex = 0;
 };
@@ -75,7 +75,7 @@ SurfaceMesh clustered(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, i
     std::unordered_map<std::uint64_t, Cell> grid;
     std::vector<std::uint64_t> keys;
     keys.reserve(mesh.vertices.size());
-    for (const gpu::MeshVertex& v : mesh.vertices) {
+    for (const SurfaceVertex& v : mesh.vertices) {
         const Eigen::Array3f at = (positionOf(v) - box.min()).array() / side;
         const auto index = at.max(0).min(static_cast<float>(cells)).cast<std::uint64_t>().eval();
         keys.push_back(index.x() << 40 | index.y() << 20 | index.z());
@@ -117,7 +117,7 @@ SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles) {
     const Eigen::AlignedBox3f box = cornersBox(mesh);
     if (!(box.sizes().maxCoeff() > 0)) return {};
     // Corners that no triangle uses may lie anywhere, or nowhere.
-    for (gpu::MeshVertex& v : mesh.vertices)
+    for (SurfaceVertex& v : mesh.vertices)
         if (!box.contains(positionOf(v))) std::copy_n(box.min().data(), 3, v.position);
     for (int cells = 256; cells > 1; cells = cells * 3 / 4) {
         SurfaceMesh out = clustered(mesh, box, cells);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "base/gl/pass.h"
-
 #include <Eigen/Core>
 
 #include <array>
@@ -12,9 +10,13 @@
 
 namespace mfar {
 
+struct SurfaceVertex {
+    float position[3], uv[2];
+};
+
 /// Triangles to be drawn through a lens, which acts on their corners alone.
 struct SurfaceMesh {
-    std::vector<gpu::MeshVertex> vertices;  ///< normals are zero
+    std::vector<SurfaceVertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

@@ -43,84 +43,60 @@ void thinOut(std::vector<std::uint32_t>& pixels, std::size_t most, unsigned widt
 
 }  // namespace
 
-Warp::Warp(const CameraModel& video, Size output, const WarpOptions& options)
-    : lens_(video.scaledTo(output)), options_(validated(options)), silhouette_(lens_.camera),
-      lookUp_(lens_), filler_(output),
-      patches_(output, options.filling == HoleFilling::Both ? options.fadeFrames : 0) {
-    if (rerenders() && options.sharpenShare > 0)
-        refiner_.emplace(output, options.sharpenShare, options.mostRequested,
-                         options.filling == HoleFilling::Both ? options.fadeFrames : 0);
-}
+Warp::Warp(const CameraModel& video, Size output, Engine& engine, const WarpOptions& options)
+    : lens_(video.scaledTo(output)), options_(validated(options)),
+      step_(engine.warp(lens_.camera, options_)) {}
 
 void Warp::setScene(const Scene& scene) {
     ++scene_;
-    silhouette_.setScene(scene);
-    patches_.clear();
+    step_->setScene(scene);
     asked_ = false;
     dropReference();
 }
 
 void Warp::setReference(WarpReference reference) {
-    textures_.upload(reference);
     dropReference();
     reference_ = std::move(reference);
+    step_->setReference(*reference_);
 }
 
 // The patches stay: they are of the scene, and of no reference.
 void Warp::dropReference() {
     reference_.reset();
     lastRequest_ = {};
-    filler_.drop();
+    step_->dropHoles();
     rested({});
 }
 
-const VirtualLayer& Warp::run(const RigidTransform& T_world_camera) {
-    layer_ = {&lookUp_.colour(), &lookUp_.depth(), {}};
+LayerPicture& Warp::run(const RigidTransform& T_world_camera) {
     PixelRect bounds;
     WarpMotion motion;
     if (reference_ && isFinite(T_world_camera)) {
         motion = motionOf(*reference_, lens_, T_world_camera);
-        bounds = around(silhouette_.bounds(T_world_camera), motion.bounds);
+        bounds = around(step_->bounds(T_world_camera), motion.bounds);
     }
     if (bounds.empty()) {
         ++counters_.empty;
         rested({});
-        return layer_;
+        return nothing_;
     }
     if (!reference_->tiles.empty() && motion.greatest < options_.leastMotion) {
         ++counters_.unmoved;
         rested({});
-        layer_ = {&textures_.picture(), &textures_.depth(), reference_->bounds};
-        return layer_;
+        return step_->reference();
     }
     ++counters_.warped;
     rested(T_world_camera);
-    warp(T_world_camera, bounds);
-    layer_.bounds = bounds;
-    return layer_;
-}
-
-void Warp::warp(const RigidTransform& T_world_camera, const PixelRect& bounds) {
-    if (!(around(drawn_, bounds) == bounds)) lookUp_.clear(drawn_);
-    drawn_ = bounds;
-    silhouette_.draw(T_world_camera, bounds);
-    const ViewLookUp::Input input{silhouette_.surface(), textures_, reference_->T_world_camera,
-                                  patches_, silhouette_.plane()};
-    filler_.begin(bounds, options_.filling == HoleFilling::PushPull ||
-                              options_.filling == HoleFilling::Both);
-    lookUp_.run(input, T_world_camera, bounds, filler_);
-    const bool wantList = !asked_ && !filler_.isPending();
-    filler_.fill(lookUp_.colour(), lookUp_.state(), wantList);
-    if (wantList) listPose_ = T_world_camera;
-    patches_.age();
-    if (refiner_) refiner_->show(lookUp_.colour());
+    const bool lists = !asked_ && !step_->holesPending();
+    if (lists) listPose_ = T_world_camera;
+    return step_->run({T_world_camera, bounds, lists});
 }
 
 void Warp::rested(const std::optional<RigidTransform>& T_world_camera) {
     if (T_world_camera && warpedTo_ && isUnmoved(*warpedTo_, *T_world_camera)) return;
     warpedTo_ = T_world_camera;
     restFrames_ = 0;
-    if (refiner_) refiner_->drop();
+    step_->dropEdges();
 }
 
 std::optional<HoleRequest> Warp::takeRequest() {
@@ -130,20 +106,19 @@ std::optional<HoleRequest> Warp::takeRequest() {
 }
 
 std::optional<HoleRequest> Warp::takeHoles() {
-    auto holes = filler_.poll();
+    auto holes = step_->takeHoles();
     if (!holes) return {};
     counters_.openHoles = static_cast<int>(holes->open.size());
     counters_.cracks = holes->cracks;
-    if (!rerenders()) return {};
+    if (!rerenders(options_.filling)) return {};
     dropRefused(holes->open);
     return request(std::move(holes->open), false, listPose_);
 }
 
 std::optional<HoleRequest> Warp::takeEdges() {
-    if (!refiner_ || !warpedTo_) return {};
-    if (restFrames_ <= kRestFrames && ++restFrames_ > kRestFrames)
-        refiner_->list(lookUp_.colour(), lookUp_.state(), drawn_);
-    auto edges = refiner_->poll();
+    if (!warpedTo_) return {};
+    if (restFrames_ <= kRestFrames && ++restFrames_ > kRestFrames) step_->listEdges();
+    auto edges = step_->takeEdges();
     return edges ? request(std::move(*edges), true, *warpedTo_) : std::nullopt;
 }
 
@@ -196,9 +171,9 @@ void Warp::answer(const HoleAnswer& answer) {
     if (pixels.empty()) return;
     counters_.answered += pixels.size();
     if (!answer.edges)
-        patches_.add(answer);
-    else if (refiner_ && warpedTo_ && isUnmoved(answer.view.T_world_camera, *warpedTo_))
-        refiner_->answer(answer);
+        step_->addPatch(answer);
+    else if (warpedTo_ && isUnmoved(answer.view.T_world_camera, *warpedTo_))
+        step_->answerEdges(answer);
 }
 
 }  // namespace mfar

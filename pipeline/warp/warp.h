@@ -1,17 +1,11 @@
 #pragma once
 
-#include "pipeline/composite/virtual_layer.h"
-#include "pipeline/slices/hole_request.h"
-#include "pipeline/warp/edge_refiner.h"
-#include "pipeline/warp/hole_filler.h"
-#include "pipeline/warp/model_silhouette.h"
-#include "pipeline/warp/patch_pictures.h"
-#include "pipeline/warp/reference_textures.h"
-#include "pipeline/warp/view_look_up.h"
+#include "pipeline/engine/engine.h"
 #include "pipeline/warp/warp_options.h"
-#include "pipeline/warp/warp_reference.h"
+#include "pipeline/warp/warp_step.h"
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,16 +25,18 @@ struct WarpCounters {
 
 /// Image-based rendering of the virtual layer: a finished picture as the camera would see it from
 /// where it is now, in two passes (paper, eq. 5; depth, then inverse look-up of colour). Everything
-/// is clipped to the silhouette of the models at the current pose. Lives on the GL thread with its
-/// context current. The picture depends on nothing but its inputs, on any number of threads.
+/// is clipped to the silhouette of the models at the current pose. An engine's step works on the
+/// pixels; this decides what is shown and what is rendered for itself.
 class Warp {
 public:
-    /// `video`: any resolution of the camera; the layer has size `output`. Throws
-    /// std::invalid_argument for an option out of range and GlError for a GL that does not draw
-    /// into R32F.
-    Warp(const CameraModel& video, Size output, const WarpOptions& options = {});
+    /// `video`: any resolution of the camera; the layer has size `output`. `engine` must outlive
+    /// this. Throws std::invalid_argument for an option out of range and GlError for a GL that does
+    /// not draw into R32F.
+    Warp(const CameraModel& video, Size output, Engine& engine, const WarpOptions& options = {});
+    Warp(const Warp&) = delete;
+    Warp& operator=(const Warp&) = delete;
 
-    /// Uploads the models. Drops the reference and all rendered holes, which were of another scene.
+    /// Takes the models. Drops the reference and all rendered holes, which were of another scene.
     void setScene(const Scene& scene);
     /// Shown from the next run on, in place of the one before and of the holes rendered for it.
     void setReference(WarpReference reference);
@@ -48,7 +44,7 @@ public:
 
     /// Nothing is shown without a scene, a reference, or at a pose that is not finite. Valid until
     /// the next call of any member.
-    const VirtualLayer& run(const RigidTransform& T_world_camera);
+    LayerPicture& run(const RigidTransform& T_world_camera);
 
     /// To be called once a frame, also where none is drawn as the camera rests.
     /// Pixels to be rendered for themselves: of a frame or two ago, at most mostRequested of them,
@@ -63,13 +59,10 @@ public:
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
     /// Of the layer, at its resolution.
     [[nodiscard]] const CameraModel& camera() const { return lens_.camera; }
-    /// For tests: what is missing, see ViewLookUp.
-    [[nodiscard]] const gpu::Texture& state() const { return lookUp_.state(); }
+    /// For tests: see WarpStep::state().
+    [[nodiscard]] const Field<std::uint32_t>& state() const { return step_->state(); }
 
 private:
-    [[nodiscard]] bool rerenders() const {
-        return options_.filling == HoleFilling::Rerender || options_.filling == HoleFilling::Both;
-    }
     [[nodiscard]] bool isUnmoved(const RigidTransform& from, const RigidTransform& to) const;
     void dropRefused(std::vector<std::uint32_t>& pixels) const;
     void rested(const std::optional<RigidTransform>& T_world_camera);
@@ -77,26 +70,19 @@ private:
                                        const RigidTransform& T_world_camera);
     std::optional<HoleRequest> takeHoles();
     std::optional<HoleRequest> takeEdges();
-    void warp(const RigidTransform& T_world_camera, const PixelRect& bounds);
 
     LensProjection lens_;
     WarpOptions options_;
-    ModelSilhouette silhouette_;
-    ReferenceTextures textures_;
-    ViewLookUp lookUp_;
-    HoleFiller filler_;
-    PatchPictures patches_;
-    std::optional<EdgeRefiner> refiner_;
+    std::unique_ptr<WarpStep> step_;
     std::optional<WarpReference> reference_;
     std::uint64_t scene_ = 0;
     bool asked_ = false;  // a request waits for its answer
     HoleRequest lastRequest_;
     RigidTransform listPose_;                 // of the frame whose holes are under way
-    PixelRect drawn_;                         // where the look-up's pictures are not empty
     std::optional<RigidTransform> warpedTo_;  // what is shown; none: not warped
     int restFrames_ = 0;                      // since then
     WarpCounters counters_;
-    VirtualLayer layer_;
+    LayerPicture nothing_;
 };
 
 }  // namespace mfar

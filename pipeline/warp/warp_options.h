@@ -1,7 +1,5 @@
 #pragma once
 
-#include "pipeline/warp/view_look_up.h"
-
 namespace mfar {
 
 /// What is done about pixels of a model that no picture shows. Cracks a pixel wide are always
@@ -28,6 +26,15 @@ struct WarpOptions {
     double leastMotion = 0.1;
     bool operator==(const WarpOptions&) const = default;
 };
+
+/// Whether pixels are rendered for themselves.
+[[nodiscard]] inline bool rerenders(HoleFilling filling) {
+    return filling == HoleFilling::Rerender || filling == HoleFilling::Both;
+}
+/// Whether holes are filled from their surroundings.
+[[nodiscard]] inline bool pushPulls(HoleFilling filling) {
+    return filling == HoleFilling::PushPull || filling == HoleFilling::Both;
+}
 
 /// Throws std::invalid_argument that names the first option out of its range.
 void validate(const WarpOptions& options);

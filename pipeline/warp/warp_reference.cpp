@@ -1,7 +1,7 @@
 #include "pipeline/warp/warp_reference.h"
 
 #include "base/se3.h"
-#include "pipeline/composite/virtual_layer.h"
+#include "pipeline/engine/steps.h"
 #include "pipeline/warp/warp_params.h"
 
 #include <algorithm>

@@ -1,11 +1,12 @@
 // The warp of the virtual layer: pictures that are spoilt, poses they were not made for.
-#include "pipeline/warp/edge_refiner.h"
+#include "pipeline/gles/edge_refiner.h"
 #include "tests/stability/cases.h"
 #include "tests/warp/warp_support.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <vector>
 
 namespace mfar::stress {
@@ -52,15 +53,19 @@ WarpOptions warpOptions(Context& c) {
     return out;
 }
 
-void checkLayer(Context& c, const VirtualLayer& layer) {
-    if (layer.depth == nullptr || layer.bounds.empty()) return;
-    const Size size = layer.depth->size();
-    const auto depth = layer.depth->readRgba32F();
-    const auto colour = layer.colour->readRgba8();
+std::unique_ptr<Engine> engineOf(Context& c) {
+    return test::warpEngine(c.hostile.pick({EngineKind::Gles, EngineKind::Simd}));
+}
+
+void checkLayer(Context& c, const LayerPicture& layer) {
+    if (layer.bounds.empty()) return;
+    const Size size = layer.depth.size();
+    const auto depth = test::valuesOf(layer.depth);
+    const auto colour = test::bytesOf(layer.colour);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const std::size_t i = 4 * (static_cast<std::size_t>(y) * size.width + x);
-            c.checks.within(depth[i], 0, kFarthestSurface, "depth of a warped layer");
+            c.checks.within(depth[i / 4], 0, kFarthestSurface, "depth of a warped layer");
             const bool inside = x >= layer.bounds.x0 && x < layer.bounds.x1 &&
                                 y >= layer.bounds.y0 && y < layer.bounds.y1;
             c.checks.require(inside || colour[i + 3] == 0, "warped outside of its bounds");
@@ -85,7 +90,8 @@ void hostileWarp(Context& c) {
     const Size size = c.size(1, 90), output = c.hostile.chance(0.5) ? size : c.size(1, 90);
     const CameraModel camera = c.hostile.camera(size);
     const double spoilt = c.hostile.pick({0.0, 0.02, 0.5});
-    Warp warp(camera, output, warpOptions(c));
+    const auto engine = engineOf(c);
+    Warp warp(camera, output, *engine, warpOptions(c));
     warp.setScene(balls.scene(c.hostile.pick({3, 12, 48})));
     const RigidTransform from = around(c);
     const auto shoot = [&] {
@@ -115,14 +121,15 @@ void knownWarp(Context& c) {
     const CameraModel camera = test::bentCamera(c.size(160, 220));
     WarpOptions options = warpOptions(c);
     options.filling = c.hostile.pick({HoleFilling::PushPull, HoleFilling::Both});
-    Warp warp(camera, camera.size, options);
+    const auto engine = engineOf(c);
+    Warp warp(camera, camera.size, *engine, options);
     warp.setScene(balls.scene());
     const double from = c.hostile.real(0, 360), by = c.hostile.real(-3, 3);
     warp.setReference(warpReference(balls.cast({camera, test::orbit(from)}, 3)));
     const RigidTransform now = test::orbit(from + by);
-    const VirtualLayer& layer = warp.run(now);
+    const LayerPicture& layer = warp.run(now);
     const RenderedPicture truth = balls.cast({camera, now}, 3);
-    c.checks.within(test::psnrInside(layer.colour->readRgba8(), truth), 33.5, 200,
+    c.checks.within(test::psnrInside(test::bytesOf(layer.colour), truth), 33.5, 200,
                     "a warped picture against truth [dB]");
     checkLayer(c, layer);
     c.gl.frame(c.checks, pixelsOf(camera.size));

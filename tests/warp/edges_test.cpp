@@ -14,13 +14,14 @@ constexpr int kLongEnough = 12;  // frames until all has been asked for and fade
 
 struct Resting {
     explicit Resting(const WarpOptions& options)
-        : scene(test::twoBalls()), warp(test::bentCamera(kEdgeLayer), kEdgeLayer, options) {
+        : scene(test::twoBalls()),
+          warp(test::bentCamera(kEdgeLayer), kEdgeLayer, *engine, options) {
         warp.setScene(scene.scene());
         warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)}, 2)));
     }
     std::vector<std::uint8_t> rest(double degrees) {
-        return test::settled(warp, scene, test::orbit(degrees), 2 * kLongEnough)
-            .colour->readRgba8();
+        return test::bytesOf(
+            test::settled(warp, scene, test::orbit(degrees), 2 * kLongEnough).colour);
     }
     /// The first one for edges, all others answered.
     std::optional<HoleRequest> edgesAt(double degrees) {
@@ -37,6 +38,7 @@ struct Resting {
         return scene.cast({warp.camera(), test::orbit(degrees)}, 2);
     }
     CastScene scene;
+    std::unique_ptr<Engine> engine = test::warpEngine();
     Warp warp;
 };
 
@@ -87,9 +89,9 @@ TEST_F(WarpEdgesGl, AnAnswerThatComesAfterAMotionIsLeftOut) {
     Resting s({});
     const auto request = s.edgesAt(2);
     ASSERT_TRUE(request);
-    const auto moved = s.warp.run(test::orbit(3)).colour->readRgba8();
+    const auto moved = test::bytesOf(s.warp.run(test::orbit(3)).colour);
     s.warp.answer(test::answered(s.scene, *request));
-    EXPECT_EQ(s.warp.run(test::orbit(3)).colour->readRgba8(), moved);
+    EXPECT_EQ(test::bytesOf(s.warp.run(test::orbit(3)).colour), moved);
     EXPECT_TRUE(s.edgesAt(3)) << "and does not keep the next ones from being asked for";
 }
 

@@ -14,7 +14,8 @@ constexpr Size kHoleLayer{200, 150};
 
 struct Turned {
     explicit Turned(const WarpOptions& options)
-        : scene(test::twoBalls()), warp(test::bentCamera(kHoleLayer), kHoleLayer, options) {
+        : scene(test::twoBalls()),
+          warp(test::bentCamera(kHoleLayer), kHoleLayer, *engine, options) {
         warp.setScene(scene.scene());
         warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)}, 2)));
     }
@@ -24,6 +25,7 @@ struct Turned {
         return warp.takeRequest();
     }
     CastScene scene;
+    std::unique_ptr<Engine> engine = test::warpEngine();
     Warp warp;
 };
 
@@ -117,13 +119,15 @@ TEST_F(WarpHolesGl, ModesThatDoNotRenderDoNotAsk) {
 // The small ball is behind the big one, comes out a little, and is opaque at once.
 TEST_F(WarpHolesGl, AnObjectThatComesOutFromBehindAnotherIsNoHole) {
     const CastScene scene = test::twoBalls();
-    Warp warp(test::bentCamera(kHoleLayer), kHoleLayer, {.filling = HoleFilling::PushPull});
+    const auto engine = test::warpEngine();
+    Warp warp(test::bentCamera(kHoleLayer), kHoleLayer, *engine,
+              {.filling = HoleFilling::PushPull});
     warp.setScene(scene.scene());
     const RenderedPicture before = scene.cast({warp.camera(), test::orbit(200)}, 2);
     ASSERT_EQ(std::ranges::count(before.id, 2), 0);
     warp.setReference(warpReference(before));
     const RigidTransform now = test::orbit(190);
-    const auto rgba = warp.run(now).colour->readRgba8();
+    const auto rgba = test::bytesOf(warp.run(now).colour);
     const RenderedPicture truth = scene.cast({warp.camera(), now}, 2);
     int uncovered = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {

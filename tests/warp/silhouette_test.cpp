@@ -1,4 +1,4 @@
-#include "pipeline/warp/model_silhouette.h"
+#include "pipeline/gles/model_silhouette.h"
 #include "tests/engine/gl_test.h"
 
 #include <algorithm>

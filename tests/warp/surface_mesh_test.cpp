@@ -84,7 +84,7 @@ TEST(SurfaceMesh, SimplifiedStaysCloseToASmoothSurface) {
     EXPECT_GT(few.triangles.size(), 1500U);
     EXPECT_LE(few.triangles.size(), 5000U);
     EXPECT_NEAR(areaOf(few), areaOf(whole), 0.05F);
-    for (const gpu::MeshVertex& v : few.vertices)
+    for (const SurfaceVertex& v : few.vertices)
         EXPECT_NEAR(v.position[2], 0.1F * std::sin(4 * v.position[0]) * std::cos(3 * v.position[1]),
                     1e-3);
     EXPECT_EQ(simplified(whole, 80000).triangles.size(), whole.triangles.size());

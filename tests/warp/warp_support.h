@@ -1,7 +1,9 @@
 #pragma once
 
+#include "base/gl/gl.h"
 #include "pipeline/warp/warp.h"
 #include "tests/warp/cast_scene.h"
+#include "tests/warp/warp_engine.h"
 
 #include <algorithm>
 #include <array>
@@ -50,7 +52,7 @@ inline HoleAnswer answeredInWhite(const CastScene& scene, const HoleRequest& req
 /// Of the next frame at this pose, over these pixels.
 inline double meanGreen(Warp& warp, const RigidTransform& pose,
                         const std::vector<std::uint32_t>& pixels) {
-    const auto rgba = warp.run(pose).colour->readRgba8();
+    const auto rgba = bytesOf(warp.run(pose).colour);
     double sum = 0;
     for (const std::uint32_t pixel : pixels)
         sum += rgba[4UL * pixel + 1];
@@ -58,7 +60,7 @@ inline double meanGreen(Warp& warp, const RigidTransform& pose,
 }
 
 /// Runs until the holes of this pose are rendered and shown in full, or there are none.
-inline const VirtualLayer& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
+inline const LayerPicture& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
                                    int frames = 12) {
     for (int i = 0; i < frames; ++i) {
         warp.run(pose);

@@ -17,7 +17,7 @@ constexpr Size kLayer{241, 183};
 /// Reference at 0 degrees of test::twoBalls().
 struct Shown {
     explicit Shown(const WarpOptions& options = {}, CastScene cast = test::twoBalls())
-        : scene(std::move(cast)), warp(test::bentCamera(kLayer), kLayer, options) {
+        : scene(std::move(cast)), warp(test::bentCamera(kLayer), kLayer, *engine, options) {
         warp.setScene(scene.scene());
         warp.setReference(warpReference(scene.cast(view(0), 3)));
     }
@@ -25,10 +25,11 @@ struct Shown {
         return {warp.camera(), test::orbit(degrees)};
     }
     [[nodiscard]] double psnrAt(double degrees) {
-        const VirtualLayer layer = test::settled(warp, scene, test::orbit(degrees));
-        return psnrInside(layer.colour->readRgba8(), scene.cast(view(degrees), 3));
+        const LayerPicture& layer = test::settled(warp, scene, test::orbit(degrees));
+        return psnrInside(test::bytesOf(layer.colour), scene.cast(view(degrees), 3));
     }
     CastScene scene;
+    std::unique_ptr<Engine> engine = test::warpEngine();
     Warp warp;
 };
 
@@ -36,8 +37,8 @@ TEST_F(WarpGl, UnmovedPoseShowsTheReferenceItself) {
     Shown s;
     RigidTransform pose = test::orbit(0);
     pose.translation.x() += 2e-5;  // 0.01 px
-    const VirtualLayer& layer = s.warp.run(pose);
-    const auto rgba = layer.colour->readRgba8();
+    const LayerPicture& layer = s.warp.run(pose);
+    const auto rgba = test::bytesOf(layer.colour);
     const RenderedPicture reference = s.scene.cast(s.view(0), 3);
     for (std::size_t i = 0; i < reference.colour.size(); ++i)
         for (std::size_t c = 0; c < 4; ++c)
@@ -69,7 +70,7 @@ TEST_F(WarpGl, RenderedHolesAreBetterThanFilledOnesAndThoseThanNone) {
 TEST_F(WarpGl, NothingIsShownOutsideOfSilhouetteAndShadow) {
     Shown s;
     const RenderedPicture truth = s.scene.cast(s.view(5), 4);
-    const auto rgba = test::settled(s.warp, s.scene, test::orbit(5)).colour->readRgba8();
+    const auto rgba = test::bytesOf(test::settled(s.warp, s.scene, test::orbit(5)).colour);
     double coverage = 0;
     int pixels = 0;
     for (std::size_t i = 0; i < truth.colour.size(); ++i) {
@@ -85,7 +86,7 @@ TEST_F(WarpGl, NothingIsShownOutsideOfSilhouetteAndShadow) {
 TEST_F(WarpGl, DepthIsThatOfTheCurrentPose) {
     Shown s;
     const RenderedPicture truth = s.scene.cast(s.view(8));
-    const auto z = s.warp.run(test::orbit(8)).depth->readRgba32F();
+    const auto z = test::valuesOf(s.warp.run(test::orbit(8)).depth);
     int checked = 0;
     for (int y = 1; y + 1 < kLayer.height; ++y)
         for (int x = 1; x + 1 < kLayer.width; ++x) {
@@ -97,7 +98,7 @@ TEST_F(WarpGl, DepthIsThatOfTheCurrentPose) {
             if (id == kCatcherId && truth.colour[i][3] < 8) continue;
             // At a ball's limb its facets are a little nearer to the middle than it is.
             const float lift = id == kCatcherId ? kShadowLift * truth.depth[i] : 0;
-            ASSERT_NEAR(z[4 * i], truth.depth[i] - lift, 0.01) << x << " " << y;
+            ASSERT_NEAR(z[i], truth.depth[i] - lift, 0.01) << x << " " << y;
             ++checked;
         }
     EXPECT_GT(checked, 5000);
@@ -115,12 +116,13 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
     // Within a ball, at its surface, in the plane, far away, upside down, turned by 90 degrees.
     for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
         for (const double degrees : {0.0, 90.0, 180.0}) {
-            const VirtualLayer& layer = s.warp.run(test::orbit(degrees, distance, 1));
-            for (const float z : layer.depth->readRgba32F())
+            const LayerPicture& layer = s.warp.run(test::orbit(degrees, distance, 1));
+            for (const float z : test::valuesOf(layer.depth))
                 ASSERT_TRUE(std::isfinite(z) && z >= 0) << distance << " " << degrees;
         }
     EXPECT_GT(
-        psnrInside(s.warp.run(test::orbit(1)).colour->readRgba8(), s.scene.cast(s.view(1), 3)), 33);
+        psnrInside(test::bytesOf(s.warp.run(test::orbit(1)).colour), s.scene.cast(s.view(1), 3)),
+        33);
 }
 
 TEST_F(WarpGl, FaultyAndEmptyReferencesAreHarmless) {
@@ -129,20 +131,21 @@ TEST_F(WarpGl, FaultyAndEmptyReferencesAreHarmless) {
     for (std::size_t i = 0; i < picture.depth.size(); i += 3)
         picture.depth[i] = i % 2 == 0 ? std::numeric_limits<float>::quiet_NaN() : -1e30F;
     s.warp.setReference(warpReference(picture));
-    for (const float z : s.warp.run(test::orbit(3)).depth->readRgba32F())
+    for (const float z : test::valuesOf(s.warp.run(test::orbit(3)).depth))
         ASSERT_TRUE(std::isfinite(z));
     std::ranges::fill(picture.id, std::uint8_t{0});
     std::ranges::fill(picture.depth, 0.0F);
     std::ranges::fill(picture.colour, std::array<std::uint8_t, 4>{});
     s.warp.setReference(warpReference(picture));
-    const auto rgba = s.warp.run(test::orbit(0)).colour->readRgba8();
+    const auto rgba = test::bytesOf(s.warp.run(test::orbit(0)).colour);
     EXPECT_EQ(std::ranges::count(rgba, 0), static_cast<long>(rgba.size()));
     s.warp.dropReference();
     EXPECT_TRUE(s.warp.run(test::orbit(0)).bounds.empty());
 }
 
 TEST_F(WarpGl, EmptySceneShowsNothing) {
-    Warp warp(test::bentCamera(kLayer), kLayer);
+    const auto engine = test::warpEngine();
+    Warp warp(test::bentCamera(kLayer), kLayer, *engine);
     EXPECT_TRUE(warp.run(test::orbit(0)).bounds.empty());
     warp.setScene({});
     CastScene bare{{}, false, 1};
@@ -160,7 +163,7 @@ TEST_F(WarpGl, ReferenceOfAnotherResolutionIsWarpedAlways) {
     Shown s({.filling = HoleFilling::PushPull});
     const RenderView small{s.warp.camera().scaledTo({181, 137}), test::orbit(0)};
     s.warp.setReference(warpReference(s.scene.cast(small, 3)));
-    const auto rgba = s.warp.run(test::orbit(0)).colour->readRgba8();
+    const auto rgba = test::bytesOf(s.warp.run(test::orbit(0)).colour);
     EXPECT_EQ(s.warp.counters().warped, 1U);
     EXPECT_GT(psnrInside(rgba, s.scene.cast(s.view(0), 3)), 30);
 }
@@ -168,31 +171,34 @@ TEST_F(WarpGl, ReferenceOfAnotherResolutionIsWarpedAlways) {
 TEST_F(WarpGl, OddSizesWork) {
     for (const Size size : {Size{1, 1}, Size{2, 3}, Size{7, 5}, Size{63, 65}}) {
         const CastScene scene = test::twoBalls();
-        Warp warp(test::bentCamera(kLayer), size);
+        const auto engine = test::warpEngine();
+        Warp warp(test::bentCamera(kLayer), size, *engine);
         warp.setScene(scene.scene(16));
         warp.setReference(warpReference(scene.cast({warp.camera(), test::orbit(0)})));
-        const VirtualLayer layer = test::settled(warp, scene, test::orbit(10), 3);
+        const LayerPicture& layer = test::settled(warp, scene, test::orbit(10), 3);
         EXPECT_TRUE(layer.bounds.x1 <= size.width && layer.bounds.y1 <= size.height);
     }
 }
 
 TEST_F(WarpGl, ACrowdOfTrianglesIsSimplifiedAndSeenTheSame) {
     const CastScene scene{{{{0, 0, 0.1}, 0.09}}, true, 1};
-    Warp warp(test::bentCamera(kLayer), kLayer, {.filling = HoleFilling::PushPull});
+    const auto engine = test::warpEngine();
+    Warp warp(test::bentCamera(kLayer), kLayer, *engine, {.filling = HoleFilling::PushPull});
     warp.setScene(scene.scene(720));  // half a million
     const RenderView from{warp.camera(), test::orbit(0)}, to{warp.camera(), test::orbit(2)};
     warp.setReference(warpReference(scene.cast(from, 3)));
-    EXPECT_GT(psnrInside(warp.run(to.T_world_camera).colour->readRgba8(), scene.cast(to, 3)), 34);
+    EXPECT_GT(psnrInside(test::bytesOf(warp.run(to.T_world_camera).colour), scene.cast(to, 3)), 34);
 }
 
 TEST_F(WarpGl, OptionsOutOfRangeAreRefused) {
     const CameraModel camera = test::bentCamera(kLayer);
+    const auto engine = test::warpEngine();
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     for (const WarpOptions& options :
          {WarpOptions{.mostRequested = 0}, WarpOptions{.fadeFrames = -1},
           WarpOptions{.fadeFrames = 101}, WarpOptions{.leastMotion = kNan},
           WarpOptions{.leastMotion = -0.1}, WarpOptions{.filling = static_cast<HoleFilling>(4)}})
-        EXPECT_THROW(Warp(camera, kLayer, options), std::invalid_argument);
+        EXPECT_THROW(Warp(camera, kLayer, *engine, options), std::invalid_argument);
 }
 
 }  // namespace

@@ -227,7 +227,7 @@ BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode
             measureCase(noise > 0 ? "rest-noise" : "rest", resting, rest, {}, out.peers));
     }
     out.depth = measureDepth(posed);
-    out.warp = measureWarp(out.video, static_cast<int>(moving.frames.size()));
+    out.warp = measureWarp(out.video, static_cast<int>(moving.frames.size()), engine);
     out.triangulation = measureTriangulation(out.video);
     return out;
 }

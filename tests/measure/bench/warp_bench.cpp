@@ -3,10 +3,12 @@
 #include "pipeline/warp/warp.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/warp/cast_scene.h"
+#include "tests/warp/warp_engine.h"
 
 #include <opencv2/imgproc.hpp>
 
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -26,8 +28,9 @@ Summary timed(int runs, const std::function<void()>& call) {
 /// A scene, and its picture at no turn.
 class WarpCase {
 public:
-    WarpCase(const test::CastScene& scene, Size size)
-        : warp_(test::bentCamera(size), size, {.filling = HoleFilling::PushPull}) {
+    WarpCase(EngineKind engine, const test::CastScene& scene, Size size)
+        : engine_(test::warpEngine(engine)),
+          warp_(test::bentCamera(size), size, *engine_, {.filling = HoleFilling::PushPull}) {
         warp_.setScene(scene.scene());
         picture_ = scene.cast({warp_.camera(), test::orbit(0)});
         warp_.setReference(warpReference(picture_));
@@ -37,17 +40,18 @@ public:
         const RigidTransform pose = test::orbit(degrees);
         return timed(runs, [&] {
             warp_.run(pose);
-            glFinish();
+            engine_->finish();
         });
     }
     Summary references(int runs) {
         return timed(runs, [&] {
             warp_.setReference(warpReference(picture_));
-            glFinish();
+            engine_->finish();
         });
     }
 
 private:
+    std::unique_ptr<Engine> engine_;
     Warp warp_;
     RenderedPicture picture_;
 };
@@ -66,13 +70,13 @@ Summary timeRemap(Size size, int runs) {
 
 }  // namespace
 
-WarpTimes measureWarp(Size size, int runs) {
+WarpTimes measureWarp(Size size, int runs, EngineKind engine) {
     WarpTimes out;
-    WarpCase objects(test::twoBalls(), size);
+    WarpCase objects(engine, test::twoBalls(), size);
     out.objects = objects.frames(runs, kTurn);
     out.still = objects.frames(runs, 0);
     out.reference = objects.references(runs);
-    out.whole = WarpCase({{{{0, 0, 0.1}, 0.5}}, false, 1}, size).frames(runs, kTurn);
+    out.whole = WarpCase(engine, {{{{0, 0, 0.1}, 0.5}}, false, 1}, size).frames(runs, kTurn);
     out.remap = timeRemap(size, runs);
     return out;
 }

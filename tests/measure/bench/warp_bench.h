@@ -1,11 +1,12 @@
 #pragma once
 
 #include "base/image_view.h"
+#include "pipeline/engine/engine.h"
 #include "tests/measure/bench/summary.h"
 
 namespace mfar::bench {
 
-/// A finished picture of two balls on a plane, turned by 2 degrees, a frame: until the GPU has
+/// A finished picture of two balls on a plane, turned by 2 degrees, a frame: until it is
 /// finished.
 struct WarpTimes {
     Summary objects;    ///< balls that fill a ninth of the picture, with their shadows
@@ -15,7 +16,7 @@ struct WarpTimes {
     Summary remap;      ///< the peer: cv::remap, bilinear, of the whole picture
 };
 
-/// Needs a current GL context. `runs` after one that does not count.
-[[nodiscard]] WarpTimes measureWarp(Size size, int runs);
+/// For GLES a context has to be current. `runs` after one that does not count.
+[[nodiscard]] WarpTimes measureWarp(Size size, int runs, EngineKind engine);
 
 }  // namespace mfar::bench

@@ -4,6 +4,7 @@
 #include "pipeline/warp/warp.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/eval/warp_scenes.h"
+#include "tests/warp/warp_engine.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
@@ -97,7 +98,7 @@ public:
         if (method == "none") options.filling = HoleFilling::None;
         if (method == "push-pull") options.filling = HoleFilling::PushPull;
         if (method == "re-render") options.filling = HoleFilling::Rerender;
-        Warp warp(view_.camera, request_.size, options);
+        Warp warp(view_.camera, request_.size, *engine_, options);
         return ours(warp, shot);
     }
 
@@ -120,7 +121,7 @@ private:
         warp.setReference(reference_);
         const auto frame = [&] {
             warp.run(shot.view.T_world_camera);
-            glFinish();
+            engine_->finish();
         };
         Warped out;
         for (int i = 0; i < kFrames; ++i) {
@@ -132,7 +133,7 @@ private:
         for (int i = 0; i < WarpOptions{}.fadeFrames; ++i)
             frame();
         out.ms = medianOfThree([&] { return wallMs(frame); });
-        out.rgba = warp.run(shot.view.T_world_camera).colour->readRgba8();
+        out.rgba = test::bytesOf(warp.run(shot.view.T_world_camera).colour);
         const auto pixels = static_cast<double>(objectPixels(shot.truth));
         *out.holeShare /= pixels;
         const auto rays = static_cast<double>(warp.counters().rays) / request_.referenceSamples;
@@ -152,9 +153,10 @@ private:
 
     /// Telea's, for the holes of the method `none`. Time without that of the warp.
     [[nodiscard]] Warped inpaint(const Shot& shot) const {
-        Warp warp(view_.camera, request_.size, {.filling = HoleFilling::None, .leastMotion = 0});
+        Warp warp(view_.camera, request_.size, *engine_,
+                  {.filling = HoleFilling::None, .leastMotion = 0});
         Warped out = ours(warp, shot);
-        const Rgba state = warp.state().readRgba8();
+        const Rgba state = test::bytesOf(warp.state());
         const cv::Mat rgba(request_.size.height, request_.size.width, CV_8UC4, out.rgba.data());
         cv::Mat rgb, filled;
         cv::cvtColor(rgba, rgb, cv::COLOR_RGBA2RGB);
@@ -175,6 +177,7 @@ private:
     }
 
     const WarpRequest& request_;
+    std::unique_ptr<Engine> engine_ = test::warpEngine();
     std::shared_ptr<const Scene> scene_;
     PathTracer tracer_;
     RenderView view_;

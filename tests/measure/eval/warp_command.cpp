@@ -1,6 +1,7 @@
 #include "tests/measure/eval/warp_command.h"
 
 #include "hal/gl_context.h"
+#include "pipeline/engine/engine.h"
 #include "tests/measure/eval/warp_scenes.h"
 
 #include <fmt/format.h>
@@ -63,7 +64,9 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
 }
 
 Report runWarpCommand(const WarpRequest& request, const WarpFiles& files) {
-    const auto context = createGlContext();
+    // The engine that MFAR_ENGINE names.
+    const bool gles = EngineChoice::fromEnvironment().occlusion == EngineKind::Gles;
+    const auto context = gles ? createGlContext() : nullptr;
     Report report = evaluateWarp(request);
     if (!files.svg.empty()) {
         std::ofstream out(files.svg);

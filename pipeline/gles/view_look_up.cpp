@@ -1,4 +1,4 @@
-#include "pipeline/warp/view_look_up.h"
+#include "pipeline/gles/view_look_up.h"
 
 #include "base/gl/scoped_state.h"
 #include "pipeline/warp/warp_params.h"
@@ -94,15 +94,16 @@ void ViewLookUp::runRest(const Params& params, const Input& input, const PixelRe
                   {gpu::sampler(0, state_), gpu::storage(0, commands_), gpu::storage(1, list_)},
                   {gpu::groupsFor((where.x1 - where.x0 + 1) / 2, kListGroup),
                    gpu::groupsFor((where.y1 - where.y0 + 1) / 2, kListGroup), 1});
-    rest_.runIndirect(
-        params,
-        {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
-         gpu::sampler(2, input.reference.colour()), gpu::sampler(3, input.reference.surface()),
-         gpu::sampler(4, input.patches.colour()), gpu::sampler(5, input.patches.surface()),
-         gpu::imageWrite(0, colour_), gpu::imageWrite(1, depth_), gpu::imageWrite(2, state_),
-         gpu::storage(0, commands_), gpu::storage(1, list_), gpu::storage(2, holes.commands()),
-         gpu::storage(3, holes.entries())},
-        commands_, 0);
+    rest_.runIndirect(params,
+                      {gpu::sampler(0, input.silhouette), gpu::sampler(1, rays_),
+                       gpu::sampler(2, input.reference.colour()),
+                       gpu::sampler(3, input.reference.surface()),
+                       gpu::sampler(4, input.patchTextures.colour()),
+                       gpu::sampler(5, input.patchTextures.surface()), gpu::imageWrite(0, colour_),
+                       gpu::imageWrite(1, depth_), gpu::imageWrite(2, state_),
+                       gpu::storage(0, commands_), gpu::storage(1, list_),
+                       gpu::storage(2, holes.commands()), gpu::storage(3, holes.entries())},
+                      commands_, 0);
 }
 
 }  // namespace mfar

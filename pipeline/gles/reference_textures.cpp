@@ -1,4 +1,4 @@
-#include "pipeline/warp/reference_textures.h"
+#include "pipeline/gles/reference_textures.h"
 
 #include <span>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include "base/gl/fence.h"
 #include "base/gl/pass.h"
+#include "pipeline/warp/warp_step.h"
 
 #include <array>
 #include <cstdint>
@@ -33,13 +34,8 @@ public:
     /// `wantList`: this frame's list is to be read, if none is under way.
     void fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList);
 
-    struct Holes {
-        std::vector<std::uint32_t> open;  ///< row-major index of those known nowhere, ascending
-        int cracks = 0;                   ///< counted, not listed
-        int fading = 0;                   ///< known from patches, not yet shown in full
-    };
     /// Of the frame whose list was wanted, once the GPU has finished it: never waits.
-    std::optional<Holes> poll();
+    std::optional<WarpHoles> poll();
     /// A list is under way to the host.
     [[nodiscard]] bool isPending() const { return fence_.has_value(); }
     /// Forgets a list that is under way.

@@ -1,4 +1,4 @@
-#include "pipeline/warp/edge_refiner.h"
+#include "pipeline/gles/edge_refiner.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "pipeline/warp/hole_filler.h"
+#include "pipeline/gles/hole_filler.h"
 
 #include <algorithm>
 #include <span>
@@ -89,10 +89,10 @@ void HoleFiller::fill(const gpu::Texture& colour, const gpu::Texture& state, boo
     current_ = 1 - current_;
 }
 
-std::optional<HoleFiller::Holes> HoleFiller::poll() {
+std::optional<WarpHoles> HoleFiller::poll() {
     if (!fence_ || !fence_->passed()) return {};
     fence_.reset();
-    Holes out;
+    WarpHoles out;
     const Lists& lists = lists_[1 - current_];
     const std::size_t listed = lists.commands.read<Command>(1)[0][3];
     if (listed == 0) return out;

@@ -1,14 +1,10 @@
 #pragma once
 
 #include "base/gl/pass.h"
-#include "pipeline/composite/lens_projection.h"
-#include "pipeline/scene/scene.h"
-#include "pipeline/warp/surface_mesh.h"
-
-#include <Eigen/Geometry>
+#include "pipeline/warp/silhouette_models.h"
 
 #include <cstddef>
-#include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -29,56 +25,43 @@ public:
 
     /// Layer pixels around all objects; of one that reaches before the near plane and beyond it,
     /// all of them.
-    [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const;
+    [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const {
+        return models_.bounds(T_world_camera);
+    }
 
     /// Draws within `where` [layer px]; elsewhere there is nothing afterwards.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
 
-    /// The catcher, if it is one plane and therefore not drawn: n . point = w in the world [m].
-    /// Otherwise zero.
-    [[nodiscard]] const Eigen::Vector4d& plane() const { return plane_; }
+    [[nodiscard]] const SilhouetteModels& models() const { return models_; }
     /// R32UI, twice the layer's size: z and number, packed as warp_surface.glsl says; 0 = nothing.
     /// The catcher's number is seen only where no object is, nearer or not.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
-    [[nodiscard]] std::size_t triangles() const { return triangles_; }
+    [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 
 private:
     struct Params {  // warp_silhouette_params.glsl
         float object[3][4], pinhole[4], distortion[4], lens[4], target[4];
     };
+    using Models = SilhouetteModels;
     struct Part {
         gpu::Buffer vertices, indices;
         int indexCount;
         std::optional<gpu::Texture> alpha;  // of masked surfaces
         float cutoff;
-        bool bothSides = true;  // are seen
+        bool bothSides;  // are seen
     };
-    struct Shape {
-        std::vector<Part> parts;
-        Eigen::AlignedBox3d box;
-        std::shared_ptr<const Model> model;  // none: the catcher
-    };
-    struct Object {
-        std::size_t shape;
-        RigidTransform T_world_object;
-        double scale;
-    };
+    using ShapePointer = std::shared_ptr<const Models::Shape>;
+    using PartsOfShapes = std::map<ShapePointer, std::shared_ptr<std::vector<Part>>>;
 
-    static Part partOf(const SurfaceMesh& mesh);
+    static Part partOf(const Models::Part& part);
+    void addParts(const ShapePointer& shape, const PartsOfShapes& before);
     void clear(const PixelRect& where) const;
-    [[nodiscard]] Shape shapeOf(const std::shared_ptr<const Model>& model) const;
-    void addCatcher(const ShadowCatcher& catcher);
-    void drawObject(const Object& object, std::size_t number, const RigidTransform& T_camera_world);
-    [[nodiscard]] PixelRect boundsOf(const Object& object,
-                                     const RigidTransform& T_camera_world) const;
+    void drawObject(const Models::Object& object, std::size_t number,
+                    const RigidTransform& T_camera_world);
 
     LensProjection lens_;
-    std::deque<Shape> shapes_;
-    std::vector<Object> objects_;
-    std::optional<Object> catcher_;
-    Eigen::Vector4d plane_ = Eigen::Vector4d::Zero();
-    std::size_t triangles_ = 0;
-    double share_ = 1;  // of the models' triangles that are drawn
+    Models models_;
+    PartsOfShapes parts_;
     PixelRect drawn_;
     gpu::Texture surface_, window_;
     gpu::Framebuffer target_;

@@ -2,9 +2,10 @@
 
 #include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
-#include "pipeline/warp/hole_filler.h"
-#include "pipeline/warp/patch_pictures.h"
-#include "pipeline/warp/reference_textures.h"
+#include "pipeline/gles/hole_filler.h"
+#include "pipeline/gles/patch_textures.h"
+#include "pipeline/gles/reference_textures.h"
+#include "pipeline/warp/warp_options.h"
 
 #include <Eigen/Core>
 
@@ -26,6 +27,7 @@ public:
         const ReferenceTextures& reference;
         const RigidTransform& T_world_reference;
         const PatchPictures& patches;
+        const PatchTextures& patchTextures;
         /// The catcher, if it is one plane: n . point = w in the world [m]; zero: it is in the
         /// silhouette, or there is none.
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();

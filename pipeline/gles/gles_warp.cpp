@@ -1,0 +1,117 @@
+#include "pipeline/gles/edge_refiner.h"
+#include "pipeline/gles/gles_steps.h"
+#include "pipeline/gles/model_silhouette.h"
+#include "pipeline/gles/patch_textures.h"
+#include "pipeline/gles/texture_layer.h"
+#include "pipeline/gles/view_look_up.h"
+#include "pipeline/warp/warp_step.h"
+
+#include <optional>
+#include <utility>
+
+namespace mfar::gles {
+namespace {
+
+class GlesWarp final : public WarpStep {
+public:
+    GlesWarp(const CameraModel& layer, const WarpOptions& options, Transfers* transfers)
+        : lens_(layer), options_(options), silhouette_(layer), lookUp_(lens_), filler_(layer.size),
+          patches_(layer.size, fadeFrames(options)), patchTextures_(layer.size),
+          stateCopy_(lookUp_.state()), state_({}, transfers), warped_(transfers),
+          rendered_(transfers) {
+        if (rerenders(options.filling) && options.sharpenShare > 0)
+            refiner_.emplace(layer.size, options.sharpenShare, options.mostRequested,
+                             fadeFrames(options));
+    }
+
+    void setScene(const Scene& scene) override {
+        silhouette_.setScene(scene);
+        patches_.clear();
+    }
+    PixelRect bounds(const RigidTransform& T_world_camera) const override {
+        return silhouette_.bounds(T_world_camera);
+    }
+    void setReference(const WarpReference& reference) override {
+        textures_.upload(reference);
+        reference_ = &reference;
+    }
+    LayerPicture& reference() override {
+        return rendered_.show(textures_.picture(), textures_.depth(), reference_->bounds);
+    }
+
+    LayerPicture& run(const Frame& frame) override {
+        const PixelRect& where = frame.bounds;
+        if (!(around(drawn_, where) == where)) lookUp_.clear(drawn_);
+        drawn_ = where;
+        lookUp(frame);
+        filler_.fill(lookUp_.colour(), lookUp_.state(), frame.lists);
+        patches_.age();
+        if (refiner_) refiner_->show(lookUp_.colour());
+        state_.writtenOnDevice(stateCopy_, lookUp_.state().size());
+        return warped_.show(lookUp_.colour(), lookUp_.depth(), where);
+    }
+
+    std::optional<WarpHoles> takeHoles() override { return filler_.poll(); }
+    bool holesPending() const override { return filler_.isPending(); }
+    void dropHoles() override { filler_.drop(); }
+    void addPatch(const HoleAnswer& answer) override {
+        patches_.add(answer,
+                     [this](const PatchPictures::StoredRows& rows) { patchTextures_.store(rows); });
+    }
+
+    void listEdges() override {
+        if (refiner_) refiner_->list(lookUp_.colour(), lookUp_.state(), drawn_);
+    }
+    std::optional<std::vector<std::uint32_t>> takeEdges() override {
+        return refiner_ ? refiner_->poll() : std::nullopt;
+    }
+    void answerEdges(const HoleAnswer& answer) override {
+        if (refiner_) refiner_->answer(answer);
+    }
+    void dropEdges() override {
+        if (refiner_) refiner_->drop();
+    }
+
+    const Field<std::uint32_t>& state() const override { return state_; }
+
+private:
+    static int fadeFrames(const WarpOptions& options) {
+        return options.filling == HoleFilling::Both ? options.fadeFrames : 0;
+    }
+
+    void lookUp(const Frame& frame) {
+        silhouette_.draw(frame.T_world_camera, frame.bounds);
+        const ViewLookUp::Input input{silhouette_.surface(),
+                                      textures_,
+                                      reference_->T_world_camera,
+                                      patches_,
+                                      patchTextures_,
+                                      silhouette_.models().plane()};
+        filler_.begin(frame.bounds, pushPulls(options_.filling));
+        lookUp_.run(input, frame.T_world_camera, frame.bounds, filler_);
+    }
+
+    LensProjection lens_;
+    WarpOptions options_;
+    ModelSilhouette silhouette_;
+    ReferenceTextures textures_;
+    ViewLookUp lookUp_;
+    HoleFiller filler_;
+    PatchPictures patches_;
+    PatchTextures patchTextures_;
+    std::optional<EdgeRefiner> refiner_;
+    const WarpReference* reference_ = nullptr;
+    PixelRect drawn_;  // where the look-up's pictures are not empty
+    TextureCopy stateCopy_;
+    Field<std::uint32_t> state_;
+    TextureLayer warped_, rendered_;
+};
+
+}  // namespace
+
+std::unique_ptr<WarpStep> makeWarpStep(const StepSetup& setup, const CameraModel& layer,
+                                       const WarpOptions& options) {
+    return std::make_unique<GlesWarp>(layer, options, setup.transfers);
+}
+
+}  // namespace mfar::gles

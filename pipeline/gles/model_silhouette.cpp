@@ -1,0 +1,157 @@
+#include "pipeline/gles/model_silhouette.h"
+
+#include "base/gl/scoped_state.h"
+#include "base/se3.h"
+#include "pipeline/render/rendered_picture.h"
+#include "pipeline/warp/warp_params.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+gpu::Texture alphaOf(const SurfaceTexture& texture) {
+    std::vector<std::uint8_t> alpha;
+    alpha.reserve(texture.texels.size());
+    for (const auto& texel : texture.texels)
+        alpha.push_back(texel[3]);
+    gpu::Texture out(texture.size, gpu::TexelFormat::R8);
+    out.upload({alpha.data(), static_cast<std::size_t>(texture.size.width)});
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+        glTexParameteri(GL_TEXTURE_2D, axis, GL_REPEAT);
+    return out;
+}
+
+/// In pixels of the target.
+PixelRect doubled(const PixelRect& r) {
+    return {2 * r.x0, 2 * r.y0, 2 * r.x1, 2 * r.y1};
+}
+
+/// Leaves out what faces away: clockwise in a picture whose first row is the lowest to GL.
+class FrontFaces {
+public:
+    FrontFaces() {
+        glEnable(GL_CULL_FACE);
+        glFrontFace(GL_CW);
+    }
+    FrontFaces(const FrontFaces&) = delete;
+    FrontFaces& operator=(const FrontFaces&) = delete;
+    ~FrontFaces() {
+        glDisable(GL_CULL_FACE);
+        glFrontFace(GL_CCW);
+    }
+};
+
+/// Objects before, the catcher behind all of them.
+class DepthRange {
+public:
+    DepthRange(float nearest, float farthest) { glDepthRangef(nearest, farthest); }
+    DepthRange(const DepthRange&) = delete;
+    DepthRange& operator=(const DepthRange&) = delete;
+    ~DepthRange() { glDepthRangef(0, 1); }
+};
+
+}  // namespace
+
+ModelSilhouette::ModelSilhouette(const CameraModel& layer)
+    : lens_(layer), models_(layer),
+      surface_({2 * layer.size.width, 2 * layer.size.height}, gpu::TexelFormat::R32Ui),
+      window_(surface_.size(), gpu::TexelFormat::Depth24),
+      target_(std::array<const gpu::Texture*, 1>{&surface_}, &window_),
+      pass_("warp_silhouette.vert", "warp_silhouette.frag", ""),
+      maskedPass_("warp_silhouette.vert", "warp_silhouette.frag", "#define ALPHA_MASK\n") {
+    target_.bind();
+    clear({0, 0, layer.size.width, layer.size.height});
+}
+
+void ModelSilhouette::setScene(const Scene& scene) {
+    models_.setScene(scene);
+    const auto before = std::exchange(parts_, {});
+    for (const Models::Object& object : models_.objects())
+        addParts(object.shape, before);
+    if (models_.catcher()) addParts(models_.catcher()->shape, before);
+}
+
+void ModelSilhouette::addParts(const ShapePointer& shape, const PartsOfShapes& before) {
+    PartsOfShapes::mapped_type& parts = parts_[shape];
+    if (parts) return;
+    if (const auto kept = before.find(shape); kept != before.end()) {
+        parts = kept->second;
+        return;
+    }
+    parts = std::make_shared<std::vector<Part>>();
+    for (const Models::Part& part : shape->parts)
+        parts->push_back(partOf(part));
+}
+
+ModelSilhouette::Part ModelSilhouette::partOf(const Models::Part& part) {
+    const SurfaceMesh& mesh = part.mesh;
+    std::vector<gpu::MeshVertex> vertices(mesh.vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        std::copy_n(mesh.vertices[i].position, 3, vertices[i].position);
+        std::copy_n(mesh.vertices[i].uv, 2, vertices[i].uv);
+    }
+    Part out{gpu::Buffer(vertices.size() * sizeof(vertices[0])),
+             gpu::Buffer(mesh.triangles.size() * sizeof(mesh.triangles[0])),
+             static_cast<int>(3 * mesh.triangles.size()),
+             {},
+             part.cutoff,
+             part.bothSides};
+    out.vertices.write(std::span<const gpu::MeshVertex>(vertices));
+    out.indices.write(std::span(mesh.triangles));
+    if (part.alpha != nullptr) out.alpha = alphaOf(*part.alpha);
+    return out;
+}
+
+void ModelSilhouette::drawObject(const Models::Object& object, std::size_t number,
+                                 const RigidTransform& T_camera_world) {
+    Params p{};
+    storeRows(p.object, T_camera_world * object.T_world_object, object.scale);
+    storeLens(p.pinhole, p.distortion, p.lens, lens_);
+    p.target[0] = static_cast<float>(lens_.camera.size.width);
+    p.target[1] = static_cast<float>(lens_.camera.size.height);
+    p.target[2] = static_cast<float>(number);
+    for (const Part& part : *parts_.at(object.shape)) {
+        p.target[3] = part.cutoff;
+        std::optional<FrontFaces> front;
+        if (!part.bothSides) front.emplace();
+        const gpu::Mesh mesh{part.vertices, part.indices, part.indexCount};
+        if (part.alpha)
+            maskedPass_.runMesh(p, {gpu::sampler(0, *part.alpha)}, target_, mesh);
+        else
+            pass_.runMesh(p, {}, target_, mesh);
+    }
+}
+
+void ModelSilhouette::clear(const PixelRect& where) const {
+    constexpr std::array<GLuint, 4> kNothing{};
+    constexpr float kFarthest = 1;
+    const gpu::Scissor scissor(doubled(where));
+    glClearBufferuiv(GL_COLOR, 0, kNothing.data());
+    glClearBufferfv(GL_DEPTH, 0, &kFarthest);
+}
+
+void ModelSilhouette::draw(const RigidTransform& T_world_camera, const PixelRect& where) {
+    target_.bind();
+    if (!drawn_.empty()) clear(drawn_);
+    drawn_ = models_.catcher() ? where : common(where, models_.bounds(T_world_camera));
+    if (drawn_.empty() || !isFinite(T_world_camera)) return;
+    const RigidTransform T_camera_world = T_world_camera.inverse();
+    const gpu::Scissor scissor(doubled(drawn_));
+    const gpu::DepthTest depthTest;
+    {
+        const DepthRange before(0, 0.5F);
+        std::size_t number = 0;
+        for (const Models::Object& object : models_.objects()) {
+            ++number;
+            if (!common(models_.boundsOf(object, T_camera_world), where).empty())
+                drawObject(object, number, T_camera_world);
+        }
+    }
+    const DepthRange behind(0.5F, 1);
+    if (models_.catcher()) drawObject(*models_.catcher(), kCatcherId, T_camera_world);
+}
+
+}  // namespace mfar

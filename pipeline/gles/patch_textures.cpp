@@ -1,0 +1,25 @@
+#include "pipeline/gles/patch_textures.h"
+
+#include <span>
+#include <vector>
+
+namespace mfar {
+
+PatchTextures::PatchTextures(Size layer)
+    : layer_(layer),
+      colour_({layer.width, PatchPictures::kPatches * layer.height}, gpu::TexelFormat::Rgba8),
+      surface_(colour_.size(), gpu::TexelFormat::Rgba32F) {
+    const std::size_t pixels = static_cast<std::size_t>(layer.width) * layer.height;
+    const std::vector<std::array<std::uint8_t, 4>> colours(pixels);
+    const std::vector<WarpSurface> surfaces(pixels);
+    for (int slot = 0; slot < PatchPictures::kPatches; ++slot)
+        store({slot, 0, layer.height, colours, surfaces});
+}
+
+void PatchTextures::store(const PatchPictures::StoredRows& rows) {
+    const int top = rows.slot * layer_.height + rows.firstRow;
+    surface_.upload(std::span(&rows.surfaces.front().z, 4 * rows.surfaces.size()), top);
+    colour_.uploadRows(rows.colours, top);
+}
+
+}  // namespace mfar

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "base/gl/texture.h"
+#include "pipeline/warp/patch_pictures.h"
+
+namespace mfar {
+
+/// The pixels of all patches on the GPU, one below the other: those of slot i begin at row i *
+/// layer height.
+class PatchTextures {
+public:
+    explicit PatchTextures(Size layer);
+
+    void store(const PatchPictures::StoredRows& rows);
+    [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8
+    [[nodiscard]] const gpu::Texture& surface() const {
+        return surface_;
+    }  ///< Rgba32F, WarpSurface
+
+private:
+    Size layer_;
+    gpu::Texture colour_, surface_;
+};
+
+}  // namespace mfar

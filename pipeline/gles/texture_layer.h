@@ -1,0 +1,30 @@
+#pragma once
+
+#include "pipeline/engine/steps.h"
+#include "pipeline/gles/device_copies.h"
+
+#include <optional>
+
+namespace mfar {
+
+/// Two textures as a layer.
+class TextureLayer {
+public:
+    explicit TextureLayer(Transfers* transfers = nullptr)
+        : layer_{Field<std::uint32_t>({}, transfers), Field<float>({}, transfers), {}} {}
+
+    /// Borrows the textures: RGBA8, R32F. Valid until the next call.
+    LayerPicture& show(const gpu::Texture& colour, const gpu::Texture& depth,
+                       const PixelRect& bounds) {
+        layer_.colour.writtenOnDevice(colour_.emplace(colour), colour.size());
+        layer_.depth.writtenOnDevice(depth_.emplace(depth), depth.size());
+        layer_.bounds = bounds;
+        return layer_;
+    }
+
+private:
+    std::optional<TextureCopy> colour_, depth_;
+    LayerPicture layer_;
+};
+
+}  // namespace mfar

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar::simd {
+
+/// LensProjection in single precision: projects points before the camera [m] to pixels.
+struct PointLens {
+    float fx = 1, fy = 1, cx = 0, cy = 0;          ///< [px]
+    float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
+    float rim = 1;                                 ///< radius of the outermost ray of the model
+    float rimRadial = 1;                           ///< radial factor of the distortion there
+    float nearest = 0.01F;                         ///< least z [m]
+};
+
+/// Rows of [R | t], which maps points [m].
+struct PointTransform {
+    float rows[3][4];
+};
+
+struct Point3 {
+    float x = 0, y = 0, z = 0;
+};
+
+[[nodiscard]] inline Point3 transformed(const PointTransform& T, const Point3& p) {
+    const auto row = [&](const float(&r)[4]) {
+        return r[0] * p.x + r[1] * p.y + r[2] * p.z + r[3];
+    };
+    return {row(T.rows[0]), row(T.rows[1]), row(T.rows[2])};
+}
+
+/// (w u, w v, w) as lens_projection.glsl gives it: pixel (u, v), w = z of any sign.
+[[nodiscard]] inline Point3 projected(const PointLens& lens, const Point3& p) {
+    const float r = std::sqrt(p.x * p.x + p.y * p.y);
+    const bool within = p.z * lens.rim > r;
+    const float scale = within ? 1 / p.z : lens.rim / std::max(r, 1e-12F);
+    const float x = p.x * scale, y = p.y * scale, q = x * x + y * y, xy = x * y;
+    const float radial = 1 + q * (lens.k1 + q * (lens.k2 + q * lens.k3));
+    const float u = x * radial + 2 * lens.p1 * xy + lens.p2 * (q + 2 * x * x);
+    const float v = y * radial + lens.p1 * (q + 2 * y * y) + 2 * lens.p2 * xy;
+    Point3 out{p.z * (lens.fx * u + lens.cx), p.z * (lens.fy * v + lens.cy), p.z};
+    if (!within) {
+        out.x += lens.rimRadial * lens.fx * (p.x - p.z * x);
+        out.y += lens.rimRadial * lens.fy * (p.y - p.z * y);
+    }
+    return out;
+}
+
+}  // namespace mfar::simd

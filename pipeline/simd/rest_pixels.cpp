@@ -1,0 +1,188 @@
+#include "pipeline/simd/rest_pixels.h"
+
+#include "pipeline/render/rendered_picture.h"
+#include "pipeline/simd/surface_raster.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace mfar::simd {
+namespace {
+
+// Less of a surface's own texels than so much tells little of its colour there.
+constexpr float kLeastWeight = 0.2F;
+
+using Quarters = std::array<std::uint32_t, 4>;  // upper left and right, lower left and right
+
+std::uint32_t numberOf(std::uint32_t surface) {
+    return surface & 0xFFU;
+}
+float depthOf(std::uint32_t surface) {
+    return std::bit_cast<float>(surface & 0xFFFFFF00U);
+}
+
+/// The object that has most of the quarters; of equals the first, from below.
+std::uint32_t mostOf(const Quarters& s) {
+    std::uint32_t out = 0;
+    int most = 0;
+    for (const int i : {2, 3, 1, 0}) {
+        const std::uint32_t own = numberOf(s[i]);
+        if (own == 0 || own == kCatcherNumber) continue;
+        int count = 0;
+        for (const std::uint32_t other : s)
+            count += numberOf(other) == own ? 1 : 0;
+        if (count <= most) continue;
+        most = count;
+        out = own;
+    }
+    return out;
+}
+
+/// The middle of those quarters that show the number: offset [px], z [m], 0 = none.
+Point3 middleOf(const Quarters& s, std::uint32_t number) {
+    constexpr std::array<float, 4> kX{-0.25F, 0.25F, -0.25F, 0.25F};
+    constexpr std::array<float, 4> kY{-0.25F, -0.25F, 0.25F, 0.25F};
+    Point3 sum;
+    float count = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        if (number == 0 || numberOf(s[i]) != number) continue;
+        sum.x += kX[i];
+        sum.y += kY[i];
+        sum.z += depthOf(s[i]);
+        ++count;
+    }
+    return count > 0 ? Point3{sum.x / count, sum.y / count, sum.z / count} : Point3{};
+}
+
+Point3 scaled(float by, const Point3& p) {
+    return {by * p.x, by * p.y, by * p.z};
+}
+
+std::uint32_t byteOf(float value) {
+    return static_cast<std::uint32_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+}
+
+}  // namespace
+
+RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
+                       const ViewLookUpInput& plain, const LensProjection& layer,
+                       const RigidTransform& T_world_camera)
+    : plain_(plain), layerLens_(pointLensOf(layer)),
+      reference_{reference.surface, reference.colour, reference.camera.size,
+                 plain.toReference, &plain_.lens,     1} {
+    // By their places in the store: of equal shares the first is shown.
+    std::array<const PatchPictures::Patch*, PatchPictures::kPatches> bySlot{};
+    for (const PatchPictures::Patch& patch : input.patches.patches())
+        bySlot[static_cast<std::size_t>(patch.slot)] = &patch;
+    for (const PatchPictures::Patch* patch : bySlot) {
+        if (patch == nullptr || !(patch->share > 0)) continue;
+        const PatchStore::Picture& picture = input.store[patch->slot];
+        if (picture.surfaces.empty()) continue;
+        patches_[static_cast<std::size_t>(patchCount_++)] = {
+            picture.surfaces,  picture.colours,
+            layer.camera.size, pointTransformOf(patch->T_world_camera.inverse() * T_world_camera),
+            &layerLens_,       static_cast<float>(patch->share)};
+    }
+}
+
+/// Where a view shows a point of the layer's camera: pixel, z.
+bool RestPixels::inView(const View& view, const Point3& point, Point3& at) {
+    const Point3 there = transformed(view.fromCamera, point);
+    if (!(there.z > view.lens->nearest && there.z < 1e6F && point.z > 0)) return false;
+    const Point3 h = projected(*view.lens, there);
+    at = {h.x / h.z, h.y / h.z, there.z};
+    return at.x > -1 && at.y > -1 && at.x < static_cast<float>(view.size.width) &&
+           at.y < static_cast<float>(view.size.height);
+}
+
+/// Bilinear in those of the four texels around that show the same surface. False: too little of it
+/// is there. To the catcher, nothing at all is a surface without a shadow.
+bool RestPixels::lookUp(const View& view, const Point3& at, float id, Colour& found) {
+    const float lowX = std::floor(at.x), lowY = std::floor(at.y);
+    const float fx = at.x - lowX, fy = at.y - lowY;
+    const int x0 = static_cast<int>(lowX), y0 = static_cast<int>(lowY);
+    Colour sum;
+    float weights = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int right = i & 1, down = i >> 1, x = x0 + right, y = y0 + down;
+        if (x < 0 || y < 0 || x >= view.size.width || y >= view.size.height) continue;
+        const std::size_t t = static_cast<std::size_t>(y) * view.size.width + x;
+        const WarpSurface& s = view.surfaces[t];
+        const bool same =
+            s.id == id ? std::abs(s.z - at.z) < s.tolerance : s.id == 0 && id == kCatcherId;
+        if (!same || !(s.known > 0.5F)) continue;
+        const float w = (right != 0 ? fx : 1 - fx) * (down != 0 ? fy : 1 - fy);
+        weights += w;
+        for (std::size_t c = 0; c < 4; ++c)
+            sum.rgba[c] += w * static_cast<float>(view.colours[t][c]);
+    }
+    if (!(weights > kLeastWeight)) return false;
+    for (std::size_t c = 0; c < 4; ++c)
+        found.rgba[c] = sum.rgba[c] / weights;
+    return true;
+}
+
+/// How much of the colour of the surface at `point` is known.
+float RestPixels::known(const Point3& point, float id, Colour& found) const {
+    Point3 at;
+    const bool inReference = inView(reference_, point, at);
+    if (inReference && lookUp(reference_, at, id, found)) return 1;
+    float share = 0;  // that of the patch shown most: one that fades in takes nothing away
+    for (int i = 0; i < patchCount_; ++i) {
+        const View& patch = patches_[static_cast<std::size_t>(i)];
+        Colour own;
+        if (patch.share <= share || !inView(patch, point, at) || !lookUp(patch, at, id, own))
+            continue;
+        share = patch.share;
+        found = own;
+    }
+    if (share > 0) return share;
+    // Of the catcher, nothing is known beyond the reference, and nothing is missed.
+    found = {};
+    return id == kCatcherId && !inView(reference_, point, at) ? 1.0F : 0.0F;
+}
+
+RestPixel RestPixels::at(int x, int y, const std::uint32_t* upper, const std::uint32_t* lower,
+                         float rayX, float rayY) const {
+    const Quarters s{upper[0], upper[1], lower[0], lower[1]};
+    const std::uint32_t id = mostOf(s);
+    const Point3 object = middleOf(s, id);
+    Point3 catcher = middleOf(s, kCatcherNumber);
+    float covered = 0;
+    for (const std::uint32_t quarter : s)
+        covered += numberOf(quarter) != 0 && numberOf(quarter) != kCatcherNumber ? 0.25F : 0;
+    if (catcher.z == 0) catcher.z = plain_.plane.depthAlong(rayX, rayY, layerLens_.nearest);
+    const float below = catcher.z > 0 ? 1 - covered : 0;
+    const auto pointAt = [&](const Point3& middle) {
+        return scaled(middle.z,
+                      {rayX + middle.x / layerLens_.fx, rayY + middle.y / layerLens_.fy, 1});
+    };
+    const Point3 point = pointAt(object), under = pointAt(catcher);
+    Colour ofObject, ofCatcher;
+    const float objectKnown = covered > 0 ? known(point, static_cast<float>(id), ofObject) : 1;
+    const float catcherKnown = below > 0 ? known(under, kCatcherId, ofCatcher) : 1;
+    RestPixel out{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        const float shown =
+            covered * objectKnown * ofObject.rgba[c] + below * catcherKnown * ofCatcher.rgba[c];
+        out.colour |= byteOf(shown) << 8 * c;
+    }
+    const bool missed = objectKnown < 1, hole = missed || catcherKnown < 1;
+    const bool nowhere = objectKnown == 0 || catcherKnown == 0;
+    // Rendered for itself, an edge would show a mixture: it takes after its neighbours, which are.
+    const bool edge = (missed ? covered : below) < 1;
+    if (covered > 0)
+        out.depth = object.z;
+    else if (hole || out.colour >> 24 != 0)
+        out.depth = plain_.shownDepth * catcher.z;
+    const std::uint32_t plain = hole ? 0 : covered == 1 ? id : below == 1 ? kCatcherNumber : 0;
+    const std::uint32_t missing = missed ? id : hole ? kCatcherNumber : 0;
+    const float part = missed ? covered * (1 - objectKnown) : below * (1 - catcherKnown);
+    const std::uint32_t open = nowhere && !edge ? 255 : 0;
+    out.state = missing | byteOf(255 * part) << 8 | open << 16 | plain << 24;
+    if (hole) out.hole = Hole{0, out.colour, edge, nowhere && !edge};
+    return out;
+}
+
+}  // namespace mfar::simd

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "pipeline/simd/view_look_up.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace mfar::simd {
+
+/// A pixel of the layer as it was looked up.
+struct RestPixel {
+    std::uint32_t colour;  ///< RGBA8 premultiplied
+    float depth;
+    std::uint32_t state;       ///< see WarpStep::state()
+    std::optional<Hole> hole;  ///< without its index
+};
+
+/// Pixels that need more than lookUpRow() does: edges, covered by quarters, and what the reference
+/// does not show, which the patches may. Objects and the shadow on the real surface are two layers,
+/// the latter below (warp_rest.comp).
+class RestPixels {
+public:
+    RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
+               const ViewLookUpInput& plain, const LensProjection& layer,
+               const RigidTransform& T_world_camera);
+
+    /// `upper`, `lower`: two words each.
+    [[nodiscard]] RestPixel at(int x, int y, const std::uint32_t* upper, const std::uint32_t* lower,
+                               float rayX, float rayY) const;
+
+private:
+    struct Colour {
+        std::array<float, 4> rgba{};  // [0, 255]
+    };
+    /// A picture in which surfaces are looked up.
+    struct View {
+        std::span<const WarpSurface> surfaces;
+        std::span<const std::array<std::uint8_t, 4>> colours;
+        Size size;
+        PointTransform fromCamera;
+        const PointLens* lens;
+        float share;
+    };
+
+    static bool inView(const View& view, const Point3& point, Point3& at);
+    static bool lookUp(const View& view, const Point3& at, float id, Colour& found);
+    float known(const Point3& point, float id, Colour& found) const;
+
+    const ViewLookUpInput& plain_;
+    PointLens layerLens_;
+    View reference_;
+    std::array<View, PatchPictures::kPatches> patches_;
+    int patchCount_ = 0;
+};
+
+}  // namespace mfar::simd

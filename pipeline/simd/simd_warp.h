@@ -1,0 +1,18 @@
+#pragma once
+
+#include "base/workers.h"
+#include "pipeline/engine/field.h"
+#include "pipeline/warp/warp_options.h"
+#include "pipeline/warp/warp_step.h"
+
+#include <memory>
+
+namespace mfar::simd {
+
+/// The warp on the host's lanes. Null workers: in the caller's thread alone.
+[[nodiscard]] std::unique_ptr<WarpStep> makeWarpStep(const CameraModel& layer,
+                                                     const WarpOptions& options,
+                                                     std::shared_ptr<Workers> workers,
+                                                     Transfers* transfers);
+
+}  // namespace mfar::simd

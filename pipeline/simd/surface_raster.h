@@ -1,0 +1,88 @@
+#pragma once
+
+#include "base/rows.h"
+#include "base/workers.h"
+#include "pipeline/simd/surface_rows.h"
+#include "pipeline/warp/silhouette_models.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace mfar::simd {
+
+/// What of the virtual scene a camera sees now: the models and, below them, the real surface that
+/// catches their shadows, rasterised at twice the layer's resolution, so that a pixel is covered by
+/// quarters. The lens's distortion acts on the corners. No light, no colours. ModelSilhouette on
+/// the host's lanes.
+class SurfaceRaster {
+public:
+    /// `layer`: the camera at the layer's resolution. Null workers: in the caller's thread alone.
+    SurfaceRaster(const CameraModel& layer, std::shared_ptr<Workers> workers);
+
+    void setScene(const Scene& scene);
+    [[nodiscard]] const SilhouetteModels& models() const { return models_; }
+
+    /// Draws within `where` [layer px]; what is elsewhere is not valid afterwards.
+    void draw(const RigidTransform& T_world_camera, const PixelRect& where);
+    /// Twice the layer's size: z and number, packed as warp_surface.glsl says; 0 = nothing. The
+    /// catcher's number is seen only where no object is, nearer or not.
+    [[nodiscard]] Rows<const std::uint32_t> surface() const { return words_.rows(); }
+
+private:
+    /// A part's corners in rows: x, y, z [m].
+    struct Part {
+        explicit Part(const SilhouetteModels::Part& from);
+        const SilhouetteModels::Part* source;
+        AlignedRows<float> corners;
+    };
+    using Shape = SilhouetteModels::Shape;
+    using Parts = std::vector<std::shared_ptr<const Part>>;
+    /// A part of one object.
+    struct Placed {
+        const SilhouetteModels::Object* object;
+        std::uint32_t word;
+        std::shared_ptr<const Part> part;
+        AlignedRows<float> seen;  // corners on the grid
+        PointTransform view{};
+        bool isInView = false;
+    };
+    struct Chunk {
+        Placed* placed;
+        int first, count;  // corners
+    };
+    /// Triangles that are made ready in one go.
+    struct Batch {
+        const Placed* placed;
+        std::size_t first, last;
+        std::vector<RasterTriangle> triangles;
+        std::vector<MaskedTriangle> masked;
+    };
+
+    void place(const SilhouetteModels::Object& object, std::uint32_t word, const Parts& parts);
+    void makeReady(Batch& batch) const;
+    void addSeen(Batch& batch, const std::array<std::uint32_t, 3>& corners) const;
+    void addClipped(Batch& batch, const std::array<std::uint32_t, 3>& corners) const;
+    void addTriangle(Batch& batch, const RasterCorner (&corners)[3]) const;
+    void drawBand(const RasterBand& band) const;
+    void forRange(int end, int grain, const std::function<void(int, int)>& body) const;
+
+    SilhouetteModels models_;
+    PointLens lens_;
+    std::shared_ptr<Workers> workers_;
+    std::map<std::shared_ptr<const Shape>, Parts> parts_;
+    std::deque<Placed> placed_;
+    std::vector<Chunk> chunks_;
+    std::vector<Batch> batches_;
+    PixelRect grid_;  // that is drawn
+    AlignedRows<std::uint32_t> words_;
+};
+
+[[nodiscard]] PointLens pointLensOf(const LensProjection& lens);
+[[nodiscard]] PointTransform pointTransformOf(const RigidTransform& T, double scale = 1);
+
+}  // namespace mfar::simd

@@ -1,0 +1,119 @@
+#include "pipeline/simd/view_look_up.h"
+
+#include "pipeline/engine/steps.h"
+#include "pipeline/simd/rest_pixels.h"
+#include "pipeline/simd/surface_raster.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace mfar::simd {
+namespace {
+
+constexpr int kRowsAtATime = 4;
+
+static_assert(kCatcherNumber == kCatcherId);
+
+CatcherPlane planeIn(const Eigen::Vector4d& world, const RigidTransform& T_world_camera) {
+    const Eigen::Vector3d normal = T_world_camera.rotation.conjugate() * world.head<3>();
+    const Eigen::Vector4f plane =
+        Eigen::Vector4d(normal.x(), normal.y(), normal.z(),
+                        world.w() - world.head<3>().dot(T_world_camera.translation))
+            .cast<float>();
+    return {plane.x(), plane.y(), plane.z(), plane.w()};
+}
+
+}  // namespace
+
+void PatchStore::store(const PatchPictures::StoredRows& rows) {
+    Picture& picture = pictures_[static_cast<std::size_t>(rows.slot)];
+    const std::size_t pixels = static_cast<std::size_t>(layer_.width) * layer_.height;
+    picture.colours.resize(pixels);
+    picture.surfaces.resize(pixels);
+    const std::size_t first = static_cast<std::size_t>(rows.firstRow) * layer_.width;
+    std::ranges::copy(rows.colours, picture.colours.begin() + static_cast<std::ptrdiff_t>(first));
+    std::ranges::copy(rows.surfaces, picture.surfaces.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+ViewLookUp::ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers)
+    : layer_(layer), workers_(std::move(workers)), rayX_(layer.camera.size),
+      rayY_(layer.camera.size), depth_(layer.camera.size), colour_(layer.camera.size),
+      state_(layer.camera.size),
+      left_(workers_ ? workers_->count() : 1,
+            [&] {
+                return std::vector<std::uint32_t>(
+                    static_cast<std::size_t>(layer.camera.size.width) + 16);
+            }),
+      rowHoles_(static_cast<std::size_t>(layer.camera.size.height)) {
+    const Size size = layer.camera.size;
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const Eigen::Vector2f ray = layer.camera.unproject(Eigen::Vector2d(x, y)).cast<float>();
+            rayX_[y][x] = ray.x();
+            rayY_[y][x] = ray.y();
+        }
+}
+
+void ViewLookUp::setReference(const WarpReference& reference) {
+    reference_ = &reference;
+    referenceLens_ = pointLensOf(LensProjection(reference.camera));
+}
+
+void ViewLookUp::clear(const PixelRect& where) {
+    for (int y = where.y0; y < where.y1; ++y) {
+        std::fill(colour_[y] + where.x0, colour_[y] + where.x1, 0U);
+        std::fill(depth_[y] + where.x0, depth_[y] + where.x1, 0.0F);
+        std::fill(state_[y] + where.x0, state_[y] + where.x1, 0U);
+    }
+}
+
+void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
+                     const PixelRect& where) {
+    const ViewLookUpInput plain{
+        pointTransformOf(reference_->T_world_camera.inverse() * T_world_camera),
+        referenceLens_,
+        reference_->camera.size,
+        reference_->packed.data(),
+        reinterpret_cast<const std::uint32_t*>(reference_->colour.data()),
+        planeIn(input.plane, T_world_camera),
+        1 - kShadowLift};
+    const RestPixels rest(input, *reference_, plain, layer_, T_world_camera);
+    const auto rows = [&](int y, int end) {
+        left_.with([&](std::vector<std::uint32_t>& left) {
+            for (; y < end; ++y)
+                runRow(input, plain, rest, where, where.y0 + y, left);
+        });
+    };
+    if (workers_)
+        workers_->forRange(where.y1 - where.y0, kRowsAtATime, rows);
+    else
+        rows(0, where.y1 - where.y0);
+    holes_.clear();
+    for (int y = where.y0; y < where.y1; ++y)
+        holes_.insert(holes_.end(), rowHoles_[y].begin(), rowHoles_[y].end());
+}
+
+void ViewLookUp::runRow(const Input& input, const ViewLookUpInput& plain, const RestPixels& rest,
+                        const PixelRect& where, int y, std::vector<std::uint32_t>& left) {
+    const std::uint32_t *upper = input.surface[2 * y], *lower = input.surface[2 * y + 1];
+    const int x0 = where.x0, count = where.x1 - where.x0;
+    const int leftCount =
+        lookUpRow({count, upper + 2L * x0, lower + 2L * x0, rayX_[y] + x0, rayY_[y] + x0,
+                   colour_[y] + x0, depth_[y] + x0, state_[y] + x0, left.data()},
+                  plain);
+    std::vector<Hole>& holes = rowHoles_[static_cast<std::size_t>(y)];
+    holes.clear();
+    for (int i = 0; i < leftCount; ++i) {
+        const int x = x0 + static_cast<int>(left[static_cast<std::size_t>(i)]);
+        const RestPixel pixel =
+            rest.at(x, y, upper + 2L * x, lower + 2L * x, rayX_[y][x], rayY_[y][x]);
+        colour_[y][x] = pixel.colour;
+        depth_[y][x] = pixel.depth;
+        state_[y][x] = pixel.state;
+        if (!pixel.hole) continue;
+        holes.push_back(*pixel.hole);
+        holes.back().pixel = static_cast<std::uint32_t>(y) * layer_.camera.size.width + x;
+    }
+}
+
+}  // namespace mfar::simd

@@ -1,0 +1,91 @@
+#pragma once
+
+#include "base/rows.h"
+#include "base/workers.h"
+#include "pipeline/simd/scratch_slots.h"
+#include "pipeline/simd/view_rows.h"
+#include "pipeline/warp/patch_pictures.h"
+#include "pipeline/warp/warp_reference.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace mfar::simd {
+
+class RestPixels;
+
+/// A pixel of which something is missing.
+struct Hole {
+    std::uint32_t pixel;   ///< row-major index
+    std::uint32_t colour;  ///< so far, RGBA8 premultiplied
+    bool isEdge, isOpen;   ///< known nowhere
+};
+
+/// The pixels of all patches.
+class PatchStore {
+public:
+    using Rgba = std::array<std::uint8_t, 4>;
+    struct Picture {
+        std::vector<Rgba> colours;
+        std::vector<WarpSurface> surfaces;  // both empty until there is a pixel
+    };
+    explicit PatchStore(Size layer) : layer_(layer) {}
+    void store(const PatchPictures::StoredRows& rows);
+    [[nodiscard]] const Picture& operator[](int slot) const {
+        return pictures_[static_cast<std::size_t>(slot)];
+    }
+
+private:
+    Size layer_;
+    std::array<Picture, PatchPictures::kPatches> pictures_;
+};
+
+/// Every pixel of the layer that shows a surface looks its colour up in the reference or, where
+/// that does not show it, in the patches. ViewLookUp on the host's lanes: rows in threads, plain
+/// pixels in lanes, edges and what else is not as simple one by one.
+class ViewLookUp {
+public:
+    ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers);
+
+    /// Borrowed until the next call.
+    void setReference(const WarpReference& reference);
+
+    struct Input {
+        Rows<const std::uint32_t> surface;  ///< SurfaceRaster::surface() at the current pose
+        const PatchPictures& patches;
+        const PatchStore& store;
+        Eigen::Vector4d plane;  ///< SilhouetteModels::plane()
+    };
+    /// Writes every pixel of `where`, and no other.
+    void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where);
+    /// Nothing at all in these pixels.
+    void clear(const PixelRect& where);
+
+    /// Of the last run, ascending.
+    [[nodiscard]] std::vector<Hole>& holes() { return holes_; }
+    [[nodiscard]] Rows<std::uint32_t> colour() { return colour_.rows(); }  ///< RGBA8 premultiplied
+    [[nodiscard]] Rows<const float> depth() const { return depth_.rows(); }
+    /// See WarpStep::state().
+    [[nodiscard]] Rows<const std::uint32_t> state() const { return state_.rows(); }
+
+private:
+    void runRow(const Input& input, const ViewLookUpInput& plain, const RestPixels& rest,
+                const PixelRect& where, int y, std::vector<std::uint32_t>& left);
+
+    LensProjection layer_;
+    std::shared_ptr<Workers> workers_;
+    const WarpReference* reference_ = nullptr;
+    PointLens referenceLens_;
+    AlignedRows<float> rayX_, rayY_, depth_;
+    AlignedRows<std::uint32_t> colour_, state_;
+    ScratchSlots<std::vector<std::uint32_t>> left_;  // pixels of a row that are not plain
+    std::vector<std::vector<Hole>> rowHoles_;
+    std::vector<Hole> holes_;
+};
+
+}  // namespace mfar::simd

@@ -1,0 +1,213 @@
+#include "pipeline/simd/view_rows.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "pipeline/simd/view_rows.cpp"
+
+#include <hwy/foreach_target.h>
+// Once for each instruction set, like this file.
+#include "pipeline/simd/point_lens-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// No more: a row of quarters has as many words to spare.
+using D = hn::CappedTag<float, 8>;
+using DU = hn::RebindToUnsigned<D>;
+using DI = hn::RebindToSigned<D>;
+using V = hn::Vec<D>;
+using VU = hn::Vec<DU>;
+using VI = hn::Vec<DI>;
+using M = hn::Mask<D>;
+
+/// Four words around a place: those of an upper and of a lower row.
+struct Four {
+    VU a, b, c, d;
+};
+
+HWY_INLINE V DepthOf(VU word) {
+    return hn::BitCast(D(), hn::And(word, hn::Set(DU(), 0xFFFFFF00U)));
+}
+HWY_INLINE M AsFloats(hn::Mask<DU> mask) {
+    return hn::RebindMask(D(), mask);
+}
+
+/// Where all four show the number.
+HWY_INLINE M AllShow(const Four& s, VU number) {
+    const VU differ = hn::Or(hn::Or(hn::Xor(s.a, number), hn::Xor(s.b, number)),
+                             hn::Or(hn::Xor(s.c, number), hn::Xor(s.d, number)));
+    const VU bits = hn::And(differ, hn::Set(DU(), 0xFFU));
+    return AsFloats(hn::Eq(bits, hn::Zero(DU())));
+}
+
+HWY_INLINE M IsClose(VU word, V z, V tolerance) {
+    return hn::Lt(hn::Abs(hn::Sub(DepthOf(word), z)), tolerance);
+}
+
+/// Bilinear, in 256ths: two channels a word.
+HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
+    const DU du;
+    const VU even = hn::Set(du, 0x00FF00FFU), half = hn::Set(du, 0x00800080U);
+    const auto sum = [&](auto channels) HWY_ATTR {
+        const VU upper =
+            hn::Add(hn::Mul(channels(texels.a), weights.a), hn::Mul(channels(texels.b), weights.b));
+        const VU lower =
+            hn::Add(hn::Mul(channels(texels.c), weights.c), hn::Mul(channels(texels.d), weights.d));
+        return hn::Add(hn::Add(upper, lower), half);
+    };
+    const VU redBlue = sum([&](VU t) HWY_ATTR { return hn::And(t, even); });
+    const VU greenAlpha = sum([&](VU t) HWY_ATTR { return hn::And(hn::ShiftRight<8>(t), even); });
+    return hn::Or(hn::And(hn::ShiftRight<8>(redBlue), even), hn::AndNot(even, greenAlpha));
+}
+
+/// Shares within a pixel, of the four texels around.
+HWY_INLINE Four WeightsOf(V x, V y) {
+    const DU du;
+    const D d;
+    const V full = hn::Set(d, 256), half = hn::Set(d, 0.5F);
+    const VU fx = hn::BitCast(du, hn::ConvertTo(DI(), hn::MulAdd(x, full, half)));
+    const VU fy = hn::BitCast(du, hn::ConvertTo(DI(), hn::MulAdd(y, full, half)));
+    const VU both = hn::ShiftRight<8>(hn::Add(hn::Mul(fx, fy), hn::Set(du, 128)));
+    const VU right = hn::Sub(fx, both), below = hn::Sub(fy, both);
+    return {hn::Sub(hn::Sub(hn::Set(du, 256), fx), below), right, below, both};
+}
+
+HWY_INLINE Four GatherFour(const std::uint32_t* from, VI at, int width) {
+    const DU du;
+    return {hn::GatherIndex(du, from, at), hn::GatherIndex(du, from + 1, at),
+            hn::GatherIndex(du, from + width, at), hn::GatherIndex(du, from + width + 1, at)};
+}
+
+HWY_INLINE V PlaneDepth(const CatcherPlane& plane, V rayX, V rayY, float nearest) {
+    const D d;
+    V facing = hn::MulAdd(hn::Set(d, plane.x), rayX,
+                          hn::MulAdd(hn::Set(d, plane.y), rayY, hn::Set(d, plane.z)));
+    facing = hn::IfThenElse(hn::Eq(facing, hn::Zero(d)), hn::Set(d, 1), facing);
+    const V z = hn::Div(hn::Set(d, plane.w), facing);
+    const auto seen = hn::And(hn::Gt(z, hn::Set(d, nearest)), hn::Lt(z, hn::Set(d, 1e6F)));
+    return hn::IfThenElseZero(seen, z);
+}
+
+/// The quarters of pixels: each second word of two rows.
+HWY_INLINE Four QuartersOf(const ViewRow& row, int x) {
+    Four s;
+    hn::LoadInterleaved2(DU(), row.upper + 2L * x, s.a, s.b);
+    hn::LoadInterleaved2(DU(), row.lower + 2L * x, s.c, s.d);
+    return s;
+}
+
+/// What a vector of pixels shows.
+struct Found {
+    VU colour;
+    V depth;
+    VU state;
+    M left;
+};
+
+HWY_INLINE Found LookUp(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
+    const D d;
+    const DU du;
+    const V zero = hn::Zero(d);
+    const VU ofFirst = hn::And(s.a, hn::Set(du, 0xFFU));
+    const M whole = AllShow(s, ofFirst);
+    const M open = hn::And(whole, AsFloats(hn::Eq(ofFirst, hn::Zero(du))));
+    const V sum = hn::Add(hn::Add(DepthOf(s.a), DepthOf(s.b)), hn::Add(DepthOf(s.c), DepthOf(s.d)));
+    const V onPlane = PlaneDepth(in.plane, rayX, rayY, in.lens.nearest);
+    const V z = hn::IfThenElse(open, onPlane, hn::Mul(sum, hn::Set(d, 0.25F)));
+    const M ofCatcher = hn::Or(open, AsFloats(hn::Eq(ofFirst, hn::Set(du, kCatcherNumber))));
+    const VU id =
+        hn::BitCast(du, hn::IfThenElse(ofCatcher, hn::BitCast(d, hn::Set(du, kCatcherNumber)),
+                                       hn::BitCast(d, ofFirst)));
+    const M empty = hn::And(open, hn::Eq(z, zero));
+
+    const Triples<V> point{hn::Mul(z, rayX), hn::Mul(z, rayY), z};
+    Triples<V> there = Transformed(d, in.toReference, point);
+    const M before = hn::And(hn::Gt(there.z, hn::Set(d, in.lens.nearest)),
+                             hn::And(hn::Lt(there.z, hn::Set(d, 1e6F)), hn::Gt(z, zero)));
+    there = {hn::IfThenElseZero(before, there.x), hn::IfThenElseZero(before, there.y),
+             hn::IfThenElse(before, there.z, hn::Set(d, 1))};
+    const Triples<V> pixel = PixelsOf(d, in.lens, there);
+    const V lowX = hn::Floor(pixel.x), lowY = hn::Floor(pixel.y);
+    const auto last = [&](int side) HWY_ATTR { return hn::Set(d, static_cast<float>(side - 2)); };
+    const M inner = hn::And(hn::And(hn::Ge(lowX, zero), hn::Le(lowX, last(in.reference.width))),
+                            hn::And(hn::Ge(lowY, zero), hn::Le(lowY, last(in.reference.height))));
+    const M asked = hn::And(hn::And(inner, before), hn::AndNot(empty, whole));
+    Found out{hn::Zero(du), zero, hn::Zero(du),
+              hn::AndNot(hn::Or(asked, empty), hn::FirstN(d, hn::Lanes(d)))};
+    if (!hn::AllFalse(d, asked)) {
+        const V width = hn::Set(d, static_cast<float>(in.reference.width));
+        // Pictures of up to 2^24 pixels: whole numbers of single precision.
+        const VI row = hn::ConvertTo(DI(), hn::IfThenElseZero(asked, lowY));
+        const VI at = hn::Add(hn::Mul(row, hn::ConvertTo(DI(), width)),
+                              hn::ConvertTo(DI(), hn::IfThenElseZero(asked, lowX)));
+        const Four t = GatherFour(in.packed, at, in.reference.width);
+        const V tolerance = hn::Mul(there.z, hn::Set(d, kSameDepth));
+        const M close =
+            hn::And(hn::And(IsClose(t.a, there.z, tolerance), IsClose(t.b, there.z, tolerance)),
+                    hn::And(IsClose(t.c, there.z, tolerance), IsClose(t.d, there.z, tolerance)));
+        const M nothing =
+            AsFloats(hn::Eq(hn::Or(hn::Or(t.a, t.b), hn::Or(t.c, t.d)), hn::Zero(du)));
+        const M shown = hn::Or(hn::And(close, AllShow(t, id)), hn::And(ofCatcher, nothing));
+        const M plain = hn::And(asked, shown);
+        const M coloured = hn::AndNot(nothing, plain);
+        if (!hn::AllFalse(d, coloured)) {
+            const Four colours = GatherFour(in.colours, at, in.reference.width);
+            const VU found =
+                Blend(colours, WeightsOf(hn::Sub(pixel.x, lowX), hn::Sub(pixel.y, lowY)));
+            out.colour = hn::BitCast(du, hn::IfThenElseZero(coloured, hn::BitCast(d, found)));
+            const M visible = AsFloats(hn::Gt(hn::ShiftRight<24>(out.colour), hn::Zero(du)));
+            const V lifted = hn::IfThenElse(ofCatcher, hn::Mul(z, hn::Set(d, in.shownDepth)), z);
+            out.depth = hn::IfThenElseZero(visible, lifted);
+        }
+        out.state =
+            hn::BitCast(du, hn::IfThenElseZero(plain, hn::BitCast(d, hn::ShiftLeft<24>(id))));
+        out.left = hn::Or(out.left, hn::AndNot(plain, asked));
+    }
+    return out;
+}
+
+int LookUpRow(const ViewRow& row, const ViewLookUpInput& in) {
+    const D d;
+    const DU du;
+    const bool hasPlane = in.plane.w != 0;
+    int left = 0;
+    for (int x = 0; x < row.count; x += static_cast<int>(hn::Lanes(d))) {
+        const Four s = QuartersOf(row, x);
+        const VU any = hn::Or(hn::Or(s.a, s.b), hn::Or(s.c, s.d));
+        if (!hasPlane && hn::AllTrue(du, hn::Eq(any, hn::Zero(du)))) {
+            hn::StoreU(hn::Zero(du), du, row.colour + x);
+            hn::StoreU(hn::Zero(du), du, row.state + x);
+            hn::StoreU(hn::Zero(d), d, row.depth + x);
+            continue;
+        }
+        Found f = LookUp(in, s, hn::LoadU(d, row.rayX + x), hn::LoadU(d, row.rayY + x));
+        const M within = hn::FirstN(d, static_cast<std::size_t>(row.count - x));
+        // Beside the row there is nothing.
+        f.colour = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.colour)));
+        f.state = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.state)));
+        f.depth = hn::IfThenElseZero(within, f.depth);
+        hn::StoreU(f.colour, du, row.colour + x);
+        hn::StoreU(f.depth, d, row.depth + x);
+        hn::StoreU(f.state, du, row.state + x);
+        const auto some = hn::RebindMask(du, hn::And(f.left, within));
+        if (hn::AllFalse(du, some)) continue;
+        const VU index = hn::Iota(du, static_cast<std::uint32_t>(x));
+        left += static_cast<int>(hn::CompressStore(index, some, du, row.left + left));
+    }
+    return left;
+}
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mfar::simd {
+
+HWY_EXPORT(LookUpRow);
+
+int lookUpRow(const ViewRow& row, const ViewLookUpInput& input) {
+    return HWY_DYNAMIC_DISPATCH(LookUpRow)(row, input);
+}
+
+}  // namespace mfar::simd
+#endif

@@ -1,0 +1,191 @@
+#include "pipeline/warp/silhouette_models.h"
+
+#include "base/se3.h"
+#include "pipeline/warp/warp_params.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+// Pieces along the diagonal of a model, and of the catcher, which may be far larger than what is
+// seen of it: at 640 px their edges are within a third of a pixel of the lens's curves.
+constexpr float kModelPieces = 16, kCatcherPieces = 32;
+// A triangle costs a software renderer 0.2 us: what a scene has beyond is simplified, each mesh in
+// proportion, but for so many.
+constexpr double kMostTriangles = 20000;
+constexpr std::size_t kLeastTriangles = 2000;
+constexpr int kEdgePoints = 8;    // of a box, along each edge
+constexpr int kBoundsMargin = 2;  // [px]
+constexpr double kFlat =
+    1e-4;  // [m]: corners of a catcher that are that close to a plane are in it
+
+bool isDistorted(const CameraModel& camera) {
+    return std::ranges::any_of(camera.distortion, [](double k) { return k != 0; });
+}
+
+Eigen::AlignedBox3d boxOf(const SurfaceMesh& mesh) {
+    Eigen::AlignedBox3d box;
+    for (const auto& t : mesh.triangles)
+        for (const std::uint32_t corner : t) {
+            const float* p = mesh.vertices[corner].position;
+            box.extend(Eigen::Vector3d(p[0], p[1], p[2]));
+        }
+    return box;
+}
+
+float diagonalOf(std::span<const Eigen::Vector3f> positions) {
+    Eigen::AlignedBox3f box;
+    for (const Eigen::Vector3f& p : positions)
+        if (p.allFinite()) box.extend(p);
+    return box.isEmpty() ? 0 : box.diagonal().norm();
+}
+
+/// n . point = w for all triangles' corners; zero if they are in no plane, or there are none.
+Eigen::Vector4d planeOf(const ShadowCatcher& catcher) {
+    Eigen::Vector4d plane = Eigen::Vector4d::Zero();
+    std::vector<Eigen::Vector3d> corners;
+    double area = 0;
+    for (const auto& t : catcher.triangles) {
+        std::array<Eigen::Vector3d, 3> p;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (t[i] >= catcher.positions.size()) return Eigen::Vector4d::Zero();
+            p[i] = catcher.positions[t[i]].cast<double>();
+            corners.push_back(p[i]);
+        }
+        const Eigen::Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
+        if (!(normal.norm() > area)) continue;
+        area = normal.norm();
+        plane.head<3>() = normal / area;
+        plane.w() = plane.head<3>().dot(p[0]);
+    }
+    const auto off = [&](const Eigen::Vector3d& p) {
+        return std::abs(plane.head<3>().dot(p) - plane.w());
+    };
+    const bool flat = std::ranges::all_of(corners, [&](const auto& p) { return off(p) < kFlat; });
+    return flat ? plane : Eigen::Vector4d::Zero();
+}
+
+double trianglesOf(const Scene& scene) {
+    double sum = 1;
+    for (const SceneObject& o : scene.objects)
+        for (const Mesh& mesh : o.model->meshes)
+            sum += static_cast<double>(mesh.triangles.size());
+    return sum;
+}
+
+}  // namespace
+
+SilhouetteModels::SilhouetteModels(const CameraModel& layer) : lens_(layer) {}
+
+void SilhouetteModels::setScene(const Scene& scene) {
+    const double share = std::min(1.0, kMostTriangles / trianglesOf(scene));
+    std::map<const Model*, std::shared_ptr<const Shape>> before, known;
+    if (std::exchange(share_, share) == share)
+        for (const Object& object : objects_)
+            before.emplace(object.shape->model.get(), object.shape);
+    objects_.clear();
+    triangles_ = 0;
+    for (const SceneObject& o : scene.objects) {
+        std::shared_ptr<const Shape>& shape = known[o.model.get()];
+        if (!shape) {
+            const auto kept = before.find(o.model.get());
+            shape = kept != before.end() ? kept->second : shapeOf(o.model);
+            for (const Part& part : shape->parts)
+                triangles_ += part.mesh.triangles.size();
+        }
+        objects_.push_back({shape, o.T_world_object, o.scale});
+    }
+    setCatcher(scene.catcher);
+}
+
+std::shared_ptr<const SilhouetteModels::Shape>
+SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
+    auto shape = std::make_shared<Shape>();
+    shape->model = model;
+    const bool bent = isDistorted(lens_.camera);
+    float diagonal = 0;
+    for (const Mesh& mesh : model->meshes)
+        diagonal = std::max(diagonal, diagonalOf(mesh.positions));
+    for (const Mesh& mesh : model->meshes) {
+        const Material& material = model->materials.at(static_cast<std::size_t>(mesh.material));
+        const float cutoff = material.alphaCutoff / std::max(material.baseColour.w(), 1e-6F);
+        const bool masked =
+            material.alphaCutoff > 0 && material.baseColourTexture >= 0 && !mesh.uvs.empty();
+        if (!masked && cutoff > 1) continue;  // the factor alone makes a hole of it
+        SurfaceMesh surface = surfaceMesh(mesh.positions, mesh.uvs, mesh.triangles,
+                                          bent ? diagonal / kModelPieces : 0);
+        if (share_ < 1)
+            surface = simplified(
+                std::move(surface),
+                static_cast<std::size_t>(share_ * static_cast<double>(mesh.triangles.size())) +
+                    kLeastTriangles);
+        if (surface.triangles.empty()) continue;
+        shape->box.extend(boxOf(surface));
+        // Simplified, a triangle may face another way than the surface does.
+        shape->parts.push_back(
+            {std::move(surface),
+             masked ? &model->textures.at(static_cast<std::size_t>(material.baseColourTexture))
+                    : nullptr,
+             cutoff, material.doubleSided || share_ < 1});
+    }
+    return shape;
+}
+
+void SilhouetteModels::setCatcher(const ShadowCatcher& catcher) {
+    catcher_.reset();
+    plane_ = planeOf(catcher);
+    if (plane_ != Eigen::Vector4d::Zero()) return;
+    const bool bent = isDistorted(lens_.camera);
+    SurfaceMesh surface = surfaceMesh(catcher.positions, {}, catcher.triangles,
+                                      bent ? diagonalOf(catcher.positions) / kCatcherPieces : 0);
+    if (surface.triangles.empty()) return;
+    triangles_ += surface.triangles.size();
+    auto shape = std::make_shared<Shape>();
+    shape->box = boxOf(surface);
+    shape->parts.push_back({std::move(surface), nullptr, 0, true});
+    catcher_ = Object{std::move(shape), {}, 1};
+}
+
+PixelRect SilhouetteModels::boundsOf(const Object& object,
+                                     const RigidTransform& T_camera_world) const {
+    const Shape& shape = *object.shape;
+    if (shape.box.isEmpty()) return {};
+    const RigidTransform T_camera_object = T_camera_world * object.T_world_object;
+    const Size size = lens_.camera.size;
+    const PixelRect all{0, 0, size.width, size.height};
+    Eigen::AlignedBox2d pixels;
+    bool behind = false;
+    for (int corner = 0; corner < 8; ++corner)
+        for (int axis = 0; axis < 3; ++axis) {
+            if ((corner >> axis & 1) != 0) continue;
+            for (int i = 0; i <= kEdgePoints; ++i) {
+                Eigen::Array3d share(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
+                share[axis] = static_cast<double>(i) / kEdgePoints;
+                const Eigen::Vector3d p =
+                    shape.box.min().array() + share * shape.box.sizes().array();
+                const Eigen::Vector3d h = lens_(T_camera_object * (object.scale * p));
+                if (h.z() >= LensProjection::kNear)
+                    pixels.extend(Eigen::Vector2d(h.hnormalized()));
+                else
+                    behind = true;
+            }
+        }
+    if (pixels.isEmpty()) return {};
+    return behind ? all : pixelsAround(pixels, kBoundsMargin, size);
+}
+
+PixelRect SilhouetteModels::bounds(const RigidTransform& T_world_camera) const {
+    PixelRect out;
+    if (!isFinite(T_world_camera)) return out;
+    const RigidTransform T_camera_world = T_world_camera.inverse();
+    for (const Object& object : objects_)
+        out = around(out, boundsOf(object, T_camera_world));
+    return out;
+}
+
+}  // namespace mfar

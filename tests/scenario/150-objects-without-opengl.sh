@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# On a machine without OpenGL ES, path-traced objects are shown as on any other. Previews need it:
+# mfard says so and shows the pictures without them.
+. "$(dirname "$0")/lib.sh"
+
+"$sim" --scene office --path handheld --seconds 1.5 --stills 3 --no-truth \
+    --out run >/dev/null || fail "no recording"
+
+# The dynamic linker takes the first file of a name, and gives up where that is no library.
+mkdir hidden
+: >hidden/libEGL.so.1
+: >hidden/libGLESv2.so.2
+export LD_LIBRARY_PATH=$PWD/hidden${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+
+# last NAME [ARGUMENT...]: the last picture of the recording, its bytes in NAME.raw.
+last() {
+    local name=$1
+    shift
+    run 0 --recording run --display "y4m:$name.y4m" --summary summary.json "$@"
+    says err "engine simd"
+    tail -c $((2304 * 1728 * 3 / 2)) "$name.y4m" >"$name.raw"
+    rm "$name.y4m"
+}
+# How many bytes differ from those of the picture without objects.
+differing() { { cmp -l plain.raw "$1.raw" || true; } | wc -l; }
+
+last plain
+# In front of everything on the desk.
+cat >preview.toml <<'END'
+[virtual]
+rendering = "preview"
+[[objects]]
+shape = "box"
+size = [0.1, 0.1, 0.1]
+position = [0.0, 0.0, 0.06]
+END
+# Few pixels and samples: there is a picture soon, however slow the machine is.
+sed 's/"preview"/"path-traced"\nresolution = 0.1\nsamples = 1\nbudget_ms = 60/' preview.toml >traced.toml
+
+last preview --config preview.toml
+says err "warning: previews of virtual objects are drawn with OpenGL ES 3.1 and are not shown: "
+[ "$(differing preview)" = 0 ] || fail "the picture without the preview differs"
+
+last traced --config traced.toml
+! grep -q "are not shown" err || fail "path-traced objects are called missing"
+shown=$(differing traced)
+echo "$shown bytes differ with the path-traced object"
+[ "$shown" -gt 50000 ] || fail "the path-traced object is not shown"
