@@ -3,9 +3,10 @@
 // apart:
 //   V3D_DEBUG=shaderdb mfar-compile-shaders 2>&1
 // BIFROST_MESA_DEBUG=shaderdb does the same on Mali. Usage:
-//   mfar-compile-shaders [FILE...]
-// With files: these instead, texts as gles_shaders/ has them with every #include resolved.
-// Exit status 1 when one of them does not compile.
+//   mfar-compile-shaders [--no-dispatch] [FILE...]
+// --no-dispatch: compute shaders are linked only. Panfrost has compiled them by then, and without a
+// GPU (Mesa's drm-shim) it ends at a dispatch. With files: these instead, texts as gles_shaders/
+// has them with every #include resolved. Exit status 1 when one of them does not compile.
 
 #include "base/gl/buffer.h"
 #include "base/gl/pass.h"
@@ -83,7 +84,7 @@ private:
 /// it is first used.
 class Use {
 public:
-    Use() {
+    explicit Use(bool dispatch) : dispatch_(dispatch) {
         const std::array<const gpu::Texture*, 3> targets{&targets_[0], &targets_[1], &targets_[2]};
         target_ = gpu::Framebuffer(targets);
         target_.bind();
@@ -91,11 +92,11 @@ public:
             glBindBufferBase(GL_UNIFORM_BUFFER, i, zeros_.id());
             glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, zeros_.id());
         }
-        glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, zeros_.id());
     }
     void compute(const LinkedProgram& program) {
+        if (!dispatch_) return;
         glUseProgram(program.id());
-        glDispatchComputeIndirect(0);  // no groups, which only the driver's last step finds out
+        glDispatchCompute(1, 1, 1);
         gpu::checkErrors("dispatch");
     }
     void draw(const LinkedProgram& program) {
@@ -106,6 +107,7 @@ public:
 
 private:
     static constexpr Size kPixel{1, 1};
+    bool dispatch_;
     gpu::Buffer zeros_{65536};
     std::array<gpu::Texture, 3> targets_{gpu::Texture(kPixel, gpu::TexelFormat::Rgba8),
                                          gpu::Texture(kPixel, gpu::TexelFormat::Rgba8),
@@ -153,23 +155,24 @@ void addVariants(std::string_view name, const std::string& text, std::vector<Sha
         out.push_back({std::string(name), text, defines});
 }
 
-std::vector<Shader> wanted(int argc, char** argv) {
+/// The shaders of these files; without files all of the program.
+std::vector<Shader> wanted(const std::vector<std::string>& files) {
     std::vector<Shader> out;
-    for (int i = 1; i < argc; ++i) {
-        std::ifstream file(argv[i], std::ios::binary);
-        if (!file) throw std::runtime_error(std::string(argv[i]) + " cannot be read");
-        addVariants(argv[i], {std::istreambuf_iterator<char>(file), {}}, out);
+    for (const std::string& path : files) {
+        std::ifstream file(path, std::ios::binary);
+        if (!file) throw std::runtime_error(path + " cannot be read");
+        addVariants(path, {std::istreambuf_iterator<char>(file), {}}, out);
     }
-    if (argc > 1) return out;
+    if (!files.empty()) return out;
     for (const shaders::Source& s : shaders::all())
         addVariants(s.name, std::string(s.text), out);
     return out;
 }
 
-int compileAll(const std::vector<Shader>& shaders) {
+int compileAll(const std::vector<Shader>& shaders, bool dispatch) {
     const std::unique_ptr<GlContext> context = createGlContext();
     std::printf("%s\n", context->description().c_str());
-    Use use;
+    Use use(dispatch);
     int failed = 0;
     for (const Shader& shader : shaders)
         failed += compiles(shader, use) ? 0 : 1;
@@ -183,7 +186,9 @@ int compileAll(const std::vector<Shader>& shaders) {
 
 int main(int argc, char** argv) {
     try {
-        return mfar::compileAll(mfar::wanted(argc, argv));
+        std::vector<std::string> files(argv + 1, argv + argc);
+        const bool dispatch = std::erase(files, "--no-dispatch") == 0;
+        return mfar::compileAll(mfar::wanted(files), dispatch);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "mfar-compile-shaders: %s\n", error.what());
         return 1;
