@@ -27,7 +27,7 @@ layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 tiles[];  // changed, matched; a workgroup each
 };
 
-#include "patch.glsl"
+#include "patch_template.glsl"
 
 // Of the flow [px per px]; more of it is a depth edge rather than a surface.
 const float kSteepest = 0.25;
@@ -73,18 +73,31 @@ vec4 bentRow(Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     return upper + (lower - upper) * fy;
 }
 
-// compare() with a flow that changes by dx and dy per pixel over the patch.
-Match compareBent(Template t, Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
+// Adds four pixels b of row r: the left (0) or right (1) half.
+void addHalf(inout Sums sums, int r, int side, vec4 b) {
+    int at = 3 * r + 3;
+    vec4 a = unpackPixels(templateWords[at + side]);
+    uint other = templateWords[at + 1 - side], sides = templateWords[at + 2];
+    float before = float(side == 0 ? (sides >> 8) & 255u : other >> 24);
+    float after = float(side == 0 ? other & 255u : (sides >> 16) & 255u);
+    vec4 gx = vec4(a.yzw, after) - vec4(before, a.xyz);
+    vec4 gy = unpackPixels(templateWords[at + 3 + side]) - unpackPixels(templateWords[at - 3 + side]);
+    sums.b += dot(b, vec4(1.0));
+    sums.bb += dot(b, b);
+    sums.ab += dot(a, b);
+    sums.gb += vec2(dot(gx, b), dot(gy, b));
+}
+
+// The template with a flow that changes by dx and dy per pixel over the patch.
+Match compareBent(Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
-    for (int r = 0; r < 8; ++r) {
-        vec4 b0 = bentRow(l, cell, u, dx, dy, vec2(0.0, r));
-        vec4 b1 = bentRow(l, cell, u, dx, dy, vec2(4.0, r));
-        sums.b += dot(b0 + b1, vec4(1.0));
-        sums.bb += dot(b0, b0) + dot(b1, b1);
-        sums.ab += dot(t.a0[r], b0) + dot(t.a1[r], b1);
-        sums.gb += vec2(dot(t.gx0[r], b0) + dot(t.gx1[r], b1), dot(t.gy0[r], b0) + dot(t.gy1[r], b1));
+    // Half a row at a time: a whole one with its gradients takes more registers than a V3D has.
+    int end = cell.y + 2 * kRows;
+    for (int i = cell.y; i < end; ++i) {
+        int side = (i - cell.y) & 1, r = (i - cell.y) >> 1;
+        addHalf(sums, r, side, bentRow(l, cell, u, dx, dy, vec2(4 * side, r)));
     }
-    return matchOf(t, sums);
+    return matchOf(sums);
 }
 
 void main() {
@@ -95,19 +108,19 @@ void main() {
         return;
     }
     Level lb = levelOf(to);
-    Template t = loadTemplate(levelOf(from), cell);
+    vec2 known = loadTemplate(levelOf(from), cell);
     vec2 dx = slopeAt(cell, ivec2(1, 0)), dy = slopeAt(cell, ivec2(0, 1));
+    prepareSteps(known, cell);
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
     // Without leaving the loop early, which costs vector processors more than the repetition does: where
     // nothing got better, the same place is looked at again.
     for (int k = 0; k <= search.x; ++k) {
-        Match m = compareBent(t, lb, cell, u, dx, dy);
-        vec2 s = stepOf(t, m.descent);
+        Match m = compareBent(lb, cell, u, dx, dy);
         bool better = m.cost < cost;
         cost = better ? m.cost : cost;
         best = better ? u : best;
-        u = better && dot(s, s) > 2.5e-5 ? u + s : best;
+        u = better && dot(m.step, m.step) > 2.5e-5 ? u + m.step : best;
     }
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, cost, t.variance);
+    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, cost, momentAt(1));
 }

@@ -18,7 +18,7 @@ layout(std430, binding = 1) buffer Patches {
     vec4 patches[];
 };
 
-#include "patch.glsl"
+#include "patch_template.glsl"
 
 const int kNeighbours = 4;
 
@@ -32,34 +32,25 @@ void main() {
     if (any(greaterThanEqual(cell, cells.xy))) return;
     vec4 own = cellIn(cell);
     vec2 best = own.xy;
-    Match found = Match(own.z, own.w, 0.0, 0.0, vec2(0.0));
+    float found = own.z;
     Level lb = levelOf(to);
-    Template t = loadTemplate(levelOf(from), cell);
+    vec2 known = loadTemplate(levelOf(from), cell);
     bool moved = false;
-    for (int k = 0; k < kNeighbours + search.x; ++k) {
-        vec2 u;
-        if (k < kNeighbours) {
-            ivec2 n = k == 0   ? ivec2(-1, 0)
-                      : k == 1 ? ivec2(1, 0)
-                      : k == 2 ? ivec2(0, -1)
-                               : ivec2(0, 1);
-            u = cellIn(cell + n).xy;
-            vec2 d = u - best;
-            if (dot(d, d) < 0.25) continue;
-        } else {
-            if (!moved) break;
-            vec2 s = stepOf(t, found.descent);
-            if (!(dot(s, s) > 2.5e-5)) break;
-            u = best + s;
-        }
-        Match m = compare(t, lb, cell, u);
-        if (m.cost < found.cost) {
-            found = m;
+    for (int k = 0; k < kNeighbours; ++k) {
+        ivec2 n = k == 0   ? ivec2(-1, 0)
+                  : k == 1 ? ivec2(1, 0)
+                  : k == 2 ? ivec2(0, -1)
+                           : ivec2(0, 1);
+        vec2 u = cellIn(cell + n).xy;
+        vec2 d = u - best;
+        if (dot(d, d) < 0.25) continue;
+        float cost = costAt(known, lb, cell, u);
+        if (cost < found) {
+            found = cost;
             best = u;
             moved = true;
-        } else if (k >= kNeighbours) {
-            break;
         }
     }
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found.cost, t.variance);
+    if (moved) refine(known, lb, cell, search.x, best, found);
+    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found, known.y);
 }

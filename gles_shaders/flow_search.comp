@@ -41,7 +41,7 @@ const float kOnLine = 1.0;  // [px]
 const float kClearlyLess = 0.5;
 #endif
 
-#include "patch.glsl"
+#include "patch_template.glsl"
 
 vec2 coarser(ivec2 c) {
     c = clamp(c, ivec2(0), cells.zw - 1);
@@ -75,38 +75,28 @@ void main() {
 #endif
     if (any(greaterThanEqual(cell, cells.xy))) return;
     Level lb = levelOf(to);
-    Template t = loadTemplate(levelOf(from), cell);
+    vec2 known = loadTemplate(levelOf(from), cell);
     vec2 best = vec2(1e9);
-    Match found = Match(1e9, 1.0, 0.0, 0.0, vec2(0.0));
-    int candidates = search.y;
-    // One loop around one comparison: the compiler inlines it, and once is what fits the cache.
-    for (int k = 0; k < candidates + search.z; ++k) {
-        vec2 u;
-        if (k < candidates) {
-            u = candidate(cell, k);
-            vec2 d = u - best;
-            if (dot(d, d) < 0.25) continue;
-        } else {
-            vec2 s = stepOf(t, found.descent);
-            if (!(dot(s, s) > 2.5e-5)) break;
-            u = best + s;
-        }
-        Match m = compare(t, lb, cell, u);
-        if (m.cost < found.cost) {
-            found = m;
+    float found = 1e9;
+    for (int k = 0; k < search.y; ++k) {
+        vec2 u = candidate(cell, k);
+        vec2 d = u - best;
+        if (dot(d, d) < 0.25) continue;
+        float cost = costAt(known, lb, cell, u);
+        if (cost < found) {
+            found = cost;
             best = u;
-        } else if (k >= candidates) {
-            break;
         }
     }
+    refine(known, lb, cell, search.z, best, found);
     int at = cell.y * cells.x + cell.x;
 #ifdef LISTED
     vec4 line = patches[offsets.x + at];
     vec2 off = best - line.xy;
     if (listed.y >= 0 && dot(off, off) > kOnLine * kOnLine) {
-        if (found.cost > kClearlyLess * line.z) return;
-        patches[listed.y + at].x = max(found.cost - kGoodCost, 0.0) * kErrorPerCost;
+        if (found > kClearlyLess * line.z) return;
+        patches[listed.y + at].x = max(found - kGoodCost, 0.0) * kErrorPerCost;
     }
 #endif
-    patches[offsets.x + at] = vec4(best, found.cost, t.variance);
+    patches[offsets.x + at] = vec4(best, found, known.y);
 }

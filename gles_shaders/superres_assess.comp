@@ -58,11 +58,8 @@ void main() {
     if (any(greaterThanEqual(cell, cells.xy))) return;
     vec2 u = patches[offsets.x + cell.y * cells.x + cell.x].xy;
     vec3 alike = vec3(0.0);
-    if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u) {
-        Template t = loadTemplate(levelOf(video), cell);
-        Match m = compare(t, levelOf(still), cell, u);
-        alike = vec3(m.covariance, t.variance, m.varianceB);
-    }
+    if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u)
+        alike = spreadOf(levelOf(video), levelOf(still), cell, u);
 
     vec2 centre = 4.0 * vec2(cell) + 1.5;
     vec2 q = centre + u;

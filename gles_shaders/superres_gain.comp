@@ -37,7 +37,6 @@ void main() {
         ivec2 c = min(2 * cell + ivec2(i & 1, i >> 1), cells.zw - 1);
         u += patches[offsets.x + c.y * cells.z + c.x].xy;
     }
-    Template t = loadTemplate(levelOf(video), cell);
-    Match m = compare(t, levelOf(still), cell, 0.5 * 0.25 * u);
-    imageStore(statistics, cell, vec4(m.covariance, t.variance, m.varianceB, 0.0));
+    imageStore(statistics, cell,
+               vec4(spreadOf(levelOf(video), levelOf(still), cell, 0.5 * 0.25 * u), 0.0));
 }

@@ -1,0 +1,150 @@
+// An 8x8 patch to be found again in another luma level, invariant to offset and gain.
+#include "patch.glsl"
+
+// Energy of noise in a patch [grey levels^2]: below it a patch counts as flat.
+const float kNoise = 128.0;
+// Added to the diagonal of the Hessian: keeps steps finite where there is no gradient.
+const float kDamping = 64.0;
+
+// The template: three words for each of rows -1 to kRows, its eight pixels and then those left and right
+// of them. Behind the rows nine floats: mean, variance (sum of squared deviations), sum of the gradient (x, y),
+// sum of a (less its mean) times the gradient, inverse Hessian (xx, xy, yy). No GPU has registers for all of this next to a comparison. Variable
+// indices keep it in memory, on Mali if it has more than 64 words, and loops of a length that compilers do
+// not know, here and in what uses this, stay loops with one row in registers.
+uint templateWords[72];
+
+// Over the pixels of a patch: of the other picture, of its square, of its product with the template and
+// with twice the template's gradient.
+struct Sums {
+    float b, bb, ab;
+    vec2 gb;
+};
+
+struct Match {
+    float cost;
+    vec2 step;  // of Gauss-Newton on the displacement, at most a pixel long
+};
+
+// Pixels of row r of the template, -1 to kRows.
+Row templateRow(int r) {
+    int at = 3 * r + 3;
+    return Row(unpackPixels(templateWords[at]), unpackPixels(templateWords[at + 1]));
+}
+// Twice its gradient along x, and along y.
+Row slopeAcross(int r, Row a) {
+    uint word = templateWords[3 * r + 5];
+    float before = float((word >> 8) & 255u), after = float((word >> 16) & 255u);
+    return Row(vec4(a.left.yzw, a.right.x) - vec4(before, a.left.xyz),
+               vec4(a.right.yzw, after) - vec4(a.left.w, a.right.xyz));
+}
+Row slopeDown(int r) {
+    Row above = templateRow(r - 1), below = templateRow(r + 1);
+    return Row(below.left - above.left, below.right - above.right);
+}
+
+// Sets the rows. Returns mean and variance.
+vec2 loadTemplate(Level l, ivec2 cell) {
+    float sum = 0.0, sumSquares = 0.0;
+    for (int r = -1; r <= kRows; ++r) {
+        uvec3 w = fetchWords(wordAt(l, cell.x - 1, 4 * cell.y - 2 + r));
+        uvec2 row = cellRow(w);
+        int at = 3 * r + 3;
+        templateWords[at] = row.x;
+        templateWords[at + 1] = row.y;
+        templateWords[at + 2] = (w.x & 0xff00u) | (w.z & 0xff0000u);
+        if (r < 0 || r == kRows) continue;
+        Row a = Row(unpackPixels(row.x), unpackPixels(row.y));
+        sum += sumOf(a);
+        sumSquares += product(a, a);
+    }
+    float mean = sum / kPixels;
+    return vec2(mean, max(sumSquares - sum * mean, 0.0));
+}
+
+// Sets the floats behind the rows, given mean and variance.
+void prepareSteps(vec2 known, ivec2 cell) {
+    vec2 sum = vec2(0.0), sumA = vec2(0.0);
+    vec3 h = vec3(0.0);
+    int r = 0, y = cell.y, end = y + kRows;
+    for (; y < end; ++r, ++y) {
+        Row a = templateRow(r), gx = slopeAcross(r, a), gy = slopeDown(r);
+        sum += vec2(sumOf(gx), sumOf(gy));
+        sumA += vec2(product(a, gx), product(a, gy));
+        h += vec3(product(gx, gx), product(gx, gy), product(gy, gy));
+    }
+    sum *= 0.5;
+    sumA = 0.5 * sumA - known.x * sum;
+    h = 0.25 * h + vec3(kDamping, 0.0, kDamping) - vec3(sum.x * sum, sum.y * sum.y) / kPixels;
+    h = vec3(h.z, -h.y, h.x) / max(h.x * h.z - h.y * h.y, 1.0);
+    float moments[9] = float[](known.x, known.y, sum.x, sum.y, sumA.x, sumA.y, h.x, h.y, h.z);
+    for (int i = 0; i < 9; ++i) templateWords[3 * r + 6 + i] = floatBitsToUint(moments[i]);
+}
+
+float momentAt(int i) {
+    return uintBitsToFloat(templateWords[3 * kRows + 6 + i]);
+}
+
+void add(inout Sums sums, Row a, Row b) {
+    sums.b += sumOf(b);
+    sums.bb += product(b, b);
+    sums.ab += product(a, b);
+}
+
+// 0 = alike up to gain and offset, 1 = unrelated, 2 = inverted. `known`: mean and variance of the
+// template. gain: a is about gain * b + offset.
+float costOf(vec2 known, Sums sums, out float gain) {
+    float mean = sums.b / kPixels;
+    float variance = max(sums.bb - sums.b * mean, 0.0);
+    gain = sqrt((known.y + kNoise) / (variance + kNoise));
+    float energy = known.y + gain * gain * variance;
+    return max(energy - 2.0 * gain * (sums.ab - known.x * sums.b), 0.0) / (energy + kNoise);
+}
+
+Match matchOf(Sums sums) {
+    float gain;
+    Match m;
+    m.cost = costOf(vec2(momentAt(0), momentAt(1)), sums, gain);
+    vec2 descent = vec2(momentAt(4), momentAt(5)) -
+                   gain * (0.5 * sums.gb - sums.b / kPixels * vec2(momentAt(2), momentAt(3)));
+    m.step = vec2(momentAt(6) * descent.x + momentAt(7) * descent.y,
+                  momentAt(7) * descent.x + momentAt(8) * descent.y);
+    m.step /= max(length(m.step), 1.0);
+    return m;
+}
+
+// See costOf().
+float costAt(vec2 known, Level l, ivec2 cell, vec2 u) {
+    Window w = windowAt(l, cell, u);
+    Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
+    int end = w.y + kRows;
+    while (w.y < end) {
+        Row b = nextRow(w, l);
+        add(sums, templateRow(w.y - end + kRows - 1), b);
+    }
+    float gain;
+    return costOf(known, sums, gain);
+}
+
+// Takes Gauss-Newton steps from `best` on as long as they lower the cost.
+void refine(vec2 known, Level l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
+    prepareSteps(known, cell);
+    vec2 u = best;
+    for (int k = 0; k <= steps; ++k) {
+        Window w = windowAt(l, cell, u);
+        Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
+        int end = w.y + kRows;
+        while (w.y < end) {
+            Row b = nextRow(w, l);
+            int r = w.y - end + kRows - 1;
+            Row a = templateRow(r);
+            add(sums, a, b);
+            sums.gb += vec2(product(slopeAcross(r, a), b), product(slopeDown(r), b));
+        }
+        Match m = matchOf(sums);
+        if (k > 0 && !(m.cost < cost)) break;
+        cost = m.cost;
+        best = u;
+        if (!(dot(m.step, m.step) > 2.5e-5)) break;
+        u = best + m.step;
+    }
+}

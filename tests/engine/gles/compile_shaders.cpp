@@ -1,0 +1,196 @@
+// Compiles every shader of the program, in every variant, on the driver that mfard would use.
+// Prints a line "shader: NAME DEFINES" before each, so that what the driver prints can be told
+// apart:
+//   V3D_DEBUG=shaderdb mfar-compile-shaders 2>&1
+// BIFROST_MESA_DEBUG=shaderdb does the same on Mali. Usage:
+//   mfar-compile-shaders [--no-dispatch] [FILE...]
+// --no-dispatch: compute shaders are linked only. Panfrost has compiled them by then, and without a
+// GPU (Mesa's drm-shim) it ends at a dispatch. With files: these instead, texts as gles_shaders/
+// has them with every #include resolved. Exit status 1 when one of them does not compile.
+
+#include "base/gl/buffer.h"
+#include "base/gl/pass.h"
+#include "base/gl/texture.h"
+#include "gles_shaders/shaders.h"
+#include "hal/gl_context.h"
+#include "tests/shader/shader_budget.h"
+
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+struct Shader {
+    std::string name, text, defines;
+};
+
+/// Of one or two shaders. Deletes it at the end of the scope.
+class LinkedProgram {
+public:
+    explicit LinkedProgram(const std::vector<Shader>& shaders) : id_(glCreateProgram()) {
+        for (const Shader& shader : shaders)
+            attach(shader);
+        glLinkProgram(id_);
+        GLint ok = GL_FALSE;
+        glGetProgramiv(id_, GL_LINK_STATUS, &ok);
+        if (ok == GL_TRUE) return;
+        std::array<char, 2048> text{};
+        glGetProgramInfoLog(id_, text.size(), nullptr, text.data());
+        log_ = log_.empty() ? text.data() : log_;
+    }
+    LinkedProgram(const LinkedProgram&) = delete;
+    LinkedProgram& operator=(const LinkedProgram&) = delete;
+    ~LinkedProgram() { glDeleteProgram(id_); }
+
+    [[nodiscard]] GLuint id() const { return id_; }
+    /// Why it does not compile or link; empty when it does.
+    [[nodiscard]] const std::string& log() const { return log_; }
+
+private:
+    void attach(const Shader& shader) {
+        const bool compute = shader.name.ends_with(".comp");
+        const bool vertex = shader.name.ends_with(".vert");
+        const GLuint id = glCreateShader(compute  ? GL_COMPUTE_SHADER
+                                         : vertex ? GL_VERTEX_SHADER
+                                                  : GL_FRAGMENT_SHADER);
+        const std::string all = gpu::shaderPreamble(shader.defines) + shader.text;
+        const char* source = all.c_str();
+        glShaderSource(id, 1, &source, nullptr);
+        glCompileShader(id);
+        GLint ok = GL_FALSE;
+        glGetShaderiv(id, GL_COMPILE_STATUS, &ok);
+        if (ok != GL_TRUE) {
+            std::array<char, 2048> text{};
+            glGetShaderInfoLog(id, text.size(), nullptr, text.data());
+            log_ = std::string("does not compile: ") + text.data();
+        }
+        glAttachShader(id_, id);
+        glDeleteShader(id);
+    }
+
+    GLuint id_;
+    std::string log_;
+};
+
+/// Zeros at every binding, and one pixel to draw into: drivers make the final code of a shader when
+/// it is first used.
+class Use {
+public:
+    explicit Use(bool dispatch) : dispatch_(dispatch) {
+        const std::array<const gpu::Texture*, 3> targets{&targets_[0], &targets_[1], &targets_[2]};
+        target_ = gpu::Framebuffer(targets);
+        target_.bind();
+        for (GLuint i = 0; i < ShaderBudget::kStorageBlocks; ++i) {
+            glBindBufferBase(GL_UNIFORM_BUFFER, i, zeros_.id());
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, zeros_.id());
+        }
+    }
+    void compute(const LinkedProgram& program) {
+        if (!dispatch_) return;
+        glUseProgram(program.id());
+        glDispatchCompute(1, 1, 1);
+        gpu::checkErrors("dispatch");
+    }
+    void draw(const LinkedProgram& program) {
+        glUseProgram(program.id());
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        gpu::checkErrors("draw");
+    }
+
+private:
+    static constexpr Size kPixel{1, 1};
+    bool dispatch_;
+    gpu::Buffer zeros_{65536};
+    std::array<gpu::Texture, 3> targets_{gpu::Texture(kPixel, gpu::TexelFormat::Rgba8),
+                                         gpu::Texture(kPixel, gpu::TexelFormat::Rgba8),
+                                         gpu::Texture(kPixel, gpu::TexelFormat::Rgba8)};
+    gpu::Framebuffer target_;
+};
+
+/// A fragment or vertex shader is drawn with the first partner that links with it. Returns why it
+/// does not compile or link.
+std::string drawn(const Shader& shader, Use& use) {
+    const bool vertex = shader.name.ends_with(".vert");
+    std::string log = "has no partner";
+    for (const shaders::Source& s : shaders::all()) {
+        if (!s.name.ends_with(vertex ? ".frag" : ".vert")) continue;
+        const LinkedProgram program(
+            {shader, {std::string(s.name), std::string(s.text), shader.defines}});
+        log = program.log();
+        if (!log.empty()) continue;
+        use.draw(program);
+        break;
+    }
+    return log;
+}
+
+bool compiles(const Shader& shader, Use& use) {
+    const std::string defines = shader.defines.empty() ? "\n" : " " + shader.defines;
+    std::printf("shader: %s%s", shader.name.c_str(), defines.c_str());
+    std::fflush(stdout);
+    std::string log;
+    if (shader.name.ends_with(".comp")) {
+        const LinkedProgram program({shader});
+        log = program.log();
+        if (log.empty()) use.compute(program);
+    } else {
+        log = drawn(shader, use);
+    }
+    glFinish();
+    if (!log.empty()) std::fprintf(stderr, "%s: %s\n", shader.name.c_str(), log.c_str());
+    return log.empty();
+}
+
+/// Every variant that the text names.
+void addVariants(std::string_view name, const std::string& text, std::vector<Shader>& out) {
+    for (const std::string& defines : shaderVariants(text))
+        out.push_back({std::string(name), text, defines});
+}
+
+/// The shaders of these files; without files all of the program.
+std::vector<Shader> wanted(const std::vector<std::string>& files) {
+    std::vector<Shader> out;
+    for (const std::string& path : files) {
+        std::ifstream file(path, std::ios::binary);
+        if (!file) throw std::runtime_error(path + " cannot be read");
+        addVariants(path, {std::istreambuf_iterator<char>(file), {}}, out);
+    }
+    if (!files.empty()) return out;
+    for (const shaders::Source& s : shaders::all())
+        addVariants(s.name, std::string(s.text), out);
+    return out;
+}
+
+int compileAll(const std::vector<Shader>& shaders, bool dispatch) {
+    const std::unique_ptr<GlContext> context = createGlContext();
+    std::printf("%s\n", context->description().c_str());
+    Use use(dispatch);
+    int failed = 0;
+    for (const Shader& shader : shaders)
+        failed += compiles(shader, use) ? 0 : 1;
+    std::printf("%zu compiled, %d failed\n", shaders.size() - static_cast<std::size_t>(failed),
+                failed);
+    return failed == 0 && !shaders.empty() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace mfar
+
+int main(int argc, char** argv) {
+    try {
+        std::vector<std::string> files(argv + 1, argv + argc);
+        const bool dispatch = std::erase(files, "--no-dispatch") == 0;
+        return mfar::compileAll(mfar::wanted(files), dispatch);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "mfar-compile-shaders: %s\n", error.what());
+        return 1;
+    }
+}
