@@ -1,7 +1,8 @@
 // Luma pyramids in one storage buffer, four 8-bit pixels a word, leftmost in the low byte. Each row has
-// kMarginWords words of replicated border on both sides. The layout is that of flow/luma_pyramid.h.
+// kLumaMarginWords words of replicated border on both sides.
+#include "pipeline/engine/params/luma.h"
 
-const int kMarginWords = 2;
+const int kMarginWords = kLumaMarginWords;
 
 struct Level {
     int offset;  // words
@@ -12,6 +13,9 @@ struct Level {
 
 Level levelOf(ivec4 v) {
     return Level(v.x, v.y, v.z, v.w);
+}
+Level levelOf(LumaLevel l) {
+    return Level(l.offset, l.pitch, l.width, l.height);
 }
 
 vec4 unpackPixels(uint word) {
@@ -26,5 +30,5 @@ uint packPixels(vec4 v) {
 
 // Rec. 601 luma of an RGB colour.
 float lumaOf(vec3 rgb) {
-    return dot(rgb, vec3(0.299, 0.587, 0.114));
+    return dot(rgb, vec3(kLumaRed, kLumaGreen, kLumaBlue));
 }

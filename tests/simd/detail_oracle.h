@@ -2,6 +2,8 @@
 
 #include "base/image_view.h"
 #include "base/rows.h"
+#include "pipeline/engine/params/detail.h"
+#include "pipeline/engine/params/still.h"
 
 #include <algorithm>
 #include <array>
@@ -46,7 +48,7 @@ struct Plane {
 
 private:
     static double keys(double d) {
-        const double a = -0.75;
+        const double a = params::kCubicSlope;
         d = std::abs(d);
         return d <= 1 ? (a + 2) * d * d * d - (a + 3) * d * d + 1
                       : a * (d * d * d - 5 * d * d + 8 * d - 4);
@@ -67,7 +69,7 @@ inline Plane enlarged(const Plane& p, Size to, bool linear = false) {
 
 /// `strengthAt`: of a pixel.
 inline Plane sharpened(const Plane& p, const std::function<double(int, int)>& strengthAt) {
-    constexpr double kNear = -0.14123, kFar = 0.0385;
+    constexpr double kNear = params::kSharpenNear, kFar = params::kSharpenFar;
     return Plane::of(p.size, [&](int x, int y) {
         const double c = p.at(x, y);
         const double near = p.at(x - 1, y) + p.at(x + 1, y) + p.at(x, y - 1) + p.at(x, y + 1);
@@ -106,7 +108,8 @@ inline Plane detail(const Plane& luma, Size lowSize, double neighbours) {
         double sum = 0;
         for (int i = 0; i < 16; ++i) {
             const int column = i % 4, row = i / 4;
-            const double dx = (column - 1.5) * 0.25 * 1.25, dy = (row - 1.5) * 0.25 * 1.25;
+            const double dx = (column - 1.5) * 0.25 * params::kFootprint,
+                         dy = (row - 1.5) * 0.25 * params::kFootprint;
             sum += luma.bilinear((x + 0.5 + dx) * luma.size.width / lowSize.width - 0.5,
                                  (y + 0.5 + dy) * luma.size.height / lowSize.height - 0.5);
         }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pipeline/engine/params/detail.h"
+#include "pipeline/engine/params/still.h"
 #include "tests/shader/twins/luma.h"
 
 #include <array>
@@ -10,7 +12,7 @@ namespace mfar::twin {
 /// Keys' cubic with a = -0.75: weights of the four samples around a fraction t.
 inline std::array<double, 4> cubic(double t) {
     const auto w = [](double d) {
-        const double a = -0.75;
+        const double a = params::kCubicSlope;
         d = std::abs(d);
         return d <= 1 ? (a + 2) * d * d * d - (a + 3) * d * d + 1
                       : a * d * d * d - 5 * a * d * d + 8 * a * d - 4 * a;
@@ -51,7 +53,7 @@ inline Grey upscaled(const Grey& g, Size to, bool linear = false) {
     });
 }
 
-inline constexpr double kNearTap = -0.14123, kFarTap = 0.0385;
+inline constexpr double kNearTap = params::kSharpenNear, kFarTap = params::kSharpenFar;
 
 /// The prefilter along both axes, with the product of the nearest taps across.
 inline Grey sharpened(const Grey& g, double strength) {
@@ -69,16 +71,14 @@ inline Grey sharpened(const Grey& g, double strength) {
     });
 }
 
-inline constexpr double kLowFootprint = 1.25;  // in pixels of the low picture
-
 /// The still's luma on a coarser grid: mean of 4x4 bilinear taps over the footprint.
 inline Grey stillLow(const Grey& still, Size low) {
     return greyOf(low, [&](int x, int y) {
         double sum = 0;
         for (int i = 0; i < 16; ++i) {
-            const double u = (x + 0.5 + kLowFootprint * (i % 4 - 1.5) / 4) / low.width;
+            const double u = (x + 0.5 + double{params::kFootprint} * (i % 4 - 1.5) / 4) / low.width;
             const int row = i / 4;
-            const double v = (y + 0.5 + kLowFootprint * (row - 1.5) / 4) / low.height;
+            const double v = (y + 0.5 + double{params::kFootprint} * (row - 1.5) / 4) / low.height;
             sum += still.bilinear(u * still.size.width - 0.5, v * still.size.height - 0.5) / 16;
         }
         return sum;
