@@ -58,24 +58,28 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
         sum += w * texelFetch(from, t, 0);
     }
     found = sum / max(weights, 1e-6);
-    return weights > slack.y ? weights : 0.0;
+    return weights > params.leastWeight ? weights : 0.0;
 }
 
 // How much of the colour of the surface at `point` is known; at the depth of `seen` to the reference.
 float known(vec3 point, vec3 seen, float id, out vec4 found) {
-    if (lookUp(colours, surfaces, sizes.xy, 0, inView(0, seen), id, slack.x, found) > 0.0) return 1.0;
+    if (lookUp(colours, surfaces, referenceSize(), 0, inView(0, seen), id, params.slack, found) > 0.0) return 1.0;
     float share_ = 0.0;  // that of the patch shown most: one that fades in takes nothing away
-    for (int i = 0; i < counts.x; ++i) {
+    for (int i = 0; i < params.patches; ++i) {
         vec4 own;
         vec3 at = inView(i + 1, point);
-        if (share[i] <= share_ || lookUp(patchColours, patchSurfaces, sizes.zw, i * sizes.w, at, id, 1.0, own) == 0.0) continue;
-        share_ = share[i];
+        if (params.views[i + 1].share <= share_ || lookUp(patchColours, patchSurfaces, layerSize(), i * params.height, at, id, 1.0, own) == 0.0) continue;
+        share_ = params.views[i + 1].share;
         found = own;
     }
     if (share_ > 0.0) return share_;
     // Of the catcher, nothing is known beyond the reference, and nothing is missed.
     found = vec4(0.0);
     return id == 255.0 && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
+}
+
+uvec4 groupsOf(DispatchGroups g) {
+    return uvec4(g.x, g.y, g.z, g.count);
 }
 
 vec3 seenAt(sampler2D splattedDepth, ivec2 p, vec3 point, vec3 otherwise) {
@@ -87,16 +91,17 @@ void main() {
     uint entry = gl_GlobalInvocationID.x;
     if (entry >= commands[0].w) return;
     int index = int(list[entry]);
-    ivec2 p = ivec2(index % sizes.z, index / sizes.z);
+    ivec2 p = ivec2(index % params.width, index / params.width);
     vec2 ray = texelFetch(rays, p, 0).rg;
-    uvec4 s = textureGather(silhouette, (vec2(p) + 0.5) / vec2(sizes.zw));
+    uvec4 s = textureGather(silhouette, (vec2(p) + 0.5) / vec2(layerSize()));
     uint id = mostOf(s);
     vec3 object = middleOf(s, id), catcher = middleOf(s, kCatcher);
     float covered = 0.25 * dot(vec4(notEqual(s & 0xffu, uvec4(0u))) * vec4(notEqual(s & 0xffu, uvec4(kCatcher))), vec4(1.0));
     catcher.z = catcher.z == 0.0 ? planeDepth(ray) : catcher.z;
     float below = catcher.z > 0.0 ? 1.0 - covered : 0.0;
-    vec3 point = object.z * vec3(ray + object.xy / pinhole[1].xy, 1.0);
-    vec3 under = catcher.z * vec3(ray + catcher.xy / pinhole[1].xy, 1.0);
+    vec2 focal = vec2(params.projections[1].lens.fx, params.projections[1].lens.fy);
+    vec3 point = object.z * vec3(ray + object.xy / focal, 1.0);
+    vec3 under = catcher.z * vec3(ray + catcher.xy / focal, 1.0);
 #ifdef SPLATTED_DEPTH
     vec3 seen = seenAt(objectDepth, p, point, vec3(0.0)), seenUnder = seenAt(catcherDepth, p, under, under);
 #else
@@ -123,6 +128,6 @@ void main() {
     uint i = atomicAdd(holeCommands[0].w, 1u);
     if (i % 64u == 0u) atomicAdd(holeCommands[0].x, 1u);
     if (i == 0u)
-        for (int l = 0; l < counts.y; ++l) holeCommands[l + 1] = wanted[l];
+        for (int l = 0; l < params.levels; ++l) holeCommands[l + 1] = groupsOf(params.wanted[l]);
     holes[i] = uvec2(uint(index) | (edge ? 1u << 30 : nowhere ? 1u << 31 : 0u), packUnorm4x8(shown));
 }

@@ -8,6 +8,11 @@
 // Shaders read this header, too: gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
+/// A shadow on the real scene is laid over that as if it were so much nearer [share of its z]: what
+/// depth cannot tell from the surface that it lies on does not hide it, and what lies on that is in
+/// the shadow as well.
+inline constexpr float kShadowLift = 0.02F;
+
 /// A row of a transform: of the rotation, then the translation [m].
 struct alignas(16) Row4 {
     float x, y, z, w;
@@ -39,13 +44,13 @@ struct alignas(16) Colour {
 struct alignas(16) PreviewObject {
     Transform object;  ///< T_video_object
     Projection projection;
-    Colour colours[2];                   ///< of the squares
-    float width, height, depth;          ///< of the object [m]
-    float squares;                       ///< along each side
-    float lightX, lightY, lightZ;        ///< unit vector towards the light, camera frame
-    float ambient;                       ///< share of the ambient light
-    float targetWidth, targetHeight;     ///< [px]
-    float reach, squaredRadius;          ///< of the unit shape: largest coordinate; of its corners
+    Colour colours[2];                ///< of the squares
+    float width, height, depth;       ///< of the object [m]
+    float squares;                    ///< along each side
+    float lightX, lightY, lightZ;     ///< unit vector towards the light, camera frame
+    float ambient;                    ///< share of the ambient light
+    float targetWidth, targetHeight;  ///< [px]
+    float reach, squaredRadius;       ///< of the unit shape: largest coordinate; of its corners
 };
 
 }  // namespace mfar::params

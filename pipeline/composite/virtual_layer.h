@@ -2,13 +2,11 @@
 
 #include "base/geometry.h"
 #include "base/gl/texture.h"
+#include "pipeline/composite/pass_params.h"
 
 namespace mfar {
 
-/// A shadow on the real scene is laid over that as if it were so much nearer [share of its z]: what
-/// depth cannot tell from the surface that it lies on does not hide it, and what lies on that is in
-/// the shadow as well.
-inline constexpr float kShadowLift = 0.02F;
+using params::kShadowLift;
 
 /// Picture of the virtual objects alone, seen by the video camera at the output's resolution.
 /// Borrowed: valid until its maker's next run.

@@ -20,13 +20,6 @@ bool isSameCamera(const CameraModel& a, const CameraModel& b) {
            a.distortion == b.distortion;
 }
 
-void storeRect(std::int32_t (&to)[4], const PixelRect& r) {
-    to[0] = r.x0;
-    to[1] = r.y0;
-    to[2] = r.x1;
-    to[3] = r.y1;
-}
-
 gpu::Groups groupsOver(const PixelRect& r) {
     return {gpu::groupsFor(r.x1 - r.x0, kSplatGroup), gpu::groupsFor(r.y1 - r.y0, kSplatGroup), 1};
 }
@@ -58,23 +51,18 @@ void DepthSplat::run(const WarpReference& reference, const ReferenceTextures& te
     clear(where);
     const Size size = layer_.camera.size;
     if (!reference.bounds.empty()) {
-        SplatParams p{};
-        storeRows(p.fromView, T_world_camera.inverse() * reference.T_world_camera);
-        storeLens(p.pinhole, p.distortion, p.lens, layer_);
-        storeRect(p.from, reference.bounds);
-        p.sizes[0] = size.width;
-        p.sizes[1] = size.height;
-        splat_.run(p,
+        splat_.run({.fromView = transformOf(T_world_camera.inverse() * reference.T_world_camera),
+                    .layer = projectionOf(layer_),
+                    .from = boundsOf(reference.bounds),
+                    .width = size.width,
+                    .height = size.height},
                    {gpu::sampler(0, textures.surface()), gpu::sampler(1, rays_),
                     gpu::storage(0, nearest_)},
                    groupsOver(reference.bounds));
     }
-    ResolveParams r{};
-    storeRect(r.bounds, where);
-    r.sizes[0] = size.width;
-    r.sizes[1] = size.height;
     resolve_.run(
-        r, {gpu::storage(0, nearest_), gpu::imageWrite(0, objects_), gpu::imageWrite(1, catcher_)},
+        {.bounds = boundsOf(where), .width = size.width, .height = size.height},
+        {gpu::storage(0, nearest_), gpu::imageWrite(0, objects_), gpu::imageWrite(1, catcher_)},
         groupsOver(where));
 }
 

@@ -2,6 +2,7 @@
 
 #include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
+#include "pipeline/warp/pass_params.h"
 #include "pipeline/warp/reference_textures.h"
 
 #include <cstdint>
@@ -25,14 +26,6 @@ public:
     [[nodiscard]] const gpu::Texture& catcher() const { return catcher_; }  ///< the same
 
 private:
-    struct SplatParams {  // warp_splat.comp
-        float fromView[3][4], pinhole[4], distortion[4], lens[4];
-        std::int32_t from[4], sizes[4];
-    };
-    struct ResolveParams {  // warp_splat_resolve.comp
-        std::int32_t bounds[4], sizes[4];
-    };
-
     void clear(const PixelRect& where);
 
     LensProjection layer_;
@@ -40,8 +33,8 @@ private:
     gpu::Texture rays_, objects_, catcher_;
     gpu::Buffer nearest_;
     std::vector<std::uint32_t> nothing_;
-    gpu::ComputePass<SplatParams> splat_;
-    gpu::ComputePass<ResolveParams> resolve_;
+    gpu::ComputePass<params::SplatDepth> splat_;
+    gpu::ComputePass<params::ResolveSplat> resolve_;
 };
 
 }  // namespace mfar

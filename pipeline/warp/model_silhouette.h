@@ -3,6 +3,7 @@
 #include "base/gl/pass.h"
 #include "pipeline/composite/lens_projection.h"
 #include "pipeline/scene/scene.h"
+#include "pipeline/warp/pass_params.h"
 #include "pipeline/warp/surface_mesh.h"
 
 #include <Eigen/Geometry>
@@ -43,9 +44,6 @@ public:
     [[nodiscard]] std::size_t triangles() const { return triangles_; }
 
 private:
-    struct Params {  // warp_silhouette_params.glsl
-        float object[3][4], pinhole[4], distortion[4], lens[4], target[4];
-    };
     struct Part {
         gpu::Buffer vertices, indices;
         int indexCount;
@@ -82,7 +80,7 @@ private:
     PixelRect drawn_;
     gpu::Texture surface_, window_;
     gpu::Framebuffer target_;
-    gpu::DrawPass<Params> pass_, maskedPass_;
+    gpu::DrawPass<params::SilhouetteMesh> pass_, maskedPass_;
 };
 
 }  // namespace mfar

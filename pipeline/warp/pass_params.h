@@ -11,8 +11,6 @@ namespace mfar::params {
 /// Number of what shadows fall on, and of any object, in packed surfaces.
 inline constexpr std::uint32_t kCatcherNumber = 255U;
 inline constexpr std::uint32_t kAnyObjectNumber = 254U;
-/// A shadow is nearer than what it lies on by this share of z.
-inline constexpr float kShadowLift = 0.02F;
 /// Share of z: surfaces as close as that are one.
 inline constexpr float kSameDepth = 0.003F;
 /// Share of z: what was splatted farther from a model is of another one.
@@ -34,7 +32,7 @@ struct alignas(16) SilhouetteMesh {
 struct alignas(16) SplatDepth {
     Transform fromView;  ///< T_camera_view
     Projection layer;
-    PixelBounds from;          ///< of the picture
+    PixelBounds from;            ///< of the picture
     std::int32_t width, height;  ///< of the layer [px]
 };
 
@@ -55,10 +53,10 @@ struct alignas(16) Plane {
     float offset;
 };
 
-/// Groups of a dispatch.
+/// Groups of a dispatch over a list.
 struct alignas(16) DispatchGroups {
     std::uint32_t x, y, z;
-    std::uint32_t unused;
+    std::uint32_t count;  ///< entries of the list
 };
 
 struct alignas(16) LookUpViews {
@@ -66,9 +64,9 @@ struct alignas(16) LookUpViews {
     Projection projections[2];  ///< of the reference; of the layer and the patches
     Plane plane;
     PixelBounds bounds;
-    DispatchGroups wanted[6];  ///< of the pyramid's levels
-    float slack;               ///< factor of the reference's tolerance of depth
-    float leastWeight;         ///< of a look-up
+    DispatchGroups wanted[6];                      ///< of the pyramid's levels
+    float slack;                                   ///< factor of the reference's tolerance of depth
+    float leastWeight;                             ///< of a look-up
     std::int32_t referenceWidth, referenceHeight;  ///< [px]
     std::int32_t width, height;                    ///< of the layer [px]
     std::int32_t patches, levels;
@@ -76,17 +74,17 @@ struct alignas(16) LookUpViews {
 
 /// A level of the pyramid over the holes.
 struct alignas(16) HoleLevel {
-    std::int32_t first;             ///< texel of the pyramid
+    std::int32_t first;  ///< texel of the pyramid
     std::int32_t columns;
     std::int32_t originX, originY;  ///< [texels of the level]
 };
 
 struct alignas(16) FillHoles {
     PixelBounds bounds;
-    HoleLevel levels[6];          ///< from 1 on
-    std::int32_t width;           ///< of the layer [px]
-    std::int32_t fillsAll;        ///< 1: holes beyond cracks are filled
-    std::int32_t level;           ///< that this pass makes
+    HoleLevel levels[6];    ///< from 1 on
+    std::int32_t width;     ///< of the layer [px]
+    std::int32_t fillsAll;  ///< 1: holes beyond cracks are filled
+    std::int32_t level;     ///< that this pass makes
     std::int32_t levelCount;
     std::int32_t rows, rowsBelow;  ///< of the level this pass makes, of the one below
     std::int32_t texels;           ///< of all levels
