@@ -2,22 +2,6 @@
 // kLumaMarginWords words of replicated border on both sides.
 #include "pipeline/engine/params/luma.h"
 
-const int kMarginWords = kLumaMarginWords;
-
-struct Level {
-    int offset;  // words
-    int pitch;   // words
-    int width;   // pixels
-    int height;  // pixels
-};
-
-Level levelOf(ivec4 v) {
-    return Level(v.x, v.y, v.z, v.w);
-}
-Level levelOf(LumaLevel l) {
-    return Level(l.offset, l.pitch, l.width, l.height);
-}
-
 vec4 unpackPixels(uint word) {
     return vec4(uvec4(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24));
 }

@@ -2,11 +2,7 @@
 // A cell is 4x4 pixels; its patch has the same centre, so it starts 2 px left and above the cell.
 // Needs: `uint luma[]` and the level functions of luma.glsl.
 
-const float kPixels = 64.0;
-// Energy of noise in a patch [grey levels^2]: below it a patch counts as flat.
-const float kNoise = 128.0;
-// Added to the diagonal of the Hessian: keeps steps finite where there is no gradient.
-const float kDamping = 64.0;
+#include "pipeline/engine/params/patch.h"
 
 struct Template {
     vec4 a0[8], a1[8];    // pixels, two vec4 a row
@@ -35,7 +31,7 @@ struct Match {
 };
 
 // Twelve pixels of row y from word column wx (margin included) on, less the first shift / 8.
-uvec3 fetchRow(Level l, int wx, int y, uint shift) {
+uvec3 fetchRow(LumaLevel l, int wx, int y, uint shift) {
     int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
     uvec3 w = uvec3(luma[at], luma[at + 1], luma[at + 2]);
     if (shift == 0u) return w;
@@ -48,15 +44,15 @@ struct TemplateRow {
     vec4 a0, a1, gx0, gx1;
 };
 
-TemplateRow templateRow(Level l, ivec2 cell, int r) {
+TemplateRow templateRow(LumaLevel l, ivec2 cell, int r) {
     // From one pixel left of the patch on, which sits one byte into its word.
-    uvec3 w = fetchRow(l, cell.x - 1 + kMarginWords, 4 * cell.y - 2 + r, 8u);
+    uvec3 w = fetchRow(l, cell.x - 1 + kLumaMarginWords, 4 * cell.y - 2 + r, 8u);
     vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y), q2 = unpackPixels(w.z);
     return TemplateRow(vec4(q0.yzw, q1.x), vec4(q1.yzw, q2.x), 0.5 * (vec4(q0.zw, q1.xy) - q0),
                        0.5 * (vec4(q1.zw, q2.xy) - q1));
 }
 
-Template loadTemplate(Level l, ivec2 cell) {
+Template loadTemplate(LumaLevel l, ivec2 cell) {
     Template t;
     TemplateRow above = templateRow(l, cell, -1), row = templateRow(l, cell, 0);
     float sum = 0.0, sumSquares = 0.0;
@@ -80,29 +76,29 @@ Template loadTemplate(Level l, ivec2 cell) {
         above = row;
         row = below;
     }
-    t.mean = sum / kPixels;
+    t.mean = sum / kPatchPixels;
     t.variance = max(sumSquares - sum * t.mean, 0.0);
     t.sumG = sumG;
     t.sumAG = sumAG - t.mean * sumG;
-    h += vec3(kDamping, 0.0, kDamping) - vec3(sumG.x * sumG, sumG.y * sumG.y) / kPixels;
+    h += vec3(kPatchDamping, 0.0, kPatchDamping) - vec3(sumG.x * sumG, sumG.y * sumG.y) / kPatchPixels;
     t.inverseHessian = vec3(h.z, -h.y, h.x) / max(h.x * h.z - h.y * h.y, 1.0);
     return t;
 }
 
 Match matchOf(Template t, Sums sums) {
-    float mean = sums.b / kPixels;
+    float mean = sums.b / kPatchPixels;
     Match m;
     m.varianceB = max(sums.bb - sums.b * mean, 0.0);
     m.covariance = sums.ab - t.mean * sums.b;
-    m.gain = sqrt((t.variance + kNoise) / (m.varianceB + kNoise));
+    m.gain = sqrt((t.variance + kPatchNoise) / (m.varianceB + kPatchNoise));
     m.descent = t.sumAG - m.gain * (sums.gb - mean * t.sumG);
     float energy = t.variance + m.gain * m.gain * m.varianceB;
-    m.cost = max(energy - 2.0 * m.gain * m.covariance, 0.0) / (energy + kNoise);
+    m.cost = max(energy - 2.0 * m.gain * m.covariance, 0.0) / (energy + kPatchNoise);
     return m;
 }
 
 // Row y of a patch, a share f of a pixel right of the shift.
-void rowBetween(Level l, int wx, int y, uint shift, float f, out vec4 left, out vec4 right) {
+void rowBetween(LumaLevel l, int wx, int y, uint shift, float f, out vec4 left, out vec4 right) {
     uvec3 w = fetchRow(l, wx, y, shift);
     vec4 q0 = unpackPixels(w.x), q1 = unpackPixels(w.y);
     left = q0 + (vec4(q0.yzw, q1.x) - q0) * f;
@@ -110,12 +106,12 @@ void rowBetween(Level l, int wx, int y, uint shift, float f, out vec4 left, out 
 }
 
 // The template against level l, displaced by u pixels. Positions outside are held at the border.
-Match compare(Template t, Level l, ivec2 cell, vec2 u) {
+Match compare(Template t, LumaLevel l, ivec2 cell, vec2 u) {
     vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
     vec2 f = origin - whole;
     ivec2 at = ivec2(whole);
-    int wx = (at.x >> 2) + kMarginWords;
+    int wx = (at.x >> 2) + kLumaMarginWords;
     uint shift = uint(at.x & 3) * 8u;
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
     vec4 above0, above1;

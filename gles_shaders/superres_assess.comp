@@ -54,8 +54,8 @@ void main() {
     vec2 u = patches[params.forward + index].xy;
     vec3 alike = vec3(0.0);
     if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u) {
-        Template t = loadTemplate(levelOf(params.video), cell);
-        Match m = compare(t, levelOf(params.still), cell, u);
+        Template t = loadTemplate(params.video, cell);
+        Match m = compare(t, params.still, cell, u);
         alike = vec3(m.covariance, t.variance, m.varianceB);
     }
 

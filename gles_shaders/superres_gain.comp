@@ -36,7 +36,7 @@ void main() {
         ivec2 c = min(2 * cell + ivec2(i & 1, i >> 1), last);
         u += patches[params.forward + c.y * params.forwardColumns + c.x].xy;
     }
-    Template t = loadTemplate(levelOf(params.video), cell);
-    Match m = compare(t, levelOf(params.still), cell, 0.5 * 0.25 * u);
+    Template t = loadTemplate(params.video, cell);
+    Match m = compare(t, params.still, cell, 0.5 * 0.25 * u);
     imageStore(statistics, cell, vec4(m.covariance, t.variance, m.varianceB, 0.0));
 }

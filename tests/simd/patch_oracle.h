@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/engine/params/patch.h"
 #include "tests/simd/flow_pictures.h"
 
 #include <Eigen/Dense>
@@ -39,12 +40,15 @@ inline Match match(const FlowPicture& a, int cx, int cy, Patch vb) {
     va.array() -= va.mean();
     vb.array() -= vb.mean();
     g.rowwise() -= g.colwise().mean().eval();
-    const double gain = std::sqrt((va.squaredNorm() + 128) / (vb.squaredNorm() + 128));
+    const double gain = std::sqrt((va.squaredNorm() + params::kPatchNoise) /
+                                  (vb.squaredNorm() + params::kPatchNoise));
     const double energy = va.squaredNorm() + gain * gain * vb.squaredNorm();
-    const Eigen::Matrix2d hessian = g.transpose() * g + 64 * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d hessian =
+        g.transpose() * g + double{params::kPatchDamping} * Eigen::Matrix2d::Identity();
     Eigen::Vector2d step = hessian.inverse() * (g.transpose() * (va - gain * vb));
     if (step.norm() > 1) step.normalize();
-    const double cost = std::max(energy - 2 * gain * va.dot(vb), 0.0) / (energy + 128);
+    const double cost =
+        std::max(energy - 2 * gain * va.dot(vb), 0.0) / (energy + params::kPatchNoise);
     return {cost, va.squaredNorm(), step};
 }
 

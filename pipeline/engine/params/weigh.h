@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/engine/params/luma.h"
+#include "pipeline/engine/params/patch.h"
 
 #include <cstdint>
 
@@ -14,8 +15,6 @@ inline constexpr float kTwoWayAlpha = 2.0F;
 /// Farthest offset that is stored [still px].
 inline constexpr float kFarthestOffset = 4e3F;
 
-/// Of a patch of 8x8.
-inline constexpr float kPatchPixels = 64.0F;
 /// Variance of 8-bit steps [grey levels^2].
 inline constexpr float kByteVariance = 0.083F;
 /// Variance at half resolution, times that of the noise, that counts half.
