@@ -7,11 +7,11 @@ layout(location = 0) out vec4 colour;
 
 #ifdef LINEAR
 vec3 upscaledLinearly() {
-    float x = gl_FragCoord.x * scale.x - 0.5;
+    float x = gl_FragCoord.x * params.scaleX - 0.5;
     int y = int(gl_FragCoord.y);
     int column = int(floor(x));
     return mix(texelFetch(columns, ivec2(max(column, 0), y), 0).rgb,
-               texelFetch(columns, ivec2(min(column + 1, video.x - 1), y), 0).rgb, x - floor(x));
+               texelFetch(columns, ivec2(min(column + 1, params.videoWidth - 1), y), 0).rgb, x - floor(x));
 }
 #endif
 

@@ -1,6 +1,8 @@
-// Weights of the four samples around a position, t = its fraction. Keys' cubic with a = -0.75.
+// Weights of the four samples around a position, t = its fraction. Keys' cubic.
+#include "pipeline/engine/params/detail.h"
+
 vec4 cubicWeights(float t) {
-    const float a = -0.75;
+    const float a = kCubicSlope;
     float s = 1.0 - t;
     float w0 = a * t * s * s;
     float w3 = a * s * t * t;

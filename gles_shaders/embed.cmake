@@ -1,12 +1,18 @@
 cmake_minimum_required(VERSION 3.25)
 
-# cmake -DOUT=file.cpp -DDIR=folder -DNAMES="a.comp,b.frag" -P embed.cmake
-# Writes the shaders into one C++ source, each #include "x.glsl" replaced by that file (once each).
+# cmake -DOUT=file.cpp -DDIR=folder -DROOT=folder -DNAMES="a.comp,b.frag" -P embed.cmake
+# Writes the shaders into one C++ source. Each #include "x.glsl" is replaced by that file of DIR, each
+# #include "path/x.h" by that header of parameters of ROOT in GLSL; once each.
 
 cmake_policy(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/params_to_glsl.cmake)
 
 function(resolve name seen_var out_var)
-    file(READ "${DIR}/${name}" text)
+    if(name MATCHES "\\.h$")
+        params_to_glsl("${ROOT}" "${name}" text)
+    else()
+        file(READ "${DIR}/${name}" text)
+    endif()
     string(REGEX MATCH "#include \"([^\"]+)\"[^\n]*\n" line "${text}")
     set(seen ${${seen_var}})
     while(line)

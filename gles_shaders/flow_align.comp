@@ -6,14 +6,11 @@
 // After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
+#include "pipeline/engine/params/flow.h"
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 from;     // level the template is taken from: offset, pitch, width, height
-    ivec4 to;       // level it is sought in
-    ivec4 cells;    // cells a row, rows, -, -
-    ivec4 offsets;  // in patches[]: output, input, -, -
-    ivec4 search;   // steps, -, -, -
+    RefineFlow params;
 };
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
@@ -29,12 +26,9 @@ layout(std430, binding = 2) readonly buffer Tiles {
 
 #include "patch_template.glsl"
 
-// Of the flow [px per px]; more of it is a depth edge rather than a surface.
-const float kSteepest = 0.25;
-
 vec2 flowAt(ivec2 c) {
-    c = clamp(c, ivec2(0), cells.xy - 1);
-    return patches[offsets.y + c.y * cells.x + c.x].xy;
+    c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
+    return patches[params.source + c.y * params.columns + c.x].xy;
 }
 
 // Change of the flow per pixel along `step`: the smaller one-sided difference, none where the two do not
@@ -43,11 +37,11 @@ vec2 slopeAt(ivec2 cell, ivec2 step) {
     vec2 here = flowAt(cell);
     vec2 before = here - flowAt(cell - 2 * step), after = flowAt(cell + 2 * step) - here;
     vec2 least = sign(after) * min(abs(before), abs(after));
-    return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepest, kSteepest);
+    return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepestFlow, kSteepestFlow);
 }
 
 // Eight pixels of row y from a word column (margin included) on, less the first shift / 8.
-uvec2 fetchShort(Level l, int wx, int y, uint shift) {
+uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
     uvec2 w = uvec2(luma[at], luma[at + 1]);
     if (shift == 0u) return w;
@@ -56,14 +50,14 @@ uvec2 fetchShort(Level l, int wx, int y, uint shift) {
 
 // Four pixels of the patch from `first` on, where a flow that changes by dx and dy per pixel moves them.
 // They have one place of their own; columns stay less than half a pixel off it.
-vec4 bentRow(Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
+vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
     vec2 middle = first - vec2(2.0, 3.5);
     vec2 origin = vec2(4 * cell - 2) + first + u + middle.x * dx + middle.y * dy;
     origin = clamp(origin, vec2(-7.0), vec2(l.width + 2, l.height + 2));
     vec2 whole = floor(origin);
     ivec2 at = ivec2(whole);
-    int wx = (at.x >> 2) + kMarginWords;
+    int wx = (at.x >> 2) + kLumaMarginWords;
     uint shift = uint(at.x & 3) * 8u;
     uvec2 w0 = fetchShort(l, wx, at.y, shift), w1 = fetchShort(l, wx, at.y + 1, shift);
     vec4 fx = origin.x - whole.x + dx.x * along, fy = origin.y - whole.y + dx.y * along;
@@ -89,7 +83,7 @@ void addHalf(inout Sums sums, int r, int side, vec4 b) {
 }
 
 // The template with a flow that changes by dx and dy per pixel over the patch.
-Match compareBent(Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
+Match compareBent(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
     // Half a row at a time: a whole one with its gradients takes more registers than a V3D has.
     int end = cell.y + 2 * kRows;
@@ -102,25 +96,25 @@ Match compareBent(Level l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
 
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, cells.xy))) return;
+    if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
     if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y == 0u) {
-        patches[offsets.x + cell.y * cells.x + cell.x] = vec4(flowAt(cell), 0.0, 0.0);
+        patches[params.target + cell.y * params.columns + cell.x] = vec4(flowAt(cell), 0.0, 0.0);
         return;
     }
-    Level lb = levelOf(to);
-    vec2 known = loadTemplate(levelOf(from), cell);
+    LumaLevel lb = params.to;
+    vec2 known = loadTemplate(params.from, cell);
     vec2 dx = slopeAt(cell, ivec2(1, 0)), dy = slopeAt(cell, ivec2(0, 1));
     prepareSteps(known, cell);
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
     // Without leaving the loop early, which costs vector processors more than the repetition does: where
     // nothing got better, the same place is looked at again.
-    for (int k = 0; k <= search.x; ++k) {
+    for (int k = 0; k <= params.steps; ++k) {
         Match m = compareBent(lb, cell, u, dx, dy);
         bool better = m.cost < cost;
         cost = better ? m.cost : cost;
         best = better ? u : best;
-        u = better && dot(m.step, m.step) > 2.5e-5 ? u + m.step : best;
+        u = better && dot(m.step, m.step) > kShortestStep ? u + m.step : best;
     }
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, cost, momentAt(1));
+    patches[params.target + cell.y * params.columns + cell.x] = vec4(best, cost, momentAt(1));
 }

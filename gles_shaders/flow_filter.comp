@@ -3,11 +3,11 @@
 // curved surfaces.
 // In, out: two areas of patches[]. One invocation a cell. Tiles that are not matched keep their vectors.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
+#include "pipeline/engine/params/flow.h"
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 cells;    // cells a row, rows, rounds of plane fits, 1 = a workgroup is a tile
-    ivec4 offsets;  // in patches[]: output, input, -, -
+    FilterFlow params;
 };
 layout(std430, binding = 1) buffer Patches {
     vec4 patches[];
@@ -18,20 +18,9 @@ layout(std430, binding = 2) readonly buffer Tiles {
 };
 
 vec4 cellIn(ivec2 c) {
-    c = clamp(c, ivec2(0), cells.xy - 1);
-    return patches[offsets.y + c.y * cells.x + c.x];
+    c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
+    return patches[params.source + c.y * params.columns + c.x];
 }
-
-const int kRadius = 2;
-// Neighbours that differ by more [px] from the plane lie on another surface; the first round knows no
-// slope yet and has to let it pass.
-const float kFirstReach = 1.2;
-const float kReach = 0.5;
-
-// Energy of texture in a patch at which half of the trust is reached [grey levels^2].
-const float kTexture = 2000.0;
-// Weight of a cell that nothing is known about but its value.
-const float kLeast = 1e-4;
 
 struct Plane {
     vec2 value, dx, dy;  // flow at the cell [px], change per cell
@@ -43,13 +32,13 @@ Plane planeAt(ivec2 cell, Plane about, float reach) {
     float w0 = 0.0;
     vec2 wx = vec2(0.0), u0 = vec2(0.0), ux = vec2(0.0), uy = vec2(0.0);
     vec3 wxx = vec3(0.0);
-    for (int j = -kRadius; j <= kRadius; ++j) {
-        for (int i = -kRadius; i <= kRadius; ++i) {
+    for (int j = -kCleanUpRadius; j <= kCleanUpRadius; ++j) {
+        for (int i = -kCleanUpRadius; i <= kCleanUpRadius; ++i) {
             vec4 n = cellIn(cell + ivec2(i, j));
             vec2 d = n.xy - about.value - float(i) * about.dx - float(j) * about.dy;
             float near = max(1.0 - dot(d, d) / (reach * reach), 0.0);
-            float known = n.w / (n.w + kTexture) * max(1.0 - 2.0 * n.z, 0.0);
-            float w = near * (near * known + kLeast);
+            float known = n.w / (n.w + kHalfTrusted) * max(1.0 - 2.0 * n.z, 0.0);
+            float w = near * (near * known + kLeastPlaneWeight);
             w0 += w;
             wx += w * vec2(i, j);
             wxx += w * vec3(i * i, i * j, j * j);
@@ -59,7 +48,7 @@ Plane planeAt(ivec2 cell, Plane about, float reach) {
         }
     }
     // Normal equations, damped on the slopes: a lone neighbour makes no plane.
-    float damp = 0.5 + 0.05 * w0;
+    float damp = kSlopeDamping + kSlopeDampingPerWeight * w0;
     mat3 m = mat3(w0 + 1e-6, wx.x, wx.y, wx.x, wxx.x + damp, wxx.y, wx.y, wxx.y, wxx.z + damp);
     float det = determinant(m);
     if (!(det > 1e-9)) return about;
@@ -78,9 +67,9 @@ void order(inout vec2 a, inout vec2 b) {
 
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, cells.xy))) return;
-    if (cells.w != 0 && tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y == 0u) {
-        patches[offsets.x + cell.y * cells.x + cell.x] = cellIn(cell);
+    if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
+    if (params.byTile != 0 && tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y == 0u) {
+        patches[params.target + cell.y * params.columns + cell.x] = cellIn(cell);
         return;
     }
     vec2 v[9];
@@ -99,6 +88,6 @@ void main() {
     order(middle, high);
     order(low, middle);
     Plane plane = Plane(middle, vec2(0.0), vec2(0.0));
-    for (int i = 0; i < cells.z; ++i) plane = planeAt(cell, plane, i == 0 ? kFirstReach : kReach);
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(plane.value, cellIn(cell).zw);
+    for (int i = 0; i < params.planeFits; ++i) plane = planeAt(cell, plane, i == 0 ? kFirstPlaneReach : kPlaneReach);
+    patches[params.target + cell.y * params.columns + cell.x] = vec4(plane.value, cellIn(cell).zw);
 }

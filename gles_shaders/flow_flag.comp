@@ -3,12 +3,11 @@
 // In: refined forward field and its two-way errors in patches[]. Out: flags[] = 1 or 0. One invocation a
 // tile.
 // Range: flags 0..1
+#include "pipeline/engine/params/flow.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 tiles;    // tiles a row, rows, cells a row, rows
-    ivec4 offsets;  // in patches[]: field, two-way errors; least cells of a flagged tile, -
-    vec4 tune;      // least texture [grey levels^2], least cost, most two-way error [px], -
+    FlagTiles params;
 };
 layout(std430, binding = 1) readonly buffer Patches {
     vec4 patches[];
@@ -19,15 +18,15 @@ layout(std430, binding = 2) writeonly buffer Flags {
 
 void main() {
     ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(tile, tiles.xy))) return;
+    if (any(greaterThanEqual(tile, ivec2(params.tileColumns, params.tileRows)))) return;
     int unexplained = 0;
     for (int i = 0; i < 16; ++i) {
         ivec2 c = 4 * tile + ivec2(i & 3, i >> 2);
-        if (any(greaterThanEqual(c, tiles.zw))) continue;
-        int at = c.y * tiles.z + c.x;
-        vec2 match = patches[offsets.x + at].zw;
-        bool shown = patches[offsets.y + at].x < tune.z;
-        if (shown && match.x > tune.y && match.y > tune.x) ++unexplained;
+        if (any(greaterThanEqual(c, ivec2(params.columns, params.rows)))) continue;
+        int at = c.y * params.columns + c.x;
+        vec2 match = patches[params.field + at].zw;
+        bool shown = patches[params.errors + at].x < kNotShown;
+        if (shown && match.x > kUnexplainedCost && match.y > params.leastTexture) ++unexplained;
     }
-    flags[tile.y * tiles.x + tile.x] = unexplained >= offsets.z ? 1u : 0u;
+    flags[tile.y * params.tileColumns + tile.x] = unexplained >= kLeastUnexplained ? 1u : 0u;
 }

@@ -4,12 +4,11 @@
 // In: flags[] of flow_flag.comp. Out: lists[] = packed groups of the level, commands[] = its dispatch,
 // zeroed before but for the two ones. One invocation a group.
 #include "tiles.glsl"
+#include "pipeline/engine/params/flow.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 tiles;   // tiles a row, rows, -, -
-    ivec4 groups;  // groups a row, rows, tiles a group and axis, margin [tiles]
-    ivec4 target;  // index in commands[], first entry in lists[], -, -
+    ListTiles params;
 };
 layout(std430, binding = 0) readonly buffer Flags {
     uint flags[];
@@ -22,8 +21,8 @@ layout(std430, binding = 2) writeonly buffer Lists {
 };
 
 uint flagAt(int x, int y) {
-    bool within = x >= 0 && y >= 0 && x < tiles.x && y < tiles.y;
-    return within ? flags[y * tiles.x + x] : 0u;
+    bool within = x >= 0 && y >= 0 && x < params.tileColumns && y < params.tileRows;
+    return within ? flags[y * params.tileColumns + x] : 0u;
 }
 
 bool flagged(int x, int y) {
@@ -33,13 +32,13 @@ bool flagged(int x, int y) {
 
 void main() {
     ivec2 group = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(group, groups.xy))) return;
-    ivec2 first = max(groups.z * group - groups.w, ivec2(0));
-    ivec2 end = min(groups.z * (group + 1) + groups.w, tiles.xy);
+    if (any(greaterThanEqual(group, ivec2(params.groupColumns, params.groupRows)))) return;
+    ivec2 first = max(params.tilesPerGroup * group - params.margin, ivec2(0));
+    ivec2 end = min(params.tilesPerGroup * (group + 1) + params.margin, ivec2(params.tileColumns, params.tileRows));
     bool needed = false;
     for (int y = first.y; y < end.y; ++y)
         for (int x = first.x; x < end.x; ++x) needed = needed || flagged(x, y);
     if (!needed) return;
-    uint at = atomicAdd(commands[target.x].x, 1u);
-    lists[target.y + int(at)] = packTile(group);
+    uint at = atomicAdd(commands[params.command].x, 1u);
+    lists[params.first + int(at)] = packTile(group);
 }

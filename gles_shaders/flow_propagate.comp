@@ -2,14 +2,11 @@
 // In, out: two areas of patches[], as flow_search.comp writes them. One invocation a cell.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
+#include "pipeline/engine/params/flow.h"
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 from;     // level the template is taken from: offset, pitch, width, height
-    ivec4 to;       // level it is sought in
-    ivec4 cells;    // cells of this level, -, -
-    ivec4 offsets;  // in patches[]: output, input, -, -
-    ivec4 search;   // steps, -, -, -
+    RefineFlow params;
 };
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
@@ -23,18 +20,18 @@ layout(std430, binding = 1) buffer Patches {
 const int kNeighbours = 4;
 
 vec4 cellIn(ivec2 c) {
-    c = clamp(c, ivec2(0), cells.xy - 1);
-    return patches[offsets.y + c.y * cells.x + c.x];
+    c = clamp(c, ivec2(0), ivec2(params.columns, params.rows) - 1);
+    return patches[params.source + c.y * params.columns + c.x];
 }
 
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, cells.xy))) return;
+    if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
     vec4 own = cellIn(cell);
     vec2 best = own.xy;
     float found = own.z;
-    Level lb = levelOf(to);
-    vec2 known = loadTemplate(levelOf(from), cell);
+    LumaLevel lb = params.to;
+    vec2 known = loadTemplate(params.from, cell);
     bool moved = false;
     for (int k = 0; k < kNeighbours; ++k) {
         ivec2 n = k == 0   ? ivec2(-1, 0)
@@ -43,7 +40,7 @@ void main() {
                            : ivec2(0, 1);
         vec2 u = cellIn(cell + n).xy;
         vec2 d = u - best;
-        if (dot(d, d) < 0.25) continue;
+        if (dot(d, d) < kSameCandidate) continue;
         float cost = costAt(known, lb, cell, u);
         if (cost < found) {
             found = cost;
@@ -51,6 +48,6 @@ void main() {
             moved = true;
         }
     }
-    if (moved) refine(known, lb, cell, search.x, best, found);
-    patches[offsets.x + cell.y * cells.x + cell.x] = vec4(best, found, known.y);
+    if (moved) refine(known, lb, cell, params.steps, best, found);
+    patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, known.y);
 }

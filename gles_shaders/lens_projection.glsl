@@ -1,13 +1,20 @@
 // A camera's projection continued beyond the rim of its lens and behind it; twin of
 // pipeline/composite/lens_projection.h.
 #include "camera.glsl"
+#include "pipeline/composite/pass_params.h"
 
-// Camera coordinates [m] to (w u, w v, w). rim: radius of the outermost ray that the model describes,
-// radial factor of the distortion there.
-vec3 projectPoint(Camera c, vec2 rim, vec3 p) {
+vec3 transformed(Transform t, vec3 p) {
+    vec3 to;
+    for (int i = 0; i < 3; ++i)
+        to[i] = dot(vec4(t.rows[i].x, t.rows[i].y, t.rows[i].z, t.rows[i].w), vec4(p, 1.0));
+    return to;
+}
+
+// Camera coordinates [m] to (w u, w v, w).
+vec3 projectPoint(Projection c, vec3 p) {
     float r = length(p.xy);
-    bool within = p.z * rim.x > r;
-    vec2 held = within ? p.xy / p.z : p.xy * (rim.x / max(r, 1e-12));
+    bool within = p.z * c.rim > r;
+    vec2 held = within ? p.xy / p.z : p.xy * (c.rim / max(r, 1e-12));
     vec2 beyond = within ? vec2(0.0) : p.xy - p.z * held;
-    return vec3(p.z * projectRay(c, held) + rim.y * c.pinhole.xy * beyond, p.z);
+    return vec3(p.z * projectRay(c.lens, held) + c.rimRadial * vec2(c.lens.fx, c.lens.fy) * beyond, p.z);
 }

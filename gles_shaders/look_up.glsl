@@ -11,8 +11,9 @@ vec4 lookUp(out vec2 uv) {
 #ifdef PLAIN_TILE
     vec4 l = plainLookUp;
 #else
-    vec4 l = textureLod(lookupField, gl_FragCoord.xy * scale.xy / vec2(4 * video.zw), 0.0);
+    vec4 l = textureLod(lookupField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) / vec2(4 * cellCount()), 0.0);
 #endif
-    uv = (gl_FragCoord.xy * tune.zw + l.xy) * scale.zw;
+    uv = (gl_FragCoord.xy * vec2(params.stillScaleX, params.stillScaleY) + l.xy) *
+         vec2(params.stillTexelX, params.stillTexelY);
     return l;
 }

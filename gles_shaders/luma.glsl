@@ -1,18 +1,6 @@
 // Luma pyramids in one storage buffer, four 8-bit pixels a word, leftmost in the low byte. Each row has
-// kMarginWords words of replicated border on both sides. The layout is that of flow/luma_pyramid.h.
-
-const int kMarginWords = 2;
-
-struct Level {
-    int offset;  // words
-    int pitch;   // words
-    int width;   // pixels
-    int height;  // pixels
-};
-
-Level levelOf(ivec4 v) {
-    return Level(v.x, v.y, v.z, v.w);
-}
+// kLumaMarginWords words of replicated border on both sides.
+#include "pipeline/engine/params/luma.h"
 
 vec4 unpackPixels(uint word) {
     return vec4(uvec4(word & 255u, (word >> 8) & 255u, (word >> 16) & 255u, word >> 24));
@@ -26,5 +14,5 @@ uint packPixels(vec4 v) {
 
 // Rec. 601 luma of an RGB colour.
 float lumaOf(vec3 rgb) {
-    return dot(rgb, vec3(0.299, 0.587, 0.114));
+    return dot(rgb, vec3(kLumaRed, kLumaGreen, kLumaBlue));
 }

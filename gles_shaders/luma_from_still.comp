@@ -5,36 +5,34 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
-    Rig rig;
-    ivec4 target;     // offset, pitch, width, height
-    vec4 stillTexel;  // 1 / still size, footprint of a video pixel [still px], -
+    LumaFromStill params;
 };
 layout(binding = 0) uniform sampler2D still;
 layout(std430, binding = 0) writeonly buffer Luma {
     uint luma[];
 };
 
-const int kTaps = 4;  // each way; bilinear, so that 4 taps cover a footprint of up to 8 px
-
 float footprintMean(vec2 centre) {
+    vec2 texel = vec2(params.texelX, params.texelY);
     vec3 sum = vec3(0.0);
-    for (int j = 0; j < kTaps; ++j) {
-        for (int i = 0; i < kTaps; ++i) {
-            vec2 off = (vec2(i, j) + 0.5) / float(kTaps) - 0.5;
-            vec2 q = centre + off * stillTexel.z;
-            sum += textureLod(still, (q + 0.5) * stillTexel.xy, 0.0).rgb;
+    for (int j = 0; j < kFootprintTaps; ++j) {
+        for (int i = 0; i < kFootprintTaps; ++i) {
+            vec2 off = (vec2(i, j) + 0.5) / float(kFootprintTaps) - 0.5;
+            vec2 q = centre + off * params.footprint;
+            sum += textureLod(still, (q + 0.5) * texel, 0.0).rgb;
         }
     }
-    return 255.0 * lumaOf(sum) / float(kTaps * kTaps);
+    return 255.0 * lumaOf(sum) / float(kFootprintTaps * kFootprintTaps);
 }
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (at.x >= target.y || at.y >= target.w) return;
+    LumaLevel target = params.target;
+    if (at.x >= target.pitch || at.y >= target.height) return;
     vec4 v;
     for (int i = 0; i < 4; ++i) {
-        int x = clamp(4 * (at.x - kMarginWords) + i, 0, target.z - 1);
-        v[i] = footprintMean(stillPixel(rig, vec2(x, at.y)));
+        int x = clamp(4 * (at.x - kLumaMarginWords) + i, 0, target.width - 1);
+        v[i] = footprintMean(stillPixel(params.rig, vec2(x, at.y)));
     }
-    luma[target.x + at.y * target.y + at.x] = packPixels(v);
+    luma[target.offset + at.y * target.pitch + at.x] = packPixels(v);
 }

@@ -5,8 +5,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 target;  // offset, pitch, width, height
-    vec4 smoothing;  // weight of each side's neighbour, -, -, -
+    LumaFromVideo params;
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(std430, binding = 0) writeonly buffer Luma {
@@ -15,10 +14,11 @@ layout(std430, binding = 0) writeonly buffer Luma {
 
 // Column x, smoothed down the rows.
 float column(int x, int y) {
+    ivec2 last = ivec2(params.target.width, params.target.height) - 1;
     float sum = 0.0;
     for (int i = -1; i <= 1; ++i) {
-        ivec2 p = clamp(ivec2(x, y + i), ivec2(0), target.zw - 1);
-        float weight = i == 0 ? 1.0 - 2.0 * smoothing.x : smoothing.x;
+        ivec2 p = clamp(ivec2(x, y + i), ivec2(0), last);
+        float weight = i == 0 ? 1.0 - 2.0 * params.smoothing : params.smoothing;
         sum += weight * lumaOf(texelFetch(picture, p, 0).rgb);
     }
     return sum;
@@ -26,14 +26,15 @@ float column(int x, int y) {
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (at.x >= target.y || at.y >= target.w) return;
-    int first = 4 * (at.x - kMarginWords);
-    int x = clamp(first, 0, 4 * ((target.z - 1) / 4));
+    LumaLevel target = params.target;
+    if (at.x >= target.pitch || at.y >= target.height) return;
+    int first = 4 * (at.x - kLumaMarginWords);
+    int x = clamp(first, 0, 4 * ((target.width - 1) / 4));
     float columns[6];
     for (int i = 0; i < 6; ++i) columns[i] = column(x + i - 1, at.y);
     vec4 inside, v;
     for (int i = 0; i < 4; ++i)
-        inside[i] = 255.0 * mix(columns[i + 1], 0.5 * (columns[i] + columns[i + 2]), 2.0 * smoothing.x);
-    for (int i = 0; i < 4; ++i) v[i] = inside[clamp(first + i, 0, target.z - 1) - x];
-    luma[target.x + at.y * target.y + at.x] = packPixels(v);
+        inside[i] = 255.0 * mix(columns[i + 1], 0.5 * (columns[i] + columns[i + 2]), 2.0 * params.smoothing);
+    for (int i = 0; i < 4; ++i) v[i] = inside[clamp(first + i, 0, target.width - 1) - x];
+    luma[target.offset + at.y * target.pitch + at.x] = packPixels(v);
 }

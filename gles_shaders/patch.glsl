@@ -2,8 +2,9 @@
 // starts 2 px left and above the cell.
 // Needs: `uint luma[]` and the level functions of luma.glsl.
 
+#include "pipeline/engine/params/patch.h"
+
 const int kRows = 8;
-const float kPixels = 64.0;
 
 // Eight pixels of a patch.
 struct Row {
@@ -17,8 +18,8 @@ float product(Row a, Row b) {
     return dot(a.left, b.left) + dot(a.right, b.right);
 }
 // First word of row y, `column` words into the level, margin not included.
-int wordAt(Level l, int column, int y) {
-    return l.offset + clamp(y, 0, l.height - 1) * l.pitch + kMarginWords + column;
+int wordAt(LumaLevel l, int column, int y) {
+    return l.offset + clamp(y, 0, l.height - 1) * l.pitch + kLumaMarginWords + column;
 }
 uvec3 fetchWords(int at) {
     return uvec3(luma[at], luma[at + 1], luma[at + 2]);
@@ -37,7 +38,7 @@ struct Window {
     uvec3 above;    // nine pixels of the row read last
 };
 
-uvec3 fetchPixels(Level l, Window w) {
+uvec3 fetchPixels(LumaLevel l, Window w) {
     uvec3 words = fetchWords(wordAt(l, w.column, w.y));
     uint up = 31u - w.shift;  // and one: a shift by 32 is undefined
     return uvec3((words.x >> w.shift) | (words.y << 1 << up), (words.y >> w.shift) | (words.z << 1 << up),
@@ -45,7 +46,7 @@ uvec3 fetchPixels(Level l, Window w) {
 }
 
 // Displaced by u pixels. Positions outside are held at the border.
-Window windowAt(Level l, ivec2 cell, vec2 u) {
+Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
     vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
     ivec2 at = ivec2(whole);
@@ -55,7 +56,7 @@ Window windowAt(Level l, ivec2 cell, vec2 u) {
 }
 
 // The patch's next row, between two rows of pixels: first along y, so that these wait as words.
-Row nextRow(inout Window w, Level l) {
+Row nextRow(inout Window w, LumaLevel l) {
     ++w.y;
     uvec3 below = fetchPixels(l, w);
     vec4 p0 = unpackPixels(w.above.x), p1 = unpackPixels(w.above.y);
@@ -67,7 +68,7 @@ Row nextRow(inout Window w, Level l) {
 
 // Of a cell's patch in level a and that in level b, displaced by u pixels: covariance and both variances,
 // as sums over the pixels.
-vec3 spreadOf(Level a, Level b, ivec2 cell, vec2 u) {
+vec3 spreadOf(LumaLevel a, LumaLevel b, ivec2 cell, vec2 u) {
     Window w = windowAt(b, cell, u);
     vec2 sum = vec2(0.0);
     vec3 squares = vec3(0.0);
@@ -77,6 +78,6 @@ vec3 spreadOf(Level a, Level b, ivec2 cell, vec2 u) {
         sum += vec2(sumOf(pa), sumOf(pb));
         squares += vec3(product(pa, pb), product(pa, pa), product(pb, pb));
     }
-    vec3 spread = squares - vec3(sum.x * sum.y, sum * sum) / kPixels;
+    vec3 spread = squares - vec3(sum.x * sum.y, sum * sum) / kPatchPixels;
     return vec3(spread.x, max(spread.yz, vec2(0.0)));
 }

@@ -1,11 +1,6 @@
 // An 8x8 patch to be found again in another luma level, invariant to offset and gain.
 #include "patch.glsl"
 
-// Energy of noise in a patch [grey levels^2]: below it a patch counts as flat.
-const float kNoise = 128.0;
-// Added to the diagonal of the Hessian: keeps steps finite where there is no gradient.
-const float kDamping = 64.0;
-
 // The template: three words for each of rows -1 to kRows, its eight pixels and then those left and right
 // of them. Behind the rows nine floats: mean, variance (sum of squared deviations), sum of the gradient (x, y),
 // sum of a (less its mean) times the gradient, inverse Hessian (xx, xy, yy). No GPU has registers for all of this next to a comparison. Variable
@@ -43,7 +38,7 @@ Row slopeDown(int r) {
 }
 
 // Sets the rows. Returns mean and variance.
-vec2 loadTemplate(Level l, ivec2 cell) {
+vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     float sum = 0.0, sumSquares = 0.0;
     for (int r = -1; r <= kRows; ++r) {
         uvec3 w = fetchWords(wordAt(l, cell.x - 1, 4 * cell.y - 2 + r));
@@ -57,7 +52,7 @@ vec2 loadTemplate(Level l, ivec2 cell) {
         sum += sumOf(a);
         sumSquares += product(a, a);
     }
-    float mean = sum / kPixels;
+    float mean = sum / kPatchPixels;
     return vec2(mean, max(sumSquares - sum * mean, 0.0));
 }
 
@@ -74,7 +69,7 @@ void prepareSteps(vec2 known, ivec2 cell) {
     }
     sum *= 0.5;
     sumA = 0.5 * sumA - known.x * sum;
-    h = 0.25 * h + vec3(kDamping, 0.0, kDamping) - vec3(sum.x * sum, sum.y * sum.y) / kPixels;
+    h = 0.25 * h + vec3(kPatchDamping, 0.0, kPatchDamping) - vec3(sum.x * sum, sum.y * sum.y) / kPatchPixels;
     h = vec3(h.z, -h.y, h.x) / max(h.x * h.z - h.y * h.y, 1.0);
     float moments[9] = float[](known.x, known.y, sum.x, sum.y, sumA.x, sumA.y, h.x, h.y, h.z);
     for (int i = 0; i < 9; ++i) templateWords[3 * r + 6 + i] = floatBitsToUint(moments[i]);
@@ -93,11 +88,11 @@ void add(inout Sums sums, Row a, Row b) {
 // 0 = alike up to gain and offset, 1 = unrelated, 2 = inverted. `known`: mean and variance of the
 // template. gain: a is about gain * b + offset.
 float costOf(vec2 known, Sums sums, out float gain) {
-    float mean = sums.b / kPixels;
+    float mean = sums.b / kPatchPixels;
     float variance = max(sums.bb - sums.b * mean, 0.0);
-    gain = sqrt((known.y + kNoise) / (variance + kNoise));
+    gain = sqrt((known.y + kPatchNoise) / (variance + kPatchNoise));
     float energy = known.y + gain * gain * variance;
-    return max(energy - 2.0 * gain * (sums.ab - known.x * sums.b), 0.0) / (energy + kNoise);
+    return max(energy - 2.0 * gain * (sums.ab - known.x * sums.b), 0.0) / (energy + kPatchNoise);
 }
 
 Match matchOf(Sums sums) {
@@ -105,7 +100,7 @@ Match matchOf(Sums sums) {
     Match m;
     m.cost = costOf(vec2(momentAt(0), momentAt(1)), sums, gain);
     vec2 descent = vec2(momentAt(4), momentAt(5)) -
-                   gain * (0.5 * sums.gb - sums.b / kPixels * vec2(momentAt(2), momentAt(3)));
+                   gain * (0.5 * sums.gb - sums.b / kPatchPixels * vec2(momentAt(2), momentAt(3)));
     m.step = vec2(momentAt(6) * descent.x + momentAt(7) * descent.y,
                   momentAt(7) * descent.x + momentAt(8) * descent.y);
     m.step /= max(length(m.step), 1.0);
@@ -113,7 +108,7 @@ Match matchOf(Sums sums) {
 }
 
 // See costOf().
-float costAt(vec2 known, Level l, ivec2 cell, vec2 u) {
+float costAt(vec2 known, LumaLevel l, ivec2 cell, vec2 u) {
     Window w = windowAt(l, cell, u);
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
     int end = w.y + kRows;
@@ -126,7 +121,7 @@ float costAt(vec2 known, Level l, ivec2 cell, vec2 u) {
 }
 
 // Takes Gauss-Newton steps from `best` on as long as they lower the cost.
-void refine(vec2 known, Level l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
+void refine(vec2 known, LumaLevel l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
     prepareSteps(known, cell);
     vec2 u = best;
     for (int k = 0; k <= steps; ++k) {
@@ -144,7 +139,7 @@ void refine(vec2 known, Level l, ivec2 cell, int steps, inout vec2 best, inout f
         if (k > 0 && !(m.cost < cost)) break;
         cost = m.cost;
         best = u;
-        if (!(dot(m.step, m.step) > 2.5e-5)) break;
+        if (!(dot(m.step, m.step) > kShortestStep)) break;
         u = best + m.step;
     }
 }

@@ -10,18 +10,22 @@ in vec3 place;
 layout(location = 0) out vec4 shown;
 layout(location = 1) out float depth;
 
+vec3 colourOf(Colour c) {
+    return vec3(c.red, c.green, c.blue);
+}
+
 void main() {
     // A triangle seen edge on is thinner than the grid its corners are rounded to: a pixel's centre may be
     // in the rounded one and far beyond the true one, where there is neither colour nor depth.
-    if (any(greaterThan(abs(place), vec3(target.z))) || dot(place, place) > target.w) discard;
+    if (any(greaterThan(abs(place), vec3(params.reach))) || dot(place, place) > params.squaredRadius) discard;
     vec3 n = normalize(facing);
     if (dot(n, point) > 0.0) n = -n;
-    float lit = mix(max(dot(n, light.xyz), 0.0), 1.0, light.w);
+    float lit = mix(max(dot(n, vec3(params.lightX, params.lightY, params.lightZ)), 0.0), 1.0, params.ambient);
     // Signed distance from the next line of the board in pixels: its steps are a pixel wide. A face's
     // border is none, as what lies beyond it may have the same colour.
-    vec2 inner = clamp(square, vec2(0.5), vec2(size.w - 0.5));
+    vec2 inner = clamp(square, vec2(0.5), vec2(params.squares - 0.5));
     vec2 wave = 2.0 * abs(fract(0.5 * inner + 0.25) - 0.5) - 0.5;
     vec2 side = clamp(wave / max(fwidth(square), 1e-6), vec2(-0.5), vec2(0.5));
-    shown = vec4(lit * mix(colour[0].rgb, colour[1].rgb, 0.5 - 2.0 * side.x * side.y), 1.0);
-    depth = max(1.0 / gl_FragCoord.w, lens.w);
+    shown = vec4(lit * mix(colourOf(params.colours[0]), colourOf(params.colours[1]), 0.5 - 2.0 * side.x * side.y), 1.0);
+    depth = max(1.0 / gl_FragCoord.w, params.projection.nearPlane);
 }

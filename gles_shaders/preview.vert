@@ -12,14 +12,18 @@ out vec2 square;
 out vec3 place;
 
 void main() {
-    vec4 p = vec4(position * size.xyz, 1.0);
+    vec3 size = vec3(params.width, params.height, params.depth);
     // Normals stretch by the inverse of the size; times all three, so that none may be zero.
     vec3 n = normal * size.yzx * size.zxy;
-    point = vec3(dot(object[0], p), dot(object[1], p), dot(object[2], p));
-    facing = vec3(dot(object[0].xyz, n), dot(object[1].xyz, n), dot(object[2].xyz, n));
-    square = uv * size.w;
+    point = transformed(params.object, position * size);
+    for (int i = 0; i < 3; ++i) {
+        Row4 row = params.object.rows[i];
+        facing[i] = dot(vec3(row.x, row.y, row.z), n);
+    }
+    square = uv * params.squares;
     place = position;
-    vec3 h = projectPoint(Camera(pinhole, distortion, lens.x), lens.yz, point);
+    vec3 h = projectPoint(params.projection, point);
     // Pixel centres are at integers; infinite far plane.
-    gl_Position = vec4((2.0 * h.xy + h.z) / target.xy - h.z, h.z - 2.0 * lens.w, h.z);
+    gl_Position = vec4((2.0 * h.xy + h.z) / vec2(params.targetWidth, params.targetHeight) - h.z,
+                       h.z - 2.0 * params.projection.nearPlane, h.z);
 }

@@ -2,10 +2,10 @@
 // In: RGBA8 still, luma at the video's scale. Out: difference + 128 of 255, clamped.
 #include "cubic.glsl"
 #include "luma.glsl"
+#include "pipeline/engine/params/still.h"
 
 layout(std140, binding = 0) uniform Params {
-    ivec4 low;   // width, height of the low picture, -, -
-    vec4 scale;  // low pixels per still pixel (x, y), neighbours' share, -
+    StillDetail params;
 };
 layout(binding = 0) uniform sampler2D still;
 layout(binding = 1) uniform sampler2D lowPicture;
@@ -22,11 +22,11 @@ vec3 stillAt(ivec2 p) {
 }
 
 float lowAt(ivec2 p) {
-    return texelFetch(lowPicture, clamp(p, ivec2(0), low.xy - 1), 0).r;
+    return texelFetch(lowPicture, clamp(p, ivec2(0), ivec2(params.lowWidth, params.lowHeight) - 1), 0).r;
 }
 
 void main() {
-    vec2 p = gl_FragCoord.xy * scale.xy - 0.5;
+    vec2 p = gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) - 0.5;
     ivec2 i = ivec2(floor(p));
     vec4 wx = cubicWeights(p.x - floor(p.x)), wy = cubicWeights(p.y - floor(p.y));
     float up = 0.0;
@@ -38,6 +38,6 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec3 beside = stillAt(at - ivec2(1, 0)) + stillAt(at + ivec2(1, 0)) + stillAt(at - ivec2(0, 1)) +
                   stillAt(at + ivec2(0, 1));
-    float value = lumaOf((1.0 + 4.0 * scale.z) * stillAt(at) - scale.z * beside);
+    float value = lumaOf((1.0 + 4.0 * params.neighbours) * stillAt(at) - params.neighbours * beside);
     detail = vec4(value - up + 128.0 / 255.0);
 }

@@ -7,22 +7,23 @@
 #define TAPS 3
 #endif
 
+#include "pipeline/engine/params/still.h"
+
 layout(std140, binding = 0) uniform Params {
-    ivec4 axis;  // 1, 0 or 0, 1; -, -
-    vec4 scale;  // pixels of the picture per pixel of the result, at least 1; -, -, -
+    ReduceStill params;
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 reduced;
 
 void main() {
-    ivec2 along = axis.xy, last = textureSize(picture, 0) - 1;
+    ivec2 along = ivec2(params.alongX, params.alongY), last = textureSize(picture, 0) - 1;
     ivec2 across = ivec2(gl_FragCoord.xy) * (1 - along);
-    float centre = dot(gl_FragCoord.xy, vec2(along)) * scale.x - 0.5;
-    int first = int(ceil(centre - scale.x));
+    float centre = dot(gl_FragCoord.xy, vec2(along)) * params.scale - 0.5;
+    int first = int(ceil(centre - params.scale));
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int i = 0; i < TAPS; ++i) {
-        float weight = max(scale.x - abs(float(first + i) - centre), 0.0);
+        float weight = max(params.scale - abs(float(first + i) - centre), 0.0);
         weights += weight;
         sum += weight * texelFetch(picture, clamp(across + along * (first + i), ivec2(0), last), 0).rgb;
     }

@@ -8,17 +8,11 @@
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1
 #include "luma.glsl"
 #include "rig.glsl"
+#include "pipeline/engine/params/weigh.h"
 
 layout(local_size_x = 4, local_size_y = 4) in;
 layout(std140, binding = 0) uniform Params {
-    Rig rig;
-    ivec4 video;     // finest level of the video: offset, pitch, width, height
-    ivec4 still;     // finest level of the still at the video's geometry
-    ivec4 cells;     // cells a row, rows; those of the backward field
-    ivec4 offsets;   // in patches[]: forward field, backward field; 1 = that holds two-way errors; pixels a
-                     // pixel of the backward field's level
-    vec4 tune;       // alpha [px], -, -, -
-    vec4 stillSize;  // still width, height, still px per video px (x, y)
+    AssessCells params;
 };
 layout(std430, binding = 0) readonly buffer Luma {
     uint luma[];
@@ -36,12 +30,12 @@ layout(rgba32f, binding = 1) uniform writeonly highp image2D statistics;
 #include "patch.glsl"
 
 vec2 backward(ivec2 c) {
-    c = clamp(c, ivec2(0), cells.zw - 1);
-    return float(offsets.w) * patches[offsets.y + c.y * cells.z + c.x].xy;
+    c = clamp(c, ivec2(0), ivec2(params.backwardColumns, params.backwardRows) - 1);
+    return float(params.backwardScale) * patches[params.backward + c.y * params.backwardColumns + c.x].xy;
 }
 
 vec2 backwardAt(vec2 p) {
-    vec2 g = (p + 0.5) / float(4 * offsets.w) - 0.5;
+    vec2 g = (p + 0.5) / float(4 * params.backwardScale) - 0.5;
     ivec2 i = ivec2(floor(g));
     vec2 f = g - floor(g);
     vec2 top = mix(backward(i), backward(i + ivec2(1, 0)), f.x);
@@ -55,23 +49,25 @@ bool inside(vec2 p, vec2 size) {
 
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, cells.xy))) return;
-    vec2 u = patches[offsets.x + cell.y * cells.x + cell.x].xy;
+    if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
+    int index = cell.y * params.columns + cell.x;
+    vec2 u = patches[params.forward + index].xy;
     vec3 alike = vec3(0.0);
     if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u)
-        alike = spreadOf(levelOf(video), levelOf(still), cell, u);
+        alike = spreadOf(params.video, params.still, cell, u);
 
     vec2 centre = 4.0 * vec2(cell) + 1.5;
     vec2 q = centre + u;
-    vec2 inStill = stillPixel(rig, q);
+    vec2 inStill = stillPixel(params.rig, q);
     float confidence = 0.0;
-    if (inside(q, vec2(video.zw)) && inside(inStill, stillSize.xy)) {
-        float d = offsets.z != 0 ? patches[offsets.y + cell.y * cells.x + cell.x].x
-                                 : length(u + backwardAt(q));
-        confidence = d < tune.x ? 1.0 - d / tune.x : 0.0;
+    if (inside(q, vec2(params.video.width, params.video.height)) &&
+        inside(inStill, vec2(params.stillWidth, params.stillHeight))) {
+        float d = params.errorsGiven != 0 ? patches[params.backward + index].x : length(u + backwardAt(q));
+        confidence = d < kTwoWayAlpha ? 1.0 - d / kTwoWayAlpha : 0.0;
     }
 
-    vec2 offset = clamp(inStill - (centre + 0.5) * stillSize.zw + 0.5, vec2(-4e3), vec2(4e3));
+    vec2 scale = vec2(params.scaleX, params.scaleY);
+    vec2 offset = clamp(inStill - (centre + 0.5) * scale + 0.5, vec2(-kFarthestOffset), vec2(kFarthestOffset));
     imageStore(displacement, cell, vec4(u, offset));
     imageStore(statistics, cell, vec4(alike, confidence));
 }

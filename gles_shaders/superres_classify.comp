@@ -8,8 +8,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 tiles;    // tiles a row, rows, cells a row, cell rows
-    vec4 tune;      // least weight that draws detail, flow spread of a plain tile [video px], weight spread, 1 = no still
+    ClassifyTiles params;
 };
 layout(std430, binding = 0) readonly buffer Changed {
     uvec2 header;  // whole frame drawn at once (2: with detail in listed tiles), changed tiles
@@ -28,8 +27,12 @@ layout(std430, binding = 3) writeonly buffer Lists {
 layout(binding = 0) uniform sampler2D cellField;
 layout(binding = 1) uniform sampler2D weightField;
 
+ivec2 lastCell() {
+    return ivec2(params.cellColumns, params.cellRows) - 1;
+}
+
 vec4 cellAt(ivec2 c) {
-    return texelFetch(cellField, clamp(c, ivec2(0), tiles.zw - 1), 0);
+    return texelFetch(cellField, clamp(c, ivec2(0), lastCell()), 0);
 }
 
 // A tile is plain when one quad shows it: its flow is affine and its weight even, within tolerance.
@@ -40,48 +43,49 @@ uint classOf(ivec2 first) {
         low = min(low, c);
         high = max(high, c);
     }
-    if (!(high.z > tune.x)) return kUpscaled;
-    if (!(high.z - low.z < tune.z)) return kBlended;
+    if (!(high.z > params.leastWeight)) return kTileUpscaled;
+    if (!(high.z - low.z < kPlainWeight)) return kTileBlended;
     vec2 origin = cellAt(first).xy;
     vec2 dx = (cellAt(first + ivec2(3, 0)).xy - origin) / 3.0;
     vec2 dy = (cellAt(first + ivec2(0, 3)).xy - origin) / 3.0;
     for (int i = 0; i < 36; ++i) {
         ivec2 k = ivec2(i % 6 - 1, i / 6 - 1);
         vec2 d = abs(cellAt(first + k).xy - origin - float(k.x) * dx - float(k.y) * dy);
-        if (!(max(d.x, d.y) < tune.y)) return kBlended;
+        if (!(max(d.x, d.y) < params.plainFlow)) return kTileBlended;
     }
-    return kTrusted;
+    return kTileTrusted;
 }
 
 void append(uint list, uint packedTile) {
     uint at = atomicAdd(draws[list].y, 1u);
-    lists[int(list) * tiles.x * tiles.y + int(at)] = packedTile;
+    lists[int(list) * params.columns * params.rows + int(at)] = packedTile;
 }
 
 void main() {
     ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(tile, tiles.xy))) return;
-    int index = tile.y * tiles.x + tile.x;
-    uint kind = kUnchanged;
+    if (any(greaterThanEqual(tile, ivec2(params.columns, params.rows)))) return;
+    int index = tile.y * params.columns + tile.x;
+    uint kind = kTileUnchanged;
     uint unexplained = classes[index].y;
     float confidence = 0.0;
     for (int i = 0; i < 16; ++i)
         confidence += cellAt(4 * tile + ivec2(i & 3, i >> 2)).w;
+    bool stillGiven = params.stillGiven != 0;
     bool whole = header.x != 0u;
     if (whole || changed[index].x != 0u) {
-        kind = tune.w > 0.5 || changed[index].y == 0u ? kUpscaled : classOf(4 * tile);
-        unexplained = tune.w > 0.5 ? 16u : 0u;
-        if (tune.w < 0.5) {
+        kind = !stillGiven || changed[index].y == 0u ? kTileUpscaled : classOf(4 * tile);
+        unexplained = !stillGiven ? 16u : 0u;
+        if (stillGiven) {
             for (int i = 0; i < 16; ++i) {
-                ivec2 c = min(4 * tile + ivec2(i & 3, i >> 2), tiles.zw - 1);
+                ivec2 c = min(4 * tile + ivec2(i & 3, i >> 2), lastCell());
                 unexplained += uint(texelFetch(weightField, c, 0).w + 0.5);
             }
         }
         if (!whole) append(0u, packTile(tile));
-        if (!whole || (header.x == 2u && kind != kUpscaled)) append(kind, packTile(tile));
+        if (!whole || (header.x == 2u && kind != kTileUpscaled)) append(kind, packTile(tile));
     }
     classes[index] = uvec2(kind, unexplained);
     atomicAdd(counts[kind], 1u);
-    if (unexplained >= 8u) atomicAdd(counts[5], 1u);
-    if (tune.w < 0.5) atomicAdd(counts[6], uint(confidence * 16.0));
+    if (unexplained >= kUnexplainedCells) atomicAdd(counts[5], 1u);
+    if (stillGiven) atomicAdd(counts[6], uint(confidence * 16.0));
 }

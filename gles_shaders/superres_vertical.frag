@@ -7,7 +7,7 @@ layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 colour;
 
 void main() {
-    float y = gl_FragCoord.y * scale.y - 0.5;
+    float y = gl_FragCoord.y * params.scaleY - 0.5;
     int x = int(gl_FragCoord.x);
     int row = int(floor(y));
     float t = y - floor(y);
@@ -20,6 +20,6 @@ void main() {
 #endif
     vec3 sum = vec3(0.0);
     for (int i = first; i <= last; ++i)
-        sum += w[i] * texelFetch(picture, ivec2(x, clamp(row + i - 1, 0, video.y - 1)), 0).rgb;
+        sum += w[i] * texelFetch(picture, ivec2(x, clamp(row + i - 1, 0, params.videoHeight - 1)), 0).rgb;
     colour = vec4(sum, 1.0);
 }

@@ -10,11 +10,11 @@
 // that the still explains.
 // Range: cellField -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
 // Range: lookupField -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
+#include "pipeline/engine/params/weigh.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = 0) uniform Params {
-    ivec4 cells;  // cells a row, rows, half-resolution cells a row, rows
-    vec4 tune;    // standard deviation of the video's noise [grey levels], -, -, -
+    WeighCells params;
 };
 layout(binding = 0) uniform sampler2D displacement;
 layout(binding = 1) uniform sampler2D statistics;
@@ -23,17 +23,12 @@ layout(rgba32f, binding = 0) uniform writeonly highp image2D cellField;
 layout(rgba8, binding = 1) uniform writeonly highp image2D weightField;
 layout(rgba16f, binding = 2) uniform writeonly highp image2D lookupField;
 
-const float kPixels = 64.0;     // of a patch
-const float kRounding = 0.083;   // variance of 8-bit steps [grey levels^2]
-
-// What the bilinear look-up takes from the finest detail.
-const float kLookUpLoss = 1.15;
-// Change of the flow per pixel that noise explains, and that makes another view of it.
-const float kEven = 0.015;
-const float kBent = 0.07;
+ivec2 lastCell() {
+    return ivec2(params.columns, params.rows) - 1;
+}
 
 vec2 flowAt(ivec2 c) {
-    return texelFetch(displacement, clamp(c, ivec2(0), cells.xy - 1), 0).xy;
+    return texelFetch(displacement, clamp(c, ivec2(0), lastCell()), 0).xy;
 }
 
 // How much the flow changes around the cell [px per px].
@@ -44,23 +39,24 @@ float bendAt(ivec2 c) {
 }
 
 vec4 statisticsAt(ivec2 c) {
-    return texelFetch(statistics, clamp(c, ivec2(0), cells.xy - 1), 0);
+    return texelFetch(statistics, clamp(c, ivec2(0), lastCell()), 0);
 }
 
 // Sum over the 2x2 half-resolution cells nearest to the cell.
 vec3 halfAround(ivec2 cell) {
     vec3 sum = vec3(0.0);
+    ivec2 last = ivec2(params.halfColumns, params.halfRows) - 1;
     ivec2 towards = (cell & 1) * 2 - 1;
     for (int i = 0; i < 4; ++i) {
         ivec2 c = (cell >> 1) + ivec2((i & 1) * towards.x, (i >> 1) * towards.y);
-        sum += 0.25 * texelFetch(halfStatistics, clamp(c, ivec2(0), cells.zw - 1), 0).xyz;
+        sum += 0.25 * texelFetch(halfStatistics, clamp(c, ivec2(0), last), 0).xyz;
     }
     return sum;
 }
 
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, cells.xy))) return;
+    if (any(greaterThan(cell, lastCell()))) return;
     vec3 sum = vec3(0.0);
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x)
@@ -69,21 +65,21 @@ void main() {
     float covariance = max(sum.x, 0.0), varianceVideo = sum.y, varianceStill = sum.z;
     float confidence = statisticsAt(cell).w;
 
-    float noise = kPixels * (tune.x * tune.x + kRounding);
+    float noise = kPatchPixels * (params.noise * params.noise + kByteVariance);
     float gain = covariance / (varianceStill + noise);
     vec3 low = halfAround(cell);
-    float lowNoise = kPixels * (0.25 * tune.x * tune.x + kRounding);
+    float lowNoise = kPatchPixels * (0.25 * params.noise * params.noise + kByteVariance);
     float lowGain = max(low.x, 0.0) / (low.z + lowNoise);
-    float lowShare = low.z / (low.z + 8.0 * lowNoise);
-    gain = min(mix(gain, max(gain, lowGain), lowShare), 2.0);
+    float lowShare = low.z / (low.z + kLowContrast * lowNoise);
+    gain = min(mix(gain, max(gain, lowGain), lowShare), kLargestGain);
     float ncc2 = covariance * covariance / ((varianceVideo + noise) * (varianceStill + noise));
-    float apart = smoothstep(kEven, kBent, bendAt(cell));
-    float trust = mix(kLookUpLoss * smoothstep(0.2, 0.6, ncc2), ncc2 * ncc2, apart);
+    float apart = smoothstep(kEvenFlow, kBentFlow, bendAt(cell));
+    float trust = mix(kLookUpLoss * smoothstep(kUnlikePatches, kAlikePatches, ncc2), ncc2 * ncc2, apart);
     float weight = gain * trust * confidence;
-    if (!(weight > 0.004)) weight = 0.0;
+    if (!(weight > kSmallestWeight)) weight = 0.0;
     float signal = clamp((varianceVideo - 2.0 * noise) / (varianceVideo + noise), 0.0, 1.0);
-    float textured = step(8.0 * (noise + kPixels), varianceVideo);
-    float unexplained = textured * step(ncc2 * confidence, 0.25);
+    float textured = step(kTexturedContrast * (noise + kPatchPixels), varianceVideo);
+    float unexplained = textured * step(ncc2 * confidence, kUnexplainedMatch);
 
     vec4 d = texelFetch(displacement, cell, 0);
     imageStore(cellField, cell, vec4(d.xy, weight, confidence));

@@ -14,12 +14,12 @@ void main() {
     ivec2 corner = ivec2(gl_VertexID % 3 == 1 || gl_VertexID == 3 ? 1 : 0,
                          gl_VertexID % 3 == 2 || gl_VertexID == 3 ? 1 : 0);
     ivec2 at = unpackTile(packedTile) + corner;
-    vec2 p = min(vec2(16 * at), vec2(video.xy));
+    vec2 p = min(vec2(16 * at), vec2(videoSize()));
 #ifdef PLAIN_TILE
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 4; ++i)
-        sum += texelFetch(lookupField, clamp(4 * at - ivec2(i & 1, i >> 1), ivec2(0), video.zw - 1), 0);
+        sum += texelFetch(lookupField, clamp(4 * at - ivec2(i & 1, i >> 1), ivec2(0), cellCount() - 1), 0);
     plainLookUp = 0.25 * sum;
 #endif
-    gl_Position = vec4(2.0 * p / vec2(video.xy) - 1.0, 0.0, 1.0);
+    gl_Position = vec4(2.0 * p / vec2(videoSize()) - 1.0, 0.0, 1.0);
 }

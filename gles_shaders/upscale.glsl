@@ -1,14 +1,14 @@
-// Bicubic upscaling, second half: rows. Needs the Params members `video` and `scale`.
+// Bicubic upscaling, second half: rows. Needs tile_params.glsl.
 #include "cubic.glsl"
 
 layout(binding = 0) uniform sampler2D columns;
 
 vec3 upscaled() {
-    float x = gl_FragCoord.x * scale.x - 0.5;
+    float x = gl_FragCoord.x * params.scaleX - 0.5;
     int y = int(gl_FragCoord.y);
     int column = int(floor(x));
     vec4 w = cubicWeights(x - floor(x));
-    int last = video.x - 1;
+    int last = params.videoWidth - 1;
     return w.x * texelFetch(columns, ivec2(clamp(column - 1, 0, last), y), 0).rgb +
            w.y * texelFetch(columns, ivec2(clamp(column, 0, last), y), 0).rgb +
            w.z * texelFetch(columns, ivec2(clamp(column + 1, 0, last), y), 0).rgb +

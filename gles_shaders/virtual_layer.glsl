@@ -3,12 +3,12 @@
 // Variant: #define SCALED_LAYER 1
 
 bool isVirtual(float z) {
-    return z > 1e-4 && z < 1e6;
+    return z > kLeastVirtualDepth && z < kMostVirtualDepth;
 }
 
 #ifdef SCALED_LAYER
 vec2 layerAt(out ivec2 base) {
-    vec2 at = gl_FragCoord.xy * scale.zw - 0.5;
+    vec2 at = gl_FragCoord.xy * vec2(params.layerScaleX, params.layerScaleY) - 0.5;
     base = ivec2(floor(at));
     return at - vec2(base);
 }
@@ -16,9 +16,9 @@ vec2 layerAt(out ivec2 base) {
 
 vec4 layerColour(highp sampler2D colours) {
 #ifdef SCALED_LAYER
-    return textureLod(colours, gl_FragCoord.xy / vec2(video.zw), 0.0);
+    return textureLod(colours, gl_FragCoord.xy / vec2(outputSize()), 0.0);
 #else
-    return texelFetch(colours, min(ivec2(gl_FragCoord.xy), video.zw - 1), 0);
+    return texelFetch(colours, min(ivec2(gl_FragCoord.xy), outputSize() - 1), 0);
 #endif
 }
 
@@ -27,7 +27,7 @@ float layerDepth(highp sampler2D depths) {
 #ifdef SCALED_LAYER
     ivec2 base;
     vec2 f = layerAt(base);
-    vec4 z = textureGather(depths, vec2(base + 1) / vec2(layer.xy));
+    vec4 z = textureGather(depths, vec2(base + 1) / vec2(params.layerWidth, params.layerHeight));
     vec4 left = vec4(1.0 - f.x, f.x, f.x, 1.0 - f.x), w = left * vec4(f.y, f.y, 1.0 - f.y, 1.0 - f.y);
     // In the order of textureGather: the lower row first, the left one last.
     float best = 0.0, depth = 0.0;

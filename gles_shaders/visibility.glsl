@@ -1,14 +1,23 @@
-// Parameters of the composite's passes (mirrors Composite::Params), and what counts as known.
+// Parameters of the occlusion's passes, and what counts as known.
+#include "pipeline/engine/params/occlusion.h"
+
 layout(std140, binding = 0) uniform Params {
-    ivec4 video;  // width, height; width, height of the output
-    ivec4 layer;  // width, height of the virtual layer
-    vec4 scale;   // video pixels per output pixel (x, y), layer pixels per output pixel
-    vec4 tune;    // bias [sigmas], softness [sigmas], virtual sigma [share of depth],
-                  // likeness [1 / colour distance^2]
+    Visibility params;
 };
 
-// Of a real sample: inverse depth [1/m], sigma [1/m]. False for NaN, infinity, zero and below, and for
-// denormal sigmas, which are zero to some GPUs.
+ivec2 lastVideoPixel() {
+    return ivec2(params.videoWidth, params.videoHeight) - 1;
+}
+ivec2 outputSize() {
+    return ivec2(params.outputWidth, params.outputHeight);
+}
+// Video pixel of the fragment; pixel centres are at integers.
+vec2 inVideo() {
+    return gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) - 0.5;
+}
+
+// Of a real sample: inverse depth [1/m], sigma [1/m]. False for NaN, infinity, zero and below.
 bool known(vec2 real) {
-    return real.x > 1e-6 && real.x < 1e6 && real.y > 1e-20 && real.y < 1e6;
+    return real.x > kLeastInverseDepth && real.x < kMostInverseDepth && real.y > kLeastDepthSigma &&
+           real.y < kMostInverseDepth;
 }

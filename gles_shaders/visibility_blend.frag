@@ -8,6 +8,6 @@ layout(binding = 1) uniform sampler2D visibility;
 layout(location = 0) out vec4 colour;
 
 void main() {
-    ivec2 p = min(ivec2(gl_FragCoord.xy), video.zw - 1);
+    ivec2 p = min(ivec2(gl_FragCoord.xy), outputSize() - 1);
     colour = texelFetch(visibility, p, 0).r * layerColour(virtualColour);
 }

@@ -12,10 +12,10 @@ void main() {
     float z = layerDepth(virtualDepth);
     bool there = z > 0.0;
     float inverse = 1.0 / (there ? z : 1.0);
-    ivec2 base = ivec2(floor(gl_FragCoord.xy * scale.xy - 0.5));
-    vec2 range = texelFetch(rangeField, clamp(base, ivec2(0), video.xy - 1), 0).rg;
+    ivec2 base = ivec2(floor(inVideo()));
+    vec2 range = texelFetch(rangeField, clamp(base, ivec2(0), lastVideoPixel()), 0).rg;
     bool before = inverse >= range.x;
-    bool behind = inverse * (1.0 + (tune.x + tune.y) * tune.z) <= range.y;
+    bool behind = inverse * (1.0 + (params.bias + params.softness) * params.virtualSigma) <= range.y;
     visibility = there && before ? 1.0 : 0.0;
     gl_FragDepth = there && !before && !behind ? 1.0 : 0.0;
 }

@@ -8,12 +8,12 @@ layout(binding = 0) uniform sampler2D realDepth;
 layout(location = 0) out vec2 range;
 
 void main() {
-    range = vec2(0.0, 1e6);
+    range = vec2(0.0, kMostInverseDepth);
     for (int i = 0; i < 16; ++i) {
         ivec2 q = ivec2(gl_FragCoord.xy) + ivec2(i & 3, i >> 2) - 1;
-        vec2 real = texelFetch(realDepth, clamp(q, ivec2(0), video.xy - 1), 0).rg;
+        vec2 real = texelFetch(realDepth, clamp(q, ivec2(0), lastVideoPixel()), 0).rg;
         bool is = known(real);
-        range.x = max(range.x, is ? real.x - tune.x * real.y : 0.0);
-        range.y = min(range.y, is ? max(real.x - (tune.x + tune.y) * real.y, 0.0) : 0.0);
+        range.x = max(range.x, is ? real.x - params.bias * real.y : 0.0);
+        range.y = min(range.y, is ? max(real.x - (params.bias + params.softness) * real.y, 0.0) : 0.0);
     }
 }

@@ -15,25 +15,25 @@ layout(location = 0) out float visibility;
 // Unknown depth hides nothing.
 float visibleOver(vec2 real, float inverse) {
     if (!known(real)) return 1.0;
-    float sigma = max(length(vec2(real.y, tune.z * inverse)), 1e-9);
-    return 1.0 - smoothstep(tune.x, tune.x + tune.y, (real.x - inverse) / sigma);
+    float sigma = max(length(vec2(real.y, params.virtualSigma * inverse)), 1e-9);
+    return 1.0 - smoothstep(params.bias, params.bias + params.softness, (real.x - inverse) / sigma);
 }
 
 void main() {
     float z = layerDepth(virtualDepth);
     float inverse = 1.0 / (z > 0.0 ? z : 1.0);
-    vec2 at = gl_FragCoord.xy * scale.xy - 0.5;
+    vec2 at = inVideo();
     ivec2 base = ivec2(floor(at));
     vec3 here = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb;
     float sum = 0.0, weights = 0.0;
     for (int i = 0; i < 16; ++i) {
         ivec2 q = base + ivec2(i & 3, i >> 2) - 1;
         vec2 tent = 2.0 - abs(vec2(q) - at);
-        q = clamp(q, ivec2(0), video.xy - 1);
+        q = clamp(q, ivec2(0), lastVideoPixel());
         vec3 unlike = texelFetch(videoPicture, q, 0).rgb - here;
         // Where nothing is alike, distance decides.
         float w = tent.x * tent.x * tent.y * tent.y *
-                  (exp(-tune.w * dot(unlike, unlike)) + 1e-3);
+                  (exp(-params.likeness * dot(unlike, unlike)) + kLikenessFloor);
         sum += w * visibleOver(texelFetch(realDepth, q, 0).rg, inverse);
         weights += w;
     }

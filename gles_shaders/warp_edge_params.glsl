@@ -1,6 +1,13 @@
-// What is sharpened in a picture at rest; mirrors EdgeRefiner's Params.
+// What is sharpened in a picture at rest.
+#include "pipeline/warp/pass_params.h"
+
 layout(std140, binding = 0) uniform Params {
-    ivec4 bounds;  // pixels x0 <= x < x1, y0 <= y < y1
-    ivec4 limits;  // width of the layer, pixels to show, least level of contrast, most pixels to list
-    vec4 share;    // of what was rendered in what is shown, of the objects' pixels that are listed, -, -
+    RefineEdges params;
 };
+
+ivec2 firstPixel() {
+    return ivec2(params.bounds.x0, params.bounds.y0);
+}
+ivec2 endPixel() {
+    return ivec2(params.bounds.x1, params.bounds.y1);
+}

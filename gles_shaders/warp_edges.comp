@@ -7,7 +7,7 @@
 // Variant: #define COUNT
 #include "warp_edge_params.glsl"
 
-const uint kLevels = 64u;  // EdgeRefiner::kLevels
+const uint kLevels = kContrastLevels;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(binding = 0) uniform sampler2D colour;
@@ -29,7 +29,7 @@ shared uint least;
 uint levelAt(ivec2 p) {
     vec3 low = vec3(1.0), high = vec3(0.0);
     for (int i = 0; i < 9; ++i) {
-        ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, bounds.xy, bounds.zw - 1);
+        ivec2 q = clamp(p + ivec2(i % 3, i / 3) - 1, firstPixel(), endPixel() - 1);
         vec3 c = texelFetch(colour, q, 0).rgb;
         low = min(low, c);
         high = max(high, c);
@@ -39,15 +39,15 @@ uint levelAt(ivec2 p) {
 }
 
 void main() {
-    ivec2 p = ivec2(gl_GlobalInvocationID.xy) + bounds.xy;
-    bool inside = all(lessThan(p, bounds.zw));
+    ivec2 p = ivec2(gl_GlobalInvocationID.xy) + firstPixel();
+    bool inside = all(lessThan(p, endPixel()));
     uint level = inside ? levelAt(p) : 0u;
     uint i = gl_LocalInvocationIndex;
 #ifdef COUNT
     own[i] = 0u;
     if (i == 0u) objects = 0u;
     barrier();
-    if (level >= uint(limits.z)) atomicAdd(own[level], 1u);
+    if (level >= uint(params.leastContrast)) atomicAdd(own[level], 1u);
     float id = inside ? texelFetch(state, p, 0).a : 0.0;
     if (id > 0.0 && id < 1.0) atomicAdd(objects, 1u);
     barrier();
@@ -56,8 +56,8 @@ void main() {
 #else
     if (i == 0u) {
         least = kLevels - 1u;
-        uint sum = count[least], most = min(uint(share.y * float(count[kLevels])), uint(limits.w));
-        for (uint l = least; l-- > uint(limits.z);) {
+        uint sum = count[least], most = min(uint(params.listedShare * float(count[kLevels])), uint(params.mostListed));
+        for (uint l = least; l-- > uint(params.leastContrast);) {
             sum += count[l];
             if (sum > most) break;
             least = l;
@@ -66,6 +66,6 @@ void main() {
     barrier();
     if (!inside || level < least) return;
     list[atomicAdd(count[kLevels + 1u], 1u)] =
-        uvec2(uint(p.y * limits.x + p.x), packUnorm4x8(texelFetch(colour, p, 0)));
+        uvec2(uint(p.y * params.width + p.x), packUnorm4x8(texelFetch(colour, p, 0)));
 #endif
 }

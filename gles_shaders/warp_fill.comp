@@ -19,21 +19,21 @@ layout(std430, binding = 2) readonly buffer Pyramid {
     uvec4 texels[];
 };
 
-const uint kAnyObject = 254u;
+const uint kAnyObject = kAnyObjectNumber;
 
 // Bilinear at a pixel: colour times weight, weight.
 void sampleLevel(int l, ivec2 p, uint id, out vec4 sum, out float weights) {
-    ivec4 level = levels[l - 1];
-    int count = (l < layer.w ? levels[l].x : rows.z) - level.x;
+    HoleLevel level = params.levels[l - 1];
+    int count = (l < params.levelCount ? params.levels[l].first : params.texels) - level.first;
     vec2 at = (vec2(p) + 0.5) / float(1 << l) - 0.5;
     vec2 low = floor(at), f = at - low;
     sum = vec4(0.0);
     weights = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 side = ivec2(i & 1, i >> 1);
-        ivec2 q = ivec2(low) + side - level.zw;
-        if (any(lessThan(q, ivec2(0))) || q.x >= level.y || q.y * level.y + q.x >= count) continue;
-        Area area = unpackArea(texels[level.x + q.y * level.y + q.x]);
+        ivec2 q = ivec2(low) + side - originOf(level);
+        if (any(lessThan(q, ivec2(0))) || q.x >= level.columns || q.y * level.columns + q.x >= count) continue;
+        Area area = unpackArea(texels[level.first + q.y * level.columns + q.x]);
         vec2 near = mix(1.0 - f, f, vec2(side));
         bool catcher = id == 255u;
         bool shown = area.id == id || id == kAnyObject;
@@ -47,8 +47,8 @@ bool isCrack(ivec2 p, float id) {
     int same = 0;
     for (int i = 0; i < 9; ++i) {
         ivec2 q = p + ivec2(i % 3, i / 3) - 1;
-        bool within = all(greaterThanEqual(q, bounds.xy)) && all(lessThan(q, bounds.zw));
-        q = clamp(q, bounds.xy, bounds.zw - 1);
+        bool within = all(greaterThanEqual(q, firstPixel())) && all(lessThan(q, endPixel()));
+        q = clamp(q, firstPixel(), endPixel() - 1);
         same += within && i != 4 && texelFetch(state, q, 0).a == id ? 1 : 0;
     }
     return same >= 5;
@@ -72,15 +72,15 @@ void main() {
     if (i >= commands[0].w) return;
     uvec2 entry = list[i];
     int index = int(entry.x & 0x3fffffffu);
-    ivec2 p = ivec2(index % layer.x, index / layer.x);
+    ivec2 p = ivec2(index % params.width, index / params.width);
     vec4 own = texelFetch(state, p, 0);
     uint id = uint(own.r * 255.0 + 0.5);
     bool crack = (entry.x & (1u << 30)) != 0u || isCrack(p, own.r);
     if (crack) list[i].x = entry.x | (1u << 30);
-    if (!crack && layer.y == 0) return;
+    if (!crack && params.fillsAll == 0) return;
     vec4 sum;
     float weight;
-    int last = crack && layer.y == 0 ? min(kCrackLevels, layer.w) : layer.w;
+    int last = crack && params.fillsAll == 0 ? min(kCrackLevels, params.levelCount) : params.levelCount;
     gather(p, id, last, sum, weight);
     if (weight == 0.0 && id != 255u) gather(p, kAnyObject, last, sum, weight);
     if (weight > 0.0) imageStore(colour, p, min(unpackUnorm4x8(entry.y) + own.g * sum / weight, vec4(1.0)));

@@ -19,7 +19,7 @@ layout(location = 2) out vec4 state;
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     vec2 ray = texelFetch(rays, p, 0).rg;
-    uvec4 s = textureGather(silhouette, gl_FragCoord.xy / vec2(sizes.zw));
+    uvec4 s = textureGather(silhouette, gl_FragCoord.xy / vec2(layerSize()));
     uint id = surfaceId(s.x);
     bool whole = all(equal(s & 0xffu, uvec4(id)));
     float z = 0.25 * dot(uintBitsToFloat(s & 0xffffff00u), vec4(1.0));
@@ -30,13 +30,13 @@ void main() {
     vec3 at = inView(0, z * vec3(ray, 1.0));
     // The corner that the four texels share: a rounding of the filter's own must not choose others.
     vec2 corner = floor(at.xy) + 1.0;
-    uvec4 t = textureGather(surfaces, corner / vec2(sizes.xy));
+    uvec4 t = textureGather(surfaces, corner / vec2(referenceSize()));
     vec4 off = abs(uintBitsToFloat(t & 0xffffff00u) - at.z);
     bool same = all(equal(t & 0xffu, uvec4(id))) && all(lessThan(off, vec4(kSameDepth * at.z)));
     bool bare = id == kCatcher && (t.x | t.y | t.z | t.w) == 0u;
-    bool inner = all(greaterThan(corner, vec2(0.0))) && all(lessThan(corner, vec2(sizes.xy)));
+    bool inner = all(greaterThan(corner, vec2(0.0))) && all(lessThan(corner, vec2(referenceSize())));
     bool plain = whole && !empty && at.z > 0.0 && inner && (same || bare);
-    vec4 found = textureLod(colours, (at.xy + 0.5) / vec2(sizes.xy), 0.0);
+    vec4 found = textureLod(colours, (at.xy + 0.5) / vec2(referenceSize()), 0.0);
     colour = plain ? found : vec4(0.0);
     depth = plain && found.a > 0.0 ? (id == kCatcher ? (1.0 - kShadowLift) * z : z) : 0.0;
     state = empty ? vec4(0.0) : plain ? vec4(0.0, 0.0, 0.0, float(id) / 255.0) : vec4(0.0, 1.0, 0.0, 0.0);

@@ -36,7 +36,7 @@ layout(std430, binding = 3) writeonly buffer Holes {
 // Bilinear in those of the four texels around `at` (pixel, z) that show the same surface; rows of the picture
 // begin at `firstRow`. Premultiplied colour; its weight 0 where too little of the surface is there. To the
 // catcher, nothing at all is a surface without a shadow.
-float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at, float id, float slacken, out vec4 found) {
+float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at, float id, out vec4 found) {
     vec2 low = floor(at.xy), f = at.xy - low;
     vec4 sum = vec4(0.0);
     float weights = 0.0;
@@ -46,25 +46,25 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
         bool within = at.z > 0.0 && all(greaterThanEqual(t, ivec2(0))) && all(lessThan(t, size));
         t = clamp(t, ivec2(0), size - 1) + ivec2(0, firstRow);
         vec4 s = texelFetch(shown, t, 0);
-        bool same = s.y == id ? abs(s.x - at.z) < slacken * s.z : s.y == 0.0 && id == 255.0;
+        bool same = s.y == id ? abs(s.x - at.z) < s.z : s.y == 0.0 && id == 255.0;
         vec2 near = mix(1.0 - f, f, vec2(side));
         float w = within && same && s.w > 0.5 ? near.x * near.y : 0.0;
         weights += w;
         sum += w * texelFetch(from, t, 0);
     }
     found = sum / max(weights, 1e-6);
-    return weights > slack.y ? weights : 0.0;
+    return weights > params.leastWeight ? weights : 0.0;
 }
 
 // How much of the colour of the surface at `point` is known.
 float known(vec3 point, float id, out vec4 found) {
-    if (lookUp(colours, surfaces, sizes.xy, 0, inView(0, point), id, slack.x, found) > 0.0) return 1.0;
+    if (lookUp(colours, surfaces, referenceSize(), 0, inView(0, point), id, found) > 0.0) return 1.0;
     float share_ = 0.0;  // that of the patch shown most: one that fades in takes nothing away
-    for (int i = 0; i < counts.x; ++i) {
+    for (int i = 0; i < params.patches; ++i) {
         vec4 own;
         vec3 at = inView(i + 1, point);
-        if (share[i] <= share_ || lookUp(patchColours, patchSurfaces, sizes.zw, i * sizes.w, at, id, 1.0, own) == 0.0) continue;
-        share_ = share[i];
+        if (params.views[i + 1].share <= share_ || lookUp(patchColours, patchSurfaces, layerSize(), i * params.height, at, id, own) == 0.0) continue;
+        share_ = params.views[i + 1].share;
         found = own;
     }
     if (share_ > 0.0) return share_;
@@ -73,20 +73,25 @@ float known(vec3 point, float id, out vec4 found) {
     return id == 255.0 && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
 }
 
+uvec4 groupsOf(DispatchGroups g) {
+    return uvec4(g.x, g.y, g.z, g.count);
+}
+
 void main() {
     uint entry = gl_GlobalInvocationID.x;
     if (entry >= commands[0].w) return;
     int index = int(list[entry]);
-    ivec2 p = ivec2(index % sizes.z, index / sizes.z);
+    ivec2 p = ivec2(index % params.width, index / params.width);
     vec2 ray = texelFetch(rays, p, 0).rg;
-    uvec4 s = textureGather(silhouette, (vec2(p) + 0.5) / vec2(sizes.zw));
+    uvec4 s = textureGather(silhouette, (vec2(p) + 0.5) / vec2(layerSize()));
     uint id = mostOf(s);
     vec3 object = middleOf(s, id), catcher = middleOf(s, kCatcher);
     float covered = 0.25 * dot(vec4(notEqual(s & 0xffu, uvec4(0u))) * vec4(notEqual(s & 0xffu, uvec4(kCatcher))), vec4(1.0));
     catcher.z = catcher.z == 0.0 ? planeDepth(ray) : catcher.z;
     float below = catcher.z > 0.0 ? 1.0 - covered : 0.0;
-    vec3 point = object.z * vec3(ray + object.xy / pinhole[1].xy, 1.0);
-    vec3 under = catcher.z * vec3(ray + catcher.xy / pinhole[1].xy, 1.0);
+    vec2 focal = vec2(params.projections[1].lens.fx, params.projections[1].lens.fy);
+    vec3 point = object.z * vec3(ray + object.xy / focal, 1.0);
+    vec3 under = catcher.z * vec3(ray + catcher.xy / focal, 1.0);
     vec4 ofObject, ofCatcher;
     float objectKnown = covered > 0.0 ? known(point, float(id), ofObject) : 1.0;
     float catcherKnown = below > 0.0 ? known(under, 255.0, ofCatcher) : 1.0;
@@ -108,6 +113,6 @@ void main() {
     uint i = atomicAdd(holeCommands[0].w, 1u);
     if (i % 64u == 0u) atomicAdd(holeCommands[0].x, 1u);
     if (i == 0u)
-        for (int l = 0; l < counts.y; ++l) holeCommands[l + 1] = wanted[l];
+        for (int l = 0; l < params.levels; ++l) holeCommands[l + 1] = groupsOf(params.wanted[l]);
     holes[i] = uvec2(uint(index) | (edge ? 1u << 30 : nowhere ? 1u << 31 : 0u), packUnorm4x8(shown));
 }

@@ -13,11 +13,12 @@ layout(std430, binding = 1) writeonly buffer List {
 };
 
 void main() {
-    ivec2 p = 2 * ivec2(gl_GlobalInvocationID.xy) + bounds.xy;
-    vec4 left = textureGather(state, vec2(p + 1) / vec2(sizes.zw), 1);
+    ivec2 p = 2 * ivec2(gl_GlobalInvocationID.xy) + ivec2(params.bounds.x0, params.bounds.y0);
+    vec4 left = textureGather(state, vec2(p + 1) / vec2(layerSize()), 1);
+    ivec2 end = ivec2(params.bounds.x1, params.bounds.y1);
     // In the order of textureGather.
-    bvec4 within = bvec4(all(lessThan(p + ivec2(0, 1), bounds.zw)), all(lessThan(p + 1, bounds.zw)),
-                         all(lessThan(p + ivec2(1, 0), bounds.zw)), all(lessThan(p, bounds.zw)));
+    bvec4 within = bvec4(all(lessThan(p + ivec2(0, 1), end)), all(lessThan(p + 1, end)),
+                         all(lessThan(p + ivec2(1, 0), end)), all(lessThan(p, end)));
     uvec4 some = uvec4(greaterThan(left, vec4(0.5))) & uvec4(within);
     uint count = some.x + some.y + some.z + some.w;
     if (count == 0u) return;
@@ -25,7 +26,7 @@ void main() {
     // Of the groups, those that these entries begin.
     uint groups = (i + count + 63u) / 64u - (i + 63u) / 64u;
     if (groups > 0u) atomicAdd(commands[0].x, groups);
-    uint first = uint(p.y * sizes.z + p.x), row = uint(sizes.z);
+    uint first = uint(p.y * params.width + p.x), row = uint(params.width);
     if (some.w != 0u) list[i] = first;
     i += some.w;
     if (some.z != 0u) list[i] = first + 1u;

@@ -10,8 +10,8 @@ layout(std430, binding = 0) readonly buffer List {
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= uint(limits.y)) return;
+    if (i >= uint(params.shown)) return;
     uvec4 entry = list[i];
-    ivec2 p = ivec2(int(entry.x) % limits.x, int(entry.x) / limits.x);
-    imageStore(colour, p, mix(unpackUnorm4x8(entry.y), unpackUnorm4x8(entry.z), share.x));
+    ivec2 p = ivec2(int(entry.x) % params.width, int(entry.x) / params.width);
+    imageStore(colour, p, mix(unpackUnorm4x8(entry.y), unpackUnorm4x8(entry.z), params.renderedShare));
 }

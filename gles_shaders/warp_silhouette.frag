@@ -11,7 +11,7 @@ layout(location = 0) out uint surface;
 
 void main() {
 #ifdef ALPHA_MASK
-    if (!(textureLod(alpha, texel, 0.0).r >= target.w)) discard;
+    if (!(textureLod(alpha, texel, 0.0).r >= params.cutoff)) discard;
 #endif
-    surface = packSurface(1.0 / gl_FragCoord.w, uint(target.z));
+    surface = packSurface(1.0 / gl_FragCoord.w, uint(params.number));
 }

@@ -10,12 +10,12 @@ out vec2 texel;
 #endif
 
 void main() {
-    vec4 p = vec4(position, 1.0);
-    vec3 point = vec3(dot(object[0], p), dot(object[1], p), dot(object[2], p));
+    vec3 point = transformed(params.object, position);
 #ifdef ALPHA_MASK
     texel = uv;
 #endif
-    vec3 h = projectPoint(Camera(pinhole, distortion, lens.x), lens.yz, point);
+    vec3 h = projectPoint(params.layer, point);
     // Pixel centres are at integers; infinite far plane.
-    gl_Position = vec4((2.0 * h.xy + h.z) / target.xy - h.z, h.z - 2.0 * lens.w, h.z);
+    gl_Position = vec4((2.0 * h.xy + h.z) / vec2(params.width, params.height) - h.z,
+                       h.z - 2.0 * params.layer.nearPlane, h.z);
 }

@@ -1,6 +1,7 @@
 #include "pipeline/composite/preview_renderer.h"
 
 #include "base/gl/scoped_state.h"
+#include "pipeline/composite/pass_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,6 @@ using gpu::TexelFormat;
 constexpr double kReach = 0.505;  // of a unit shape from its centre, with what rounding adds
 
 static_assert(sizeof(ShapeMesh::Vertex) == sizeof(gpu::MeshVertex));
-
-void store(float* to, const Eigen::Vector3d& xyz, double w) {
-    const Eigen::Vector3f f = xyz.cast<float>();
-    std::copy_n(f.data(), 3, to);
-    to[3] = static_cast<float>(w);
-}
 
 }  // namespace
 
@@ -51,29 +46,30 @@ PreviewRenderer::ShapeBuffers PreviewRenderer::buffersOf(const ShapeMesh& mesh) 
     return out;
 }
 
-PreviewRenderer::Params PreviewRenderer::params(const VirtualObject& object,
+params::PreviewObject PreviewRenderer::paramsOf(const VirtualObject& object,
                                                 const RigidTransform& T_world_video) const {
-    const RigidTransform T_video_object = T_world_video.inverse() * object.T_world_object;
-    const Eigen::Matrix3d R = T_video_object.rotation.toRotationMatrix();
-    const LensProjection& lens = projection_.lens();
-    const CameraModel& camera = lens.camera;
-    const auto& k = camera.distortion;
-    Params p{};
-    for (int i = 0; i < 3; ++i)
-        store(p.object[i], R.row(i).transpose(), T_video_object.translation[i]);
-    store(p.size, object.size, std::max(object.squares, 1));
-    store(p.pinhole, {camera.fx, camera.fy, camera.cx}, camera.cy);
-    store(p.distortion, {k[0], k[1], k[2]}, k[3]);
-    store(p.lens, {k[4], lens.rim, lens.rimRadial}, LensProjection::kNear);
-    store(p.colour[0], object.colours[0].cast<double>(), 1);
-    store(p.colour[1], object.colours[1].cast<double>(), 1);
-    store(p.light, T_world_video.rotation.conjugate() * light_.towards.normalized(),
-          light_.ambient);
+    const auto single = [](double v) { return static_cast<float>(v); };
+    const auto colourOf = [](const auto& c) { return params::Colour{c[0], c[1], c[2]}; };
+    const Size target = projection_.lens().camera.size;
+    const Eigen::Vector3f size = object.size.cast<float>();
+    const Eigen::Vector3f light =
+        (T_world_video.rotation.conjugate() * light_.towards.normalized()).cast<float>();
     const double radius = object.shape == VirtualShape::Sphere ? kReach : std::sqrt(3) * kReach;
-    store(p.target,
-          {static_cast<double>(camera.size.width), static_cast<double>(camera.size.height), kReach},
-          radius * radius);
-    return p;
+    return {.object = transformOf(T_world_video.inverse() * object.T_world_object),
+            .projection = projectionOf(projection_.lens()),
+            .colours = {colourOf(object.colours[0]), colourOf(object.colours[1])},
+            .width = size.x(),
+            .height = size.y(),
+            .depth = size.z(),
+            .squares = single(std::max(object.squares, 1)),
+            .lightX = light.x(),
+            .lightY = light.y(),
+            .lightZ = light.z(),
+            .ambient = single(light_.ambient),
+            .targetWidth = single(target.width),
+            .targetHeight = single(target.height),
+            .reach = single(kReach),
+            .squaredRadius = single(radius * radius)};
 }
 
 PixelRect PreviewRenderer::boundsOf(const VirtualObject& object,
@@ -114,7 +110,7 @@ const VirtualLayer& PreviewRenderer::render(std::span<const VirtualObject> objec
         const gpu::DepthTest depthTest;
         std::optional<gpu::InsidesCulled> culled;  // hidden anyway: a third of the time saved
         if (object.shape != VirtualShape::Quad) culled.emplace();
-        pass_.runMesh(params(object, T_world_video), {}, target_,
+        pass_.runMesh(paramsOf(object, T_world_video), {}, target_,
                       {shape.vertices, shape.indices, shape.indexCount});
     }
     return layer_;

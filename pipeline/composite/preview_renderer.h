@@ -2,6 +2,7 @@
 
 #include "base/gl/pass.h"
 #include "pipeline/composite/object_projection.h"
+#include "pipeline/composite/pass_params.h"
 #include "pipeline/composite/virtual_layer.h"
 #include "pipeline/composite/virtual_object.h"
 
@@ -30,18 +31,14 @@ public:
                                const RigidTransform& T_world_video);
 
 private:
-    struct Params {  // preview_params.glsl
-        float object[3][4], size[4], pinhole[4], distortion[4], lens[4], colour[2][4], light[4],
-            target[4];
-    };
     struct ShapeBuffers {
         gpu::Buffer vertices, indices;
         int indexCount;
     };
 
     static ShapeBuffers buffersOf(const ShapeMesh& mesh);
-    [[nodiscard]] Params params(const VirtualObject& object,
-                                const RigidTransform& T_world_video) const;
+    [[nodiscard]] params::PreviewObject paramsOf(const VirtualObject& object,
+                                                 const RigidTransform& T_world_video) const;
     /// Pixels the object covers.
     [[nodiscard]] PixelRect boundsOf(const VirtualObject& object,
                                      const RigidTransform& T_world_video);
@@ -52,7 +49,7 @@ private:
     std::array<ShapeBuffers, kVirtualShapes> shapes_;
     gpu::Texture colour_, depth_, window_;
     gpu::Framebuffer target_;
-    gpu::DrawPass<Params> pass_;
+    gpu::DrawPass<params::PreviewObject> pass_;
     VirtualLayer layer_;
 };
 

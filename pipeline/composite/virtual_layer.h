@@ -2,6 +2,7 @@
 
 #include "base/geometry.h"
 #include "base/gl/texture.h"
+#include "pipeline/composite/pass_params.h"
 
 namespace mfar {
 

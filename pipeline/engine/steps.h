@@ -4,6 +4,7 @@
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/engine/cells.h"
 #include "pipeline/engine/field.h"
+#include "pipeline/engine/params/layer.h"
 #include "pipeline/flow/flow_options.h"
 #include "pipeline/flow/luma_layout.h"
 #include "pipeline/plan/rgb_planes.h"
@@ -150,10 +151,7 @@ public:
     [[nodiscard]] virtual std::vector<TileClass> classes() const = 0;
 };
 
-/// A shadow on the real scene is laid over that as if it were so much nearer [share of its z]: what
-/// depth cannot tell from the surface that it lies on does not hide it, and what lies on that is in
-/// the shadow as well.
-inline constexpr float kShadowLift = 0.02F;
+using params::kShadowLift;
 
 /// Virtual objects alone, as the video camera sees them; it may have fewer pixels than the output.
 struct LayerPicture {

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "base/gl/pass.h"
+#include "pipeline/engine/params/weigh.h"
 #include "pipeline/gles/luma_pyramids.h"
 #include "pipeline/gles/tile_buffer.h"
 
-#include <cstdint>
 #include <vector>
 
 namespace mfar {
@@ -33,21 +33,6 @@ public:
     [[nodiscard]] const gpu::Texture& trust() const { return trust_; }      ///< Rgba8, linear
 
 private:
-    struct AssessParams {
-        RigParams rig;
-        LumaLevel video, still;
-        std::int32_t cells[4], offsets[4];
-        float tune[4], stillSize[4];
-    };
-    struct GainParams {
-        LumaLevel video, still;
-        std::int32_t cells[4], offsets[4];
-    };
-    struct WeighParams {
-        std::int32_t cells[4];
-        float tune[4];
-    };
-
     void assess(const WeighInput& in, const TileBuffer& tiles);
     void measureGain(const WeighInput& in, const TileBuffer& tiles);
     void weigh(double noise);
@@ -55,9 +40,9 @@ private:
     StereoRig rig_;
     Size cells_, halfCells_;
     gpu::Texture displacement_, statistics_, halfStatistics_, weighed_, lookUps_, trust_;
-    gpu::ComputePass<AssessParams> assess_;
-    gpu::ComputePass<GainParams> gain_;
-    gpu::ComputePass<WeighParams> weigh_;
+    gpu::ComputePass<params::AssessCells> assess_;
+    gpu::ComputePass<params::MeasureGain> gain_;
+    gpu::ComputePass<params::WeighCells> weigh_;
 };
 
 }  // namespace mfar

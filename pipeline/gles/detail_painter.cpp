@@ -8,11 +8,6 @@
 namespace mfar {
 namespace {
 
-// Below this weight the detail changes no pixel by a grey level.
-constexpr float kLeastWeight = 0.02F;
-// A tile within these spreads is drawn as one quad; 0.08 px are 0.3 px of the output.
-constexpr float kPlainFlow = 0.08F;
-constexpr float kPlainWeight = 0.25F;
 constexpr std::uint32_t kQuadVertices = 6;
 constexpr const char* kLinear = "#define LINEAR\n";
 constexpr const char* kPlain = "#define PLAIN_TILE\n";
@@ -42,16 +37,13 @@ void DetailPainter::classify(const Matched* matched, const TileBuffer& tiles,
     for (auto& command : block.commands)
         command[0] = kQuadVertices;
     draws_[current_].write(std::span<const DrawBlock>(&block, 1));
-    ClassifyParams p{};
-    p.tiles[0] = tiles_.width;
-    p.tiles[1] = tiles_.height;
-    p.tiles[2] = cells_.width;
-    p.tiles[3] = cells_.height;
-    p.tune[0] = options.upscaledTiles ? kLeastWeight : -1.0F;
-    p.tune[1] = options.plainTiles ? kPlainFlow : 0.0F;
-    p.tune[2] = kPlainWeight;
-    p.tune[3] = matched != nullptr ? 0.0F : 1.0F;
-    classify_.run(p,
+    classify_.run({.columns = tiles_.width,
+                   .rows = tiles_.height,
+                   .cellColumns = cells_.width,
+                   .cellRows = cells_.height,
+                   .leastWeight = options.upscaledTiles ? params::kLeastDetailWeight : -1.0F,
+                   .plainFlow = options.plainTiles ? params::kPlainFlow : 0.0F,
+                   .stillGiven = matched != nullptr ? 1 : 0},
                   {gpu::storage(0, tiles.buffer()), gpu::storage(1, classes_),
                    gpu::storage(2, draws_[current_]), gpu::storage(3, lists_),
                    gpu::sampler(0, matched != nullptr ? matched->weighed : blank_),
@@ -67,17 +59,17 @@ gpu::InstanceList DetailPainter::list(List which) const {
 
 DetailPainter::TileParams DetailPainter::tileParams(bool sharpens) const {
     TileParams p{};
-    p.video[0] = video_.width;
-    p.video[1] = video_.height;
-    p.video[2] = cells_.width;
-    p.video[3] = cells_.height;
-    p.scale[0] = static_cast<float>(video_.width) / static_cast<float>(output_.size().width);
-    p.scale[1] = static_cast<float>(video_.height) / static_cast<float>(output_.size().height);
-    p.scale[2] = 1.0F / static_cast<float>(rig_.still.size.width);
-    p.scale[3] = 1.0F / static_cast<float>(rig_.still.size.height);
-    p.tune[0] = sharpens ? 1.0F : 0.0F;
-    p.tune[2] = p.scale[0] * static_cast<float>(rig_.still.fx / rig_.video.fx);
-    p.tune[3] = p.scale[1] * static_cast<float>(rig_.still.fy / rig_.video.fy);
+    p.videoWidth = video_.width;
+    p.videoHeight = video_.height;
+    p.cellColumns = cells_.width;
+    p.cellRows = cells_.height;
+    p.scaleX = static_cast<float>(video_.width) / static_cast<float>(output_.size().width);
+    p.scaleY = static_cast<float>(video_.height) / static_cast<float>(output_.size().height);
+    p.stillTexelX = 1.0F / static_cast<float>(rig_.still.size.width);
+    p.stillTexelY = 1.0F / static_cast<float>(rig_.still.size.height);
+    p.stillScaleX = p.scaleX * static_cast<float>(rig_.still.fx / rig_.video.fx);
+    p.stillScaleY = p.scaleY * static_cast<float>(rig_.still.fy / rig_.video.fy);
+    p.sharpening = sharpens ? 1.0F : 0.0F;
     return p;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/gl/pass.h"
+#include "pipeline/engine/params/detail.h"
 #include "pipeline/engine/steps.h"
 #include "pipeline/gles/tile_buffer.h"
 
@@ -41,14 +42,7 @@ public:
     [[nodiscard]] std::vector<TileClass> readClasses() const;
 
 private:
-    struct ClassifyParams {
-        std::int32_t tiles[4];
-        float tune[4];
-    };
-    struct TileParams {  // tile_params.glsl
-        std::int32_t video[4];
-        float scale[4], tune[4];
-    };
+    using TileParams = params::DrawTiles;
     /// The same shader over the whole target and over a list of tiles.
     struct TilePass {
         explicit TilePass(const char* fragment, const char* defines = "")
@@ -90,7 +84,7 @@ private:
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
     bool sharpenedIsOld_ = true;  // from a frame before the last
-    gpu::ComputePass<ClassifyParams> classify_;
+    gpu::ComputePass<params::ClassifyTiles> classify_;
     TilePass sharpen_;
     Enlarging cubicly_;
     std::optional<Enlarging> linearly_;  // made for the first frame that wants it

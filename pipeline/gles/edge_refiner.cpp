@@ -1,5 +1,7 @@
 #include "pipeline/gles/edge_refiner.h"
 
+#include "pipeline/composite/pass_values.h"
+
 #include <algorithm>
 #include <bit>
 #include <span>
@@ -31,9 +33,13 @@ void EdgeRefiner::drop() {
 void EdgeRefiner::list(const gpu::Texture& colour, const gpu::Texture& state,
                        const PixelRect& where) {
     drop();
-    params_ = {{where.x0, where.y0, where.x1, where.y1},
-               {layer_.width, 0, kLeastContrast, most_},
-               {0, static_cast<float>(share_), 0, 0}};
+    params_ = {.bounds = boundsOf(where),
+               .width = layer_.width,
+               .shown = 0,
+               .leastContrast = kLeastContrast,
+               .mostListed = most_,
+               .renderedShare = 0,
+               .listedShare = static_cast<float>(share_)};
     constexpr std::array<std::uint32_t, kListedAt + 1> kNone{};
     counts_.write(std::span<const std::uint32_t>(kNone));
     const gpu::Groups groups{gpu::groupsFor(where.x1 - where.x0, kEdgeGroup),
@@ -71,7 +77,7 @@ void EdgeRefiner::answer(const HoleAnswer& answer) {
         if (entries.size() == static_cast<std::size_t>(most_)) break;
         entries.push_back({pixel, (*before)[1], std::bit_cast<std::uint32_t>(answer.colour[i]), 0});
     }
-    params_.limits[1] = static_cast<std::int32_t>(entries.size());
+    params_.shown = static_cast<std::int32_t>(entries.size());
     if (entries.empty()) return;
     entries_.write(std::span<const Entry>(entries));
     shown_ = step_;
@@ -79,9 +85,9 @@ void EdgeRefiner::answer(const HoleAnswer& answer) {
 
 void EdgeRefiner::show(const gpu::Texture& colour) {
     if (shown_ == 0) return;
-    params_.share[0] = static_cast<float>(shown_);
+    params_.renderedShare = static_cast<float>(shown_);
     sharpen_.run(params_, {gpu::imageWrite(0, colour), gpu::storage(0, entries_)},
-                 {gpu::groupsFor(params_.limits[1], kSharpenGroup), 1, 1});
+                 {gpu::groupsFor(params_.shown, kSharpenGroup), 1, 1});
     shown_ = std::min(1.0, shown_ + step_);
 }
 

@@ -3,6 +3,7 @@
 #include "base/gl/fence.h"
 #include "base/gl/pass.h"
 #include "pipeline/slices/hole_request.h"
+#include "pipeline/warp/pass_params.h"
 
 #include <array>
 #include <cstdint>
@@ -17,7 +18,7 @@ namespace mfar {
 /// moves.
 class EdgeRefiner {
 public:
-    static constexpr int kLevels = 64;  ///< of contrast
+    static constexpr int kLevels = params::kContrastLevels;
 
     /// See WarpOptions. Lists `most` pixels at most, unless more have the very highest contrast;
     /// takes answers of so many.
@@ -36,10 +37,6 @@ public:
     void drop();
 
 private:
-    struct Params {  // warp_edge_params.glsl
-        std::int32_t bounds[4], limits[4];
-        float share[4];
-    };
     struct Entry {
         std::uint32_t pixel, before, rendered, unused;
     };
@@ -50,9 +47,9 @@ private:
     gpu::Buffer counts_, list_, entries_;
     std::optional<gpu::Fence> fence_;                   // of the list
     std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel, colour; ascending
-    Params params_{};
+    params::RefineEdges params_{};
     double shown_ = 0;  // share of the answer, 0: there is none
-    gpu::ComputePass<Params> count_, choose_, sharpen_;
+    gpu::ComputePass<params::RefineEdges> count_, choose_, sharpen_;
 };
 
 }  // namespace mfar

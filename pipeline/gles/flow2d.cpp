@@ -9,25 +9,6 @@ namespace mfar {
 namespace {
 
 constexpr int kGroup = 4;  // cells a workgroup and axis, as in the shaders
-// With the last frame's field among the candidates only what moved on its own needs a search.
-constexpr int kTrackingRadius = 3;
-// Of tiles off their epipolar lines: 5 px are 80 px of the frame; what moved farther since the
-// still is not worth four times the search.
-constexpr int kListedRadius = 5;
-constexpr int kPropagateSteps = 2;
-// From a vector that is right but for a fraction of a pixel; four gain nothing.
-constexpr int kAlignSteps = 2;
-// The backward field only confirms: a tenth of a coarser level's pixel is a tenth of eq. 2's alpha.
-constexpr int kBackwardFinest = 1;
-constexpr int kBackwardPropagations = 1;
-
-void put(std::int32_t (&out)[4], std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
-    out[0] = a;
-    out[1] = b;
-    out[2] = c;
-    out[3] = d;
-}
-
 Size cellsOf(const LumaLevel& level) {
     return cellsOf(Size{level.width, level.height});
 }
@@ -62,7 +43,8 @@ Flow2d::Flow2d(Size video, const Flow2dOptions& options)
         }
     }
     forward_ = {take(forwardStages_[0].cells), forwardStages_[0].cells};
-    const int finest = std::min(kBackwardFinest, static_cast<int>(backwardStages_.size()) - 1);
+    const int finest =
+        std::min(params::kBackwardFinest, static_cast<int>(backwardStages_.size()) - 1);
     // Room for refine()'s errors, one a cell of the video.
     backward_ = {take(forward_.cells), backwardStages_[finest].cells, finest};
     seed_ = take(forward_.cells);
@@ -74,7 +56,8 @@ void Flow2d::run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior) 
     searched_.clear();
     if (tiles.work().matched == 0) return;
     run({luma.video, luma.still, forwardStages_, 0, options_.propagations, usePrior}, luma);
-    run({luma.still, luma.video, backwardStages_, backward_.level, kBackwardPropagations, false},
+    run({luma.still, luma.video, backwardStages_, backward_.level, params::kBackwardPropagations,
+         false},
         luma);
     filter(forwardStages_[0], forward_, tiles);
     filter(backwardStages_[backward_.level], backward_, tiles);
@@ -100,9 +83,11 @@ void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forwar
 void Flow2d::searchListed(const LumaOnGpu& luma) {
     const Direction way{luma.video, luma.still, forwardStages_, 0, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
-        SearchParams p = searchParams(way, level, 0, std::min(kListedRadius, options_.searchRadius),
-                                      forwardStages_[0].area[0]);
-        put(p.listed, searched_.first(level), level == 0 ? backward_.offset : -1, 0, 0);
+        params::SearchFlow p =
+            searchParams(way, level, 0, std::min(params::kListedRadius, options_.searchRadius),
+                         forwardStages_[0].area[0]);
+        p.firstGroup = searched_.first(level);
+        p.errors = level == 0 ? backward_.offset : -1;
         searchListed_.runIndirect(p,
                                   {gpu::storage(0, luma.words), gpu::storage(1, patches_),
                                    gpu::storage(2, searched_.lists())},
@@ -123,67 +108,77 @@ void Flow2d::run(const Direction& way, const LumaOnGpu& luma) {
 }
 
 void Flow2d::search(const Direction& way, int level, int area, const LumaOnGpu& luma) {
-    const SearchParams p =
-        searchParams(way, level, area, way.usePrior ? kTrackingRadius : options_.searchRadius,
-                     way.usePrior ? forward_.offset : -1);
+    const params::SearchFlow p = searchParams(
+        way, level, area, way.usePrior ? params::kTrackingRadius : options_.searchRadius,
+        way.usePrior ? forward_.offset : -1);
     search_.run(p, {gpu::storage(0, luma.words), gpu::storage(1, patches_)},
                 way.stages[level].groups);
 }
 
 // `prior`: first vec4 of a field of the finest level whose vectors are candidates, or -1.
-Flow2d::SearchParams Flow2d::searchParams(const Direction& way, int level, int area, int radius,
-                                          int prior) const {
+params::SearchFlow Flow2d::searchParams(const Direction& way, int level, int area, int radius,
+                                        int prior) const {
     const Stage& stage = way.stages[level];
     const bool coarsest = level + 1 == static_cast<int>(way.stages.size());
     const int side = 2 * radius + 1;
-    SearchParams p{};
-    p.from = way.from[level];
-    p.to = way.to[level];
     const Size coarser = coarsest ? Size{} : way.stages[level + 1].cells;
-    put(p.cells, stage.cells.width, stage.cells.height, coarser.width, coarser.height);
-    put(p.offsets, stage.area[area], coarsest ? -1 : way.stages[level + 1].area[0], prior, 0);
-    put(p.search, radius, (prior >= 0 ? 1 : 0) + (coarsest ? side * side : options_.candidates),
-        options_.steps, forward_.cells.width);
-    p.prior[0] = 1.0F / static_cast<float>(1 << level);
-    p.prior[1] = static_cast<float>(forward_.cells.width) / static_cast<float>(stage.cells.width);
-    p.prior[2] = static_cast<float>(forward_.cells.height) / static_cast<float>(stage.cells.height);
-    return p;
-}
-
-Flow2d::LevelParams Flow2d::levelParams(const LumaLevel& from, const LumaLevel& to, Size cells,
-                                        int out, int in, int steps) {
-    LevelParams p{};
-    p.from = from;
-    p.to = to;
-    put(p.cells, cells.width, cells.height, 0, 0);
-    put(p.offsets, out, in, 0, 0);
-    p.search[0] = steps;
-    return p;
+    const Size finest = forward_.cells;
+    return {.from = way.from[level],
+            .to = way.to[level],
+            .columns = stage.cells.width,
+            .rows = stage.cells.height,
+            .coarserColumns = coarser.width,
+            .coarserRows = coarser.height,
+            .target = stage.area[area],
+            .coarser = coarsest ? -1 : way.stages[level + 1].area[0],
+            .lastFrame = prior,
+            .lastFrameColumns = finest.width,
+            .radius = radius,
+            .candidates = (prior >= 0 ? 1 : 0) + (coarsest ? side * side : options_.candidates),
+            .steps = options_.steps,
+            .perLastFrame = 1.0F / static_cast<float>(1 << level),
+            .lastFrameX = static_cast<float>(finest.width) / static_cast<float>(stage.cells.width),
+            .lastFrameY =
+                static_cast<float>(finest.height) / static_cast<float>(stage.cells.height),
+            .firstGroup = 0,
+            .errors = -1};
 }
 
 void Flow2d::propagate(const Direction& way, int level, int toArea, const LumaOnGpu& luma) {
     const Stage& stage = way.stages[level];
-    const LevelParams p = levelParams(way.from[level], way.to[level], stage.cells,
-                                      stage.area[toArea], stage.area[1 - toArea], kPropagateSteps);
-    propagate_.run(p, {gpu::storage(0, luma.words), gpu::storage(1, patches_)}, stage.groups);
+    propagate_.run({.from = way.from[level],
+                    .to = way.to[level],
+                    .columns = stage.cells.width,
+                    .rows = stage.cells.height,
+                    .target = stage.area[toArea],
+                    .source = stage.area[1 - toArea],
+                    .steps = params::kPropagateSteps},
+                   {gpu::storage(0, luma.words), gpu::storage(1, patches_)}, stage.groups);
 }
 
 void Flow2d::align(int in, const LumaOnGpu& luma, const TileBuffer& tiles) {
     const Stage& stage = forwardStages_[0];
-    const LevelParams p =
-        levelParams(luma.video[0], luma.still[0], stage.cells, stage.area[0], in, kAlignSteps);
     align_.run(
-        p,
+        {.from = luma.video[0],
+         .to = luma.still[0],
+         .columns = stage.cells.width,
+         .rows = stage.cells.height,
+         .target = stage.area[0],
+         .source = in,
+         .steps = params::kAlignSteps},
         {gpu::storage(0, luma.words), gpu::storage(1, patches_), gpu::storage(2, tiles.buffer())},
         stage.groups);
 }
 
 void Flow2d::filter(const Stage& stage, const Field& out, const TileBuffer& tiles) {
-    FilterParams p{};
     // The cells of a coarser level are not those of a tile.
-    put(p.cells, stage.cells.width, stage.cells.height, options_.planeFits, out.level == 0 ? 1 : 0);
-    put(p.offsets, out.offset, stage.area[0], 0, 0);
-    filter_.run(p, {gpu::storage(1, patches_), gpu::storage(2, tiles.buffer())}, stage.groups);
+    filter_.run({.columns = stage.cells.width,
+                 .rows = stage.cells.height,
+                 .target = out.offset,
+                 .source = stage.area[0],
+                 .planeFits = options_.planeFits,
+                 .byTile = out.level == 0 ? 1 : 0},
+                {gpu::storage(1, patches_), gpu::storage(2, tiles.buffer())}, stage.groups);
 }
 
 }  // namespace mfar

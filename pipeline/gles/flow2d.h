@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/engine/params/flow.h"
 #include "pipeline/flow/flow_options.h"
 #include "pipeline/gles/luma_pyramids.h"
 #include "pipeline/gles/tile_lists.h"
@@ -56,20 +57,6 @@ public:
     [[nodiscard]] const Field& backward() const { return backward_; }  ///< still -> video
 
 private:
-    struct SearchParams {
-        LumaLevel from, to;
-        std::int32_t cells[4], offsets[4], search[4];
-        float prior[4];
-        std::int32_t listed[4];
-    };
-    /// Of what goes once over the cells of one level.
-    struct LevelParams {
-        LumaLevel from, to;
-        std::int32_t cells[4], offsets[4], search[4];
-    };
-    struct FilterParams {
-        std::int32_t cells[4], offsets[4];
-    };
     /// One level of one direction: two areas, because propagation cannot work in place.
     struct Stage {
         Size cells;
@@ -89,10 +76,8 @@ private:
     void run(const Direction& way, const LumaOnGpu& luma);
     void search(const Direction& way, int level, int area, const LumaOnGpu& luma);
     void searchListed(const LumaOnGpu& luma);
-    [[nodiscard]] SearchParams searchParams(const Direction& way, int level, int area, int radius,
-                                            int prior) const;
-    [[nodiscard]] static LevelParams levelParams(const LumaLevel& from, const LumaLevel& to,
-                                                 Size cells, int out, int in, int steps);
+    [[nodiscard]] params::SearchFlow searchParams(const Direction& way, int level, int area,
+                                                  int radius, int prior) const;
     void propagate(const Direction& way, int level, int toArea, const LumaOnGpu& luma);
     /// Lets the vectors from `in` on take Gauss-Newton steps.
     void align(int in, const LumaOnGpu& luma, const TileBuffer& tiles);
@@ -105,9 +90,9 @@ private:
     int seed_;  // first vec4 of refine()'s forward vectors
     gpu::Buffer patches_;
     TileLists searched_;
-    gpu::ComputePass<SearchParams> search_, searchListed_;
-    gpu::ComputePass<LevelParams> propagate_, align_;
-    gpu::ComputePass<FilterParams> filter_;
+    gpu::ComputePass<params::SearchFlow> search_, searchListed_;
+    gpu::ComputePass<params::RefineFlow> propagate_, align_;
+    gpu::ComputePass<params::FilterFlow> filter_;
 };
 
 }  // namespace mfar

@@ -1,13 +1,14 @@
 #include "pipeline/gles/hole_filler.h"
 
+#include "pipeline/composite/pass_values.h"
+
 #include <algorithm>
 #include <span>
 
 namespace mfar {
 namespace {
 
-constexpr int kPullGroup = 8;    // each way, as in the shaders
-constexpr int kCrackLevels = 2;  // that a crack needs
+constexpr int kPullGroup = 8;  // each way, as in the shaders
 constexpr std::uint32_t kOpen = 1U << 31, kCrack = 1U << 30;
 
 using Command = HoleFiller::Command;
@@ -43,30 +44,30 @@ void HoleFiller::begin(const PixelRect& where, bool pushPull) {
     for (Command& command : none)
         command = {0, 1, 1, 0};
     lists_[current_].commands.write(std::span<const Command>(none));
-    params_ = {{where.x0, where.y0, where.x1, where.y1},
-               {layer_.width, pushPull ? 1 : 0, 0, pushPull ? kLevels : kCrackLevels},
-               {},
-               {}};
+    params_ = {};
+    params_.bounds = boundsOf(where);
+    params_.width = layer_.width;
+    params_.fillsAll = pushPull ? 1 : 0;
+    params_.levelCount = pushPull ? kLevels : params::kCrackLevels;
     PixelRect r = where;
     int end = 0;
     for (int l = 0; l < levels(); ++l) {
         r = {r.x0 / 2, r.y0 / 2, halved(r.x1), halved(r.y1)};
         const int columns = r.x1 - r.x0, rows = r.y1 - r.y0;
-        const std::array<std::int32_t, 4> level{end, columns, r.x0, r.y0};
-        std::copy_n(level.data(), 4, params_.levels[l]);
+        params_.levels[l] = {end, columns, r.x0, r.y0};
         rows_[l] = rows;
         end += columns * rows;
         wanted_[l] = {gpu::groupsFor(columns, kPullGroup), gpu::groupsFor(rows, kPullGroup), 1, 0};
     }
-    params_.rows[2] = end;
+    params_.texels = end;
 }
 
 void HoleFiller::pull(const gpu::Texture& colour, const gpu::Texture& state) {
-    Params p = params_;
+    params::FillHoles p = params_;
     for (int l = 1; l <= levels(); ++l) {
-        p.layer[2] = l;
-        p.rows[0] = rows_[l - 1];
-        p.rows[1] = l > 1 ? rows_[l - 2] : 0;
+        p.level = l;
+        p.rows = rows_[l - 1];
+        p.rowsBelow = l > 1 ? rows_[l - 2] : 0;
         const std::size_t offset = sizeof(Command) * l;
         if (l == 1)
             first_.runIndirect(
@@ -94,7 +95,7 @@ std::optional<WarpHoles> HoleFiller::poll() {
     fence_.reset();
     WarpHoles out;
     const Lists& lists = lists_[1 - current_];
-    const std::size_t listed = lists.commands.read<Command>(1)[0][3];
+    const std::size_t listed = lists.commands.read<Command>(1)[0].count;
     if (listed == 0) return out;
     for (const auto& [pixel, colour] : lists.entries.read<std::array<std::uint32_t, 2>>(listed)) {
         if ((pixel & kCrack) != 0)

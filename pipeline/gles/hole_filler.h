@@ -1,11 +1,14 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "base/gl/fence.h"
 #include "base/gl/pass.h"
+#include "pipeline/warp/pass_params.h"
 #include "pipeline/warp/warp_step.h"
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -26,9 +29,9 @@ public:
     [[nodiscard]] const gpu::Buffer& commands() const { return lists_[current_].commands; }
     [[nodiscard]] const gpu::Buffer& entries() const { return lists_[current_].entries; }
     /// Groups of the pyramid's dispatches, which the list's first entry opens.
-    using Command = std::array<std::uint32_t, 4>;
+    using Command = params::DispatchGroups;
     [[nodiscard]] const std::array<Command, kLevels>& wanted() const { return wanted_; }
-    [[nodiscard]] int levels() const { return params_.layer[3]; }
+    [[nodiscard]] int levels() const { return params_.levelCount; }
 
     /// `colour` (RGBA8 premultiplied) and `state` as ViewLookUp leaves them; writes into `colour`.
     /// `wantList`: this frame's list is to be read, if none is under way.
@@ -42,9 +45,7 @@ public:
     void drop() { fence_.reset(); }
 
 private:
-    struct Params {  // warp_hole_params.glsl
-        std::int32_t bounds[4], layer[4], levels[kLevels][4], rows[4];
-    };
+    static_assert(kLevels == std::size(params::FillHoles{}.levels));
     struct Lists {
         gpu::Buffer commands, entries;
     };
@@ -56,10 +57,10 @@ private:
     std::size_t current_ = 0;
     std::optional<gpu::Fence> fence_;  // of the other one
     gpu::Buffer pyramid_;
-    Params params_{};
+    params::FillHoles params_{};
     std::array<Command, kLevels> wanted_{};
     std::array<int, kLevels> rows_{};
-    gpu::ComputePass<Params> first_, pull_, fill_;
+    gpu::ComputePass<params::FillHoles> first_, pull_, fill_;
 };
 
 }  // namespace mfar

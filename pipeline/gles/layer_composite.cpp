@@ -26,25 +26,24 @@ LayerComposite::LayerComposite(Size video, Size output, Size layer, const Compos
     validate(options);
 }
 
-LayerComposite::Params LayerComposite::params() const {
+params::Visibility LayerComposite::visibilityParams() const {
     const Size output = visibility_.size();
     const double likeness = options_.likeness / 255;
-    Params p{};
-    p.video[0] = video_.width;
-    p.video[1] = video_.height;
-    p.video[2] = output.width;
-    p.video[3] = output.height;
-    p.layer[0] = layer_.width;
-    p.layer[1] = layer_.height;
-    p.scale[2] = static_cast<float>(layer_.width) / static_cast<float>(output.width);
-    p.scale[3] = static_cast<float>(layer_.height) / static_cast<float>(output.height);
-    p.scale[0] = static_cast<float>(video_.width) / static_cast<float>(output.width);
-    p.scale[1] = static_cast<float>(video_.height) / static_cast<float>(output.height);
-    p.tune[0] = static_cast<float>(options_.bias);
-    p.tune[1] = static_cast<float>(options_.softness);
-    p.tune[2] = static_cast<float>(options_.virtualSigma);
-    p.tune[3] = static_cast<float>(0.5 / (likeness * likeness));
-    return p;
+    const auto ratio = [](int a, int b) { return static_cast<float>(a) / static_cast<float>(b); };
+    return {.videoWidth = video_.width,
+            .videoHeight = video_.height,
+            .outputWidth = output.width,
+            .outputHeight = output.height,
+            .layerWidth = layer_.width,
+            .layerHeight = layer_.height,
+            .scaleX = ratio(video_.width, output.width),
+            .scaleY = ratio(video_.height, output.height),
+            .layerScaleX = ratio(layer_.width, output.width),
+            .layerScaleY = ratio(layer_.height, output.height),
+            .bias = static_cast<float>(options_.bias),
+            .softness = static_cast<float>(options_.softness),
+            .virtualSigma = static_cast<float>(options_.virtualSigma),
+            .likeness = static_cast<float>(0.5 / (likeness * likeness))};
 }
 
 PixelRect LayerComposite::videoPixels(const PixelRect& bounds) const {
@@ -67,7 +66,7 @@ void LayerComposite::run(const VirtualLayer& layer, const gpu::Texture& realDept
     assert(layer.colour->size() == layer_ && layer.depth->size() == layer_);
     const PixelRect bounds = layerInOutput(layer.bounds, layer_, visibility_.size());
     if (bounds.empty()) return;
-    const Params p = params();
+    const params::Visibility p = visibilityParams();
     {
         const gpu::Scissor scissor(videoPixels(bounds));
         rangePass_.run(p, {gpu::sampler(0, realDepth)}, rangeTarget_);

@@ -3,8 +3,7 @@
 #include "base/gl/pass.h"
 #include "pipeline/composite/virtual_layer.h"
 #include "pipeline/engine/occlusion_options.h"
-
-#include <cstdint>
+#include "pipeline/engine/params/occlusion.h"
 
 namespace mfar {
 
@@ -33,12 +32,7 @@ public:
     [[nodiscard]] const gpu::Texture& visibility() const { return visibility_; }
 
 private:
-    struct Params {  // visibility.glsl
-        std::int32_t video[4], layer[4];
-        float scale[4], tune[4];
-    };
-
-    [[nodiscard]] Params params() const;
+    [[nodiscard]] params::Visibility visibilityParams() const;
     /// The video pixels whose range the output pixels of `bounds` look up.
     [[nodiscard]] PixelRect videoPixels(const PixelRect& bounds) const;
 
@@ -46,7 +40,7 @@ private:
     CompositeOptions options_;
     gpu::Texture range_, visibility_, open_;  // open_: depth, see visibility_decide.frag
     gpu::Framebuffer rangeTarget_, visibilityTarget_;
-    gpu::DrawPass<Params> rangePass_, decidePass_, samplePass_, blendPass_;
+    gpu::DrawPass<params::Visibility> rangePass_, decidePass_, samplePass_, blendPass_;
 };
 
 }  // namespace mfar

@@ -10,16 +10,7 @@
 
 namespace mfar {
 
-/// std140 mirror of `Rig` in rig.glsl.
-struct RigParams {
-    float videoPinhole[4];
-    float videoDistortion[4];
-    float stillPinhole[4];
-    float stillDistortion[4];
-    float k3[4];
-    float rotation[3][4];
-};
-[[nodiscard]] RigParams rigParams(const StereoRig& rig);
+[[nodiscard]] params::Rig rigParams(const StereoRig& rig);
 
 /// Luma pyramids on the GPU, wherever they were made.
 struct LumaOnGpu {
@@ -47,26 +38,13 @@ public:
     [[nodiscard]] LumaOnGpu luma() const { return {video_, still_, words_}; }
 
 private:
-    struct VideoParams {
-        LumaLevel target;
-        float smoothing[4];
-    };
-    struct DownParams {
-        LumaLevel fine, coarse;
-    };
-    struct StillParams {
-        RigParams rig;
-        LumaLevel target;
-        float stillTexel[4];
-    };
-
     void buildCoarse(const std::vector<LumaLevel>& levels);
 
     std::vector<LumaLevel> video_, still_;
     gpu::Buffer words_;
-    gpu::ComputePass<VideoParams> fromVideo_;
-    gpu::ComputePass<StillParams> fromStill_;
-    gpu::ComputePass<DownParams> down_;
+    gpu::ComputePass<params::LumaFromVideo> fromVideo_;
+    gpu::ComputePass<params::LumaFromStill> fromStill_;
+    gpu::ComputePass<params::LumaDown> down_;
 };
 
 }  // namespace mfar

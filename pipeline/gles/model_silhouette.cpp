@@ -107,14 +107,15 @@ ModelSilhouette::Part ModelSilhouette::partOf(const Models::Part& part) {
 
 void ModelSilhouette::drawObject(const Models::Object& object, std::size_t number,
                                  const RigidTransform& T_camera_world) {
-    Params p{};
-    storeRows(p.object, T_camera_world * object.T_world_object, object.scale);
-    storeLens(p.pinhole, p.distortion, p.lens, lens_);
-    p.target[0] = static_cast<float>(lens_.camera.size.width);
-    p.target[1] = static_cast<float>(lens_.camera.size.height);
-    p.target[2] = static_cast<float>(number);
+    params::SilhouetteMesh p{.object =
+                                 transformOf(T_camera_world * object.T_world_object, object.scale),
+                             .layer = projectionOf(lens_),
+                             .width = static_cast<float>(lens_.camera.size.width),
+                             .height = static_cast<float>(lens_.camera.size.height),
+                             .number = static_cast<float>(number),
+                             .cutoff = 0};
     for (const Part& part : *parts_.at(object.shape)) {
-        p.target[3] = part.cutoff;
+        p.cutoff = part.cutoff;
         std::optional<FrontFaces> front;
         if (!part.bothSides) front.emplace();
         const gpu::Mesh mesh{part.vertices, part.indices, part.indexCount};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/gl/pass.h"
+#include "pipeline/warp/pass_params.h"
 #include "pipeline/warp/silhouette_models.h"
 
 #include <cstddef>
@@ -39,9 +40,6 @@ public:
     [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 
 private:
-    struct Params {  // warp_silhouette_params.glsl
-        float object[3][4], pinhole[4], distortion[4], lens[4], target[4];
-    };
     using Models = SilhouetteModels;
     struct Part {
         gpu::Buffer vertices, indices;
@@ -65,7 +63,7 @@ private:
     PixelRect drawn_;
     gpu::Texture surface_, window_;
     gpu::Framebuffer target_;
-    gpu::DrawPass<Params> pass_, maskedPass_;
+    gpu::DrawPass<params::SilhouetteMesh> pass_, maskedPass_;
 };
 
 }  // namespace mfar

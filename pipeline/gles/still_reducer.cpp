@@ -23,8 +23,10 @@ StillReducer::StillReducer(Size from, Size to)
       down_("still_reduce.frag", tapsFor(scale_[1])) {}
 
 void StillReducer::run(const gpu::Texture& picture) {
-    across_.run({{1, 0}, {scale_[0]}}, {gpu::sampler(0, picture)}, narrowTarget_);
-    down_.run({{0, 1}, {scale_[1]}}, {gpu::sampler(0, narrow_)}, reducedTarget_);
+    across_.run({.alongX = 1, .alongY = 0, .scale = scale_[0]}, {gpu::sampler(0, picture)},
+                narrowTarget_);
+    down_.run({.alongX = 0, .alongY = 1, .scale = scale_[1]}, {gpu::sampler(0, narrow_)},
+              reducedTarget_);
 }
 
 }  // namespace mfar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/gl/pass.h"
+#include "pipeline/engine/params/still.h"
 
 #include <array>
 #include <cstdint>
@@ -19,15 +20,10 @@ public:
     [[nodiscard]] const gpu::Texture& picture() const { return reduced_; }
 
 private:
-    struct Params {
-        std::int32_t axis[4];
-        float scale[4];
-    };
-
     std::array<float, 2> scale_;  // pixels of the picture per pixel of the result
     gpu::Texture narrow_, reduced_;
     gpu::Framebuffer narrowTarget_, reducedTarget_;
-    gpu::DrawPass<Params> across_, down_;
+    gpu::DrawPass<params::ReduceStill> across_, down_;
 };
 
 }  // namespace mfar

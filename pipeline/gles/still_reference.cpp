@@ -16,19 +16,18 @@ void StillReference::set(const ImageView& still) {
     if (reducer_) reducer_->run(picture_.texture());
     const auto low = low_.size();
     const auto full = picture().size();
-    LowParams l{};
-    l.step[0] = 1.0F / static_cast<float>(low.width);
-    l.step[1] = 1.0F / static_cast<float>(low.height);
-    l.step[2] = 0.25F * kFootprint * l.step[0];
-    l.step[3] = 0.25F * kFootprint * l.step[1];
+    params::StillLow l{};
+    l.texelX = 1.0F / static_cast<float>(low.width);
+    l.texelY = 1.0F / static_cast<float>(low.height);
+    l.tapX = 0.25F * kFootprint * l.texelX;
+    l.tapY = 0.25F * kFootprint * l.texelY;
     lowPass_.run(l, {gpu::sampler(0, picture())}, lowTarget_);
-    DetailParams d{};
-    d.low[0] = low.width;
-    d.low[1] = low.height;
-    d.scale[0] = static_cast<float>(low.width) / static_cast<float>(full.width);
-    d.scale[1] = static_cast<float>(low.height) / static_cast<float>(full.height);
-    d.scale[2] = reducer_ ? 0 : kLinearLoss;
-    detailPass_.run(d, {gpu::sampler(0, picture()), gpu::sampler(1, low_)}, detailTarget_);
+    detailPass_.run({.lowWidth = low.width,
+                     .lowHeight = low.height,
+                     .scaleX = static_cast<float>(low.width) / static_cast<float>(full.width),
+                     .scaleY = static_cast<float>(low.height) / static_cast<float>(full.height),
+                     .neighbours = reducer_ ? 0 : kLinearLoss},
+                    {gpu::sampler(0, picture()), gpu::sampler(1, low_)}, detailTarget_);
     picture_.finishReading();
 }
 

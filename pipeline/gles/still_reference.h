@@ -2,6 +2,7 @@
 
 #include "base/geometry.h"
 #include "base/gl/pass.h"
+#include "pipeline/engine/params/still.h"
 #include "pipeline/gles/picture_texture.h"
 #include "pipeline/gles/still_reducer.h"
 
@@ -32,21 +33,13 @@ public:
     [[nodiscard]] const gpu::Texture& detail() const { return detail_; }  ///< R8, 128 = none
 
 private:
-    struct LowParams {
-        float step[4];
-    };
-    struct DetailParams {
-        std::int32_t low[4];
-        float scale[4];
-    };
-
     StereoRig rig_;
     gpu::PictureTexture& picture_;
     std::optional<StillReducer> reducer_;
     gpu::Texture low_, detail_;
     gpu::Framebuffer lowTarget_, detailTarget_;
-    gpu::DrawPass<LowParams> lowPass_;
-    gpu::DrawPass<DetailParams> detailPass_;
+    gpu::DrawPass<params::StillLow> lowPass_;
+    gpu::DrawPass<params::StillDetail> detailPass_;
 };
 
 }  // namespace mfar

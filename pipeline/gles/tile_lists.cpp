@@ -9,15 +9,6 @@ namespace mfar {
 namespace {
 
 constexpr int kTileGroup = 8;  // tiles a workgroup and axis, as in the shaders
-// Energy of an 8x8 patch [grey levels^2] from which on its cost says something: eight times that of
-// a grey level of noise.
-constexpr double kTexturePerVariance = 8 * 64;
-constexpr float kUnexplained = 0.4F;
-// Two-way error [px] of cells that the still cannot show. What lies behind something else is
-// searched: what moves hides and is hidden, and the z-test believes the lines.
-constexpr float kNotShown = 100;
-constexpr int kLeastCells = 3;  // of 16
-
 int divideUp(int a, int b) {
     return (a + b - 1) / b;
 }
@@ -52,19 +43,28 @@ void TileLists::find(const Field& field, const TileBuffer& tiles) {
     clear();
     const TileWork& work = tiles.work();
     if (work.matched == 0) return;
-    FlagParams f{{tiles_.width, tiles_.height, cells_.width, cells_.height},
-                 {field.vectors, field.errors, kLeastCells, 0},
-                 {static_cast<float>(kTexturePerVariance * (1 + work.noise * work.noise)),
-                  kUnexplained, kNotShown, 0}};
-    flag_.run(f, {gpu::storage(1, field.patches), gpu::storage(2, flags_)}, groupsOf(tiles_));
+    const double texture = params::kTexturePerVariance * (1 + work.noise * work.noise);
+    flag_.run({.tileColumns = tiles_.width,
+               .tileRows = tiles_.height,
+               .columns = cells_.width,
+               .rows = cells_.height,
+               .field = field.vectors,
+               .errors = field.errors,
+               .leastTexture = static_cast<float>(texture)},
+              {gpu::storage(1, field.patches), gpu::storage(2, flags_)}, groupsOf(tiles_));
     for (int l = 0; l < static_cast<int>(levels_.size()); ++l) {
         const Level& level = levels_[l];
         // A group's search looks at the coarser groups beside its own, and those at theirs.
         const int margin = (2 << l) - 2;
-        const ListParams p{{tiles_.width, tiles_.height, 0, 0},
-                           {level.groups.width, level.groups.height, 1 << l, margin},
-                           {l, level.first, 0, 0}};
-        list_.run(p, {gpu::storage(0, flags_), gpu::storage(1, commands_), gpu::storage(2, lists_)},
+        list_.run({.tileColumns = tiles_.width,
+                   .tileRows = tiles_.height,
+                   .groupColumns = level.groups.width,
+                   .groupRows = level.groups.height,
+                   .tilesPerGroup = 1 << l,
+                   .margin = margin,
+                   .command = l,
+                   .first = level.first},
+                  {gpu::storage(0, flags_), gpu::storage(1, commands_), gpu::storage(2, lists_)},
                   groupsOf(level.groups));
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/gl/pass.h"
+#include "pipeline/engine/params/flow.h"
 #include "pipeline/gles/tile_buffer.h"
 
 #include <cstdint>
@@ -39,13 +40,6 @@ public:
     [[nodiscard]] std::vector<bool> read() const;
 
 private:
-    struct FlagParams {
-        std::int32_t tiles[4], offsets[4];
-        float tune[4];
-    };
-    struct ListParams {
-        std::int32_t tiles[4], groups[4], target[4];
-    };
     struct Level {
         Size groups;
         int first;
@@ -55,8 +49,8 @@ private:
     std::vector<Level> levels_;
     int countBefore_ = 0;
     gpu::Buffer flags_, commands_, lists_;
-    gpu::ComputePass<FlagParams> flag_;
-    gpu::ComputePass<ListParams> list_;
+    gpu::ComputePass<params::FlagTiles> flag_;
+    gpu::ComputePass<params::ListTiles> list_;
 };
 
 }  // namespace mfar

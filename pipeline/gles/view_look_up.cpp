@@ -44,37 +44,35 @@ void ViewLookUp::clear(const PixelRect& where) const {
         glClearBufferfv(GL_COLOR, i, kNothing.data());
 }
 
-ViewLookUp::Params ViewLookUp::params(const Input& input,
-                                      const RigidTransform& T_world_camera) const {
+params::LookUpViews ViewLookUp::paramsOf(const Input& input,
+                                         const RigidTransform& T_world_camera) const {
     const Size from = input.reference.picture().size(), to = colour_.size();
     Params p{};
-    storeRows(p.toView[0], input.T_world_reference.inverse() * T_world_camera);
+    p.views[0].toView = transformOf(input.T_world_reference.inverse() * T_world_camera);
     for (const PatchPictures::Patch& patch : input.patches.patches()) {
-        storeRows(p.toView[1 + patch.slot], patch.T_world_camera.inverse() * T_world_camera);
-        p.share[patch.slot] = static_cast<float>(patch.share);
-        if (patch.share > 0) p.counts[0] = std::max(p.counts[0], patch.slot + 1);
+        p.views[1 + patch.slot] = {transformOf(patch.T_world_camera.inverse() * T_world_camera),
+                                   static_cast<float>(patch.share)};
+        if (patch.share > 0) p.patches = std::max(p.patches, patch.slot + 1);
     }
-    storeLens(p.pinhole[0], p.distortion[0], p.lens[0], input.reference.lens());
-    storeLens(p.pinhole[1], p.distortion[1], p.lens[1], layer_);
+    p.projections[0] = projectionOf(input.reference.lens());
+    p.projections[1] = projectionOf(layer_);
     const Eigen::Vector4f plane = planeIn(input.plane, T_world_camera).cast<float>();
-    std::copy_n(plane.data(), 4, p.plane);
-    p.slack[0] = 1;
-    p.slack[1] = kLeastWeight;
-    p.sizes[0] = from.width;
-    p.sizes[1] = from.height;
-    p.sizes[2] = to.width;
-    p.sizes[3] = to.height;
+    p.plane = {plane.x(), plane.y(), plane.z(), plane.w()};
+    p.leastWeight = kLeastWeight;
+    p.referenceWidth = from.width;
+    p.referenceHeight = from.height;
+    p.width = to.width;
+    p.height = to.height;
     return p;
 }
 
 void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
                      const PixelRect& where, const HoleFiller& holes) {
     if (where.empty()) return;
-    Params p = params(input, T_world_camera);
-    const std::array<std::int32_t, 4> bounds{where.x0, where.y0, where.x1, where.y1};
-    std::copy_n(bounds.data(), 4, p.bounds);
-    p.counts[1] = holes.levels();
-    p.wanted = holes.wanted();
+    Params p = paramsOf(input, T_world_camera);
+    p.bounds = boundsOf(where);
+    p.levels = holes.levels();
+    std::ranges::copy(holes.wanted(), p.wanted);
     {
         const gpu::Scissor scissor(where);
         const gpu::Texture &colour = input.reference.colour(), &packed = input.reference.packed();

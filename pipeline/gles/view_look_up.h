@@ -5,12 +5,14 @@
 #include "pipeline/gles/hole_filler.h"
 #include "pipeline/gles/patch_textures.h"
 #include "pipeline/gles/reference_textures.h"
+#include "pipeline/warp/pass_params.h"
 #include "pipeline/warp/warp_options.h"
 
 #include <Eigen/Core>
 
 #include <array>
 #include <cstdint>
+#include <iterator>
 
 namespace mfar {
 
@@ -45,18 +47,13 @@ public:
     [[nodiscard]] const gpu::Texture& state() const { return state_; }
 
 private:
-    static constexpr int kViews = 1 + PatchPictures::kPatches;
-    struct Params {  // warp_view_params.glsl
-        float toView[kViews][3][4], pinhole[2][4], distortion[2][4], lens[2][4], plane[4], share[4],
-            slack[4];
-        std::int32_t sizes[4], bounds[4], counts[4];
-        std::array<HoleFiller::Command, HoleFiller::kLevels> wanted;
-    };
-    static_assert(PatchPictures::kPatches == 4);  // share
+    using Params = params::LookUpViews;
+    static_assert(PatchPictures::kPatches + 1 == std::size(Params{}.views));
+    static_assert(HoleFiller::kLevels == std::size(Params{}.wanted));
     void runRest(const Params& params, const Input& input, const PixelRect& where,
                  const HoleFiller& holes);
 
-    [[nodiscard]] Params params(const Input& input, const RigidTransform& T_world_camera) const;
+    [[nodiscard]] Params paramsOf(const Input& input, const RigidTransform& T_world_camera) const;
 
     LensProjection layer_;
     gpu::Texture rays_, colour_, depth_, state_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/image_view.h"
+#include "pipeline/engine/params/detail.h"
 
 #include <cstddef>
 
@@ -16,11 +17,11 @@ inline constexpr int kTileSize = 16;  ///< video pixels
 
 /// What the super-resolution does with a tile of 16x16 video pixels, cheapest first.
 enum class TileClass : unsigned {
-    Unchanged,  ///< neither video nor still changed: the last output stays
-    Upscaled,   ///< the still has no detail to add, or none that fits
-    Trusted,    ///< detail added everywhere in the tile with one smooth flow
-    Blended,    ///< detail added with a weight and flow that vary per pixel
-    Hidden,     ///< behind an opaque virtual object
+    Unchanged = params::kTileUnchanged,  ///< neither video nor still changed: the last output stays
+    Upscaled = params::kTileUpscaled,    ///< the still has no detail to add, or none that fits
+    Trusted = params::kTileTrusted,  ///< detail added everywhere in the tile with one smooth flow
+    Blended = params::kTileBlended,  ///< detail added with a weight and flow that vary per pixel
+    Hidden,                          ///< behind an opaque virtual object
 };
 inline constexpr std::size_t kTileClasses = 5;
 

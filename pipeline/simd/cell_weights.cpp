@@ -1,5 +1,7 @@
 #include "pipeline/simd/cell_weights.h"
 
+#include "pipeline/engine/params/weigh.h"
+
 // Highway compiles what follows once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/cell_weights.cpp"
@@ -14,13 +16,6 @@ constexpr int kChunk = 16;
 using D = hn::CappedTag<float, kChunk>;
 using V = hn::Vec<D>;
 using LowRow = std::array<float, kChunk>;
-
-// Reasons for these are with superres_weigh.comp.
-constexpr float kPixels = 64;  // of a patch
-constexpr float kRounding = 0.083F;
-constexpr float kLookUpLoss = 1.15F;
-constexpr float kEven = 0.015F, kBent = 0.07F;
-constexpr float kLeastWeight = 0.004F;
 
 HWY_INLINE V Const(float value) {
     return hn::Set(D(), value);
@@ -80,26 +75,31 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
     const V zero = Const(0);
     const V video = Smoothed(row.varianceVideo, x), still = Smoothed(row.varianceStill, x);
     const V covariance = hn::Max(Smoothed(row.covariance, x), zero);
-    const float ofPatch = kPixels * (sigma * sigma + kRounding);
-    const float ofLow = kPixels * (0.25F * sigma * sigma + kRounding);
+    const float ofPatch = params::kPatchPixels * (sigma * sigma + params::kByteVariance);
+    const float ofLow = params::kPatchPixels * (0.25F * sigma * sigma + params::kByteVariance);
     const V noise = Const(ofPatch), lowNoise = Const(ofLow);
     const V perStill = hn::Div(Const(1), hn::Add(still, noise));
     const V perVideo = hn::Div(Const(1), hn::Add(video, noise));
     const V fine = hn::Mul(covariance, perStill);
     const V lowGain = hn::Div(hn::Max(low, zero), hn::Add(lowStill, lowNoise));
-    const V lowShare = hn::Div(lowStill, hn::MulAdd(Const(8), lowNoise, lowStill));
-    const V gain = hn::Min(Mix(fine, hn::Max(fine, lowGain), lowShare), Const(2));
+    const V lowShare =
+        hn::Div(lowStill, hn::MulAdd(Const(params::kLowContrast), lowNoise, lowStill));
+    const V gain =
+        hn::Min(Mix(fine, hn::Max(fine, lowGain), lowShare), Const(params::kLargestGain));
     const V ncc2 = hn::Mul(hn::Mul(covariance, perVideo), fine);
     const V bend =
         hn::Mul(hn::Sqrt(hn::Add(Bend(row.flowX, x), Bend(row.flowY, x))), Const(1.0F / 8));
-    const V even = hn::Mul(SmoothStep(0.2F, 0.6F, ncc2), Const(kLookUpLoss));
-    const V trust = Mix(even, hn::Mul(ncc2, ncc2), SmoothStep(kEven, kBent, bend));
+    const V even = hn::Mul(SmoothStep(params::kUnlikePatches, params::kAlikePatches, ncc2),
+                           Const(params::kLookUpLoss));
+    const V trust =
+        Mix(even, hn::Mul(ncc2, ncc2), SmoothStep(params::kEvenFlow, params::kBentFlow, bend));
     const V weight = hn::Mul(hn::Mul(gain, trust), confidence);
     // A flow that is not a number is no even one.
-    const auto counts = hn::And(hn::Gt(weight, Const(kLeastWeight)), hn::Eq(bend, bend));
+    const auto counts = hn::And(hn::Gt(weight, Const(params::kSmallestWeight)), hn::Eq(bend, bend));
     const V signal = hn::Mul(hn::NegMulAdd(Const(2), noise, video), perVideo);
-    const auto textured = hn::Ge(video, Const(8 * (ofPatch + kPixels)));
-    const auto unlike = hn::Le(hn::Mul(ncc2, confidence), Const(0.25F));
+    const auto textured =
+        hn::Ge(video, Const(params::kTexturedContrast * (ofPatch + params::kPatchPixels)));
+    const auto unlike = hn::Le(hn::Mul(ncc2, confidence), Const(params::kUnexplainedMatch));
     return {hn::IfThenElseZero(counts, weight), hn::Max(hn::Min(signal, Const(1)), zero),
             hn::IfThenElseZero(hn::And(textured, unlike), Const(1))};
 }

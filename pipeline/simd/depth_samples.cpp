@@ -1,5 +1,7 @@
 #include "pipeline/simd/depth_samples.h"
 
+#include "pipeline/engine/params/occlusion.h"
+
 // Highway compiles what follows once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/depth_samples.cpp"
@@ -24,10 +26,10 @@ struct Prepare {
         const V inverse = hn::LoadU(d, from.inverse + x), given = hn::LoadU(d, from.sigma + x);
         const V sigma = from.squared ? hn::Sqrt(given) : given;
         // Tested positively, so that NaN is unknown.
-        const auto near =
-            hn::And(hn::Gt(inverse, hn::Set(d, 1e-6F)), hn::Lt(inverse, hn::Set(d, 1e6F)));
-        const auto sharp =
-            hn::And(hn::Gt(sigma, hn::Set(d, 1e-20F)), hn::Lt(sigma, hn::Set(d, 1e6F)));
+        const auto near = hn::And(hn::Gt(inverse, hn::Set(d, params::kLeastInverseDepth)),
+                                  hn::Lt(inverse, hn::Set(d, params::kMostInverseDepth)));
+        const auto sharp = hn::And(hn::Gt(sigma, hn::Set(d, params::kLeastDepthSigma)),
+                                   hn::Lt(sigma, hn::Set(d, params::kMostInverseDepth)));
         const auto known = hn::And(near, sharp);
         const V front = hn::NegMulAdd(hn::Set(d, bounds.bias), sigma, inverse);
         const V behind = hn::NegMulAdd(hn::Set(d, bounds.hidden), sigma, inverse);

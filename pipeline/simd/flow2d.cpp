@@ -1,7 +1,7 @@
 #include "pipeline/simd/flow2d.h"
 
+#include "pipeline/engine/params/flow.h"
 #include "pipeline/flow/cell_field.h"
-#include "pipeline/flow/flow_parameters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ Flow2d::Direction::Direction(const std::vector<Size>& cells, int finestLevel)
 Flow2d::Flow2d(Size video, const Flow2dOptions& options, std::shared_ptr<Workers> workers)
     : options_(validated(options)), workers_(std::move(workers)),
       forwards_(cellsOfLevels(video, options.levels), 0),
-      backwards_(cellsOfLevels(video, options.levels), kBackwardFinest),
+      backwards_(cellsOfLevels(video, options.levels), params::kBackwardFinest),
       backwardLevel_(backwards_.finest), videoCells_(cellsOf(video)),
       stillCells_(backwards_.stages[static_cast<std::size_t>(backwardLevel_)].areas[0].cells()),
       forward_(static_cast<std::size_t>(videoCells_.width) * videoCells_.height),
@@ -132,7 +132,7 @@ SearchStep Flow2d::searchStep(const Way& way, int level, int area) const {
     s.to = pictureOf(way.to[l], way.words);
     s.out = stages[l].areas[area].planes();
     if (l + 1 < stages.size()) s.coarser = stages[l + 1].areas[0].planes();
-    s.radius = way.usePrior ? kTrackingRadius : options_.searchRadius;
+    s.radius = way.usePrior ? params::kTrackingRadius : options_.searchRadius;
     s.candidates = options_.candidates;
     s.steps = options_.steps;
     s.prior.scale = 1.0F / static_cast<float>(1 << level);
@@ -172,7 +172,7 @@ void Flow2d::propagateRow(const Way& way, int level, int toArea, int row) {
     Stage& stage = way.direction.stages[l];
     const PropagateStep step{pictureOf(way.from[l], way.words), pictureOf(way.to[l], way.words),
                              stage.areas[toArea].planes(), stage.areas[1 - toArea].planes(),
-                             kPropagateSteps};
+                             params::kPropagateSteps};
     const TileMask* mask = maskOf(way.direction, level);
     const int side = std::max(kCellsPerTile >> level, 1);
     forTileRuns(
@@ -208,7 +208,7 @@ void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
     const Way forward{forwards_,  luma.video, luma.still,
                       luma.words, usePrior,   options_.propagations};
     const Way backward{backwards_, luma.still, luma.video,
-                       luma.words, false,      kBackwardPropagations};
+                       luma.words, false,      params::kBackwardPropagations};
     const Way* const ways[] = {&forward, &backward};
     const Ways both(ways), forwardAlone(ways, 1), backwardAlone(ways + 1, 1);
     // Vectors of a tile that did not change hold as long as the still does.
@@ -251,7 +251,7 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();
     const AlignStep step{pictureOf(luma.video[0], luma.words), pictureOf(luma.still[0], luma.words),
-                         field, forward[0].data(), kAlignSteps};
+                         field, forward[0].data(), params::kAlignSteps};
     shareRows(*workers_, field.rows, [&](int row) {
         alignRow(step, work, row);
         const std::size_t first = static_cast<std::size_t>(row) * videoCells_.width;
@@ -270,7 +270,7 @@ void Flow2d::searchListed(const Way& way) {
     const FlowPlanes lines = forwards_.stages[0].areas[0].planes();
     for (int level = static_cast<int>(forwards_.stages.size()) - 1; level >= 0; --level) {
         ListedStep step{searchStep(way, level, 0), nullptr, 0};
-        step.search.radius = std::min(kListedRadius, options_.searchRadius);
+        step.search.radius = std::min(params::kListedRadius, options_.searchRadius);
         step.search.prior.x = lines.x;
         step.search.prior.y = lines.y;
         step.search.prior.step = 1;

@@ -16,14 +16,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Cells = hn::CappedTag<float, kFieldMargin>;
 using Vec = hn::Vec<Cells>;
 
-// Neighbours that differ by more [px] from the plane lie on another surface; the first round knows
-// no slope yet and has to let it pass.
-constexpr float kFirstReach = 1.2F, kReach = 0.5F;
-// Energy of texture in a patch at which half of the trust is reached [grey levels^2].
-constexpr float kTexture = 2000;
-// Weight of a cell that nothing is known about but its value.
-constexpr float kLeast = 1e-4F;
-
 /// Flow at the cell [px] and its change per cell, of one component.
 struct Plane {
     Vec value, dx, dy;
@@ -67,7 +59,8 @@ struct RowSums {
 HWY_INLINE RowSums sumRow(const CleanUpStep& step, std::ptrdiff_t at, const Plane& x,
                           const Plane& y, float j, float reach) {
     const Cells d;
-    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F), least = hn::Set(d, kLeast);
+    const auto zero = hn::Zero(d), one = hn::Set(d, 1.0F),
+               least = hn::Set(d, params::kLeastPlaneWeight);
     const auto sharpness = hn::Set(d, 1 / (reach * reach)), down = hn::Set(d, j);
     const Vec aboutX = hn::MulAdd(down, x.dy, x.value), aboutY = hn::MulAdd(down, y.dy, y.value);
     RowSums s{zero, zero, zero, zero, zero, zero, zero};
@@ -133,7 +126,8 @@ HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reac
     const Cells d;
     const PlaneSums s = sumNeighbours(step, at, x, y, reach);
     // Normal equations, damped on the slopes: a lone neighbour makes no plane.
-    const Vec damp = hn::MulAdd(hn::Set(d, 0.05F), s.w, hn::Set(d, 0.5F));
+    const Vec damp = hn::MulAdd(hn::Set(d, params::kSlopeDampingPerWeight), s.w,
+                                hn::Set(d, params::kSlopeDamping));
     const Vec ww = hn::Add(s.w, hn::Set(d, 1e-6F));
     const Vec ii = hn::Add(s.wii, damp), jj = hn::Add(s.wjj, damp);
     const Vec c00 = crossed(ii, jj, s.wij, s.wij), c01 = crossed(s.wj, s.wij, s.wi, jj);
@@ -171,7 +165,7 @@ void CleanUpCells(const CleanUpStep& step, int row, int first, int end) {
         Plane x{medianAt(in.x + at, in.pitch), zero, zero};
         Plane y{medianAt(in.y + at, in.pitch), zero, zero};
         for (int i = 0; i < step.planeFits; ++i)
-            fitPlanes(step, at, i == 0 ? kFirstReach : kReach, x, y);
+            fitPlanes(step, at, i == 0 ? params::kFirstPlaneReach : params::kPlaneReach, x, y);
         const Vec cost = hn::LoadU(d, in.cost + at), texture = hn::LoadU(d, in.texture + at);
         float* to = step.out + 4 * (static_cast<std::ptrdiff_t>(row) * in.columns + column);
         const int count = std::min(lanes, end - column);
@@ -183,7 +177,8 @@ void CleanUpCells(const CleanUpStep& step, int row, int first, int end) {
 void PrepareCleanUpRow(const FlowPlanes& field, float* known, int row) {
     const Cells d;
     const std::ptrdiff_t at = row * field.pitch;
-    const auto one = hn::Set(d, 1.0F), two = hn::Set(d, 2.0F), half = hn::Set(d, kTexture);
+    const auto one = hn::Set(d, 1.0F), two = hn::Set(d, 2.0F),
+               half = hn::Set(d, params::kHalfTrusted);
     for (int c = 0; c < field.columns; c += static_cast<int>(hn::Lanes(d))) {
         const Vec texture = hn::LoadU(d, field.texture + at + c);
         const Vec fits = hn::NegMulAdd(two, hn::LoadU(d, field.cost + at + c), one);

@@ -1,5 +1,7 @@
 #include "pipeline/simd/layer_rows.h"
 
+#include "pipeline/engine/params/occlusion.h"
+
 #include <algorithm>
 
 // Highway compiles what follows once for each instruction set.
@@ -62,7 +64,8 @@ struct Depths {
         auto best = hn::Zero(d), depth = hn::Zero(d);
         const auto consider = [&](const float* row, const std::int32_t* at, auto weight) HWY_ATTR {
             const auto z = Look(d, row, at + x, columns);
-            const auto there = hn::And(hn::Gt(z, hn::Set(d, 1e-4F)), hn::Lt(z, hn::Set(d, 1e6F)));
+            const auto there = hn::And(hn::Gt(z, hn::Set(d, params::kLeastVirtualDepth)),
+                                       hn::Lt(z, hn::Set(d, params::kMostVirtualDepth)));
             const auto better = hn::And(there, hn::Gt(weight, best));
             best = hn::IfThenElse(better, weight, best);
             depth = hn::IfThenElse(better, z, depth);

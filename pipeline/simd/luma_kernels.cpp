@@ -1,5 +1,7 @@
 #include "pipeline/simd/luma_kernels.h"
 
+#include "pipeline/engine/params/luma.h"
+
 // Highway compiles what follows once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_kernels.cpp"
@@ -36,14 +38,15 @@ HWY_INLINE hn::Vec<Bytes> roundedBytes(Vec v) {
 HWY_INLINE Vec lumaAt(const SmoothRows::Planes& p, int x) {
     const Floats d;
     if (p.green == nullptr) return loadFloats(p.red + x);
-    return hn::MulAdd(hn::Set(d, 0.299F), loadFloats(p.red + x),
-                      hn::MulAdd(hn::Set(d, 0.587F), loadFloats(p.green + x),
-                                 hn::Mul(hn::Set(d, 0.114F), loadFloats(p.blue + x))));
+    return hn::MulAdd(hn::Set(d, params::kLumaRed), loadFloats(p.red + x),
+                      hn::MulAdd(hn::Set(d, params::kLumaGreen), loadFloats(p.green + x),
+                                 hn::Mul(hn::Set(d, params::kLumaBlue), loadFloats(p.blue + x))));
 }
 
 HWY_INLINE float oneLumaAt(const SmoothRows::Planes& p, int x) {
     if (p.green == nullptr) return p.red[x];
-    return 0.299F * p.red[x] + 0.587F * p.green[x] + 0.114F * p.blue[x];
+    return params::kLumaRed * p.red[x] + params::kLumaGreen * p.green[x] +
+           params::kLumaBlue * p.blue[x];
 }
 
 /// Columns [first, end) smoothed down the rows.

@@ -13,8 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
-// Change of the flow [px per px]; more of it is a depth edge rather than a surface.
-constexpr float kSteepest = 0.25F;
+constexpr float kSteepest = params::kSteepestFlow;
 // Pixels of a row that have one place of their own: four; all eight where the flow changes so
 // little along the row that they stay as close to their own places as four do at the steepest.
 constexpr int kHalf = 4;

@@ -13,13 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
-// Energy of noise in a patch [grey levels^2]: below it a patch counts as flat.
-constexpr float kNoise = 128;
-// Added to the diagonal of the Hessian: keeps steps finite where there is no gradient.
-constexpr float kDamping = 64;
-// Squared length [px^2] below which a step ends the search, and two candidates are one.
-constexpr float kShortestStep = 2.5e-5F, kSameCandidate = 0.25F;
-
 /// A value for each cell of a batch.
 struct alignas(64) Each {
     float of[kBatch] = {};
@@ -72,7 +65,7 @@ HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch
     for (int i = 0; i < batch.count; ++i)
         loadPatch(p, batch.column[i], batch.row[i], i, batch.patch[i], sums);
     const Cells d;
-    const auto share = hn::Set(d, 1 / kPixels), damping = hn::Set(d, kDamping);
+    const auto share = hn::Set(d, 1 / kPixels), damping = hn::Set(d, params::kPatchDamping);
     for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
         const Vec a = sums.a.sum(i, 1), mean = hn::Mul(a, share);
         const Lanes2 g{sums.x.sum(i, 0.5F), sums.y.sum(i, 0.5F)};
@@ -98,7 +91,7 @@ HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch
 /// more.
 HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
     const Cells d;
-    const auto noise = hn::Set(d, kNoise), zero = hn::Zero(d), one = hn::Set(d, 1.0F);
+    const auto noise = hn::Set(d, params::kPatchNoise), zero = hn::Zero(d), one = hn::Set(d, 1.0F);
     for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
         const Vec b = sums.b.sum(i, 1 / kValue), mean = hn::Mul(b, hn::Set(d, 1 / kPixels));
         const Vec bb = sums.bb.sum(i, 1 / (kValue * kValue)), variance = batch.variance.at(i);
@@ -162,7 +155,7 @@ HWY_INLINE void stepActive(Batch& batch) {
         const Vec squared = squaredLength(s);
         const Vec shrink = hn::Div(one, hn::Sqrt(hn::Max(squared, one)));
         set(batch.trial, i, {hn::MulAdd(s.x, shrink, best.x), hn::MulAdd(s.y, shrink, best.y)});
-        const auto goesOn = hn::Gt(squared, hn::Set(d, kShortestStep));
+        const auto goesOn = hn::Gt(squared, hn::Set(d, params::kShortestStep));
         batch.active.set(i, hn::IfThenElseZero(goesOn, batch.active.at(i)));
     }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/rows.h"
+#include "pipeline/engine/params/flow.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -83,8 +84,8 @@ struct CleanUpStep {
     float* out = nullptr;
     int planeFits = 0;
 };
-/// Rows around the field that planes fits read.
-inline constexpr int kCleanUpRadius = 2;
+/// Rows around the field that plane fits read.
+using params::kCleanUpRadius;
 void cleanUpCells(const CleanUpStep& step, int row, int first, int end);
 /// The cells as they are.
 void copyCells(const CleanUpStep& step, int row, int first, int end);

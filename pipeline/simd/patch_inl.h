@@ -8,6 +8,7 @@
 #define MFAR_PATCH_INL_H
 #endif
 
+#include "pipeline/engine/params/patch.h"
 #include "pipeline/simd/patch_flow.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr int kPatch = 8;     // pixels a side
 constexpr int kCellSize = 4;  // pixels a side; its patch begins two pixels left and above
-constexpr float kPixels = 64;
+constexpr float kPixels = params::kPatchPixels;
 // A pixel of the other picture is kept in 1/32 of a grey level.
 constexpr int kValueBits = 5;
 constexpr float kValue = 1 << kValueBits;

@@ -46,7 +46,7 @@ HWY_INLINE void activateNew(Batch& batch) {
     for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
         const Lanes2 trial = at(batch.trial, i), best = at(batch.best, i);
         const Vec squared = squaredLength({hn::Sub(trial.x, best.x), hn::Sub(trial.y, best.y)});
-        const auto isNew = hn::Ge(squared, hn::Set(d, kSameCandidate));
+        const auto isNew = hn::Ge(squared, hn::Set(d, params::kSameCandidate));
         batch.active.set(i, hn::IfThenElseZero(isNew, hn::Set(d, 1.0F)));
     }
 }
@@ -98,7 +98,7 @@ HWY_INLINE void sumWhole(const Patch& patch, const PatchRows& rows, std::size_t 
 HWY_INLINE void costsOf(float patchMean, float patchVariance, std::size_t count, WholeSums& sums) {
     const Cells d;
     const auto mean = hn::Set(d, patchMean), variance = hn::Set(d, patchVariance);
-    const auto noise = hn::Set(d, kNoise);
+    const auto noise = hn::Set(d, params::kPatchNoise);
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         const Vec b = hn::Load(d, sums.b + i);
         const Vec meanB = hn::Mul(b, hn::Set(d, 1 / kPixels));
@@ -133,7 +133,7 @@ HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture&
         const float cost = sums.cost[dx - firstDx];
         if (!(cost < best.cost)) continue;
         const float x = static_cast<float>(dx) - best.x, v = static_cast<float>(dy) - best.y;
-        if (x * x + v * v >= kSameCandidate)
+        if (x * x + v * v >= params::kSameCandidate)
             best = {static_cast<float>(dx), static_cast<float>(dy), cost};
     }
 }
@@ -215,13 +215,7 @@ void SearchCells(const SearchStep& step, int row, int first, int end) {
 }
 
 void SearchListedGroup(const ListedStep& step, int groupX, int groupY) {
-    // The z-test says nothing about what moves by itself: its cells are trusted by their cost, from
-    // wholly to not at all (error = alpha of eq. 2).
-    constexpr float kGoodCost = 0.1F, kErrorPerCost = 5.0F;
-    constexpr float kOnLine = 1.0F;  // [px]
-    // A cell leaves its line only for a cost this much lower: among many vectors one fits noise by
-    // chance.
-    constexpr float kClearlyLess = 0.5F;
+    using params::kClearlyLess, params::kErrorPerCost, params::kGoodCost, params::kOnLine;
     constexpr int kSide = 4;  // cells
     static_assert(kSide * kSide == kBatch);
     const FlowPlanes& out = step.search.out;
@@ -259,7 +253,7 @@ HWY_INLINE bool differsFromNeighbours(const FlowPlanes& field, int column, int r
     for (const Offset by : kBeside) {
         const Vector2 u = vectorOf(field, column + by.x, row + by.y);
         const float x = u.x - own.x, y = u.y - own.y;
-        differs = differs || x * x + y * y >= kSameCandidate;
+        differs = differs || x * x + y * y >= params::kSameCandidate;
     }
     return differs;
 }

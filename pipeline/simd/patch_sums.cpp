@@ -1,5 +1,7 @@
 #include "pipeline/simd/patch_sums.h"
 
+#include "pipeline/engine/params/patch.h"
+
 #include <algorithm>
 #include <array>
 
@@ -15,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Grey levels less 128 in 1/64: a patch's sum of squares fits four lanes of 32 bits.
 constexpr float kOne = 64;
-constexpr float kPixels = 64;  // of a patch
+constexpr float kPixels = params::kPatchPixels;
 constexpr int kRows = 8;
 constexpr int kChunk = 16;  // cells whose sums wait in four lanes each, to be added across cells
 

@@ -143,8 +143,8 @@ float RestPixels::known(const Point3& point, float id, Colour& found) const {
     return id == kCatcherId && !inView(reference_, point, at) ? 1.0F : 0.0F;
 }
 
-RestPixel RestPixels::at(int x, int y, const std::uint32_t* upper, const std::uint32_t* lower,
-                         float rayX, float rayY) const {
+RestPixel RestPixels::at(const std::uint32_t* upper, const std::uint32_t* lower, float rayX,
+                         float rayY) const {
     const Quarters s{upper[0], upper[1], lower[0], lower[1]};
     const std::uint32_t id = mostOf(s);
     const Point3 object = middleOf(s, id);

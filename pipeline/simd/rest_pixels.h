@@ -27,8 +27,8 @@ public:
                const RigidTransform& T_world_camera);
 
     /// `upper`, `lower`: two words each.
-    [[nodiscard]] RestPixel at(int x, int y, const std::uint32_t* upper, const std::uint32_t* lower,
-                               float rayX, float rayY) const;
+    [[nodiscard]] RestPixel at(const std::uint32_t* upper, const std::uint32_t* lower, float rayX,
+                               float rayY) const;
 
 private:
     struct Colour {

@@ -1,5 +1,7 @@
 #include "pipeline/simd/row_taps.h"
 
+#include "pipeline/engine/params/detail.h"
+
 #include <algorithm>
 #include <cmath>
 #include <ranges>
@@ -72,7 +74,7 @@ ColumnTaps RowTaps::column(int y) const {
 RowTaps RowTaps::cubic(int from, int to) {
     const double step = ratio(from, to);
     return {from, to, [&](int x, const Add& add) {
-                constexpr double kA = -0.75;
+                constexpr double kA = params::kCubicSlope;
                 const At at(x, step);
                 const double t = at.t, s = 1 - t;
                 const double w0 = kA * t * s * s, w3 = kA * s * t * t;

@@ -1,5 +1,7 @@
 #include "pipeline/simd/sharpen_kernels.h"
 
+#include "pipeline/engine/params/detail.h"
+
 // Highway compiles what follows once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/sharpen_kernels.cpp"
@@ -21,7 +23,7 @@ constexpr std::int16_t fixed15(double value) {
 }
 
 // Taps of superres_sharpen.frag, collected by distance. Their sum is zero to the bit.
-constexpr double kNearTap = -0.14123, kFarTap = 0.0385;
+constexpr double kNearTap = params::kSharpenNear, kFarTap = params::kSharpenFar;
 constexpr std::int16_t kNear = fixed15(kNearTap - 2 * kNearTap * kNearTap);
 constexpr std::int16_t kFar = fixed15(kFarTap), kDiagonal = fixed15(kNearTap * kNearTap);
 constexpr std::int16_t kCentre = -4 * (kNear + kFar + kDiagonal);

@@ -1,3 +1,4 @@
+#include "pipeline/engine/params/luma.h"
 #include "pipeline/simd/luma_kernels.h"
 
 // Highway compiles what follows once for each instruction set.
@@ -40,7 +41,7 @@ HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
     const Floats d;
     const auto most = hn::Set(d, 0.5F), least = hn::Set(d, -0.5F);
     Ray ray = target;
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < params::kUndistortSteps; ++i) {
         const Ray seen = distorted(distortion, ray);
         ray.x = hn::Add(ray.x, hn::Min(hn::Max(hn::Sub(target.x, seen.x), least), most));
         ray.y = hn::Add(ray.y, hn::Min(hn::Max(hn::Sub(target.y, seen.y), least), most));
@@ -48,7 +49,7 @@ HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
     return ray;
 }
 
-constexpr int kTaps = 4;  // each way
+constexpr int kTaps = params::kFootprintTaps;
 // Shares of a pixel, two of which times a pixel fit 32 bits with room to add.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
@@ -185,8 +186,8 @@ void StillPixelRow(const StillLens& lens, int y, int width, float* stillX, float
         const Vec z = turned(6), inverse = hn::Div(set(1), z);
         const Ray seen = distorted(lens.stillDistortion,
                                    {hn::Mul(turned(0), inverse), hn::Mul(turned(3), inverse)});
-        const auto inFront = hn::Gt(z, set(0.05F));
-        const Vec outside = set(-1e6F);
+        const auto inFront = hn::Gt(z, set(params::kLeastTurnedDepth));
+        const Vec outside = set(params::kFarOutside);
         hn::StoreU(hn::IfThenElse(inFront, hn::MulAdd(set(s[0]), seen.x, set(s[2])), outside), d,
                    stillX + x);
         hn::StoreU(hn::IfThenElse(inFront, hn::MulAdd(set(s[1]), seen.y, set(s[3])), outside), d,

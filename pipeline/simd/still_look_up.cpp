@@ -42,12 +42,11 @@ HWY_INLINE V StepTo(V target, V at) {
 
 // As camera.glsl: fixed-point iterations, here until all lanes stand still.
 HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
-    constexpr int kSteps = 12;
     constexpr float kAtRest = 3e-7F;  // 0.001 px at a focal length of 3000 px
     const Point target{hn::Mul(hn::Sub(x, Const(lens.cx)), Const(1 / lens.fx)),
                        hn::Mul(hn::Sub(y, Const(lens.cy)), Const(1 / lens.fy))};
     Point ray = target;
-    for (int i = 0; lens.distorts && i < kSteps; ++i) {
+    for (int i = 0; lens.distorts && i < params::kUndistortSteps; ++i) {
         const Point at = Distort(lens, ray);
         const V dx = StepTo(target.x, at.x), dy = StepTo(target.y, at.y);
         ray = {hn::Add(ray.x, dx), hn::Add(ray.y, dy)};
@@ -58,21 +57,21 @@ HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
 }
 
 // Far outside where the ray points away from the still's scene.
-HWY_INLINE Point StillPixel(const LookUpParams& params, V x, V y) {
-    const Point ray = Unproject(params.video, x, y);
+HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
+    const Point ray = Unproject(lookUp.video, x, y);
     const auto turned = [&](int row) HWY_ATTR {
-        const auto& r = params.rotation[row];
-        return hn::MulAdd(Const(r[0]), ray.x, hn::MulAdd(Const(r[1]), ray.y, Const(r[2])));
+        const auto& r = lookUp.rotation[row];
+        return hn::MulAdd(Const(r.x), ray.x, hn::MulAdd(Const(r.y), ray.y, Const(r.z)));
     };
     const V z = turned(2);
-    const auto ahead = hn::Gt(z, Const(0.05F));
+    const auto ahead = hn::Gt(z, Const(params::kLeastTurnedDepth));
     const V nearness = hn::Div(Const(1), hn::IfThenElse(ahead, z, Const(1)));
     Point at{hn::Mul(turned(0), nearness), hn::Mul(turned(1), nearness)};
-    if (params.still.distorts) at = Distort(params.still, at);
-    const V far = Const(-1e6F);
-    return {hn::IfThenElse(ahead, hn::MulAdd(at.x, Const(params.still.fx), Const(params.still.cx)),
+    if (lookUp.still.distorts) at = Distort(lookUp.still, at);
+    const V far = Const(params::kFarOutside);
+    return {hn::IfThenElse(ahead, hn::MulAdd(at.x, Const(lookUp.still.fx), Const(lookUp.still.cx)),
                            far),
-            hn::IfThenElse(ahead, hn::MulAdd(at.y, Const(params.still.fy), Const(params.still.cy)),
+            hn::IfThenElse(ahead, hn::MulAdd(at.y, Const(lookUp.still.fy), Const(lookUp.still.cy)),
                            far)};
 }
 
@@ -130,8 +129,9 @@ HWY_INLINE V TwoWayError(const BackwardCells& backward, Point q, V flowX, V flow
     return hn::Sqrt(hn::MulAdd(dx, dx, hn::Mul(dy, dy)));
 }
 
-void LookUpCells(const LookUpParams& params, const BackwardCells& backward, const LookUpRow& row) {
+void LookUpCells(const LookUpParams& lookUp, const BackwardCells& backward, const LookUpRow& row) {
     const D d;
+    constexpr float kFarthest = params::kFarthestOffset;
     const float centreY = 4 * static_cast<float>(row.row) + 1.5F;
     HWY_ALIGN std::array<float, kChunk> errors{};
     for (int chunk = 0; chunk < row.count; chunk += kChunk) {
@@ -144,19 +144,19 @@ void LookUpCells(const LookUpParams& params, const BackwardCells& backward, cons
                 hn::MulAdd(hn::Iota(d, static_cast<float>(cell)), Const(4), Const(1.5F));
             const V flowX = hn::LoadU(d, row.flowX + cell), flowY = hn::LoadU(d, row.flowY + cell);
             const Point q{hn::Add(centre, flowX), hn::Add(Const(centreY), flowY)};
-            const Point inStill = StillPixel(params, q.x, q.y);
+            const Point inStill = StillPixel(lookUp, q.x, q.y);
             const V error = backward.errors != nullptr ? hn::Load(d, &errors[i])
                                                        : TwoWayError(backward, q, flowX, flowY);
             const auto agrees =
-                hn::And(hn::And(Inside(params.video, q), Inside(params.still, inStill)),
-                        hn::Lt(error, Const(params.alpha)));
-            const V confidence = hn::NegMulAdd(error, Const(1 / params.alpha), Const(1));
+                hn::And(hn::And(Inside(lookUp.video, q), Inside(lookUp.still, inStill)),
+                        hn::Lt(error, Const(params::kTwoWayAlpha)));
+            const V confidence = hn::NegMulAdd(error, Const(1 / params::kTwoWayAlpha), Const(1));
             hn::StoreU(hn::IfThenElseZero(agrees, confidence), d, row.confidence + cell);
             const V x =
-                hn::MulAdd(hn::Add(centre, Const(0.5F)), Const(params.scaleX), Const(-0.5F));
-            const V y = Const((centreY + 0.5F) * params.scaleY - 0.5F);
-            hn::StoreU(Clamp(hn::Sub(inStill.x, x), -4e3F, 4e3F), d, row.lookX + cell);
-            hn::StoreU(Clamp(hn::Sub(inStill.y, y), -4e3F, 4e3F), d, row.lookY + cell);
+                hn::MulAdd(hn::Add(centre, Const(0.5F)), Const(lookUp.scaleX), Const(-0.5F));
+            const V y = Const((centreY + 0.5F) * lookUp.scaleY - 0.5F);
+            hn::StoreU(Clamp(hn::Sub(inStill.x, x), -kFarthest, kFarthest), d, row.lookX + cell);
+            hn::StoreU(Clamp(hn::Sub(inStill.y, y), -kFarthest, kFarthest), d, row.lookY + cell);
         }
     }
 }
@@ -203,26 +203,17 @@ HWY_EXPORT(SplitFlow);
 HWY_EXPORT(HalveFlow);
 
 LensParams::LensParams(const CameraModel& camera)
-    : fx(static_cast<float>(camera.fx)), fy(static_cast<float>(camera.fy)),
-      cx(static_cast<float>(camera.cx)), cy(static_cast<float>(camera.cy)),
-      k1(static_cast<float>(camera.distortion[0])), k2(static_cast<float>(camera.distortion[1])),
-      p1(static_cast<float>(camera.distortion[2])), p2(static_cast<float>(camera.distortion[3])),
-      k3(static_cast<float>(camera.distortion[4])), width(static_cast<float>(camera.size.width)),
+    : params::Lens(lensOf(camera)), width(static_cast<float>(camera.size.width)),
       height(static_cast<float>(camera.size.height)),
       distorts(std::ranges::any_of(camera.distortion, [](double k) { return k != 0; })) {}
 
 LookUpParams::LookUpParams(const StereoRig& rig)
-    : video(rig.video), still(rig.still), rotation{},
+    : video(rig.video), still(rig.still), rotation(rowsOf(rig.T_still_video.rotation)),
       scaleX(static_cast<float>(rig.still.fx / rig.video.fx)),
-      scaleY(static_cast<float>(rig.still.fy / rig.video.fy)) {
-    const Eigen::Matrix3d r = rig.T_still_video.rotation.toRotationMatrix();
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            rotation[i][j] = static_cast<float>(r(i, j));
-}
+      scaleY(static_cast<float>(rig.still.fy / rig.video.fy)) {}
 
-void lookUpCells(const LookUpParams& params, const BackwardCells& backward, const LookUpRow& row) {
-    HWY_DYNAMIC_DISPATCH(LookUpCells)(params, backward, row);
+void lookUpCells(const LookUpParams& lookUp, const BackwardCells& backward, const LookUpRow& row) {
+    HWY_DYNAMIC_DISPATCH(LookUpCells)(lookUp, backward, row);
 }
 
 void splitFlow(const FlowCell* cells, int count, float* x, float* y) {

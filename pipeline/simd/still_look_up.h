@@ -1,28 +1,26 @@
 #pragma once
 
-#include "base/geometry.h"
+#include "base/camera_lens.h"
 #include "pipeline/engine/cells.h"
+#include "pipeline/engine/params/weigh.h"
 
 #include <array>
 #include <cstddef>
 
 namespace mfar::simd {
 
-/// base/geometry.h's camera in single precision.
-struct LensParams {
+/// A lens and the size of the picture behind it.
+struct LensParams : params::Lens {
     explicit LensParams(const CameraModel& camera);
-    float fx, fy, cx, cy;      ///< [px]
-    float k1, k2, p1, p2, k3;  ///< distortion
-    float width, height;       ///< [px]
-    bool distorts;             ///< one of them is not zero
+    float width, height;  ///< [px]
+    bool distorts;        ///< a coefficient of the distortion is not zero
 };
 
-/// Two lenses, the rows of R_still_video and eq. 2's bound.
+/// Two lenses and the rows of R_still_video.
 struct LookUpParams {
     explicit LookUpParams(const StereoRig& rig);
     LensParams video, still;
-    std::array<std::array<float, 3>, 3> rotation;
-    float alpha = 2;       ///< error without any confidence [video px]
+    std::array<params::Row3, 3> rotation;
     float scaleX, scaleY;  ///< still px per video px
 };
 
@@ -51,6 +49,6 @@ struct LookUpRow {
 };
 
 /// Where flow ends in the still and how well both fields agree (superres_assess.comp).
-void lookUpCells(const LookUpParams& params, const BackwardCells& backward, const LookUpRow& row);
+void lookUpCells(const LookUpParams& lookUp, const BackwardCells& backward, const LookUpRow& row);
 
 }  // namespace mfar::simd

@@ -1,6 +1,7 @@
 #include "pipeline/simd/still_luma.h"
 
 #include "base/image_layout.h"
+#include "pipeline/engine/params/luma.h"
 #include "pipeline/simd/luma_rows.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr std::array<float, 3> kRec601{0.299F, 0.587F, 0.114F};
+constexpr std::array<float, 3> kRec601{params::kLumaRed, params::kLumaGreen, params::kLumaBlue};
 // Chroma that adds less changes no luma by a tenth of a grey level.
 constexpr float kLeastChroma = 1e-3F;
 

@@ -40,8 +40,13 @@ PointLens pointLensOf(const LensProjection& lens) {
 }
 
 PointTransform pointTransformOf(const RigidTransform& T, double scale) {
+    const params::Transform from = transformOf(T, scale);
     PointTransform out;
-    storeRows(out.rows, T, scale);
+    for (int i = 0; i < 3; ++i) {
+        const params::Row4& row = from.rows[i];
+        const std::array<float, 4> values{row.x, row.y, row.z, row.w};
+        std::ranges::copy(values, out.rows[i]);
+    }
     return out;
 }
 

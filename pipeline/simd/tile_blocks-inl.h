@@ -1,5 +1,6 @@
 // Sums of 2x2 pixels over a group of tiles, in both pictures. Included once for each instruction
 // set.
+#include "pipeline/engine/params/luma.h"
 #include "pipeline/simd/tile_rows.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kRed = 0.299F, kGreen = 0.587F, kBlue = 0.114F;  // Rec. 601
+constexpr float kRed = params::kLumaRed, kGreen = params::kLumaGreen, kBlue = params::kLumaBlue;
 
 constexpr int kSide = kTileSize / 2;  // of a tile [blocks of 2x2 pixels]
 constexpr int kCells = 4;             // likewise, cells of 2x2 blocks

@@ -1,17 +1,15 @@
 #include "pipeline/simd/tile_classes.h"
 
+#include "pipeline/engine/params/detail.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace mfar::simd {
 namespace {
 
-// As in SuperRes: below this weight the detail changes no pixel by a grey level; within these
-// spreads of flow [video px] and weight a tile is plain.
-constexpr float kLeastWeight = 0.02F, kPlainFlow = 0.08F, kPlainWeight = 0.25F;
 constexpr int kCells = 4;         // of a tile, along an axis
 constexpr int kWithBorder = 6;    // and one more on each side
-constexpr int kUnexplained = 8;   // of 16 cells
 constexpr int kTileRowGrain = 4;  // rows of tiles
 
 }  // namespace
@@ -43,7 +41,7 @@ TileClass TileClasses::Fields::classOf(int column, int row) const {
         high = std::max(high, cells[i].weight);
     }
     if (!(high > leastWeight)) return TileClass::Upscaled;
-    if (!(high - low < kPlainWeight)) return TileClass::Blended;
+    if (!(high - low < params::kPlainWeight)) return TileClass::Blended;
     const WeighedCell &origin = cells[kWithBorder + 1], &right = cells[kWithBorder + 4],
                       &below = cells[4 * kWithBorder + 1];
     const auto affine = [&](float WeighedCell::* axis) {
@@ -95,7 +93,7 @@ void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int ro
         }
         classes_[index] = kind;
         ++sum.tiles[static_cast<std::size_t>(kind)];
-        if (unexplained_[index] >= kUnexplained) ++sum.unexplained;
+        if (unexplained_[index] >= static_cast<int>(params::kUnexplainedCells)) ++sum.unexplained;
         if (fields.known()) sum.confidence += std::floor(fields.confidence(column, row) * 16);
     }
     rowSums_[row] = sum;
@@ -103,8 +101,8 @@ void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int ro
 
 TileSummary TileClasses::classify(const TileWork& work, Rows<const WeighedCell> weighed,
                                   Rows<const TrustCell> trust, Skips skips, Workers& workers) {
-    const Fields fields{weighed, trust, skips.upscaledTiles ? kLeastWeight : -1.0F,
-                        skips.plainTiles ? kPlainFlow : 0.0F};
+    const Fields fields{weighed, trust, skips.upscaledTiles ? params::kLeastDetailWeight : -1.0F,
+                        skips.plainTiles ? params::kPlainFlow : 0.0F};
     struct Loop {
         TileClasses& self;
         const TileWork& work;

@@ -1,6 +1,6 @@
 #include "pipeline/simd/tile_search.h"
 
-#include "pipeline/flow/flow_parameters.h"
+#include "pipeline/engine/params/flow.h"
 
 #include <algorithm>
 
@@ -60,18 +60,19 @@ void TileSearch::clear() {
 }
 
 void TileSearch::flag(const FlowPlanes& field, std::span<const ErrorCell> errors, double noise) {
-    const auto leastTexture = static_cast<float>(kTexturePerVariance * (1 + noise * noise));
+    const auto leastTexture = static_cast<float>(params::kTexturePerVariance * (1 + noise * noise));
     std::ranges::fill(unexplained_.flags, std::uint8_t{0});
     for (int y = 0; y < field.rows; ++y)
         for (int x = 0; x < field.columns; ++x) {
             const std::ptrdiff_t at = y * field.pitch + x;
             const bool shown =
-                errors[static_cast<std::size_t>(y) * field.columns + x].error < kNotShown;
-            if (shown && field.cost[at] > kUnexplainedCost && field.texture[at] > leastTexture)
+                errors[static_cast<std::size_t>(y) * field.columns + x].error < params::kNotShown;
+            if (shown && field.cost[at] > params::kUnexplainedCost &&
+                field.texture[at] > leastTexture)
                 ++unexplained_.at(x / kCellsPerTile, y / kCellsPerTile);
         }
     for (std::uint8_t& tile : unexplained_.flags)
-        tile = tile >= kLeastUnexplained ? 1 : 0;
+        tile = tile >= params::kLeastUnexplained ? 1 : 0;
 }
 
 void TileSearch::find(const FlowPlanes& field, std::span<const ErrorCell> errors, double noise) {

@@ -105,8 +105,7 @@ void ViewLookUp::runRow(const Input& input, const ViewLookUpInput& plain, const 
     holes.clear();
     for (int i = 0; i < leftCount; ++i) {
         const int x = x0 + static_cast<int>(left[static_cast<std::size_t>(i)]);
-        const RestPixel pixel =
-            rest.at(x, y, upper + 2L * x, lower + 2L * x, rayX_[y][x], rayY_[y][x]);
+        const RestPixel pixel = rest.at(upper + 2L * x, lower + 2L * x, rayX_[y][x], rayY_[y][x]);
         colour_[y][x] = pixel.colour;
         depth_[y][x] = pixel.depth;
         state_[y][x] = pixel.state;

@@ -1,5 +1,7 @@
 #include "pipeline/simd/visibility_rows.h"
 
+#include "pipeline/engine/params/occlusion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -31,7 +33,8 @@ bool Decide(const DecideRow& row, const VisibilityParams& params) {
     bool anyOpen = false;
     for (int x = 0; x < row.count; x += static_cast<int>(hn::Lanes(d))) {
         const V z = hn::LoadU(d, row.z + x);
-        const auto there = hn::And(hn::Gt(z, Const(1e-4F)), hn::Lt(z, Const(1e6F)));
+        const auto there = hn::And(hn::Gt(z, Const(params::kLeastVirtualDepth)),
+                                   hn::Lt(z, Const(params::kMostVirtualDepth)));
         const V inverse = hn::Div(Const(1), hn::IfThenElse(there, z, Const(1)));
         const auto before = hn::Ge(inverse, hn::LoadU(d, row.greatest + x));
         const auto behind = hn::Le(hn::Mul(inverse, hidden), hn::LoadU(d, row.least + x));
@@ -106,7 +109,8 @@ std::uint8_t WeighPixel(const Taps& taps, const float* columnWeights, std::uint3
         const V b = hn::Sub(hn::Load(d, &taps.blue[i]), blue);
         const V unlike = hn::MulAdd(r, r, hn::MulAdd(g, g, hn::Mul(b, b)));
         // Where nothing is alike, distance decides.
-        const V like = hn::Add(Exp(hn::Mul(unlike, Const(-params.likeness))), Const(1e-3F));
+        const V like =
+            hn::Add(Exp(hn::Mul(unlike, Const(-params.likeness))), Const(params::kLikenessFloor));
         const V tent = hn::Mul(hn::Load(d, &taps.rowWeights[i]), ColumnWeights(columnWeights, i));
         const V weight = hn::Mul(tent, like);
         const V variance = hn::Max(

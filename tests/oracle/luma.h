@@ -2,6 +2,7 @@
 
 #include "base/geometry.h"
 #include "base/image_view.h"
+#include "pipeline/engine/params/luma.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +13,9 @@ namespace mfar::twin {
 
 // Of the finest level: weight of each side's neighbour; the box that has the variance of a pixel
 // and of this smoothing together.
-inline constexpr double kSmoothing = 0.18;
+inline constexpr double kSmoothing = params::kLumaSmoothing;
 inline const double kBoxWidening = std::sqrt(1 + 12 * 2 * kSmoothing);
-inline constexpr int kFootprintTaps = 4;  // of luma_from_still.comp, each way
+using params::kFootprintTaps;
 
 /// One channel; positions outside are held at the border.
 struct Grey {
@@ -62,7 +63,8 @@ inline Grey luma(const ImageView& v) {
     return greyOf(v.size, [&](int x, int y) {
         const std::uint8_t* p = v.data + y * v.stride + 1UL * x * bytesPerPixel(v.format);
         if (v.format == PixelFormat::Gray8) return double(p[0]);
-        return 0.299 * p[0] + 0.587 * p[1] + 0.114 * p[2];
+        return double{params::kLumaRed} * p[0] + double{params::kLumaGreen} * p[1] +
+               double{params::kLumaBlue} * p[2];
     });
 }
 

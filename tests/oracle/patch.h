@@ -1,14 +1,12 @@
 #pragma once
 
+#include "pipeline/engine/params/patch.h"
 #include "tests/oracle/luma.h"
 
 #include <Eigen/Dense>
 
 /// Comparison of 8x8 patches, of patch.glsl and of the kernels, in double precision.
 namespace mfar::twin {
-
-inline constexpr double kPatchNoise = 128;   // below this energy a patch counts as flat
-inline constexpr double kPatchDamping = 64;  // on the diagonal of the Hessian
 
 struct PatchMatch {
     double cost, gain, covariance, varianceA, varianceB;
@@ -35,10 +33,11 @@ inline PatchMatch matchPatch(const Grey& a, int cx, int cy, Patch vb) {
     m.varianceA = va.squaredNorm();
     m.varianceB = vb.squaredNorm();
     m.covariance = va.dot(vb);
-    m.gain = std::sqrt((m.varianceA + kPatchNoise) / (m.varianceB + kPatchNoise));
+    m.gain = std::sqrt((m.varianceA + params::kPatchNoise) / (m.varianceB + params::kPatchNoise));
     const double energy = m.varianceA + m.gain * m.gain * m.varianceB;
-    m.cost = std::max(energy - 2 * m.gain * m.covariance, 0.0) / (energy + kPatchNoise);
-    const Eigen::Matrix2d hessian = g.transpose() * g + kPatchDamping * Eigen::Matrix2d::Identity();
+    m.cost = std::max(energy - 2 * m.gain * m.covariance, 0.0) / (energy + params::kPatchNoise);
+    const Eigen::Matrix2d hessian =
+        g.transpose() * g + params::kPatchDamping * Eigen::Matrix2d::Identity();
     m.step = hessian.inverse() * (g.transpose() * (va - m.gain * vb));
     if (m.step.norm() > 1) m.step.normalize();
     return m;

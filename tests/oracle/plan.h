@@ -40,7 +40,8 @@ struct Difference {
     /// Of red, luma or blue.
     [[nodiscard]] double at(int x, int y, int channel) const {
         if (channel != 1) return of(x, y, channel);
-        return 0.299 * of(x, y, 0) + 0.587 * of(x, y, 1) + 0.114 * of(x, y, 2);
+        return double{params::kLumaRed} * of(x, y, 0) + double{params::kLumaGreen} * of(x, y, 1) +
+               double{params::kLumaBlue} * of(x, y, 2);
     }
     /// Mean over size x size pixels.
     [[nodiscard]] double mean(int x, int y, int size, int channel) const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pipeline/engine/params/flow.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -44,12 +46,12 @@ inline Plane fitPlane(const FlowCells& cells, int x, int y, const Plane& about, 
             const Eigen::Vector3d a(1, i, j);
             const Eigen::Vector2d d = n.head<2>() - about * a;
             const double near = std::max(1 - d.squaredNorm() / (reach * reach), 0.0);
-            const double known = n[3] / (n[3] + 2000) * std::max(1 - 2 * n[2], 0.0);
-            const double w = near * (near * known + 1e-4);
+            const double known = n[3] / (n[3] + params::kHalfTrusted) * std::max(1 - 2 * n[2], 0.0);
+            const double w = near * (near * known + params::kLeastPlaneWeight);
             normal += w * a * a.transpose();
             right += w * d * a.transpose();
         }
-    const double damp = 0.5 + 0.05 * normal(0, 0);
+    const double damp = params::kSlopeDamping + params::kSlopeDampingPerWeight * normal(0, 0);
     normal.diagonal() += Eigen::Vector3d(1e-6, damp, damp);
     return about + right * normal.inverse();
 }
@@ -58,7 +60,8 @@ inline Eigen::Vector2d filterCell(const FlowCells& cells, int x, int y, int plan
     Plane plane = Plane::Zero();
     plane.col(0) = medianAround(cells, x, y);
     for (int i = 0; i < planeFits; ++i)
-        plane = fitPlane(cells, x, y, plane, i == 0 ? 1.2 : 0.5);
+        plane =
+            fitPlane(cells, x, y, plane, i == 0 ? params::kFirstPlaneReach : params::kPlaneReach);
     return plane.col(0);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pipeline/engine/params/detail.h"
+#include "pipeline/engine/params/weigh.h"
 #include "tests/oracle/luma.h"
 
 #include <Eigen/Dense>
@@ -33,17 +35,6 @@ inline double confidence(const Eigen::Vector2d& forward, const Eigen::Vector2d& 
     return 1 - std::min((forward + backward).norm() / alpha, 1.0);
 }
 
-inline constexpr double kPatchPixels = 64;
-inline constexpr double kByteVariance = 0.083;  // of 8-bit steps
-inline constexpr double kLowContrast = 8;       // half-resolution variance that counts half
-inline constexpr double kLargestGain = 2;
-inline constexpr double kSmallestWeight = 0.004;
-inline constexpr double kTextured = 8;  // times the noise, and a grey level
-inline constexpr double kUnexplainedBelow = 0.25;
-
-inline constexpr double kLookUpLoss = 1.15;
-inline constexpr double kEven = 0.015, kBent = 0.07;  // change of flow [px per px]
-
 struct Weight {
     double weight, confidence, signal, unexplained;
 };
@@ -70,30 +61,28 @@ inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& hal
     for (int j = 0; j <= 1; ++j)
         for (int i = 0; i <= 1; ++i)
             h += 0.25 * half.at(x / 2 + (x % 2 == 1 ? i : -i), y / 2 + (y % 2 == 1 ? j : -j));
-    const double noise = kPatchPixels * (sigma * sigma + kByteVariance);
-    const double halfNoise = kPatchPixels * (0.25 * sigma * sigma + kByteVariance);
+    const double noise = params::kPatchPixels * (sigma * sigma + params::kByteVariance);
+    const double halfNoise = params::kPatchPixels * (0.25 * sigma * sigma + params::kByteVariance);
     const double covariance = std::max(s[0], 0.0);
     const double gain = covariance / (s[2] + noise);
     const double halfGain = std::max(h[0], 0.0) / (h[2] + halfNoise);
-    const double share = h[2] / (h[2] + kLowContrast * halfNoise);
+    const double share = h[2] / (h[2] + params::kLowContrast * halfNoise);
     const double ncc2 = covariance * covariance / ((s[1] + noise) * (s[2] + noise));
     const double conf = statistics.at(x, y)[3];
-    const double a = std::min(std::lerp(gain, std::max(gain, halfGain), share), kLargestGain);
-    const double trust = std::lerp(kLookUpLoss * smoothstep(0.2, 0.6, ncc2), ncc2 * ncc2,
-                                   smoothstep(kEven, kBent, bendAt(flow, x, y)));
+    const double a =
+        std::min(std::lerp(gain, std::max(gain, halfGain), share), double{params::kLargestGain});
+    const double trust = std::lerp(
+        params::kLookUpLoss * smoothstep(params::kUnlikePatches, params::kAlikePatches, ncc2),
+        ncc2 * ncc2, smoothstep(params::kEvenFlow, params::kBentFlow, bendAt(flow, x, y)));
     const double w = a * trust * conf;
-    const bool textured = s[1] >= kTextured * (noise + kPatchPixels);
-    return {w > kSmallestWeight ? w : 0, conf,
+    const bool textured = s[1] >= params::kTexturedContrast * (noise + params::kPatchPixels);
+    return {w > params::kSmallestWeight ? w : 0, conf,
             std::clamp((s[1] - 2 * noise) / (s[1] + noise), 0.0, 1.0),
-            textured && ncc2 * conf <= kUnexplainedBelow ? 1.0 : 0.0};
+            textured && ncc2 * conf <= params::kUnexplainedMatch ? 1.0 : 0.0};
 }
 
-struct ClassLimits {
-    double leastWeight = 0.02, plainFlow = 0.08, plainWeight = 0.25;
-};
-
 /// 1 upscaled, 2 trusted (affine flow, even weight), 3 blended; over the tile and a ring of cells.
-inline unsigned tileClass(const Cells& field, int tileX, int tileY, const ClassLimits& limits) {
+inline unsigned tileClass(const Cells& field, int tileX, int tileY) {
     const int x0 = 4 * tileX, y0 = 4 * tileY;
     const Eigen::Vector4d origin = field.at(x0, y0);
     const Eigen::Vector4d dx = (field.at(x0 + 3, y0) - origin) / 3;
@@ -107,8 +96,8 @@ inline unsigned tileClass(const Cells& field, int tileX, int tileY, const ClassL
             const Eigen::Vector4d off = c - origin - x * dx - y * dy;
             spread = std::max(spread, off.head<2>().cwiseAbs().maxCoeff());
         }
-    if (high <= limits.leastWeight) return 1;
-    return high - low < limits.plainWeight && spread < limits.plainFlow ? 2 : 3;
+    if (high <= params::kLeastDetailWeight) return 1;
+    return high - low < params::kPlainWeight && spread < params::kPlainFlow ? 2 : 3;
 }
 
 }  // namespace mfar::twin

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pipeline/engine/params/detail.h"
+#include "pipeline/engine/params/still.h"
 #include "tests/oracle/luma.h"
 
 #include <array>
@@ -11,7 +13,7 @@ namespace mfar::twin {
 /// Keys' cubic with a = -0.75: weights of the four samples around a fraction t.
 inline std::array<double, 4> cubic(double t) {
     const auto w = [](double d) {
-        const double a = -0.75;
+        const double a = params::kCubicSlope;
         d = std::abs(d);
         return d <= 1 ? (a + 2) * d * d * d - (a + 3) * d * d + 1
                       : a * d * d * d - 5 * a * d * d + 8 * a * d - 4 * a;
@@ -53,7 +55,7 @@ inline Grey enlarged(const Grey& g, Size to, bool linear = false) {
     return enlargedRows(enlargedColumns(g, to.height, linear), to.width, linear);
 }
 
-inline constexpr double kNearTap = -0.14123, kFarTap = 0.0385;
+inline constexpr double kNearTap = params::kSharpenNear, kFarTap = params::kSharpenFar;
 
 /// The prefilter along both axes, with the product of the nearest taps across. `strengthAt`: of a
 /// pixel.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/engine/occlusion_options.h"
+#include "pipeline/engine/params/occlusion.h"
 #include "tests/oracle/picture.h"
 
 #include <Eigen/Core>
@@ -19,7 +20,9 @@ struct RealSample {
 /// A video pixel's part in what hides a virtual surface of inverse depth `inverse`; unknown hides
 /// nothing.
 inline double visibleOver(const RealSample& real, double inverse, const CompositeOptions& o) {
-    const bool known = real.rho > 1e-6 && real.rho < 1e6 && real.sigma > 1e-20 && real.sigma < 1e6;
+    const bool known =
+        real.rho > params::kLeastInverseDepth && real.rho < params::kMostInverseDepth &&
+        real.sigma > params::kLeastDepthSigma && real.sigma < params::kMostInverseDepth;
     if (!known) return 1;
     const double sigma = std::hypot(real.sigma, o.virtualSigma * inverse);
     const double t = std::clamp(((real.rho - inverse) / sigma - o.bias) / o.softness, 0.0, 1.0);
@@ -32,7 +35,7 @@ struct Scene {
     std::vector<RealSample> real;
 
     [[nodiscard]] double visibility(int x, int y, double z, const CompositeOptions& o) {
-        if (!(z > 1e-4 && z < 1e6)) return 0;
+        if (!(z > params::kLeastVirtualDepth && z < params::kMostVirtualDepth)) return 0;
         const double u = (x + 0.5) * video.size.width / picture.size.width - 0.5;
         const double v = (y + 0.5) * video.size.height / picture.size.height - 0.5;
         const int left = static_cast<int>(std::floor(u)) - 1;
@@ -47,7 +50,8 @@ struct Scene {
                 for (int c = 0; c < 3; ++c)
                     unlike += std::pow(double(video.at(qx, qy)[c]) - picture.at(x, y)[c], 2);
                 const double w =
-                    tent * tent * (std::exp(-unlike / (2 * o.likeness * o.likeness)) + 1e-3);
+                    tent * tent *
+                    (std::exp(-unlike / (2 * o.likeness * o.likeness)) + params::kLikenessFloor);
                 sum += w * visibleOver(real[qy * 1UL * video.size.width + qx], 1 / z, o);
                 weights += w;
             }

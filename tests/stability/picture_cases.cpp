@@ -1,5 +1,6 @@
 // Passes over pictures: formats, pyramids, the plan of changes, enlargement, weights.
 #include "base/image_layout.h"
+#include "pipeline/engine/params/weigh.h"
 #include "pipeline/gles/picture_texture.h"
 #include "pipeline/pipeline.h"
 #include "pipeline/plan/work_plan.h"
@@ -166,11 +167,6 @@ void evenPicture(Context& c) {
             c.checks.within(v - level, -1, 1, "change of an even picture");
 }
 
-struct WeighParams {
-    std::int32_t cells[4];
-    float tune[4];
-};
-
 /// Statistics as two patches can have them, from nothing to the most that bytes allow.
 twin::Cells statisticsOf(Context& c, Size size) {
     twin::Cells out{size, {}};
@@ -205,12 +201,15 @@ void weights(Context& c) {
     const gpu::Texture d = put(displacement), s = put(statistics), l = put(low);
     const gpu::Texture field(size, TexelFormat::Rgba32F), weight(size, TexelFormat::Rgba8);
     const gpu::Texture look(size, TexelFormat::Rgba16F);
-    gpu::ComputePass<WeighParams> pass("superres_weigh.comp");
-    pass.run(
-        {{size.width, size.height, half.width, half.height}, {static_cast<float>(sigma), 0, 0, 0}},
-        {gpu::sampler(0, d), gpu::sampler(1, s), gpu::sampler(2, l), gpu::imageWrite(0, field),
-         gpu::imageWrite(1, weight), gpu::imageWrite(2, look)},
-        {gpu::groupsFor(size.width, 8), gpu::groupsFor(size.height, 8), 1});
+    gpu::ComputePass<params::WeighCells> pass("superres_weigh.comp");
+    pass.run({.columns = size.width,
+              .rows = size.height,
+              .halfColumns = half.width,
+              .halfRows = half.height,
+              .noise = static_cast<float>(sigma)},
+             {gpu::sampler(0, d), gpu::sampler(1, s), gpu::sampler(2, l), gpu::imageWrite(0, field),
+              gpu::imageWrite(1, weight), gpu::imageWrite(2, look)},
+             {gpu::groupsFor(size.width, 8), gpu::groupsFor(size.height, 8), 1});
     const twin::Cells got{size, field.readRgba32F()};
     const auto bytes = weight.readRgba8();
     c.gl.frame(c.checks, 16 * pixelsOf(size));

@@ -2,6 +2,7 @@
 
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/depth/depth_filter.h"
+#include "pipeline/engine/params/weigh.h"
 #include "pipeline/flow/cell_field.h"
 #include "tests/engine/gles/levels.h"
 #include "tests/measure/triangulation/triangulation.h"
@@ -84,13 +85,6 @@ void triangulation(TriangulationMethod method, const char* what) {
     table.print();
 }
 
-struct AssessParams {
-    RigParams rig;
-    LumaLevel video, still;
-    std::int32_t cells[4], offsets[4];
-    float tune[4], stillSize[4];
-};
-
 // Both lenses and the rotation between them: where the still shows a cell that has not moved.
 void stillPixels() {
     const StereoRig rig = bentRig({640, 480}, {2304, 1728});
@@ -100,20 +94,22 @@ void stillPixels() {
     const gpu::Buffer patches(32UL * cells.width * cells.height);
     const gpu::Texture displacement(cells, gpu::TexelFormat::Rgba32F);
     const gpu::Texture statistics(cells, gpu::TexelFormat::Rgba32F);
-    AssessParams p{};
-    p.rig = rigParams(rig);
-    p.video = pair.pyramids.video()[0];
-    p.still = pair.pyramids.still()[0];
-    p.cells[0] = p.cells[2] = cells.width;
-    p.cells[1] = p.cells[3] = cells.height;
-    p.offsets[1] = cells.width * cells.height;
-    p.offsets[2] = p.offsets[3] = 1;
-    p.tune[0] = 2;
-    p.stillSize[0] = 2304;
-    p.stillSize[1] = 1728;
-    p.stillSize[2] = p.stillSize[3] = 3.6F;
-    gpu::ComputePass<AssessParams> pass("superres_assess.comp");
-    pass.run(p,
+    gpu::ComputePass<params::AssessCells> pass("superres_assess.comp");
+    pass.run({.rig = rigParams(rig),
+              .video = pair.pyramids.video()[0],
+              .still = pair.pyramids.still()[0],
+              .columns = cells.width,
+              .rows = cells.height,
+              .backwardColumns = cells.width,
+              .backwardRows = cells.height,
+              .forward = 0,
+              .backward = cells.width * cells.height,
+              .errorsGiven = 1,
+              .backwardScale = 1,
+              .stillWidth = 2304,
+              .stillHeight = 1728,
+              .scaleX = 3.6F,
+              .scaleY = 3.6F},
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, displacement),
               gpu::imageWrite(1, statistics)},

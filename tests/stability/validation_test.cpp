@@ -1,6 +1,7 @@
 #include "base/gl/pass.h"
 #include "base/gl/validation.h"
 #include "gles_shaders/shaders.h"
+#include "pipeline/engine/params/weigh.h"
 #include "tests/engine/pictures.h"
 #include "tests/stability/gl_watch.h"
 
@@ -15,11 +16,6 @@ namespace {
 
 constexpr Size kCells{5, 3};
 
-struct WeighParams {
-    std::int32_t cells[4];
-    float tune[4];
-};
-
 /// superres_weigh.comp hands its displacement through.
 void weigh(const std::vector<float>& displacement) {
     using gpu::TexelFormat;
@@ -28,8 +24,12 @@ void weigh(const std::vector<float>& displacement) {
     const gpu::Texture s = floatTexture(kCells, TexelFormat::Rgba32F, zeros);
     const gpu::Texture field(kCells, TexelFormat::Rgba32F), weights(kCells, TexelFormat::Rgba8);
     const gpu::Texture look(kCells, TexelFormat::Rgba16F);
-    gpu::ComputePass<WeighParams> pass("superres_weigh.comp");
-    pass.run({{kCells.width, kCells.height, kCells.width, kCells.height}, {1, 0, 0, 0}},
+    gpu::ComputePass<params::WeighCells> pass("superres_weigh.comp");
+    pass.run({.columns = kCells.width,
+              .rows = kCells.height,
+              .halfColumns = kCells.width,
+              .halfRows = kCells.height,
+              .noise = 1},
              {gpu::sampler(0, d), gpu::sampler(1, s), gpu::sampler(2, s), gpu::imageWrite(0, field),
               gpu::imageWrite(1, weights), gpu::imageWrite(2, look)},
              {1, 1, 1});
@@ -83,12 +83,8 @@ TEST_F(ValidationTest, ValuesOutOfTheStatedRangeAreFaults) {
     }
 }
 
-struct LumaParams {
-    std::int32_t target[4];
-    float smoothing[4];
-};
 // A picture of 16x8 pixels: eight words a row.
-constexpr LumaParams kLuma{{0, 8, 16, 8}, {0.25F, 0, 0, 0}};
+constexpr params::LumaFromVideo kLuma{.target = {0, 8, 16, 8}, .smoothing = 0.25F};
 constexpr std::size_t kLumaBytes = std::size_t{4} * 8 * 8;
 
 TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
@@ -96,7 +92,7 @@ TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
     gpu::Validation validation;
     const gpu::Texture picture = uploaded(TestPicture({16, 8}));
     const gpu::Buffer words(kLumaBytes);
-    gpu::ComputePass<LumaParams> pass("luma_from_video.comp");
+    gpu::ComputePass<params::LumaFromVideo> pass("luma_from_video.comp");
     const auto run = [&] {
         pass.run(kLuma, {gpu::sampler(0, picture), gpu::storage(0, words)}, {});
         return validation.takeFaults();
@@ -125,7 +121,7 @@ TEST(WatchedShaders, AnIndexOutOfRangeIsCounted) {
     Checks checks;
     const gpu::Texture picture = uploaded(TestPicture({16, 8}));
     const gpu::Buffer words(kLumaBytes - 8);
-    gpu::ComputePass<LumaParams> pass("luma_from_video.comp");
+    gpu::ComputePass<params::LumaFromVideo> pass("luma_from_video.comp");
     pass.run(kLuma, {gpu::sampler(0, picture), gpu::storage(0, words)}, {});
     gl.frame(checks, 128);
     const auto faults = checks.take();

@@ -1,3 +1,4 @@
+#include "pipeline/engine/params/weigh.h"
 #include "tests/engine/gl_test.h"
 #include "tests/engine/gles/levels.h"
 #include "tests/oracle/patch.h"
@@ -13,21 +14,10 @@ constexpr Size kVideo{61, 45};
 constexpr Size kStill{220, 163};
 constexpr Size kGrid{16, 12};
 constexpr int kGridArea = 16 * 12;
-constexpr double kAlpha = 2;
+constexpr double kAlpha = params::kTwoWayAlpha;
 // Single precision sums of 64 products of up to 255^2.
 constexpr double kRelative = 1e-3, kAbsolute = 2;
 constexpr double kPixel = 0.01;  // single precision unprojection, in still pixels
-
-struct AssessParams {
-    RigParams rig;
-    LumaLevel video, still;
-    std::int32_t cells[4], offsets[4];
-    float tune[4], stillSize[4];
-};
-struct GainParams {
-    LumaLevel video, still;
-    std::int32_t cells[4], offsets[4];
-};
 
 /// Flow vectors both ways, row-major; backward in pixels of `scale` video pixels.
 struct Fields {
@@ -54,23 +44,22 @@ Assessed assess(const LevelPair& pair, const StereoRig& rig, const Fields& field
     patches.write(std::span(fields.backward), kGridArea * 16);
     const gpu::Texture displacement(kGrid, gpu::TexelFormat::Rgba32F);
     const gpu::Texture statistics(kGrid, gpu::TexelFormat::Rgba32F);
-    AssessParams p{};
-    p.rig = rigParams(rig);
-    p.video = pair.pyramids.video()[0];
-    p.still = pair.pyramids.still()[0];
-    p.cells[0] = kGrid.width;
-    p.cells[1] = kGrid.height;
-    p.offsets[1] = kGridArea;
-    p.cells[2] = fields.backwardCells().width;
-    p.cells[3] = fields.backwardCells().height;
-    p.offsets[3] = fields.scale;
-    p.tune[0] = kAlpha;
-    p.stillSize[0] = static_cast<float>(rig.still.size.width);
-    p.stillSize[1] = static_cast<float>(rig.still.size.height);
-    p.stillSize[2] = static_cast<float>(rig.still.fx / rig.video.fx);
-    p.stillSize[3] = static_cast<float>(rig.still.fy / rig.video.fy);
-    gpu::ComputePass<AssessParams> pass("superres_assess.comp");
-    pass.run(p,
+    gpu::ComputePass<params::AssessCells> pass("superres_assess.comp");
+    pass.run({.rig = rigParams(rig),
+              .video = pair.pyramids.video()[0],
+              .still = pair.pyramids.still()[0],
+              .columns = kGrid.width,
+              .rows = kGrid.height,
+              .backwardColumns = fields.backwardCells().width,
+              .backwardRows = fields.backwardCells().height,
+              .forward = 0,
+              .backward = kGridArea,
+              .errorsGiven = 0,
+              .backwardScale = fields.scale,
+              .stillWidth = static_cast<float>(rig.still.size.width),
+              .stillHeight = static_cast<float>(rig.still.size.height),
+              .scaleX = static_cast<float>(rig.still.fx / rig.video.fx),
+              .scaleY = static_cast<float>(rig.still.fy / rig.video.fy)},
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, displacement),
               gpu::imageWrite(1, statistics)},
@@ -180,11 +169,15 @@ TEST_F(Assess, GainStatisticsMatchTwin) {
     gpu::Buffer patches(field.values.size() * 4);
     patches.write(std::span<const float>(field.values));
     const gpu::Texture out(cells, gpu::TexelFormat::Rgba32F);
-    gpu::ComputePass<GainParams> pass("superres_gain.comp");
-    pass.run({pair.pyramids.video()[1],
-              pair.pyramids.still()[1],
-              {cells.width, cells.height, forward.width, forward.height},
-              {0, pair.tiles.work().tiles.width, 0, 0}},
+    gpu::ComputePass<params::MeasureGain> pass("superres_gain.comp");
+    pass.run({.video = pair.pyramids.video()[1],
+              .still = pair.pyramids.still()[1],
+              .columns = cells.width,
+              .rows = cells.height,
+              .forwardColumns = forward.width,
+              .forwardRows = forward.height,
+              .forward = 0,
+              .tileColumns = pair.tiles.work().tiles.width},
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, out)},
              {4, 3, 1});

@@ -13,7 +13,7 @@
 #include "base/gl/texture.h"
 #include "gles_shaders/shaders.h"
 #include "hal/gl_context.h"
-#include "tests/shader/shader_budget.h"
+#include "tests/engine/gles/shader_budget.h"
 
 #include <array>
 #include <cstdio>

@@ -48,7 +48,7 @@ gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
 TEST_F(Draw, SharpeningMatchesTwin) {
     const TestPicture p = Waves(1, 4, 40, 30).shoot(kSmallVideo, {});
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
-    params.tune[0] = 1;
+    params.sharpening = 1;
     struct Case {
         std::uint8_t half, signal;
         double strength;
@@ -67,7 +67,7 @@ TEST_F(Draw, SharpeningMatchesTwin) {
 
 TEST_F(Draw, SharpeningKeepsAConstantPicture) {
     TileParams params = tileParams(kSmallVideo, kSmallStill, kOutput);
-    params.tune[0] = 1;
+    params.sharpening = 1;
     for (const std::uint8_t level : {0, 1, 100, 254, 255}) {
         const TestPicture p(kSmallVideo, PixelFormat::Rgba8, level);
         const gpu::Texture out =
@@ -221,14 +221,14 @@ TEST_F(Draw, PlainTilesEqualTheField) {
 TEST_F(Draw, StillLowMatchesTwin) {
     const TestPicture still = Waves(4, 8, 60, 35).shoot(kSmallStill, {});
     const Size low{57, 40};
-    struct Params {
-        float step[4];
-    };
     gpu::Texture out(low, TexelFormat::R8);
     const gpu::Framebuffer target(out);
-    gpu::DrawPass<Params> pass("still_low.frag");
-    const float tap = 0.25F * static_cast<float>(twin::kLowFootprint);
-    pass.run({{1.0F / low.width, 1.0F / low.height, tap / low.width, tap / low.height}},
+    gpu::DrawPass<params::StillLow> pass("still_low.frag");
+    const float tap = 0.25F * params::kFootprint;
+    pass.run({.texelX = 1.0F / low.width,
+              .texelY = 1.0F / low.height,
+              .tapX = tap / low.width,
+              .tapY = tap / low.height},
              {gpu::sampler(0, uploaded(still, Filter::Linear))}, target);
     EXPECT_LE(worst(channelOf(out, 0), twin::stillLow(twin::luma(still.view()), low)), kOnce + 1);
 }

@@ -21,19 +21,16 @@ constexpr int kArea = 16 * 12;
 
 using Cell = std::array<float, 4>;  // flow (x, y), cost, texture
 
-struct SearchParams {
-    LumaLevel from, to;
-    std::int32_t cells[4], offsets[4], search[4];
-    float prior[4];
-    std::int32_t listed[4];
-};
-struct LevelParams {
-    LumaLevel from, to;
-    std::int32_t cells[4], offsets[4], search[4];
-};
-struct FilterParams {
-    std::int32_t cells[4], offsets[4];
-};
+/// From the second area to the first.
+params::RefineFlow refineParams(const LevelPair& pair, int steps) {
+    return {.from = pair.pyramids.video()[0],
+            .to = pair.pyramids.still()[0],
+            .columns = kCells.width,
+            .rows = kCells.height,
+            .target = 0,
+            .source = kArea,
+            .steps = steps};
+}
 
 /// Random flow vectors; every eighth far outside.
 std::vector<Cell> randomField(unsigned seed, float reach) {
@@ -51,14 +48,25 @@ std::vector<Cell> randomField(unsigned seed, float reach) {
 std::vector<Cell> search(const LevelPair& pair, const std::vector<Cell>& prior, int steps) {
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(prior), kArea * sizeof(Cell));
-    gpu::ComputePass<SearchParams> pass("flow_search.comp");
-    const SearchParams p{pair.pyramids.video()[0],
-                         pair.pyramids.still()[0],
-                         {kCells.width, kCells.height, 0, 0},
-                         {0, -1, kArea, 0},
-                         {0, 1, steps, kCells.width},
-                         {1, 1, 1, 0},
-                         {}};
+    gpu::ComputePass<params::SearchFlow> pass("flow_search.comp");
+    const params::SearchFlow p{.from = pair.pyramids.video()[0],
+                               .to = pair.pyramids.still()[0],
+                               .columns = kCells.width,
+                               .rows = kCells.height,
+                               .coarserColumns = 0,
+                               .coarserRows = 0,
+                               .target = 0,
+                               .coarser = -1,
+                               .lastFrame = kArea,
+                               .lastFrameColumns = kCells.width,
+                               .radius = 0,
+                               .candidates = 1,
+                               .steps = steps,
+                               .perLastFrame = 1,
+                               .lastFrameX = 1,
+                               .lastFrameY = 1,
+                               .firstGroup = 0,
+                               .errors = -1};
     pass.run(p, {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
     return patches.read<Cell>(kArea);
 }
@@ -104,12 +112,8 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
     const auto in = search(pair, randomField(6, 6), 0);
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(in), kArea * sizeof(Cell));
-    gpu::ComputePass<LevelParams> pass("flow_propagate.comp");
-    pass.run({pair.pyramids.video()[0],
-              pair.pyramids.still()[0],
-              {kCells.width, kCells.height, 0, 0},
-              {0, kArea, 0, 0},
-              {0, 0, 0, 0}},
+    gpu::ComputePass<params::RefineFlow> pass("flow_propagate.comp");
+    pass.run(refineParams(pair, 0),
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches)}, {4, 3, 1});
     const auto out = patches.read<Cell>(kArea);
     const auto cellAt = [&](int x, int y) {
@@ -136,12 +140,8 @@ TEST_F(FlowPasses, PropagationTakesTheBestOfTheNeighbours) {
 std::vector<Cell> align(const LevelPair& pair, const std::vector<Cell>& in, int steps) {
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(in), kArea * sizeof(Cell));
-    gpu::ComputePass<LevelParams> pass("flow_align.comp");
-    pass.run({pair.pyramids.video()[0],
-              pair.pyramids.still()[0],
-              {kCells.width, kCells.height, 0, 0},
-              {0, kArea, 0, 0},
-              {steps, 0, 0, 0}},
+    gpu::ComputePass<params::RefineFlow> pass("flow_align.comp");
+    pass.run(refineParams(pair, steps),
              {gpu::storage(0, pair.pyramids.words()), gpu::storage(1, patches),
               gpu::storage(2, pair.tiles.buffer())},
              {4, 3, 1});
@@ -212,8 +212,13 @@ TEST_F(FlowPasses, BentPatchesAlignWhereShiftedOnesCannot) {
 std::vector<Cell> filtered(const std::vector<Cell>& in, int planeFits = 2) {
     gpu::Buffer patches(2 * kArea * sizeof(Cell));
     patches.write(std::span(in), kArea * sizeof(Cell));
-    gpu::ComputePass<FilterParams> pass("flow_filter.comp");
-    pass.run({{kCells.width, kCells.height, planeFits, 0}, {0, kArea, 0, 0}},
+    gpu::ComputePass<params::FilterFlow> pass("flow_filter.comp");
+    pass.run({.columns = kCells.width,
+              .rows = kCells.height,
+              .target = 0,
+              .source = kArea,
+              .planeFits = planeFits,
+              .byTile = 0},
              {gpu::storage(1, patches)}, {4, 3, 1});
     return patches.read<Cell>(kArea);
 }

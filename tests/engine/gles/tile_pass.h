@@ -1,30 +1,27 @@
 #pragma once
 
 #include "base/gl/pass.h"
+#include "pipeline/engine/params/detail.h"
 #include "tests/engine/pictures.h"
 #include "tests/oracle/luma.h"
 
 namespace mfar {
 
-/// Mirrors tile_params.glsl.
-struct TileParams {
-    std::int32_t video[4]{};
-    float scale[4]{}, tune[4]{};
-};
+using TileParams = params::DrawTiles;
 
 /// Cells, scales and look-up steps of ideal cameras, without sharpening.
 inline TileParams tileParams(Size video, Size still, Size output) {
-    TileParams p;
-    p.video[0] = video.width;
-    p.video[1] = video.height;
-    p.video[2] = (video.width + 3) / 4;
-    p.video[3] = (video.height + 3) / 4;
-    p.scale[0] = static_cast<float>(video.width) / static_cast<float>(output.width);
-    p.scale[1] = static_cast<float>(video.height) / static_cast<float>(output.height);
-    p.scale[2] = 1.0F / static_cast<float>(still.width);
-    p.scale[3] = 1.0F / static_cast<float>(still.height);
-    p.tune[2] = static_cast<float>(still.width) / static_cast<float>(output.width);
-    p.tune[3] = static_cast<float>(still.height) / static_cast<float>(output.height);
+    TileParams p{};
+    p.videoWidth = video.width;
+    p.videoHeight = video.height;
+    p.cellColumns = (video.width + 3) / 4;
+    p.cellRows = (video.height + 3) / 4;
+    p.scaleX = static_cast<float>(video.width) / static_cast<float>(output.width);
+    p.scaleY = static_cast<float>(video.height) / static_cast<float>(output.height);
+    p.stillTexelX = 1.0F / static_cast<float>(still.width);
+    p.stillTexelY = 1.0F / static_cast<float>(still.height);
+    p.stillScaleX = static_cast<float>(still.width) / static_cast<float>(output.width);
+    p.stillScaleY = static_cast<float>(still.height) / static_cast<float>(output.height);
     return p;
 }
 

@@ -15,15 +15,6 @@ constexpr Size kWhole{25, 15};
 constexpr Size kHalf{13, 8};
 constexpr double kSigma = 1.5;
 
-struct WeighParams {
-    std::int32_t cells[4];
-    float tune[4];
-};
-struct ClassifyParams {
-    std::int32_t tiles[4];
-    float tune[4];
-};
-
 /// Covariance, variances, confidence from flat to strong contrast and from alike to unrelated.
 twin::Cells randomStatistics(Size size, unsigned seed) {
     std::mt19937 random(seed);
@@ -53,9 +44,12 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
     const gpu::Texture h = floatTexture(kHalf, TexelFormat::Rgba32F, half.values);
     const gpu::Texture field(kWhole, TexelFormat::Rgba32F), weights(kWhole, TexelFormat::Rgba8);
     const gpu::Texture look(kWhole, TexelFormat::Rgba16F);
-    gpu::ComputePass<WeighParams> pass("superres_weigh.comp");
-    pass.run({{kWhole.width, kWhole.height, kHalf.width, kHalf.height},
-              {static_cast<float>(sigma), 0, 0, 0}},
+    gpu::ComputePass<params::WeighCells> pass("superres_weigh.comp");
+    pass.run({.columns = kWhole.width,
+              .rows = kWhole.height,
+              .halfColumns = kHalf.width,
+              .halfRows = kHalf.height,
+              .noise = static_cast<float>(sigma)},
              {gpu::sampler(0, d), gpu::sampler(1, s), gpu::sampler(2, h), gpu::imageWrite(0, field),
               gpu::imageWrite(1, weights), gpu::imageWrite(2, look)},
              {gpu::groupsFor(kWhole.width, 8), gpu::groupsFor(kWhole.height, 8), 1});
@@ -122,7 +116,7 @@ TEST_F(Weigh, AlikeTextureCountsFullyAndUnrelatedNotAtAll) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     for (const float v : {weigh(alike, alike, half, 0.3).field.at(5, 5)[2]})
-        EXPECT_NEAR(v, twin::kLookUpLoss, 0.01);
+        EXPECT_NEAR(v, params::kLookUpLoss, 0.01);
     for (const std::array<float, 4>& s :
          {std::array<float, 4>{0, 1e5F, 1e5F, 1}, std::array<float, 4>{-1e5F, 1e5F, 1e5F, 1},
           std::array<float, 4>{1e5F, 1e5F, 1e5F, 0}, std::array<float, 4>{0, 0, 0, 1}})
@@ -149,11 +143,14 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
     gpu::Buffer changedBuffer(changed.size() * 4), classes(8 * kTileCount);
     gpu::Buffer draws(sizeof(Draws)), lists(16 * kTileCount);
     changedBuffer.write(std::span(changed));
-    const twin::ClassLimits limits;
-    gpu::ComputePass<ClassifyParams> pass("superres_classify.comp");
-    pass.run({{kClassified.width, kClassified.height, kWhole.width, kWhole.height},
-              {static_cast<float>(limits.leastWeight), static_cast<float>(limits.plainFlow),
-               static_cast<float>(limits.plainWeight), hasStill ? 0.0F : 1.0F}},
+    gpu::ComputePass<params::ClassifyTiles> pass("superres_classify.comp");
+    pass.run({.columns = kClassified.width,
+              .rows = kClassified.height,
+              .cellColumns = kWhole.width,
+              .cellRows = kWhole.height,
+              .leastWeight = params::kLeastDetailWeight,
+              .plainFlow = params::kPlainFlow,
+              .stillGiven = hasStill ? 1 : 0},
              {gpu::storage(0, changedBuffer), gpu::storage(1, classes), gpu::storage(2, draws),
               gpu::storage(3, lists), gpu::sampler(0, cells), gpu::sampler(1, weights)},
              {1, 1, 1});
@@ -189,7 +186,7 @@ std::vector<std::uint32_t> changes(std::uint32_t whole) {
 /// Of a tile of mixedField() that changed.
 unsigned classIn(const twin::Cells& field, int tile) {
     if (tile % 5 == 0) return 1;
-    return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width, {});
+    return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width);
 }
 
 TEST_F(Classify, ClassesCountsAndListsMatchTwin) {

@@ -1,3 +1,4 @@
+#include "pipeline/engine/params/weigh.h"
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/simd/weigh_step.h"
 #include "tests/engine/simd/luma_memory.h"
@@ -16,7 +17,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kVideoNoise = 1.5, kAlpha = 2;
+constexpr double kVideoNoise = 1.5, kAlpha = params::kTwoWayAlpha;
 constexpr float kNoFlow = std::numeric_limits<float>::quiet_NaN();
 constexpr float kEndless = std::numeric_limits<float>::infinity();
 
@@ -165,10 +166,10 @@ void expectOracle(const WeighCase& c, bool givenErrors) {
             // At low contrast a weight goes with the fifth power of the covariance, to which pixels
             // in 1/64 grey level add up to 0.1 %. The least weight is where it is cut off.
             EXPECT_NEAR(w.weight, t.weight,
-                        w.weight == 0 || t.weight == 0 ? 1.001 * twin::kSmallestWeight
+                        w.weight == 0 || t.weight == 0 ? 1.001 * params::kSmallestWeight
                                                        : 2e-3 * t.weight + 1e-4);
             if (w.weight == 0 || t.weight == 0) {
-                EXPECT_LE(t.weight, 1.001 * twin::kSmallestWeight);
+                EXPECT_LE(t.weight, 1.001 * params::kSmallestWeight);
             }
             EXPECT_NEAR(w.confidence, t.confidence, 1e-4);
             EXPECT_EQ(l.weight, w.weight);

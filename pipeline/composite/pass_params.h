@@ -1,0 +1,52 @@
+#pragma once
+
+#include "base/lens_params.h"
+#include "pipeline/engine/params/layer.h"
+
+#include <cstdint>
+
+// Virtual objects in the picture: preview.vert, preview.frag, and what the warp shares with them.
+// Shaders read this header, too: gles_shaders/params_to_glsl.cmake.
+namespace mfar::params {
+
+/// A row of a transform: of the rotation, then the translation [m].
+struct alignas(16) Row4 {
+    float x, y, z, w;
+};
+
+/// From one frame to another; may scale first.
+struct alignas(16) Transform {
+    Row4 rows[3];
+};
+
+/// LensProjection: a lens, continued beyond its rim.
+struct alignas(16) Projection {
+    Lens lens;
+    float rim;        ///< radius of the outermost ray that the lens describes
+    float rimRadial;  ///< radial factor of the distortion there
+    float nearPlane;  ///< [m]
+};
+
+/// Pixels x0 <= x < x1, y0 <= y < y1.
+struct alignas(16) PixelBounds {
+    std::int32_t x0, y0, x1, y1;
+};
+
+struct alignas(16) Colour {
+    float red, green, blue;  ///< display values
+};
+
+/// One virtual object of the preview.
+struct alignas(16) PreviewObject {
+    Transform object;  ///< T_video_object
+    Projection projection;
+    Colour colours[2];                ///< of the squares
+    float width, height, depth;       ///< of the object [m]
+    float squares;                    ///< along each side
+    float lightX, lightY, lightZ;     ///< unit vector towards the light, camera frame
+    float ambient;                    ///< share of the ambient light
+    float targetWidth, targetHeight;  ///< [px]
+    float reach, squaredRadius;       ///< of the unit shape: largest coordinate; of its corners
+};
+
+}  // namespace mfar::params

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+
+// The classes of tiles and how each is drawn: superres_classify.comp, superres_sharpen.frag,
+// superres_vertical.frag, composite_*.frag, tile_rect.vert and their SIMD twins. Shaders read this
+// header, too: gles_shaders/params_to_glsl.cmake.
+namespace mfar::params {
+
+/// Values of TileClass.
+inline constexpr std::uint32_t kTileUnchanged = 0U;
+inline constexpr std::uint32_t kTileUpscaled = 1U;
+inline constexpr std::uint32_t kTileTrusted = 2U;
+inline constexpr std::uint32_t kTileBlended = 3U;
+
+/// Below this weight the detail changes no pixel by a grey level.
+inline constexpr float kLeastDetailWeight = 0.02F;
+/// Spread of the flow [video px] and of the weight within which a tile is drawn as one quad; 0.08
+/// px are 0.3 px of the output.
+inline constexpr float kPlainFlow = 0.08F;
+inline constexpr float kPlainWeight = 0.25F;
+/// Unexplained cells, of 16, of an unexplained tile.
+inline constexpr std::uint32_t kUnexplainedCells = 8U;
+
+/// Of Keys' cubic, the kernel of the enlargement.
+inline constexpr float kCubicSlope = -0.75F;
+
+/// The first two taps of the inverse of (Keys' cubic averaged over a pixel), which has 1.207,
+/// -0.141, 0.044, -0.008, ...; the second stands for all further ones, so that the filter keeps its
+/// centre and a sum of one.
+inline constexpr float kSharpenNear = -0.14123F;
+inline constexpr float kSharpenFar = 0.0385F;
+
+struct alignas(16) ClassifyTiles {
+    std::int32_t columns, rows;  ///< of tiles
+    std::int32_t cellColumns, cellRows;
+    float leastWeight;        ///< kLeastDetailWeight, or -1: no tile is only enlarged
+    float plainFlow;          ///< kPlainFlow, or 0: no tile is plain [video px]
+    std::int32_t stillGiven;  ///< 0: the fields are blank
+};
+
+/// Of all programs that draw tiles.
+struct alignas(16) DrawTiles {
+    std::int32_t videoWidth, videoHeight;  ///< [px]
+    std::int32_t cellColumns, cellRows;
+    float scaleX, scaleY;            ///< video pixels per output pixel
+    float stillTexelX, stillTexelY;  ///< 1 / size of the still [1/px]
+    float stillScaleX, stillScaleY;  ///< still pixels per output pixel
+    float sharpening;                ///< strength; 0: none
+};
+
+}  // namespace mfar::params

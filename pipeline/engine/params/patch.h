@@ -1,0 +1,16 @@
+#pragma once
+
+// Comparison of 8x8 patches: patch.glsl and its SIMD twins. Shaders read this header, too:
+// gles_shaders/params_to_glsl.cmake.
+namespace mfar::params {
+
+inline constexpr float kPatchPixels = 64.0F;
+/// Energy of noise in a patch [grey levels^2]: below it a patch counts as flat.
+inline constexpr float kPatchNoise = 128.0F;
+/// Added to the diagonal of the Hessian: keeps steps finite where there is no gradient.
+inline constexpr float kPatchDamping = 64.0F;
+/// Squared length [px^2] below which a step ends the search, and two candidates are one.
+inline constexpr float kShortestStep = 2.5e-5F;
+inline constexpr float kSameCandidate = 0.25F;
+
+}  // namespace mfar::params
