@@ -28,10 +28,10 @@ TEST(MfarEvalWarp, WritesARowForEachTurnAndMethodAndAPlot) {
     EXPECT_EQ(line, "recording,frame,method,psnr_db,hole_share,reray_share,reray_of_objects,ms");
     int rows = 0;
     for (; std::getline(in, line); ++rows) {
-        EXPECT_TRUE(line.starts_with(rows < 7 ? "still-life/2,0," : "still-life/20,0,")) << line;
+        EXPECT_TRUE(line.starts_with(rows < 6 ? "still-life/2,0," : "still-life/20,0,")) << line;
         EXPECT_EQ(line.find("nan"), std::string::npos) << line;
     }
-    EXPECT_EQ(rows, 2 * 7);
+    EXPECT_EQ(rows, 2 * 6);
     EXPECT_TRUE(bench::test::isWellFormed(test::readFile(folder / "out.svg")));
 }
 
