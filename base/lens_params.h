@@ -9,9 +9,12 @@ struct alignas(16) Lens {
     float k1, k2, p1, p2, k3;
 };
 
-/// One row of a rotation.
+/// Rows of matrices.
 struct alignas(16) Row3 {
     float x, y, z;
+};
+struct alignas(16) Row4 {
+    float x, y, z, w;
 };
 
 }  // namespace mfar::params

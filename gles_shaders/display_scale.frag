@@ -10,10 +10,10 @@
 #define PAIRS 1
 #endif
 
+#include "hal/device/scale_params.h"
+
 layout(std140) uniform Params {
-    ivec4 target;         // x, y, width, height of the rectangle [px of the screen]
-    vec4 scaleFootprint;  // pixels of the picture per pixel of the screen; footprint [px of the picture]
-    ivec4 source;         // width, height [px]; 1: write blue first; unused
+    ScalePicture params;
 };
 layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 colour;
@@ -25,16 +25,17 @@ vec2 overlap(float first, float lo, float hi) {
 }
 
 void main() {
-    ivec2 p = ivec2(gl_FragCoord.xy) - target.xy;
+    ivec2 p = ivec2(gl_FragCoord.xy) - ivec2(params.left, params.top);
     colour = vec4(0.0, 0.0, 0.0, 1.0);
-    if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, target.zw))) return;
+    if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, ivec2(params.width, params.height)))) return;
 
 #if PAIRS == 0
     vec3 sum = texelFetch(picture, p, 0).rgb;
 #else
-    vec2 centre = (vec2(p) + 0.5) * scaleFootprint.xy;
-    vec2 lo = centre - 0.5 * scaleFootprint.zw, hi = lo + scaleFootprint.zw;
-    vec2 first = floor(lo), texel = 1.0 / vec2(source.xy);
+    vec2 footprint = vec2(params.footprintX, params.footprintY);
+    vec2 centre = (vec2(p) + 0.5) * vec2(params.scaleX, params.scaleY);
+    vec2 lo = centre - 0.5 * footprint, hi = lo + footprint;
+    vec2 first = floor(lo), texel = 1.0 / vec2(params.pictureWidth, params.pictureHeight);
     vec3 sum = vec3(0.0);
     for (int j = 0; j < PAIRS; ++j) {
         float y = first.y + float(2 * j);
@@ -50,7 +51,7 @@ void main() {
             sum += weightX * weightY * textureLod(picture, at, 0.0).rgb;
         }
     }
-    sum /= scaleFootprint.z * scaleFootprint.w;
+    sum /= footprint.x * footprint.y;
 #endif
-    colour.rgb = source.z == 1 ? sum.bgr : sum;
+    colour.rgb = params.blueFirst == 1 ? sum.bgr : sum;
 }

@@ -3,9 +3,10 @@
 // Source: ITU-R BT.601-7, BT.709-6; rows of base/image_layout.h.
 // Variant: #define PACKED 1   Y U Y V of two pixels in one texel
 // Variant: #define PAIRS 1    a plane of Y, a plane of U V
+#include "pipeline/gles/yuv_params.h"
+
 layout(std140, binding = 0) uniform Params {
-    vec4 rows[3];  // R, G, B = row . (Y, U, V, 1), all in [0, 1]
-    vec4 step;     // 1 / size (x, y), -, -
+    YuvPicture params;
 };
 layout(binding = 0) uniform sampler2D first;
 #ifndef PACKED
@@ -18,7 +19,7 @@ layout(location = 0) out vec4 colour;
 
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
-    vec2 at = gl_FragCoord.xy * step.xy;
+    vec2 at = gl_FragCoord.xy * vec2(params.texelX, params.texelY);
     vec4 yuv = vec4(1.0);
 #ifdef PACKED
     vec4 texel = texelFetch(first, ivec2(p.x >> 1, p.y), 0);
@@ -32,5 +33,7 @@ void main() {
     yuv.yz = vec2(textureLod(second, at, 0.0).r, textureLod(third, at, 0.0).r);
 #endif
 #endif
-    colour = vec4(dot(rows[0], yuv), dot(rows[1], yuv), dot(rows[2], yuv), 1.0);
+    colour.a = 1.0;
+    for (int i = 0; i < 3; ++i)
+        colour[i] = dot(vec4(params.rows[i].x, params.rows[i].y, params.rows[i].z, params.rows[i].w), yuv);
 }

@@ -1,10 +1,9 @@
 // Light on the sensor to a picture: blur, gain, noise, gamma.
 // in: linear radiance; out: RGBA8, alpha 1
+#include "hal/virtual/synthetic_params.h"
+
 layout(std140) uniform Params {
-    vec4 gain;    // rgb; w: 1 / gamma
-    vec4 kernel;  // blur: weights of the pixel, its side and its corner neighbours; w: 1 = blur
-    vec4 noise;   // variance in linear units: x per unit of signal, y constant; z: 1 = noise
-    uvec4 seed;
+    SyntheticSensor params;
 };
 layout(binding = 0) uniform sampler2D radiance;
 out vec4 pixel;
@@ -28,19 +27,19 @@ float bell(uint h) {
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
     vec3 light = at(p);
-    if (kernel.w > 0.5) {
+    if (params.blurs != 0) {
         vec3 sides = at(p + ivec2(1, 0)) + at(p - ivec2(1, 0)) + at(p + ivec2(0, 1)) +
                      at(p - ivec2(0, 1));
         vec3 corners = at(p + ivec2(1, 1)) + at(p - ivec2(1, 1)) + at(p + ivec2(1, -1)) +
                        at(p - ivec2(1, -1));
-        light = kernel.x * light + kernel.y * sides + kernel.z * corners;
+        light = params.centreWeight * light + params.sideWeight * sides + params.cornerWeight * corners;
     }
-    vec3 signal = light * gain.rgb;
-    if (noise.z > 0.5) {
-        uint h = mixed(uint(p.x) + 4096u * uint(p.y) + mixed(seed.x));
-        uvec3 each = uvec3(h, mixed(h + seed.y), mixed(h + 2u * seed.y + 1u));
-        vec3 sigma = sqrt(max(signal, 0.0) * noise.x + noise.y);
+    vec3 signal = light * vec3(params.redGain, params.greenGain, params.blueGain);
+    if (params.noisy != 0) {
+        uint h = mixed(uint(p.x) + 4096u * uint(p.y) + mixed(params.seed));
+        uvec3 each = uvec3(h, mixed(h + params.channelSeed), mixed(h + 2u * params.channelSeed + 1u));
+        vec3 sigma = sqrt(max(signal, 0.0) * params.noisePerSignal + params.noiseConstant);
         signal += sigma * vec3(bell(each.x), bell(each.y), bell(each.z));
     }
-    pixel = vec4(pow(clamp(signal, 0.0, 1.0), vec3(gain.w)), 1.0);
+    pixel = vec4(pow(clamp(signal, 0.0, 1.0), vec3(params.inverseGamma)), 1.0);
 }

@@ -3,15 +3,10 @@
 // in: tables of solids, surfaces and materials; bit mask of solids per tile; textures; light map
 // out: linear radiance, 1 = white paper in full light
 #include "synthetic_tables.glsl"
+#include "hal/virtual/synthetic_params.h"
 
 layout(std140) uniform Params {
-    vec4 lens;        // fx fy cx cy [px]
-    vec4 distortion;  // k1 k2 p1 p2
-    vec4 light;       // xyz: towards the key light, camera frame; w: radius of what moves [m]
-    vec4 mover;       // xyz: its middle, camera frame [m]; w: k3 of the lens
-    vec4 background;  // rgb radiance
-    uvec4 boxes;      // which solids are boxes, one bit each
-    uvec4 table;      // x: tiles in a row, y: layer of the slow variation, z: solids
+    SyntheticWorld params;
 };
 layout(std430, binding = 0) readonly buffer Tiles { uvec4 tiles[]; };
 
@@ -19,16 +14,16 @@ layout(binding = 0) uniform highp sampler2DArray layers;
 layout(binding = 1) uniform sampler2D lightMap;
 out vec4 radiance;
 
-const int kTile = 16;  // pixels
 const float kLayerTexels = 1024.0;
 const float kVariationPerMetre = 0.55;
 const float kLightFullScale = 1.6;
 
 vec2 distort(vec2 p, out mat2 jacobian) {
     float r2 = dot(p, p);
-    float radial = 1.0 + r2 * (distortion.x + r2 * (distortion.y + r2 * mover.w));
-    float slope = distortion.x + r2 * (2.0 * distortion.y + 3.0 * r2 * mover.w);
-    vec2 t = distortion.zw;
+    Lens lens = params.lens;
+    float radial = 1.0 + r2 * (lens.k1 + r2 * (lens.k2 + r2 * lens.k3));
+    float slope = lens.k1 + r2 * (2.0 * lens.k2 + 3.0 * r2 * lens.k3);
+    vec2 t = vec2(lens.p1, lens.p2);
     float cross = 2.0 * p.x * p.y * slope + 2.0 * t.x * p.x + 2.0 * t.y * p.y;
     jacobian = mat2(radial + 2.0 * p.x * p.x * slope + 2.0 * t.x * p.y + 6.0 * t.y * p.x, cross,
                     cross, radial + 2.0 * p.y * p.y * slope + 6.0 * t.x * p.y + 2.0 * t.y * p.x);
@@ -38,7 +33,8 @@ vec2 distort(vec2 p, out mat2 jacobian) {
 
 // Normalised ray of a pixel; the columns of `perPixel` are its change for one pixel in x and in y.
 vec2 unproject(vec2 pixel, out mat2 perPixel) {
-    vec2 target = (pixel - lens.zw) / lens.xy;
+    Lens lens = params.lens;
+    vec2 target = (pixel - vec2(lens.cx, lens.cy)) / vec2(lens.fx, lens.fy);
     vec2 ray = target;
     mat2 jacobian;
     for (int i = 0; i < 4; ++i) {
@@ -46,7 +42,7 @@ vec2 unproject(vec2 pixel, out mat2 perPixel) {
         perPixel = inverse(jacobian);
         ray += perPixel * error;
     }
-    perPixel = mat2(perPixel[0] / lens.x, perPixel[1] / lens.y);
+    perPixel = mat2(perPixel[0] / lens.fx, perPixel[1] / lens.fy);
     return ray;
 }
 
@@ -95,12 +91,14 @@ vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
         paint += g.member[k] * textureLod(layers, vec3(uv, m.look.x), lod);
     }
     paint /= count;
-    float slow = textureLod(layers, vec3(c.at * kVariationPerMetre, float(table.y)), 2.0).r;
+    float slow = textureLod(layers, vec3(c.at * kVariationPerMetre, float(params.variationLayer)), 2.0).r;
     vec3 colour = paint.rgb * m.tint.rgb * (1.0 + m.tint.w * (2.0 * slow - 1.0));
 
     vec2 face = f.face.xy + f.face.zw * (vec2(float(g.axis), c.positive) + c.light);
     vec3 lit = kLightFullScale * textureLod(lightMap, face, 0.0).rgb;
-    if (f.materials.w == 0) lit *= moverShade(vec3(ray / count, 1.0) * distance, mover.xyz, light);
+    if (f.materials.w == 0)
+        lit *= moverShade(vec3(ray / count, 1.0) * distance, vec3(params.moverX, params.moverY, params.moverZ),
+                          vec4(params.lightX, params.lightY, params.lightZ, params.moverRadius));
     vec3 halfway = normalize(f.light.xyz - normalize(d));
     float shine = power64(max(dot(c.normal, halfway), 0.0));
     float rim = 1.0 - min(abs(facing) / length(d), 1.0);
@@ -114,8 +112,10 @@ void main() {
     vec2 rays[4];
     for (int k = 0; k < 4; ++k)
         rays[k] = centre + perPixel * (0.5 * vec2(float(k & 1), float(k >> 1)) - 0.25);
-    ivec2 tile = ivec2(gl_FragCoord.xy) / kTile;
-    uvec4 mask = tiles[uint(tile.y) * table.x + uint(tile.x)];
+    ivec2 tile = ivec2(gl_FragCoord.xy) / kSyntheticTile;
+    uvec4 mask = tiles[uint(tile.y) * params.tileColumns + uint(tile.x)];
+    SolidMask b = params.boxes;
+    uvec4 boxes = uvec4(b.first, b.second, b.third, b.fourth);
     vec4 t = vec4(1e9);
     ivec4 hit = ivec4(-1);
     for (int word = 0; word < 4; ++word) {
@@ -130,7 +130,7 @@ void main() {
         int first = left.x > 0.0 ? hit.x : left.y > 0.0 ? hit.y : left.z > 0.0 ? hit.z : hit.w;
         vec4 member = left * vec4(equal(hit, ivec4(first)));
         left -= member;
-        vec3 colour = background.rgb;
+        vec3 colour = vec3(params.red, params.green, params.blue);
         if (first >= 0) colour = shade(Group(first / 4, first % 4, member), t, rays, perPixel);
         sum += 0.25 * dot(member, vec4(1.0)) * colour;
     }

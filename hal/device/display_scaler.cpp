@@ -1,6 +1,7 @@
 #include "hal/device/display_scaler.h"
 
 #include "hal/device/display_spec.h"
+#include "hal/device/scale_params.h"
 
 #include <fmt/format.h>
 
@@ -16,27 +17,30 @@ namespace {
 constexpr Size kLikelyScreen{1920, 1080};
 constexpr Size kFewPixels{16, 16};
 
-struct ScaleParams {
-    std::int32_t target[4];
-    float scale[2], footprint[2];
-    std::int32_t source[4];
-};
+using params::ScalePicture;
 
-ScaleParams scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
+ScalePicture scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
     const ScreenRect to = letterbox(picture, screen);
     const float x = static_cast<float>(picture.width) / static_cast<float>(to.size.width);
     const float y = static_cast<float>(picture.height) / static_cast<float>(to.size.height);
-    return {{to.x, to.y, to.size.width, to.size.height},
-            {x, y},
-            {std::max(x, 1.0F), std::max(y, 1.0F)},
-            {picture.width, picture.height, order == ScreenScaler::Order::Bgra ? 1 : 0, 0}};
+    return {.left = to.x,
+            .top = to.y,
+            .width = to.size.width,
+            .height = to.size.height,
+            .scaleX = x,
+            .scaleY = y,
+            .footprintX = std::max(x, 1.0F),
+            .footprintY = std::max(y, 1.0F),
+            .pictureWidth = picture.width,
+            .pictureHeight = picture.height,
+            .blueFirst = order == ScreenScaler::Order::Bgra ? 1 : 0};
 }
 
 // A footprint that is no whole number begins and ends inside a texel. A picture of the screen's
 // size is copied.
-int pairsFor(const ScaleParams& params) {
-    if (params.target[2] == params.source[0] && params.target[3] == params.source[1]) return 0;
-    const float footprint = std::max(params.footprint[0], params.footprint[1]);
+int pairsFor(const ScalePicture& p) {
+    if (p.width == p.pictureWidth && p.height == p.pictureHeight) return 0;
+    const float footprint = std::max(p.footprintX, p.footprintY);
     const int texels = static_cast<int>(std::ceil(footprint)) + 1;
     return footprint <= 1.0F ? 1 : (texels + 1) / 2;
 }
@@ -97,7 +101,7 @@ gpu::Program& ScreenScaler::programFor(int pairs) {
     std::optional<gpu::Program>& program = pairs == 0 ? copy_ : scale_;
     if (!program || (pairs != 0 && pairs != pairs_)) {
         program.emplace("fullscreen.vert", "display_scale.frag",
-                        fmt::format("#define PAIRS {}\n", pairs), sizeof(ScaleParams));
+                        fmt::format("#define PAIRS {}\n", pairs), sizeof(ScalePicture));
         if (pairs != 0) pairs_ = pairs;
     }
     return *program;
@@ -134,7 +138,7 @@ void ScreenScaler::warmUp(const GlImage& picture) {
 // Into what is bound.
 void ScreenScaler::render(const GlImage& picture, Size screen, Order order) {
     if (sampler_ == 0) sampler_ = linearSampler();
-    const ScaleParams params = scaleParams(picture.size, screen, order);
+    const ScalePicture params = scaleParams(picture.size, screen, order);
     programFor(pairsFor(params))
         .use(&params, sizeof params, {{gpu::Binding::Kind::Sampler, 0, picture.texture}});
     glBindSampler(0, sampler_);

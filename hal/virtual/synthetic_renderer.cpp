@@ -1,5 +1,6 @@
 #include "hal/virtual/synthetic_renderer.h"
 
+#include "base/camera_lens.h"
 #include "hal/virtual/synthetic_hash.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr int kTile = 16;               // pixels, as in synthetic_world.frag
+constexpr int kTile = params::kSyntheticTile;
 constexpr int kStepPixels = 640 * 480;  // a video frame is one step
 
 using Four = std::array<float, 4>;
@@ -100,16 +101,25 @@ void SensorView::begin(const RigidTransform& T_world_camera, double t, std::uint
     noiseSeed_ = noiseSeed;
     const World& world = world_.world_;
     const RigidTransform T_camera_world = T_world_camera.inverse();
-    const auto& d = camera_.distortion;
-    const auto f = [](double v) { return static_cast<float>(v); };
-    params_.lens = {f(camera_.fx), f(camera_.fy), f(camera_.cx), f(camera_.cy)};
-    params_.distortion = {f(d[0]), f(d[1]), f(d[2]), f(d[3])};
-    params_.light = four(T_camera_world.rotation * world.light.towards, world.moverRadius);
-    params_.mover = four(T_camera_world * (world.moverPose(t) * world.moverPivot), d[4]);
-    params_.background = four(world.light.background, 0);
-    params_.table = {static_cast<std::uint32_t>(tilesX_),
-                     static_cast<std::uint32_t>(world_.slots_[static_cast<int>(Layer::Clouds)]),
-                     static_cast<std::uint32_t>(world.primitives.size()), 0};
+    const Eigen::Vector3f light = (T_camera_world.rotation * world.light.towards).cast<float>();
+    const Eigen::Vector3f mover =
+        (T_camera_world * (world.moverPose(t) * world.moverPivot)).cast<float>();
+    const Four background = four(world.light.background, 0);
+    const int clouds = world_.slots_[static_cast<int>(Layer::Clouds)];
+    params_ = {.lens = lensOf(camera_),
+               .boxes = {},
+               .lightX = light.x(),
+               .lightY = light.y(),
+               .lightZ = light.z(),
+               .moverX = mover.x(),
+               .moverY = mover.y(),
+               .moverZ = mover.z(),
+               .moverRadius = static_cast<float>(world.moverRadius),
+               .red = background[0],
+               .green = background[1],
+               .blue = background[2],
+               .tileColumns = static_cast<std::uint32_t>(tilesX_),
+               .variationLayer = static_cast<std::uint32_t>(clouds)};
     uploadSolids(T_camera_world, t);
 }
 
@@ -119,7 +129,7 @@ void SensorView::uploadSolids(const RigidTransform& T_camera_world, double t) {
     std::vector<SolidEntry> solids(count);
     std::vector<SurfaceEntry> surfaces(count);
     std::vector<Rect> bounds(count);
-    params_.boxes = {};
+    std::array<std::uint32_t, 4> boxes{};
     for (int i = 0; i < count; ++i) {
         const Primitive& p = world.primitives[i];
         const RigidTransform T_world_prim = world.primitivePose(i, t);
@@ -136,8 +146,9 @@ void SensorView::uploadSolids(const RigidTransform& T_camera_world, double t) {
                                  LightMap::inset(p.lightTexels));
         surfaces[i].materials = {p.materials[0], p.materials[1], p.materials[2], p.moves ? 1 : 0};
         bounds[i] = boundsOf<Rect>(T_camera_prim, p.half);
-        if (p.shape == Shape::Box) params_.boxes[i / 32] |= 1U << (i % 32);
+        if (p.shape == Shape::Box) boxes[i / 32] |= 1U << (i % 32);
     }
+    params_.boxes = {boxes[0], boxes[1], boxes[2], boxes[3]};
     solids_.write(std::span<const SolidEntry>(solids));
     surfaces_.write(std::span<const SurfaceEntry>(surfaces));
     uploadTiles(bounds);
@@ -176,17 +187,26 @@ bool SensorView::step() {
 }
 
 void SensorView::read(std::uint8_t* out) {
-    WorldGl::SensorParams params{};
-    params.gain = {look_.gain.x(), look_.gain.y(), look_.gain.z(), 1 / look_.gamma};
+    params::SyntheticSensor p{};
+    p.redGain = look_.gain.x();
+    p.greenGain = look_.gain.y();
+    p.blueGain = look_.gain.z();
+    p.inverseGamma = 1 / look_.gamma;
     if (look_.blurSigma > 0) {
         const float side = std::exp(-0.5F / (look_.blurSigma * look_.blurSigma));
         const float total = (1 + 2 * side) * (1 + 2 * side);
-        params.kernel = {1 / total, side / total, side * side / total, 1};
+        p.blurs = 1;
+        p.centreWeight = 1 / total;
+        p.sideWeight = side / total;
+        p.cornerWeight = side * side / total;
     }
-    params.noise = {look_.shotNoise, look_.readNoise, noiseSeed_ != 0 ? 1.F : 0.F, 0};
+    p.noisy = noiseSeed_ != 0 ? 1 : 0;
+    p.noisePerSignal = look_.shotNoise;
+    p.noiseConstant = look_.readNoise;
     const std::uint64_t h = mix(noiseSeed_);
-    params.seed = {static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32) | 1U, 0, 0};
-    world_.sensorPass_.run(params, {gpu::sampler(0, radiance_)}, pictureTarget_);
+    p.seed = static_cast<std::uint32_t>(h);
+    p.channelSeed = static_cast<std::uint32_t>(h >> 32) | 1U;
+    world_.sensorPass_.run(p, {gpu::sampler(0, radiance_)}, pictureTarget_);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, camera_.size.width, camera_.size.height, GL_RGBA, GL_UNSIGNED_BYTE, out);
     gpu::checkErrors("SensorView::read");

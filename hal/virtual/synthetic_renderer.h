@@ -5,6 +5,7 @@
 #include "base/gl/pass.h"
 #include "base/gl/texture.h"
 #include "hal/virtual/synthetic_light.h"
+#include "hal/virtual/synthetic_params.h"
 #include "hal/virtual/synthetic_scene.h"
 
 #include <Eigen/Core>
@@ -35,14 +36,6 @@ public:
 
 private:
     friend class SensorView;
-    struct WorldParams {
-        std::array<float, 4> lens, distortion, light, mover, background;
-        std::array<std::uint32_t, 4> boxes, table;
-    };
-    struct SensorParams {
-        std::array<float, 4> gain, kernel, noise;
-        std::array<std::uint32_t, 4> seed;
-    };
 
     void uploadLayers(std::uint64_t seed);
     void uploadMaterials();
@@ -53,8 +46,8 @@ private:
     GLuint layers_ = 0;
     gpu::Texture lightMap_;
     gpu::Buffer materials_;
-    gpu::DrawPass<WorldParams> worldPass_;
-    gpu::DrawPass<SensorParams> sensorPass_;
+    gpu::DrawPass<params::SyntheticWorld> worldPass_;
+    gpu::DrawPass<params::SyntheticSensor> sensorPass_;
 };
 
 /// One sensor's pictures of a world. The world and this object live in the same GL context.
@@ -86,7 +79,7 @@ private:
     WorldGl& world_;
     CameraModel camera_;
     SensorLook look_;
-    WorldGl::WorldParams params_{};
+    params::SyntheticWorld params_{};
     std::uint64_t noiseSeed_ = 0;
     int row_ = 0;
     int tilesX_ = 0, tilesY_ = 0;

@@ -9,12 +9,7 @@
 // Shaders read this header, too: gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
-/// A row of a transform: of the rotation, then the translation [m].
-struct alignas(16) Row4 {
-    float x, y, z, w;
-};
-
-/// From one frame to another; may scale first.
+/// From one frame to another [m]: rows of rotation and translation; may scale first.
 struct alignas(16) Transform {
     Row4 rows[3];
 };

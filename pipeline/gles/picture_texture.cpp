@@ -59,9 +59,10 @@ void PictureTexture::allocate(const ImageView& view) {
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_SWIZZLE_B, GL_RED);
     }
     if (isYuv(view.format)) {
-        planes_.emplace(Planes{{},
-                               Framebuffer(picture_),
-                               DrawPass<Params>("picture_from_yuv.frag", variantOf(view.format))});
+        planes_.emplace(
+            Planes{{},
+                   Framebuffer(picture_),
+                   DrawPass<params::YuvPicture>("picture_from_yuv.frag", variantOf(view.format))});
         for (int i = 0; i < planeCount(view.format); ++i)
             planes_->textures[static_cast<std::size_t>(i)] =
                 planeTexture(view.format, view.size, i);
@@ -162,18 +163,14 @@ PictureTexture::Names PictureTexture::uploadPlanes(const ImageView& view) {
 
 void PictureTexture::convert(const ImageView& view, const Names& planes) {
     const YuvToRgb rows = yuvToRgb(view.matrix, view.range);
-    Params params{};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (std::size_t j = 0; j < 3; ++j)
-            params.rows[i][j] = rows[i][j];
-        params.rows[i][3] = rows[i][3] / 255;
-    }
-    params.step[0] = 1.0F / static_cast<float>(size_.width);
-    params.step[1] = 1.0F / static_cast<float>(size_.height);
+    const auto rowOf = [](const auto& r) { return params::Row4{r[0], r[1], r[2], r[3] / 255}; };
+    const params::YuvPicture p{.rows = {rowOf(rows[0]), rowOf(rows[1]), rowOf(rows[2])},
+                               .texelX = 1.0F / static_cast<float>(size_.width),
+                               .texelY = 1.0F / static_cast<float>(size_.height)};
     const auto plane = [&](GLuint unit) {
         return Binding{Binding::Kind::Sampler, unit, planes[unit]};
     };
-    planes_->pass.run(params, {plane(0), plane(1), plane(2)}, planes_->target);
+    planes_->pass.run(p, {plane(0), plane(1), plane(2)}, planes_->target);
 }
 
 }  // namespace mfar::gpu

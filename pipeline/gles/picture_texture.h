@@ -3,6 +3,7 @@
 #include "base/gl/pass.h"
 #include "base/gl/texture.h"
 #include "hal/plane_importer.h"
+#include "pipeline/gles/yuv_params.h"
 
 #include <array>
 #include <cstdint>
@@ -39,15 +40,11 @@ public:
     [[nodiscard]] const Texture& texture() const { return picture_; }
 
 private:
-    struct Params {
-        float rows[3][4];
-        float step[4];
-    };
     /// What pictures in Y U V need on their way.
     struct Planes {
         std::array<Texture, 3> textures;  // as many as the format has planes
         Framebuffer target;
-        DrawPass<Params> pass;
+        DrawPass<params::YuvPicture> pass;
     };
 
     using Names = std::array<GLuint, 3>;  // of the planes' textures

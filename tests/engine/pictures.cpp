@@ -2,6 +2,7 @@
 
 #include "base/gl/gl.h"
 #include "base/gl/pass.h"
+#include "hal/device/scale_params.h"
 
 #include <algorithm>
 #include <cmath>
@@ -126,16 +127,21 @@ RgbPlanes planesOf(const TestPicture& p) {
 }
 
 std::vector<std::uint8_t> sampled(const gpu::Texture& texture) {
-    struct Params {
-        std::int32_t target[4];
-        float scaleFootprint[4];
-        std::int32_t source[4];
-    };
     const Size size = texture.size();
     const gpu::Texture out(size, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer target(out);
-    gpu::DrawPass<Params> copy("display_scale.frag");
-    copy.run({{0, 0, size.width, size.height}, {1, 1, 1, 1}, {size.width, size.height, 0, 0}},
+    gpu::DrawPass<params::ScalePicture> copy("display_scale.frag");
+    copy.run({.left = 0,
+              .top = 0,
+              .width = size.width,
+              .height = size.height,
+              .scaleX = 1,
+              .scaleY = 1,
+              .footprintX = 1,
+              .footprintY = 1,
+              .pictureWidth = size.width,
+              .pictureHeight = size.height,
+              .blueFirst = 0},
              {gpu::sampler(0, texture)}, target);
     return out.readRgba8();
 }

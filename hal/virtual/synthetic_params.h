@@ -1,0 +1,40 @@
+#pragma once
+
+#include "base/lens_params.h"
+
+#include <cstdint>
+
+// The synthetic board: synthetic_world.frag, synthetic_sensor.frag. Shaders read this header, too:
+// gles_shaders/params_to_glsl.cmake.
+namespace mfar::params {
+
+/// Side of the tiles that solids are listed for [px].
+inline constexpr int kSyntheticTile = 16;
+
+/// One bit of 128 solids each.
+struct alignas(16) SolidMask {
+    std::uint32_t first, second, third, fourth;
+};
+
+struct alignas(16) SyntheticWorld {
+    Lens lens;
+    SolidMask boxes;               ///< which solids are boxes
+    float lightX, lightY, lightZ;  ///< unit vector towards the key light, camera frame
+    float moverX, moverY, moverZ;  ///< middle of the moving object, camera frame [m]
+    float moverRadius;             ///< [m]
+    float red, green, blue;        ///< radiance of the background
+    std::uint32_t tileColumns;
+    std::uint32_t variationLayer;  ///< texture layer of the slow variation
+};
+
+struct alignas(16) SyntheticSensor {
+    float redGain, greenGain, blueGain;
+    float inverseGamma;  ///< 1 / gamma
+    std::int32_t blurs;  ///< 1: by the weights of the pixel, its sides and its corners
+    float centreWeight, sideWeight, cornerWeight;
+    std::int32_t noisy;                   ///< 1: with noise of the variance perSignal x + constant
+    float noisePerSignal, noiseConstant;  ///< linear units
+    std::uint32_t seed, channelSeed;
+};
+
+}  // namespace mfar::params
