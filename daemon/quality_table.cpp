@@ -48,6 +48,7 @@ QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
     file.number(prefix + "psnr_db", out.psnrDb, 0, 200);
     file.choice<SuperResMode>(prefix + "mode", out.quality.mode, kModes);
     file.boolean(prefix + "cubic", out.quality.cubic);
+    file.boolean(prefix + "learned", out.quality.learned);
     file.boolean(prefix + "along_lines", out.quality.alongLines);
     file.number(prefix + "detail_share", out.quality.detailShare, kLeastShare, 1);
     for (const LevelKey& key : kLevelKeys)
@@ -87,6 +88,7 @@ name = "lines-quarter-tiles-5"
 ms = 48.4
 psnr_db = 27.26
 mode = "detail"
+learned = false
 detail_share = 0.050
 flow2d.plane_fits = 1
 epipolar.finest = 2
@@ -96,6 +98,7 @@ name = "lines-quarter-tiles-12"
 ms = 60.3
 psnr_db = 27.37
 mode = "detail"
+learned = false
 detail_share = 0.120
 flow2d.plane_fits = 1
 epipolar.finest = 2
@@ -176,6 +179,7 @@ std::string toToml(std::span<const QualityLevel> levels) {
                            "\"{}\"\n",
                            level.name, level.ms, level.psnrDb, name(quality.mode));
         if (!quality.cubic) out += "cubic = false\n";
+        if (!quality.learned) out += "learned = false\n";
         if (!quality.alongLines) out += "along_lines = false\n";
         if (quality.detailShare != usual.detailShare)
             out += fmt::format("detail_share = {:.3f}\n", quality.detailShare);
@@ -194,6 +198,7 @@ std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels, SuperR
             level.quality.mode = best;
         if (best == SuperResMode::Off)
             level.quality = {.mode = SuperResMode::Off, .cubic = level.quality.cubic};
+        if (level.quality.mode != SuperResMode::Detail) level.quality.learned = true;  // not used
         const auto same = [&](const QualityLevel& other) { return other.quality == level.quality; };
         if (std::ranges::none_of(out, same)) out.push_back(level);
     }

@@ -185,7 +185,7 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
 void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
                                  const Match* match) {
     const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles,
-                            options.skips.plainTiles};
+                            options.skips.plainTiles, learns()};
     if (match != nullptr) {
         const DetailStep::Matched matched{*stillPictures, match->weights};
         detail->draw(frame, &matched, work, how);

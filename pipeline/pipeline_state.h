@@ -59,6 +59,7 @@ struct Pipeline::State {
     void forgetMoving(const DepthMatches& matches);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
     [[nodiscard]] Engine& engineOf(EngineKind kind);
+    [[nodiscard]] bool learns() const { return quality.learned && options.engines.learns(); }
     /// Closes a stage of the frame.
     void lap(const char* stage);
 

@@ -126,6 +126,7 @@ struct DetailOptions {
     bool cubic = true;          ///< Quality::cubic
     bool upscaledTiles = true;  ///< SkipOptions::upscaledTiles
     bool plainTiles = true;     ///< SkipOptions::plainTiles
+    bool learned = false;       ///< Quality::learned, where EngineChoice::learns()
 };
 
 class DetailStep {

@@ -89,20 +89,26 @@ HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
     return hn::MulAdd(hn::Sub(right, left), at.fx, left);
 }
 
-void DetailRow(const DetailPairs& detail, const LookUpRows& rows, int begin, int end,
-               std::int16_t* to) {
+void DetailRow(const DetailPairs& detail, const LookUpRows& rows, const std::int16_t* learned,
+               int begin, int end, std::int16_t* to) {
     const F df;
     const I di;
     const hn::Rebind<std::int16_t, F> d16;
     const int lanes = static_cast<int>(hn::Lanes(df));
     const auto pitch = hn::Set(di, static_cast<std::int32_t>(2 * detail.pitch));
     const auto zero = hn::Set(df, 256.0F * 128), scale = hn::Set(df, 32.0F / 256);
+    const auto one = hn::Set(df, 1.0F);
     LookUp lookUp(rows, detail.size, begin);
     for (int x = begin; x < end; x += lanes) {
         const Positions at = lookUp.next(x);
         const auto bytes = hn::Add(hn::Mul(at.y, pitch), hn::Add(at.x, at.x));
         const auto mean = MeanOfFour(GatherAnywhere(detail.data, bytes), at);
-        const auto added = hn::Mul(hn::Sub(mean, zero), hn::Mul(at.share, scale));
+        auto added = hn::Mul(hn::Sub(mean, zero), hn::Mul(at.share, scale));
+        if (learned != nullptr) {
+            const auto rest = hn::Sub(one, hn::Min(at.share, one));
+            const auto residual = hn::ConvertTo(df, hn::PromoteTo(di, hn::LoadU(d16, learned + x)));
+            added = hn::MulAdd(residual, rest, added);
+        }
         hn::StoreU(hn::DemoteTo(d16, hn::NearestInt(added)), d16, to + x);
     }
 }
@@ -125,7 +131,7 @@ public:
             return hn::MulFixedPoint15(hn::LoadU(d, rows[i] + x), hn::Set(d, weights_[i]));
         };
         const auto sum = hn::Add(hn::Add(part(0), part(1)), hn::Add(part(2), part(3)));
-        const auto grey = hn::ShiftRight<5>(hn::Add(sum, added));
+        const auto grey = hn::ShiftRight<5>(hn::SaturatedAdd(sum, added));
         return hn::BitCast(U16(), hn::Min(hn::Max(grey, hn::Zero(d)), hn::Set(d, 255)));
     }
 
@@ -144,7 +150,7 @@ HWY_INLINE void Compose(const EnlargedRows& rows, const std::array<std::int16_t,
     const auto opaque = hn::Set(du, 0xff00);
     HWY_ALIGN std::uint16_t rest[2 * hn::MaxLanes(I16())];
     for (int x = begin; x < end; x += lanes) {
-        const auto more = kAdds ? hn::Add(hn::LoadU(d, added + x), half) : half;
+        const auto more = kAdds ? hn::SaturatedAdd(hn::LoadU(d, added + x), half) : half;
         const auto red = channel(rows[0], x, more), green = channel(rows[1], x, more),
                    blue = channel(rows[2], x, more);
         const auto low = hn::Or(red, hn::ShiftLeft<8>(green)), high = hn::Or(blue, opaque);
@@ -235,9 +241,9 @@ HWY_EXPORT(DetailRow);
 HWY_EXPORT(ComposeRow);
 HWY_EXPORT(BlendRow);
 
-void detailRow(const DetailPairs& detail, const LookUpRows& lookUp, int begin, int end,
-               std::int16_t* to) {
-    HWY_DYNAMIC_DISPATCH(DetailRow)(detail, lookUp, begin, end, to);
+void detailRow(const DetailPairs& detail, const LookUpRows& lookUp, const std::int16_t* learned,
+               int begin, int end, std::int16_t* to) {
+    HWY_DYNAMIC_DISPATCH(DetailRow)(detail, lookUp, learned, begin, end, to);
 }
 
 void composeRow(const EnlargedRows& rows, const std::array<std::int16_t, 4>& weights,

@@ -45,6 +45,7 @@ struct DetailStep::Frame {
     DetailOptions options;
     Rows<std::uint32_t> out;
     bool usesStill, linear;
+    const FilterBank* bank;  // null: nothing is learned
     DetailPairs detail;
     BlendPicture picture;
     const DetailStep& step;
@@ -52,14 +53,15 @@ struct DetailStep::Frame {
 
 DetailStep::Scratch::Scratch(const DetailStep& step)
     : video(step.video_, step.output_.width), lookUps(step.cells_.width, step.output_.width),
-      added({step.output_.width, 1}) {
+      learned(step.video_, step.output_.width), added({step.output_.width, 1}) {
     segments.reserve(step.tiles_.width);
+    spans.reserve(step.tiles_.width);
 }
 
 DetailStep::DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers)
     : rig_(stillRig), video_(rig_.video.size), output_(output), cells_(cellsOf(video_)),
       tiles_(tilesOf(video_)), workers_(std::move(workers)), videoTaps_(video_, output),
-      lookUpRows_(cellTaps(cells_.width, video_.width, output.width)),
+      learnedTaps_(video_, output), lookUpRows_(cellTaps(cells_.width, video_.width, output.width)),
       lookUpColumns_(cellTaps(cells_.height, video_.height, output.height)),
       columnsAt_(tileStarts(tiles_.width, video_.width, output.width)),
       rowsAt_(tileStarts(tiles_.height, video_.height, output.height)), classes_(video_),
@@ -97,8 +99,15 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
         classes_.classify(in.work, usesStill ? in.weighed : Rows<const WeighedCell>{}, in.trust,
                           {options.upscaledTiles, options.plainTiles}, *workers_);
     if (!in.work.drawsWhole() && in.work.changed == 0) return summary;
-    Frame frame{in, options, out,  usesStill, !options.cubic && options.mode == SuperResMode::Off,
-                {}, {},      *this};
+    Frame frame{in,
+                options,
+                out,
+                usesStill,
+                !options.cubic && options.mode == SuperResMode::Off,
+                options.mode == SuperResMode::Detail ? options.learned : nullptr,
+                {},
+                {},
+                *this};
     if (usesStill && blends)
         frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
     else if (usesStill)
@@ -139,19 +148,29 @@ void DetailStep::drawTileRow(const Frame& frame, Scratch& scratch, int row, int 
 }
 
 // Of a row of tiles, those pixels that are drawn.
-void DetailStep::cut(int row, int begin, int end, std::vector<Segment>& segments) const {
+void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const {
+    std::vector<Segment>& segments = scratch.segments;
     segments.clear();
+    scratch.spans.clear();
     for (int column = tileAt(columnsAt_, begin); column < tiles_.width; ++column) {
         const int from = std::max(begin, columnsAt_[column]),
                   to = std::min(end, columnsAt_[column + 1]);
         if (from >= to) continue;
         const Show show = shows_[static_cast<std::size_t>(row) * tiles_.width + column];
         const bool detail = show == Show::Detail;
-        if (!segments.empty() && segments.back().detail == detail)
+        const bool learned = frame.bank != nullptr && frame.in.work.at(column, row).matched != 0;
+        if (!segments.empty() && segments.back().detail == detail &&
+            segments.back().learned == learned)
             segments.back().end = to;
         else
-            segments.push_back({from, to, detail});
+            segments.push_back({from, to, detail, learned});
+        if (!learned) continue;
+        if (!scratch.spans.empty() && scratch.spans.back().end == from)
+            scratch.spans.back().end = to;
+        else
+            scratch.spans.push_back({from, to});
     }
+    if (frame.bank != nullptr) scratch.learned.cover(scratch.spans);
 }
 
 LookUpRows DetailStep::lookUpsOf(const Frame& frame, Scratch& scratch, int y) const {
@@ -180,28 +199,33 @@ LookUpRows DetailStep::lookUpsOf(const Frame& frame, Scratch& scratch, int y) co
 
 void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& strip) const {
     const bool blends = frame.options.mode == SuperResMode::Blend;
-    const bool sharpens = frame.usesStill && !blends;
+    const bool sharpens = frame.usesStill && !blends && frame.bank == nullptr;
     s.video.begin(frame.in.video, sharpens ? frame.in.trust : Rows<const TrustCell>{}, videoTaps_,
                   frame.linear, strip.x0, strip.x1);
     if (frame.usesStill) s.lookUps.begin(frame.in.lookUps, lookUpRows_, strip.x0, strip.x1);
+    if (frame.bank != nullptr)
+        s.learned.begin(frame.in.video, learnedTaps_, *frame.bank, {strip.x0, strip.x1});
     const RowTaps& columns = frame.linear ? videoTaps_.linearColumns : videoTaps_.cubicColumns;
     int row = -1;
     for (int y = strip.y0; y < strip.y1; ++y) {
         if (row < 0 || y >= rowsAt_[row + 1]) {
             row = tileAt(rowsAt_, y);
-            cut(row, strip.x0, strip.x1, s.segments);
+            cut(frame, row, strip.x0, strip.x1, s);
         }
         const ColumnTaps taps = columns.column(y);
         const EnlargedRows rows = s.video.rows(taps.rows);
         std::uint32_t* to = frame.out[y];
-        for (const auto& [begin, end, detail] : s.segments) {
-            if (!detail || blends) composeRow(rows, taps.weights, nullptr, begin, end, to);
+        const std::int16_t* learnedRow =
+            frame.bank != nullptr && !s.spans.empty() ? s.learned.row(y) : nullptr;
+        for (const auto& [begin, end, detail, learned] : s.segments) {
+            const std::int16_t* more = learned ? learnedRow : nullptr;
+            if (!detail || blends) composeRow(rows, taps.weights, more, begin, end, to);
             if (!detail) continue;
             const LookUpRows lookUps = lookUpsOf(frame, s, y);
             if (blends) {
                 blendRow(frame.picture, lookUps, begin, end, to);
             } else {
-                detailRow(frame.detail, lookUps, begin, end, s.added[0]);
+                detailRow(frame.detail, lookUps, more, begin, end, s.added[0]);
                 composeRow(rows, taps.weights, s.added[0], begin, end, to);
             }
         }

@@ -9,6 +9,7 @@
 #include "pipeline/quality.h"
 #include "pipeline/simd/cell_rows.h"
 #include "pipeline/simd/detail_kernels.h"
+#include "pipeline/simd/learned_rows.h"
 #include "pipeline/simd/scratch_slots.h"
 #include "pipeline/simd/tile_classes.h"
 #include "pipeline/simd/video_rows.h"
@@ -23,6 +24,9 @@ struct DetailOptions {
     SuperResMode mode;
     bool cubic;                      ///< see Quality
     bool upscaledTiles, plainTiles;  ///< see SkipOptions
+    /// In mode Detail, tiles with structure are enlarged by these filters as far as the still's
+    /// detail leaves a share, and none is sharpened. Null: as without.
+    const FilterBank* learned = nullptr;
 };
 
 struct DetailInput {
@@ -57,15 +61,17 @@ private:
     /// Pixels of a row that are drawn alike.
     struct Segment {
         int begin, end;
-        bool detail;
+        bool detail, learned;
     };
     struct Frame;
     struct Scratch {
         Scratch(const DetailStep& step);
         VideoRows video;
         CellRows<LookUpCell, 3> lookUps;
+        LearnedRows learned;
         AlignedRows<std::int16_t> added;
         std::vector<Segment> segments;
+        std::vector<LearnedRows::Span> spans;
     };
 
     [[nodiscard]] Show showOf(const Frame& frame, int column, int row) const;
@@ -73,13 +79,14 @@ private:
     void drawPart(const Frame& frame, Scratch& scratch, int first, int last) const;
     void drawTileRow(const Frame& frame, Scratch& scratch, int row, int first, int last) const;
     void drawStrip(const Frame& frame, Scratch& scratch, const PixelRect& strip) const;
-    void cut(int row, int begin, int end, std::vector<Segment>& segments) const;
+    void cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const;
     [[nodiscard]] LookUpRows lookUpsOf(const Frame& frame, Scratch& scratch, int y) const;
 
     StereoRig rig_;
     Size video_, output_, cells_, tiles_;
     std::shared_ptr<Workers> workers_;
     VideoTaps videoTaps_;
+    LearnedTaps learnedTaps_;
     RowTaps lookUpRows_, lookUpColumns_;
     std::vector<int> columnsAt_, rowsAt_;  // first output pixel of each tile, and the end
     TileClasses classes_;

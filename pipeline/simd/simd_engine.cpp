@@ -180,9 +180,11 @@ public:
             in.lookUps = matched->weights.lookUps.host();
             in.trust = matched->weights.trust.host();
         }
-        const simd::TileSummary counts = detail_.draw(
-            in, {options.mode, options.cubic, options.upscaledTiles, options.plainTiles},
-            picture_.rows());
+        const simd::TileSummary counts =
+            detail_.draw(in,
+                         {options.mode, options.cubic, options.upscaledTiles, options.plainTiles,
+                          options.learned ? &FilterBank::prior() : nullptr},
+                         picture_.rows());
         summary_ = summaryOf(counts);
         if (work.changed > 0) output_.writtenOnHost(picture_.rows());
     }

@@ -22,6 +22,7 @@ TEST(QualityTable, WhatIsWrittenIsRead) {
     Quality fast;
     fast.mode = SuperResMode::Blend;
     fast.alongLines = false;
+    fast.learned = false;
     fast.cubic = false;
     fast.depthEvery = 3;
     fast.flow2d = {.searchRadius = 1,

@@ -1,6 +1,4 @@
-#include "pipeline/simd/detail_step.h"
-#include "tests/engine/simd/detail_case.h"
-#include "tests/oracle/still.h"
+#include "tests/engine/simd/detail_oracle.h"
 
 #include <gtest/gtest.h>
 
@@ -8,114 +6,6 @@
 
 namespace mfar::simd {
 namespace {
-
-using twin::Grey;
-
-constexpr std::uint32_t kBefore = 0x12345678;  // what the output held
-constexpr DetailOptions kDetail{SuperResMode::Detail, true, true, true};
-
-/// A frame drawn over kBefore.
-struct Drawn {
-    Drawn(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill = true,
-          int threads = 2)
-        : still(frame.rig, output, std::make_shared<Workers>(threads)),
-          step(still.rig(), output, std::make_shared<Workers>(threads)), out(output) {
-        still.set(frame.stillView());
-        for (int y = 0; y < output.height; ++y)
-            std::fill_n(out[y], output.width, kBefore);
-        summary = step.draw(frame.input(usesStill ? &still : nullptr), options, out.rows());
-    }
-    [[nodiscard]] int channel(int x, int y, int c) const {
-        return static_cast<int>(out[y][x] >> (8 * c) & 255);
-    }
-
-    StillPreparation still;
-    DetailStep step;
-    AlignedRows<std::uint32_t> out;
-    TileSummary summary;
-};
-
-/// What a frame is to look like.
-class Wanted {
-public:
-    Wanted(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill)
-        : frame_(frame), output_(output), options_(options), usesStill_(usesStill) {
-        const bool linear = !options.cubic && options.mode == SuperResMode::Off;
-        for (int c = 0; c < 3; ++c) {
-            Grey plane = twin::greyOf(frame.rig.video.size, [&](int x, int y) {
-                return double(frame.video.row(c, y)[x]);
-            });
-            if (usesStill && options.mode == SuperResMode::Detail) {
-                plane = twin::sharpened(plane, [&](int x, int y) { return strength(x, y); });
-                for (double& value : plane.values)
-                    value = std::clamp(value, 0.0, 255.0);
-            }
-            video_[c] = twin::enlarged(plane, output, linear);
-        }
-        const auto field = [&](auto member) {
-            return twin::greyOf(frame.cells, [&](int x, int y) {
-                return double(frame.lookUps[y * frame.cells.width + x].*member);
-            });
-        };
-        lookUp_ = {field(&LookUpCell::x), field(&LookUpCell::y), field(&LookUpCell::weight),
-                   field(&LookUpCell::confidence)};
-    }
-
-    [[nodiscard]] double enlarged(int x, int y, int c) const {
-        return std::clamp(video_[c].at(x, y), 0.0, 255.0);
-    }
-    /// `stillAt`: detail, or a channel of the still, at (x, y) of it.
-    [[nodiscard]] double withStill(int x, int y, int c, const Grey& still) const {
-        const Size video = frame_.rig.video.size;
-        const double vx = (x + 0.5) * video.width / output_.width,
-                     vy = (y + 0.5) * video.height / output_.height;
-        const auto at = [&](int i) { return lookUp_[i].bilinear(vx / 4 - 0.5, vy / 4 - 0.5); };
-        const double scale = double(still.size.width) / video.width,
-                     scaleY = double(still.size.height) / video.height;
-        const double px = vx * scale + at(0) - 0.5, py = vy * scaleY + at(1) - 0.5;
-        const double there = still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
-                                            std::clamp(py, -1.0, double(still.size.height)));
-        const double up = video_[c].at(x, y);
-        return std::clamp(options_.mode == SuperResMode::Blend
-                              ? std::lerp(std::clamp(up, 0.0, 255.0), there, at(3))
-                              : up + at(2) * (there - 128),
-                          0.0, 255.0);
-    }
-
-private:
-    [[nodiscard]] double strength(int x, int y) const {
-        const auto field = [&](auto member) {
-            return twin::greyOf({2, 2}, [&](int i, int j) {
-                const int cx = std::clamp((x - 2 + 4 * i) >> 2, 0, frame_.cells.width - 1),
-                          cy = std::clamp((y - 2 + 4 * j) >> 2, 0, frame_.cells.height - 1);
-                return double(frame_.trust[cy * frame_.cells.width + cx].*member);
-            });
-        };
-        const double fx = ((x - 2) & 3) / 4.0 + 0.125, fy = ((y - 2) & 3) / 4.0 + 0.125;
-        return (1 - std::min(2 * field(&TrustCell::halfWeight).bilinear(fx, fy), 1.0)) *
-               field(&TrustCell::signal).bilinear(fx, fy);
-    }
-
-    const DetailCase& frame_;
-    Size output_;
-    DetailOptions options_;
-    bool usesStill_;
-    std::array<Grey, 3> video_;
-    std::array<Grey, 4> lookUp_;
-};
-
-Grey detailPlane(const StillPreparation& still) {
-    const Rows<const std::uint8_t> rows = still.detail();
-    return twin::greyOf(rows.size, [&](int x, int y) { return double(rows[y][x]); });
-}
-
-struct Sizes {
-    Size video, still, output;
-};
-const std::vector<Sizes> kSizes{
-    {{160, 120}, {400, 300}, {576, 432}}, {{53, 37}, {200, 140}, {191, 133}},
-    {{16, 16}, {70, 65}, {57, 58}},       {{64, 48}, {200, 150}, {64, 48}},
-    {{100, 60}, {90, 54}, {61, 37}},      {{35, 18}, {64, 33}, {1300, 700}}};
 
 TEST(DetailStep, WholeFrameIsTheOraclesAtAnySize) {
     for (const auto& [video, still, output] : kSizes) {
@@ -169,16 +59,14 @@ TEST(DetailStep, BlendMixesTheStillByItsConfidence) {
     }
 }
 
-/// Tile of an output pixel.
-int tileAt(int pixel, int video, int output) {
-    return static_cast<int>((pixel + 0.5) * video / output) / kTileSize;
-}
-
 TEST(DetailStep, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
     for (const auto& [video, still, output] : kSizes) {
         const DetailCase part(video, still, 0.4), whole(video, still);
-        for (const SuperResMode mode : {SuperResMode::Detail, SuperResMode::Blend}) {
-            const DetailOptions options{mode, true, false, true};
+        for (const auto& [mode, bank] :
+             {std::pair{SuperResMode::Detail, static_cast<const FilterBank*>(nullptr)},
+              {SuperResMode::Detail, &FilterBank::prior()},
+              {SuperResMode::Blend, nullptr}}) {
+            const DetailOptions options{mode, true, false, true, bank};
             const Drawn some(part, output, options), all(whole, output, options);
             for (int y = 0; y < output.height; ++y)
                 for (int x = 0; x < output.width; ++x) {
@@ -252,10 +140,13 @@ TEST(DetailStep, ConstantPictureStaysConstant) {
         std::ranges::fill(frame.videoPixels, static_cast<std::uint8_t>(level));
         std::ranges::fill(frame.stillPixels, static_cast<std::uint8_t>(level));
         frame.video.take(frame.videoView());
-        const Drawn drawn(frame, {191, 133}, kDetail);
-        for (int y = 0; y < 133; ++y)
-            for (int x = 0; x < 191; ++x)
-                ASSERT_EQ(drawn.out[y][x], 0xff000000U | 0x10101U * level) << x << " " << y;
+        for (const FilterBank* bank :
+             {static_cast<const FilterBank*>(nullptr), &evenBank(), &FilterBank::prior()}) {
+            const Drawn drawn(frame, {191, 133}, {SuperResMode::Detail, true, true, true, bank});
+            for (int y = 0; y < 133; ++y)
+                for (int x = 0; x < 191; ++x)
+                    ASSERT_EQ(drawn.out[y][x], 0xff000000U | 0x10101U * level) << x << " " << y;
+        }
     }
 }
 

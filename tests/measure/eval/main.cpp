@@ -123,6 +123,8 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
                     "of the peer `paper`: two-way error at which its confidence is zero [video px]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    sub->add_flag("--no-still", o.superres.noStill,
+                  "give no still to any method, and leave out those that need one");
     sub->add_option("--frames", o.superres.frames, "at most so many frames of each recording")
         ->check(CLI::Range(1, 1000000));
     sub->add_option("--save", o.superres.save, "folder for the pictures of every method and truth");
@@ -158,6 +160,7 @@ Report runSuperRes(Options& o) {
     checkMethods(o.superres.methods, superResMethodNames());
     o.superres.degradation = parseDegradation(o.degrade);
     o.superres.poseNoise = o.poseNoise;
+    if (o.superres.noStill) std::erase_if(o.superres.methods, needsStill);
     return evaluateSuperRes(o.superres);
 }
 

@@ -101,6 +101,20 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
     EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1001_truth.png"));
 }
 
+TEST(MfarEval, SuperResWithoutAStillComparesWhatEnlargesTheVideo) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const Outcome outcome = execute(
+        folder, fmt::format("{0} superres {1}/tiny --no-still --methods detail,detail2d,bicubic "
+                            "--csv {1}/out.csv",
+                            MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2) << "detail2d needs a still";
+    EXPECT_EQ(rows[1][2], "detail");
+    EXPECT_EQ(rows[2][2], "bicubic");
+}
+
 TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);

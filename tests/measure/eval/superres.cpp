@@ -32,7 +32,7 @@ public:
         cv::Mat bicubicPicture;
         cv::resize(frame.picture, bicubicPicture, truthPicture.size(), 0, 0, cv::INTER_CUBIC);
         const cv::Mat bicubic = luma(withoutBorder(bicubicPicture));
-        setStill(sample);
+        if (!request_.noStill) setStill(sample);
         const std::string name = std::to_string(sample.video.time.ns);
         save(name, "truth", truthPicture);
         for (std::size_t i = 0; i < methods_.size(); ++i) {

@@ -15,6 +15,7 @@ namespace mfar::eval {
 struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
     std::vector<std::string> methods;  ///< of superResMethodNames()
+    bool noStill = false;              ///< the video alone is enlarged
     Degradation degradation;           ///< done to every still
     PoseSource poses = PoseSource::Recorded;
     PoseNoise poseNoise;         ///< of every frame

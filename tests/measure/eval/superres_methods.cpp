@@ -90,6 +90,10 @@ const std::vector<std::string>& superResMethodNames() {
     return names;
 }
 
+bool needsStill(const std::string& method) {
+    return method == "detail2d" || method == "blend" || method == "paper";
+}
+
 std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
                                                         const StereoRig& rig) {
     if (name == "bicubic") return std::make_unique<Upscaling>(outputSize(rig), cv::INTER_CUBIC);

@@ -24,6 +24,8 @@ public:
 
 /// What --methods accepts for superres.
 [[nodiscard]] const std::vector<std::string>& superResMethodNames();
+/// Does this method say nothing, or nothing of its own, without a still?
+[[nodiscard]] bool needsStill(const std::string& method);
 
 /// The methods of this product need a GL context: it is created on first need and stays current.
 /// Throws std::invalid_argument for an unknown name.

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "base/rows.h"
+#include "pipeline/enlarge/filter_layout.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mfar {
+
+/// Stored filters cannot be used. The message says which and why.
+class FilterBankError : public std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Filters of the learned enlarger, one for each class; see filter_layout.h. Immutable.
+class FilterBank {
+public:
+    /// Weights of a class, with 16384 as one, halved: the residuals of both classes are added.
+    using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
+
+    /// `unique`: kUnique filters, those by gradient first. Throws FilterBankError.
+    explicit FilterBank(std::span<const Filter> unique);
+    /// What the product ships: learned by mfar-train-enlarger, part of the program.
+    [[nodiscard]] static const FilterBank& prior();
+
+    /// A row per class.
+    [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
+    [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
+    /// Keys' cubic on the same grid, less the pixel, as a filter: with 16384 as one, not halved.
+    [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
+
+private:
+    AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
+};
+
+/// The stored form: "mfarfilt", then little-endian 32-bit numbers: version, filters by gradient and
+/// by curvature, taps, phases; the weights, 16 bits each; the FNV-1a sum of all that.
+[[nodiscard]] std::vector<std::uint8_t> storedFilters(std::span<const FilterBank::Filter> unique);
+/// Reads it. `name` is for messages. Throws FilterBankError for anything that is not whole.
+[[nodiscard]] std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
+                                                          const std::string& name);
+
+}  // namespace mfar

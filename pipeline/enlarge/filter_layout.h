@@ -1,0 +1,95 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+/// What the learned enlarger, its trainer and its tests have to agree on. After RAISR (Romano,
+/// Isidoro, Milanfar, 2017): a picture's luma on a grid of 4x4 sub-pixels per pixel is Keys' cubic
+/// plus a residual, a sum of the 24 neighbours' differences to the pixel, whose weights depend on
+/// the pixel's class. The mean of two such residuals is used, of two ways to make classes.
+namespace mfar::enlarge {
+
+inline constexpr int kGrid = 4;  ///< sub-pixels of a pixel along each axis
+inline constexpr int kPhases = kGrid * kGrid, kTaps = 24, kPairs = kTaps / 2;
+/// Numbers of a filter: [pair of taps][phase, row-major][tap of the pair].
+inline constexpr int kFilterSize = kTaps * kPhases;
+[[nodiscard]] constexpr int filterIndex(int tap, int phase) {
+    return (tap / 2 * kPhases + phase) * 2 + tap % 2;
+}
+
+struct Offset {
+    int x, y;
+    bool operator==(const Offset&) const = default;
+};
+/// Where the taps lie, [px]. Pairs lie side by side, but for the last two: these below each other.
+inline constexpr std::array<Offset, kTaps> kTapAt{
+    {{-2, -2}, {-1, -2}, {0, -2}, {1, -2}, {-2, -1}, {-1, -1}, {0, -1}, {1, -1},
+     {-2, 1},  {-1, 1},  {0, 1},  {1, 1},  {-2, 2},  {-1, 2},  {0, 2},  {1, 2},
+     {-2, 0},  {-1, 0},  {1, 0},  {2, 0},  {2, -2},  {2, -1},  {2, 1},  {2, 2}}};
+[[nodiscard]] constexpr int tapAt(Offset at) {
+    for (int i = 0; i < kTaps; ++i)
+        if (kTapAt[static_cast<std::size_t>(i)] == at) return i;
+    return -1;
+}
+
+inline constexpr int kLumaScale = 8;        ///< luma in steps of 1/8 grey level
+inline constexpr int kWeightScale = 16384;  ///< a weight of one, of the sum of both residuals
+inline constexpr int kResidualScale = 32;   ///< residuals in steps of 1/32 grey level
+
+/// By the structure tensor, the sum of the gradient's products over 5x5 pixels: angle of its main
+/// axis, square root of the larger eigenvalue [grey levels per px], (s1 - s2) / (s1 + s2) of both
+/// roots. Class: (angle * strengths + strength) * coherences + coherence.
+struct GradientClasses {
+    static constexpr int kAngles = 16;
+    static constexpr std::array<float, 3> kStrengthFrom{2, 6, 16};
+    static constexpr std::array<float, 2> kCoherenceFrom{0.25F, 0.5F};
+    static constexpr int kKinds = 4 * 3;  ///< of an angle
+    static constexpr int kCount = kAngles * kKinds;
+};
+/// By the second derivatives: angle of the main axis, Laplacian, difference of the eigenvalues
+/// [grey levels per px^2]. Class: (angle * Laplacians + Laplacian) * differences + difference.
+struct CurvatureClasses {
+    static constexpr int kAngles = 8;
+    static constexpr std::array<float, 6> kLaplacianFrom{-24, -8, -2.5F, 2.5F, 8, 24};
+    static constexpr std::array<float, 3> kDifferenceFrom{3, 10, 25};
+    static constexpr int kKinds = 7 * 4;
+    static constexpr int kCount = kAngles * kKinds;
+};
+
+/// Angles of [-pi/2, pi/2) in equal bins; those of one quadrant of the double angle are mapped onto
+/// the others by mirroring the picture, so that only their filters are stored.
+struct Symmetry {
+    int unique;                ///< bin within [0, bins / 4)
+    bool mirrors, transposes;  ///< turn the picture upside down first, then exchange x and y
+
+    [[nodiscard]] static constexpr Symmetry of(int bin, int bins) {
+        const bool lower = bin < bins / 2;  // the double angle's sine is negative
+        const int inHalf = bin % (bins / 2);
+        const bool left = lower == (inHalf < bins / 4);  // its cosine is negative
+        const bool ascends = lower == left;
+        return {ascends ? inHalf : bins / 2 - 1 - inHalf, lower, left};
+    }
+    /// Where something at `v` comes to lie; phases count from `last` / 2.
+    [[nodiscard]] constexpr Offset map(Offset v, int last = 0) const {
+        const Offset mirrored{v.x, mirrors ? last - v.y : v.y};
+        return transposes ? Offset{mirrored.y, mirrored.x} : mirrored;
+    }
+    [[nodiscard]] constexpr int tap(int i) const {
+        return tapAt(map(kTapAt[static_cast<std::size_t>(i)]));
+    }
+    [[nodiscard]] constexpr int phase(int i) const {
+        const Offset at = map({i % kGrid, i / kGrid}, kGrid - 1);
+        return at.y * kGrid + at.x;
+    }
+};
+/// Stored filters of both kinds of classes.
+inline constexpr int kUniqueGradient = GradientClasses::kCount / 4;
+inline constexpr int kUniqueCurvature = CurvatureClasses::kCount / 4;
+inline constexpr int kUnique = kUniqueGradient + kUniqueCurvature;
+
+/// The residual is limited so that the sum with the cubic stays in the range of the surrounding 5x5
+/// pixels, made larger on both sides by this share of it, as a power of two: a quarter.
+inline constexpr int kOvershootShift = 2;
+
+}  // namespace mfar::enlarge

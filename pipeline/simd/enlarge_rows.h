@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace mfar::simd {
+
+// Rows of the learned enlarger: pixels [begin, end) of a picture; see pipeline/enlarge. Luma is in
+// 1/8 grey level and is read up to three pixels before `begin` and behind `end`. All rows but the
+// colours may be read and written up to 64 bytes behind that.
+
+/// Rec. 601 luma of red, green and blue.
+void lumaEighthsRow(const std::array<const std::uint8_t*, 3>& rgb, int begin, int end,
+                    std::int16_t* to);
+
+/// Classes of the middle one of seven rows, as GradientClasses and CurvatureClasses number them.
+/// `sums`: scratch, three rows, used from two pixels before `begin` on.
+void classRow(const std::array<const std::int16_t*, 7>& luma, int begin, int end,
+              const std::array<float*, 3>& sums, std::uint16_t* gradient, std::uint16_t* curvature);
+
+/// Range that sums with the residual have to stay in, relative to the pixel: that of 5x5 pixels,
+/// with what it may be exceeded by [1/8 grey level].
+void rangeRow(const std::array<const std::int16_t*, 5>& luma, int begin, int end,
+              std::int16_t* lowest, std::int16_t* highest);
+
+/// Where filters lie: rows of FilterBank, `pitch` numbers apart.
+struct FilterRows {
+    const std::int16_t *gradient, *curvature, *cubic;
+    std::ptrdiff_t gradientPitch, curvaturePitch;
+};
+/// What the residual of a row is made of.
+struct ResidualInput {
+    std::array<const std::int16_t*, 5> luma;
+    const std::uint16_t *gradient, *curvature;
+    const std::int16_t *lowest, *highest;
+};
+/// Four rows of the grid, of four values per pixel [1/32 grey level].
+void residualRows(const ResidualInput& in, const FilterRows& filters, int begin, int end,
+                  const std::array<std::int16_t*, 4>& to);
+
+/// Values between two rows: a + t (b - a).
+void mixedRow(const std::int16_t* a, const std::int16_t* b, float t, int begin, int end, float* to);
+
+}  // namespace mfar::simd

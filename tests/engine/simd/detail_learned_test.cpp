@@ -1,0 +1,63 @@
+#include "tests/engine/simd/detail_oracle.h"
+
+#include <gtest/gtest.h>
+
+namespace mfar::simd {
+namespace {
+
+constexpr double kLearnedError = 1.3;  // luma is in 1/8 grey level, limits in quarters of that
+
+TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
+    for (const auto& [video, still, output] : kSizes)
+        for (const bool usesStill : {true, false}) {
+            if (output.width > 1000) continue;  // slow, and its video is small
+            const DetailCase frame(video, still);
+            const DetailOptions options{SuperResMode::Detail, true, false, true, &evenBank()};
+            const Drawn drawn(frame, output, options, usesStill);
+            const Wanted wanted(frame, output, options, usesStill);
+            const Grey detail = detailPlane(drawn.still);
+            double most = 0;
+            const Drawn without(frame, output, {SuperResMode::Detail, true, false, true}, false);
+            for (int y = 0; y < output.height; ++y)
+                for (int x = 0; x < output.width; ++x)
+                    for (int c = 0; c < 3; ++c) {
+                        const double value = usesStill ? wanted.withStill(x, y, c, detail)
+                                                       : wanted.enlarged(x, y, c);
+                        ASSERT_NEAR(drawn.channel(x, y, c), value, kLearnedError)
+                            << output.width << ": " << x << " " << y << " " << c;
+                        most = std::max(most, std::abs(value - without.channel(x, y, c)));
+                    }
+            EXPECT_GT(most, 4) << "the filters would show";
+        }
+}
+
+TEST(DetailStepLearned, TilesWithoutStructureAreNotEnlargedByFilters) {
+    const Size output{576, 432};
+    DetailCase frame({160, 120}, {400, 300});
+    for (std::size_t i = 0; i < frame.work.flags.size(); ++i)
+        frame.work.flags[i].matched = i % 3 == 0;
+    const DetailOptions options{SuperResMode::Detail, true, true, true, &evenBank()};
+    const Drawn drawn(frame, output, options, false);
+    const Wanted with(frame, output, options, false), without(frame, output, kDetail, false);
+    for (int y = 0; y < output.height; ++y)
+        for (int x = 0; x < output.width; ++x) {
+            const int tile = tileAt(y, 120, 432) * frame.work.tiles.width + tileAt(x, 160, 576);
+            ASSERT_NEAR(drawn.channel(x, y, 1), (tile % 3 == 0 ? with : without).enlarged(x, y, 1),
+                        kLearnedError)
+                << x << " " << y;
+        }
+}
+
+TEST(DetailStepLearned, OtherModesDoNotUseTheFilters) {
+    const Size output{191, 133};
+    const DetailCase frame({53, 37}, {200, 140});
+    for (const SuperResMode mode : {SuperResMode::Off, SuperResMode::Blend}) {
+        const Drawn with(frame, output, {mode, true, true, true, &evenBank()}),
+            without(frame, output, {mode, true, true, true});
+        for (int y = 0; y < output.height; ++y)
+            ASSERT_TRUE(std::equal(with.out[y], with.out[y] + output.width, without.out[y]));
+    }
+}
+
+}  // namespace
+}  // namespace mfar::simd

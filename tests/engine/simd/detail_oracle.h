@@ -1,0 +1,160 @@
+#pragma once
+
+#include "pipeline/simd/detail_step.h"
+#include "tests/engine/simd/detail_case.h"
+#include "tests/oracle/enlarge.h"
+#include "tests/oracle/still.h"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+/// Frames as the detail step draws them, and as they are to look.
+namespace mfar::simd {
+
+using twin::Grey;
+
+inline constexpr std::uint32_t kBefore = 0x12345678;  // what the output held
+inline constexpr DetailOptions kDetail{SuperResMode::Detail, true, true, true};
+
+/// A frame drawn over kBefore.
+struct Drawn {
+    Drawn(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill = true,
+          int threads = 2)
+        : still(frame.rig, output, std::make_shared<Workers>(threads)),
+          step(still.rig(), output, std::make_shared<Workers>(threads)), out(output) {
+        still.set(frame.stillView());
+        for (int y = 0; y < output.height; ++y)
+            std::fill_n(out[y], output.width, kBefore);
+        summary = step.draw(frame.input(usesStill ? &still : nullptr), options, out.rows());
+    }
+    [[nodiscard]] int channel(int x, int y, int c) const {
+        return static_cast<int>(out[y][x] >> (8 * c) & 255);
+    }
+
+    StillPreparation still;
+    DetailStep step;
+    AlignedRows<std::uint32_t> out;
+    TileSummary summary;
+};
+
+/// What a frame is to look like.
+class Wanted {
+public:
+    Wanted(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill)
+        : frame_(frame), output_(output), options_(options), usesStill_(usesStill) {
+        const bool linear = !options.cubic && options.mode == SuperResMode::Off;
+        for (int c = 0; c < 3; ++c) {
+            Grey plane = twin::greyOf(frame.rig.video.size, [&](int x, int y) {
+                return double(frame.video.row(c, y)[x]);
+            });
+            const bool learned = options.learned != nullptr;
+            if (usesStill && options.mode == SuperResMode::Detail && !learned) {
+                plane = twin::sharpened(plane, [&](int x, int y) { return strength(x, y); });
+                for (double& value : plane.values)
+                    value = std::clamp(value, 0.0, 255.0);
+            }
+            video_[c] = twin::enlarged(plane, output, linear);
+        }
+        if (options.learned != nullptr) addLearned();
+        const auto field = [&](auto member) {
+            return twin::greyOf(frame.cells, [&](int x, int y) {
+                return double(frame.lookUps[y * frame.cells.width + x].*member);
+            });
+        };
+        lookUp_ = {field(&LookUpCell::x), field(&LookUpCell::y), field(&LookUpCell::weight),
+                   field(&LookUpCell::confidence)};
+    }
+
+    [[nodiscard]] double enlarged(int x, int y, int c) const {
+        return std::clamp(video_[c].at(x, y), 0.0, 255.0);
+    }
+    /// `stillAt`: detail, or a channel of the still, at (x, y) of it.
+    [[nodiscard]] double withStill(int x, int y, int c, const Grey& still) const {
+        const Size video = frame_.rig.video.size;
+        const double vx = (x + 0.5) * video.width / output_.width,
+                     vy = (y + 0.5) * video.height / output_.height;
+        const auto at = [&](int i) { return lookUp_[i].bilinear(vx / 4 - 0.5, vy / 4 - 0.5); };
+        const double scale = double(still.size.width) / video.width,
+                     scaleY = double(still.size.height) / video.height;
+        const double px = vx * scale + at(0) - 0.5, py = vy * scaleY + at(1) - 0.5;
+        const double there = still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
+                                            std::clamp(py, -1.0, double(still.size.height)));
+        double up = video_[c].at(x, y);
+        if (options_.learned != nullptr)  // by what the detail leaves
+            up -= std::min(at(2), 1.0) * residual_.at(x, y);
+        return std::clamp(options_.mode == SuperResMode::Blend
+                              ? std::lerp(std::clamp(up, 0.0, 255.0), there, at(3))
+                              : up + at(2) * (there - 128),
+                          0.0, 255.0);
+    }
+
+private:
+    void addLearned() {
+        const Grey luma = twin::greyOf(frame_.rig.video.size, [&](int x, int y) {
+            const auto at = [&](int c) { return double(frame_.video.row(c, y)[x]); };
+            return std::round(8 * (0.299 * at(0) + 0.587 * at(1) + 0.114 * at(2))) / 8;
+        });
+        residual_ = twin::learnedResidual(luma, output_, *options_.learned);
+        for (Grey& plane : video_)
+            for (std::size_t i = 0; i < plane.values.size(); ++i)
+                plane.values[i] += residual_.values[i];
+    }
+    [[nodiscard]] double strength(int x, int y) const {
+        const auto field = [&](auto member) {
+            return twin::greyOf({2, 2}, [&](int i, int j) {
+                const int cx = std::clamp((x - 2 + 4 * i) >> 2, 0, frame_.cells.width - 1),
+                          cy = std::clamp((y - 2 + 4 * j) >> 2, 0, frame_.cells.height - 1);
+                return double(frame_.trust[cy * frame_.cells.width + cx].*member);
+            });
+        };
+        const double fx = ((x - 2) & 3) / 4.0 + 0.125, fy = ((y - 2) & 3) / 4.0 + 0.125;
+        return (1 - std::min(2 * field(&TrustCell::halfWeight).bilinear(fx, fy), 1.0)) *
+               field(&TrustCell::signal).bilinear(fx, fy);
+    }
+
+    const DetailCase& frame_;
+    Size output_;
+    DetailOptions options_;
+    bool usesStill_;
+    std::array<Grey, 3> video_;
+    Grey residual_;
+    std::array<Grey, 4> lookUp_;
+};
+
+inline Grey detailPlane(const StillPreparation& still) {
+    const Rows<const std::uint8_t> rows = still.detail();
+    return twin::greyOf(rows.size, [&](int x, int y) { return double(rows[y][x]); });
+}
+
+struct Sizes {
+    Size video, still, output;
+};
+inline const std::vector<Sizes> kSizes{
+    {{160, 120}, {400, 300}, {576, 432}}, {{53, 37}, {200, 140}, {191, 133}},
+    {{16, 16}, {70, 65}, {57, 58}},       {{64, 48}, {200, 150}, {64, 48}},
+    {{100, 60}, {90, 54}, {61, 37}},      {{35, 18}, {64, 33}, {1300, 700}}};
+
+/// Tile of an output pixel.
+inline int tileAt(int pixel, int video, int output) {
+    return static_cast<int>((pixel + 0.5) * video / output) / kTileSize;
+}
+
+/// The same filter for every class, so that no rounding decides which is used. Filters are mirrored
+/// for classes: this one is its own mirror image.
+inline const FilterBank& evenBank() {
+    static const FilterBank bank([] {
+        FilterBank::Filter filter;
+        for (int tap = 0; tap < enlarge::kTaps; ++tap)
+            for (int phase = 0; phase < enlarge::kPhases; ++phase) {
+                const auto [x, y] = enlarge::kTapAt[tap];
+                const double d = std::hypot(x - (phase % 4 - 1.5) / 4, y - (phase / 4 - 1.5) / 4);
+                filter[enlarge::filterIndex(tap, phase)] =
+                    static_cast<std::int16_t>(std::lround(-2500 * std::cos(2 * d) * std::exp(-d)));
+            }
+        return std::vector(enlarge::kUnique, filter);
+    }());
+    return bank;
+}
+
+}  // namespace mfar::simd

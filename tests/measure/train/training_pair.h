@@ -1,0 +1,40 @@
+#pragma once
+
+#include "base/rows.h"
+#include "tests/oracle/upscale.h"
+
+#include <cstdint>
+
+namespace mfar::train {
+
+/// How a video camera would have seen a sharp picture.
+struct Sensor {
+    double noise = 0;  ///< standard deviation [grey levels]
+    double blur = 0;   ///< weight of each of the two neighbours along both axes, [0, 1/3]
+    unsigned seed = 1;
+};
+
+/// A picture as a video camera sees it, and what Keys' cubic is wrong by on the grid of sub-pixels.
+class TrainingPair {
+public:
+    static constexpr int kMargin = 64;  ///< columns on both sides of the picture
+
+    /// `sharp`: luma in grey levels, at least 64x64. The video is its mean over the area of each
+    /// pixel, of kScale times the size, in whole grey levels.
+    TrainingPair(const twin::Grey& sharp, const Sensor& sensor);
+
+    [[nodiscard]] Size size() const { return size_; }
+    /// [1/8 grey level]; rows and columns beyond the border repeat it.
+    [[nodiscard]] const std::int16_t* row(int y) const;
+    /// [grey levels]
+    [[nodiscard]] double target(int x, int y) const { return target_.at(x, y); }
+
+    static constexpr double kScale = 9.0 / 32;
+
+private:
+    Size size_;
+    AlignedRows<std::int16_t> luma_;
+    twin::Grey target_;
+};
+
+}  // namespace mfar::train
