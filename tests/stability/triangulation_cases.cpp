@@ -21,6 +21,7 @@ Points triangulate(Context& c, const twin::TwoViews& views, const std::vector<fl
                    const TriangulationOptions& options) {
     Triangulation stage(views.a, views.b);
     Points points = stage.run(flow, views.T_b_a, options);
+    c.checks.tried("Triangulation", static_cast<long>(points.size()));
     for (const TriangulatedPoint& p : points) {
         c.checks.within(p.inverseDepth, 0, 1e6, "inverse depth");
         c.checks.within(p.sigma, 0, kUnknownSigma, "sigma");

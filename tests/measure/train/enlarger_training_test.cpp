@@ -30,7 +30,7 @@ EnlargerTraining::Outcome learnedFrom(int pictures, double noise) {
 }
 
 TEST(EnlargerTraining, PicturesOfDiscsAreLearned) {
-    const auto outcome = learnedFrom(6, 0);
+    const auto outcome = learnedFrom(16, 0);
     EXPECT_EQ(outcome.filters.size(), std::size_t{enlarge::kUnique});
     EXPECT_GT(outcome.used, 20);
     for (const int by : {0, 1})
