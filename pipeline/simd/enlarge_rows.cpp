@@ -25,7 +25,7 @@ using I16 = hn::ScalableTag<std::int16_t>;
 using U8 = hn::Rebind<std::uint8_t, I16>;
 
 constexpr std::int16_t fixed15(double value) {
-    return static_cast<std::int16_t>(value * 32768 + 0.5);
+    return static_cast<std::int16_t>(value * 32768 + (value < 0 ? -0.5 : 0.5));
 }
 // Of 1/64 grey level, from bytes times 128. Their sum is a half to the bit: grey stays grey.
 constexpr std::int16_t kRed = fixed15(0.299 / 2), kBlue = fixed15(0.114 / 2);
@@ -79,7 +79,7 @@ HWY_INLINE hn::Vec<F> AngleBin(hn::Vec<F> cosine, hn::Vec<F> sine) {
     }
     const auto left = hn::Lt(cosine, hn::Zero(d)), lower = hn::Lt(sine, hn::Zero(d));
     const auto descends = hn::Xor(left, lower);
-    bin = hn::IfThenElse(descends, hn::Sub(hn::Set(d, kBins / 2 - 1.0F), bin), bin);
+    bin = hn::IfThenElse(descends, hn::Sub(hn::Set(d, 0.5F * kBins - 1), bin), bin);
     return hn::Add(bin, hn::IfThenElse(lower, hn::Zero(d), hn::Set(d, kBins / 2.0F)));
 }
 

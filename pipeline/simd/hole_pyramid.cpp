@@ -7,6 +7,12 @@
 namespace mfar::simd {
 namespace {
 
+/// Of a value from 0 on. Cheaper than lround().
+std::uint32_t rounded(float value) {
+    const float above = value + 0.5F;
+    return static_cast<std::uint32_t>(above);
+}
+
 constexpr int kCrackLevels = 2;  // that a crack needs
 constexpr std::uint32_t kAnyObject = 254;
 constexpr int kBlockShift = HolePyramid::kLevels;  // a block is a texel of the coarsest level
@@ -41,13 +47,13 @@ struct Mixture {
         if (!(weight > 0)) return 0;
         std::uint32_t out = 0;
         for (unsigned c = 0; c < 4; ++c)
-            out |= static_cast<std::uint32_t>(std::min(rgba[c] / weight, 255.0F) + 0.5F) << 8 * c;
+            out |= rounded(std::min(rgba[c] / weight, 255.0F)) << 8 * c;
         return out;
     }
 };
 
 std::uint8_t halfWeight(float sum) {
-    return static_cast<std::uint8_t>(std::min(0.5F * sum, 255.0F) + 0.5F);
+    return static_cast<std::uint8_t>(rounded(std::min(0.5F * sum, 255.0F)));
 }
 
 }  // namespace
@@ -240,7 +246,7 @@ void HolePyramid::fillHole(const Layer& layer, Hole& hole, bool pushPull) const 
     for (unsigned c = 0; c < 4; ++c) {
         const float own = static_cast<float>(hole.colour >> 8 * c & 255U);
         const float value = std::min(own + part * sum.rgba[c] / sum.weight, 255.0F);
-        out |= static_cast<std::uint32_t>(value + 0.5F) << 8 * c;
+        out |= rounded(value) << 8 * c;
     }
     layer.colour[y][x] = out;
 }

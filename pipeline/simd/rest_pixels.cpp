@@ -60,7 +60,8 @@ Point3 scaled(float by, const Point3& p) {
 }
 
 std::uint32_t byteOf(float value) {
-    return static_cast<std::uint32_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+    const float above = std::clamp(value, 0.0F, 255.0F) + 0.5F;
+    return static_cast<std::uint32_t>(above);
 }
 
 }  // namespace

@@ -104,7 +104,19 @@ struct Found {
     M left;
 };
 
-HWY_INLINE Found LookUp(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
+/// What a vector of pixels asks for: the surface that each shows, and where it lies in the
+/// reference.
+struct Asked {
+    V z;                           ///< to the layer's camera
+    VU id;                         ///< number of the surface
+    M ofCatcher;                   ///< the surface is the catcher
+    M empty;                       ///< nothing is there
+    M asked;                       ///< the reference is read
+    V thereZ;                      ///< z to the reference's camera
+    V pixelX, pixelY, lowX, lowY;  ///< in the reference, and rounded down [px]
+};
+
+HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
     const D d;
     const DU du;
     const V zero = hn::Zero(d);
@@ -132,37 +144,47 @@ HWY_INLINE Found LookUp(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     const M inner = hn::And(hn::And(hn::Ge(lowX, zero), hn::Le(lowX, last(in.reference.width))),
                             hn::And(hn::Ge(lowY, zero), hn::Le(lowY, last(in.reference.height))));
     const M asked = hn::And(hn::And(inner, before), hn::AndNot(empty, whole));
-    Found out{hn::Zero(du), zero, hn::Zero(du),
-              hn::AndNot(hn::Or(asked, empty), hn::FirstN(d, hn::Lanes(d)))};
-    if (!hn::AllFalse(d, asked)) {
-        const V width = hn::Set(d, static_cast<float>(in.reference.width));
-        // Pictures of up to 2^24 pixels: whole numbers of single precision.
-        const VI row = hn::ConvertTo(DI(), hn::IfThenElseZero(asked, lowY));
-        const VI at = hn::Add(hn::Mul(row, hn::ConvertTo(DI(), width)),
-                              hn::ConvertTo(DI(), hn::IfThenElseZero(asked, lowX)));
-        const Four t = GatherFour(in.packed, at, in.reference.width);
-        const V tolerance = hn::Mul(there.z, hn::Set(d, kSameDepth));
-        const M close =
-            hn::And(hn::And(IsClose(t.a, there.z, tolerance), IsClose(t.b, there.z, tolerance)),
-                    hn::And(IsClose(t.c, there.z, tolerance), IsClose(t.d, there.z, tolerance)));
-        const M nothing =
-            AsFloats(hn::Eq(hn::Or(hn::Or(t.a, t.b), hn::Or(t.c, t.d)), hn::Zero(du)));
-        const M shown = hn::Or(hn::And(close, AllShow(t, id)), hn::And(ofCatcher, nothing));
-        const M plain = hn::And(asked, shown);
-        const M coloured = hn::AndNot(nothing, plain);
-        if (!hn::AllFalse(d, coloured)) {
-            const Four colours = GatherFour(in.colours, at, in.reference.width);
-            const VU found =
-                Blend(colours, WeightsOf(hn::Sub(pixel.x, lowX), hn::Sub(pixel.y, lowY)));
-            out.colour = hn::BitCast(du, hn::IfThenElseZero(coloured, hn::BitCast(d, found)));
-            const M visible = AsFloats(hn::Gt(hn::ShiftRight<24>(out.colour), hn::Zero(du)));
-            const V lifted = hn::IfThenElse(ofCatcher, hn::Mul(z, hn::Set(d, in.shownDepth)), z);
-            out.depth = hn::IfThenElseZero(visible, lifted);
-        }
-        out.state =
-            hn::BitCast(du, hn::IfThenElseZero(plain, hn::BitCast(d, hn::ShiftLeft<24>(id))));
-        out.left = hn::Or(out.left, hn::AndNot(plain, asked));
+    return {z, id, ofCatcher, empty, asked, there.z, pixel.x, pixel.y, lowX, lowY};
+}
+
+/// Reads the reference where `a` asks for it.
+HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, Found& out) {
+    const D d;
+    const DU du;
+    const V width = hn::Set(d, static_cast<float>(in.reference.width));
+    // Pictures of up to 2^24 pixels: whole numbers of single precision.
+    const VI row = hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowY));
+    const VI at = hn::Add(hn::Mul(row, hn::ConvertTo(DI(), width)),
+                          hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowX)));
+    const Four t = GatherFour(in.packed, at, in.reference.width);
+    const V tolerance = hn::Mul(a.thereZ, hn::Set(d, kSameDepth));
+    const M close =
+        hn::And(hn::And(IsClose(t.a, a.thereZ, tolerance), IsClose(t.b, a.thereZ, tolerance)),
+                hn::And(IsClose(t.c, a.thereZ, tolerance), IsClose(t.d, a.thereZ, tolerance)));
+    const M nothing = AsFloats(hn::Eq(hn::Or(hn::Or(t.a, t.b), hn::Or(t.c, t.d)), hn::Zero(du)));
+    const M shown = hn::Or(hn::And(close, AllShow(t, a.id)), hn::And(a.ofCatcher, nothing));
+    const M plain = hn::And(a.asked, shown);
+    const M coloured = hn::AndNot(nothing, plain);
+    if (!hn::AllFalse(d, coloured)) {
+        const Four colours = GatherFour(in.colours, at, in.reference.width);
+        const VU found =
+            Blend(colours, WeightsOf(hn::Sub(a.pixelX, a.lowX), hn::Sub(a.pixelY, a.lowY)));
+        out.colour = hn::BitCast(du, hn::IfThenElseZero(coloured, hn::BitCast(d, found)));
+        const M visible = AsFloats(hn::Gt(hn::ShiftRight<24>(out.colour), hn::Zero(du)));
+        const V lifted = hn::IfThenElse(a.ofCatcher, hn::Mul(a.z, hn::Set(d, in.shownDepth)), a.z);
+        out.depth = hn::IfThenElseZero(visible, lifted);
     }
+    out.state = hn::BitCast(du, hn::IfThenElseZero(plain, hn::BitCast(d, hn::ShiftLeft<24>(a.id))));
+    out.left = hn::Or(out.left, hn::AndNot(plain, a.asked));
+}
+
+HWY_INLINE Found LookUp(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
+    const D d;
+    const DU du;
+    const Asked a = AskFor(in, s, rayX, rayY);
+    Found out{hn::Zero(du), hn::Zero(d), hn::Zero(du),
+              hn::AndNot(hn::Or(a.asked, a.empty), hn::FirstN(d, hn::Lanes(d)))};
+    if (!hn::AllFalse(d, a.asked)) ReadReference(in, a, out);
     return out;
 }
 

@@ -97,6 +97,15 @@ void comparePyramids(Context& c, const LumaPyramid& gles, const LumaPyramid& sim
     }
 }
 
+void compareStills(Context& c, SuperResMode mode, const StillPictures& gles,
+                   const StillPictures& simd) {
+    c.checks.within(largestDifference(gles.luma.host(), simd.luma.host()), 0, 1,
+                    "difference of a still's luma");
+    if (mode == SuperResMode::Detail)
+        c.checks.within(largestDifference(gles.detail.host(), simd.detail.host()), 0, 3,
+                        "difference of a still's detail");
+}
+
 void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd) {
     const auto a = gles.weighed.host(), b = simd.weighed.host();
     const auto la = gles.lookUps.host(), lb = simd.lookUps.host();
@@ -143,11 +152,7 @@ void stepByStep(Context& c) {
     const auto glesStill = engines[0]->still(), simdStill = engines[1]->still();
     const StillPictures& still = glesStill->run(sensors.still.view(), mode);
     const StillPictures& simdPictures = simdStill->run(sensors.still.view(), mode);
-    c.checks.within(largestDifference(still.luma.host(), simdPictures.luma.host()), 0, 1,
-                    "difference of a still's luma");
-    if (mode == SuperResMode::Detail)
-        c.checks.within(largestDifference(still.detail.host(), simdPictures.detail.host()), 0, 3,
-                        "difference of a still's detail");
+    compareStills(c, mode, still, simdPictures);
 
     const auto glesPyramid = engines[0]->pyramid(), simdPyramid = engines[1]->pyramid();
     glesPyramid->still(still);

@@ -85,9 +85,8 @@ void triangulation(TriangulationMethod method, const char* what) {
     table.print();
 }
 
-// Both lenses and the rotation between them: where the still shows a cell that has not moved.
-void stillPixels() {
-    const StereoRig rig = bentRig({640, 480}, {2304, 1728});
+/// Where the still shows each cell of a video that has not moved, less the scaled cell.
+std::vector<float> assessedStillPixels(const StereoRig& rig) {
     const Size cells = cellsOf(rig.video.size);
     const TestPicture even(rig.video.size, PixelFormat::Rgba8, 128);
     const LevelPair pair(even, even);
@@ -114,7 +113,14 @@ void stillPixels() {
               gpu::storage(2, pair.tiles.buffer()), gpu::imageWrite(0, displacement),
               gpu::imageWrite(1, statistics)},
              {gpu::groupsFor(cells.width, 4), gpu::groupsFor(cells.height, 4), 1});
-    const auto got = displacement.readRgba32F();
+    return displacement.readRgba32F();
+}
+
+// Both lenses and the rotation between them.
+void stillPixels() {
+    const StereoRig rig = bentRig({640, 480}, {2304, 1728});
+    const Size cells = cellsOf(rig.video.size);
+    const auto got = assessedStillPixels(rig);
     ErrorTable table("superres_assess: still pixel", "px", 1);
     for (int y = 0; y < cells.height; ++y)
         for (int x = 0; x < cells.width; ++x) {

@@ -148,7 +148,8 @@ inline const FilterBank& evenBank() {
         for (int tap = 0; tap < enlarge::kTaps; ++tap)
             for (int phase = 0; phase < enlarge::kPhases; ++phase) {
                 const auto [x, y] = enlarge::kTapAt[tap];
-                const double d = std::hypot(x - (phase % 4 - 1.5) / 4, y - (phase / 4 - 1.5) / 4);
+                const int column = phase % 4, row = phase / 4;
+                const double d = std::hypot(x - (column - 1.5) / 4, y - (row - 1.5) / 4);
                 filter[enlarge::filterIndex(tap, phase)] =
                     static_cast<std::int16_t>(std::lround(-2500 * std::cos(2 * d) * std::exp(-d)));
             }

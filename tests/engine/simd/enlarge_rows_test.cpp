@@ -25,11 +25,11 @@ struct LumaPicture {
             for (int x = 0; x < size.width + 2 * kMargin; ++x)
                 rows[y][x] = static_cast<std::int16_t>(kLumaScale * grey.at(x - kMargin, y));
     }
-    template <std::size_t kCount>
-    [[nodiscard]] std::array<const std::int16_t*, kCount> around(int y) const {
-        std::array<const std::int16_t*, kCount> out{};
-        for (int k = 0; k < int(kCount); ++k)
-            out[k] = rows[std::clamp(y + k - int(kCount) / 2, 0, grey.size.height - 1)] + kMargin;
+    template <std::size_t Count>
+    [[nodiscard]] std::array<const std::int16_t*, Count> around(int y) const {
+        std::array<const std::int16_t*, Count> out{};
+        for (int k = 0; k < int(Count); ++k)
+            out[k] = rows[std::clamp(y + k - int(Count) / 2, 0, grey.size.height - 1)] + kMargin;
         return out;
     }
 
@@ -184,14 +184,16 @@ TEST(EnlargeRows, ResidualIsTheOraclesOfTheSameClasses) {
                 const Residual residual(p, bank);
                 for (int y = 0; y < size.height; ++y)
                     for (int x = 0; x < size.width; ++x)
-                        for (int phase = 0; phase < kPhases; ++phase)
-                            ASSERT_NEAR(residual.grid[4 * y + phase / 4][4 * x + phase % 4],
+                        for (int phase = 0; phase < kPhases; ++phase) {
+                            const int row = 4 * y + phase / 4, column = 4 * x + phase % 4;
+                            ASSERT_NEAR(residual.grid[row][column],
                                         32 * twin::residualAt(p.grey, x, y, phase,
                                                               residual.classes.gradient[y][x],
                                                               residual.classes.curvature[y][x],
                                                               bank),
                                         8.6)  // a quarter of the range is in whole eighths
                                 << x << " " << y << " " << phase;
+                        }
             }
         });
     }
@@ -261,9 +263,10 @@ TEST(EnlargeRows, BlurredEdgesGetSharper) {
         };
         const auto mean = [&](double x, double y, double side) {
             double sum = 0;
-            for (int i = 0; i < 256; ++i)
-                sum += step(x + ((i % 16 + 0.5) / 16 - 0.5) * side,
-                            y + ((i / 16 + 0.5) / 16 - 0.5) * side);
+            for (int j = 0; j < 16; ++j)
+                for (int i = 0; i < 16; ++i)
+                    sum +=
+                        step(x + ((i + 0.5) / 16 - 0.5) * side, y + ((j + 0.5) / 16 - 0.5) * side);
             return sum / 256;
         };
         const LumaPicture p({41, 41},

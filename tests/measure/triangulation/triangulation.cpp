@@ -191,8 +191,8 @@ const std::vector<TriangulatedPoint>& Triangulation::run(std::span<const float> 
     const Vector2f end(static_cast<float>(b_.size.width) - 0.5F,
                        static_cast<float>(b_.size.height) - 0.5F);
     for (std::size_t i = 0; i < points_.size(); ++i) {
-        const Vector2f p(static_cast<float>(i % a_.size.width),
-                         static_cast<float>(i / a_.size.width));
+        const std::size_t column = i % a_.size.width, row = i / a_.size.width;
+        const Vector2f p(static_cast<float>(column), static_cast<float>(row));
         const Vector2f f(flow[2 * i], flow[2 * i + 1]), q = p + f;
         points_[i] = {0, kUnknownSigma, 0, 0};
         if (!(q.x() >= -0.5F && q.y() >= -0.5F && q.x() <= end.x() && q.y() <= end.y())) continue;
