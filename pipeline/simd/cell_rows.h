@@ -9,7 +9,7 @@
 namespace mfar::simd {
 
 /// Rows of a field of cells, at the width of a picture: linear between cell centres, borders held.
-/// Of the rows asked for last two are kept. Count of a cell's numbers, chosen by the caller.
+/// Keeps four rows that lie side by side. Count of a cell's numbers, chosen by the caller.
 template <class Cell, std::size_t Count>
 class CellRows {
 public:
@@ -17,7 +17,7 @@ public:
     using Wide = std::array<const float*, Count>;
 
     CellRows(int cells, int width)
-        : planar_({cells, Count}), wide_({width, 2 * static_cast<int>(Count)}) {}
+        : planar_({cells, Count}), wide_({width, kKept * static_cast<int>(Count)}) {}
 
     /// Starts with a field, for pixels [begin, end) of the picture alone.
     void begin(Rows<const Cell> field, const RowTaps& taps, int begin, int end) {
@@ -30,7 +30,7 @@ public:
     /// `channelsOf`: of a cell, finite numbers.
     template <class ChannelsOf>
     [[nodiscard]] Wide row(int y, const ChannelsOf& channelsOf) {
-        const int slot = y % 2, first = slot * static_cast<int>(Count);
+        const int slot = y % kKept, first = slot * static_cast<int>(Count);
         if (rows_[slot] != y) fill(y, first, channelsOf);
         rows_[slot] = y;
         Wide out;
@@ -40,6 +40,8 @@ public:
     }
 
 private:
+    static constexpr int kKept = 4;
+
     template <class ChannelsOf>
     void fill(int y, int first, const ChannelsOf& channelsOf) {
         const Cell* cells = field_[y];
@@ -56,7 +58,7 @@ private:
     Rows<const Cell> field_;
     const RowTaps* taps_ = nullptr;
     int begin_ = 0, end_ = 0;
-    std::array<int, 2> rows_{-1, -1};
+    std::array<int, kKept> rows_{};
     AlignedRows<float> planar_, wide_;
 };
 

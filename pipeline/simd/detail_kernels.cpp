@@ -32,18 +32,24 @@ HWY_INLINE hn::Vec<U> GatherAnywhere(const void* base, hn::Vec<I> bytes) {
 #endif
 }
 
+/// Of two rows, `t` of the way from the first to the second.
+HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, int x) {
+    const F df;
+    const auto a = hn::LoadU(df, rows[0] + x);
+    return hn::MulAdd(hn::Set(df, t), hn::Sub(hn::LoadU(df, rows[1] + x), a), a);
+}
+
 struct Positions {
     hn::Vec<I> x, y;    // whole pixels
     hn::Vec<F> fx, fy;  // between this one and the next
-    hn::Vec<F> share;
 };
 
 /// Reads the look-ups of one vector after the other.
 class LookUp {
 public:
     LookUp(const LookUpRows& rows, Size size, int begin)
-        : rows_(rows), t_(hn::Set(F(), rows.t)), stepX_(hn::Set(F(), rows.stepX)),
-          startX_(hn::Set(F(), rows.startX)), startY_(hn::Set(F(), rows.startY)),
+        : rows_(rows), stepX_(hn::Set(F(), rows.stepX)), startX_(hn::Set(F(), rows.startX)),
+          startY_(hn::Set(F(), rows.startY)),
           lastX_(hn::Set(F(), static_cast<float>(size.width - 1))),
           lastY_(hn::Set(F(), static_cast<float>(size.height - 1))),
           pixels_(hn::Iota(F(), static_cast<float>(begin))) {}
@@ -51,25 +57,19 @@ public:
     HWY_INLINE Positions next(int x) {
         const F df;
         const I di;
-        const auto alongX = hn::MulAdd(pixels_, stepX_, hn::Add(between(rows_.x, x), startX_));
-        const auto alongY = hn::Add(between(rows_.y, x), startY_);
+        const auto alongX =
+            hn::MulAdd(pixels_, stepX_, hn::Add(Between(rows_.x, rows_.t, x), startX_));
+        const auto alongY = hn::Add(Between(rows_.y, rows_.t, x), startY_);
         pixels_ = hn::Add(pixels_, hn::Set(df, static_cast<float>(hn::Lanes(df))));
         const auto px = hn::Min(hn::Max(alongX, hn::Zero(df)), lastX_);
         const auto py = hn::Min(hn::Max(alongY, hn::Zero(df)), lastY_);
         const auto ix = hn::ConvertTo(di, px), iy = hn::ConvertTo(di, py);
-        return {ix, iy, hn::Sub(px, hn::ConvertTo(df, ix)), hn::Sub(py, hn::ConvertTo(df, iy)),
-                between(rows_.share, x)};
+        return {ix, iy, hn::Sub(px, hn::ConvertTo(df, ix)), hn::Sub(py, hn::ConvertTo(df, iy))};
     }
 
 private:
-    HWY_INLINE hn::Vec<F> between(const std::array<const float*, 2>& rows, int x) const {
-        const F df;
-        const auto a = hn::LoadU(df, rows[0] + x);
-        return hn::MulAdd(t_, hn::Sub(hn::LoadU(df, rows[1] + x), a), a);
-    }
-
     const LookUpRows& rows_;
-    hn::Vec<F> t_, stepX_, startX_, startY_, lastX_, lastY_, pixels_;
+    hn::Vec<F> stepX_, startX_, startY_, lastX_, lastY_, pixels_;
 };
 
 /// Bilinear mean of four bytes, 0x(x1y1)(x1y0)(x0y1)(x0y0), times 256.
@@ -89,25 +89,42 @@ HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
     return hn::MulAdd(hn::Sub(right, left), at.fx, left);
 }
 
-void DetailRow(const DetailPairs& detail, const LookUpRows& rows, const std::int16_t* learned,
-               int begin, int end, std::int16_t* to) {
+void WarpRow(const StillPairs& still, const LookUpRows& rows, int begin, int end,
+             std::int16_t* to) {
     const F df;
     const I di;
     const hn::Rebind<std::int16_t, F> d16;
     const int lanes = static_cast<int>(hn::Lanes(df));
-    const auto pitch = hn::Set(di, static_cast<std::int32_t>(2 * detail.pitch));
-    const auto zero = hn::Set(df, 256.0F * 128), scale = hn::Set(df, 32.0F / 256);
-    const auto one = hn::Set(df, 1.0F);
-    LookUp lookUp(rows, detail.size, begin);
+    const auto pitch = hn::Set(di, static_cast<std::int32_t>(2 * still.pitch));
+    const auto scale = hn::Set(df, 32.0F / 256);
+    LookUp lookUp(rows, still.size, begin);
     for (int x = begin; x < end; x += lanes) {
         const Positions at = lookUp.next(x);
         const auto bytes = hn::Add(hn::Mul(at.y, pitch), hn::Add(at.x, at.x));
-        const auto mean = MeanOfFour(GatherAnywhere(detail.data, bytes), at);
-        auto added = hn::Mul(hn::Sub(mean, zero), hn::Mul(at.share, scale));
+        const auto mean = MeanOfFour(GatherAnywhere(still.data, bytes), at);
+        hn::StoreU(hn::DemoteTo(d16, hn::NearestInt(hn::Mul(mean, scale))), d16, to + x);
+    }
+}
+
+void DetailRow(const WarpedRow& warped, const LookUpRows& rows, const std::int16_t* learned,
+               int begin, int end, std::int16_t* to) {
+    const F df;
+    const hn::Rebind<std::int16_t, F> d16;
+    const int lanes = static_cast<int>(hn::Lanes(df));
+    const auto one = hn::Set(df, 1.0F);
+    const auto wide = [](hn::Vec<decltype(d16)> v)
+                          HWY_ATTR { return hn::ConvertTo(F(), hn::PromoteTo(I(), v)); };
+    for (int x = begin; x < end; x += lanes) {
+        const auto low = [&](std::size_t i) HWY_ATTR {
+            return hn::MulFixedPoint15(hn::LoadU(d16, warped.low[i] + x),
+                                       hn::Set(d16, warped.weights[i]));
+        };
+        const auto shown = hn::Add(hn::Add(low(0), low(1)), hn::Add(low(2), low(3)));
+        const auto share = Between(rows.share, rows.t, x);
+        auto added = hn::Mul(wide(hn::Sub(hn::LoadU(d16, warped.luma + x), shown)), share);
         if (learned != nullptr) {
-            const auto rest = hn::Sub(one, hn::Min(at.share, one));
-            const auto residual = hn::ConvertTo(df, hn::PromoteTo(di, hn::LoadU(d16, learned + x)));
-            added = hn::MulAdd(residual, rest, added);
+            const auto rest = hn::Sub(one, hn::Min(share, one));
+            added = hn::MulAdd(wide(hn::LoadU(d16, learned + x)), rest, added);
         }
         hn::StoreU(hn::DemoteTo(d16, hn::NearestInt(added)), d16, to + x);
     }
@@ -184,7 +201,8 @@ struct Four {
 };
 
 template <int kChannel>
-HWY_INLINE hn::Vec<U> Mixed(hn::Vec<U> under, const Four& four, const Positions& at) {
+HWY_INLINE hn::Vec<U> Mixed(hn::Vec<U> under, const Four& four, const Positions& at,
+                            hn::Vec<F> share) {
     const auto between = [](hn::Vec<F> a, hn::Vec<F> b, hn::Vec<F> t)
                              HWY_ATTR { return hn::MulAdd(hn::Sub(b, a), t, a); };
     const auto upper =
@@ -192,12 +210,13 @@ HWY_INLINE hn::Vec<U> Mixed(hn::Vec<U> under, const Four& four, const Positions&
     const auto lower =
         between(ChannelOf<kChannel>(four.below), ChannelOf<kChannel>(four.belowRight), at.fx);
     const auto over = between(upper, lower, at.fy);
-    const auto grey = hn::NearestInt(between(ChannelOf<kChannel>(under), over, at.share));
+    const auto grey = hn::NearestInt(between(ChannelOf<kChannel>(under), over, share));
     const auto clamped = hn::Min(hn::Max(grey, hn::Zero(I())), hn::Set(I(), 255));
     return hn::ShiftLeft<8 * kChannel>(hn::BitCast(U(), clamped));
 }
 
-HWY_INLINE hn::Vec<U> Blended(const BlendPicture& picture, const Positions& at, hn::Vec<U> under) {
+HWY_INLINE hn::Vec<U> Blended(const BlendPicture& picture, const Positions& at, hn::Vec<F> share,
+                              hn::Vec<U> under) {
     const I di;
     const auto pitch = hn::Set(di, static_cast<std::int32_t>(picture.pitch));
     const auto last = hn::Set(di, picture.size.height - 1);
@@ -207,8 +226,8 @@ HWY_INLINE hn::Vec<U> Blended(const BlendPicture& picture, const Positions& at, 
     const Four four{
         hn::GatherIndex(U(), picture.data, upper), hn::GatherIndex(U(), picture.data + 1, upper),
         hn::GatherIndex(U(), picture.data, lower), hn::GatherIndex(U(), picture.data + 1, lower)};
-    return hn::Or(hn::Or(Mixed<0>(under, four, at), Mixed<1>(under, four, at)),
-                  hn::Or(Mixed<2>(under, four, at), hn::Set(U(), 0xff000000U)));
+    return hn::Or(hn::Or(Mixed<0>(under, four, at, share), Mixed<1>(under, four, at, share)),
+                  hn::Or(Mixed<2>(under, four, at, share), hn::Set(U(), 0xff000000U)));
 }
 
 void BlendRow(const BlendPicture& picture, const LookUpRows& rows, int begin, int end,
@@ -219,12 +238,13 @@ void BlendRow(const BlendPicture& picture, const LookUpRows& rows, int begin, in
     HWY_ALIGN std::uint32_t rest[hn::MaxLanes(U())] = {};
     for (int x = begin; x < end; x += lanes) {
         const Positions at = lookUp.next(x);
+        const auto share = Between(rows.share, rows.t, x);
         if (x + lanes <= end) {
-            hn::StoreU(Blended(picture, at, hn::LoadU(du, inOut + x)), du, inOut + x);
+            hn::StoreU(Blended(picture, at, share, hn::LoadU(du, inOut + x)), du, inOut + x);
         } else {
             const std::size_t bytes = static_cast<std::size_t>(end - x) * sizeof(*inOut);
             std::memcpy(rest, inOut + x, bytes);
-            hn::Store(Blended(picture, at, hn::Load(du, rest)), du, rest);
+            hn::Store(Blended(picture, at, share, hn::Load(du, rest)), du, rest);
             std::memcpy(inOut + x, rest, bytes);
         }
     }
@@ -237,13 +257,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mfar::simd {
 
+HWY_EXPORT(WarpRow);
 HWY_EXPORT(DetailRow);
 HWY_EXPORT(ComposeRow);
 HWY_EXPORT(BlendRow);
 
-void detailRow(const DetailPairs& detail, const LookUpRows& lookUp, const std::int16_t* learned,
+void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int end,
+             std::int16_t* to) {
+    HWY_DYNAMIC_DISPATCH(WarpRow)(still, lookUp, begin, end, to);
+}
+
+void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to) {
-    HWY_DYNAMIC_DISPATCH(DetailRow)(detail, lookUp, learned, begin, end, to);
+    HWY_DYNAMIC_DISPATCH(DetailRow)(warped, lookUp, learned, begin, end, to);
 }
 
 void composeRow(const EnlargedRows& rows, const std::array<std::int16_t, 4>& weights,

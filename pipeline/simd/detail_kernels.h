@@ -21,19 +21,30 @@ struct LookUpRows {
     float stepX, startX, startY;
 };
 
-/// What the still shows beyond the video, 128 = nothing, a pixel and the one below it (high byte)
-/// together: four neighbours lie in 32 bits. 64 readable bytes behind each row.
-struct DetailPairs {
+/// A still's luma, a pixel and the one below it (high byte) together: four neighbours lie in 32
+/// bits. 64 readable bytes behind each row.
+struct StillPairs {
     const std::uint16_t* data;
     std::ptrdiff_t pitch;  ///< pairs from one row to the next
     Size size;
 };
 
-/// Weighed detail [1/32 grey level], read bilinearly. Plus `learned`, likewise, by the share that
-/// the detail's weight leaves of one; null: nothing. The still knows better what it shows: with the
-/// residual everywhere, and the still's own taken off its detail, synthetic scenes lost 0.6 to 1.2
-/// dB, as differences between both sensors' blur and noise are sharpened, too.
-void detailRow(const DetailPairs& detail, const LookUpRows& lookUp, const std::int16_t* learned,
+/// The still's luma where the pixels look, read bilinearly [1/32 grey level].
+void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int end,
+             std::int16_t* to);
+
+/// A row of the warped still, and the rows whose weighed sum is what the video shows of it.
+struct WarpedRow {
+    const std::int16_t* luma;                ///< [1/32 grey level]
+    std::array<const std::int16_t*, 4> low;  ///< [1/64 grey level]
+    std::array<std::int16_t, 4> weights;     ///< [1/16384]
+};
+
+/// What the video cannot show of the still, by LookUpRows::share. Plus `learned` by the share that
+/// this leaves of one; null: nothing. All [1/32 grey level]. The still knows better what it shows:
+/// with the residual everywhere, and the still's own taken off its detail, synthetic scenes lost
+/// 0.3 to 0.7 dB, as differences between both sensors' blur and noise are sharpened, too.
+void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to);
 
 /// Rows of the video at the output's width [1/64 grey level], by channel, from the top.

@@ -1,7 +1,5 @@
 #include "pipeline/simd/detail_step.h"
 
-#include "pipeline/flow/cell_field.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,8 +12,6 @@ constexpr int kGrain = 32;  // rows of the output
 // processor's first cache.
 constexpr int kStripWidth = 576;
 constexpr int kStripStep = 64;
-// Bounds of what a look-up may say: farther is outside of any still.
-constexpr float kFarthest = 1e5F, kMostWeight = 4;
 
 /// First output pixel whose centre lies in each tile, and the end.
 std::vector<int> tileStarts(int tiles, int video, int output) {
@@ -29,11 +25,6 @@ std::vector<int> tileStarts(int tiles, int video, int output) {
     return out;
 }
 
-/// Linear between cells, at the output's size.
-RowTaps cellTaps(int cells, int video, int output) {
-    return RowTaps::linear(cells, output, static_cast<double>(video) / output / kCell);
-}
-
 int tileAt(const std::vector<int>& starts, int pixel) {
     return static_cast<int>(std::ranges::upper_bound(starts, pixel) - starts.begin()) - 1;
 }
@@ -44,25 +35,25 @@ struct DetailStep::Frame {
     const DetailInput& in;
     DetailOptions options;
     Rows<std::uint32_t> out;
-    bool usesStill, linear;
+    bool usesStill, blends, linear;
     const FilterBank* bank;  // null: nothing is learned
-    DetailPairs detail;
     BlendPicture picture;
     const DetailStep& step;
 };
 
 DetailStep::Scratch::Scratch(const DetailStep& step)
-    : video(step.video_, step.output_.width), lookUps(step.cells_.width, step.output_.width),
-      learned(step.video_, step.output_.width), added({step.output_.width, 1}) {
+    : video(step.video_, step.output_.width), lookUps(step.lookUpTaps_.cells, step.output_.width),
+      warped(step.video_, step.output_, step.warpedTaps_), learned(step.video_, step.output_.width),
+      added({step.output_.width, 1}) {
     segments.reserve(step.tiles_.width);
-    spans.reserve(step.tiles_.width);
+    learnedSpans.reserve(step.tiles_.width);
+    detailSpans.reserve(step.tiles_.width);
 }
 
 DetailStep::DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers)
-    : rig_(stillRig), video_(rig_.video.size), output_(output), cells_(cellsOf(video_)),
-      tiles_(tilesOf(video_)), workers_(std::move(workers)), videoTaps_(video_, output),
-      learnedTaps_(video_, output), lookUpRows_(cellTaps(cells_.width, video_.width, output.width)),
-      lookUpColumns_(cellTaps(cells_.height, video_.height, output.height)),
+    : video_(stillRig.video.size), output_(output), tiles_(tilesOf(video_)),
+      workers_(std::move(workers)), videoTaps_(video_, output), learnedTaps_(video_, output),
+      lookUpTaps_(stillRig, output), warpedTaps_(video_, output),
       columnsAt_(tileStarts(tiles_.width, video_.width, output.width)),
       rowsAt_(tileStarts(tiles_.height, video_.height, output.height)), classes_(video_),
       shows_(static_cast<std::size_t>(tiles_.width) * tiles_.height),
@@ -94,7 +85,7 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
                              Rows<std::uint32_t> out) {
     const bool blends = options.mode == SuperResMode::Blend;
     const bool usesStill = options.mode != SuperResMode::Off &&
-                           (blends ? in.picture.data != nullptr : in.detail.data != nullptr);
+                           (blends ? in.picture.data != nullptr : in.still.data != nullptr);
     const TileSummary summary =
         classes_.classify(in.work, usesStill ? in.weighed : Rows<const WeighedCell>{}, in.trust,
                           {options.upscaledTiles, options.plainTiles}, *workers_);
@@ -103,15 +94,12 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
                 options,
                 out,
                 usesStill,
+                blends,
                 !options.cubic && options.mode == SuperResMode::Off,
                 options.mode == SuperResMode::Detail ? options.learned : nullptr,
                 {},
-                {},
                 *this};
-    if (usesStill && blends)
-        frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
-    else if (usesStill)
-        frame.detail = in.detail;
+    if (usesStill && blends) frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
     choose(frame);
     // One pointer and one reference: std::function keeps them without allocating.
     workers_->forRange(output_.height, kGrain, [this, &frame](int first, int last) {
@@ -151,7 +139,8 @@ void DetailStep::drawTileRow(const Frame& frame, Scratch& scratch, int row, int 
 void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const {
     std::vector<Segment>& segments = scratch.segments;
     segments.clear();
-    scratch.spans.clear();
+    scratch.learnedSpans.clear();
+    scratch.detailSpans.clear();
     for (int column = tileAt(columnsAt_, begin); column < tiles_.width; ++column) {
         const int from = std::max(begin, columnsAt_[column]),
                   to = std::min(end, columnsAt_[column + 1]);
@@ -164,71 +153,51 @@ void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& s
             segments.back().end = to;
         else
             segments.push_back({from, to, detail, learned});
-        if (!learned) continue;
-        if (!scratch.spans.empty() && scratch.spans.back().end == from)
-            scratch.spans.back().end = to;
-        else
-            scratch.spans.push_back({from, to});
+        if (learned) append(scratch.learnedSpans, {from, to});
+        if (detail) append(scratch.detailSpans, {from, to});
     }
-    if (frame.bank != nullptr) scratch.learned.cover(scratch.spans);
-}
-
-LookUpRows DetailStep::lookUpsOf(const Frame& frame, Scratch& scratch, int y) const {
-    const bool blends = frame.options.mode == SuperResMode::Blend;
-    const auto channels = [blends](const LookUpCell& cell) {
-        return std::array{
-            boundedOr0(cell.x, -kFarthest, kFarthest), boundedOr0(cell.y, -kFarthest, kFarthest),
-            blends ? boundedOr0(cell.confidence, 0, 1) : boundedOr0(cell.weight, 0, kMostWeight)};
-    };
-    const BetweenRows between(lookUpColumns_, y);
-    const auto upper = scratch.lookUps.row(between.rows[0], channels),
-               lower = scratch.lookUps.row(between.rows[1], channels);
-    const auto step = [](double still, double video, int videoPixels, int pixels) {
-        return static_cast<float>(still / video * videoPixels / pixels);
-    };
-    const float stepX = step(rig_.still.fx, rig_.video.fx, video_.width, output_.width),
-                stepY = step(rig_.still.fy, rig_.video.fy, video_.height, output_.height);
-    return {{upper[0], lower[0]},
-            {upper[1], lower[1]},
-            {upper[2], lower[2]},
-            between.t,
-            stepX,
-            0.5F * stepX - 0.5F,
-            (static_cast<float>(y) + 0.5F) * stepY - 0.5F};
+    if (frame.bank != nullptr) scratch.learned.cover(scratch.learnedSpans);
+    if (frame.usesStill && !frame.blends) scratch.warped.cover(scratch.detailSpans);
 }
 
 void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& strip) const {
-    const bool blends = frame.options.mode == SuperResMode::Blend;
-    const bool sharpens = frame.usesStill && !blends && frame.bank == nullptr;
+    const bool warps = frame.usesStill && !frame.blends;
+    const bool sharpens = warps && frame.bank == nullptr;
     s.video.begin(frame.in.video, sharpens ? frame.in.trust : Rows<const TrustCell>{}, videoTaps_,
                   frame.linear, strip.x0, strip.x1);
-    if (frame.usesStill) s.lookUps.begin(frame.in.lookUps, lookUpRows_, strip.x0, strip.x1);
+    if (frame.usesStill && frame.blends)
+        s.lookUps.begin(frame.in.lookUps, lookUpTaps_, true, strip.x0, strip.x1);
+    if (warps)
+        s.warped.begin(frame.in.still, frame.in.lookUps, lookUpTaps_, warpedTaps_,
+                       {strip.x0, strip.x1});
     if (frame.bank != nullptr)
         s.learned.begin(frame.in.video, learnedTaps_, *frame.bank, {strip.x0, strip.x1});
-    const RowTaps& columns = frame.linear ? videoTaps_.linearColumns : videoTaps_.cubicColumns;
     int row = -1;
     for (int y = strip.y0; y < strip.y1; ++y) {
         if (row < 0 || y >= rowsAt_[row + 1]) {
             row = tileAt(rowsAt_, y);
             cut(frame, row, strip.x0, strip.x1, s);
         }
-        const ColumnTaps taps = columns.column(y);
-        const EnlargedRows rows = s.video.rows(taps.rows);
-        std::uint32_t* to = frame.out[y];
-        const std::int16_t* learnedRow =
-            frame.bank != nullptr && !s.spans.empty() ? s.learned.row(y) : nullptr;
-        for (const auto& [begin, end, detail, learned] : s.segments) {
-            const std::int16_t* more = learned ? learnedRow : nullptr;
-            if (!detail || blends) composeRow(rows, taps.weights, more, begin, end, to);
-            if (!detail) continue;
-            const LookUpRows lookUps = lookUpsOf(frame, s, y);
-            if (blends) {
-                blendRow(frame.picture, lookUps, begin, end, to);
-            } else {
-                detailRow(frame.detail, lookUps, more, begin, end, s.added[0]);
-                composeRow(rows, taps.weights, s.added[0], begin, end, to);
-            }
+        drawRow(frame, s, y);
+    }
+}
+
+void DetailStep::drawRow(const Frame& frame, Scratch& s, int y) const {
+    const RowTaps& columns = frame.linear ? videoTaps_.linearColumns : videoTaps_.cubicColumns;
+    const ColumnTaps taps = columns.column(y);
+    const EnlargedRows rows = s.video.rows(taps.rows);
+    std::uint32_t* to = frame.out[y];
+    const std::int16_t* learnedRow = s.learnedSpans.empty() ? nullptr : s.learned.row(y);
+    const bool warps = frame.usesStill && !frame.blends && !s.detailSpans.empty();
+    const WarpedRow warped = warps ? s.warped.row(y) : WarpedRow{};
+    for (const auto& [begin, end, detail, learned] : s.segments) {
+        const std::int16_t* added = learned ? learnedRow : nullptr;
+        if (detail && !frame.blends) {
+            detailRow(warped, s.warped.lookUps(y), added, begin, end, s.added[0]);
+            added = s.added[0];
         }
+        composeRow(rows, taps.weights, added, begin, end, to);
+        if (detail && frame.blends) blendRow(frame.picture, s.lookUps.row(y), begin, end, to);
     }
 }
 

@@ -7,12 +7,13 @@
 #include "pipeline/plan/rgb_planes.h"
 #include "pipeline/plan/tile_work.h"
 #include "pipeline/quality.h"
-#include "pipeline/simd/cell_rows.h"
 #include "pipeline/simd/detail_kernels.h"
 #include "pipeline/simd/learned_rows.h"
+#include "pipeline/simd/look_up_rows.h"
 #include "pipeline/simd/scratch_slots.h"
 #include "pipeline/simd/tile_classes.h"
 #include "pipeline/simd/video_rows.h"
+#include "pipeline/simd/warped_still.h"
 
 #include <cstdint>
 #include <memory>
@@ -32,9 +33,9 @@ struct DetailOptions {
 struct DetailInput {
     const RgbPlanes& video;
     const TileWork& work;
-    // A still's detail, or its RGBA8 picture for mode Blend; both without data: the video is only
+    // A still's luma, or its RGBA8 picture for mode Blend; both without data: the video is only
     // enlarged.
-    DetailPairs detail{};
+    StillPairs still{};
     Rows<const std::uint32_t> picture{};
     // Read with a still alone, one entry per 4x4 video pixels.
     Rows<const WeighedCell> weighed;
@@ -67,11 +68,12 @@ private:
     struct Scratch {
         Scratch(const DetailStep& step);
         VideoRows video;
-        CellRows<LookUpCell, 3> lookUps;
+        LookUpRowCache lookUps;  // of mode Blend
+        WarpedStill warped;
         LearnedRows learned;
         AlignedRows<std::int16_t> added;
         std::vector<Segment> segments;
-        std::vector<LearnedRows::Span> spans;
+        PixelSpans learnedSpans, detailSpans;
     };
 
     [[nodiscard]] Show showOf(const Frame& frame, int column, int row) const;
@@ -80,14 +82,14 @@ private:
     void drawTileRow(const Frame& frame, Scratch& scratch, int row, int first, int last) const;
     void drawStrip(const Frame& frame, Scratch& scratch, const PixelRect& strip) const;
     void cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const;
-    [[nodiscard]] LookUpRows lookUpsOf(const Frame& frame, Scratch& scratch, int y) const;
+    void drawRow(const Frame& frame, Scratch& scratch, int y) const;
 
-    StereoRig rig_;
-    Size video_, output_, cells_, tiles_;
+    Size video_, output_, tiles_;
     std::shared_ptr<Workers> workers_;
     VideoTaps videoTaps_;
     LearnedTaps learnedTaps_;
-    RowTaps lookUpRows_, lookUpColumns_;
+    LookUpTaps lookUpTaps_;
+    WarpedStillTaps warpedTaps_;
     std::vector<int> columnsAt_, rowsAt_;  // first output pixel of each tile, and the end
     TileClasses classes_;
     std::vector<Show> shows_;  // per tile

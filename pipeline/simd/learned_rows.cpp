@@ -27,7 +27,7 @@ LearnedRows::LearnedRows(Size picture, int outputWidth)
 }
 
 void LearnedRows::begin(const RgbPlanes& picture, const LearnedTaps& taps, const FilterBank& bank,
-                        const Span& pixels) {
+                        const PixelSpan& pixels) {
     picture_ = &picture;
     taps_ = &taps;
     bank_ = &bank;
@@ -40,18 +40,15 @@ void LearnedRows::begin(const RgbPlanes& picture, const LearnedTaps& taps, const
     loaded_.fill(-1);
 }
 
-void LearnedRows::cover(const std::vector<Span>& pixels) {
+void LearnedRows::cover(const PixelSpans& pixels) {
     if (pixels == covered_) return;
     covered_ = pixels;
     kept_.fill(-1);
     made_.clear();
-    for (const Span& span : covered_) {
+    for (const PixelSpan& span : covered_) {
         const int begin = taps_->rows.first(span.begin) / kGrid,
                   end = std::min((taps_->rows.first(span.end - 1) + 1) / kGrid + 1, size_.width);
-        if (!made_.empty() && begin <= made_.back().end)
-            made_.back().end = end;
-        else
-            made_.push_back({begin, end});
+        append(made_, {begin, end});
     }
 }
 
@@ -64,9 +61,9 @@ const std::int16_t* LearnedRows::row(int y) {
         return grid_[slot * kGrid + row % kGrid];
     };
     const std::int16_t *a = gridRow(first), *b = gridRow(second);
-    for (const Span& span : made_)
+    for (const PixelSpan& span : made_)
         mixedRow(a, b, columns.weight(1, y), kGrid * span.begin, kGrid * span.end, mixed_[0]);
-    for (const Span& span : covered_)
+    for (const PixelSpan& span : covered_)
         resampleRow(mixed_[0], taps_->rows.table(), span.begin, span.end, 1, wide_[0]);
     return wide_[0];
 }

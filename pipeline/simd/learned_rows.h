@@ -3,6 +3,7 @@
 #include "base/rows.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/plan/rgb_planes.h"
+#include "pipeline/simd/pixel_spans.h"
 #include "pipeline/simd/row_taps.h"
 
 #include <array>
@@ -22,19 +23,13 @@ struct LearnedTaps {
 /// size, each made from the picture's rows when it is asked for. Scratch of one thread.
 class LearnedRows {
 public:
-    /// Pixels [begin, end) of the output.
-    struct Span {
-        int begin, end;
-        bool operator==(const Span&) const = default;
-    };
-
     LearnedRows(Size picture, int outputWidth);
 
     /// Starts with a picture, for these pixels of the output alone. Nothing is covered then.
     void begin(const RgbPlanes& picture, const LearnedTaps& taps, const FilterBank& bank,
-               const Span& pixels);
+               const PixelSpan& pixels);
     /// The only pixels whose residual is asked for from now on, ascending.
-    void cover(const std::vector<Span>& pixels);
+    void cover(const PixelSpans& pixels);
     /// Residual of a row in the covered pixels [1/32 grey level]; valid until the next call.
     [[nodiscard]] const std::int16_t* row(int y);
 
@@ -49,10 +44,10 @@ private:
     const RgbPlanes* picture_ = nullptr;
     const LearnedTaps* taps_ = nullptr;
     const FilterBank* bank_ = nullptr;
-    Span within_{}, columns_{};  // of the output; of the picture, what they need
-    std::vector<Span> covered_;  // pixels of the output
-    std::vector<Span> made_;     // columns of the picture
-    std::array<int, 2> kept_{};  // rows of the picture whose residual is there
+    PixelSpan within_{}, columns_{};  // of the output; of the picture, what they need
+    PixelSpans covered_;              // pixels of the output
+    PixelSpans made_;                 // columns of the picture
+    std::array<int, 2> kept_{};       // rows of the picture whose residual is there
     std::array<int, kKept> loaded_{};
     AlignedRows<std::int16_t> luma_;      // kKept rows with a margin
     AlignedRows<float> sums_, mixed_;     // three rows with a margin; a row of the grid

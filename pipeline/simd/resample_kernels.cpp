@@ -97,20 +97,31 @@ void ResampleRowBytes(const float* source, const TapTable& taps, int begin, int 
     });
 }
 
-void WeighRows(const std::uint8_t* const* rows, const float* weights, int number, int count,
-               float* to) {
+template <class T>
+HWY_INLINE void SumOfRows(const T* const* rows, const float* weights, int number, int begin,
+                          int end, float* to) {
     const F df;
     const I di;
-    const hn::Rebind<std::uint8_t, F> d8;
+    const hn::Rebind<T, F> narrow;
     const int lanes = static_cast<int>(hn::Lanes(df));
-    for (int x = 0; x < count; x += lanes) {
+    for (int x = begin; x < end; x += lanes) {
         auto sum = hn::Zero(df);
         for (int i = 0; i < number; ++i) {
-            const auto row = hn::ConvertTo(df, hn::PromoteTo(di, hn::LoadU(d8, rows[i] + x)));
+            const auto row = hn::ConvertTo(df, hn::PromoteTo(di, hn::LoadU(narrow, rows[i] + x)));
             sum = hn::MulAdd(row, hn::Set(df, weights[i]), sum);
         }
         hn::StoreU(sum, df, to + x);
     }
+}
+
+void WeighRows(const std::uint8_t* const* rows, const float* weights, int number, int count,
+               float* to) {
+    SumOfRows(rows, weights, number, 0, count, to);
+}
+
+void WeighRowsFixed(const std::int16_t* const* rows, const float* weights, int number, int begin,
+                    int end, float* to) {
+    SumOfRows(rows, weights, number, begin, end, to);
 }
 
 }  // namespace
@@ -124,6 +135,7 @@ HWY_EXPORT(ResampleRow);
 HWY_EXPORT(ResampleRowFixed);
 HWY_EXPORT(ResampleRowBytes);
 HWY_EXPORT(WeighRows);
+HWY_EXPORT(WeighRowsFixed);
 
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, float* to) {
     HWY_DYNAMIC_DISPATCH(ResampleRow)(source, taps, begin, end, to);
@@ -136,6 +148,11 @@ void resampleRow(const float* source, const TapTable& taps, int begin, int end, 
 
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, std::uint8_t* to) {
     HWY_DYNAMIC_DISPATCH(ResampleRowBytes)(source, taps, begin, end, to);
+}
+
+void weighRows(const std::int16_t* const* rows, const float* weights, int number, int begin,
+               int end, float* to) {
+    HWY_DYNAMIC_DISPATCH(WeighRowsFixed)(rows, weights, number, begin, end, to);
 }
 
 void weighRows(const std::uint8_t* const* rows, const float* weights, int number, int count,

@@ -22,6 +22,10 @@ void resampleRow(const float* source, const TapTable& taps, int begin, int end, 
 /// Rounded and clamped.
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, std::uint8_t* to);
 
+/// Entries [begin, end) of the sum of rows, each times its weight. Reads and writes up to 64 bytes
+/// behind `end`.
+void weighRows(const std::int16_t* const* rows, const float* weights, int number, int begin,
+               int end, float* to);
 /// Entries [0, count) of the sum of rows, each times its weight. Reads and writes up to 64 bytes
 /// behind their ends.
 void weighRows(const std::uint8_t* const* rows, const float* weights, int number, int count,

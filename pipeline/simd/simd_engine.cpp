@@ -4,7 +4,6 @@
 #include "pipeline/simd/luma_pyramids.h"
 #include "pipeline/simd/occlusion_step.h"
 #include "pipeline/simd/simd_warp.h"
-#include "pipeline/simd/still_kernels.h"
 #include "pipeline/simd/still_preparation.h"
 #include "pipeline/simd/weigh_step.h"
 #include "pipeline/superres/still_scale.h"
@@ -18,7 +17,8 @@ namespace {
 
 class SimdStill final : public StillStep {
 public:
-    explicit SimdStill(const StepSetup& setup) : still_(setup.rig, setup.output, setup.workers) {
+    explicit SimdStill(const StepSetup& setup)
+        : still_(setup.rig, setup.output, setup.workers), shadersDraw_(setup.shadersDraw) {
         pictures_.rig = still_.rig();
     }
 
@@ -26,9 +26,9 @@ public:
         still_.set(still);
         ++pictures_.number;
         pictures_.luma.writtenOnHost(still_.luma());
-        pictures_.detail.writtenOnHost(still_.detail());
-        const simd::DetailPairs pairs = still_.detailPairs();
-        pictures_.detailPairs.writtenOnHost(
+        if (shadersDraw_) pictures_.detail.writtenOnHost(still_.detail());
+        const simd::StillPairs pairs = still_.pairs();
+        pictures_.pairs.writtenOnHost(
             Rows<const std::uint16_t>{pairs.data, pairs.pitch, pairs.size});
         setMode(mode);
         return pictures_;
@@ -40,6 +40,7 @@ public:
 
 private:
     simd::StillPreparation still_;
+    bool shadersDraw_;
     StillPictures pictures_;
 };
 
@@ -162,8 +163,7 @@ private:
 class SimdDetail final : public DetailStep {
 public:
     explicit SimdDetail(const StepSetup& setup)
-        : workers_(setup.workers),
-          detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
+        : setup_(setup), detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
           picture_(setup.output), output_({}, setup.transfers) {
         output_.writtenOnHost(picture_.rows());
     }
@@ -175,7 +175,7 @@ public:
             if (options.mode == SuperResMode::Blend)
                 in.picture = matched->still.picture.host();
             else
-                in.detail = pairsOf(matched->still);
+                in.still = pairsOf(matched->still);
             in.weighed = matched->weights.weighed.host();
             in.lookUps = matched->weights.lookUps.host();
             in.trust = matched->weights.trust.host();
@@ -201,30 +201,27 @@ private:
         out.meanConfidence = counts.confidence / (256 * all);
         return out;
     }
-    // From the other engine a still comes without pairs: they are made once.
-    simd::DetailPairs pairsOf(const StillPictures& still) {
-        if (!still.detailPairs.isEmpty()) {
-            const Rows<const std::uint16_t> rows = still.detailPairs.host();
+    simd::StillPairs pairsOf(const StillPictures& still) {
+        if (!still.pairs.isEmpty()) {
+            const Rows<const std::uint16_t> rows = still.pairs.host();
             return {rows.data, rows.pitch, rows.size};
         }
-        const Rows<const std::uint8_t> detail = still.detail.host();
-        const auto [width, height] = detail.size;
-        if (pairedStill_ != still.number || pairs_.size() != detail.size) {
-            if (pairs_.size() != detail.size) pairs_ = AlignedRows<std::uint16_t>(detail.size);
-            workers_->forRange(height, 16, [&, width = width, height = height](int y, int end) {
-                for (; y < end; ++y)
-                    simd::pairRows(detail[y], detail[std::min(y + 1, height - 1)],
-                                   static_cast<std::size_t>(width), pairs_[y]);
-            });
-            pairedStill_ = still.number;
+        // From the other engine a still comes without pairs: they are made once.
+        if (!otherStill_) otherStill_.emplace(setup_.rig, setup_.output, setup_.workers);
+        if (otherNumber_ != still.number) {
+            const Rows<const std::uint8_t> luma = still.luma.host();
+            otherStill_->set(
+                {luma.data, luma.size, static_cast<std::size_t>(luma.pitch), PixelFormat::Gray8},
+                false);
+            otherNumber_ = still.number;
         }
-        return {pairs_[0], pairs_.pitch(), pairs_.size()};
+        return otherStill_->pairs();
     }
 
-    std::shared_ptr<Workers> workers_;
+    StepSetup setup_;
     simd::DetailStep detail_;
-    AlignedRows<std::uint16_t> pairs_;
-    std::uint64_t pairedStill_ = 0;
+    std::optional<simd::StillPreparation> otherStill_;
+    std::uint64_t otherNumber_ = 0;
     AlignedRows<std::uint32_t> picture_;
     Field<std::uint32_t> output_;
     TileSummary summary_;

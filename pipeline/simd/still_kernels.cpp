@@ -64,6 +64,25 @@ void LumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, con
     });
 }
 
+/// [1/32 grey level]
+HWY_INLINE hn::Vec<I16> Raised(const std::array<const std::uint8_t*, 3>& luma, hn::Vec<I16> share,
+                               std::size_t x) {
+    const std::uint8_t* at = luma[1] + x;
+    const auto here = LoadWide(at);
+    const auto beside = hn::Add(hn::Add(LoadWide(at - 1), LoadWide(at + 1)),
+                                hn::Add(LoadWide(luma[0] + x), LoadWide(luma[2] + x)));
+    const auto high = hn::ShiftLeft<5>(hn::Sub(hn::ShiftLeft<2>(here), beside));
+    return hn::Add(hn::ShiftLeft<5>(here), hn::MulFixedPoint15(high, share));
+}
+
+void RaisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
+               std::size_t pixels, std::uint8_t* to) {
+    const I16 d;
+    const auto share = hn::Set(d, neighboursShare);
+    for (std::size_t x = 0; x < pixels; x += hn::Lanes(d))
+        hn::StoreU(Bytes(Raised(luma, share, x)), U8(), to + x);
+}
+
 void StillDetailRow(const StillRows& rows, std::size_t pixels, std::uint8_t* detail) {
     const I16 d;
     const std::size_t lanes = hn::Lanes(d);
@@ -73,13 +92,7 @@ void StillDetailRow(const StillRows& rows, std::size_t pixels, std::uint8_t* det
             return hn::MulFixedPoint15(hn::LoadU(d, rows.low[i] + x), hn::Set(d, rows.weights[i]));
         };
         const auto up = hn::Add(hn::Add(low(0), low(1)), hn::Add(low(2), low(3)));
-        const std::uint8_t* at = rows.luma[1] + x;
-        const auto here = LoadWide(at);
-        const auto beside =
-            hn::Add(hn::Add(LoadWide(at - 1), LoadWide(at + 1)),
-                    hn::Add(LoadWide(rows.luma[0] + x), LoadWide(rows.luma[2] + x)));
-        const auto high = hn::ShiftLeft<5>(hn::Sub(hn::ShiftLeft<2>(here), beside));
-        const auto value = hn::Add(hn::ShiftLeft<5>(here), hn::MulFixedPoint15(high, share));
+        const auto value = Raised(rows.luma, share, x);
         hn::StoreU(Bytes(hn::Add(hn::Sub(value, up), zero)), U8(), detail + x);
     }
 }
@@ -120,6 +133,7 @@ namespace mfar::simd {
 
 HWY_EXPORT(LumaOfPlane);
 HWY_EXPORT(LumaOfPairs);
+HWY_EXPORT(RaisedRow);
 HWY_EXPORT(StillDetailRow);
 HWY_EXPORT(PairRows);
 HWY_EXPORT(PackRow);
@@ -132,6 +146,11 @@ void lumaOfPlane(const std::uint8_t* y, const std::int16_t* chroma, const LumaGa
 void lumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, const LumaGain& by,
                  std::size_t pixels, std::uint8_t* luma) {
     HWY_DYNAMIC_DISPATCH(LumaOfPairs)(yAndChroma, chroma, by, pixels, luma);
+}
+
+void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
+               std::size_t pixels, std::uint8_t* to) {
+    HWY_DYNAMIC_DISPATCH(RaisedRow)(luma, neighboursShare, pixels, to);
 }
 
 void stillDetailRow(const StillRows& rows, std::size_t pixels, std::uint8_t* detail) {

@@ -28,6 +28,11 @@ struct StillRows {
 };
 void stillDetailRow(const StillRows& rows, std::size_t pixels, std::uint8_t* detail);
 
+/// Luma whose finest detail is raised by what a linear look-up takes from it, clamped. `luma` and
+/// `share` as in StillRows.
+void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
+               std::size_t pixels, std::uint8_t* to);
+
 /// Two rows as one of pairs, `upper` in the low bytes.
 void pairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,
               std::uint16_t* pairs);

@@ -16,30 +16,28 @@ constexpr int kStillGrain = 16;  // rows
 }  // namespace
 
 StillPreparation::Scratch::Scratch(Size still, const Size& low)
-    : luma(still.width), wide({still.width, 1}), low({low.width, 1}), detail({still.width, 1}),
+    : luma(still.width), wide({still.width, 1}), low({low.width, 1}), raised({still.width, 2}),
       rgb({still.width, 3}) {}
+
+StillPreparation::Detail::Detail(const StereoRig& rig, Size lowSize)
+    : meanColumns(RowTaps::mean(rig.still.size.height, lowSize.height, kFootprint)),
+      meanRows(RowTaps::mean(rig.still.size.width, lowSize.width, kFootprint)),
+      cubicColumns(RowTaps::cubic(lowSize.height, rig.still.size.height)),
+      cubicRows(RowTaps::cubic(lowSize.width, rig.still.size.width)),
+      low({rig.still.size.width, lowSize.height}), detail(rig.still.size) {}
 
 StillPreparation::StillPreparation(const StereoRig& rig, Size output,
                                    std::shared_ptr<Workers> workers)
     : workers_(std::move(workers)), whole_(rig.still.size), rig_(stillFor(output, rig)),
       low_(lowSizeOf(rig_)), luma_(whole_),
-      meanColumns_(RowTaps::mean(rig_.still.size.height, low_.height, kFootprint)),
-      meanRows_(RowTaps::mean(rig_.still.size.width, low_.width, kFootprint)),
-      cubicColumns_(RowTaps::cubic(low_.height, rig_.still.size.height)),
-      cubicRows_(RowTaps::cubic(low_.width, rig_.still.size.width)),
-      lowWide_({rig_.still.size.width, low_.height}), detail_(rig_.still.size),
+      neighboursShare_(rig_.still.size == whole_
+                           ? static_cast<std::int16_t>(std::lround(kLinearLoss * 32768))
+                           : std::int16_t{0}),
       pairs_(rig_.still.size), scratch_(workers_->count(), [&] { return Scratch(whole_, low_); }) {
     const Size reduced = rig_.still.size;
-    int taps = std::max(meanColumns_.taps(), 1);
-    if (reduced != whole_) {
+    if (reduced != whole_)
         reduction_.emplace(RowTaps::tent(whole_.height, reduced.height),
                            RowTaps::tent(whole_.width, reduced.width), Luma(reduced));
-        taps = std::max(taps, reduction_->columns.taps());
-    }
-    scratch_.forEach([&](Scratch& scratch) {
-        scratch.rows.resize(taps);
-        scratch.weights.resize(taps);
-    });
 }
 
 void StillPreparation::inParts(int rows, const std::function<void(int, int, Scratch&)>& body) {
@@ -55,8 +53,8 @@ void StillPreparation::set(const ImageView& still, bool keepsPicture) {
         ImageView{grey.data, grey.size, static_cast<std::size_t>(grey.pitch), PixelFormat::Gray8};
     if (keepsPicture) keep(still);
     if (reduction_) reduceLuma();
-    makeLow();
-    makeDetail();
+    makePairs();
+    if (detail_) detail_->isMade = false;
 }
 
 void StillPreparation::takeLuma(const ImageView& still) {
@@ -93,6 +91,8 @@ template <class RowAt>
 void StillPreparation::weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt,
                                    Scratch& scratch) {
     int number = 0;
+    scratch.rows.resize(taps.taps());
+    scratch.weights.resize(taps.taps());
     for (int k = 0; k < taps.taps(); ++k) {
         const float weight = taps.weight(k, y);
         if (weight == 0) continue;
@@ -116,42 +116,56 @@ void StillPreparation::reduceLuma() {
 
 void StillPreparation::makeLow() {
     const Size size = rig_.still.size;
+    Detail& d = *detail_;
     inParts(low_.height, [&](int first, int last, Scratch& scratch) {
         for (int y = first; y < last; ++y) {
-            weighColumn(meanColumns_, y, size, [&](int row) { return detailed()[row]; }, scratch);
-            resampleRow(scratch.wide[0], meanRows_.table(), 0, low_.width, scratch.low[0]);
-            resampleRow(scratch.low[0], cubicRows_.table(), 0, size.width, 64, lowWide_[y]);
+            weighColumn(d.meanColumns, y, size, [&](int row) { return detailed()[row]; }, scratch);
+            resampleRow(scratch.wide[0], d.meanRows.table(), 0, low_.width, scratch.low[0]);
+            resampleRow(scratch.low[0], d.cubicRows.table(), 0, size.width, 64, d.low[y]);
         }
     });
+}
+
+std::array<const std::uint8_t*, 3> StillPreparation::around(int y) {
+    Luma& luma = detailed();
+    return {luma[std::max(y - 1, 0)], luma[y], luma[std::min(y + 1, rig_.still.size.height - 1)]};
+}
+
+void StillPreparation::raisedRowOf(int y, std::uint8_t* to) {
+    raisedRow(around(y), neighboursShare_, static_cast<std::size_t>(rig_.still.size.width), to);
+}
+
+void StillPreparation::makePairs() {
+    const auto [width, height] = rig_.still.size;
+    inParts(height, [&, width = width, height = height](int first, int last, Scratch& scratch) {
+        raisedRowOf(first, scratch.raised[first % 2]);
+        for (int y = first; y < last; ++y) {
+            const int next = y + 1, below = std::min(next, height - 1);
+            raisedRowOf(below, scratch.raised[next % 2]);
+            pairRows(scratch.raised[y % 2], scratch.raised[next % 2],
+                     static_cast<std::size_t>(width), pairs_[y]);
+        }
+    });
+}
+
+Rows<const std::uint8_t> StillPreparation::detail() {
+    if (!detail_) detail_.emplace(rig_, low_);
+    if (!std::exchange(detail_->isMade, true)) {
+        makeLow();
+        inParts(rig_.still.size.height, [&](int first, int last, Scratch&) {
+            for (int y = first; y < last; ++y)
+                detailRowOf(y, detail_->detail[y]);
+        });
+    }
+    return std::as_const(detail_->detail).rows();
 }
 
 void StillPreparation::detailRowOf(int y, std::uint8_t* to) {
-    const Size size = rig_.still.size;
-    const ColumnTaps taps = cubicColumns_.column(y);
-    Luma& luma = detailed();
-    StillRows rows{{luma[std::max(y - 1, 0)], luma[y], luma[std::min(y + 1, size.height - 1)]},
-                   {},
-                   taps.weights,
-                   0};
+    const ColumnTaps taps = detail_->cubicColumns.column(y);
+    StillRows rows{around(y), {}, taps.weights, neighboursShare_};
     for (std::size_t k = 0; k < rows.low.size(); ++k)
-        rows.low[k] = lowWide_[taps.rows[k]];
-    if (!reduction_)
-        rows.neighboursShare = static_cast<std::int16_t>(std::lround(kLinearLoss * 32768));
-    stillDetailRow(rows, static_cast<std::size_t>(size.width), to);
-}
-
-void StillPreparation::makeDetail() {
-    const auto [width, height] = rig_.still.size;
-    inParts(height, [&, width = width, height = height](int first, int last, Scratch& scratch) {
-        for (int y = first; y < last; ++y) {
-            detailRowOf(y, detail_[y]);
-            if (y > first) pairRows(detail_[y - 1], detail_[y], width, pairs_[y - 1]);
-        }
-        // The row below is another part's.
-        std::uint8_t* below = scratch.detail[0];
-        detailRowOf(std::min(last, height - 1), below);
-        pairRows(detail_[last - 1], below, width, pairs_[last - 1]);
-    });
+        rows.low[k] = detail_->low[taps.rows[k]];
+    stillDetailRow(rows, static_cast<std::size_t>(rig_.still.size.width), to);
 }
 
 Rows<const std::uint32_t> StillPreparation::picture() {

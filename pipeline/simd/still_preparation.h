@@ -17,9 +17,9 @@
 
 namespace mfar::simd {
 
-/// The newest still, prepared once: luma of all of it, and what it shows beyond the video's
-/// resolution, detail = luma - up(down(luma)), at the output's need. The host's StillReference.
-/// Allocates in the constructor; set() only for another pixel format's copy, picture() once.
+/// The newest still, prepared once: luma of all of it, and of as many pixels as the output has a
+/// use for. The host's StillReference. Allocates in the constructor; set() only for another pixel
+/// format's copy, detail() and picture() once.
 class StillPreparation {
 public:
     /// `output`: size of what is made of the video's whole picture.
@@ -29,16 +29,17 @@ public:
     /// picture(), which is grey without.
     void set(const ImageView& still, bool keepsPicture = true);
 
-    /// The rig with the still camera as detail() has it: the same lens, maybe fewer pixels.
+    /// The rig with the still camera as pairs() have it: the same lens, maybe fewer pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     /// Rec. 601 luma of the whole still.
     [[nodiscard]] Rows<const std::uint8_t> luma() const { return luma_.rows(); }
-    /// Size of rig().still; 128 where the video shows all there is.
-    [[nodiscard]] Rows<const std::uint8_t> detail() const { return detail_.rows(); }
-    /// detail(), for detailRow().
-    [[nodiscard]] DetailPairs detailPairs() const {
-        return {pairs_[0], pairs_.pitch(), pairs_.size()};
-    }
+    /// Luma of rig().still's size. Unless it was reduced, its finest detail is raised by what a
+    /// linear look-up takes from it.
+    [[nodiscard]] StillPairs pairs() const { return {pairs_[0], pairs_.pitch(), pairs_.size()}; }
+    /// What the still shows beyond the video's resolution, luma - up(down(luma)), for the shaders:
+    /// 128 where the video shows all there is. Size of rig().still. Made by the first call after
+    /// set().
+    [[nodiscard]] Rows<const std::uint8_t> detail();
     /// RGBA8, R in the lowest byte, size of rig().still; 64 readable bytes behind each row. Made by
     /// the first call after set().
     [[nodiscard]] Rows<const std::uint32_t> picture();
@@ -67,7 +68,7 @@ private:
         Scratch(Size still, const Size& low);
         StillLuma::Scratch luma;
         AlignedRows<float> wide, low;           // a row of the still; of `low` size
-        AlignedRows<std::uint8_t> detail, rgb;  // a row; three
+        AlignedRows<std::uint8_t> raised, rgb;  // two rows; three
         std::vector<const std::uint8_t*> rows;  // that are weighed
         std::vector<float> weights;
     };
@@ -77,14 +78,26 @@ private:
         Luma luma;
     };
 
+    /// What detail() is made with.
+    struct Detail {
+        Detail(const StereoRig& rig, Size low);
+
+        RowTaps meanColumns, meanRows, cubicColumns, cubicRows;
+        AlignedRows<std::int16_t> low;  // rows at the still's width [1/64 grey level]
+        AlignedRows<std::uint8_t> detail;
+        bool isMade = false;
+    };
+
     void inParts(int rows, const std::function<void(int, int, Scratch&)>& body);
     void takeLuma(const ImageView& still);
     void keep(const ImageView& still);
     void reduceLuma();
+    void makePairs();
     void makeLow();
-    void makeDetail();
     void reducePictureRow(int y, Scratch& scratch);
+    void raisedRowOf(int y, std::uint8_t* to);
     void detailRowOf(int y, std::uint8_t* to);
+    [[nodiscard]] std::array<const std::uint8_t*, 3> around(int y);
     template <class RowAt>
     void weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt, Scratch& scratch);
     [[nodiscard]] Luma& detailed() { return reduction_ ? reduction_->luma : luma_; }
@@ -95,9 +108,8 @@ private:
     Size low_;
     Luma luma_;
     std::optional<Reduction> reduction_;
-    RowTaps meanColumns_, meanRows_, cubicColumns_, cubicRows_;
-    AlignedRows<std::int16_t> lowWide_;  // `low` rows at the still's width [1/64 grey level]
-    AlignedRows<std::uint8_t> detail_;
+    std::int16_t neighboursShare_;  // see StillRows
+    std::optional<Detail> detail_;
     AlignedRows<std::uint16_t> pairs_;
     ScratchSlots<Scratch> scratch_;
     std::vector<std::uint8_t> kept_;

@@ -15,7 +15,7 @@ constexpr double kToABit = 0.501;
 class StepsTest : public GlTest, public testing::WithParamInterface<EngineKind> {
 protected:
     static std::unique_ptr<Engine> engineFor(const StereoRig& rig, Size output = {64, 48}) {
-        const StepSetup setup{rig, output, {}, std::make_shared<Workers>(2)};
+        const StepSetup setup{rig, output, {}, std::make_shared<Workers>(2), nullptr, true};
         return GetParam() == EngineKind::Gles ? makeGlesEngine(setup) : makeSimdEngine(setup);
     }
     static bool isGles() { return GetParam() == EngineKind::Gles; }

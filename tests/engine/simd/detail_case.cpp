@@ -100,7 +100,7 @@ ImageView DetailCase::videoView() const {
 DetailInput DetailCase::input(StillPreparation* still) const {
     return {video,
             work,
-            still != nullptr ? still->detailPairs() : DetailPairs{},
+            still != nullptr ? still->pairs() : StillPairs{},
             still != nullptr ? still->picture() : Rows<const std::uint32_t>{},
             {weighed.data(), cells.width, cells},
             {lookUps.data(), cells.width, cells},

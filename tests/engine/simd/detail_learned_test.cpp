@@ -8,21 +8,21 @@ namespace {
 constexpr double kLearnedError = 1.3;  // luma is in 1/8 grey level, limits in quarters of that
 
 TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
-    for (const auto& [video, still, output] : kSizes)
+    for (const auto& [video, stillSize, output] : kSizes)
         for (const bool usesStill : {true, false}) {
             if (output.width > 1000) continue;  // slow, and its video is small
-            const DetailCase frame(video, still);
+            const DetailCase frame(video, stillSize);
             const DetailOptions options{SuperResMode::Detail, true, false, true, &evenBank()};
             const Drawn drawn(frame, output, options, usesStill);
-            const Wanted wanted(frame, output, options, usesStill);
-            const Grey detail = detailPlane(drawn.still);
+            Wanted wanted(frame, output, options, usesStill);
+            const Grey still = lumaPlane(drawn.still);
             double most = 0;
             const Drawn without(frame, output, {SuperResMode::Detail, true, false, true}, false);
             for (int y = 0; y < output.height; ++y)
                 for (int x = 0; x < output.width; ++x)
                     for (int c = 0; c < 3; ++c) {
-                        const double value = usesStill ? wanted.withStill(x, y, c, detail)
-                                                       : wanted.enlarged(x, y, c);
+                        const double value =
+                            usesStill ? wanted.withStill(x, y, c, still) : wanted.enlarged(x, y, c);
                         ASSERT_NEAR(drawn.channel(x, y, c), value, kLearnedError)
                             << output.width << ": " << x << " " << y << " " << c;
                         most = std::max(most, std::abs(value - without.channel(x, y, c)));

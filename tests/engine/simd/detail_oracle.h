@@ -69,27 +69,40 @@ public:
     [[nodiscard]] double enlarged(int x, int y, int c) const {
         return std::clamp(video_[c].at(x, y), 0.0, 255.0);
     }
-    /// `stillAt`: detail, or a channel of the still, at (x, y) of it.
-    [[nodiscard]] double withStill(int x, int y, int c, const Grey& still) const {
-        const Size video = frame_.rig.video.size;
-        const double vx = (x + 0.5) * video.width / output_.width,
-                     vy = (y + 0.5) * video.height / output_.height;
-        const auto at = [&](int i) { return lookUp_[i].bilinear(vx / 4 - 0.5, vy / 4 - 0.5); };
-        const double scale = double(still.size.width) / video.width,
-                     scaleY = double(still.size.height) / video.height;
-        const double px = vx * scale + at(0) - 0.5, py = vy * scaleY + at(1) - 0.5;
-        const double there = still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
-                                            std::clamp(py, -1.0, double(still.size.height)));
+    /// Mixed with a channel of the still by its confidence.
+    [[nodiscard]] double blended(int x, int y, int c, const Grey& still) const {
+        return std::lerp(enlarged(x, y, c), there(x, y, still), lookUpAt(x, y, 3));
+    }
+    /// With the detail of a still's luma, see lumaPlane(). Slow at first.
+    [[nodiscard]] double withStill(int x, int y, int c, const Grey& still) {
+        if (detail_.values.empty()) {
+            const Grey warped =
+                twin::greyOf(output_, [&](int i, int j) { return there(i, j, still); });
+            const Grey shown = twin::stillLow(warped, frame_.rig.video.size, 1);
+            detail_ = twin::enlarged(shown, output_);
+            for (std::size_t i = 0; i < detail_.values.size(); ++i)
+                detail_.values[i] = warped.values[i] - detail_.values[i];
+        }
+        const double weight = lookUpAt(x, y, 2);
         double up = video_[c].at(x, y);
         if (options_.learned != nullptr)  // by what the detail leaves
-            up -= std::min(at(2), 1.0) * residual_.at(x, y);
-        return std::clamp(options_.mode == SuperResMode::Blend
-                              ? std::lerp(std::clamp(up, 0.0, 255.0), there, at(3))
-                              : up + at(2) * (there - 128),
-                          0.0, 255.0);
+            up -= std::min(weight, 1.0) * residual_.at(x, y);
+        return std::clamp(up + weight * detail_.at(x, y), 0.0, 255.0);
     }
 
 private:
+    [[nodiscard]] double lookUpAt(int x, int y, int channel) const {
+        const Size video = frame_.rig.video.size;
+        return lookUp_[channel].bilinear((x + 0.5) * video.width / output_.width / 4 - 0.5,
+                                         (y + 0.5) * video.height / output_.height / 4 - 0.5);
+    }
+    /// What the still shows where an output pixel looks.
+    [[nodiscard]] double there(int x, int y, const Grey& still) const {
+        const double px = (x + 0.5) * still.size.width / output_.width + lookUpAt(x, y, 0) - 0.5,
+                     py = (y + 0.5) * still.size.height / output_.height + lookUpAt(x, y, 1) - 0.5;
+        return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
+                              std::clamp(py, -1.0, double(still.size.height)));
+    }
     void addLearned() {
         const Grey luma = twin::greyOf(frame_.rig.video.size, [&](int x, int y) {
             const auto at = [&](int c) { return double(frame_.video.row(c, y)[x]); };
@@ -118,13 +131,14 @@ private:
     DetailOptions options_;
     bool usesStill_;
     std::array<Grey, 3> video_;
-    Grey residual_;
+    Grey residual_, detail_;
     std::array<Grey, 4> lookUp_;
 };
 
-inline Grey detailPlane(const StillPreparation& still) {
-    const Rows<const std::uint8_t> rows = still.detail();
-    return twin::greyOf(rows.size, [&](int x, int y) { return double(rows[y][x]); });
+inline Grey lumaPlane(const StillPreparation& still) {
+    const StillPairs pairs = still.pairs();
+    return twin::greyOf(
+        pairs.size, [&](int x, int y) { return double(pairs.data[y * pairs.pitch + x] & 255); });
 }
 
 struct Sizes {

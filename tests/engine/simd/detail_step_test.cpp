@@ -8,15 +8,15 @@ namespace mfar::simd {
 namespace {
 
 TEST(DetailStep, WholeFrameIsTheOraclesAtAnySize) {
-    for (const auto& [video, still, output] : kSizes) {
-        const DetailCase frame(video, still);
+    for (const auto& [video, stillSize, output] : kSizes) {
+        const DetailCase frame(video, stillSize);
         const Drawn drawn(frame, output, {SuperResMode::Detail, true, false, true});
-        const Wanted wanted(frame, output, kDetail, true);
-        const Grey detail = detailPlane(drawn.still);
+        Wanted wanted(frame, output, kDetail, true);
+        const Grey still = lumaPlane(drawn.still);
         for (int y = 0; y < output.height; ++y)
             for (int x = 0; x < output.width; ++x) {
                 for (int c = 0; c < 3; ++c)
-                    ASSERT_NEAR(drawn.channel(x, y, c), wanted.withStill(x, y, c, detail), 0.8)
+                    ASSERT_NEAR(drawn.channel(x, y, c), wanted.withStill(x, y, c, still), 0.8)
                         << output.width << ": " << x << " " << y << " " << c;
                 ASSERT_EQ(drawn.channel(x, y, 3), 255);
             }
@@ -24,9 +24,9 @@ TEST(DetailStep, WholeFrameIsTheOraclesAtAnySize) {
 }
 
 TEST(DetailStep, WithoutAStillTheVideoIsEnlargedCubiclyOrLinearly) {
-    for (const auto& [video, still, output] : kSizes)
+    for (const auto& [video, stillSize, output] : kSizes)
         for (const bool cubic : {true, false}) {
-            const DetailCase frame(video, still);
+            const DetailCase frame(video, stillSize);
             const DetailOptions options{SuperResMode::Off, cubic, true, true};
             const Drawn drawn(frame, output, options, false);
             const Wanted wanted(frame, output, options, false);
@@ -42,8 +42,8 @@ TEST(DetailStep, WithoutAStillTheVideoIsEnlargedCubiclyOrLinearly) {
 }
 
 TEST(DetailStep, BlendMixesTheStillByItsConfidence) {
-    for (const auto& [video, still, output] : kSizes) {
-        const DetailCase frame(video, still);
+    for (const auto& [video, stillSize, output] : kSizes) {
+        const DetailCase frame(video, stillSize);
         const DetailOptions options{SuperResMode::Blend, true, true, true};
         Drawn drawn(frame, output, options);
         const Wanted wanted(frame, output, options, true);
@@ -53,15 +53,15 @@ TEST(DetailStep, BlendMixesTheStillByItsConfidence) {
                 picture.size, [&](int x, int y) { return double(picture[y][x] >> (8 * c) & 255); });
             for (int y = 0; y < output.height; ++y)
                 for (int x = 0; x < output.width; ++x)
-                    ASSERT_NEAR(drawn.channel(x, y, c), wanted.withStill(x, y, c, channel), 1.1)
+                    ASSERT_NEAR(drawn.channel(x, y, c), wanted.blended(x, y, c, channel), 1.1)
                         << output.width << ": " << x << " " << y;
         }
     }
 }
 
 TEST(DetailStep, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
-    for (const auto& [video, still, output] : kSizes) {
-        const DetailCase part(video, still, 0.4), whole(video, still);
+    for (const auto& [video, stillSize, output] : kSizes) {
+        const DetailCase part(video, stillSize, 0.4), whole(video, stillSize);
         for (const auto& [mode, bank] :
              {std::pair{SuperResMode::Detail, static_cast<const FilterBank*>(nullptr)},
               {SuperResMode::Detail, &FilterBank::prior()},
@@ -96,13 +96,13 @@ TEST(DetailStep, NothingChangedDrawsNothing) {
 /// Expects detail in some tiles, and the sharpened, enlarged video in the others.
 void expectDetailIn(const DetailCase& frame, const Drawn& drawn, Size output,
                     const std::function<bool(int, int)>& inTile) {
-    const Wanted wanted(frame, output, kDetail, true);
-    const Grey detail = detailPlane(drawn.still);
+    Wanted wanted(frame, output, kDetail, true);
+    const Grey still = lumaPlane(drawn.still);
     const Size video = frame.rig.video.size;
     double most = 0;
     for (int y = 0; y < output.height; ++y)
         for (int x = 0; x < output.width; ++x) {
-            const double with = wanted.withStill(x, y, 1, detail),
+            const double with = wanted.withStill(x, y, 1, still),
                          without = wanted.enlarged(x, y, 1);
             const bool in = inTile(tileAt(x, video.width, output.width),
                                    tileAt(y, video.height, output.height));
@@ -182,11 +182,11 @@ TEST(DetailStep, LookUpsBeyondTheStillShowItsBorder) {
         cell.y = 4000;
     }
     const Drawn drawn(frame, output, {SuperResMode::Detail, true, false, true});
-    const Wanted wanted(frame, output, kDetail, true);
-    const Grey detail = detailPlane(drawn.still);
+    Wanted wanted(frame, output, kDetail, true);
+    const Grey still = lumaPlane(drawn.still);
     for (int y = 0; y < output.height; ++y)
         for (int x = 0; x < output.width; ++x)
-            ASSERT_NEAR(drawn.channel(x, y, 0), wanted.withStill(x, y, 0, detail), 0.8);
+            ASSERT_NEAR(drawn.channel(x, y, 0), wanted.withStill(x, y, 0, still), 0.8);
 }
 
 TEST(DetailStep, WeightlessTilesAreEnlargedAlone) {

@@ -81,16 +81,25 @@ TEST(StillPreparation, StillFinerThanTheOutputIsReducedFirst) {
 }
 
 TEST(StillPreparation, PairsHoldEachPixelAndTheOneBelow) {
-    Still s({40, 30}, {131, 97}, {131, 97});
-    s.preparation.set(TestPicture({131, 97}).view);
-    const DetailPairs pairs = s.preparation.detailPairs();
-    const Rows<const std::uint8_t> detail = s.preparation.detail();
-    ASSERT_EQ(pairs.size, detail.size);
-    for (int y = 0; y < detail.size.height; ++y)
-        for (int x = 0; x < detail.size.width; ++x) {
-            const int below = detail[std::min(y + 1, detail.size.height - 1)][x];
-            ASSERT_EQ(pairs.data[y * pairs.pitch + x], detail[y][x] | below << 8) << x << " " << y;
-        }
+    for (const auto& [output, neighbours] : {std::pair{Size{131, 97}, 0.08}, {Size{50, 37}, 0.0}}) {
+        Still s({40, 30}, {131, 97}, output);
+        const TestPicture picture({131, 97});
+        s.preparation.set(picture.view);
+        const StillPairs pairs = s.preparation.pairs();
+        const Size size = s.preparation.rig().still.size;
+        ASSERT_EQ(pairs.size, size);
+        Grey luma = lumaOf(picture.view);
+        if (size != luma.size) luma = twin::reduced(luma, size);
+        const Grey wanted = twin::raised(luma, neighbours);
+        const auto at = [&](int x, int y) { return std::clamp(wanted.at(x, y), 0.0, 255.0); };
+        for (int y = 0; y < size.height; ++y)
+            for (int x = 0; x < size.width; ++x) {
+                const int pair = pairs.data[y * pairs.pitch + x];
+                ASSERT_NEAR(pair & 255, at(x, y), 2.2) << x << " " << y;
+                const int below = std::min(y + 1, size.height - 1);
+                ASSERT_EQ(pair >> 8, pairs.data[below * pairs.pitch + x] & 255) << x << " " << y;
+            }
+    }
 }
 
 TEST(StillPreparation, ConstantStillHasNoDetail) {

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "pipeline/engine/cells.h"
+#include "pipeline/simd/cell_rows.h"
+#include "pipeline/simd/detail_kernels.h"
+
+namespace mfar::simd {
+
+/// Tables for bringing a field of look-ups to the output's size, shared by all threads.
+struct LookUpTaps {
+    /// `stillRig`: with the still camera as it is looked into. `output`: of the whole video.
+    LookUpTaps(const StereoRig& stillRig, Size output);
+
+    RowTaps rows, columns;
+    Size cells;
+    float stepX, stepY;  ///< still pixels per output pixel
+};
+
+/// Where the pixels of output rows look into the still, and how much it counts there. Scratch of
+/// one thread.
+class LookUpRowCache {
+public:
+    LookUpRowCache(Size cells, int outputWidth) : cells_(cells.width, outputWidth) {}
+
+    /// Starts with a field, for pixels [begin, end) of the output alone. `confident`: the share is
+    /// the confidence instead of the weight.
+    void begin(Rows<const LookUpCell> field, const LookUpTaps& taps, bool confident, int begin,
+               int end);
+    /// Valid until a row is asked for that lies four cells away.
+    [[nodiscard]] LookUpRows row(int y);
+
+private:
+    const LookUpTaps* taps_ = nullptr;
+    bool confident_ = false;
+    CellRows<LookUpCell, 3> cells_;
+};
+
+}  // namespace mfar::simd

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace mfar::simd {
+
+/// Pixels [begin, end) of a row.
+struct PixelSpan {
+    int begin, end;
+    bool operator==(const PixelSpan&) const = default;
+};
+
+/// Spans of a row, ascending, that neither touch nor overlap.
+using PixelSpans = std::vector<PixelSpan>;
+
+/// Adds a span that begins no earlier than the last.
+inline void append(PixelSpans& spans, const PixelSpan& added) {
+    if (!spans.empty() && added.begin <= spans.back().end)
+        spans.back().end = std::max(spans.back().end, added.end);
+    else
+        spans.push_back(added);
+}
+
+/// Does each of these pixels lie in `spans`?
+[[nodiscard]] inline bool contains(const PixelSpans& spans, const PixelSpans& pixels) {
+    return std::ranges::all_of(pixels, [&](const PixelSpan& some) {
+        return std::ranges::any_of(spans, [&](const PixelSpan& span) {
+            return span.begin <= some.begin && some.end <= span.end;
+        });
+    });
+}
+
+}  // namespace mfar::simd
