@@ -10,7 +10,7 @@
 namespace mfar::eval {
 namespace {
 
-double parseNumber(const std::string& part, const std::string& text) {
+double parseNumber(const std::string& option, const std::string& part, const std::string& text) {
     std::size_t used = 0;
     double value = 0;
     try {
@@ -19,15 +19,15 @@ double parseNumber(const std::string& part, const std::string& text) {
         used = 0;
     }
     if (used == 0 || used != text.size() || !std::isfinite(value))
-        throw std::invalid_argument(fmt::format("--degrade: '{}' has no valid number", part));
+        throw std::invalid_argument(fmt::format("{}: '{}' has no valid number", option, part));
     return value;
 }
 
-void assign(Degradation& out, const std::string& part) {
+void assign(Degradation& out, const std::string& option, const std::string& part) {
     const std::size_t equals = part.find('=');
     const std::string key = part.substr(0, equals);
-    const double value =
-        parseNumber(part, equals == std::string::npos ? std::string{} : part.substr(equals + 1));
+    const double value = parseNumber(
+        option, part, equals == std::string::npos ? std::string{} : part.substr(equals + 1));
     const bool factor = key == "gain" || key == "gamma";
     if (key == "gain")
         out.gain = value;
@@ -39,18 +39,18 @@ void assign(Degradation& out, const std::string& part) {
         out.noise = value;
     else
         throw std::invalid_argument(
-            fmt::format("--degrade: unknown '{}' (valid: gain, gamma, blur, noise)", key));
+            fmt::format("{}: unknown '{}' (valid: gain, gamma, blur, noise)", option, key));
     if (factor ? !(value > 0) : !(value >= 0))
-        throw std::invalid_argument(fmt::format("--degrade: '{}' is out of range", part));
+        throw std::invalid_argument(fmt::format("{}: '{}' is out of range", option, part));
 }
 
 }  // namespace
 
-Degradation parseDegradation(const std::string& text) {
+Degradation parseDegradation(const std::string& text, const std::string& option) {
     Degradation out;
     std::istringstream parts(text);
     for (std::string part; std::getline(parts, part, ',');)
-        assign(out, part);
+        assign(out, option, part);
     return out;
 }
 

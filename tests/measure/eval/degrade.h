@@ -19,7 +19,8 @@ struct Degradation {
 
 /// Reads "gain=0.7,gamma=1.3,blur=0.7,noise=4", any subset in any order; empty = none.
 /// Throws std::invalid_argument that names the faulty part.
-[[nodiscard]] Degradation parseDegradation(const std::string& text);
+[[nodiscard]] Degradation parseDegradation(const std::string& text,
+                                           const std::string& option = "--degrade");
 
 /// A degraded copy of an 8-bit picture. The same seed gives the same noise.
 [[nodiscard]] cv::Mat degrade(const cv::Mat& picture, const Degradation& how, std::uint64_t seed);

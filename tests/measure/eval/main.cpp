@@ -33,7 +33,7 @@ constexpr const char* kSuperResHelp =
     "Brings every video frame with truth/highres to the still's resolution and compares it "
     "with the truth.\n"
     "Luma (Rec. 601), 32 px of border left out. harm_rate: share of pixels whose error "
-    "exceeds bicubic's by more than 2 grey levels.\n"
+    "exceeds bicubic's by more than 2 grey levels. psnr_rgb_db: over red, green and blue.\n"
     "The reference of a frame is the still nearest to it in time that does not show the "
     "frame's very own view: a still whose pose relative to the frame is below 1e-6 (from the "
     "rig at equal times, from the recorded poses otherwise) is never used.\n"
@@ -85,7 +85,7 @@ struct Options {
     OcclusionRequest occlusion;
     MetricRequest metric;
     Figure7Request figure7;
-    std::string degrade;
+    std::string degrade, degradeVideo;
     PoseNoise poseNoise;
     std::string csv;
 };
@@ -118,6 +118,8 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         ->delimiter(',');
     addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
+    sub->add_option("--degrade-video", o.degradeVideo,
+                    "make the video worse, in the same way [video px]");
     addPictureMetrics(*sub, o.superres.metrics);
     sub->add_option("--alpha", o.superres.alpha,
                     "of the peer `paper`: two-way error at which its confidence is zero [video px]")
@@ -159,6 +161,7 @@ const SampleRequest& completed(SampleRequest& request, const std::vector<std::st
 Report runSuperRes(Options& o) {
     checkMethods(o.superres.methods, superResMethodNames());
     o.superres.degradation = parseDegradation(o.degrade);
+    o.superres.videoDegradation = parseDegradation(o.degradeVideo, "--degrade-video");
     o.superres.poseNoise = o.poseNoise;
     if (o.superres.noStill) std::erase_if(o.superres.methods, needsStill);
     return evaluateSuperRes(o.superres);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -82,7 +83,8 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 2 * 6 + 6) << outcome.text;
-    EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate"));
+    EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
+                             "psnr_rgb_db"));
     for (std::size_t i = 1; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].size(), rows[0].size());
         EXPECT_EQ(rows[i][0], "tiny");
@@ -115,6 +117,25 @@ TEST(MfarEval, SuperResWithoutAStillComparesWhatEnlargesTheVideo) {
     EXPECT_EQ(rows[2][2], "bicubic");
 }
 
+TEST(MfarEval, SuperResMakesTheVideoWorseForEveryMethod) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const auto psnrOf = [&](const std::string& options) {
+        const Outcome outcome =
+            execute(folder, fmt::format("{0} superres {1}/tiny --methods detail,bicubic {2} --csv "
+                                        "{1}/out.csv",
+                                        MFAR_EVAL, folder.path().string(), options));
+        EXPECT_EQ(outcome.status, 0) << outcome.text;
+        const auto rows = readCsv(folder / "out.csv");
+        return std::array{std::stod(rows.at(1).at(4)), std::stod(rows.at(2).at(4)),
+                          std::stod(rows.at(2).at(9))};
+    };
+    const auto clean = psnrOf(""), noisy = psnrOf("--degrade-video noise=20");
+    EXPECT_LT(noisy[0], clean[0] - 1);
+    EXPECT_LT(noisy[1], clean[1] - 1);
+    EXPECT_LT(noisy[2], clean[2] - 1) << "colours";
+}
+
 TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
@@ -127,7 +148,8 @@ TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
     const auto rows = readCsv(folder / "out.csv");
     EXPECT_EQ(rows.at(0), split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
                                 "msssim,lpc_si_p10,lpc_si_median,lpc_si_p90,lpc_ratio,hdrvdp_qmos,"
-                                "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma"));
+                                "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma,"
+                                "psnr_rgb_db"));
     ASSERT_EQ(rows.at(1).size(), rows[0].size());
     EXPECT_TRUE(rows[1][5].empty());  // ssim was not asked for
     EXPECT_GT(std::stod(rows[1][6]), 0);
@@ -310,6 +332,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
          "unknown method 'wonder' (valid: detail, detail2d, blend, bilinear, "
          "bicubic, paper)"},
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
+        {"superres " + dir + "/tiny --degrade-video blur=-1", "--degrade-video: 'blur=-1'"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},
         {"flow " + dir, "neither a recording"},

@@ -9,10 +9,16 @@
 #include "tests/measure/eval/superres_samples.h"
 
 #include <fmt/format.h>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace mfar::eval {
 namespace {
+
+/// Over all three channels of 8 bits [dB].
+double colourPsnr(const cv::Mat& picture, const cv::Mat& truth) {
+    return cv::PSNR(picture, withoutBorder(truth), 255);
+}
 
 /// One recording with the methods set up for its rig.
 class SuperResRun {
@@ -40,10 +46,11 @@ public:
             CV_Assert(result.picture.size() == truthPicture.size());
             const cv::Mat picture = luma(withoutBorder(result.picture));
             const PictureScores scores = scoreOf(picture, truth, request_.metrics);
-            report.add(label_, name, request_.methods[i],
-                       followedBy({result.ms, scores.psnr, scores.ssim, scores.lpcSi,
-                                   scores.hdrVdpQ, harmRate(picture, bicubic, truth)},
-                                  furtherValues(scores, request_.metrics)));
+            auto values = followedBy({result.ms, scores.psnr, scores.ssim, scores.lpcSi,
+                                      scores.hdrVdpQ, harmRate(picture, bicubic, truth)},
+                                     furtherValues(scores, request_.metrics));
+            values.emplace_back(colourPsnr(withoutBorder(result.picture), truthPicture));
+            report.add(label_, name, request_.methods[i], values);
             save(name, request_.methods[i], result.picture);
         }
     }
@@ -51,7 +58,9 @@ public:
 private:
     [[nodiscard]] Shot loadFrame(const SuperResSample& sample) const {
         const Timestamp time = sample.video.time;
-        Shot out{loadPicture(sample.video.file), time, poses_.of(time, sample.still.time).frame};
+        const cv::Mat picture = degrade(loadPicture(sample.video.file), request_.videoDegradation,
+                                        ~static_cast<std::uint64_t>(time.ns));
+        Shot out{picture, time, poses_.of(time, sample.still.time).frame};
         if (out.pose) out.pose = turned(*out.pose, request_.poseNoise, label_);
         return out;
     }
@@ -89,9 +98,11 @@ private:
 }  // namespace
 
 Report evaluateSuperRes(const SuperResRequest& request) {
-    Report report(followedBy<Column>(
+    auto columns = followedBy<Column>(
         {{"ms", 1}, {"psnr_db", 2}, {"ssim", 4}, {"lpc_si", 4}, {"hdrvdp_q", 2}, {"harm_rate", 4}},
-        furtherColumns(request.metrics)));
+        furtherColumns(request.metrics));
+    columns.push_back({"psnr_rgb_db", 2});
+    Report report(columns);
     const auto labels = labelsOf(request.recordings);
     SuperResFactory factory(request.alpha);
     for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -17,6 +17,7 @@ struct SuperResRequest {
     std::vector<std::string> methods;  ///< of superResMethodNames()
     bool noStill = false;              ///< the video alone is enlarged
     Degradation degradation;           ///< done to every still
+    Degradation videoDegradation;      ///< done to every frame of the video
     PoseSource poses = PoseSource::Recorded;
     PoseNoise poseNoise;         ///< of every frame
     double alpha = 2;            ///< of the paper's confidence [video px]
