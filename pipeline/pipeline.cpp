@@ -46,9 +46,9 @@ Size Pipeline::fullSize(const StereoRig& rig) {
 Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     : rig(rigIn), options(optionsIn), output(outputSize(rig, options.output)),
       workers(std::make_shared<Workers>(options.threads)), now(rig.video.size),
-      drawn(rig.video.size), plan(rig.video.size, workers),
-      epipolar(rig, workers, options.epipolar), depth(rig.video, workers, options.depth),
-      snap(rig.video.size, workers) {
+      drawn(rig.video.size), plan(rig.video.size, workers) {
+    validate(options.epipolar);
+    validate(options.depth);
     const StepSetup setup{rig, output, options.flow2d, workers, &transfers};
     if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
     if (options.engines.uses(EngineKind::Simd)) simd = makeSimdEngine(setup);
@@ -59,6 +59,7 @@ Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     detail = engineOf(options.engines.detail).detail();
     quality.mode = options.mode;
     if (!options.skips.tileLists) plan.drawWholeFrom(0);
+    if (options.depthEverywhere) needDepth();
 }
 
 Engine& Pipeline::State::engineOf(EngineKind kind) {
@@ -75,9 +76,12 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
     State& s = *state_;
     requireFit(still, s.rig.still.size, "still");
     s.stillPictures = &s.still->run(still, s.quality.mode);
-    s.epipolar.dropStill();
-    if (pose) s.epipolar.setStill(still, *pose);
-    s.depth.renew();
+    if (s.epipolar) s.epipolar->dropStill();
+    if (pose) {
+        if (!s.epipolar) s.epipolar.emplace(s.rig, s.workers, s.options.epipolar);
+        s.epipolar->setStill(still, *pose);
+    }
+    if (s.depth) s.depth->stage.renew();
     s.pyramid->still(*s.stillPictures);
     s.redraw = true;
     s.lastFlow = nullptr;
@@ -85,7 +89,7 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
 
 void Pipeline::dropStill() {
     state_->stillPictures = nullptr;
-    state_->epipolar.dropStill();
+    if (state_->epipolar) state_->epipolar->dropStill();
     state_->redraw = true;
     state_->lastFlow = nullptr;
 }
@@ -104,7 +108,8 @@ void Pipeline::setQuality(const Quality& quality) {
     s.quality = quality;
     s.quality.cubic = quality.cubic || quality.mode != SuperResMode::Off;
     s.flow->setOptions(quality.flow2d);
-    s.epipolar.setOptions(quality.epipolar);
+    s.options.epipolar = changed(s.options.epipolar, quality.epipolar);
+    if (s.epipolar) s.epipolar->setOptions(quality.epipolar);
 }
 
 void Pipeline::redraw() {
@@ -134,7 +139,8 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     const PixelRect decides = s.placeObjects(pose, time);
     const TileWork& work = s.planFrame(frame);
     const bool usesStill = s.stillPictures != nullptr && s.quality.mode != SuperResMode::Off;
-    const bool usesPose = usesStill && s.quality.alongLines && pose && s.epipolar.hasStill();
+    const bool usesPose =
+        usesStill && s.quality.alongLines && pose && s.epipolar && s.epipolar->hasStill();
     std::optional<State::Match> match;
     if (usesStill)
         match.emplace(s.matchStill(frame, work, usesPose ? pose : std::nullopt, decides));
@@ -168,9 +174,9 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
     if (pose) {
         const PixelRect where = around(pixelsOf(work.detailTiles), forDepth);
         const int tiles = forDepth.empty() ? work.matched : work.changed;
-        if (tiles > 0 && !where.empty()) epipolar.run(frame.view, *pose, where);
+        if (tiles > 0 && !where.empty()) epipolar->run(frame.view, *pose, where);
         lap("epipolar");
-        found = &flow->refine(pyramids, work, epipolar.forward(), epipolar.hidden());
+        found = &flow->refine(pyramids, work, epipolar->forward(), epipolar->hidden());
     } else {
         found = &flow->run(pyramids, work, lastFlow != nullptr && options.skips.knownFlow);
     }
@@ -221,7 +227,7 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
     stats.changed = summary.changed;
     stats.usedStill = usedStill;
     stats.searched2d = flow->finishedSearchedCount();
-    if (usedPose) publishPose(epipolar, stats);
+    if (usedPose) publishPose(*epipolar, stats);
     stats.transfers = {transfers.uploadedBytes - transfersBefore.uploadedBytes,
                        transfers.downloadedBytes - transfersBefore.downloadedBytes};
     transfersBefore = transfers;
