@@ -77,10 +77,7 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
     requireFit(still, s.rig.still.size, "still");
     s.stillPictures = &s.still->run(still, s.quality.mode);
     if (s.epipolar) s.epipolar->dropStill();
-    if (pose) {
-        if (!s.epipolar) s.epipolar.emplace(s.rig, s.workers, s.options.epipolar);
-        s.epipolar->setStill(still, *pose);
-    }
+    if (pose) s.needEpipolar().setStill(still, *pose);
     if (s.depth) s.depth->stage.renew();
     s.pyramid->still(*s.stillPictures);
     s.redraw = true;
@@ -109,7 +106,7 @@ void Pipeline::setQuality(const Quality& quality) {
     s.quality.cubic = quality.cubic || quality.mode != SuperResMode::Off;
     s.flow->setOptions(quality.flow2d);
     s.options.epipolar = changed(s.options.epipolar, quality.epipolar);
-    if (s.epipolar) s.epipolar->setOptions(quality.epipolar);
+    if (s.epipolar) s.epipolar->setOptions(s.options.epipolar);
 }
 
 void Pipeline::redraw() {
@@ -151,7 +148,24 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.showObjects(frame);
     s.publish(work, usesStill, usesPose);
     s.followScene(frame, pose, time);
+    if (pose && s.quality.mode != SuperResMode::Off && s.quality.alongLines) s.beginEpipolar();
     return s.result;
+}
+
+void Pipeline::State::beginEpipolar() {
+    if (epipolar || comingEpipolar.valid()) return;
+    comingEpipolar =
+        std::async(std::launch::async, [rig = rig, workers = workers, how = options.epipolar] {
+            return std::make_unique<EpipolarFlow>(rig, workers, how);
+        });
+}
+
+EpipolarFlow& Pipeline::State::needEpipolar() {
+    if (epipolar) return *epipolar;
+    beginEpipolar();
+    epipolar = comingEpipolar.get();
+    epipolar->setOptions(options.epipolar);
+    return *epipolar;
 }
 
 const TileWork& Pipeline::State::planFrame(const VideoFrame& frame) {

@@ -8,6 +8,10 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/stage_clock.h"
 
+#include <future>
+#include <memory>
+#include <optional>
+
 namespace mfar {
 
 /// A flow vector so far from its pixel's epipolar line is not that of a point at rest [px].
@@ -45,6 +49,11 @@ struct Pipeline::State {
         const CellWeights& weights;
     };
 
+    /// Begins to make what searches along lines, in a thread of its own: the first picture does not
+    /// wait for it, and the still that needs it comes later.
+    void beginEpipolar();
+    /// Makes it, or waits for what was begun.
+    EpipolarFlow& needEpipolar();
     /// Allocates what measures real depth.
     void needDepth();
     /// Where real depth is needed in this frame [video px].
@@ -90,8 +99,9 @@ struct Pipeline::State {
     std::unique_ptr<DetailStep> detail;
     RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
     WorkPlan plan;
-    std::optional<EpipolarFlow> epipolar;  // since the first still with a pose
-    std::optional<RealDepth> depth;        // since it is needed for the first time
+    std::unique_ptr<EpipolarFlow> epipolar;  // since the first still with a pose
+    std::future<std::unique_ptr<EpipolarFlow>> comingEpipolar;
+    std::optional<RealDepth> depth;  // since it is needed for the first time
     std::optional<VirtualView> objects;
     TracedLayerOptions traced;  // of path traced objects
     std::optional<SceneFollower> sceneFollower;
