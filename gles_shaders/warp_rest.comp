@@ -53,7 +53,7 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
         sum += w * texelFetch(from, t, 0);
     }
     found = sum / max(weights, 1e-6);
-    return weights > params.leastWeight ? weights : 0.0;
+    return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
 // How much of the colour of the surface at `point` is known.
