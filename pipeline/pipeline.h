@@ -42,10 +42,10 @@ struct PipelineOptions {
 };
 
 /// The whole flow of a frame: video in, high-resolution picture out. Allocates in the constructor
-/// what every frame needs, what searches along lines with the first still that has a pose, and what
-/// measures depth with the first object. Lives on one thread; where a step runs on GLES, that is
-/// the GL thread with its context current. Throws GlError and, for options out of range,
-/// std::invalid_argument from set-up only.
+/// what every frame needs; what searches along lines in a thread beside the first picture with a
+/// pose, at the latest with the first still that has one; what measures depth with the first
+/// object. Lives on one thread; where a step runs on GLES, that is the GL thread with its context
+/// current. Throws GlError and, for options out of range, std::invalid_argument from set-up only.
 class Pipeline {
 public:
     Pipeline(const StereoRig& rig, const PipelineOptions& options);
