@@ -1,10 +1,10 @@
 #pragma once
 
 #include "base/image_view.h"
+#include "base/zeroed_array.h"
 
 #include <algorithm>
 #include <cstddef>
-#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -27,29 +27,24 @@ struct Rows {
     }
 };
 
-/// Rows that own their memory, zero at first: each begins on a cache line and has at least
+/// Rows that own their memory, see ZeroedArray: each begins on a cache line and has at least
 /// kPadding bytes behind it that may be read and written, so that vectors need no scalar rest.
 template <class T>
 class AlignedRows {
-    static_assert(std::is_trivially_copyable_v<T>);
-
 public:
-    static constexpr std::size_t kAlignment = 64, kPadding = 64;  ///< bytes
+    static constexpr std::size_t kAlignment = ZeroedArray<T>::kAlignment;  ///< bytes
+    static constexpr std::size_t kPadding = 64;                            ///< bytes
 
     AlignedRows() = default;
-    explicit AlignedRows(Size size) : rows_{nullptr, pitchFor(size.width), size} {
-        const std::size_t count = static_cast<std::size_t>(rows_.pitch) * std::max(size.height, 1);
-        rows_.data = new (std::align_val_t{kAlignment}) T[count]{};
-    }
-    AlignedRows(AlignedRows&& other) noexcept : rows_(std::exchange(other.rows_, {})) {}
+    explicit AlignedRows(Size size)
+        : memory_(static_cast<std::size_t>(pitchFor(size.width)) * std::max(size.height, 1)),
+          rows_{memory_.data(), pitchFor(size.width), size} {}
+    AlignedRows(AlignedRows&& other) noexcept
+        : memory_(std::move(other.memory_)), rows_(std::exchange(other.rows_, {})) {}
     AlignedRows& operator=(AlignedRows&& other) noexcept {
+        std::swap(memory_, other.memory_);
         std::swap(rows_, other.rows_);
         return *this;
-    }
-    AlignedRows(const AlignedRows&) = delete;
-    AlignedRows& operator=(const AlignedRows&) = delete;
-    ~AlignedRows() {
-        ::operator delete[](static_cast<void*>(rows_.data), std::align_val_t{kAlignment});
     }
 
     [[nodiscard]] Size size() const { return rows_.size; }
@@ -67,6 +62,7 @@ private:
         return static_cast<std::ptrdiff_t>((lines * kAlignment + sizeof(T) - 1) / sizeof(T));
     }
 
+    ZeroedArray<T> memory_;
     Rows<T> rows_;
 };
 

@@ -226,6 +226,8 @@ void App::showStatus() {
         running_->description.display = counted.display;
         log_.notice("display " + counted.display);
     }
+    if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
+        log_.notice(firstPictureLine(*counted.atFirstPicture));
     for (const std::string& text : stats_.takeWarnings())
         log_.warning(text);
     const std::string line = statusLine(counted, running_->description, elapsed);

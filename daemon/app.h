@@ -91,6 +91,7 @@ private:
     std::uint64_t progressFed_ = 0;  ///< the watchdog's last meal was about this
     Timestamp statusShown_;
     std::optional<std::string> fault_;  ///< that the log has said last
+    bool firstPictureShown_ = false;    ///< by the log
 
     std::mutex mutex_;
     std::optional<Ready> ready_;  ///< guarded by the mutex; moves to running_

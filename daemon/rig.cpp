@@ -102,7 +102,8 @@ struct SyntheticSource final : RigSource {
 
 struct PlayedSource final : RigSource {
     explicit PlayedSource(const Config& config)
-        : player(load(config.recording), {playerPace(config.pace, SourcePace::Consumer)}) {
+        : player(load(config.recording),
+                 {.pace = playerPace(config.pace, SourcePace::Consumer), .asksVideoFirst = true}) {
         handOver = handOverAt(playerPace(config.pace, SourcePace::Consumer));
         failure = ExitCode::BadData;
         videoFrames = player.recording().video.size();

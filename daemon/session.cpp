@@ -167,7 +167,7 @@ void Session::process(CapturedFrame captured) {
     last_ = result.picture;
     const Timestamp drawn = Timestamp::now();
     show(time, result.unchanged);
-    ++pictures_;
+    if (++pictures_ == 1) stats_.firstPicture(processUse());
     std::optional<double> age;
     if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
     const Timestamp shown = Timestamp::now();

@@ -54,6 +54,11 @@ void Stats::picture(const FinishedPicture& picture) {
     counted_.stillAgeS = picture.stillAgeS;
 }
 
+void Stats::firstPicture(const ProcessUse& use) {
+    const std::lock_guard lock(mutex_);
+    counted_.atFirstPicture = use;
+}
+
 void Stats::objects(const FrameStats& frame) {
     counted_.depthTiles += static_cast<std::uint64_t>(std::max(frame.depthTiles, 0));
     if (frame.objectsInView) ++counted_.objectFrames;

@@ -2,6 +2,7 @@
 
 #include "daemon/histogram.h"
 #include "daemon/pose_counts.h"
+#include "daemon/process_use.h"
 #include "daemon/quality_counts.h"
 #include "hal/still_matcher.h"
 #include "pipeline/pipeline.h"
@@ -66,11 +67,12 @@ struct Counted {
     std::optional<double> referenceAgeS;        ///< of the picture it showed, at the last frame
     FrameStats last;
     std::vector<StageTime> lastStages;
-    std::optional<double> stillAgeS;   ///< at the last frame
-    std::optional<std::string> fault;  ///< of a device, as the picture says it
-    std::string display;               ///< what is shown where
-    std::uint64_t faults = 0;          ///< times that there was none before
-    ValidationCounts validation{};     ///< zero where it is not asked for
+    std::optional<double> stillAgeS;           ///< at the last frame
+    std::optional<std::string> fault;          ///< of a device, as the picture says it
+    std::string display;                       ///< what is shown where
+    std::uint64_t faults = 0;                  ///< times that there was none before
+    ValidationCounts validation{};             ///< zero where it is not asked for
+    std::optional<ProcessUse> atFirstPicture;  ///< when the display had it
 };
 
 /// One finished picture.
@@ -87,6 +89,7 @@ struct FinishedPicture {
 class Stats {
 public:
     void picture(const FinishedPicture& picture);
+    void firstPicture(const ProcessUse& use);
     /// What is missing, as the picture says it; nothing when all is well.
     void fault(const std::optional<std::string>& fault);
     /// The log is to say this, once.

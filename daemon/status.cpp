@@ -162,6 +162,10 @@ nlohmann::ordered_json tileSummary(const Counted& counted) {
     return out;
 }
 
+nlohmann::ordered_json firstPictureSummary(const ProcessUse& use) {
+    return {{"since_start_ms", use.ms}, {"cpu_ms", use.cpuMs}, {"resident_mb", use.residentMb}};
+}
+
 nlohmann::ordered_json validationSummary(const ValidationCounts& counts) {
     return {{"values_checked", counts.values}, {"faulty_outputs", counts.faults}};
 }
@@ -201,6 +205,11 @@ std::string statusLine(const Counted& counted, const RunDescription& run, double
     return line;
 }
 
+std::string firstPictureLine(const ProcessUse& use) {
+    return fmt::format("first picture {:.0f} ms after the start, {:.0f} MB resident", use.ms,
+                       use.residentMb);
+}
+
 nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run,
                                const std::string& exitReason, int exitCode) {
     nlohmann::ordered_json stages = nlohmann::ordered_json::object();
@@ -215,6 +224,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
         {"source", run.source},
         {"display", run.display},
         {"mode", run.mode},
+        {"first_picture", firstPictureSummary(counted.atFirstPicture.value_or(ProcessUse{}))},
         {"frames", counted.frames},
         {"seconds", counted.seconds},
         {"fps", counted.fps},

@@ -26,6 +26,9 @@ struct RunDescription {
 [[nodiscard]] std::string statusLine(const Counted& counted, const RunDescription& run,
                                      double elapsedS);
 
+/// "first picture 430 ms after the start, 90 MB resident"
+[[nodiscard]] std::string firstPictureLine(const ProcessUse& use);
+
 /// What the run measured, for programs. Shares and confidences are in [0, 1], times in ms.
 [[nodiscard]] nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run,
                                              const std::string& exitReason, int exitCode);

@@ -35,7 +35,7 @@ void sampleLevel(int l, ivec2 p, uint id, out vec4 sum, out float weights) {
         if (any(lessThan(q, ivec2(0))) || q.x >= level.columns || q.y * level.columns + q.x >= count) continue;
         Area area = unpackArea(texels[level.first + q.y * level.columns + q.x]);
         vec2 near = mix(1.0 - f, f, vec2(side));
-        bool catcher = id == 255u;
+        bool catcher = id == kCatcherNumber;
         bool shown = area.id == id || id == kAnyObject;
         float w = near.x * near.y * (catcher ? area.weights.y : shown ? area.weights.x : 0.0);
         sum += w * (catcher ? area.catcher : area.object);
@@ -82,6 +82,6 @@ void main() {
     float weight;
     int last = crack && params.fillsAll == 0 ? min(kCrackLevels, params.levelCount) : params.levelCount;
     gather(p, id, last, sum, weight);
-    if (weight == 0.0 && id != 255u) gather(p, kAnyObject, last, sum, weight);
+    if (weight == 0.0 && id != kCatcherNumber) gather(p, kAnyObject, last, sum, weight);
     if (weight > 0.0) imageStore(colour, p, min(unpackUnorm4x8(entry.y) + own.g * sum / weight, vec4(1.0)));
 }

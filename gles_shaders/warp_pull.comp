@@ -20,7 +20,7 @@ Area below(ivec2 p) {
     uint id = uint(texelFetch(state, p, 0).a * 255.0 + 0.5);
     if (id == 0u) return none;
     vec4 c = texelFetch(colour, p, 0);
-    return id == 255u ? Area(vec4(0.0), c, 0u, vec2(0.0, 1.0)) : Area(c, vec4(0.0), id, vec2(1.0, 0.0));
+    return id == kCatcherNumber ? Area(vec4(0.0), c, 0u, vec2(0.0, 1.0)) : Area(c, vec4(0.0), id, vec2(1.0, 0.0));
 #else
     HoleLevel level = params.levels[params.level - 2];
     ivec2 q = p - originOf(level);

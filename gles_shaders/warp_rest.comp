@@ -46,14 +46,14 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
         bool within = at.z > 0.0 && all(greaterThanEqual(t, ivec2(0))) && all(lessThan(t, size));
         t = clamp(t, ivec2(0), size - 1) + ivec2(0, firstRow);
         vec4 s = texelFetch(shown, t, 0);
-        bool same = s.y == id ? abs(s.x - at.z) < s.z : s.y == 0.0 && id == 255.0;
+        bool same = s.y == id ? abs(s.x - at.z) < s.z : s.y == 0.0 && id == float(kCatcher);
         vec2 near = mix(1.0 - f, f, vec2(side));
         float w = within && same && s.w > 0.5 ? near.x * near.y : 0.0;
         weights += w;
         sum += w * texelFetch(from, t, 0);
     }
     found = sum / max(weights, 1e-6);
-    return weights > params.leastWeight ? weights : 0.0;
+    return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
 // How much of the colour of the surface at `point` is known.
@@ -70,7 +70,7 @@ float known(vec3 point, float id, out vec4 found) {
     if (share_ > 0.0) return share_;
     // Of the catcher, nothing is known beyond the reference, and nothing is missed.
     found = vec4(0.0);
-    return id == 255.0 && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
+    return id == float(kCatcher) && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
 }
 
 uvec4 groupsOf(DispatchGroups g) {
@@ -94,7 +94,7 @@ void main() {
     vec3 under = catcher.z * vec3(ray + catcher.xy / focal, 1.0);
     vec4 ofObject, ofCatcher;
     float objectKnown = covered > 0.0 ? known(point, float(id), ofObject) : 1.0;
-    float catcherKnown = below > 0.0 ? known(under, 255.0, ofCatcher) : 1.0;
+    float catcherKnown = below > 0.0 ? known(under, float(kCatcher), ofCatcher) : 1.0;
     vec4 shown = vec4(0.0);
     if (covered > 0.0) shown += covered * objectKnown * ofObject;
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;
@@ -103,8 +103,8 @@ void main() {
     // Rendered for itself, an edge would show a mixture: it takes after its neighbours, which are.
     bool edge = (missed ? covered : below) < 1.0;
     float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
-    float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? 255.0 : 0.0;
-    float missing = missed ? float(id) : hole ? 255.0 : 0.0;
+    float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? float(kCatcher) : 0.0;
+    float missing = missed ? float(id) : hole ? float(kCatcher) : 0.0;
     float part = missed ? covered * (1.0 - objectKnown) : below * (1.0 - catcherKnown);
     imageStore(colour, p, shown);
     imageStore(depth, p, vec4(z));

@@ -2,6 +2,7 @@
 
 #include "base/image_view.h"
 #include "base/time.h"
+#include "base/zeroed_array.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -54,7 +55,8 @@ private:
     std::function<void()> giveBack_;
 };
 
-/// A fixed set of equal buffers, allocated once, lent out as Frames. Thread-safe. The pool may be
+/// A fixed set of equal buffers, allocated once, lent out as Frames; one that is never lent takes
+/// no memory. Thread-safe. The pool may be
 /// destroyed before its frames: the memory lives until the last loan is back. Planes follow each
 /// other and rows have no padding (packedView() in image_layout.h).
 class FramePool {
@@ -82,7 +84,7 @@ private:
     struct Shared {
         std::mutex mutex;
         std::condition_variable returned;
-        std::vector<std::vector<std::uint8_t>> buffers;
+        std::vector<ZeroedArray<std::uint8_t>> buffers;
         std::vector<int> free;
     };
     Size size_;

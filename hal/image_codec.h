@@ -28,9 +28,12 @@ enum class ImageAlpha : std::uint8_t {
 void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf,
                  ImageAlpha alpha = ImageAlpha::Opaque);
 
-/// Encodes 3 channels B G R or 1 of grey as PNG, quickly rather than small. `out` is replaced.
-/// Throws std::runtime_error.
-void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, int channels,
+/// Bytes of a pixel in memory; X is left out.
+enum class PngPixels : std::uint8_t { Grey, Bgr, Rgbx, Bgrx };
+
+/// Encodes a picture as PNG, in grey or in colours without alpha, quickly rather than small. `out`
+/// is replaced. Throws std::runtime_error.
+void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PngPixels format,
                std::vector<std::uint8_t>& out);
 
 }  // namespace mfar

@@ -46,9 +46,9 @@ Size Pipeline::fullSize(const StereoRig& rig) {
 Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     : rig(rigIn), options(optionsIn), output(outputSize(rig, options.output)),
       workers(std::make_shared<Workers>(options.threads)), now(rig.video.size),
-      drawn(rig.video.size), plan(rig.video.size, workers),
-      epipolar(rig, workers, options.epipolar), depth(rig.video, workers, options.depth),
-      snap(rig.video.size, workers) {
+      drawn(rig.video.size), plan(rig.video.size, workers) {
+    validate(options.epipolar);
+    validate(options.depth);
     const StepSetup setup{rig,     output,     options.flow2d,
                           workers, &transfers, options.engines.detail == EngineKind::Gles};
     if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
@@ -60,6 +60,7 @@ Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     detail = engineOf(options.engines.detail).detail();
     quality.mode = options.mode;
     if (!options.skips.tileLists) plan.drawWholeFrom(0);
+    if (options.depthEverywhere) needDepth();
 }
 
 Engine& Pipeline::State::engineOf(EngineKind kind) {
@@ -76,9 +77,9 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
     State& s = *state_;
     requireFit(still, s.rig.still.size, "still");
     s.stillPictures = &s.still->run(still, s.quality.mode);
-    s.epipolar.dropStill();
-    if (pose) s.epipolar.setStill(still, *pose);
-    s.depth.renew();
+    if (s.epipolar) s.epipolar->dropStill();
+    if (pose) s.needEpipolar().setStill(still, *pose);
+    if (s.depth) s.depth->stage.renew();
     s.pyramid->still(*s.stillPictures);
     s.redraw = true;
     s.lastFlow = nullptr;
@@ -86,7 +87,7 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
 
 void Pipeline::dropStill() {
     state_->stillPictures = nullptr;
-    state_->epipolar.dropStill();
+    if (state_->epipolar) state_->epipolar->dropStill();
     state_->redraw = true;
     state_->lastFlow = nullptr;
 }
@@ -105,7 +106,8 @@ void Pipeline::setQuality(const Quality& quality) {
     s.quality = quality;
     s.quality.cubic = quality.cubic || quality.mode != SuperResMode::Off;
     s.flow->setOptions(quality.flow2d);
-    s.epipolar.setOptions(quality.epipolar);
+    s.options.epipolar = changed(s.options.epipolar, quality.epipolar);
+    if (s.epipolar) s.epipolar->setOptions(s.options.epipolar);
 }
 
 void Pipeline::redraw() {
@@ -135,7 +137,8 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     const PixelRect decides = s.placeObjects(pose, time);
     const TileWork& work = s.planFrame(frame);
     const bool usesStill = s.stillPictures != nullptr && s.quality.mode != SuperResMode::Off;
-    const bool usesPose = usesStill && s.quality.alongLines && pose && s.epipolar.hasStill();
+    const bool usesPose =
+        usesStill && s.quality.alongLines && pose && s.epipolar && s.epipolar->hasStill();
     std::optional<State::Match> match;
     if (usesStill)
         match.emplace(s.matchStill(frame, work, usesPose ? pose : std::nullopt, decides));
@@ -146,7 +149,24 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     s.showObjects(frame);
     s.publish(work, usesStill, usesPose);
     s.followScene(frame, pose, time);
+    if (pose && s.quality.mode != SuperResMode::Off && s.quality.alongLines) s.beginEpipolar();
     return s.result;
+}
+
+void Pipeline::State::beginEpipolar() {
+    if (epipolar || comingEpipolar.valid()) return;
+    comingEpipolar =
+        std::async(std::launch::async, [rig = rig, workers = workers, how = options.epipolar] {
+            return std::make_unique<EpipolarFlow>(rig, workers, how);
+        });
+}
+
+EpipolarFlow& Pipeline::State::needEpipolar() {
+    if (epipolar) return *epipolar;
+    beginEpipolar();
+    epipolar = comingEpipolar.get();
+    epipolar->setOptions(options.epipolar);
+    return *epipolar;
 }
 
 const TileWork& Pipeline::State::planFrame(const VideoFrame& frame) {
@@ -169,9 +189,9 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
     if (pose) {
         const PixelRect where = around(pixelsOf(work.detailTiles), forDepth);
         const int tiles = forDepth.empty() ? work.matched : work.changed;
-        if (tiles > 0 && !where.empty()) epipolar.run(frame.view, *pose, where);
+        if (tiles > 0 && !where.empty()) epipolar->run(frame.view, *pose, where);
         lap("epipolar");
-        found = &flow->refine(pyramids, work, epipolar.forward(), epipolar.hidden());
+        found = &flow->refine(pyramids, work, epipolar->forward(), epipolar->hidden());
     } else {
         found = &flow->run(pyramids, work, lastFlow != nullptr && options.skips.knownFlow);
     }
@@ -222,7 +242,7 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
     stats.changed = summary.changed;
     stats.usedStill = usedStill;
     stats.searched2d = flow->finishedSearchedCount();
-    if (usedPose) publishPose(epipolar, stats);
+    if (usedPose) publishPose(*epipolar, stats);
     stats.transfers = {transfers.uploadedBytes - transfersBefore.uploadedBytes,
                        transfers.downloadedBytes - transfersBefore.downloadedBytes};
     transfersBefore = transfers;

@@ -41,10 +41,11 @@ struct PipelineOptions {
     int threads = 0;  ///< host threads that share a step's work; 0: one per processor, at most four
 };
 
-/// The whole flow of a frame: video in, high-resolution picture out. Allocates everything in the
-/// constructor. Lives on one thread; where a step runs on GLES, that is the GL thread with its
-/// context current. Throws GlError and, for options out of range, std::invalid_argument from set-up
-/// only.
+/// The whole flow of a frame: video in, high-resolution picture out. Allocates in the constructor
+/// what every frame needs; what searches along lines in a thread beside the first picture with a
+/// pose, at the latest with the first still that has one; what measures depth with the first
+/// object. Lives on one thread; where a step runs on GLES, that is the GL thread with its context
+/// current. Throws GlError and, for options out of range, std::invalid_argument from set-up only.
 class Pipeline {
 public:
     Pipeline(const StereoRig& rig, const PipelineOptions& options);
@@ -103,7 +104,8 @@ public:
     /// Waits until the last run's picture lies where it is shown from: on the GPU or on the host.
     void finish(EngineKind shownFrom) const;
 
-    /// The real scene's depth as of the last run, where that measured it.
+    /// The real scene's depth as of the last run, where that measured it. Throws
+    /// std::bad_optional_access without `depthEverywhere` as long as there was no object.
     [[nodiscard]] const InverseDepthField& inverseDepth() const;
 
     // Read-backs for tests, evaluation and the preview; they wait for the GPU.

@@ -17,11 +17,16 @@ int tilesIn(const PixelRect& videoPixels) {
 
 }  // namespace
 
+void Pipeline::State::needDepth() {
+    if (!depth) depth.emplace(rig.video, workers, options.depth);
+}
+
 void Pipeline::setObjects(std::vector<VirtualObject> objects) {
     State& s = *state_;
     s.sceneFollower.reset();
     s.lightFollower.reset();
     if (!s.objects && objects.empty()) return;
+    s.needDepth();
     if (!s.objects || s.objects->traced() != nullptr) {
         s.objects.emplace(s.rig.video, s.output, s.engineOf(s.options.engines.occlusion));
         s.objects->setSkips(s.options.skips);
@@ -37,6 +42,7 @@ void Pipeline::setScene(Scene scene, const TracedLayerOptions& options,
     s.lightFollower = std::move(light);
     const bool isEmpty = scene.objects.empty();
     if (!s.objects && isEmpty) return;
+    s.needDepth();
     TracedLayerOptions wanted = options;
     if (wanted.size.width <= 0 || wanted.size.height <= 0)
         wanted.size = {(s.output.width + 1) / 2, (s.output.height + 1) / 2};
@@ -53,8 +59,8 @@ void Pipeline::State::followScene(const VideoFrame& frame, const std::optional<P
                                   Timestamp time) {
     if (!sceneFollower || !pose || !inView()) return;
     const RigidTransform& T_world_video = pose->T_world_video;
-    if (auto scene =
-            sceneFollower->follow(snap.field(), rig.video, T_world_video, objects->region(), time))
+    if (auto scene = sceneFollower->follow(depth->snap.field(), rig.video, T_world_video,
+                                           objects->region(), time))
         objects->setScene(std::move(scene));
     if (!lightFollower) return;
     if (auto light = lightFollower->follow(frame.view, rig.video, T_world_video, time))
@@ -76,14 +82,14 @@ std::optional<std::string> Pipeline::takeSceneError() {
 }
 
 const InverseDepthField& Pipeline::inverseDepth() const {
-    return state_->snap.field();
+    return state_->depth.value().snap.field();
 }
 
 PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timestamp time) {
     PixelRect where;
     if (objects) {
         where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
-                               depth.field());
+                               depth->stage.field());
         // Two engines keep a picture each: any drawing by one leaves out what the other has laid
         // over it.
         const bool apart = options.engines.detail != options.engines.occlusion;
@@ -119,20 +125,20 @@ void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
                                    const DepthTask& task) {
     const PixelRect& where = task.where;
     if (task.matches) {
-        const DepthStage::StillSearch search{epipolar.search(), epipolar.rotation(),
-                                             epipolar.unit(), epipolar.lengthError(),
-                                             epipolar.inverseDepthOf(task.matches->vectors)};
-        depth.run(epipolar.luma(), pose, search, where);
+        const DepthStage::StillSearch search{epipolar->search(), epipolar->rotation(),
+                                             epipolar->unit(), epipolar->lengthError(),
+                                             epipolar->inverseDepthOf(task.matches->vectors)};
+        depth->stage.run(epipolar->luma(), pose, search, where);
         forgetMoving(*task.matches);
     } else {
-        lumaOf(frame.view, luma);
-        depth.run(luma, pose, {}, task.isDue ? where : PixelRect{});
+        lumaOf(frame.view, depth->luma);
+        depth->stage.run(depth->luma, pose, {}, task.isDue ? where : PixelRect{});
     }
-    snap.run(depth.field(), frame.view, where);
+    depth->snap.run(depth->stage.field(), frame.view, where);
     result.stats.depthTiles = tilesIn(where);
     if (inView())
         result.stats.depthTilesSkipped = std::max(tilesIn(objects->region()) - tilesIn(where), 0);
-    if (!where.empty()) result.stats.depth = depth.source();
+    if (!where.empty()) result.stats.depth = depth->stage.source();
     lap("depth");
 }
 
@@ -143,7 +149,7 @@ void Pipeline::State::forgetMoving(const DepthMatches& matches) {
         if (!matches.searched2d[static_cast<std::size_t>(t)]) continue;
         const int x = t % tiles.width, y = t / tiles.width;
         const PixelRect tile = pixelsOf({x, y, x + 1, y + 1});
-        if (leavesLines(tile, matches.vectors)) depth.forget(tile);
+        if (leavesLines(tile, matches.vectors)) depth->stage.forget(tile);
     }
 }
 
@@ -154,7 +160,7 @@ bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cel
     for (int y = tile.y0 + 1; y < tile.y1; y += kCell) {
         for (int x = tile.x0 + 1; x < tile.x1; x += kCell, ++all) {
             const auto& u = vectors[static_cast<std::size_t>(y / kCell) * columns + x / kCell];
-            if (epipolar.offLine(x, y, u[0], u[1]) > kOffLine) ++off;
+            if (epipolar->offLine(x, y, u[0], u[1]) > kOffLine) ++off;
         }
     }
     return 4 * off >= all;
@@ -164,7 +170,7 @@ void Pipeline::State::showObjects(const VideoFrame& frame) {
     result.stats.objectsInView = inView();
     result.stats.objectsHidden = inView() && objects->hidden();
     if (!drawsObjects()) return;
-    objects->draw(snap.field(), snap.where(), frame, detail->output());
+    objects->draw(depth->snap.field(), depth->snap.where(), frame, detail->output());
     lap("objects");
 }
 

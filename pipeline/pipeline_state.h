@@ -8,6 +8,10 @@
 #include "pipeline/pipeline.h"
 #include "pipeline/stage_clock.h"
 
+#include <future>
+#include <memory>
+#include <optional>
+
 namespace mfar {
 
 /// A flow vector so far from its pixel's epipolar line is not that of a point at rest [px].
@@ -30,12 +34,28 @@ struct Pipeline::State {
         std::optional<DepthMatches> matches;  ///< found along lines
         bool isDue = false;                   ///< measured anew, not carried on
     };
+    struct RealDepth {
+        RealDepth(const CameraModel& video, const std::shared_ptr<Workers>& workers,
+                  const DepthOptions& options)
+            : stage(video, workers, options), snap(video.size, workers) {}
+
+        DepthStage stage;
+        EdgeSnap snap;
+        LumaImage luma;  // of a frame without a search along lines
+    };
     /// How the still matches a frame.
     struct Match {
         const FlowCells& flow;
         const CellWeights& weights;
     };
 
+    /// Begins to make what searches along lines, in a thread of its own: the first picture does not
+    /// wait for it, and the still that needs it comes later.
+    void beginEpipolar();
+    /// Makes it, or waits for what was begun.
+    EpipolarFlow& needEpipolar();
+    /// Allocates what measures real depth.
+    void needDepth();
     /// Where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     const TileWork& planFrame(const VideoFrame& frame);
@@ -79,10 +99,9 @@ struct Pipeline::State {
     std::unique_ptr<DetailStep> detail;
     RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
     WorkPlan plan;
-    EpipolarFlow epipolar;
-    DepthStage depth;
-    EdgeSnap snap;
-    LumaImage luma;  // of a frame without a search along lines
+    std::unique_ptr<EpipolarFlow> epipolar;  // since the first still with a pose
+    std::future<std::unique_ptr<EpipolarFlow>> comingEpipolar;
+    std::optional<RealDepth> depth;  // since it is needed for the first time
     std::optional<VirtualView> objects;
     TracedLayerOptions traced;  // of path traced objects
     std::optional<SceneFollower> sceneFollower;

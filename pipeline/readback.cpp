@@ -52,13 +52,13 @@ std::vector<float> Pipeline::readFlow() const {
     // The cells' vectors are refined to a fraction of a pixel, the lines' are those of the pixels:
     // they say on which side of an edge a pixel lies.
     const std::vector<bool> searched = readSearchedTiles();
-    const std::vector<float> alongLines = s.epipolar.flow();
+    const std::vector<float> alongLines = s.epipolar->flow();
     for (int y = 0; y < video.height; ++y)
         for (int x = 0; x < video.width; ++x) {
             const std::size_t i = 2 * (static_cast<std::size_t>(y) * video.width + x);
             const float apart = std::hypot(out[i] - alongLines[i], out[i + 1] - alongLines[i + 1]);
             const bool moves = searched[tileAt(x, y, video)] &&
-                               s.epipolar.offLine(x, y, out[i], out[i + 1]) > kOffLine;
+                               s.epipolar->offLine(x, y, out[i], out[i + 1]) > kOffLine;
             if (apart < kSameSurface || moves) continue;
             out[i] = alongLines[i];
             out[i + 1] = alongLines[i + 1];

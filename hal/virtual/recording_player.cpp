@@ -27,6 +27,7 @@ constexpr std::chrono::milliseconds kBufferPoll{20};
 struct RecordingPlayer::Timeline {
     Pace pace = Pace::Realtime;
     bool loop = false;
+    bool asksVideoFirst = false;
     Timestamp first;                  ///< of the whole recording
     std::chrono::nanoseconds lap{0};  ///< from one beginning of a loop to the next
 
@@ -105,7 +106,10 @@ Timestamp RecordingPlayer::Stream::timeOf(std::size_t number) const {
 
 // May the picture of time t be given now?
 bool RecordingPlayer::Stream::isOpen(Timestamp t) const {
-    if (timeline_.pace == Pace::Consumer) return isVideo_ || t <= timeline_.nextVideo;
+    if (timeline_.pace == Pace::Consumer) {
+        const bool follows = timeline_.asksVideoFirst && timeline_.nextVideo != kNever;
+        return isVideo_ || t <= (follows ? timeline_.newestVideo : timeline_.nextVideo);
+    }
     return timeline_.begin && Clock::now() >= timeline_.due(t);
 }
 
@@ -224,6 +228,7 @@ RecordingPlayer::RecordingPlayer(Recording recording, const PlayerOptions& optio
     Timestamp last = video.back().time;
     timeline_->pace = options.pace;
     timeline_->loop = options.loop;
+    timeline_->asksVideoFirst = options.asksVideoFirst;
     timeline_->first = video.front().time;
     if (!stills.empty()) {
         timeline_->first = std::min(timeline_->first, stills.front().time);

@@ -23,6 +23,7 @@ struct PlayerOptions {
     bool loop = false;     ///< begin again at the end; times go on rising, see recordedTime()
     int videoBuffers = 8;  ///< pictures lent out and decoded ahead together, at least 2
     int stillBuffers = 4;  ///< the same for stills
+    bool asksVideoFirst = false;  ///< of Pace::Consumer
 };
 
 /// A recorded still is one that somebody triggered then: firing counts and does nothing else.
@@ -56,8 +57,10 @@ private:
 /// Pace::Consumer: stills().next() has a still exactly when its time is at or before the time of
 /// the video picture that video().next() gives next (any still once all video is out). So one
 /// thread that asks for a still, then for a video picture, in turn, sees all pictures in the order
-/// of their times, stills first at equal times, in every run. Waiting for the decoder doesn't count
-/// as timeout here; waiting for a buffer that the consumer holds does.
+/// of their times, stills first at equal times, in every run. With `asksVideoFirst` it has a still
+/// at or before the picture that video().next() gave last: for a thread that asks for a video
+/// picture, then for the stills that belong to it, and is not to wait for later ones. Waiting for
+/// the decoder doesn't count as timeout here; waiting for a buffer that the consumer holds does.
 class RecordingPlayer {
 public:
     /// Throws std::invalid_argument when the options are impossible.

@@ -26,8 +26,9 @@ constexpr std::uint8_t kMostOutliers = 2;
 
 }  // namespace
 
-DepthFilter::DepthFilter(const CameraModel& video, std::shared_ptr<Workers> workers)
-    : lens_(video, 0), focal_(static_cast<float>(std::max(video.fx, video.fy))),
+DepthFilter::DepthFilter(const CameraModel& video, EpipolarLens lens,
+                         std::shared_ptr<Workers> workers)
+    : lens_(std::move(lens)), focal_(static_cast<float>(std::max(video.fx, video.fy))),
       pixelX_(static_cast<float>(1 / video.fx)), pixelY_(static_cast<float>(1 / video.fy)),
       workers_(std::move(workers)), field_(video.size), carried_(video.size),
       points_(field_.rho.size()), carriedPoints_(field_.rho.size()) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace mfar {
@@ -18,7 +19,10 @@ namespace mfar {
 /// Hernandez, Video-based real-time multi-view stereo, 2011 (outliers).
 class DepthFilter {
 public:
-    DepthFilter(const CameraModel& video, std::shared_ptr<Workers> workers);
+    DepthFilter(const CameraModel& video, std::shared_ptr<Workers> workers)
+        : DepthFilter(video, EpipolarLens(video, 0), std::move(workers)) {}
+    /// The same with the camera's rays, which others have already.
+    DepthFilter(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 
     /// Nothing is known any more.
     void forget();

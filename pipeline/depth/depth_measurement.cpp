@@ -19,8 +19,9 @@ constexpr float kNothing = -1e9F;
 
 }  // namespace
 
-DepthMeasurement::DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers)
-    : lens_(video, 0), focal_(static_cast<float>(std::min(video.fx, video.fy))),
+DepthMeasurement::DepthMeasurement(const CameraModel& video, EpipolarLens lens,
+                                   std::shared_ptr<Workers> workers)
+    : lens_(std::move(lens)), focal_(static_cast<float>(std::min(video.fx, video.fy))),
       workers_(std::move(workers)) {
     const auto pixels = static_cast<std::size_t>(video.size.width) * video.size.height;
     landing_.resize(pixels);

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace mfar {
@@ -16,7 +17,10 @@ namespace mfar {
 /// deviation of a match through the way that a unit of inverse depth moves it.
 class DepthMeasurement {
 public:
-    DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers);
+    DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers)
+        : DepthMeasurement(video, EpipolarLens(video, 0), std::move(workers)) {}
+    /// The same with the camera's rays, which others have already.
+    DepthMeasurement(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 
     /// Into the pixels of `where`; unknown for what the other picture does not show: outside of it,
     /// or behind what lands on the same place there (z-test). `where` lies in the search's area.

@@ -33,7 +33,8 @@ DepthStage::DepthStage(const CameraModel& video, std::shared_ptr<Workers> worker
                        const DepthOptions& options)
     : options_(validated(options)), focal_(std::max(video.fx, video.fy)),
       keyframes_(video, options.keyframes), search_({video, video, {}}, workers, options.search),
-      measurement_(video, workers), filter_(video, std::move(workers)), measured_(video.size) {}
+      measurement_(video, search_.videoLens(), workers),
+      filter_(video, search_.videoLens(), std::move(workers)), measured_(video.size) {}
 
 void DepthStage::forget() {
     filter_.forget();

@@ -45,7 +45,7 @@ EpipolarFlow::EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> worker
                            const EpipolarOptions& options)
     : rig_(rig), cells_(cellsOf(rig.video.size)), search_(rig, workers, options),
       workers_(std::move(workers)), mostPredicted_(options.mostPredicted), prediction_(rig.video),
-      lens_(rig.video, 0), cellRays_(rig.video, 2), rotation_(Eigen::Matrix3f::Identity()) {
+      lens_(search_.videoLens()), cellRays_(rig.video, 2), rotation_(Eigen::Matrix3f::Identity()) {
     const std::size_t count = static_cast<std::size_t>(cells_.width) * cells_.height;
     forward_.resize(count);
     hidden_.resize(count);

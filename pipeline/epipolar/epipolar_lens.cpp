@@ -32,7 +32,8 @@ double rimOf(const CameraModel& camera, double picture, double beyond) {
     return rim;
 }
 
-EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.size) {
+EpipolarLens::EpipolarLens(const CameraModel& camera, int level)
+    : size_(camera.size), rays_(std::make_shared<Rays>()) {
     const double scale = 1.0 / (1 << level);
     for (int i = 0; i < level; ++i)
         size_ = {(size_.width + 1) / 2, (size_.height + 1) / 2};
@@ -47,16 +48,16 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level) : size_(camera.
     lens_.p2 = static_cast<float>(d[3]);
     lens_.k3 = static_cast<float>(d[4]);
     const auto pixels = static_cast<std::size_t>(size_.width) * size_.height;
-    raysX_.reserve(pixels);
-    raysY_.reserve(pixels);
+    rays_->x.reserve(pixels);
+    rays_->y.reserve(pixels);
     double rim = 0;  // of the picture's corners, squared
     Eigen::Vector2d ray(0, 0);
     for (int y = 0; y < size_.height; ++y) {
         for (int x = 0; x < size_.width; ++x) {
             const Eigen::Vector2d fine((x + 0.5) / scale - 0.5, (y + 0.5) / scale - 0.5);
             ray = camera.unproject(fine, ray);
-            raysX_.push_back(static_cast<float>(ray.x()));
-            raysY_.push_back(static_cast<float>(ray.y()));
+            rays_->x.push_back(static_cast<float>(ray.x()));
+            rays_->y.push_back(static_cast<float>(ray.y()));
             rim = std::max(rim, ray.squaredNorm());
         }
     }
@@ -70,6 +71,12 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
     lens_ = whole.lens_;
     lens_.cx -= static_cast<float>(pixels.x0);
     lens_.cy -= static_cast<float>(pixels.y0);
+    if (size_ == whole.size_) {
+        rays_ = whole.rays_;
+        return;
+    }
+    // The memory of the last part is used again, but not a table that others read.
+    if (rays_.use_count() > 1) rays_ = std::make_shared<Rays>();
     const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
         to.clear();
         for (int y = pixels.y0; y < pixels.y1; ++y) {
@@ -77,8 +84,8 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
             to.insert(to.end(), row + pixels.x0, row + pixels.x1);
         }
     };
-    take(whole.raysX_, raysX_);
-    take(whole.raysY_, raysY_);
+    take(whole.rays_->x, rays_->x);
+    take(whole.rays_->y, rays_->y);
 }
 
 }  // namespace mfar

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace mfar {
@@ -16,7 +17,8 @@ namespace mfar {
 /// that of the picture's corners, to `beyond` times as much.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
 
-/// The rays of a camera's pixels at one pyramid level, and where a translation moves them.
+/// The rays of a camera's pixels at one pyramid level, and where a translation moves them. Copies
+/// share the table of the rays.
 ///
 /// The state is s [1/unit of length], the inverse depth seen from the second view: a point at ray
 /// r = (x, y) with depth Z, seen from a camera of the same orientation that moved so that points
@@ -32,11 +34,11 @@ public:
     void cover(const EpipolarLens& whole, const PixelRect& pixels);
 
     [[nodiscard]] Size size() const { return size_; }
-    [[nodiscard]] float rayX(std::size_t pixel) const { return raysX_[pixel]; }
-    [[nodiscard]] float rayY(std::size_t pixel) const { return raysY_[pixel]; }
+    [[nodiscard]] float rayX(std::size_t pixel) const { return rays_->x[pixel]; }
+    [[nodiscard]] float rayY(std::size_t pixel) const { return rays_->y[pixel]; }
     /// Of all pixels, row-major.
-    [[nodiscard]] const std::vector<float>& raysX() const { return raysX_; }
-    [[nodiscard]] const std::vector<float>& raysY() const { return raysY_; }
+    [[nodiscard]] const std::vector<float>& raysX() const { return rays_->x; }
+    [[nodiscard]] const std::vector<float>& raysY() const { return rays_->y; }
     /// For kernels.
     [[nodiscard]] const simd::Lens& lens() const { return lens_; }
 
@@ -68,9 +70,13 @@ public:
     }
 
 private:
+    struct Rays {
+        std::vector<float> x, y;
+    };
+
     Size size_;
     simd::Lens lens_;
-    std::vector<float> raysX_, raysY_;
+    std::shared_ptr<Rays> rays_;  // written only while nobody shares it
 };
 
 }  // namespace mfar

@@ -44,6 +44,8 @@ public:
     /// a grid of a few pixels. At first the area is the whole picture.
     void setArea(const PixelRect& pixels);
     [[nodiscard]] const PixelRect& area() const { return area_; }
+    /// Of the video's whole picture.
+    [[nodiscard]] const EpipolarLens& videoLens() const { return lenses_.front(); }
 
     /// `T_still_video`: video camera coordinates at the frame's time to still camera coordinates at
     /// the still's; its unit of length is free. `covariance`: of a small motion x, T_still_video *

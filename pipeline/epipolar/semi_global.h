@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/workers.h"
+#include "base/zeroed_array.h"
 #include "pipeline/flow/luma_image.h"
 #include "pipeline/simd/path_costs.h"
 
@@ -46,7 +47,7 @@ public:
              std::span<Valley> out);
 
 private:
-    std::vector<std::uint8_t> costs_, sums_;
+    ZeroedArray<std::uint8_t> costs_, sums_;
     std::vector<std::uint8_t> scratch_;      // where several vectors do not stay in registers
     std::array<std::uint8_t, 256> jumps_{};  // by difference of luma
 };

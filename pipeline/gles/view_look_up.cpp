@@ -10,8 +10,6 @@
 namespace mfar {
 namespace {
 
-// Less of a surface's own texels than so much tells little of its colour there.
-constexpr float kLeastWeight = 0.2F;
 constexpr int kListGroup = 8;  // each way, as in the shaders
 
 /// n . point = w, in the frame of the camera.
@@ -58,7 +56,6 @@ params::LookUpViews ViewLookUp::paramsOf(const Input& input,
     p.projections[1] = projectionOf(layer_);
     const Eigen::Vector4f plane = planeIn(input.plane, T_world_camera).cast<float>();
     p.plane = {plane.x(), plane.y(), plane.z(), plane.w()};
-    p.leastWeight = kLeastWeight;
     p.referenceWidth = from.width;
     p.referenceHeight = from.height;
     p.width = to.width;

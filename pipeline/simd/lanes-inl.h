@@ -11,6 +11,8 @@
 #define MFAR_SIMD_LANES_INL_H
 #endif
 
+#include "pipeline/simd/distortion-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -33,11 +35,6 @@ HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
     if (i < count) body(d, count - lanes);
 }
 
-template <class V>
-struct Points {
-    V x, y;
-};
-
 /// EpipolarLens::project() of a vector of rays.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> projected(D d, const Lens& lens, V x, V y) {
@@ -51,16 +48,9 @@ HWY_INLINE Points<V> projected(D d, const Lens& lens, V x, V y) {
         y = hn::Mul(y, c);
         q = hn::Min(q, rim);
     }
-    V radial = hn::MulAdd(q, set(lens.k3), set(lens.k2));
-    radial = hn::MulAdd(q, radial, set(lens.k1));
-    radial = hn::MulAdd(q, radial, set(1));
-    const V x2 = hn::Add(x, x), y2 = hn::Add(y, y), xy = hn::Mul(x2, y);
-    const V p1 = set(lens.p1), p2 = set(lens.p2);
-    V u = hn::MulAdd(p2, hn::MulAdd(x2, x, q), hn::Mul(p1, xy));
-    V v = hn::MulAdd(p1, hn::MulAdd(y2, y, q), hn::Mul(p2, xy));
-    u = hn::MulAdd(x, radial, u);
-    v = hn::MulAdd(y, radial, v);
-    return {hn::MulAdd(set(lens.fx), u, set(lens.cx)), hn::MulAdd(set(lens.fy), v, set(lens.cy))};
+    const Points<V> bent = distorted(d, lens, x, y, q);
+    return {hn::MulAdd(set(lens.fx), bent.x, set(lens.cx)),
+            hn::MulAdd(set(lens.fy), bent.y, set(lens.cy))};
 }
 
 }  // namespace mfar::simd::HWY_NAMESPACE

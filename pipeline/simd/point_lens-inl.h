@@ -10,6 +10,8 @@
 #define MFAR_SIMD_POINT_LENS_INL_H
 #endif
 
+#include "pipeline/simd/distortion-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -43,15 +45,7 @@ HWY_INLINE Triples<V> PixelsOf(D d, const PointLens& lens, const Triples<V>& p) 
     }
     const V x = hn::Mul(p.x, scale), y = hn::Mul(p.y, scale);
     const V q = hn::MulAdd(x, x, hn::Mul(y, y));
-    V radial = hn::MulAdd(q, set(lens.k3), set(lens.k2));
-    radial = hn::MulAdd(q, radial, set(lens.k1));
-    radial = hn::MulAdd(q, radial, set(1));
-    const V x2 = hn::Add(x, x), y2 = hn::Add(y, y), xy = hn::Mul(x2, y);
-    const V p1 = set(lens.p1), p2 = set(lens.p2);
-    V u = hn::MulAdd(p2, hn::MulAdd(x2, x, q), hn::Mul(p1, xy));
-    V v = hn::MulAdd(p1, hn::MulAdd(y2, y, q), hn::Mul(p2, xy));
-    u = hn::MulAdd(x, radial, u);
-    v = hn::MulAdd(y, radial, v);
+    auto [u, v] = distorted(d, lens, x, y, q);
     if (!all) {
         const V beyond = set(lens.rimRadial);
         u = hn::IfThenElse(within, u, hn::MulAdd(beyond, hn::Sub(hn::Div(p.x, p.z), x), u));

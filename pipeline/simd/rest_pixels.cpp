@@ -2,6 +2,7 @@
 
 #include "pipeline/render/rendered_picture.h"
 #include "pipeline/simd/surface_raster.h"
+#include "pipeline/warp/pass_params.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,9 +10,6 @@
 
 namespace mfar::simd {
 namespace {
-
-// Less of a surface's own texels than so much tells little of its colour there.
-constexpr float kLeastWeight = 0.2F;
 
 using Quarters = std::array<std::uint32_t, 4>;  // upper left and right, lower left and right
 
@@ -118,7 +116,7 @@ bool RestPixels::lookUp(const View& view, const Point3& at, float id, Colour& fo
         for (std::size_t c = 0; c < 4; ++c)
             sum.rgba[c] += w * static_cast<float>(view.colours[t][c]);
     }
-    if (!(weights > kLeastWeight)) return false;
+    if (!(weights > params::kLeastLookUpWeight)) return false;
     for (std::size_t c = 0; c < 4; ++c)
         found.rgba[c] = sum.rgba[c] / weights;
     return true;

@@ -13,6 +13,8 @@ inline constexpr std::uint32_t kCatcherNumber = 255U;
 inline constexpr std::uint32_t kAnyObjectNumber = 254U;
 /// Share of z: surfaces as close as that are one.
 inline constexpr float kSameDepth = 0.003F;
+/// Less of a surface's own texels than so much tells little of its colour there.
+inline constexpr float kLeastLookUpWeight = 0.2F;
 /// Levels of the pyramid that a crack needs.
 inline constexpr int kCrackLevels = 2;
 /// Levels of contrast of EdgeRefiner.
@@ -51,7 +53,6 @@ struct alignas(16) LookUpViews {
     Plane plane;
     PixelBounds bounds;
     DispatchGroups wanted[6];                      ///< of the pyramid's levels
-    float leastWeight;                             ///< of a look-up
     std::int32_t referenceWidth, referenceHeight;  ///< [px]
     std::int32_t width, height;                    ///< of the layer [px]
     std::int32_t patches, levels;

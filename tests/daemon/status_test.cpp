@@ -63,6 +63,7 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     stats.mailboxDropped(4);
     stats.videoGap(5);
     stats.recorderDropped(6);
+    stats.firstPicture({431.6, 380, 90.4});
     const auto json = summary(
         stats.count(), {"llvmpipe", "synthetic", "none", "detail", {}, {}, "2 tags"}, "SIGTERM", 0);
     EXPECT_EQ(json["exit_reason"], "SIGTERM");
@@ -79,6 +80,14 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     EXPECT_EQ(json["drops"]["mailbox"], 4);
     EXPECT_EQ(json["drops"]["sensor"], 5);
     EXPECT_EQ(json["drops"]["recorder"], 6);
+    EXPECT_EQ(json["first_picture"]["since_start_ms"], 431.6);
+    EXPECT_EQ(json["first_picture"]["cpu_ms"], 380);
+    EXPECT_EQ(json["first_picture"]["resident_mb"], 90.4);
+}
+
+TEST(Status, SaysWhenTheFirstPictureWasThere) {
+    EXPECT_EQ(firstPictureLine({431.6, 380, 90.4}),
+              "first picture 432 ms after the start, 90 MB resident");
 }
 
 TEST(Status, TellsHowTheDeadlineWasKept) {

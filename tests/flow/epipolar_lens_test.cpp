@@ -51,6 +51,28 @@ TEST(EpipolarLens, RaysAreThoseOfThePixelsOfEveryLevel) {
     }
 }
 
+TEST(EpipolarLens, CopiesShareRaysAndAPartLeavesThoseOfTheWhole) {
+    const EpipolarLens whole(fisheye(), 1);
+    EpipolarLens part = whole;
+    EXPECT_EQ(part.raysX().data(), whole.raysX().data());
+    const std::vector<float> x = whole.raysX(), y = whole.raysY();
+    const Size size = whole.size();
+    for (const PixelRect& pixels :
+         {PixelRect{2, 1, 9, 6}, PixelRect{0, 3, 4, 5}, PixelRect{1, 0, size.width, 2}}) {
+        part.cover(whole, pixels);
+        EXPECT_EQ(whole.raysX(), x);
+        EXPECT_EQ(whole.raysY(), y);
+        ASSERT_EQ(part.size(), (Size{pixels.x1 - pixels.x0, pixels.y1 - pixels.y0}));
+        const std::size_t last = part.raysX().size() - 1;
+        const std::size_t same =
+            static_cast<std::size_t>(pixels.y1 - 1) * size.width + pixels.x1 - 1;
+        EXPECT_EQ(part.rayX(last), x[same]);
+        EXPECT_EQ(part.rayY(last), y[same]);
+    }
+    part.cover(whole, {0, 0, size.width, size.height});
+    EXPECT_EQ(part.raysX().data(), whole.raysX().data());
+}
+
 TEST(EpipolarLens, ProjectsAsTheCameraDoesWithinThePicture) {
     std::mt19937 random(3);
     for (const CameraModel& camera :

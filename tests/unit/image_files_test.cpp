@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 namespace mfar {
 namespace {
@@ -53,6 +54,20 @@ TEST(ImageFiles, PngKeepsEveryColourButAlpha) {
                     c == 3 ? 255 : source.view.data[y * source.view.stride + 4 * x + c];
                 EXPECT_EQ(read.pixels[(y * 5 + x) * 4 + c], expected) << x << ',' << y << ',' << c;
             }
+}
+
+TEST(ImageFiles, PngOfBlueFirstIsThatOfRedFirst) {
+    const Padded source({5, 3}, PixelFormat::Rgba8);
+    Padded swapped = source;
+    swapped.view = {swapped.bytes.data(), {5, 3}, source.view.stride, PixelFormat::Bgra8};
+    for (std::size_t y = 0; y < 3; ++y)
+        for (std::size_t x = 0; x < 5; ++x)
+            std::swap(swapped.bytes[y * source.view.stride + 4 * x],
+                      swapped.bytes[y * source.view.stride + 4 * x + 2]);
+    std::vector<std::uint8_t> red, blue;
+    encodePng(source.view, red);
+    encodePng(swapped.view, blue);
+    EXPECT_EQ(red, blue);
 }
 
 TEST(ImageFiles, GreyPngComesBackAsEqualChannels) {

@@ -59,6 +59,31 @@ TEST(RecordingPlayer, ConsumerPaceHoldsAStillBackUntilTheVideoHasCome) {
     EXPECT_FALSE(player.video().ended());
 }
 
+TEST(RecordingPlayer, ConsumerPaceGivesStillsUpToTheVideoThatWasAskedFirst) {
+    const TempFolder folder;
+    writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs},
+                        {5 * kMs, 33 * kMs, 40 * kMs, 90 * kMs});
+    for (int run = 0; run < 20; ++run) {
+        RecordingPlayer player(loadRecording(folder.path()),
+                               {.pace = Pace::Consumer, .asksVideoFirst = true});
+        startBoth(player);
+        const auto next = [](Camera& camera) {
+            const std::optional<Frame> frame = camera.next(milliseconds(0));
+            return frame ? frame->time().ns : -1;
+        };
+        EXPECT_EQ(next(player.video()), 0);
+        EXPECT_EQ(next(player.stills()), -1) << "a later still is waited for";
+        EXPECT_EQ(next(player.video()), 33 * kMs);
+        EXPECT_EQ(next(player.stills()), 5 * kMs);
+        EXPECT_EQ(next(player.stills()), 33 * kMs);
+        EXPECT_EQ(next(player.stills()), -1);
+        EXPECT_EQ(next(player.video()), 66 * kMs);
+        EXPECT_EQ(next(player.stills()), 40 * kMs);
+        EXPECT_EQ(next(player.stills()), 90 * kMs) << "no video is left";
+        EXPECT_TRUE(player.stills().ended());
+    }
+}
+
 TEST(RecordingPlayer, ConsumerPaceWaitsOnlyForBuffersTheConsumerHolds) {
     const TempFolder folder;
     writeSmallRecording(folder.path(), {0, 33 * kMs, 66 * kMs}, {});

@@ -2,8 +2,8 @@
 
 #include "hal/virtual/image_files.h"
 #include "tests/measure/eval/depth_methods.h"
-#include "tests/measure/eval/labels.h"
 #include "tests/measure/eval/metrics/depth_error.h"
+#include "tests/measure/eval/sample_table.h"
 
 #include <fmt/format.h>
 
@@ -42,15 +42,15 @@ DepthTruth loadDepthTruth(const FlowSet& set, const FlowSample& sample) {
     return out;
 }
 
-void addRow(Report& report, const std::string& label, const FlowSample& sample,
-            const std::string& method, const DepthMethod::Result& result, const DepthTruth& truth) {
+void addRow(Report& report, const SampleRow& row, const DepthMethod::Result& result,
+            const DepthTruth& truth) {
     const auto within = [&](const cv::Mat& mask) {
         return depthError(result.inverseDepth, truth.visible, truth.disparity, mask);
     };
     const DepthError all = within(truth.all), edge = within(truth.edges),
                      inner = within(truth.inner);
     if (all.pixels == 0)
-        throw EvalError(fmt::format("{}: no depth is known", sample.truth.string()));
+        throw EvalError(fmt::format("{}: no depth is known", row.sample.truth.string()));
     const auto measured = [](double value) {
         return std::isnan(value) ? std::nullopt : std::optional(value);
     };
@@ -58,28 +58,11 @@ void addRow(Report& report, const std::string& label, const FlowSample& sample,
     if (!result.variance.empty())
         sparse = depthSparsification(result.inverseDepth, result.variance, truth.visible,
                                      truth.disparity);
-    report.add(label, sample.frame, method,
+    report.add(row.label, row.sample.frame, row.method,
                {all.completeness > 0 ? std::optional(result.ms) : std::nullopt,
                 measured(all.absrel), all.bad1, all.completeness, measured(edge.absrel),
                 measured(edge.bad1), measured(inner.absrel), measured(inner.bad1), all.delta[0],
                 all.delta[1], all.delta[2], measured(sparse.ause), measured(sparse.ausePerRandom)});
-}
-
-void measure(const SampleRun& run, const std::vector<std::string>& names, DepthFactory& factory,
-             Report& report) {
-    std::vector<std::unique_ptr<DepthMethod>> methods;
-    for (const std::string& name : names)
-        methods.push_back(factory.create(name, run.set().rig));
-    run.each(
-        [&](const Shot& still) {
-            for (const auto& method : methods)
-                method->setStill(still);
-        },
-        [&](const FlowSample& sample, const Shot& frame) {
-            const DepthTruth truth = loadDepthTruth(run.set(), sample);
-            for (std::size_t i = 0; i < methods.size(); ++i)
-                addRow(report, run.label(), sample, names[i], methods[i]->run(frame), truth);
-        });
 }
 
 }  // namespace
@@ -98,13 +81,12 @@ Report evaluateDepth(const SampleRequest& request) {
                    {"delta3", 4},
                    {"ause", 4},
                    {"ause_rel", 3}});
-    DepthFactory factory;
-    const auto labels = labelsOf(request.folders);
-    for (std::size_t i = 0; i < labels.size(); ++i)
-        measure(
-            SampleRun(request, request.folders[i], labels[i], depthSamplesOf(request.folders[i])),
-            request.methods, factory, report);
-    report.addMeans();
+    measureSamples<DepthFactory>(
+        request, depthSamplesOf, loadDepthTruth,
+        [&report](const SampleRow& row, const auto& result, const auto& truth) {
+            addRow(report, row, result, truth);
+        },
+        report);
     return report;
 }
 

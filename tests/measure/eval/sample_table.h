@@ -1,0 +1,49 @@
+#pragma once
+
+#include "tests/measure/eval/labels.h"
+#include "tests/measure/eval/report.h"
+#include "tests/measure/eval/sample_run.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+/// A row of the table, without its values.
+struct SampleRow {
+    const std::string& label;
+    const FlowSample& sample;
+    const std::string& method;
+};
+
+/// Runs every method of the request on every sample of its folders, a method made anew for each
+/// folder by `factory.create(name, rig)`, and adds the means. `samplesOf(folder)` finds the
+/// samples, `truthOf(set, sample)` loads what is true, `addRow(row, result, truth)` compares and
+/// reports.
+template <class Factory, class SamplesOf, class TruthOf, class AddRow>
+void measureSamples(const SampleRequest& request, const SamplesOf& samplesOf,
+                    const TruthOf& truthOf, const AddRow& addRow, Report& report) {
+    Factory factory;
+    const auto labels = labelsOf(request.folders);
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+        const SampleRun run(request, request.folders[f], labels[f], samplesOf(request.folders[f]));
+        std::vector<decltype(factory.create(labels[f], run.set().rig))> methods;
+        for (const std::string& name : request.methods)
+            methods.push_back(factory.create(name, run.set().rig));
+        run.each(
+            [&](const Shot& still) {
+                for (const auto& method : methods)
+                    method->setStill(still);
+            },
+            [&](const FlowSample& sample, const Shot& frame) {
+                const auto truth = truthOf(run.set(), sample);
+                for (std::size_t i = 0; i < methods.size(); ++i)
+                    addRow(SampleRow{run.label(), sample, request.methods[i]},
+                           methods[i]->run(frame), truth);
+            });
+    }
+    report.addMeans();
+}
+
+}  // namespace mfar::eval
