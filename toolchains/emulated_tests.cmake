@@ -9,6 +9,7 @@ set(mfar_emulated
     mfar-gl-library-tests
     mfar-libcamera-tests
     mfar-shader-tests-egl
+    mfar-simd-tests
     mfar-track-tests
     mfar-trigger-tests
     mfar-unit-tests
@@ -16,7 +17,7 @@ set(mfar_emulated
 )
 
 function(gtest_discover_tests target)
-    cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_FILTER;TEST_LIST" "")
+    cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_FILTER;TEST_LIST" "PROPERTIES")
     # Tests of one program in two parts tell them apart by their lists.
     set(name ${target})
     if(arg_TEST_LIST)
@@ -27,7 +28,8 @@ function(gtest_discover_tests target)
         set(filter --gtest_filter=${arg_TEST_FILTER})
     endif()
     add_test(NAME ${name} COMMAND ${target} ${filter})
-    set_tests_properties(${name} PROPERTIES FAIL_REGULAR_EXPRESSION "Running 0 tests from")
+    set_tests_properties(${name} PROPERTIES FAIL_REGULAR_EXPRESSION "Running 0 tests from"
+                         ${arg_PROPERTIES})
     if(target IN_LIST mfar_emulated)
         set_tests_properties(${name} PROPERTIES LABELS emulated TIMEOUT 1200)
     endif()
