@@ -16,6 +16,7 @@ namespace mfar::synthetic {
 namespace {
 
 constexpr int kAtlas = 1024;                 // texels
+constexpr double kSlack = 1e-3;              // of spheres around solids, for rounding [m]
 constexpr int kKeyRays = 12, kSkyRays = 16;  // per texel; neighbours differ and are smoothed after
 
 struct SurfacePoint {
@@ -86,13 +87,14 @@ private:
         const double turn = hashUnit(seed), shift = hashUnit(mix(seed));
         double key = 0;
         if (normal.dot(light.towards) > 0) {
+            const auto between = towardsLight(origin);
             int seen = 0;
             for (int i = 0; i < kKeyRays; ++i) {
                 const double r = light.spread * std::sqrt((i + shift) / kKeyRays);
                 const double a = 2 * std::numbers::pi * (i * 0.61803399 + turn);
                 const Eigen::Vector3d towards =
                     light.towards + r * (std::cos(a) * side_ + std::sin(a) * up_);
-                if (!solids_.blocked({origin, towards}, 1e9, -1)) ++seen;
+                if (!solids_.blocked({origin, towards}, 1e9, -1, between)) ++seen;
             }
             key = normal.dot(light.towards) * seen / kKeyRays;
         }
@@ -103,13 +105,14 @@ private:
     Eigen::Vector3d skyAt(int index, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                           double turn, double shift) const {
         const Eigen::Vector3d side = normal.unitOrthogonal(), up = normal.cross(side);
+        const auto around = withinReach(origin, normal);
         Eigen::Vector3d sum = Eigen::Vector3d::Zero();
         for (int i = 0; i < kSkyRays; ++i) {
             const double u = (i + shift) / kSkyRays;
             const double a = 2 * std::numbers::pi * (i * 0.61803399 + turn);
             const Eigen::Vector3d d =
                 std::sqrt(u) * (std::cos(a) * side + std::sin(a) * up) + std::sqrt(1 - u) * normal;
-            const auto hit = solids_.cast({origin, d}, reach());
+            const auto hit = solids_.cast({origin, d}, reach(), around);
             if (!hit) {
                 sum += world_.light.ambient * (0.75 + 0.45 * d.z());
                 continue;
@@ -120,6 +123,32 @@ private:
                 sum += 0.42 * tint.cwiseProduct(world_.light.ambient + 0.35 * world_.light.key);
         }
         return sum / kSkyRays;
+    }
+
+    /// The solids that may hide some of the light from a point: their bounding spheres meet the
+    /// cone of rays towards it.
+    std::vector<int> towardsLight(const Eigen::Vector3d& point) const {
+        std::vector<int> out;
+        for (int i = 0; i < solids_.size(); ++i) {
+            const Eigen::Vector3d to = solids_.pose(i).translation - point;
+            const double along = to.dot(world_.light.towards), radius = solids_.radius(i) + kSlack;
+            const double aside = (to - along * world_.light.towards).norm();
+            if (along + radius > 0 && aside < radius + world_.light.spread * (along + radius))
+                out.push_back(i);
+        }
+        return out;
+    }
+
+    /// The solids that the sky's rays from a point of a surface may hit.
+    std::vector<int> withinReach(const Eigen::Vector3d& point,
+                                 const Eigen::Vector3d& normal) const {
+        std::vector<int> out;
+        for (int i = 0; i < solids_.size(); ++i) {
+            const Eigen::Vector3d to = solids_.pose(i).translation - point;
+            const double radius = solids_.radius(i) + kSlack;
+            if (to.dot(normal) > -radius && to.norm() < reach() + radius) out.push_back(i);
+        }
+        return out;
     }
 
     /// Farther solids count as sky, or closed rooms would be dark.

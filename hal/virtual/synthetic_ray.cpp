@@ -66,15 +66,24 @@ Snapshot::Snapshot(const World& world, double t) {
             {p.shape, pose,
              p.half.cwiseInverse().asDiagonal() * pose.rotation.conjugate().toRotationMatrix(),
              p.half, p.half.norm()});
+        all_.push_back(i);
     }
 }
 
 std::optional<Hit> Snapshot::cast(const Ray& ray, double limit) const {
+    return cast(ray, limit, all_);
+}
+
+bool Snapshot::blocked(const Ray& ray, double limit, int except) const {
+    return blocked(ray, limit, except, all_);
+}
+
+std::optional<Hit> Snapshot::cast(const Ray& ray, double limit, std::span<const int> among) const {
     Hit best;
     best.distance = limit;
     bool found = false;
     const double length2 = ray.direction.squaredNorm();
-    for (int i = 0; i < size(); ++i) {
+    for (const int i : among) {
         const Solid& s = solids_[i];
         const Eigen::Vector3d toCentre = s.T_world_prim.translation - ray.origin;
         const double along = toCentre.dot(ray.direction);
@@ -93,9 +102,9 @@ std::optional<Hit> Snapshot::cast(const Ray& ray, double limit) const {
     return best;
 }
 
-bool Snapshot::blocked(const Ray& ray, double limit, int except) const {
+bool Snapshot::blocked(const Ray& ray, double limit, int except, std::span<const int> among) const {
     const double length2 = ray.direction.squaredNorm();
-    for (int i = 0; i < size(); ++i) {
+    for (const int i : among) {
         if (i == except) continue;
         const Solid& s = solids_[i];
         const Eigen::Vector3d toCentre = s.T_world_prim.translation - ray.origin;

@@ -3,6 +3,8 @@
 #include "hal/virtual/synthetic_scene.h"
 
 #include <optional>
+#include <span>
+#include <vector>
 
 namespace mfar::synthetic {
 
@@ -21,6 +23,13 @@ public:
     [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit) const;
     /// Whether anything but `except` lies on the ray before `limit`.
     [[nodiscard]] bool blocked(const Ray& ray, double limit, int except) const;
+    /// The same among some primitives alone, in ascending order.
+    [[nodiscard]] std::optional<Hit> cast(const Ray& ray, double limit,
+                                          std::span<const int> among) const;
+    [[nodiscard]] bool blocked(const Ray& ray, double limit, int except,
+                               std::span<const int> among) const;
+    /// Of the bounding sphere around pose(primitive).translation.
+    [[nodiscard]] double radius(int primitive) const { return solids_[primitive].radius; }
     [[nodiscard]] const RigidTransform& pose(int primitive) const {
         return solids_[primitive].T_world_prim;
     }
@@ -35,6 +44,7 @@ private:
         double radius;  ///< of the bounding sphere
     };
     std::vector<Solid> solids_;
+    std::vector<int> all_;  ///< indices
 };
 
 }  // namespace mfar::synthetic

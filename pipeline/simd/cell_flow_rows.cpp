@@ -40,10 +40,10 @@ HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> loadVectors(D d, const CellVector* from) {
-    Points<V> out;
-    V c, e;
-    hn::LoadInterleaved4(d, from->data(), out.x, out.y, c, e);
-    return out;
+    // No Points without values: its constructor would be no function of this instruction set.
+    V x, y, c, e;
+    hn::LoadInterleaved4(d, from->data(), x, y, c, e);
+    return {x, y};
 }
 
 template <class D, class V = hn::Vec<D>>

@@ -24,8 +24,8 @@ StereoRig hostileRig(Context& c) {
 std::vector<Case> allCases() {
     std::vector<Case> out;
     for (const auto& some : {flowCases(), triangulationCases(), pipelineCases(), engineCases(),
-                             pictureCases(), virtualCases(), searchCases(), depthCases(),
-                             poseCases(), warpCases(), screenCases(), tracerCases()})
+                             pictureCases(), virtualCases(), searchCases(), rowCases(),
+                             depthCases(), poseCases(), warpCases(), screenCases(), tracerCases()})
         out.insert(out.end(), some.begin(), some.end());
     return out;
 }

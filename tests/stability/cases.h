@@ -48,6 +48,7 @@ struct Case {
 [[nodiscard]] std::vector<Case> pictureCases();
 [[nodiscard]] std::vector<Case> virtualCases();
 [[nodiscard]] std::vector<Case> searchCases();
+[[nodiscard]] std::vector<Case> rowCases();
 [[nodiscard]] std::vector<Case> depthCases();
 [[nodiscard]] std::vector<Case> poseCases();
 [[nodiscard]] std::vector<Case> warpCases();

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Plants faults in shaders and host sources, one at a time, and runs the cases that have to find them.
-# Usage: planted_faults.sh BUILD-FOLDER [shaders|host|kernels]. Prints each with what found it; exit status 1
-# when one was not found. Shaders are changed as the program is handed them; a host source is changed
-# in a copy, compiled as its unity file is, and linked before the library that has the sound one.
+# Usage: planted_faults.sh BUILD-FOLDER [shaders|host|kernels|texts]. Prints each with what found it; exit
+# status 1 when one was not found. Shaders are changed as the program is handed them; a host source is
+# changed in a copy, compiled as its unity file is, and linked before the library that has the sound one.
+# `texts` only looks whether the sources still contain what is to be changed, once each.
 set -euo pipefail
 build=$(readlink -f "$1") which=${2:-all}
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
@@ -33,9 +34,9 @@ inShaders() {
     done < <("$program" --list-planted)
 }
 
-# Arguments: source, object. Compiles the changed copy of the source, which lies in $scratch under its own
-# path: a kernel includes itself once per instruction set. The command is that of the source's unity file
-# or, where it has none, its own.
+# Arguments: source, object. Compiles the source with the changed copies, its own or that of a header, which
+# lie in $scratch under their own paths: a kernel includes itself once per instruction set. The command is
+# that of the source's unity file or, where it has none, its own.
 compile() {
     local source=$1 object=$2 unit command
     unit=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
@@ -48,18 +49,24 @@ compile() {
     (cd "$build" && eval "$command -w -I$PWD -c $scratch/$source -o $object")
 }
 
-# Arguments: source, its text, what comes instead, what that is, cases.
+# Arguments: source, its text, what comes instead, what that is, cases, the source that includes it if it
+# is a header.
 inHost() {
-    local source=$1 from=$2 to=$3 what=$4 cases=$5 link
+    local source=$1 from=$2 to=$3 what=$4 cases=$5 unit=${6:-$1} link
     if [[ $(grep -cF -- "$from" "$source") != 1 ]]; then
         printf 'MISSED  %s does not contain once: %s\n' "$source" "$from"
         missed=$((missed + 1))
         return
     fi
+    if [[ $which == texts ]]; then
+        found=$((found + 1))
+        return
+    fi
     rm -rf "${scratch:?}"/*
-    mkdir -p "$scratch/$(dirname "$source")"
+    mkdir -p "$scratch/$(dirname "$unit")"
+    cp "$unit" "$scratch/$unit"
     FROM=$from TO=$to perl -pe 's/\Q$ENV{FROM}\E/$ENV{TO}/' "$source" >"$scratch/$source"
-    compile "$source" "$scratch/changed.o"
+    compile "$unit" "$scratch/changed.o"
     link=$(ninja -C "$build" -t commands mfar-stress | grep -F -- '-o tests/stability/mfar-stress ')
     link=${link/-o tests\/stability\/mfar-stress /-Wl,--allow-multiple-definition $scratch/changed.o -o $scratch/program }
     (cd "$build" && eval "$link")
@@ -69,23 +76,17 @@ inHost() {
 hostFaults() {
     inHost pipeline/depth/depth_filter.cpp 'if (InverseDepthField::isSound(measured.rho[i], measured.variance[i]))' \
         '' 'removed guard against measurements that are none' depth-filter
-    inHost pipeline/depth/depth_filter.cpp 'const float moved = rho / p.z();' 'const float moved = rho;' \
-        'depth not carried' depth-carried
-    inHost pipeline/depth/edge_snap.cpp 'if (!isSound(in, i)) {' 'if (false) {' \
-        'removed guard against depth that is none' edges
-    inHost pipeline/epipolar/epipolar_flow.cpp 'std::clamp(error, 0.0F, kNowhere)' 'error' \
-        'missing clamp of the two-way error' flow-of-poses
+    inHost pipeline/depth/edge_snap.cpp 'const bool sound = InverseDepthField::isSound(in.rho[i], in.variance[i]);' \
+        'const bool sound = true;' 'removed guard against depth that is none' edges
     inHost pipeline/epipolar/epipolar_search.cpp 'return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);' \
         'return label;' 'missing clamp of a prediction' search
     inHost pipeline/epipolar/relative_pose.cpp 'out.error = ray - seen;' 'out.error = seen - ray;' \
         'wrong sign of an error' refinement-exact
-    inHost pipeline/epipolar/semi_global.cpp 'from + std::clamp(shift, -apart, apart)' 'from + shift' \
-        'missing clamp of a shift' aggregation
     inHost pipeline/flow/luma_image.cpp 'out.back().firstWeight = 1;' 'out.back().firstWeight = 2;' \
         'wrong weight' luma
-    inHost pipeline/plan/tile_measure.cpp 'const int width = inside ? width_ : 0;' \
-        'const int width = inside ? width_ : static_cast<int>(2 * pitch_);' \
-        'noise beyond the border' plan
+    inHost pipeline/plan/tile_measure.cpp \
+        'std::memcpy(to + inside, out.now[c][y] + inside, kTileSize - inside);' '' \
+        'a difference beyond the border' plan
     inHost pipeline/plan/tile_choice.cpp 'if (tile.changed) return;' '' 'changed tiles taken for noise' plan
     inHost pipeline/track/pose_filter.cpp 'if (!usable) {' 'if (false) {' \
         'removed guard against poses that are none' pose-filter
@@ -105,29 +106,65 @@ hostFaults() {
 # In kernels of the SIMD engine.
 kernelFaults() {
     local simd=pipeline/simd
-    inHost $simd/luma_kernels.cpp 'hn::Set(d, 0.587F)' 'hn::Set(d, 0.614F)' 'wrong weight of green' engines
+    inHost $simd/luma_kernels.cpp 'hn::Set(d, params::kLumaGreen)' 'hn::Set(d, 0.614F)' 'wrong weight of green' engines
     inHost $simd/still_footprint.cpp 'return std::clamp(i, 0, p.width - 1);' 'return std::clamp(i + 1, 0, p.width - 1);' \
         'a column off' engines
     inHost $simd/still_kernels.cpp 'const auto share = hn::Set(d, rows.neighboursShare), zero' \
         'const auto share = hn::Set(d, std::int16_t(0)), zero' 'neighbours left out' engines
-    inHost $simd/still_look_up.cpp 'hn::Lt(error, Const(params.alpha))' 'hn::Lt(error, Const(1e9F))' \
+    inHost $simd/still_look_up.cpp 'hn::Lt(error, Const(params::kTwoWayAlpha))' \
+        'hn::Lt(error, Const(1e9F))' \
         'missing guard: confidence below zero' engines,pipeline
-    inHost $simd/cell_weights.cpp 'SmoothStep(0.2F, 0.6F, ncc2)' 'SmoothStep(0.1F, 0.6F, ncc2)' 'wrong threshold' engines
+    inHost $simd/cell_weights.cpp 'SmoothStep(params::kUnlikePatches, params::kAlikePatches, ncc2)' \
+        'SmoothStep(0.1F, params::kAlikePatches, ncc2)' 'wrong threshold' engines
     inHost $simd/patch_sums.cpp 'hn::MulFixedPoint15(hn::Sub(b, a), f)' 'hn::MulFixedPoint15(hn::Sub(a, b), f)' \
         'wrong sign between pixels' engines
     inHost $simd/detail_kernels.cpp 'zero = hn::Set(df, 256.0F * 128)' 'zero = hn::Set(df, 256.0F * 100)' \
         'an offset that is wrong' engines
-    inHost $simd/sharpen_kernels.cpp 'kNearTap = -0.14123' 'kNearTap = 0.14123' 'wrong sign of a tap' engines
+    inHost $simd/sharpen_kernels.cpp 'kNearTap = params::kSharpenNear' 'kNearTap = -params::kSharpenNear' 'wrong sign of a tap' engines
     inHost $simd/patch_search.cpp 'hn::NegMulAdd(hn::Add(gain, gain), covariance, energy)' \
         'hn::MulAdd(hn::Add(gain, gain), covariance, energy)' 'wrong sign in a cost' pipeline-truth
     inHost $simd/field_rows.cpp 'return hn::Max(low, middle);' 'return hn::Min(low, middle);' \
         'another value for the median' filters
     inHost $simd/luma_filters.cpp 'hn::ShiftRight<2>(hn::Add(sum, hn::Set(d, 2)))' 'hn::ShiftRight<1>(hn::Add(sum, hn::Set(d, 2)))' \
         'wrong divisor of a mean' luma
+    inHost $simd/path_windows-inl.h 'from + std::clamp(shift, -labels - 1, labels + 1)' 'from + shift' \
+        'missing clamp of a shift' aggregation $simd/path_costs.cpp
+    inHost $simd/cell_flow_rows.cpp 'const auto held = hn::Min(hn::Max(error, zero), nowhere);' \
+        'const auto held = error;' 'missing clamp of the two-way error' flow-of-poses
+    rowFaults
 }
 
-if [[ $which != host && $which != kernels ]]; then inShaders; fi
-if [[ $which == all || $which == host ]]; then hostFaults; fi
-if [[ $which == all || $which == kernels ]]; then kernelFaults; fi
+# In those of the search's lines, of depth, of tiles and of turned pictures.
+rowFaults() {
+    local simd=pipeline/simd
+    inHost $simd/label_costs.cpp 'hn::IfNegativeThenElse(seen, hn::Set(d, kUnseenCost), count)' 'count' \
+        'missing guard against pixels without census' label-costs
+    inHost $simd/label_costs.cpp 'for (const float side : {-1.0F, 1.0F}) {' 'for (const float side : {1.0F}) {' \
+        'one side of the line left out' label-costs
+    inHost $simd/label_lines.cpp 'hn::Sub(own.foot, left.foot)' 'hn::Sub(left.foot, own.foot)' \
+        'wrong sign of a slope' label-places
+    inHost $simd/label_lines.cpp 'hn::Or(hn::Eq(rise, hn::Zero(d)), hn::Eq(rise, hn::Set(d, Valley::kUnknown)))' \
+        'hn::Eq(rise, hn::Zero(d))' 'missing guard against rises outside the window' label-places
+    inHost $simd/depth_rows.cpp 'const auto moved = hn::Mul(rho, inverse);' 'const auto moved = rho;' \
+        'depth not carried' depth-carried
+    inHost $simd/depth_rows.cpp 'hn::Ge(hn::Add(s, set(rule.slack)), first)' 'hn::Ge(s, s)' \
+        'missing test of what is in front' measured-row
+    inHost $simd/depth_rows.cpp 'const auto depth = hn::NegMulAdd(s, tz, one);' \
+        'const auto depth = hn::MulAdd(s, tz, one);' 'wrong sign of a depth' measured-row
+    inHost $simd/depth_rows.cpp 'storePixels(d, at, hn::Gt(z, least), size.width, landing + i);' \
+        'storePixels(d, at, hn::Gt(z, least), size.width + 1, landing + i);' 'a wrong pitch' landed-row
+    inHost $simd/tile_rows.cpp 'Const(kMeanToDeviation / 64)' 'Const(kMeanToDeviation / 60)' 'wrong divisor of noise' plan
+    inHost $simd/tile_rows.cpp '1 << (kCells * row + column)' '1 << (kCells * column + row)' 'rows for columns' plan
+    inHost $simd/turned_rows.cpp 'hn::MulAdd(fy, hn::Sub(low, top), top)' 'hn::MulAdd(fx, hn::Sub(low, top), top)' \
+        'columns for rows' turned-row
+    inHost $simd/turned_rows.cpp 'const auto skipped = hn::ShiftLeft<3>(hn::Sub(offset, from));' \
+        'const auto skipped = hn::Zero(dInt_);' 'a wrong byte at the end of the picture' turned-row
+    inHost $simd/turned_rows.cpp 'hn::Gt(pz, set(kLeastDepth))' 'hn::Eq(pz, pz)' \
+        'missing guard: what is behind the camera is shown' turned-points
+}
+
+if [[ $which == all || $which == shaders ]]; then inShaders; fi
+if [[ $which == all || $which == host || $which == texts ]]; then hostFaults; fi
+if [[ $which == all || $which == kernels || $which == texts ]]; then kernelFaults; fi
 printf '%d found, %d missed\n' "$found" "$missed"
 [[ $missed == 0 ]]

@@ -41,9 +41,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Group{"flow", flowCases, 4}, Group{"triangulation", triangulationCases, 8},
                     Group{"pipeline", pipelineCases, 2}, Group{"engines", engineCases, 4},
                     Group{"pictures", pictureCases, 4}, Group{"virtual", virtualCases, 8},
-                    Group{"search", searchCases, 4}, Group{"depth", depthCases, 8},
-                    Group{"pose", poseCases, 6}, Group{"tracer", tracerCases, 12},
-                    Group{"warp", warpCases, 6}),
+                    Group{"search", searchCases, 4}, Group{"rows", rowCases, 12},
+                    Group{"depth", depthCases, 8}, Group{"pose", poseCases, 6},
+                    Group{"tracer", tracerCases, 12}, Group{"warp", warpCases, 6}),
     [](const testing::TestParamInfo<Group>& one) { return std::string(one.param.name); });
 
 // Found by long runs: triangles seen edge on, whose depth ran away beyond them.
