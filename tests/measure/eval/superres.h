@@ -17,6 +17,9 @@ struct SuperResRequest {
     std::vector<std::string> methods;  ///< of superResMethodNames()
     bool noStill = false;              ///< the video alone is enlarged
     Degradation degradation;           ///< done to every still
+    int learn = 0;  ///< matched stills that filters are learned from before; 0: as shipped
+    /// Recordings to learn from; empty: each from itself.
+    std::vector<std::filesystem::path> learnFrom;
     PoseSource poses = PoseSource::Recorded;
     PoseNoise poseNoise;         ///< of every frame
     double alpha = 2;            ///< of the paper's confidence [video px]
