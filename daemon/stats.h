@@ -1,6 +1,7 @@
 #pragma once
 
 #include "daemon/histogram.h"
+#include "daemon/learning_counts.h"
 #include "daemon/pose_counts.h"
 #include "daemon/quality_counts.h"
 #include "hal/still_matcher.h"
@@ -66,11 +67,12 @@ struct Counted {
     std::optional<double> referenceAgeS;        ///< of the picture it showed, at the last frame
     FrameStats last;
     std::vector<StageTime> lastStages;
-    std::optional<double> stillAgeS;   ///< at the last frame
-    std::optional<std::string> fault;  ///< of a device, as the picture says it
-    std::string display;               ///< what is shown where
-    std::uint64_t faults = 0;          ///< times that there was none before
-    ValidationCounts validation{};     ///< zero where it is not asked for
+    std::optional<double> stillAgeS;           ///< at the last frame
+    std::optional<std::string> fault;          ///< of a device, as the picture says it
+    std::string display;                       ///< what is shown where
+    std::uint64_t faults = 0;                  ///< times that there was none before
+    ValidationCounts validation{};             ///< zero where it is not asked for
+    std::optional<LearningCounts> learning{};  ///< where filters are learned
 };
 
 /// One finished picture.
@@ -98,6 +100,8 @@ public:
     void pictureOfFault();
     /// Totals so far.
     void validation(const ValidationCounts& counts);
+    /// Nothing where no filters are learned.
+    void learning(const std::optional<LearningCounts>& counts);
     /// Of the path tracer, at a frame's time.
     void traced(const TracedLayerCounters& counters, Timestamp frame);
     void videoGap(std::uint64_t frames);

@@ -162,6 +162,14 @@ nlohmann::ordered_json tileSummary(const Counted& counted) {
     return out;
 }
 
+nlohmann::ordered_json learningSummary(const LearningCounts& counts) {
+    return {
+        {"stills_learned", counts.learner.stills},  {"stills_repeated", counts.learner.repeated},
+        {"stills_refused", counts.learner.refused}, {"stills_left_out", counts.leftOut},
+        {"classes", counts.learner.classes},        {"gain_db", counts.learner.gainDb},
+        {"shipped_gain_db", counts.learner.priorDb}};
+}
+
 nlohmann::ordered_json validationSummary(const ValidationCounts& counts) {
     return {{"values_checked", counts.values}, {"faulty_outputs", counts.faults}};
 }
@@ -228,6 +236,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
           {"used", counted.stills.used},
           {"lost", counted.stills.lost}}},
         {"quality", qualitySummary(counted.quality)},
+        {"learning", learningSummary(counted.learning.value_or(LearningCounts{}))},
         {"trigger_line", lineSummary(counted.matching)},
         {"pose", poseSummary(counted, run.poses)},
         {"virtual", virtualSummary(counted)},
