@@ -9,18 +9,18 @@ printf '[engine]\nuse = "simd"\n[trigger]\nmode = "rate"\nrate_hz = 10.0\nmin_in
 learn() { run 0 --config mfard.toml --source synthetic:office --pace consumer --summary summary.json "$@"; }
 stills() { sed -n 's/.*"stills_learned": \([0-9]*\),*/\1/p' summary.json; }
 
-learn --frames 9
+learn --frames 6
 first=$(stills)
 [ "$first" -ge 1 ] || fail "no still was learned from"
 file=$(ls state/filters-*.learned)
 
 echo "after a restart"
-learn --frames 9
+learn --frames 6
 [ "$(stills)" -gt "$first" ] || fail "it began anew"
 
 echo "what is cut off is reported and replaced"
 truncate -s 5000 "$file"
-learn --frames 9
+learn --frames 6
 says err 'filters-.*\.learned: .*; learning begins anew'
 [ "$(stills)" = "$first" ] || fail "$(stills) stills instead of $first"
 learn --frames 1
@@ -28,7 +28,7 @@ if grep -q 'begins anew' err; then fail "the file was not replaced"; fi
 
 echo "nothing is learned where that is not wanted"
 printf '[superres]\nlearn = false\n' >>mfard.toml
-learn --frames 9
+learn --frames 6
 summary_has stills_learned 0
 sed -i '/superres/,$d' mfard.toml
 
