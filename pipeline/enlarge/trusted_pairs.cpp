@@ -120,18 +120,18 @@ void TrustedPairs::warp() {
             for (int phase = 0; phase < kPhases; ++phase) {
                 float value = 0;
                 for (int k = 0; k < samples * samples; ++k) {
-                    const double px =
-                        x - 0.5 + (phase % kGrid * samples + k % samples + 0.5) / perPixel;
-                    const double py =
-                        y - 0.5 + (phase / kGrid * samples + k / samples + 0.5) / perPixel;
+                    const int column = phase % kGrid * samples + k % samples,
+                              row = phase / kGrid * samples + k / samples;
+                    const double px = x - 0.5 + (column + 0.5) / perPixel,
+                                 py = y - 0.5 + (row + 0.5) / perPixel;
                     const BetweenCells u(px, cells_.width), v(py, cells_.height);
                     const auto between = [&](float LookUpCell::* part) {
-                        const auto row = [&](int cell) {
+                        const auto along = [&](int cell) {
                             const float a = lookUps_[cell][u.first].*part;
                             return a + u.t * (lookUps_[cell][u.second].*part - a);
                         };
-                        const float a = row(v.first);
-                        return a + v.t * (row(v.second) - a);
+                        const float a = along(v.first);
+                        return a + v.t * (along(v.second) - a);
                     };
                     const double sx = (px + 0.5) * in_.scaleX - 0.5 + between(&LookUpCell::x);
                     const double sy = (py + 0.5) * in_.scaleY - 0.5 + between(&LookUpCell::y);
@@ -196,7 +196,7 @@ float TrustedPairs::toneOf(float value) const {
 void TrustedPairs::fitBlur() {
     constexpr int kReach = 2, kWeights = 6;
     using Weights = Eigen::Matrix<double, kWeights, 1>;
-    constexpr auto numberOf = [](int dx, int dy) {
+    const auto numberOf = [](int dx, int dy) {
         const int a = std::max(std::abs(dx), std::abs(dy)),
                   b = std::min(std::abs(dx), std::abs(dy));
         return a * (a + 1) / 2 + b;
@@ -249,44 +249,35 @@ void TrustedPairs::fitMean() {
         }
 }
 
-/// Moves the look-ups by the fraction of a pixel that makes both alike: one step of Lucas' and
-/// Kanade's method over 12x12 pixels around each cell.
-void TrustedPairs::shift() {
-    struct Sums {
-        double xx = 0, xy = 0, yy = 0, xe = 0, ye = 0;
-    };
-    std::vector<Sums> sums(static_cast<std::size_t>(cells_.width) * cells_.height);
+/// Of each cell's pixels, what tells how far both are shifted.
+std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
+    const auto isKnown = [&](int x, int y) { return known_[y / kCell][x / kCell] != 0; };
+    std::vector<ShiftSums> out(static_cast<std::size_t>(cells_.width) * cells_.height);
     for (int y = 1; y < video_.height - 1; ++y)
         for (int x = 1; x < video_.width - 1; ++x) {
-            const auto isKnown = [&](int px, int py) {
-                return known_[py / kCell][px / kCell] != 0;
-            };
             if (!isKnown(x, y) || !isKnown(x - 1, y) || !isKnown(x + 1, y) || !isKnown(x, y - 1) ||
                 !isKnown(x, y + 1))
                 continue;
             const double gx = double(seen_[at(x + 1, y)] - seen_[at(x - 1, y)]) / 2,
                          gy = double(seen_[at(x, y + 1)] - seen_[at(x, y - 1)]) / 2,
                          e = videoAt(x, y) - seen_[at(x, y)] - mean_[at(x, y)];
-            Sums& s = sums[static_cast<std::size_t>(y / kCell) * cells_.width + x / kCell];
-            s.xx += gx * gx;
-            s.xy += gx * gy;
-            s.yy += gy * gy;
-            s.xe += gx * e;
-            s.ye += gy * e;
+            out[static_cast<std::size_t>(y / kCell) * cells_.width + x / kCell].add(
+                {gx * gx, gx * gy, gy * gy, gx * e, gy * e});
         }
+    return out;
+}
+
+/// Moves the look-ups by the fraction of a pixel that makes both alike: one step of Lucas' and
+/// Kanade's method over 12x12 pixels around each cell.
+void TrustedPairs::shift() {
+    const std::vector<ShiftSums> sums = shiftSums();
     for (int y = 0; y < cells_.height; ++y)
         for (int x = 0; x < cells_.width; ++x) {
             if (known_[y][x] == 0) continue;
-            Sums s;
+            ShiftSums s;
             for (int j = std::max(y - 1, 0); j <= std::min(y + 1, cells_.height - 1); ++j)
-                for (int i = std::max(x - 1, 0); i <= std::min(x + 1, cells_.width - 1); ++i) {
-                    const Sums& of = sums[static_cast<std::size_t>(j) * cells_.width + i];
-                    s.xx += of.xx;
-                    s.xy += of.xy;
-                    s.yy += of.yy;
-                    s.xe += of.xe;
-                    s.ye += of.ye;
-                }
+                for (int i = std::max(x - 1, 0); i <= std::min(x + 1, cells_.width - 1); ++i)
+                    s.add(sums[static_cast<std::size_t>(j) * cells_.width + i]);
             constexpr double kDamping = 400;  // [grey levels^2 / px^2]: of noise alone
             const double a = s.xx + kDamping, b = s.yy + kDamping, det = a * b - s.xy * s.xy;
             const double dx = (s.xe * b - s.ye * s.xy) / det, dy = (s.ye * a - s.xe * s.xy) / det;

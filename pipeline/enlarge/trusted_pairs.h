@@ -31,6 +31,17 @@ public:
     [[nodiscard]] double sharpness() const { return sharpness_; }
 
 private:
+    /// Products of gradients and differences, summed up.
+    struct ShiftSums {
+        double xx = 0, xy = 0, yy = 0, xe = 0, ye = 0;
+        void add(const ShiftSums& other) {
+            xx += other.xx;
+            xy += other.xy;
+            yy += other.yy;
+            xe += other.xe;
+            ye += other.ye;
+        }
+    };
     /// A value of each pixel.
     using Plane = std::vector<float>;
 
@@ -42,6 +53,7 @@ private:
     void fitTone();
     void fitBlur();
     void fitMean();
+    [[nodiscard]] std::vector<ShiftSums> shiftSums() const;
     void shift();
     void trust();
     void measureSharpness();
