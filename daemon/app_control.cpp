@@ -40,6 +40,7 @@ ControlActions App::controlActions() {
     };
     actions.stopRecording = [this] { return stopRecording(); };
     actions.trigger = [session] { session([](Session& s) { s.askForStill(); }); };
+    actions.resetLearning = [session] { session([](Session& s) { s.resetLearning(); }); };
     return actions;
 }
 
@@ -64,6 +65,7 @@ ordered_json App::statusNow() {
                 {"fps", counted.recentFps},
                 {"recording", recordsOnDemand_ || !config_.recordTo.empty()},
                 {"line", statusLine(counted, run, elapsed)}});
+    if (counted.learning) out["learned"] = describe(*counted.learning);
     return out;
 }
 

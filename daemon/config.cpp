@@ -63,6 +63,7 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     file.integer("seed", config.seed);
     file.choice<SuperResMode>("superres.mode", config.superres.mode, kSuperResModes);
     file.boolean("superres.skip_unchanged", config.superres.skipUnchanged);
+    file.boolean("superres.learn", config.superres.learn);
     readCameras(file, config.cameras);
     if (!config.cameras.calibration.empty())
         config.cameras.calibration = besides(fileName, config.cameras.calibration);

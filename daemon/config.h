@@ -30,6 +30,7 @@ enum class SourcePace {
 struct SuperResConfig {
     SuperResMode mode = SuperResMode::Detail;
     bool skipUnchanged = true;
+    bool learn = true;  ///< the enlarger's filters, from matched stills
     bool operator==(const SuperResConfig&) const = default;
 };
 

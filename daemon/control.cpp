@@ -16,7 +16,7 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::size_t kLongestName = 100;
-constexpr const char* kCommands = "status, stats, snapshot, reload, record, trigger";
+constexpr const char* kCommands = "status, stats, snapshot, reload, record, trigger, learn";
 
 class BadRequest : public std::runtime_error {
 public:
@@ -84,10 +84,18 @@ ControlAnswer record(const ControlActions& actions, const json& request) {
     return line(with());
 }
 
+ControlAnswer learn(const ControlActions& actions, const json& request) {
+    allowOnly(request, {"reset"});
+    if (!flag(request, "reset")) throw BadRequest(R"(learn takes "reset": true)");
+    actions.resetLearning();
+    return line(with());
+}
+
 ControlAnswer done(const ControlActions& actions, const json& request) {
     const auto command = request["command"].get<std::string>();
     if (command == "snapshot") return snapshot(actions, request);
     if (command == "record") return record(actions, request);
+    if (command == "learn") return learn(actions, request);
     allowOnly(request, {});
     if (command == "status") return line(with(actions.status()));
     if (command == "stats") return line(with(actions.stats()));

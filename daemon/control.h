@@ -28,11 +28,14 @@ struct ControlActions {
     std::function<nlohmann::ordered_json()> stopRecording;
     /// Asks for one still.
     std::function<void()> trigger;
+    /// Forgets the filters that were learned from both sensors.
+    std::function<void()> resetLearning;
 };
 
 /// Does what a request asks for. A request is an object with a command and its arguments:
 ///   {"command": "status"}, "stats", "reload", "trigger"
 ///   {"command": "snapshot", "screen": false}
+///   {"command": "learn", "reset": true}
 ///   {"command": "record", "name": "walk-1"}, {"command": "record", "stop": true}
 /// An answer is {"ok": true, ...} or {"ok": false, "error": "one sentence"}. That of snapshot says
 /// "width", "height" and "bytes", and so many bytes R G B A follow its line, row 0 first. Never

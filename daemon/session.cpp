@@ -1,6 +1,7 @@
 #include "daemon/session.h"
 
 #include "daemon/exit_code.h"
+#include "daemon/filter_learning.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,15 @@
 
 namespace mfar {
 namespace {
+
+/// The same for the same two sensors, as far as that is known.
+std::string sensorsOf(const Config& config, Rig& rig) {
+    const auto [video, still] = std::pair(rig.geometry().video.size, rig.geometry().still.size);
+    return fmt::format("{} {} {}x{}, {} {} {}x{}", rig.video().info().name,
+                       config.cameras.video.camera, video.width, video.height,
+                       rig.still().info().name, config.cameras.still.camera, still.width,
+                       still.height);
+}
 
 /// How often is looked for a fault while no frames come.
 constexpr std::chrono::milliseconds kFaultInterval{30};
@@ -31,7 +41,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       mode_(config.superres.mode), banner_(pipeline_.outputSize()),
       deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
       levels_(governedLevels(config.governor)), objects_(config.objects), light_(config.light),
-      tags_(poses_.tags()) {
+      tags_(poses_.tags()), sensors_(sensorsOf(config, rig_)) {
     rig_.recordTags(tags_);
     pipeline_.setMeasure(config.status.measure);
     PlaneImporter* importer = gl_.context ? gl_.context->planeImporter() : nullptr;
@@ -41,6 +51,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                     gl_.without);
     placeObjects();
     setUpQuality(config.superres.mode);
+    setLearning(config.superres.learn);
     description_ = {gl_.context ? gl_.context->description() : "without OpenGL ES",
                     rig_.description(),
                     display_->name(),
@@ -120,6 +131,7 @@ void Session::apply(const Tunables& wanted) {
     setUpQuality(wanted.superres.mode);
     pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
     pipeline_.setMeasure(wanted.measure);
+    setLearning(wanted.superres.learn);
     objects_ = wanted.objects;
     light_ = wanted.light;
     placeObjects();
@@ -186,6 +198,7 @@ void Session::process(CapturedFrame captured) {
 
 void Session::tell(Timestamp time) {
     if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
+    tellLearning();
     if (auto error = pipeline_.takeSceneError()) stats_.warn("objects: " + *error);
     if (auto error = pipeline_.takeImportFault()) stats_.warn(*error + ": it is copied");
     stats_.recorderDropped(rig_.notRecorded());
@@ -194,6 +207,33 @@ void Session::tell(Timestamp time) {
         matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
         stats_.matching(*matching);
     }
+}
+
+// Only where filters are used: elsewhere nothing would come of it.
+void Session::setLearning(bool wanted) {
+    if (wanted == (learning_ != nullptr) || (wanted && !engines_.learns())) return;
+    pipeline_.setMatchListener(nullptr);
+    pipeline_.setFilters(nullptr);
+    learning_.reset();
+    if (wanted) {
+        learning_ = std::make_unique<FilterLearning>(FilterLearningOptions{
+            learnedFiltersFile(sensors_), sensors_, rig_.handOver() == HandOver::Lossless});
+        pipeline_.setMatchListener(learning_.get());
+        pipeline_.setFilters(learning_->takeFilters());
+    }
+    tellLearning();
+}
+
+void Session::resetLearning() {
+    if (!learning_) throw std::runtime_error("no filters are learned");
+    learning_->reset();
+}
+
+void Session::tellLearning() {
+    stats_.learning(learning_ ? std::optional(learning_->counts()) : std::nullopt);
+    if (!learning_) return;
+    for (std::string& text : learning_->takeWarnings())
+        stats_.warn(std::move(text));
 }
 
 void Session::tellFaultyPasses() {
@@ -226,6 +266,10 @@ void Session::takeStill(CapturedStill still) {
 void Session::useStill() {
     if (!newestStill_ || mode_ == SuperResMode::Off) return;
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
+    if (learning_) {
+        learning_->finish();
+        if (auto filters = learning_->takeFilters()) pipeline_.setFilters(std::move(filters));
+    }
     pipeline_.setStill(still.frame.view(), still.frame.time(), still.pose);
     stillTime_ = still.frame.time();
     stats_.stillUsed();

@@ -29,6 +29,8 @@
 
 namespace mfar {
 
+class FilterLearning;
+
 /// What can be changed while running.
 struct Tunables {
     SuperResConfig superres;
@@ -70,6 +72,8 @@ public:
     [[nodiscard]] ScreenPicture snapshot(bool ofScreen) const;
     /// Asks for one still, whatever the configuration says about when to.
     void askForStill();
+    /// Forgets the filters that were learned.
+    void resetLearning();
     /// See Rig.
     void startRecording(const std::filesystem::path& folder);
     [[nodiscard]] std::function<Recorded()> stopRecording() { return rig_.stopRecording(); }
@@ -88,7 +92,9 @@ private:
     /// Takes the governor's choice for the next frame.
     void govern();
     void showFault();
+    void setLearning(bool wanted);
     void tell(Timestamp time);
+    void tellLearning();
     void tellFaultyPasses();
     void show(Timestamp time, bool unchanged);
 
@@ -104,6 +110,7 @@ private:
     Size output_;
     EngineChoice engines_;
     Pipeline pipeline_;
+    std::unique_ptr<FilterLearning> learning_;  ///< null: the shipped filters
     VirtualWorld virtual_;
     bool previews_;  // of virtual objects
     StillPolicy policy_;
@@ -124,6 +131,7 @@ private:
     std::vector<PlacedObject> objects_;
     LightOptions light_;
     TagMap tags_;
+    std::string sensors_;  ///< that filters are learned for
     std::uint64_t pictures_ = 0;
     ValidationCounts validated_{};
     RunDescription description_;

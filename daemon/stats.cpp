@@ -89,6 +89,11 @@ void Stats::validation(const ValidationCounts& counts) {
     counted_.validation = counts;
 }
 
+void Stats::learning(const std::optional<LearningCounts>& counts) {
+    const std::lock_guard lock(mutex_);
+    counted_.learning = counts;
+}
+
 void Stats::display(const std::string& name) {
     const std::lock_guard lock(mutex_);
     if (counted_.display != name) counted_.display = name;

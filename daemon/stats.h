@@ -1,6 +1,7 @@
 #pragma once
 
 #include "daemon/histogram.h"
+#include "daemon/learning_counts.h"
 #include "daemon/pose_counts.h"
 #include "daemon/process_use.h"
 #include "daemon/quality_counts.h"
@@ -73,6 +74,7 @@ struct Counted {
     std::uint64_t faults = 0;                  ///< times that there was none before
     ValidationCounts validation{};             ///< zero where it is not asked for
     std::optional<ProcessUse> atFirstPicture;  ///< when the display had it
+    std::optional<LearningCounts> learning{};  ///< where filters are learned
 };
 
 /// One finished picture.
@@ -101,6 +103,8 @@ public:
     void pictureOfFault();
     /// Totals so far.
     void validation(const ValidationCounts& counts);
+    /// Nothing where no filters are learned.
+    void learning(const std::optional<LearningCounts>& counts);
     /// Of the path tracer, at a frame's time.
     void traced(const TracedLayerCounters& counters, Timestamp frame);
     void videoGap(std::uint64_t frames);

@@ -166,6 +166,14 @@ nlohmann::ordered_json firstPictureSummary(const ProcessUse& use) {
     return {{"since_start_ms", use.ms}, {"cpu_ms", use.cpuMs}, {"resident_mb", use.residentMb}};
 }
 
+nlohmann::ordered_json learningSummary(const LearningCounts& counts) {
+    return {
+        {"stills_learned", counts.learner.stills},  {"stills_repeated", counts.learner.repeated},
+        {"stills_refused", counts.learner.refused}, {"stills_left_out", counts.leftOut},
+        {"classes", counts.learner.classes},        {"gain_db", counts.learner.gainDb},
+        {"shipped_gain_db", counts.learner.priorDb}};
+}
+
 nlohmann::ordered_json validationSummary(const ValidationCounts& counts) {
     return {{"values_checked", counts.values}, {"faulty_outputs", counts.faults}};
 }
@@ -238,6 +246,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
           {"used", counted.stills.used},
           {"lost", counted.stills.lost}}},
         {"quality", qualitySummary(counted.quality)},
+        {"learning", learningSummary(counted.learning.value_or(LearningCounts{}))},
         {"trigger_line", lineSummary(counted.matching)},
         {"pose", poseSummary(counted, run.poses)},
         {"virtual", virtualSummary(counted)},

@@ -83,6 +83,8 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
     s.pyramid->still(*s.stillPictures);
     s.redraw = true;
     s.lastFlow = nullptr;
+    s.filters = s.nextFilters;
+    s.isNewStill = true;
 }
 
 void Pipeline::dropStill() {
@@ -108,6 +110,18 @@ void Pipeline::setQuality(const Quality& quality) {
     s.flow->setOptions(quality.flow2d);
     s.options.epipolar = changed(s.options.epipolar, quality.epipolar);
     if (s.epipolar) s.epipolar->setOptions(s.options.epipolar);
+}
+
+void Pipeline::setFilters(std::shared_ptr<const FilterBank> filters) {
+    State& s = *state_;
+    s.nextFilters = std::move(filters);
+    if (s.stillPictures != nullptr) return;
+    s.filters = s.nextFilters;
+    s.redraw = true;
+}
+
+void Pipeline::setMatchListener(MatchListener* listener) {
+    state_->matchListener = listener;
 }
 
 void Pipeline::redraw() {
@@ -200,13 +214,23 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
     lap("weigh");
     lastFlow = found;
     lastWeights = &weights;
+    listen(weights);
     return {*found, weights};
+}
+
+void Pipeline::State::listen(const CellWeights& weights) {
+    if (!isNewStill || quality.mode != SuperResMode::Detail) return;
+    isNewStill = false;
+    if (matchListener == nullptr || !learns()) return;
+    const CameraModel& looked = stillPictures->rig.still;
+    matchListener->matched(now, stillPictures->luma.host(), weights.lookUps.host(),
+                           {looked.size, looked.fx / rig.video.fx, looked.fy / rig.video.fy});
 }
 
 void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
                                  const Match* match) {
     const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles,
-                            options.skips.plainTiles, learns()};
+                            options.skips.plainTiles, learns() ? filterBank() : nullptr};
     if (match != nullptr) {
         const DetailStep::Matched matched{*stillPictures, match->weights};
         detail->draw(frame, &matched, work, how);

@@ -7,6 +7,8 @@
 #include "pipeline/depth/depth_options.h"
 #include "pipeline/depth/inverse_depth_field.h"
 #include "pipeline/engine/engine.h"
+#include "pipeline/enlarge/filter_bank.h"
+#include "pipeline/enlarge/match_listener.h"
 #include "pipeline/flow/flow_options.h"
 #include "pipeline/models/light_follower.h"
 #include "pipeline/quality.h"
@@ -68,6 +70,13 @@ public:
     /// Both take effect with the next run.
     void setMode(SuperResMode mode);
     void setSkipUnchanged(bool skip);
+    /// The video is enlarged by these, where it is by filters at all: from the next still on, so
+    /// that pictures change when they change anyway; at once where there is no still. Null: by
+    /// those that the product ships.
+    void setFilters(std::shared_ptr<const FilterBank> filters);
+    /// Receives each still that was matched, where the video is enlarged by filters; null: none. It
+    /// must outlive this.
+    void setMatchListener(MatchListener* listener);
     /// Reads cameras' memory without a copy; null: all is uploaded. It must outlive this.
     void setImporter(PlaneImporter* importer);
     /// Why zero-copy import failed; returned once.

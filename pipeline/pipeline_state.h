@@ -65,6 +65,7 @@ struct Pipeline::State {
     /// Decides whether depth is measured, and takes from the flow what that needs: a read after the
     /// frame's drawing has begun would wait for the drawing.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
+    void listen(const CellWeights& weights);
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
     void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
@@ -80,6 +81,9 @@ struct Pipeline::State {
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
     [[nodiscard]] Engine& engineOf(EngineKind kind);
     [[nodiscard]] bool learns() const { return quality.learned && options.engines.learns(); }
+    [[nodiscard]] const FilterBank* filterBank() const {
+        return filters ? filters.get() : &FilterBank::prior();
+    }
     /// Closes a stage of the frame.
     void lap(const char* stage);
 
@@ -110,8 +114,11 @@ struct Pipeline::State {
     const StillPictures* stillPictures = nullptr;  // the newest still's
     const FlowCells* lastFlow = nullptr;           // belongs to that still
     const CellWeights* lastWeights = nullptr;
-    bool redraw = true;  // nothing of the last output may stay
-    int depthAge = 0;    // frames since depth was measured
+    std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the shipped ones
+    MatchListener* matchListener = nullptr;
+    bool isNewStill = false;  // no frame was matched to it
+    bool redraw = true;       // nothing of the last output may stay
+    int depthAge = 0;         // frames since depth was measured
     std::uint64_t frames = 0;
     StageClock clock;
     FrameResult result;

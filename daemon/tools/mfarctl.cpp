@@ -41,6 +41,7 @@ void run(const CLI::App& app, const Arguments& a) {
     const auto wants = [&](const char* command) { return app.got_subcommand(command); };
     nlohmann::json request{{"command", app.get_subcommands().front()->get_name()}};
     if (wants("snapshot")) request["screen"] = a.screen;
+    if (wants("learn")) request["reset"] = true;
     if (wants("record") && a.stop) request["stop"] = true;
     if (wants("record") && !a.record.empty()) request["name"] = a.record;
     const Reply reply = ask(a.socket, request);
@@ -65,6 +66,9 @@ void declare(CLI::App& app, Arguments& a) {
                                            "New folder in mfard's working directory, which is\n"
                                            "/var/lib/mfar for the service");
     record->add_flag("--stop", a.stop, "End the recording")->excludes(name);
+    app.add_subcommand("learn", "Filters learned from both sensors")
+        ->require_subcommand(1)
+        ->add_subcommand("reset", "Forget them and begin anew");
     app.require_subcommand(1);
     app.set_version_flag("--version", "mfarctl " MFAR_VERSION);
 }

@@ -23,6 +23,7 @@
 
 namespace mfar {
 
+class FilterBank;
 class PlaneImporter;
 
 /// A frame of the video sensor: as the camera delivered it, and its colours as planes.
@@ -126,7 +127,8 @@ struct DetailOptions {
     bool cubic = true;          ///< Quality::cubic
     bool upscaledTiles = true;  ///< SkipOptions::upscaledTiles
     bool plainTiles = true;     ///< SkipOptions::plainTiles
-    bool learned = false;       ///< Quality::learned, where EngineChoice::learns()
+    /// Quality::learned, where EngineChoice::learns(); null: not enlarged by filters.
+    const FilterBank* filters = nullptr;
 };
 
 class DetailStep {

@@ -1,6 +1,7 @@
 #include "pipeline/enlarge/filter_bank.h"
 
 #include "pipeline/enlarge/prior_filters.h"
+#include "pipeline/enlarge/stored_numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,25 +19,6 @@ constexpr std::array<std::uint32_t, 5> kHeader{1, kUniqueGradient, kUniqueCurvat
 constexpr std::size_t kHeaderSize = kMagicSize + 4 * kHeader.size();
 constexpr std::size_t kWeightBytes = std::size_t{2} * kUnique * kFilterSize;
 constexpr std::size_t kStoredSize = kHeaderSize + kWeightBytes + 4;
-
-void put(std::vector<std::uint8_t>& out, std::uint32_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i)
-        out.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
-}
-
-std::uint32_t get(const std::uint8_t* from, int bytes) {
-    std::uint32_t out = 0;
-    for (int i = 0; i < bytes; ++i)
-        out |= static_cast<std::uint32_t>(from[i]) << (8 * i);
-    return out;
-}
-
-std::uint32_t fnv1a(std::span<const std::uint8_t> bytes) {
-    std::uint32_t sum = 2166136261U;
-    for (const std::uint8_t byte : bytes)
-        sum = (sum ^ byte) * 16777619U;
-    return sum;
-}
 
 /// The filters of every class, from those of one quadrant.
 AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, int bins,
@@ -116,11 +98,11 @@ const FilterBank& FilterBank::prior() {
 std::vector<std::uint8_t> storedFilters(std::span<const FilterBank::Filter> unique) {
     std::vector<std::uint8_t> out(kMagic, kMagic + kMagicSize);
     for (const std::uint32_t value : kHeader)
-        put(out, value, 4);
+        putNumber(out, value, 4);
     for (const FilterBank::Filter& filter : unique)
         for (const std::int16_t weight : filter)
-            put(out, static_cast<std::uint16_t>(weight), 2);
-    put(out, fnv1a(out), 4);
+            putNumber(out, static_cast<std::uint16_t>(weight), 2);
+    putNumber(out, fnv1a(out), 4);
     return out;
 }
 
@@ -129,21 +111,21 @@ std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
     const auto refuse = [&](const std::string& why) { throw FilterBankError(name + ": " + why); };
     if (bytes.size() < kHeaderSize || std::memcmp(bytes.data(), kMagic, kMagicSize) != 0)
         refuse("not a file of filters");
-    const std::uint32_t version = get(bytes.data() + kMagicSize, 4);
+    const std::uint64_t version = getNumber(bytes.data() + kMagicSize, 4);
     if (version != kHeader[0])
         refuse("version " + std::to_string(version) + ", expected " + std::to_string(kHeader[0]));
     for (std::size_t i = 1; i < kHeader.size(); ++i)
-        if (get(bytes.data() + kMagicSize + 4 * i, 4) != kHeader[i])
+        if (getNumber(bytes.data() + kMagicSize + 4 * i, 4) != kHeader[i])
             refuse("other classes or sizes of filters than this program's");
     if (bytes.size() != kStoredSize)
         refuse(std::to_string(bytes.size()) + " bytes, expected " + std::to_string(kStoredSize));
-    if (get(bytes.data() + kStoredSize - 4, 4) != fnv1a(bytes.first(kStoredSize - 4)))
+    if (getNumber(bytes.data() + kStoredSize - 4, 4) != fnv1a(bytes.first(kStoredSize - 4)))
         refuse("wrong checksum");
     std::vector<FilterBank::Filter> out(kUnique);
     const std::uint8_t* from = bytes.data() + kHeaderSize;
     for (FilterBank::Filter& filter : out)
         for (std::int16_t& weight : filter) {
-            weight = static_cast<std::int16_t>(get(from, 2));
+            weight = static_cast<std::int16_t>(getNumber(from, 2));
             from += 2;
         }
     return out;

@@ -183,7 +183,7 @@ public:
         const simd::TileSummary counts =
             detail_.draw(in,
                          {options.mode, options.cubic, options.upscaledTiles, options.plainTiles,
-                          options.learned ? &FilterBank::prior() : nullptr},
+                          options.filters},
                          picture_.rows());
         summary_ = summaryOf(counts);
         if (work.changed > 0) output_.writtenOnHost(picture_.rows());

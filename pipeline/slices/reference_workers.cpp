@@ -1,6 +1,6 @@
 #include "pipeline/slices/reference_workers.h"
 
-#include "pipeline/slices/thread_priority.h"
+#include "base/thread_priority.h"
 
 #include <algorithm>
 #include <cmath>

@@ -24,6 +24,7 @@ struct Control : testing::Test {
         actions.record = [this](const std::string& name) { recorded = name; };
         actions.stopRecording = [] { return ordered_json{{"video", 3}}; };
         actions.trigger = [this] { ++triggered; };
+        actions.resetLearning = [this] { ++resets; };
     }
     json ask(std::string_view request) {
         answer = answerControl(actions, request);
@@ -40,7 +41,7 @@ struct Control : testing::Test {
     ControlActions actions;
     ControlAnswer answer;
     std::string recorded;
-    int triggered = 0;
+    int triggered = 0, resets = 0;
 };
 
 TEST_F(Control, DoesWhatItIsAskedFor) {
@@ -49,6 +50,10 @@ TEST_F(Control, DoesWhatItIsAskedFor) {
     EXPECT_EQ(ask(R"({"command": "reload"})"), (json{{"ok", true}, {"message", "read again"}}));
     EXPECT_EQ(ask(R"({"command": "trigger"})"), (json{{"ok", true}}));
     EXPECT_EQ(triggered, 1);
+    EXPECT_EQ(ask(R"({"command": "learn", "reset": true})"), (json{{"ok", true}}));
+    EXPECT_EQ(resets, 1);
+    EXPECT_THAT(errorOf(R"({"command": "learn"})"), HasSubstr("takes \"reset\": true"));
+    EXPECT_EQ(resets, 1);
     EXPECT_EQ(ask(R"({"command": "record", "name": "walk-1"})"), (json{{"ok", true}}));
     EXPECT_EQ(recorded, "walk-1");
     EXPECT_EQ(ask(R"({"command": "record", "stop": true})"), (json{{"ok", true}, {"video", 3}}));

@@ -12,6 +12,7 @@
 #include "tests/measure/eval/pose_command.h"
 #include "tests/measure/eval/pose_source_option.h"
 #include "tests/measure/eval/superres.h"
+#include "tests/measure/eval/superres_learning.h"
 #include "tests/measure/eval/superres_methods.h"
 #include "tests/measure/eval/traced_commands.h"
 
@@ -127,6 +128,11 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         ->capture_default_str();
     sub->add_flag("--no-still", o.superres.noStill,
                   "give no still to any method, and leave out those that need one");
+    sub->add_option("--learn", o.superres.learn,
+                    "learn filters from so many matched stills of the recording before")
+        ->check(CLI::Range(1, 100000));
+    sub->add_option("--learn-from", o.superres.learnFrom,
+                    "learn them from these recordings; without --learn from each still once");
     sub->add_option("--frames", o.superres.frames, "at most so many frames of each recording")
         ->check(CLI::Range(1, 1000000));
     sub->add_option("--save", o.superres.save, "folder for the pictures of every method and truth");
@@ -163,6 +169,7 @@ Report runSuperRes(Options& o) {
     o.superres.degradation = parseDegradation(o.degrade);
     o.superres.videoDegradation = parseDegradation(o.degradeVideo, "--degrade-video");
     o.superres.poseNoise = o.poseNoise;
+    if (!o.superres.learnFrom.empty() && o.superres.learn == 0) o.superres.learn = kEachOnce;
     if (o.superres.noStill) std::erase_if(o.superres.methods, needsStill);
     return evaluateSuperRes(o.superres);
 }

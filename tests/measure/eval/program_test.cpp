@@ -136,6 +136,25 @@ TEST(MfarEval, SuperResMakesTheVideoWorseForEveryMethod) {
     EXPECT_LT(noisy[2], clean[2] - 1) << "colours";
 }
 
+TEST(MfarEval, SuperResLearnsFromStillsBeforeItMeasures) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const auto learning = [&](const char* engine, const char* how) {
+        return execute(folder, fmt::format("MFAR_ENGINE={0} {1} superres {2}/tiny --no-still "
+                                           "--methods detail --frames 1 {3} {2}/tiny",
+                                           engine, MFAR_EVAL, folder.path().string(), how));
+    };
+    const Outcome elsewhere = learning("simd", "--learn-from");
+    ASSERT_EQ(elsewhere.status, 0) << elsewhere.text;
+    EXPECT_NE(elsewhere.text.find("learned from"), std::string::npos) << elsewhere.text;
+    const Outcome itself = learning("simd", "--learn 2");
+    ASSERT_EQ(itself.status, 0) << itself.text;
+    EXPECT_NE(itself.text.find("learned from"), std::string::npos) << itself.text;
+    const Outcome shaders = learning("gles", "--learn 2");
+    EXPECT_EQ(shaders.status, 2);
+    EXPECT_NE(shaders.text.find("--learn needs the SIMD engine"), std::string::npos);
+}
+
 TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);

@@ -1,8 +1,8 @@
 #include "tests/measure/eval/sliced_rendering.h"
 
+#include "base/thread_priority.h"
 #include "pipeline/render/picture_resolver.h"
 #include "pipeline/slices/reference_renderer.h"
-#include "pipeline/slices/thread_priority.h"
 #include "tests/render/still_life.h"
 
 #include <algorithm>

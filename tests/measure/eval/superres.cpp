@@ -5,6 +5,7 @@
 #include "tests/measure/eval/metrics/harm_rate.h"
 #include "tests/measure/eval/metrics/luma.h"
 #include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/superres_learning.h"
 #include "tests/measure/eval/superres_methods.h"
 #include "tests/measure/eval/superres_samples.h"
 
@@ -105,7 +106,11 @@ Report evaluateSuperRes(const SuperResRequest& request) {
     Report report(columns);
     const auto labels = labelsOf(request.recordings);
     SuperResFactory factory(request.alpha);
+    const bool learnsElsewhere = request.learn != 0 && !request.learnFrom.empty();
+    if (learnsElsewhere) factory.setFilters(learnedFilters(request, request.learnFrom));
     for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (request.learn != 0 && !learnsElsewhere)
+            factory.setFilters(learnedFilters(request, {request.recordings[i]}));
         const Recording recording = loadRecording(request.recordings[i]);
         const auto samples = superResSamplesOf(recording, request.frames);
         SuperResRun run(request, recording, labels[i], factory);

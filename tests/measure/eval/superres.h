@@ -18,6 +18,9 @@ struct SuperResRequest {
     bool noStill = false;              ///< the video alone is enlarged
     Degradation degradation;           ///< done to every still
     Degradation videoDegradation;      ///< done to every frame of the video
+    int learn = 0;  ///< matched stills that filters are learned from before; 0: as shipped
+    /// Recordings to learn from; empty: each from itself.
+    std::vector<std::filesystem::path> learnFrom;
     PoseSource poses = PoseSource::Recorded;
     PoseNoise poseNoise;         ///< of every frame
     double alpha = 2;            ///< of the paper's confidence [video px]

@@ -17,9 +17,12 @@ namespace {
 
 class PipelineMethod final : public SuperResMethod {
 public:
-    PipelineMethod(const StereoRig& rig, SuperResMode mode, bool usePoses)
+    PipelineMethod(const StereoRig& rig, SuperResMode mode, bool usePoses,
+                   std::shared_ptr<const FilterBank> filters)
         : usePoses_(usePoses),
-          pipeline_(rig, {.mode = mode, .output = {}, .skipUnchanged = false}) {}
+          pipeline_(rig, {.mode = mode, .output = {}, .skipUnchanged = false}) {
+        pipeline_.setFilters(std::move(filters));
+    }
 
     void setStill(const Shot& still) override {
         const cv::Mat rgba = toRgba(still.picture);
@@ -104,7 +107,7 @@ std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
         throw std::invalid_argument(fmt::format("unknown method '{}'", name));
     if (!context_) context_ = createGlContext();
     return std::make_unique<PipelineMethod>(rig, blend ? SuperResMode::Blend : SuperResMode::Detail,
-                                            name != "detail2d");
+                                            name != "detail2d", filters_);
 }
 
 }  // namespace mfar::eval

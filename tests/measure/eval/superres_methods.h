@@ -1,6 +1,7 @@
 #pragma once
 
 #include "hal/gl_context.h"
+#include "pipeline/enlarge/filter_bank.h"
 #include "tests/measure/eval/shot.h"
 
 #include <memory>
@@ -32,10 +33,13 @@ public:
 class SuperResFactory {
 public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
+    /// What the product's methods enlarge by; null: as shipped.
+    void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
                                                          const StereoRig& rig);
 
 private:
+    std::shared_ptr<const FilterBank> filters_;
     double alpha_;  ///< of the paper's confidence [video px]
     std::unique_ptr<GlContext> context_;
 };

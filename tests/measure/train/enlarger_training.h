@@ -1,9 +1,7 @@
 #pragma once
 
-#include "pipeline/enlarge/filter_bank.h"
+#include "pipeline/enlarge/class_sums.h"
 #include "tests/measure/train/training_pair.h"
-
-#include <Eigen/Dense>
 
 #include <vector>
 
@@ -29,21 +27,10 @@ public:
     [[nodiscard]] Outcome solve(double ridge) const;
 
 private:
-    using Taps = Eigen::Matrix<double, enlarge::kTaps, 1>;
-    using Phases = Eigen::Matrix<double, enlarge::kPhases, 1>;
-    struct Sums {
-        Eigen::Matrix<double, enlarge::kTaps, enlarge::kTaps> taps;
-        Eigen::Matrix<double, enlarge::kTaps, enlarge::kPhases> products;
-        double squares = 0, pixels = 0;
-    };
-    using Weights = Eigen::Matrix<double, enlarge::kTaps, enlarge::kPhases>;
+    static void accumulate(std::vector<enlarge::ClassSums>& to, const enlarge::UniqueClass& of,
+                           const enlarge::Taps& steps, const enlarge::Phases& target);
 
-    static void accumulate(Sums& sums, const Taps& steps, const Phases& target,
-                           const enlarge::Symmetry& same);
-    [[nodiscard]] static Sums turnedToo(const Sums& sums);
-    [[nodiscard]] static double errorOf(const Sums& sums, const Weights& weights);
-
-    std::vector<Sums> learned_, checked_;  // per unique class
+    std::vector<enlarge::ClassSums> learned_, checked_;  // per unique class
 };
 
 }  // namespace mfar::train

@@ -1,4 +1,4 @@
-#include "pipeline/slices/thread_priority.h"
+#include "base/thread_priority.h"
 
 #include <pthread.h>
 #include <sys/resource.h>

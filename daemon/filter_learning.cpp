@@ -1,0 +1,186 @@
+#include "daemon/filter_learning.h"
+
+#include "base/thread_priority.h"
+#include "pipeline/enlarge/stored_numbers.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+// Learning takes this share of a processor at most.
+constexpr double kShare = 0.1;
+constexpr std::chrono::minutes kStoreEvery{1};
+// A state has 1.2 MB; a longer file is none of ours.
+constexpr std::uintmax_t kMostBytes = 4 << 20;
+
+}  // namespace
+
+std::filesystem::path learnedFiltersFile(const std::string& sensors) {
+    const char* folder = std::getenv("STATE_DIRECTORY");
+    if (folder == nullptr || *folder == '\0') return {};
+    const std::vector<std::uint8_t> bytes(sensors.begin(), sensors.end());
+    return std::filesystem::path(folder) /
+           fmt::format("filters-{:08x}.learned", enlarge::fnv1a(bytes));
+}
+
+std::string describe(const LearningCounts& counts) {
+    const EnlargerLearner::Counts& of = counts.learner;
+    return fmt::format("{} stills, {} of {} classes, {:.2f} dB over the cubic ({:.2f} as shipped)",
+                       of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
+}
+
+FilterLearning::FilterLearning(FilterLearningOptions options) : options_(std::move(options)) {
+    restore();
+    filters_ = learner_.filters();
+    counts_.learner = learner_.counts();
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+}
+
+FilterLearning::~FilterLearning() {
+    thread_.request_stop();
+    thread_.join();
+    if (resets_) forget();
+    if (!isStored_) store(learner_.stored(options_.sensors));
+}
+
+void FilterLearning::restore() {
+    std::error_code error;
+    if (options_.file.empty() || !std::filesystem::exists(options_.file, error)) return;
+    const std::string name = options_.file.string();
+    try {
+        const std::uintmax_t size = std::filesystem::file_size(options_.file, error);
+        if (error || size > kMostBytes) throw FilterBankError(name + ": not a file of filters");
+        std::ifstream in(options_.file, std::ios::binary);
+        const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
+        const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+        learner_ = EnlargerLearner::restored(bytes, options_.sensors, name);
+    } catch (const FilterBankError& fault) {
+        warnings_.push_back(std::string(fault.what()) + "; learning begins anew");
+    }
+}
+
+void FilterLearning::matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                             Rows<const LookUpCell> lookUps,
+                             const MatchedPictures::LookedUp& lookedUp) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (isFull_ || (!options_.waits && Clock::now() < mayLearn_)) {
+            ++counts_.leftOut;
+            return;
+        }
+    }
+    pictures_.take(video, still, lookUps, lookedUp);
+    {
+        const std::lock_guard lock(mutex_);
+        isFull_ = true;
+    }
+    begun_.notify_one();
+}
+
+std::shared_ptr<const FilterBank> FilterLearning::takeFilters() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(isNew_, false) ? filters_ : nullptr;
+}
+
+void FilterLearning::finish() {
+    std::unique_lock lock(mutex_);
+    if (options_.waits) done_.wait(lock, [this] { return !isFull_ && !resets_; });
+}
+
+void FilterLearning::reset() {
+    {
+        const std::lock_guard lock(mutex_);
+        resets_ = true;
+    }
+    begun_.notify_one();
+}
+
+LearningCounts FilterLearning::counts() const {
+    const std::lock_guard lock(mutex_);
+    return counts_;
+}
+
+std::vector<std::string> FilterLearning::takeWarnings() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(warnings_, {});
+}
+
+void FilterLearning::run(const std::stop_token& stop) {
+    lowerThreadPriority();
+    for (;;) {
+        bool resets = false, learns = false;
+        {
+            std::unique_lock lock(mutex_);
+            if (!begun_.wait(lock, stop, [this] { return isFull_ || resets_; })) return;
+            resets = resets_;
+            learns = isFull_;
+        }
+        if (resets) {
+            forget();
+        } else if (learns) {
+            learn(stop);
+        }
+        {
+            const std::lock_guard lock(mutex_);
+            isNew_ = isNew_ || filters_ != learner_.filters();
+            filters_ = learner_.filters();
+            counts_.learner = learner_.counts();
+            if (resets)
+                resets_ = false;
+            else
+                isFull_ = false;
+        }
+        done_.notify_all();
+    }
+}
+
+void FilterLearning::forget() {
+    learner_ = EnlargerLearner();
+    isStored_ = true;
+    std::error_code ignored;
+    if (!options_.file.empty()) std::filesystem::remove(options_.file, ignored);
+}
+
+void FilterLearning::learn(const std::stop_token& stop) {
+    const double before = threadCpuMs();
+    const EnlargerLearner::Outcome outcome = learner_.add(pictures_, stop);
+    const double ms = threadCpuMs() - before;
+    const bool hasLearned =
+        outcome == EnlargerLearner::Outcome::Replaced || outcome == EnlargerLearner::Outcome::Kept;
+    isStored_ = isStored_ && !hasLearned;
+    const Clock::time_point now = Clock::now();
+    if (!isStored_ && now - stored_ >= kStoreEvery && !stop.stop_requested()) {
+        store(learner_.stored(options_.sensors));
+        stored_ = now;
+        isStored_ = true;
+    }
+    const std::lock_guard lock(mutex_);
+    mayLearn_ = now + std::chrono::duration_cast<Clock::duration>(
+                          std::chrono::duration<double, std::milli>(ms * (1 / kShare - 1)));
+}
+
+void FilterLearning::store(const std::vector<std::uint8_t>& bytes) {
+    if (options_.file.empty()) return;
+    std::filesystem::path part = options_.file;
+    part += ".part";
+    std::ofstream out(part, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()),
+              static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    std::error_code error;
+    if (out) std::filesystem::rename(part, options_.file, error);
+    if (out && !error) return;
+    std::filesystem::remove(part, error);
+    const std::lock_guard lock(mutex_);
+    warnings_.push_back(options_.file.string() + ": learned filters cannot be written");
+}
+
+}  // namespace mfar

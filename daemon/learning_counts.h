@@ -1,0 +1,19 @@
+#pragma once
+
+#include "pipeline/enlarge/learner_counts.h"
+
+#include <cstdint>
+#include <string>
+
+namespace mfar {
+
+/// What was learned from stills, for people.
+struct LearningCounts {
+    LearnerCounts learner;
+    std::uint64_t leftOut = 0;  ///< stills that came too soon
+};
+
+/// "12 stills, 71 of 104 classes, 1.02 dB over the cubic (0.54 as shipped)".
+[[nodiscard]] std::string describe(const LearningCounts& counts);
+
+}  // namespace mfar

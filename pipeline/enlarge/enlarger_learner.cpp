@@ -1,0 +1,221 @@
+#include "pipeline/enlarge/enlarger_learner.h"
+
+#include "pipeline/enlarge/prior_filters.h"
+#include "pipeline/plan/tiles.h"
+#include "pipeline/simd/enlarge_rows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace mfar {
+namespace {
+
+using namespace enlarge;
+
+// Of a class: with fewer pixels to learn from, or to check on, nothing is decided.
+constexpr double kLeastPixels = 400;
+// What a still counts once the next one has come.
+constexpr double kForgetting = 0.95;
+// The shipped filter counts like this many pixels of the class.
+constexpr double kPriorPixels = 300;
+constexpr double kRidge = 20;  // [grey levels^2]
+// Of the picture: with less, matching has gone wrong.
+constexpr double kLeastTrusted = 0.05;
+// See TrustedPairs::sharpness().
+constexpr double kLeastSharpness = 1.03;
+// A tile is new where a mean of 4x4 pixels has changed by more [grey levels].
+constexpr int kNewFrom = 4;
+constexpr double kLeastNew = 0.1;  // of all tiles
+// A new filter replaces the shipped one for at least this share of the error.
+constexpr double kWorthwhile = 0.998;
+
+constexpr int kBlock = 4;  // px whose mean tells whether a tile is new
+
+std::size_t tileOfBlock(int x, int y, Size tiles) {
+    return static_cast<std::size_t>(y * kBlock / kTileSize) * tiles.width + x * kBlock / kTileSize;
+}
+
+}  // namespace
+
+EnlargerLearner::EnlargerLearner() : learned_(kUnique, false) {
+    for (const FilterBank::Filter& filter : readFilters(priorFilters(), "built-in filters"))
+        prior_.push_back(weightsOf(filter));
+    putInPlace(prior_, learned_);
+}
+
+/// By place, not by still: a part that is checked on shows the same where the camera rests.
+EnlargerLearner::Part EnlargerLearner::partOf(int column, int row) {
+    const int number = (column + 2 * row) % 5;
+    return number == 0 ? Part::Check : number == 2 ? Part::Choose : Part::Learn;
+}
+
+EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
+                                              const std::stop_token& stop) {
+    if (!findNew(pictures)) {
+        ++counts_.repeated;
+        return Outcome::Repeated;
+    }
+    const TrustedPairs pairs(pictures, stop);
+    if (stop.stop_requested()) return Outcome::Stopped;
+    if (!(pairs.trustedShare() >= kLeastTrusted && pairs.sharpness() >= kLeastSharpness)) {
+        ++counts_.refused;
+        return Outcome::Refused;
+    }
+    const StillSums still = sumsOf(pictures, pairs, stop);
+    if (stop.stop_requested()) return Outcome::Stopped;
+    ++counts_.stills;
+    rememberShown();
+    sums_.fade(kForgetting);
+    sums_.add(still.learn);
+    held_.fade(kForgetting);
+    held_.add(still.choose);
+    const bool replaced = choose(still.check);
+    held_.add(still.check);
+    measure();
+    return replaced ? Outcome::Replaced : Outcome::Kept;
+}
+
+bool EnlargerLearner::findNew(const MatchedPictures& pictures) {
+    const Size tiles = tilesOf(pictures.video);
+    const Size blocks{tiles.width * kTileSize / kBlock, tiles.height * kTileSize / kBlock};
+    const bool isFirst = blocks != shownSize_;
+    if (isFirst) {
+        shownSize_ = blocks;
+        shown_.assign(static_cast<std::size_t>(blocks.width) * blocks.height, 0);
+        means_ = shown_;
+    }
+    isNew_.assign(static_cast<std::size_t>(tiles.width) * tiles.height, isFirst);
+    for (int y = 0; y < blocks.height; ++y)
+        for (int x = 0; x < blocks.width; ++x) {
+            int sum = 0;
+            for (int k = 0; k < kBlock * kBlock; ++k) {
+                const int column = std::min(kBlock * x + k % kBlock, pictures.video.width - 1);
+                sum += pictures.row(kBlock * y + k / kBlock)[column];
+            }
+            const std::size_t i = static_cast<std::size_t>(y) * blocks.width + x;
+            means_[i] = static_cast<std::uint8_t>(sum / (kBlock * kBlock * kLumaScale));
+            if (std::abs(means_[i] - shown_[i]) > kNewFrom) isNew_[tileOfBlock(x, y, tiles)] = 1;
+        }
+    const auto count = std::count(isNew_.begin(), isNew_.end(), 1);
+    return double(count) >= kLeastNew * double(isNew_.size());
+}
+
+void EnlargerLearner::rememberShown() {
+    const Size tiles{shownSize_.width * kBlock / kTileSize, shownSize_.height * kBlock / kTileSize};
+    for (int y = 0; y < shownSize_.height; ++y)
+        for (int x = 0; x < shownSize_.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * shownSize_.width + x;
+            if (isNew_[tileOfBlock(x, y, tiles)] != 0) shown_[i] = means_[i];
+        }
+}
+
+EnlargerLearner::StillSums EnlargerLearner::sumsOf(const MatchedPictures& pictures,
+                                                   const TrustedPairs& pairs,
+                                                   const std::stop_token& stop) const {
+    StillSums out;
+    const auto [width, height] = pairs.size();
+    const int columns = tilesOf(pairs.size()).width;
+    AlignedRows<float> sums({width + 2 * MatchedPictures::kMargin, 3});
+    AlignedRows<std::uint16_t> numbers({width, 2});
+    const auto scratch = [&](int i) { return sums[i] + MatchedPictures::kMargin; };
+    for (int y = 0; y < height && !stop.stop_requested(); ++y) {
+        std::array<const std::int16_t*, 7> rows{};
+        for (int k = 0; k < 7; ++k)
+            rows[k] = pictures.row(y + k - 3);
+        simd::classRow(rows, 0, width, {scratch(0), scratch(1), scratch(2)}, numbers[0],
+                       numbers[1]);
+        for (int x = 0; x < width; ++x) {
+            const int column = x / kTileSize, row = y / kTileSize;
+            if (!pairs.trusts(x, y)) continue;
+            if (isNew_[static_cast<std::size_t>(row) * columns + column] == 0) continue;
+            Taps steps;
+            for (int i = 0; i < kTaps; ++i) {
+                const Offset of = kTapAt[i];
+                steps[i] = double(rows[3 + of.y][x + of.x] - rows[3][x]) / kLumaScale;
+            }
+            const Phases target = pairs.target(x, y);
+            const Part part = partOf(column, row);
+            SumsOfClasses& to = part == Part::Learn    ? out.learn
+                                : part == Part::Choose ? out.choose
+                                                       : out.check;
+            to.add(uniqueByGradient(numbers[0][x]), steps, target);
+            to.add(uniqueByCurvature(numbers[1][x]), steps, target);
+        }
+    }
+    return out;
+}
+
+ClassWeights EnlargerLearner::solved(int unique) const {
+    const ClassSums sums = sums_[unique].turnedToo();
+    const ClassWeights& prior = prior_[static_cast<std::size_t>(unique)];
+    // The prior's pixels as if their differences were independent of each other.
+    const Taps pull =
+        (sums.taps.diagonal().array() * (kPriorPixels / sums_[unique].pixels) + kRidge).matrix();
+    auto taps = sums.taps;
+    taps.diagonal() += pull;
+    const ClassWeights products = sums.products + pull.asDiagonal() * prior;
+    return taps.llt().solve(products);
+}
+
+bool EnlargerLearner::choose(const SumsOfClasses& check) {
+    std::vector<ClassWeights> weights = prior_;
+    std::vector<bool> learned(kUnique, false);
+    Errors all;
+    for (int i = 0; i < kUnique; ++i) {
+        const auto n = static_cast<std::size_t>(i);
+        const ClassSums held = held_[i].turnedToo(), fresh = check[i].turnedToo();
+        const bool decides = held_[i].pixels >= kLeastPixels;
+        if (decides && held.errorOf(prior_[n]) > held.squares) weights[n].setZero();
+        if (decides && sums_[i].pixels >= kLeastPixels) {
+            const ClassWeights candidate = weightsOf(roundedFilter(solved(i)));
+            if (held.errorOf(candidate) < kWorthwhile * held.errorOf(weights[n])) {
+                weights[n] = candidate;
+                learned[n] = true;
+            }
+        }
+        if (check[i].pixels >= kLeastPixels && fresh.errorOf(weights[n]) > fresh.squares) {
+            weights[n].setZero();
+            learned[n] = false;
+        }
+        all.candidate += fresh.errorOf(weights[n]);
+        all.inPlace += fresh.errorOf(current_[n]);
+        all.cubic += fresh.squares;
+    }
+    if (!(all.candidate < all.inPlace)) return false;
+    return putInPlace(weights, learned);
+}
+
+bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
+                                 const std::vector<bool>& learned) {
+    std::vector<FilterBank::Filter> filters;
+    for (const ClassWeights& of : weights)
+        filters.push_back(roundedFilter(of));
+    try {
+        inPlace_ = std::make_shared<const FilterBank>(filters);
+    } catch (const FilterBankError&) {
+        return false;  // weights too large for the kernels: what is in place stays
+    }
+    current_ = weights;
+    learned_ = learned;
+    counts_.classes = static_cast<int>(std::count(learned.begin(), learned.end(), true));
+    return true;
+}
+
+void EnlargerLearner::measure() {
+    Errors all;
+    for (int i = 0; i < kUnique; ++i) {
+        const auto n = static_cast<std::size_t>(i);
+        const ClassSums held = held_[i].turnedToo();
+        all.cubic += held.squares;
+        all.inPlace += held.errorOf(current_[n]);
+        all.prior += held.errorOf(prior_[n]);
+    }
+    const auto gain = [&](double error) {
+        return all.cubic > 0 && error > 0 ? 10 * std::log10(all.cubic / error) : 0;
+    };
+    counts_.gainDb = gain(all.inPlace);
+    counts_.priorDb = gain(all.prior);
+}
+
+}  // namespace mfar

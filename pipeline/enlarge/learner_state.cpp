@@ -1,0 +1,160 @@
+// What EnlargerLearner keeps from one run to the next.
+
+#include "pipeline/enlarge/enlarger_learner.h"
+#include "pipeline/enlarge/stored_numbers.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+namespace mfar {
+namespace {
+
+using namespace enlarge;
+
+constexpr char kMagic[] = "mfarlern";
+constexpr std::size_t kMagicSize = 8;
+constexpr std::array<std::uint64_t, 4> kHeader{1, kUnique, kTaps, kPhases};
+constexpr std::size_t kChecksumSize = 4;
+constexpr std::size_t kMostKeySize = 4096;
+
+class Writer {
+public:
+    void number(std::uint64_t value) { putNumber(out_, value, 8); }
+    void number(double value) { number(std::bit_cast<std::uint64_t>(value)); }
+    void text(const std::string& text) {
+        number(text.size());
+        out_.insert(out_.end(), text.begin(), text.end());
+    }
+    void weights(const ClassWeights& weights) {
+        for (const std::int16_t weight : roundedFilter(weights))
+            putNumber(out_, static_cast<std::uint16_t>(weight), 2);
+    }
+    void sums(const ClassSums& sums) {
+        for (int i = 0; i < kTaps; ++i)
+            for (int j = 0; j <= i; ++j)
+                number(sums.taps(i, j));
+        for (int i = 0; i < kTaps; ++i)
+            for (int j = 0; j < kPhases; ++j)
+                number(sums.products(i, j));
+        number(sums.squares);
+        number(sums.pixels);
+    }
+    [[nodiscard]] std::vector<std::uint8_t> finished() && {
+        putNumber(out_, fnv1a(out_), kChecksumSize);
+        return std::move(out_);
+    }
+
+private:
+    std::vector<std::uint8_t> out_{kMagic, kMagic + kMagicSize};
+};
+
+class Reader {
+public:
+    Reader(std::span<const std::uint8_t> bytes, const std::string& name)
+        : bytes_(bytes), name_(name) {
+        if (bytes.size() < kMagicSize + kChecksumSize ||
+            std::memcmp(bytes.data(), kMagic, kMagicSize) != 0)
+            refuse("not a file of learned filters");
+        at_ = kMagicSize;
+        if (bytes_.size() >= at_ + 8 && getNumber(&bytes_[at_], 8) != kHeader[0])
+            refuse("another version than this program's");
+        bytes_ = bytes.first(bytes.size() - kChecksumSize);
+        if (getNumber(bytes.data() + bytes_.size(), kChecksumSize) != fnv1a(bytes_))
+            refuse("damaged, the checksum is wrong");
+    }
+    [[noreturn]] void refuse(const std::string& why) const {
+        throw FilterBankError(name_ + ": " + why);
+    }
+    std::uint64_t number() { return getNumber(take(8), 8); }
+    /// Neither infinite nor not a number.
+    double real() {
+        const auto out = std::bit_cast<double>(number());
+        if (!std::isfinite(out)) refuse("has numbers that are not finite");
+        return out;
+    }
+    std::string text() {
+        const std::uint64_t size = number();
+        if (size > kMostKeySize) refuse("has a name of sensors that is too long");
+        const std::uint8_t* from = take(size);
+        return {from, from + size};
+    }
+    ClassWeights weights() {
+        FilterBank::Filter out;
+        for (std::int16_t& weight : out)
+            weight = static_cast<std::int16_t>(getNumber(take(2), 2));
+        return weightsOf(out);
+    }
+    ClassSums sums() {
+        ClassSums out;
+        for (int i = 0; i < kTaps; ++i)
+            for (int j = 0; j <= i; ++j)
+                out.taps(i, j) = out.taps(j, i) = real();
+        for (int i = 0; i < kTaps; ++i)
+            for (int j = 0; j < kPhases; ++j)
+                out.products(i, j) = real();
+        out.squares = real();
+        out.pixels = real();
+        return out;
+    }
+    void finish() const {
+        if (at_ != bytes_.size()) refuse("has other sizes than this program's");
+    }
+
+private:
+    const std::uint8_t* take(std::size_t size) {
+        if (size > bytes_.size() - at_) refuse("is too short");
+        at_ += size;
+        return bytes_.data() + at_ - size;
+    }
+
+    std::span<const std::uint8_t> bytes_;
+    const std::string& name_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> EnlargerLearner::stored(const std::string& key) const {
+    Writer out;
+    for (const std::uint64_t value : kHeader)
+        out.number(value);
+    out.text(key);
+    for (const std::uint64_t value : {counts_.stills, counts_.repeated, counts_.refused})
+        out.number(value);
+    for (int i = 0; i < kUnique; ++i) {
+        const auto n = static_cast<std::size_t>(i);
+        out.number(std::uint64_t{learned_[n]});
+        out.weights(current_[n]);
+        out.sums(sums_[i]);
+        out.sums(held_[i]);
+    }
+    return std::move(out).finished();
+}
+
+EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
+                                          const std::string& key, const std::string& name) {
+    Reader in(bytes, name);
+    for (const std::uint64_t value : kHeader)
+        if (in.number() != value)
+            in.refuse("other classes or sizes of filters than this program's");
+    if (in.text() != key) in.refuse("was learned from other sensors");
+    EnlargerLearner out;
+    for (std::uint64_t* value : {&out.counts_.stills, &out.counts_.repeated, &out.counts_.refused})
+        *value = in.number();
+    std::vector<ClassWeights> weights;
+    std::vector<bool> learned;
+    for (int i = 0; i < kUnique; ++i) {
+        learned.push_back(in.number() != 0);
+        weights.push_back(in.weights());
+        out.sums_.edit(i) = in.sums();
+        out.held_.edit(i) = in.sums();
+    }
+    in.finish();
+    if (!out.putInPlace(weights, learned)) in.refuse("has weights that are too large");
+    out.measure();
+    return out;
+}
+
+}  // namespace mfar

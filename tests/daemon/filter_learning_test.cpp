@@ -1,0 +1,133 @@
+#include "daemon/filter_learning.h"
+#include "tests/learn/sensor_pair.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <gmock/gmock.h>
+
+namespace mfar {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+struct FilterLearningTest : testing::Test {
+    ~FilterLearningTest() override { std::filesystem::remove(options.file); }
+
+    /// Shows stills that differ, and waits.
+    static void show(FilterLearning& learning, int first, int last) {
+        for (int i = first; i <= last; ++i) {
+            const twin::Grey sharp = sharpDiscs(i);
+            showTo(learning, sharp, sharp, {.videoBlur = 1});
+            learning.finish();
+        }
+    }
+
+    FilterLearningOptions options{
+        std::filesystem::path(testing::TempDir()) / "mfar-filters.learned", "video, still", true};
+};
+
+TEST_F(FilterLearningTest, LearnsAndHandsOutFiltersOnce) {
+    FilterLearning learning(options);
+    EXPECT_NE(learning.takeFilters(), nullptr) << "the shipped ones";
+    EXPECT_EQ(learning.takeFilters(), nullptr);
+    show(learning, 1, 2);
+    EXPECT_EQ(learning.counts().learner.stills, 2U);
+    EXPECT_GT(learning.counts().learner.classes, 0);
+    EXPECT_NE(learning.takeFilters(), nullptr);
+    EXPECT_EQ(learning.takeFilters(), nullptr);
+    EXPECT_THAT(learning.takeWarnings(), IsEmpty());
+}
+
+TEST_F(FilterLearningTest, GoesOnAfterARestart) {
+    {
+        FilterLearning learning(options);
+        show(learning, 1, 2);
+    }
+    ASSERT_TRUE(std::filesystem::exists(options.file));
+    FilterLearning learning(options);
+    EXPECT_EQ(learning.counts().learner.stills, 2U);
+    EXPECT_GT(learning.counts().learner.classes, 0);
+    show(learning, 3, 3);
+    EXPECT_EQ(learning.counts().learner.stills, 3U);
+    EXPECT_THAT(learning.takeWarnings(), IsEmpty());
+}
+
+TEST_F(FilterLearningTest, AStateThatIsCutOffIsReportedAndReplaced) {
+    {
+        FilterLearning learning(options);
+        show(learning, 1, 1);
+    }
+    std::filesystem::resize_file(options.file, 1000);
+    {
+        FilterLearning learning(options);
+        EXPECT_EQ(learning.counts().learner.stills, 0U);
+        EXPECT_THAT(learning.takeWarnings(),
+                    ElementsAre(HasSubstr("the checksum is wrong; learning begins anew")));
+        EXPECT_THAT(learning.takeWarnings(), IsEmpty());
+        show(learning, 1, 1);
+    }
+    FilterLearning learning(options);
+    EXPECT_EQ(learning.counts().learner.stills, 1U);
+    EXPECT_THAT(learning.takeWarnings(), IsEmpty());
+}
+
+TEST_F(FilterLearningTest, WhatOtherSensorsTaughtIsNotUsed) {
+    {
+        FilterLearning learning(options);
+        show(learning, 1, 1);
+    }
+    options.sensors = "video, another still";
+    FilterLearning learning(options);
+    EXPECT_EQ(learning.counts().learner.stills, 0U);
+    EXPECT_THAT(learning.takeWarnings(), ElementsAre(HasSubstr("other sensors")));
+}
+
+TEST_F(FilterLearningTest, AResetForgetsTheFileToo) {
+    {
+        FilterLearning learning(options);
+        show(learning, 1, 2);
+    }
+    {
+        FilterLearning learning(options);
+        (void)learning.takeFilters();
+        learning.reset();
+        learning.finish();
+        EXPECT_EQ(learning.counts().learner.stills, 0U);
+        EXPECT_NE(learning.takeFilters(), nullptr);
+        EXPECT_FALSE(std::filesystem::exists(options.file));
+    }
+    EXPECT_FALSE(std::filesystem::exists(options.file));
+}
+
+TEST_F(FilterLearningTest, StillsThatComeTooSoonAreLeftOut) {
+    options.waits = false;
+    FilterLearning learning(options);
+    for (int i = 1; i <= 3; ++i) {
+        const twin::Grey sharp = sharpDiscs(i);
+        showTo(learning, sharp, sharp, {});
+    }
+    EXPECT_GE(learning.counts().leftOut, 1U);
+}
+
+TEST(LearnedFiltersFile, IsOneOfEachPairOfSensorsInTheStateFolder) {
+    unsetenv("STATE_DIRECTORY");
+    EXPECT_TRUE(learnedFiltersFile("a").empty());
+    setenv("STATE_DIRECTORY", "/some/folder", 1);
+    EXPECT_EQ(learnedFiltersFile("a").parent_path(), "/some/folder");
+    EXPECT_NE(learnedFiltersFile("a"), learnedFiltersFile("b"));
+    EXPECT_EQ(learnedFiltersFile("a"), learnedFiltersFile("a"));
+    unsetenv("STATE_DIRECTORY");
+}
+
+TEST(LearnedFilters, AreDescribedInOneLine) {
+    LearningCounts counts;
+    counts.learner = {12, 0, 0, 71, 1.02, 0.54};
+    EXPECT_EQ(describe(counts),
+              "12 stills, 71 of 104 classes, 1.02 dB over the cubic (0.54 as shipped)");
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,87 @@
+#include "pipeline/enlarge/enlarger_learner.h"
+#include "pipeline/enlarge/stored_numbers.h"
+#include "tests/learn/sensor_pair.h"
+
+#include <gmock/gmock.h>
+
+namespace mfar {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr SensorPair kPair{.videoBlur = 1};
+
+EnlargerLearner learned() {
+    EnlargerLearner out;
+    for (int i = 1; i <= 3; ++i)
+        out.add(matchedPictures(sharpDiscs(i), kPair));
+    return out;
+}
+
+std::string faultOf(std::span<const std::uint8_t> bytes, const std::string& key = "a, b") {
+    try {
+        (void)EnlargerLearner::restored(bytes, key, "state");
+    } catch (const FilterBankError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST(LearnerState, IsRestoredToTheBitAndGoesOnAlike) {
+    EnlargerLearner first = learned();
+    ASSERT_GT(first.counts().classes, 0);
+    const auto bytes = first.stored("a, b");
+    EnlargerLearner second = EnlargerLearner::restored(bytes, "a, b", "state");
+    EXPECT_EQ(second.stored("a, b"), bytes);
+    EXPECT_EQ(second.counts().stills, first.counts().stills);
+    EXPECT_EQ(second.counts().classes, first.counts().classes);
+    EXPECT_DOUBLE_EQ(second.counts().gainDb, first.counts().gainDb);
+    for (EnlargerLearner* learner : {&first, &second})
+        learner->add(matchedPictures(sharpDiscs(9), kPair));
+    EXPECT_EQ(second.stored("a, b"), first.stored("a, b"));
+}
+
+TEST(LearnerState, OfOtherSensorsIsRefused) {
+    EXPECT_EQ(faultOf(EnlargerLearner().stored("a, b"), "a, c"),
+              "state: was learned from other sensors");
+}
+
+TEST(LearnerState, DamagedOnesAreRefused) {
+    const auto whole = learned().stored("a, b");
+    EXPECT_EQ(faultOf(whole), "");
+    for (const std::size_t size : {std::size_t{0}, std::size_t{7}, std::size_t{12}, std::size_t{40},
+                                   whole.size() / 2, whole.size() - 1})
+        EXPECT_NE(faultOf(std::span(whole).first(size)), "") << size;
+    for (const std::size_t at : {std::size_t{16}, whole.size() / 2, whole.size() - 1}) {
+        auto damaged = whole;
+        damaged[at] ^= 16;
+        EXPECT_EQ(faultOf(damaged), "state: damaged, the checksum is wrong") << at;
+    }
+    auto damaged = whole;
+    damaged[8] = 9;
+    EXPECT_EQ(faultOf(damaged), "state: another version than this program's");
+}
+
+TEST(LearnerState, NumbersThatAreNotFiniteAreRefusedThoughTheSumIsRight) {
+    auto bytes = learned().stored("a, b");
+    bytes.resize(bytes.size() - 4);
+    for (std::size_t i = bytes.size() - 8; i < bytes.size(); ++i)
+        bytes[i] = 0xff;
+    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+    EXPECT_THAT(faultOf(bytes), HasSubstr("not finite"));
+}
+
+TEST(LearnerState, OneThatIsTooLongOrShortIsRefusedThoughTheSumIsRight) {
+    auto bytes = EnlargerLearner().stored("a, b");
+    bytes.resize(bytes.size() - 4);
+    auto longer = bytes;
+    longer.push_back(0);
+    enlarge::putNumber(longer, enlarge::fnv1a(longer), 4);
+    EXPECT_THAT(faultOf(longer), HasSubstr("other sizes"));
+    bytes.pop_back();
+    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+    EXPECT_THAT(faultOf(bytes), HasSubstr("too short"));
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,100 @@
+#include "pipeline/pipeline.h"
+#include "tests/learn/sensor_pair.h"
+
+#include <gtest/gtest.h>
+
+namespace mfar {
+namespace {
+
+StereoRig simpleRig() {
+    StereoRig rig;
+    rig.video = {{256, 192}, 240, 240, 127.5, 95.5, {}};
+    rig.still = {{1024, 768}, 960, 960, 511.5, 383.5, {}};
+    return rig;
+}
+
+struct Heard final : MatchListener {
+    int times = 0, weighed = 0;
+    void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                 Rows<const LookUpCell> lookUps,
+                 const MatchedPictures::LookedUp& lookedUp) override {
+        ++times;
+        EXPECT_EQ(video.size(), (Size{256, 192}));
+        EXPECT_EQ(still.size, (Size{1024, 768}));
+        EXPECT_NEAR(lookedUp.scaleX * still.size.width / lookedUp.size.width, 4, 1e-6);
+        for (int y = 0; y < lookUps.size.height; ++y)
+            for (int x = 0; x < lookUps.size.width; ++x)
+                weighed += lookUps[y][x].weight > 0.5F;
+    }
+};
+
+class PipelineLearning : public testing::Test {
+protected:
+    PipelineLearning()
+        : still_(sharp_.values.begin(), sharp_.values.end()),
+          video_(low_.values.begin(), low_.values.end()), pipeline_(made()), other_(made()) {}
+
+    static Pipeline made() {
+        return {simpleRig(), {.output = {}, .engines = EngineChoice::all(EngineKind::Simd)}};
+    }
+    void setStill(Pipeline& pipeline) const {
+        pipeline.setStill(
+            {still_.data(), sharp_.size, std::size_t(sharp_.size.width), PixelFormat::Gray8}, {});
+    }
+    std::vector<std::uint8_t> picture(Pipeline& pipeline) const {
+        pipeline.redraw();
+        pipeline.run({video_.data(), low_.size, std::size_t(low_.size.width), PixelFormat::Gray8},
+                     {});
+        return pipeline.readImage();
+    }
+    /// Both draw the same.
+    bool alike() { return picture(pipeline_) == picture(other_); }
+
+    const twin::Grey sharp_ = sharpDiscs(1), low_ = videoOf(sharp_, {});
+    const std::vector<std::uint8_t> still_, video_;
+    Pipeline pipeline_, other_;
+};
+
+TEST_F(PipelineLearning, EachStillThatIsMatchedIsHeardOfOnce) {
+    Heard heard;
+    pipeline_.setMatchListener(&heard);
+    (void)picture(pipeline_);
+    EXPECT_EQ(heard.times, 0) << "no still";
+    setStill(pipeline_);
+    EXPECT_EQ(heard.times, 0) << "no frame";
+    (void)picture(pipeline_);
+    (void)picture(pipeline_);
+    EXPECT_EQ(heard.times, 1);
+    EXPECT_GT(heard.weighed, 1000) << "of 3072 cells";
+    setStill(pipeline_);
+    (void)picture(pipeline_);
+    EXPECT_EQ(heard.times, 2);
+    pipeline_.setMode(SuperResMode::Off);
+    setStill(pipeline_);
+    (void)picture(pipeline_);
+    pipeline_.setMatchListener(nullptr);
+    pipeline_.setMode(SuperResMode::Detail);
+    (void)picture(pipeline_);
+    EXPECT_EQ(heard.times, 2);
+}
+
+TEST_F(PipelineLearning, FiltersComeInWithTheNextStillOrAtOnceWithoutAny) {
+    const auto none = std::make_shared<const FilterBank>(
+        std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}));
+    pipeline_.setFilters(none);
+    EXPECT_FALSE(alike());
+    pipeline_.setFilters(nullptr);
+    EXPECT_TRUE(alike());
+
+    for (Pipeline* one : {&pipeline_, &other_})
+        setStill(*one);
+    EXPECT_TRUE(alike());
+    pipeline_.setFilters(none);
+    EXPECT_TRUE(alike());
+    for (Pipeline* one : {&pipeline_, &other_})
+        setStill(*one);
+    EXPECT_FALSE(alike());
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,97 @@
+#include "tests/measure/eval/superres_learning.h"
+
+#include "hal/virtual/recording.h"
+#include "pipeline/enlarge/enlarger_learner.h"
+#include "pipeline/pipeline.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/still_choice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace mfar::eval {
+namespace {
+
+class Learning final : public MatchListener {
+public:
+    void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                 Rows<const LookUpCell> lookUps,
+                 const MatchedPictures::LookedUp& lookedUp) override {
+        pictures_.take(video, still, lookUps, lookedUp);
+        learner_.add(pictures_);
+    }
+    [[nodiscard]] const EnlargerLearner& learner() const { return learner_; }
+
+private:
+    MatchedPictures pictures_;
+    EnlargerLearner learner_;
+};
+
+struct Match {
+    std::size_t frame, still;
+};
+
+/// The `rank`-nearest frame of each still.
+std::vector<Match> matchesOf(const Recording& recording, std::size_t rank) {
+    std::vector<Match> out;
+    for (std::size_t still = 0; still < recording.stills.size(); ++still) {
+        const Timestamp time = recording.stills[still].time;
+        std::vector<std::size_t> frames;
+        for (std::size_t i = 0; i < recording.video.size(); ++i)
+            if (!showsOwnView(recording, time, recording.video[i].time)) frames.push_back(i);
+        std::ranges::stable_sort(frames, {}, [&](std::size_t i) {
+            return std::chrono::abs(recording.video[i].time - time);
+        });
+        if (rank < frames.size()) out.push_back({frames[rank], still});
+    }
+    return out;
+}
+
+void learnFrom(const Recording& recording, const SuperResRequest& request, int& left,
+               Learning& learning) {
+    const KnownPoses poses(recording, request.poses);
+    Pipeline pipeline(recording.rig, {.output = {}, .skipUnchanged = false});
+    pipeline.setMatchListener(&learning);
+    for (std::size_t rank = 0; left != 0; ++rank) {
+        const std::vector<Match> matches = matchesOf(recording, rank);
+        if (matches.empty()) return;
+        for (const auto& [frame, still] : matches) {
+            if (left-- == 0) return;
+            const Timestamp at = recording.video[frame].time,
+                            stillAt = recording.stills[still].time;
+            const PosePair pose = poses.of(at, stillAt);
+            const cv::Mat picture =
+                toRgba(degrade(loadPicture(recording.stills[still].file), request.degradation,
+                               static_cast<std::uint64_t>(stillAt.ns)));
+            const cv::Mat video = toRgba(loadPicture(recording.video[frame].file));
+            pipeline.setStill(viewOf(picture), stillAt, pose.still);
+            pipeline.run(viewOf(video), at, pose.frame);
+        }
+        if (request.learn == kEachOnce) return;
+    }
+}
+
+}  // namespace
+
+std::shared_ptr<const FilterBank>
+learnedFilters(const SuperResRequest& request,
+               const std::vector<std::filesystem::path>& recordings) {
+    if (!EngineChoice::fromEnvironment().learns())
+        throw EvalError("--learn needs the SIMD engine: MFAR_ENGINE=simd");
+    Learning learning;
+    int left = request.learn == kEachOnce ? 1000000 : request.learn;
+    for (const std::filesystem::path& root : recordings)
+        learnFrom(loadRecording(root), request, left, learning);
+    const EnlargerLearner::Counts& counts = learning.learner().counts();
+    fmt::print(stderr,
+               "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
+               "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}\n",
+               counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
+               counts.gainDb, counts.priorDb);
+    return learning.learner().filters();
+}
+
+}  // namespace mfar::eval

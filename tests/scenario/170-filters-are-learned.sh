@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Filters are learned from matched stills, survive a restart, and are forgotten on demand.
+. "$(dirname "$0")/lib.sh"
+
+ctl="$(dirname "$sim")/mfarctl"
+mkdir state
+export STATE_DIRECTORY="$work/state"
+printf '[engine]\nuse = "simd"\n[trigger]\nmode = "rate"\nrate_hz = 10.0\nmin_interval_s = 0.0\n' >mfard.toml
+learn() { run 0 --config mfard.toml --source synthetic:office --pace consumer --summary summary.json "$@"; }
+stills() { sed -n 's/.*"stills_learned": \([0-9]*\),*/\1/p' summary.json; }
+
+learn --frames 6
+first=$(stills)
+[ "$first" -ge 1 ] || fail "no still was learned from"
+file=$(ls state/filters-*.learned)
+
+echo "after a restart"
+learn --frames 6
+[ "$(stills)" -gt "$first" ] || fail "it began anew"
+
+echo "what is cut off is reported and replaced"
+truncate -s 5000 "$file"
+learn --frames 6
+says err 'filters-.*\.learned: .*; learning begins anew'
+[ "$(stills)" = "$first" ] || fail "$(stills) stills instead of $first"
+learn --frames 1
+if grep -q 'begins anew' err; then fail "the file was not replaced"; fi
+
+echo "nothing is learned where that is not wanted"
+printf '[superres]\nlearn = false\n' >>mfard.toml
+learn --frames 6
+summary_has stills_learned 0
+sed -i '/superres/,$d' mfard.toml
+
+echo "on demand it is forgotten"
+start --config mfard.toml --source synthetic:office,rest --control control
+until_true started
+"$ctl" --socket control status >answer
+says answer '^learned +[1-9][0-9]* stills, '
+"$ctl" --socket control learn reset
+forgotten() { [ ! -e "$file" ]; }
+until_true forgotten
+kill -TERM "$pid"
+ends_with 0 3000
