@@ -66,7 +66,10 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
             const cv::Mat picture =
                 toRgba(degrade(loadPicture(recording.stills[still].file), request.degradation,
                                static_cast<std::uint64_t>(stillAt.ns)));
-            const cv::Mat video = toRgba(loadPicture(recording.video[frame].file));
+            // Noise of its own: not that of the frame that is measured.
+            const cv::Mat video =
+                toRgba(degrade(loadPicture(recording.video[frame].file), request.videoDegradation,
+                               ~static_cast<std::uint64_t>(at.ns) - 1));
             pipeline.setStill(viewOf(picture), stillAt, pose.still);
             pipeline.run(viewOf(video), at, pose.frame);
         }
