@@ -48,8 +48,6 @@ constexpr PlantedFault kPlanted[] = {
     {"composite_blend.frag", "textureLod(still, uv, 0.0).rgb, l.w",
      "textureLod(still, uv, 0.0).rgb, 1.0 - l.w", "weights exchanged", "pipeline-truth"},
     {"composite_detail.frag", "- video.a", "", "a mean that is not taken off", "pipeline-truth"},
-    {"superres_warp.frag", "l.z / kMostWeight", "l.w / kMostWeight", "confidence for weight",
-     "pipeline-truth"},
     {"still_reduce.frag", "sum / weights", "sum / (weights + 0.1)", "wrong weight",
      "pipeline-truth"},
     {"still_raise.frag", "clamp(p, ivec2(0), textureSize(still, 0) - 1)", "p",
