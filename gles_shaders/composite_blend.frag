@@ -10,5 +10,5 @@ layout(location = 0) out vec4 colour;
 void main() {
     vec2 uv;
     vec4 l = lookUp(uv);
-    colour = vec4(mix(upscaled(), textureLod(still, uv, 0.0).rgb, l.w), 1.0);
+    colour = vec4(mix(upscaled().rgb, textureLod(still, uv, 0.0).rgb, l.w), 1.0);
 }

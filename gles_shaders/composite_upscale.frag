@@ -19,6 +19,6 @@ void main() {
 #ifdef LINEAR
     colour = vec4(upscaledLinearly(), 1.0);
 #else
-    colour = vec4(upscaled(), 1.0);
+    colour = vec4(upscaled().rgb, 1.0);
 #endif
 }

@@ -1,7 +1,8 @@
 // Class of every tile and the draw lists of the frame.
 // In: change flags, cell field. Out: lists[] = four lists of changed tiles (all, upscaled, trusted, blended;
-// empty when the whole frame is drawn at once, the first two when it is enlarged at once), draws[] = their
-// indirect commands and the counts of the frame, classes[] per tile.
+// empty when the whole frame is drawn at once, the first two when it is enlarged at once; the first also has the
+// tiles around those that show detail, which is made of what lies there), draws[] = their indirect commands and
+// the counts of the frame, classes[] per tile.
 // One invocation a tile; draws[] is zeroed before.
 // Range: classes 0..3, 0..16
 #include "tiles.glsl"
@@ -21,8 +22,8 @@ layout(std430, binding = 2) buffer Draws {
     uvec4 draws[4];    // vertices, instances, first vertex, reserved
     uint counts[8];    // tiles per class, unexplained tiles, confidence sum * 256
 };
-layout(std430, binding = 3) writeonly buffer Lists {
-    uint lists[];
+layout(std430, binding = 3) buffer Lists {
+    uint lists[];  // then of each tile, when it was last listed for a neighbour
 };
 layout(binding = 0) uniform sampler2D cellField;
 layout(binding = 1) uniform sampler2D weightField;
@@ -61,6 +62,19 @@ void append(uint list, uint packedTile) {
     lists[int(list) * params.columns * params.rows + int(at)] = packedTile;
 }
 
+// Each tile once.
+void appendUnchangedAround(ivec2 tile) {
+    ivec2 first = max(tile - 1, ivec2(0)), last = min(tile + 1, ivec2(params.columns, params.rows) - 1);
+    for (int y = first.y; y <= last.y; ++y) {
+        for (int x = first.x; x <= last.x; ++x) {
+            int index = y * params.columns + x;
+            if (changed[index].x != 0u) continue;
+            uint before = atomicExchange(lists[4 * params.columns * params.rows + index], params.detailFrame);
+            if (before != params.detailFrame) append(0u, packTile(ivec2(x, y)));
+        }
+    }
+}
+
 void main() {
     ivec2 tile = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(tile, ivec2(params.columns, params.rows)))) return;
@@ -83,6 +97,7 @@ void main() {
         }
         if (!whole) append(0u, packTile(tile));
         if (!whole || (header.x == 2u && kind != kTileUpscaled)) append(kind, packTile(tile));
+        if (!whole && kind != kTileUpscaled && params.detailFrame != 0u) appendUnchangedAround(tile);
     }
     classes[index] = uvec2(kind, unexplained);
     atomicAdd(counts[kind], 1u);

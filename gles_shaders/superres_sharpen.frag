@@ -1,14 +1,38 @@
 // Undoes what a sensor pixel's area and the bicubic kernel together take from high frequencies, where
-// the still does not supply them. In: video, weights. Out: video, prefiltered for the upscaling.
-// Each axis, and the product of the axes' nearest taps.
+// the still does not supply them: each axis, and the product of the axes' nearest taps.
+// In: video, weights, look-ups, raised luma of the still. Out: video, prefiltered for the upscaling; alpha: luma
+// that it would show of the still, which composite_detail.frag takes off.
 
 #include "tile_params.glsl"
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D weightField;
+layout(binding = 2) uniform sampler2D lookupField;
+layout(binding = 3) uniform sampler2D still;
 layout(location = 0) out vec4 colour;
 
 vec3 at(ivec2 p) {
     return texelFetch(picture, clamp(p, ivec2(0), videoSize() - 1), 0).rgb;
+}
+
+// Where a place in the video lies in the still.
+vec2 inStill(vec2 p) {
+    vec2 scale = vec2(params.stillScaleX, params.stillScaleY) / vec2(params.scaleX, params.scaleY);
+    return (p * scale + textureLod(lookupField, p / vec2(4 * cellCount()), 0.0).xy) *
+           vec2(params.stillTexelX, params.stillTexelY);
+}
+
+// Mean over this pixel: 4x4 samples. Within a pixel the look-ups are bilinear.
+float stillSeen() {
+    const float reach = 0.375 * kSeen;
+    vec2 first = inStill(gl_FragCoord.xy - reach), last = inStill(gl_FragCoord.xy + reach);
+    vec2 right = inStill(gl_FragCoord.xy + vec2(reach, -reach));
+    vec2 below = inStill(gl_FragCoord.xy + vec2(-reach, reach));
+    float sum = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        vec2 share = vec2(i & 3, i >> 2) / 3.0;
+        sum += textureLod(still, mix(mix(first, right, share.x), mix(below, last, share.x), share.y), 0.0).r;
+    }
+    return sum / 16.0;
 }
 
 void main() {
@@ -21,5 +45,5 @@ void main() {
                 kSharpenNear * kSharpenNear * (diagonal - 2.0 * near + 4.0 * centre);
     vec4 w = textureLod(weightField, gl_FragCoord.xy / (4.0 * vec2(cellCount())), 0.0);
     float strength = params.sharpening * (1.0 - min(2.0 * w.x, 1.0)) * w.z;
-    colour = vec4(centre + strength * high, 1.0);
+    colour = vec4(centre + strength * high, stillSeen());
 }

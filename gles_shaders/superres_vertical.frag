@@ -1,4 +1,4 @@
-// Upscaling, first half: columns. In: prefiltered video. Out: video width x output height.
+// Upscaling, first half: columns of four channels. In: prefiltered video. Out: video width x output height.
 // Variant: #define LINEAR
 #include "cubic.glsl"
 
@@ -18,8 +18,8 @@ void main() {
     const int first = 0, last = 3;
     vec4 w = cubicWeights(t);
 #endif
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     for (int i = first; i <= last; ++i)
-        sum += w[i] * texelFetch(picture, ivec2(x, clamp(row + i - 1, 0, params.videoHeight - 1)), 0).rgb;
-    colour = vec4(sum, 1.0);
+        sum += w[i] * texelFetch(picture, ivec2(x, clamp(row + i - 1, 0, params.videoHeight - 1)), 0);
+    colour = sum;
 }

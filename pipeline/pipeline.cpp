@@ -49,8 +49,7 @@ Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
       drawn(rig.video.size), plan(rig.video.size, workers) {
     validate(options.epipolar);
     validate(options.depth);
-    const StepSetup setup{rig,     output,     options.flow2d,
-                          workers, &transfers, options.engines.detail == EngineKind::Gles};
+    const StepSetup setup{rig, output, options.flow2d, workers, &transfers};
     if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
     if (options.engines.uses(EngineKind::Simd)) simd = makeSimdEngine(setup);
     still = engineOf(options.engines.still).still();

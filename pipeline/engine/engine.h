@@ -55,7 +55,6 @@ struct StepSetup {
     Flow2dOptions flow2d{};
     std::shared_ptr<Workers> workers{};
     Transfers* transfers = nullptr;  ///< counts what steps move; null: not counted
-    bool shadersDraw = false;        ///< the DetailStep is the GLES engine's
 };
 
 /// Makes the steps of one kind. Must outlive them.

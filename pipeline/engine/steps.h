@@ -35,12 +35,13 @@ struct VideoFrame {
 
 /// What is known of the newest still.
 struct StillPictures {
-    std::uint64_t number = 0;    ///< a new one for each still
-    StereoRig rig;               ///< with the still camera as the fields below have it
-    Field<std::uint8_t> luma;    ///< of the whole still
-    Field<std::uint16_t> pairs;  ///< luma, each pixel with the one below it in the high byte; only
-                                 ///< from the SIMD engine, which reads it
-    Field<std::uint8_t> detail;  ///< 128: no detail; for a DetailStep of shaders alone
+    std::uint64_t number = 0;  ///< a new one for each still
+    StereoRig rig;             ///< with the still camera as the fields below have it
+    Field<std::uint8_t> luma;  ///< of the whole still
+    // Luma whose finest detail is raised, see params::kLinearLoss: as the engine reads it that made
+    // it. The other field is empty.
+    Field<std::uint8_t> raised;    ///< from the GLES engine
+    Field<std::uint16_t> pairs;    ///< from the SIMD engine; with the pixel below in the high byte
     Field<std::uint32_t> picture;  ///< RGBA8; for SuperResMode::Blend alone
 };
 

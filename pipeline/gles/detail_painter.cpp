@@ -21,7 +21,7 @@ DetailPainter::DetailPainter(const StereoRig& stillRig, Size output)
       output_(output, gpu::TexelFormat::Rgba8), sharpenedTarget_(sharpened_),
       columnsTarget_(columns_), outputTarget_(output_),
       classes_(8 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
-      lists_(16 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
+      lists_(20 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
       draws_{gpu::Buffer(sizeof(DrawBlock)), gpu::Buffer(sizeof(DrawBlock))},
       classify_("superres_classify.comp"), sharpen_("superres_sharpen.frag"),
       wholeDetail_("composite_detail.frag"), wholeBlend_("composite_blend.frag"),
@@ -37,13 +37,16 @@ void DetailPainter::classify(const Matched* matched, const TileBuffer& tiles,
     for (auto& command : block.commands)
         command[0] = kQuadVertices;
     draws_[current_].write(std::span<const DrawBlock>(&block, 1));
+    const bool hasDetail = matched != nullptr && options.mode == SuperResMode::Detail;
+    classified_ = std::max(classified_ + 1, 1U);
     classify_.run({.columns = tiles_.width,
                    .rows = tiles_.height,
                    .cellColumns = cells_.width,
                    .cellRows = cells_.height,
                    .leastWeight = options.upscaledTiles ? params::kLeastDetailWeight : -1.0F,
                    .plainFlow = options.plainTiles ? params::kPlainFlow : 0.0F,
-                   .stillGiven = matched != nullptr ? 1 : 0},
+                   .stillGiven = matched != nullptr ? 1 : 0,
+                   .detailFrame = hasDetail ? classified_ : 0},
                   {gpu::storage(0, tiles.buffer()), gpu::storage(1, classes_),
                    gpu::storage(2, draws_[current_]), gpu::storage(3, lists_),
                    gpu::sampler(0, matched != nullptr ? matched->weighed : blank_),
@@ -83,8 +86,9 @@ void DetailPainter::drawBoth(TilePass& pass, const TileParams& params, gpu::Bind
 
 // Tiles beside those that are drawn are looked at, too: after frames without, all are made.
 void DetailPainter::sharpen(const TileParams& params, const gpu::Texture& video,
-                            const gpu::Texture& trust, const TileWork& work) {
-    const gpu::Bindings from{gpu::sampler(0, video), gpu::sampler(1, trust)};
+                            const Matched& matched, const TileWork& work) {
+    const gpu::Bindings from{gpu::sampler(0, video), gpu::sampler(1, matched.trust),
+                             gpu::sampler(2, matched.lookUps), gpu::sampler(3, matched.still)};
     if (sharpenedIsOld_)
         sharpen_.whole.run(params, from, sharpenedTarget_);
     else
@@ -134,7 +138,7 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
 
     const bool sharpens = matched != nullptr && options.mode == SuperResMode::Detail;
     const TileParams p = tileParams(sharpens);
-    if (sharpens) sharpen(p, video, matched->trust, work);
+    if (sharpens) sharpen(p, video, *matched, work);
     sharpenedIsOld_ = !sharpens;
     Enlarging& enlarging = this->enlarging(options.cubic);
     drawBoth(enlarging.columns, p, {gpu::sampler(0, sharpens ? sharpened_ : video)}, columnsTarget_,

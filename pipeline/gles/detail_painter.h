@@ -21,7 +21,7 @@ public:
 
     /// A still on the GPU, and how it matches.
     struct Matched {
-        const gpu::Texture& still;    ///< its detail, or its picture in mode Blend; linear filter
+        const gpu::Texture& still;    ///< raised luma, or the picture in mode Blend; linear filter
         const gpu::Texture& weighed;  ///< Rgba32F, as the other two one texel a cell
         const gpu::Texture& lookUps;  ///< Rgba16F, linear filter
         const gpu::Texture& trust;    ///< Rgba8, linear filter
@@ -64,7 +64,7 @@ private:
     [[nodiscard]] TileSummary summary(int which) const;
     [[nodiscard]] gpu::InstanceList list(List which) const;
     void classify(const Matched* matched, const TileBuffer& tiles, const DetailOptions& options);
-    void sharpen(const TileParams& params, const gpu::Texture& video, const gpu::Texture& trust,
+    void sharpen(const TileParams& params, const gpu::Texture& video, const Matched& matched,
                  const TileWork& work);
     void drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
                   const gpu::Framebuffer& target, const TileWork& work);
@@ -83,7 +83,8 @@ private:
     gpu::Buffer classes_, lists_;
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
-    bool sharpenedIsOld_ = true;  // from a frame before the last
+    std::uint32_t classified_ = 0;  // frames
+    bool sharpenedIsOld_ = true;    // from a frame before the last
     gpu::ComputePass<params::ClassifyTiles> classify_;
     TilePass sharpen_;
     Enlarging cubicly_;

@@ -21,6 +21,7 @@ struct Layout {
 Layout layoutOf(gpu::TexelFormat format) {
     switch (format) {
     case gpu::TexelFormat::R8: return {GL_RED, GL_UNSIGNED_BYTE, 1};
+    case gpu::TexelFormat::Rg8: return {GL_RG, GL_UNSIGNED_BYTE, 2};
     case gpu::TexelFormat::Rgba8: return {GL_RGBA, GL_UNSIGNED_BYTE, 4};
     case gpu::TexelFormat::R32F: return {GL_RED, GL_FLOAT, 4};
     default: return {GL_RGBA, GL_FLOAT, 16};

@@ -34,8 +34,8 @@ private:
     std::size_t count_, entryBytes_;
 };
 
-/// A texture as a field. A texel is on the host: R8 a byte, Rgba8 four bytes, R32F a float, the
-/// formats of four channels four floats; Rgba8 as `floats`: four floats in [0, 1].
+/// A texture as a field. A texel is on the host: R8 a byte, Rg8 two bytes, Rgba8 four, R32F a
+/// float, the formats of four channels four floats; Rgba8 as `floats`: four floats in [0, 1].
 class TextureCopy final : public DeviceCopy {
 public:
     /// A step's texture.

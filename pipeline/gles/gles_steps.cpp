@@ -37,7 +37,7 @@ class GlesStill final : public StillStep {
 public:
     GlesStill(const StepSetup& setup, FrameOnGpu& frame)
         : still_(setup.rig, setup.output, frame.stillPicture()), lumaCopy_(frame.stillPicture()),
-          detailCopy_(still_.detail()) {
+          raisedCopy_(still_.raised()) {
         pictures_.rig = still_.rig();
     }
 
@@ -46,7 +46,7 @@ public:
         ++pictures_.number;
         pictureCopy_.emplace(still_.picture());
         pictures_.luma.writtenOnDevice(lumaCopy_, still_.whole().size());
-        pictures_.detail.writtenOnDevice(detailCopy_, still_.detail().size());
+        pictures_.raised.writtenOnDevice(raisedCopy_, still_.raised().size());
         pictures_.picture.writtenOnDevice(*pictureCopy_, still_.picture().size());
         return pictures_;
     }
@@ -55,7 +55,7 @@ public:
 private:
     StillReference still_;
     StillLumaCopy lumaCopy_;
-    TextureCopy detailCopy_;
+    TextureCopy raisedCopy_;
     std::optional<TextureCopy> pictureCopy_;  // the texture changes with the still's format
     StillPictures pictures_;
 };
@@ -206,10 +206,18 @@ private:
         const CellWeights& weights = matched.weights;
         return {mode == SuperResMode::Blend
                     ? textureOf(still.picture, gpu::TexelFormat::Rgba8, linear).texture()
-                    : textureOf(still.detail, gpu::TexelFormat::R8, linear).texture(),
+                    : lumaOf(still),
                 textureOf(weights.weighed, gpu::TexelFormat::Rgba32F).texture(),
                 textureOf(weights.lookUps, gpu::TexelFormat::Rgba16F, linear).texture(),
                 textureOf(weights.trust, gpu::TexelFormat::Rgba8, linear, true).texture()};
+    }
+
+    // From the other engine it comes with the pixel below in the second channel.
+    static const gpu::Texture& lumaOf(const StillPictures& still) {
+        const auto linear = gpu::Filter::Linear;
+        return still.raised.isEmpty()
+                   ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
+                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
     }
 
     FrameOnGpu& frame_;

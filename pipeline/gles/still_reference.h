@@ -11,9 +11,8 @@
 
 namespace mfar {
 
-/// The newest still and everything about it that is computed once: its picture and what it shows
-/// beyond the video's resolution, detail = luma - up(down(luma)), on its own pixel grid. Where the
-/// output shows the still's pixels smaller than its own, the still is reduced to the output's.
+/// The newest still and everything about it that is computed once: its picture and its luma. Where
+/// the output shows the still's pixels smaller than its own, both are reduced to the output's.
 class StillReference {
 public:
     /// `output`: size of what is made of the video's whole picture. `picture` takes the stills; it
@@ -30,16 +29,17 @@ public:
     [[nodiscard]] const gpu::Texture& picture() const {
         return reducer_ ? reducer_->picture() : picture_.texture();
     }
-    [[nodiscard]] const gpu::Texture& detail() const { return detail_; }  ///< R8, 128 = none
+    /// Luma of rig().still's size. Unless it was reduced, its finest detail is raised by what a
+    /// linear look-up takes from it. R8, linear filter.
+    [[nodiscard]] const gpu::Texture& raised() const { return raised_; }
 
 private:
     StereoRig rig_;
     gpu::PictureTexture& picture_;
     std::optional<StillReducer> reducer_;
-    gpu::Texture low_, detail_;
-    gpu::Framebuffer lowTarget_, detailTarget_;
-    gpu::DrawPass<params::StillLow> lowPass_;
-    gpu::DrawPass<params::StillDetail> detailPass_;
+    gpu::Texture raised_;
+    gpu::Framebuffer raisedTarget_;
+    gpu::DrawPass<params::RaiseStill> raise_;
 };
 
 }  // namespace mfar

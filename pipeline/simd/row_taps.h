@@ -29,7 +29,7 @@ public:
     /// A tent as wide as two entries of the result, as still_reduce.frag; `to` is at most `from`.
     [[nodiscard]] static RowTaps tent(int from, int to);
     /// Mean of four linear samples a quarter of `footprint` result entries apart, as
-    /// still_low.frag.
+    /// superres_sharpen.frag.
     [[nodiscard]] static RowTaps mean(int from, int to, double footprint);
 
     [[nodiscard]] int taps() const { return weights_.size().height; }

@@ -4,6 +4,7 @@
 #include "pipeline/simd/luma_pyramids.h"
 #include "pipeline/simd/occlusion_step.h"
 #include "pipeline/simd/simd_warp.h"
+#include "pipeline/simd/still_kernels.h"
 #include "pipeline/simd/still_preparation.h"
 #include "pipeline/simd/weigh_step.h"
 #include "pipeline/superres/still_scale.h"
@@ -17,8 +18,7 @@ namespace {
 
 class SimdStill final : public StillStep {
 public:
-    explicit SimdStill(const StepSetup& setup)
-        : still_(setup.rig, setup.output, setup.workers), shadersDraw_(setup.shadersDraw) {
+    explicit SimdStill(const StepSetup& setup) : still_(setup.rig, setup.output, setup.workers) {
         pictures_.rig = still_.rig();
     }
 
@@ -26,7 +26,6 @@ public:
         still_.set(still);
         ++pictures_.number;
         pictures_.luma.writtenOnHost(still_.luma());
-        if (shadersDraw_) pictures_.detail.writtenOnHost(still_.detail());
         const simd::StillPairs pairs = still_.pairs();
         pictures_.pairs.writtenOnHost(
             Rows<const std::uint16_t>{pairs.data, pairs.pitch, pairs.size});
@@ -40,7 +39,6 @@ public:
 
 private:
     simd::StillPreparation still_;
-    bool shadersDraw_;
     StillPictures pictures_;
 };
 
@@ -163,7 +161,8 @@ private:
 class SimdDetail final : public DetailStep {
 public:
     explicit SimdDetail(const StepSetup& setup)
-        : setup_(setup), detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
+        : workers_(setup.workers),
+          detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
           picture_(setup.output), output_({}, setup.transfers) {
         output_.writtenOnHost(picture_.rows());
     }
@@ -207,21 +206,24 @@ private:
             return {rows.data, rows.pitch, rows.size};
         }
         // From the other engine a still comes without pairs: they are made once.
-        if (!otherStill_) otherStill_.emplace(setup_.rig, setup_.output, setup_.workers);
-        if (otherNumber_ != still.number) {
-            const Rows<const std::uint8_t> luma = still.luma.host();
-            otherStill_->set(
-                {luma.data, luma.size, static_cast<std::size_t>(luma.pitch), PixelFormat::Gray8},
-                false);
-            otherNumber_ = still.number;
+        const Rows<const std::uint8_t> luma = still.raised.host();
+        const auto [width, height] = luma.size;
+        if (pairedStill_ != still.number || pairs_.size() != luma.size) {
+            if (pairs_.size() != luma.size) pairs_ = AlignedRows<std::uint16_t>(luma.size);
+            workers_->forRange(height, 16, [&, width = width, height = height](int y, int end) {
+                for (; y < end; ++y)
+                    simd::pairRows(luma[y], luma[std::min(y + 1, height - 1)],
+                                   static_cast<std::size_t>(width), pairs_[y]);
+            });
+            pairedStill_ = still.number;
         }
-        return otherStill_->pairs();
+        return {pairs_[0], pairs_.pitch(), pairs_.size()};
     }
 
-    StepSetup setup_;
+    std::shared_ptr<Workers> workers_;
     simd::DetailStep detail_;
-    std::optional<simd::StillPreparation> otherStill_;
-    std::uint64_t otherNumber_ = 0;
+    AlignedRows<std::uint16_t> pairs_;
+    std::uint64_t pairedStill_ = 0;
     AlignedRows<std::uint32_t> picture_;
     Field<std::uint32_t> output_;
     TileSummary summary_;

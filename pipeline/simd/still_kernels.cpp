@@ -83,20 +83,6 @@ void RaisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neig
         hn::StoreU(Bytes(Raised(luma, share, x)), U8(), to + x);
 }
 
-void StillDetailRow(const StillRows& rows, std::size_t pixels, std::uint8_t* detail) {
-    const I16 d;
-    const std::size_t lanes = hn::Lanes(d);
-    const auto share = hn::Set(d, rows.neighboursShare), zero = hn::Set(d, 128 * 32);
-    for (std::size_t x = 0; x < pixels; x += lanes) {
-        const auto low = [&](std::size_t i) HWY_ATTR {
-            return hn::MulFixedPoint15(hn::LoadU(d, rows.low[i] + x), hn::Set(d, rows.weights[i]));
-        };
-        const auto up = hn::Add(hn::Add(low(0), low(1)), hn::Add(low(2), low(3)));
-        const auto value = Raised(rows.luma, share, x);
-        hn::StoreU(Bytes(hn::Add(hn::Sub(value, up), zero)), U8(), detail + x);
-    }
-}
-
 void PairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,
               std::uint16_t* pairs) {
     const U16 d;
@@ -134,7 +120,6 @@ namespace mfar::simd {
 HWY_EXPORT(LumaOfPlane);
 HWY_EXPORT(LumaOfPairs);
 HWY_EXPORT(RaisedRow);
-HWY_EXPORT(StillDetailRow);
 HWY_EXPORT(PairRows);
 HWY_EXPORT(PackRow);
 
@@ -151,10 +136,6 @@ void lumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, con
 void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
                std::size_t pixels, std::uint8_t* to) {
     HWY_DYNAMIC_DISPATCH(RaisedRow)(luma, neighboursShare, pixels, to);
-}
-
-void stillDetailRow(const StillRows& rows, std::size_t pixels, std::uint8_t* detail) {
-    HWY_DYNAMIC_DISPATCH(StillDetailRow)(rows, pixels, detail);
 }
 
 void pairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t pixels,

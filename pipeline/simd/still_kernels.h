@@ -19,17 +19,8 @@ void lumaOfPlane(const std::uint8_t* y, const std::int16_t* chroma, const LumaGa
 void lumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, const LumaGain& by,
                  std::size_t pixels, std::uint8_t* luma);
 
-/// What the still's luma has beyond the video's resolution, + 128, clamped; see still_detail.frag.
-struct StillRows {
-    std::array<const std::uint8_t*, 3> luma;  ///< row above, this, below; also read beside
-    std::array<const std::int16_t*, 4> low;   ///< rows at the video's scale [1/64 grey level]
-    std::array<std::int16_t, 4> weights;      ///< of these [1/16384]
-    std::int16_t neighboursShare;             ///< [1/32768]
-};
-void stillDetailRow(const StillRows& rows, std::size_t pixels, std::uint8_t* detail);
-
-/// Luma whose finest detail is raised by what a linear look-up takes from it, clamped. `luma` and
-/// `share` as in StillRows.
+/// Luma whose finest detail is raised by what a linear look-up takes from it, clamped; see
+/// still_raise.frag. `luma`: row above, this, below; also read beside. `neighboursShare` [1/32768].
 void raisedRow(const std::array<const std::uint8_t*, 3>& luma, std::int16_t neighboursShare,
                std::size_t pixels, std::uint8_t* to);
 

@@ -15,25 +15,17 @@ constexpr int kStillGrain = 16;  // rows
 
 }  // namespace
 
-StillPreparation::Scratch::Scratch(Size still, const Size& low)
-    : luma(still.width), wide({still.width, 1}), low({low.width, 1}), raised({still.width, 2}),
-      rgb({still.width, 3}) {}
-
-StillPreparation::Detail::Detail(const StereoRig& rig, Size lowSize)
-    : meanColumns(RowTaps::mean(rig.still.size.height, lowSize.height, kFootprint)),
-      meanRows(RowTaps::mean(rig.still.size.width, lowSize.width, kFootprint)),
-      cubicColumns(RowTaps::cubic(lowSize.height, rig.still.size.height)),
-      cubicRows(RowTaps::cubic(lowSize.width, rig.still.size.width)),
-      low({rig.still.size.width, lowSize.height}), detail(rig.still.size) {}
+StillPreparation::Scratch::Scratch(Size still)
+    : luma(still.width), wide({still.width, 1}), raised({still.width, 2}), rgb({still.width, 3}) {}
 
 StillPreparation::StillPreparation(const StereoRig& rig, Size output,
                                    std::shared_ptr<Workers> workers)
     : workers_(std::move(workers)), whole_(rig.still.size), rig_(stillFor(output, rig)),
-      low_(lowSizeOf(rig_)), luma_(whole_),
+      luma_(whole_),
       neighboursShare_(rig_.still.size == whole_
                            ? static_cast<std::int16_t>(std::lround(kLinearLoss * 32768))
                            : std::int16_t{0}),
-      pairs_(rig_.still.size), scratch_(workers_->count(), [&] { return Scratch(whole_, low_); }) {
+      pairs_(rig_.still.size), scratch_(workers_->count(), [&] { return Scratch(whole_); }) {
     const Size reduced = rig_.still.size;
     if (reduced != whole_)
         reduction_.emplace(RowTaps::tent(whole_.height, reduced.height),
@@ -54,7 +46,6 @@ void StillPreparation::set(const ImageView& still, bool keepsPicture) {
     if (keepsPicture) keep(still);
     if (reduction_) reduceLuma();
     makePairs();
-    if (detail_) detail_->isMade = false;
 }
 
 void StillPreparation::takeLuma(const ImageView& still) {
@@ -114,25 +105,11 @@ void StillPreparation::reduceLuma() {
     });
 }
 
-void StillPreparation::makeLow() {
-    const Size size = rig_.still.size;
-    Detail& d = *detail_;
-    inParts(low_.height, [&](int first, int last, Scratch& scratch) {
-        for (int y = first; y < last; ++y) {
-            weighColumn(d.meanColumns, y, size, [&](int row) { return detailed()[row]; }, scratch);
-            resampleRow(scratch.wide[0], d.meanRows.table(), 0, low_.width, scratch.low[0]);
-            resampleRow(scratch.low[0], d.cubicRows.table(), 0, size.width, 64, d.low[y]);
-        }
-    });
-}
-
-std::array<const std::uint8_t*, 3> StillPreparation::around(int y) {
-    Luma& luma = detailed();
-    return {luma[std::max(y - 1, 0)], luma[y], luma[std::min(y + 1, rig_.still.size.height - 1)]};
-}
-
 void StillPreparation::raisedRowOf(int y, std::uint8_t* to) {
-    raisedRow(around(y), neighboursShare_, static_cast<std::size_t>(rig_.still.size.width), to);
+    const auto [width, height] = rig_.still.size;
+    Luma& luma = detailed();
+    raisedRow({luma[std::max(y - 1, 0)], luma[y], luma[std::min(y + 1, height - 1)]},
+              neighboursShare_, static_cast<std::size_t>(width), to);
 }
 
 void StillPreparation::makePairs() {
@@ -146,26 +123,6 @@ void StillPreparation::makePairs() {
                      static_cast<std::size_t>(width), pairs_[y]);
         }
     });
-}
-
-Rows<const std::uint8_t> StillPreparation::detail() {
-    if (!detail_) detail_.emplace(rig_, low_);
-    if (!std::exchange(detail_->isMade, true)) {
-        makeLow();
-        inParts(rig_.still.size.height, [&](int first, int last, Scratch&) {
-            for (int y = first; y < last; ++y)
-                detailRowOf(y, detail_->detail[y]);
-        });
-    }
-    return std::as_const(detail_->detail).rows();
-}
-
-void StillPreparation::detailRowOf(int y, std::uint8_t* to) {
-    const ColumnTaps taps = detail_->cubicColumns.column(y);
-    StillRows rows{around(y), {}, taps.weights, neighboursShare_};
-    for (std::size_t k = 0; k < rows.low.size(); ++k)
-        rows.low[k] = detail_->low[taps.rows[k]];
-    stillDetailRow(rows, static_cast<std::size_t>(rig_.still.size.width), to);
 }
 
 Rows<const std::uint32_t> StillPreparation::picture() {

@@ -19,7 +19,7 @@ namespace mfar::simd {
 
 /// The newest still, prepared once: luma of all of it, and of as many pixels as the output has a
 /// use for. The host's StillReference. Allocates in the constructor; set() only for another pixel
-/// format's copy, detail() and picture() once.
+/// format's copy, picture() once.
 class StillPreparation {
 public:
     /// `output`: size of what is made of the video's whole picture.
@@ -36,10 +36,6 @@ public:
     /// Luma of rig().still's size. Unless it was reduced, its finest detail is raised by what a
     /// linear look-up takes from it.
     [[nodiscard]] StillPairs pairs() const { return {pairs_[0], pairs_.pitch(), pairs_.size()}; }
-    /// What the still shows beyond the video's resolution, luma - up(down(luma)), for the shaders:
-    /// 128 where the video shows all there is. Size of rig().still. Made by the first call after
-    /// set().
-    [[nodiscard]] Rows<const std::uint8_t> detail();
     /// RGBA8, R in the lowest byte, size of rig().still; 64 readable bytes behind each row. Made by
     /// the first call after set().
     [[nodiscard]] Rows<const std::uint32_t> picture();
@@ -65,9 +61,9 @@ private:
         Size size_;
     };
     struct Scratch {
-        Scratch(Size still, const Size& low);
+        explicit Scratch(Size still);
         StillLuma::Scratch luma;
-        AlignedRows<float> wide, low;           // a row of the still; of `low` size
+        AlignedRows<float> wide;                // a row of the still
         AlignedRows<std::uint8_t> raised, rgb;  // two rows; three
         std::vector<const std::uint8_t*> rows;  // that are weighed
         std::vector<float> weights;
@@ -78,26 +74,13 @@ private:
         Luma luma;
     };
 
-    /// What detail() is made with.
-    struct Detail {
-        Detail(const StereoRig& rig, Size low);
-
-        RowTaps meanColumns, meanRows, cubicColumns, cubicRows;
-        AlignedRows<std::int16_t> low;  // rows at the still's width [1/64 grey level]
-        AlignedRows<std::uint8_t> detail;
-        bool isMade = false;
-    };
-
     void inParts(int rows, const std::function<void(int, int, Scratch&)>& body);
     void takeLuma(const ImageView& still);
     void keep(const ImageView& still);
     void reduceLuma();
     void makePairs();
-    void makeLow();
     void reducePictureRow(int y, Scratch& scratch);
     void raisedRowOf(int y, std::uint8_t* to);
-    void detailRowOf(int y, std::uint8_t* to);
-    [[nodiscard]] std::array<const std::uint8_t*, 3> around(int y);
     template <class RowAt>
     void weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt, Scratch& scratch);
     [[nodiscard]] Luma& detailed() { return reduction_ ? reduction_->luma : luma_; }
@@ -105,11 +88,9 @@ private:
     std::shared_ptr<Workers> workers_;
     Size whole_;
     StereoRig rig_;
-    Size low_;
     Luma luma_;
     std::optional<Reduction> reduction_;
-    std::int16_t neighboursShare_;  // see StillRows
-    std::optional<Detail> detail_;
+    std::int16_t neighboursShare_;  // see raisedRow()
     AlignedRows<std::uint16_t> pairs_;
     ScratchSlots<Scratch> scratch_;
     std::vector<std::uint8_t> kept_;

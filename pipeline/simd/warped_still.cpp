@@ -1,12 +1,21 @@
 #include "pipeline/simd/warped_still.h"
 
+#include "pipeline/engine/params/detail.h"
+
 #include <algorithm>
+#include <cmath>
 
 namespace mfar::simd {
 namespace {
 
-/// Width of what a video pixel sees, in its pitch, but for the linear samples' own width.
-constexpr double kSeen = 1.0;
+/// Taps of the mean over a video pixel along one axis. The warped still is read linearly once more,
+/// which widens what a pixel sees: the samples lie closer, so that their spread is as without.
+RowTaps meanOf(int output, int video) {
+    constexpr double kWidened = 2.0 + 2.0 / 15;  // spread of a tent over that of four samples
+    const double pitch = static_cast<double>(video) / output, seen = params::kSeen;
+    return RowTaps::mean(output, video,
+                         std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
+}
 
 /// Rows from a row of detail to the last that it looks at, at most.
 int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output) {
@@ -22,8 +31,7 @@ int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size out
 }  // namespace
 
 WarpedStillTaps::WarpedStillTaps(Size video, Size output)
-    : meanRows(RowTaps::mean(output.width, video.width, kSeen)),
-      meanColumns(RowTaps::mean(output.height, video.height, kSeen)),
+    : meanRows(meanOf(output.width, video.width)), meanColumns(meanOf(output.height, video.height)),
       cubicRows(RowTaps::cubic(video.width, output.width)),
       cubicColumns(RowTaps::cubic(video.height, output.height)),
       kept(rowsLookedAt(meanColumns, cubicColumns, video, output)) {}

@@ -28,12 +28,4 @@ StereoRig stillFor(Size output, StereoRig rig) {
     return rig;
 }
 
-Size lowSizeOf(const StereoRig& rig) {
-    const auto scaled = [](int pixels, double ratio) {
-        return std::max(8, static_cast<int>(std::lround(pixels * std::min(ratio, 1.0))));
-    };
-    return {scaled(rig.still.size.width, rig.video.fx / rig.still.fx),
-            scaled(rig.still.size.height, rig.video.fy / rig.still.fy)};
-}
-
 }  // namespace mfar

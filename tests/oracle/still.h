@@ -2,24 +2,40 @@
 
 #include "tests/oracle/upscale.h"
 
-/// What a still is made into before it is used, in double precision and grey levels.
+/// What a still is made into before it is used, and what it adds to a frame; in double precision
+/// and grey levels.
 namespace mfar::twin {
 
-inline constexpr double kLowFootprint = 1.25;  // in pixels of the low picture
-
-/// The still's luma on a coarser grid: mean of 4x4 bilinear taps over the footprint.
-inline Grey stillLow(const Grey& still, Size low, double footprint = kLowFootprint) {
-    return greyOf(low, [&](int x, int y) {
+/// What pixels of a grid see: means of 4x4 samples a quarter of `footprint` pixels apart. `at`: of
+/// a place, where the centre of the first pixel is (0.5, 0.5).
+template <class At>
+Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
+          double footprintY = params::kSeen) {
+    return greyOf(grid, [&](int x, int y) {
         double sum = 0;
         for (int i = 0; i < 16; ++i) {
             const int column = i % 4, row = i / 4;
-            const double dx = footprint * (column - 1.5) / 4;
-            const double dy = footprint * (row - 1.5) / 4;
-            sum += still.bilinear((x + 0.5 + dx) * still.size.width / low.width - 0.5,
-                                  (y + 0.5 + dy) * still.size.height / low.height - 0.5);
+            sum += at(x + 0.5 + footprintX * (column - 1.5) / 4,
+                      y + 0.5 + footprintY * (row - 1.5) / 4);
         }
         return sum / 16;
     });
+}
+
+/// The same of a warped still at the output's size, whose linear look-ups widen what is seen: its
+/// variance is kept.
+inline Grey seenOf(const Grey& warped, Size video) {
+    const double stepX = static_cast<double>(warped.size.width) / video.width,
+                 stepY = static_cast<double>(warped.size.height) / video.height;
+    const auto footprint = [](double step) {
+        const double samples = (1.5 * 1.5 + 0.5 * 0.5) / 2 / 16, tent = 1.0 / 6;
+        return std::sqrt(
+            std::max(params::kSeen * params::kSeen - tent / samples / (step * step), 0.0));
+    };
+    return seen(
+        video,
+        [&](double x, double y) { return warped.bilinear(x * stepX - 0.5, y * stepY - 0.5); },
+        footprint(stepX), footprint(stepY));
 }
 
 /// Luma with its finest detail raised; `neighbours`: weight of the four of a pixel.
@@ -29,12 +45,6 @@ inline Grey raised(const Grey& luma, double neighbours) {
             luma.at(x - 1, y) + luma.at(x + 1, y) + luma.at(x, y - 1) + luma.at(x, y + 1);
         return luma.at(x, y) + neighbours * (4 * luma.at(x, y) - beside);
     });
-}
-
-/// What a picture of `low` pixels cannot show of the still, about 128; `neighbours` as raised().
-inline Grey stillDetail(const Grey& luma, Size low, double neighbours) {
-    const Grey up = enlarged(stillLow(luma, low), luma.size), fine = raised(luma, neighbours);
-    return greyOf(luma.size, [&](int x, int y) { return fine.at(x, y) - up.at(x, y) + 128; });
 }
 
 /// Tent filter along both axes, as wide as two pixels of the result.

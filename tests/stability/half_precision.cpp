@@ -78,7 +78,8 @@ void printVerdict(ErrorTable& table, double most) {
 void colours(Hostile& h) {
     ErrorTable yuv("picture_from_yuv: R G B", "levels"),
         taps("enlargement: weights, sums", "levels");
-    ErrorTable places("enlargement: place, weights", "levels"), mean("still_low: mean", "levels");
+    ErrorTable places("enlargement: place, weights", "levels"),
+        mean("superres_sharpen: mean", "levels");
     ErrorTable detail("composite_detail: sum", "levels"), blend("visibility_blend", "levels");
     ErrorTable likeness("visibility_sample: likeness", "1/255");
     const YuvToRgb rows = yuvToRgb(YuvMatrix::Bt709, YuvRange::Limited);
@@ -102,7 +103,7 @@ void colours(Hostile& h) {
             one = level();
         mean.add(255 * std::abs(static_cast<double>(meanOf16<half>(sixteen)) -
                                 meanOf16<double>(sixteen)));
-        const double l = h.real(0, 2.3), d = level() - 128.0 / 255;
+        const double l = h.real(0, 2.3), d = level() - level();
         detail.add(255 *
                    std::abs(static_cast<double>(half(c[0]) + half(l) * half(d)) - (c[0] + l * d)));
         blend.add(255 * std::abs(static_cast<double>(half(c[0]) * half(c[1])) - c[0] * c[1]));

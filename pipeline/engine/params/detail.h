@@ -31,12 +31,17 @@ inline constexpr float kCubicSlope = -0.75F;
 inline constexpr float kSharpenNear = -0.14123F;
 inline constexpr float kSharpenFar = 0.0385F;
 
+/// Width of what a video pixel sees of the still, in its pitch: 4x4 samples a quarter of this apart
+/// (1.08 changes nothing on photographs, but costs 0.4 dB where a still is reduced).
+inline constexpr float kSeen = 1.0F;
+
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;  ///< of tiles
     std::int32_t cellColumns, cellRows;
-    float leastWeight;        ///< kLeastDetailWeight, or -1: no tile is only enlarged
-    float plainFlow;          ///< kPlainFlow, or 0: no tile is plain [video px]
-    std::int32_t stillGiven;  ///< 0: the fields are blank
+    float leastWeight;          ///< kLeastDetailWeight, or -1: no tile is only enlarged
+    float plainFlow;            ///< kPlainFlow, or 0: no tile is plain [video px]
+    std::int32_t stillGiven;    ///< 0: the fields are blank
+    std::uint32_t detailFrame;  ///< other than in earlier frames; 0: no detail is drawn
 };
 
 /// Of all programs that draw tiles.

@@ -59,7 +59,9 @@ TEST_F(PipelineTest, AStillBringsThePictureCloserToTheTruth) {
     EXPECT_DOUBLE_EQ(psnr(p.readImage(), truth), upscaled);
     p.setMode(SuperResMode::Detail);
     p.run(video.view(), {});
-    EXPECT_NEAR(psnr(p.readImage(), truth), detail, 0.1);
+    // The search starts from the flow before, which makes it a little better.
+    EXPECT_GT(psnr(p.readImage(), truth), detail - 0.1);
+    EXPECT_LT(psnr(p.readImage(), truth), detail + 0.3);
     p.dropStill();
     p.run(video.view(), {});
     EXPECT_DOUBLE_EQ(psnr(p.readImage(), truth), upscaled);

@@ -76,7 +76,7 @@ TEST_F(StillReducerTest, StillsKeepTheirPixelsWhereTheOutputShowsThem) {
     const StillReference half(rig, {100, 70}, picture);
     EXPECT_EQ(half.rig().still.size, (Size{140, 98}));
     EXPECT_DOUBLE_EQ(half.rig().still.fx, rig.still.fx * 0.7);
-    EXPECT_EQ(half.detail().size(), (Size{140, 98}));
+    EXPECT_EQ(half.raised().size(), (Size{140, 98}));
 }
 
 std::vector<std::uint8_t> halved(const std::vector<std::uint8_t>& rgba, Size size) {

@@ -137,11 +137,11 @@ struct Classified {
 };
 
 Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& changed,
-                    bool hasStill) {
+                    bool hasStill, std::uint32_t detailFrame = 1) {
     const gpu::Texture cells = floatTexture(kWhole, gpu::TexelFormat::Rgba32F, field.values);
     const gpu::Texture weights = uploaded(TestPicture(kWhole));
     gpu::Buffer changedBuffer(changed.size() * 4), classes(8 * kTileCount);
-    gpu::Buffer draws(sizeof(Draws)), lists(16 * kTileCount);
+    gpu::Buffer draws(sizeof(Draws)), lists(20 * kTileCount);
     changedBuffer.write(std::span(changed));
     gpu::ComputePass<params::ClassifyTiles> pass("superres_classify.comp");
     pass.run({.columns = kClassified.width,
@@ -150,7 +150,8 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
               .cellRows = kWhole.height,
               .leastWeight = params::kLeastDetailWeight,
               .plainFlow = params::kPlainFlow,
-              .stillGiven = hasStill ? 1 : 0},
+              .stillGiven = hasStill ? 1 : 0,
+              .detailFrame = detailFrame},
              {gpu::storage(0, changedBuffer), gpu::storage(1, classes), gpu::storage(2, draws),
               gpu::storage(3, lists), gpu::sampler(0, cells), gpu::sampler(1, weights)},
              {1, 1, 1});
@@ -189,15 +190,34 @@ unsigned classIn(const twin::Cells& field, int tile) {
     return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width);
 }
 
+/// Those of `tiles` and all around them.
+std::set<std::uint32_t> withNeighbours(const std::set<std::uint32_t>& tiles) {
+    std::set<std::uint32_t> out;
+    for (const std::uint32_t tile : tiles)
+        for (int i = 0; i < 9; ++i) {
+            const int x = static_cast<int>(tile & 0xFFFFU) + i % 3 - 1,
+                      y = static_cast<int>(tile >> 16) + i / 3 - 1;
+            if (x >= 0 && y >= 0 && x < kClassified.width && y < kClassified.height)
+                out.insert(static_cast<std::uint32_t>(x | (y << 16)));
+        }
+    return out;
+}
+
+void expectLists(const Classified& got, const std::array<std::set<std::uint32_t>, 4>& wanted) {
+    for (unsigned k = 0; k < wanted.size(); ++k) {
+        const auto* list = &got.lists[k * kTileCount];
+        EXPECT_EQ(got.draws.commands[k][1], wanted[k].size()) << "list " << k;
+        EXPECT_EQ(std::set<std::uint32_t>(list, list + wanted[k].size()), wanted[k]);
+    }
+}
+
 TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
     const twin::Cells field = mixedField();
-    const Classified got = classify(field, changes(0), true);
     std::array<std::set<std::uint32_t>, 4> wanted;  // all, upscaled, trusted, blended
     std::array<unsigned, 4> counts{};
     for (int i = 0; i < static_cast<int>(kTileCount); ++i) {
         const int x = i % kClassified.width, y = i / kClassified.width;
         const unsigned kind = i % 3 == 0 ? 0 : classIn(field, i);
-        EXPECT_EQ(got.classes[i][0], kind) << "tile " << i;
         ++counts[kind];
         const auto packed = static_cast<std::uint32_t>(x | (y << 16));
         if (kind != 0) {
@@ -205,14 +225,26 @@ TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
             wanted[kind].insert(packed);
         }
     }
+    const auto changed = wanted[0];
+    std::set<std::uint32_t> detailed = wanted[2];
+    detailed.insert(wanted[3].begin(), wanted[3].end());
+    const auto around = withNeighbours(detailed);
+    wanted[0].insert(around.begin(), around.end());
+    EXPECT_GT(wanted[0].size(), changed.size());
+    EXPECT_LT(wanted[0].size(), kTileCount) << "some tiles are far from all detail";
+
+    const Classified got = classify(field, changes(0), true);
+    expectLists(got, wanted);
+    for (unsigned i = 0; i < kTileCount; ++i)
+        EXPECT_EQ(got.classes[i][0], i % 3 == 0 ? 0 : classIn(field, static_cast<int>(i)));
     for (unsigned k = 0; k < 4; ++k) {
         EXPECT_GT(counts[k], 0U) << "the field shows every class";
         EXPECT_EQ(got.draws.counts[k], counts[k]);
-        const auto* list = &got.lists[k * kTileCount];
-        EXPECT_EQ(got.draws.commands[k][1], wanted[k].size());
-        EXPECT_EQ(std::set<std::uint32_t>(list, list + wanted[k].size()), wanted[k]);
     }
     EXPECT_EQ(got.draws.counts[6], kTileCount * 128);  // mean confidence 1/2, in 1/256
+
+    wanted[0] = changed;
+    expectLists(classify(field, changes(0), true, 0), wanted);
 }
 
 TEST_F(Classify, AWholeFrameListsNothing) {
@@ -224,16 +256,18 @@ TEST_F(Classify, AWholeFrameListsNothing) {
 
 TEST_F(Classify, AnEnlargedFrameListsTheTilesWithDetail) {
     const twin::Cells field = mixedField();
+    std::array<std::set<std::uint32_t>, 4> wanted;
+    for (int i = 0; i < static_cast<int>(kTileCount); ++i) {
+        const unsigned kind = classIn(field, i);
+        const int x = i % kClassified.width, y = i / kClassified.width;
+        if (kind < 2) continue;
+        wanted[kind].insert(static_cast<std::uint32_t>(x | (y << 16)));
+    }
     const Classified got = classify(field, changes(2), true);
-    std::array<unsigned, 4> counts{};
-    for (int i = 0; i < static_cast<int>(kTileCount); ++i)
-        ++counts[classIn(field, i)];
-    EXPECT_EQ(got.draws.commands[0][1], 0U);
-    EXPECT_EQ(got.draws.commands[1][1], 0U);
+    expectLists(got, wanted);
     for (const unsigned k : {2U, 3U}) {
-        EXPECT_GT(counts[k], 0U);
-        EXPECT_EQ(got.draws.commands[k][1], counts[k]);
-        EXPECT_EQ(got.draws.counts[k], counts[k]);
+        EXPECT_GT(wanted[k].size(), 0U);
+        EXPECT_EQ(got.draws.counts[k], wanted[k].size());
     }
 }
 

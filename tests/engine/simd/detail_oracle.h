@@ -73,13 +73,25 @@ public:
     [[nodiscard]] double blended(int x, int y, int c, const Grey& still) const {
         return std::lerp(enlarged(x, y, c), there(x, y, still), lookUpAt(x, y, 3));
     }
+    /// From now on, what the video sees is the mean of the still itself, as shaders take it, and
+    /// not that of the warped still.
+    void seeStill() {
+        ofWarped_ = false;
+        detail_ = {};
+    }
     /// With the detail of a still's luma, see lumaPlane(). Slow at first.
     [[nodiscard]] double withStill(int x, int y, int c, const Grey& still) {
         if (detail_.values.empty()) {
             const Grey warped =
                 twin::greyOf(output_, [&](int i, int j) { return there(i, j, still); });
-            const Grey shown = twin::stillLow(warped, frame_.rig.video.size, 1);
-            detail_ = twin::enlarged(shown, output_);
+            const Size video = frame_.rig.video.size;
+            const Grey seen =
+                ofWarped_ ? twin::seenOf(warped, video)
+                          : twin::seen(video, [&](double i, double j) {
+                                return there(i * output_.width / video.width - 0.5,
+                                             j * output_.height / video.height - 0.5, still);
+                            });
+            detail_ = twin::enlarged(seen, output_);
             for (std::size_t i = 0; i < detail_.values.size(); ++i)
                 detail_.values[i] = warped.values[i] - detail_.values[i];
         }
@@ -91,13 +103,13 @@ public:
     }
 
 private:
-    [[nodiscard]] double lookUpAt(int x, int y, int channel) const {
+    [[nodiscard]] double lookUpAt(double x, double y, int channel) const {
         const Size video = frame_.rig.video.size;
         return lookUp_[channel].bilinear((x + 0.5) * video.width / output_.width / 4 - 0.5,
                                          (y + 0.5) * video.height / output_.height / 4 - 0.5);
     }
-    /// What the still shows where an output pixel looks.
-    [[nodiscard]] double there(int x, int y, const Grey& still) const {
+    /// What the still shows where a place of the output looks.
+    [[nodiscard]] double there(double x, double y, const Grey& still) const {
         const double px = (x + 0.5) * still.size.width / output_.width + lookUpAt(x, y, 0) - 0.5,
                      py = (y + 0.5) * still.size.height / output_.height + lookUpAt(x, y, 1) - 0.5;
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
@@ -129,7 +141,7 @@ private:
     const DetailCase& frame_;
     Size output_;
     DetailOptions options_;
-    bool usesStill_;
+    bool usesStill_, ofWarped_ = true;
     std::array<Grey, 3> video_;
     Grey residual_, detail_;
     std::array<Grey, 4> lookUp_;

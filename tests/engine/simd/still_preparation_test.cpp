@@ -1,6 +1,5 @@
 #include "base/image_layout.h"
 #include "pipeline/simd/still_preparation.h"
-#include "pipeline/superres/still_scale.h"
 #include "tests/engine/simd/detail_case.h"
 #include "tests/oracle/still.h"
 
@@ -47,7 +46,7 @@ struct TestPicture {
     ImageView view;
 };
 
-TEST(StillPreparation, LumaAndDetailAreThoseOfTheOracleAtAnySize) {
+TEST(StillPreparation, LumaIsThatOfTheOracleAtAnySize) {
     struct Sizes {
         Size video, still, output;
     };
@@ -59,25 +58,17 @@ TEST(StillPreparation, LumaAndDetailAreThoseOfTheOracleAtAnySize) {
         const TestPicture picture(still);
         s.preparation.set(picture.view);
         EXPECT_EQ(s.preparation.rig().still.size, still);
-        const Grey luma = lumaOf(picture.view);
-        EXPECT_LE(twin::worst(luma, s.preparation.luma()), 1);
-        const Grey wanted = twin::stillDetail(luma, lowSizeOf(s.rig), 0.08);
-        EXPECT_LE(twin::worst(wanted, s.preparation.detail()), 2.2) << still.width;
+        EXPECT_LE(twin::worst(lumaOf(picture.view), s.preparation.luma()), 1);
     }
 }
 
 TEST(StillPreparation, StillFinerThanTheOutputIsReducedFirst) {
-    const Size still{300, 225}, output{100, 75};
-    Still s({80, 60}, still, output);
-    const TestPicture picture(still);
-    s.preparation.set(picture.view);
-    const Size size = s.preparation.rig().still.size;
-    ASSERT_EQ(size, (Size{140, 105}));
-    const Grey luma = twin::reduced(lumaOf(picture.view), size);
-    const Grey wanted = twin::stillDetail(luma, lowSizeOf(s.preparation.rig()), 0);
-    EXPECT_EQ(s.preparation.detail().size, size);
+    const Size still{300, 225};
+    Still s({80, 60}, still, {100, 75});
+    s.preparation.set(TestPicture(still).view);
+    EXPECT_EQ(s.preparation.rig().still.size, (Size{140, 105}));
+    EXPECT_EQ(s.preparation.pairs().size, (Size{140, 105}));
     EXPECT_EQ(s.preparation.luma().size, still);
-    EXPECT_LE(twin::worst(wanted, s.preparation.detail()), 2.2);
 }
 
 TEST(StillPreparation, PairsHoldEachPixelAndTheOneBelow) {
@@ -102,17 +93,17 @@ TEST(StillPreparation, PairsHoldEachPixelAndTheOneBelow) {
     }
 }
 
-TEST(StillPreparation, ConstantStillHasNoDetail) {
+TEST(StillPreparation, ConstantStillStaysConstant) {
     for (const int level : {0, 90, 255}) {
         for (const Size output : {Size{200, 140}, Size{60, 42}}) {
             Still s({50, 35}, {200, 140}, output);
             TestPicture picture({200, 140});
             std::ranges::fill(picture.bytes, static_cast<std::uint8_t>(level));
             s.preparation.set(picture.view);
-            const Rows<const std::uint8_t> detail = s.preparation.detail();
-            for (int y = 0; y < detail.size.height; ++y)
-                for (int x = 0; x < detail.size.width; ++x)
-                    ASSERT_EQ(detail[y][x], 128);
+            const StillPairs pairs = s.preparation.pairs();
+            for (int y = 0; y < pairs.size.height; ++y)
+                for (int x = 0; x < pairs.size.width; ++x)
+                    ASSERT_EQ(pairs.data[y * pairs.pitch + x], 0x101 * level);
         }
     }
 }
@@ -218,9 +209,10 @@ TEST(StillPreparation, AnyNumberOfThreadsGivesTheSame) {
     Still one({50, 35}, {200, 140}, {200, 140}, 1), four({50, 35}, {200, 140}, {200, 140}, 4);
     one.preparation.set(picture.view);
     four.preparation.set(picture.view);
+    const StillPairs a = one.preparation.pairs(), b = four.preparation.pairs();
     for (int y = 0; y < 140; ++y)
-        ASSERT_TRUE(std::equal(one.preparation.detail()[y], one.preparation.detail()[y] + 200,
-                               four.preparation.detail()[y]));
+        ASSERT_TRUE(
+            std::equal(a.data + y * a.pitch, a.data + y * a.pitch + 200, b.data + y * b.pitch));
 }
 
 }  // namespace

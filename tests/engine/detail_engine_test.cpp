@@ -1,0 +1,167 @@
+#include "base/workers.h"
+#include "pipeline/engine/engine.h"
+#include "tests/engine/gl_test.h"
+#include "tests/engine/simd/detail_oracle.h"
+
+namespace mfar {
+namespace {
+
+using simd::DetailCase;
+
+/// The detail step of either engine with a still from either engine.
+struct StepEngines {
+    EngineKind detail, still;
+};
+
+class DetailEngineTest : public GlTest, public testing::WithParamInterface<StepEngines> {};
+INSTANTIATE_TEST_SUITE_P(Engines, DetailEngineTest,
+                         testing::Values(StepEngines{EngineKind::Gles, EngineKind::Gles},
+                                         StepEngines{EngineKind::Gles, EngineKind::Simd},
+                                         StepEngines{EngineKind::Simd, EngineKind::Gles},
+                                         StepEngines{EngineKind::Simd, EngineKind::Simd}),
+                         [](const auto& tested) {
+                             return std::string(nameOf(tested.param.detail)) + "_still_" +
+                                    std::string(nameOf(tested.param.still));
+                         });
+
+/// Shaders clamp what they keep between passes: leaves room for what sharpening overshoots.
+DetailCase withRoom(DetailCase frame) {
+    for (std::vector<std::uint8_t>* pixels : {&frame.videoPixels, &frame.stillPixels})
+        for (std::uint8_t& byte : *pixels)
+            byte = static_cast<std::uint8_t>(51 + byte * 3 / 5);
+    frame.video.take(frame.videoView());
+    return frame;
+}
+
+/// One engine's detail step, the still of another, frames one after the other.
+class Drawing {
+public:
+    Drawing(const StepEngines& engines, const DetailCase& first, Size output)
+        : setup_{first.rig, output, {}, std::make_shared<Workers>(2)},
+          stillEngine_(engineOf(engines.still)), detailEngine_(engineOf(engines.detail)),
+          still_(stillEngine_->still()), step_(detailEngine_->detail()),
+          pictures_(still_->run(first.stillView(), SuperResMode::Detail)) {}
+
+    Rows<const std::uint32_t> draw(const DetailCase& frame) {
+        CellWeights weights;
+        weights.weighed.writtenOnHost(rowsOf(frame.weighed, frame.cells));
+        weights.lookUps.writtenOnHost(rowsOf(frame.lookUps, frame.cells));
+        weights.trust.writtenOnHost(rowsOf(frame.trust, frame.cells));
+        const DetailStep::Matched matched{pictures_, weights};
+        const ImageView view = frame.videoView();
+        step_->draw({view, frame.video, ++number_}, &matched, frame.work,
+                    {.mode = SuperResMode::Detail, .upscaledTiles = false, .plainTiles = false});
+        return step_->output().host();
+    }
+    /// Its raised luma.
+    [[nodiscard]] twin::Grey luma() const {
+        if (!pictures_.raised.isEmpty()) {
+            const Rows<const std::uint8_t> raised = pictures_.raised.host();
+            return twin::greyOf(raised.size, [&](int x, int y) { return double(raised[y][x]); });
+        }
+        const Rows<const std::uint16_t> pairs = pictures_.pairs.host();
+        return twin::greyOf(pairs.size, [&](int x, int y) { return double(pairs[y][x] & 255); });
+    }
+
+private:
+    template <class T>
+    static Rows<const T> rowsOf(const std::vector<T>& cells, Size size) {
+        return {cells.data(), size.width, size};
+    }
+    [[nodiscard]] std::unique_ptr<Engine> engineOf(EngineKind kind) const {
+        return kind == EngineKind::Gles ? makeGlesEngine(setup_) : makeSimdEngine(setup_);
+    }
+
+    StepSetup setup_;
+    std::unique_ptr<Engine> stillEngine_, detailEngine_;
+    std::unique_ptr<StillStep> still_;
+    std::unique_ptr<DetailStep> step_;
+    const StillPictures& pictures_;
+    std::uint64_t number_ = 0;
+};
+
+double channel(Rows<const std::uint32_t> picture, int x, int y, int c) {
+    return static_cast<double>(picture[y][x] >> (8 * c) & 255U);
+}
+
+TEST_P(DetailEngineTest, WholeFrameIsTheOraclesAtAnySize) {
+    const bool shaders = GetParam().detail == EngineKind::Gles;
+    for (const auto& [video, stillSize, output] : simd::kSizes) {
+        const DetailCase frame = withRoom(DetailCase(video, stillSize));
+        Drawing drawing(GetParam(), frame, output);
+        const Rows<const std::uint32_t> drawn = drawing.draw(frame);
+        simd::Wanted wanted(frame, output, simd::kDetail, true);
+        if (shaders) wanted.seeStill();
+        const twin::Grey still = drawing.luma();
+        double squares = 0;
+        for (int y = 0; y < output.height; ++y)
+            for (int x = 0; x < output.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const double error = channel(drawn, x, y, c) - wanted.withStill(x, y, c, still);
+                    // Shaders keep 8 bits after each pass.
+                    ASSERT_LE(std::abs(error), shaders ? 3.5 : 0.8)
+                        << output.width << ": " << x << " " << y << " " << c;
+                    squares += error * error;
+                }
+        const double rms = std::sqrt(squares / (3.0 * output.width * output.height));
+        EXPECT_LE(rms, shaders ? 0.75 : 0.33) << output.width;
+    }
+}
+
+// Look-ups move everywhere, but only some tiles are drawn: their detail is made of what lies around
+// them, too.
+TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
+    for (const auto& [video, stillSize, output] : simd::kSizes) {
+        const DetailCase before = withRoom(DetailCase(video, stillSize));
+        DetailCase part = withRoom(DetailCase(video, stillSize, 0.4));
+        for (LookUpCell& cell : part.lookUps) {
+            cell.x += 3.5F;
+            cell.y -= 2.25F;
+        }
+        DetailCase whole = part;
+        whole.work = before.work;
+        Drawing drawing(GetParam(), before, output), other(GetParam(), before, output);
+        drawing.draw(before);
+        const Rows<const std::uint32_t> some = drawing.draw(part), all = other.draw(whole);
+        Drawing third(GetParam(), before, output);
+        const Rows<const std::uint32_t> old = third.draw(before);
+        int most = 0;
+        for (int y = 0; y < output.height; ++y)
+            for (int x = 0; x < output.width; ++x) {
+                const bool changed = part.work
+                                         .at(simd::tileAt(x, video.width, output.width),
+                                             simd::tileAt(y, video.height, output.height))
+                                         .changed != 0;
+                ASSERT_EQ(some[y][x], changed ? all[y][x] : old[y][x])
+                    << output.width << ": " << x << " " << y;
+                most = std::max(most, std::abs(static_cast<int>(channel(all, x, y, 1)) -
+                                               static_cast<int>(channel(old, x, y, 1))));
+            }
+        EXPECT_TRUE(most > 5 || output == video) << "what the still shows moves: " << most;
+    }
+}
+
+using DetailEngines = GlTest;
+
+// The kernels take the mean of the warped still, which has to be finer than the video for it.
+TEST_F(DetailEngines, DrawTheSamePicture) {
+    for (const auto& [video, stillSize, output] : simd::kSizes) {
+        if (2 * output.width < 3 * video.width) continue;
+        const DetailCase frame = withRoom(DetailCase(video, stillSize));
+        Drawing gles({EngineKind::Gles, EngineKind::Simd}, frame, output),
+            simd({EngineKind::Simd, EngineKind::Simd}, frame, output);
+        const Rows<const std::uint32_t> a = gles.draw(frame), b = simd.draw(frame);
+        double squares = 0;
+        for (int y = 0; y < output.height; ++y)
+            for (int x = 0; x < output.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    const double off = channel(a, x, y, c) - channel(b, x, y, c);
+                    ASSERT_LE(std::abs(off), 4) << output.width << ": " << x << " " << y;
+                    squares += off * off;
+                }
+        EXPECT_LE(std::sqrt(squares / (3.0 * output.width * output.height)), 0.85) << output.width;
+    }
+}
+
+}  // namespace
+}  // namespace mfar
