@@ -88,7 +88,7 @@ void planeSearch(Context& c) {
     view.T_still_video.translation *= 0.2 / view.T_still_video.translation.norm();
     c.checks.within(medianErrorOf(view), 0, 0.45, "median error of a plane [px]");
     const LumaImage video = view.video(), still = view.still();
-    EpipolarSearch metres({camera, camera, {}}, workers()), other = metres;
+    EpipolarSearch metres({camera, camera, {}}, workers()), other({camera, camera, {}}, workers());
     metres.setStill(viewOf(still));
     other.setStill(viewOf(still));
     RigidTransform scaled = view.T_still_video;
