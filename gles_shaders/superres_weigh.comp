@@ -7,7 +7,8 @@
 // surface from the same side, and what they have in common at the video's resolution tells little about
 // detail that aliases there: a match good enough to be right is trusted wholly. Where the flow bends,
 // the surface is seen from another side, and trust falls with the squared share of the video's variance
-// that the still explains.
+// that the still explains. Where the flow is torn, look-ups between cells lead nowhere, and nothing is
+// trusted.
 // Range: cellField -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
 // Range: lookupField -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
 #include "pipeline/engine/params/weigh.h"
@@ -36,6 +37,14 @@ float bendAt(ivec2 c) {
     vec2 dx = flowAt(c + ivec2(1, 0)) - flowAt(c - ivec2(1, 0));
     vec2 dy = flowAt(c + ivec2(0, 1)) - flowAt(c - ivec2(0, 1));
     return sqrt(dot(dx, dx) + dot(dy, dy)) / 8.0;
+}
+
+// How much the flow's step changes at the cell [px]. Turns and zooms change the flow, but not its step.
+float tearAt(ivec2 c) {
+    vec2 here = 2.0 * flowAt(c);
+    vec2 dx = flowAt(c + ivec2(1, 0)) + flowAt(c - ivec2(1, 0)) - here;
+    vec2 dy = flowAt(c + ivec2(0, 1)) + flowAt(c - ivec2(0, 1)) - here;
+    return sqrt(dot(dx, dx) + dot(dy, dy));
 }
 
 vec4 statisticsAt(ivec2 c) {
@@ -75,7 +84,8 @@ void main() {
     float ncc2 = covariance * covariance / ((varianceVideo + noise) * (varianceStill + noise));
     float apart = smoothstep(kEvenFlow, kBentFlow, bendAt(cell));
     float trust = mix(kLookUpLoss * smoothstep(kUnlikePatches, kAlikePatches, ncc2), ncc2 * ncc2, apart);
-    float weight = gain * trust * confidence;
+    float torn = smoothstep(kSmoothStep, kTornStep, tearAt(cell));
+    float weight = gain * trust * confidence * (1.0 - torn);
     if (!(weight > kSmallestWeight)) weight = 0.0;
     float signal = clamp((varianceVideo - 2.0 * noise) / (varianceVideo + noise), 0.0, 1.0);
     float textured = step(kTexturedContrast * (noise + kPatchPixels), varianceVideo);

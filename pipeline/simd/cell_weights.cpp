@@ -51,6 +51,18 @@ HWY_INLINE V Bend(const RowsAround& flow, int x) {
     return hn::MulAdd(dx, dx, hn::Mul(dy, dy));
 }
 
+/// Square of how much the flow's step changes at the cell.
+HWY_INLINE V Tear(const RowsAround& flow, int x) {
+    const D d;
+    const V here = hn::Add(hn::LoadU(d, flow.here + x), hn::LoadU(d, flow.here + x));
+    const auto change = [&](const float* before, const float* after) HWY_ATTR {
+        return hn::Sub(hn::Add(hn::LoadU(d, before), hn::LoadU(d, after)), here);
+    };
+    const V dx = change(flow.here + x - 1, flow.here + x + 1);
+    const V dy = change(flow.above + x, flow.below + x);
+    return hn::MulAdd(dx, dx, hn::Mul(dy, dy));
+}
+
 /// Means over the 2x2 half-resolution cells nearest to each of the chunk's cells.
 HWY_INLINE void HalfAround(const WeighRow::Half& rows, int chunk, LowRow& out) {
     const hn::CappedTag<float, kChunk / 2> d;
@@ -93,7 +105,9 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
                            Const(params::kLookUpLoss));
     const V trust =
         Mix(even, hn::Mul(ncc2, ncc2), SmoothStep(params::kEvenFlow, params::kBentFlow, bend));
-    const V weight = hn::Mul(hn::Mul(gain, trust), confidence);
+    const V tear = hn::Sqrt(hn::Add(Tear(row.flowX, x), Tear(row.flowY, x)));
+    const V whole = hn::Sub(Const(1), SmoothStep(params::kSmoothStep, params::kTornStep, tear));
+    const V weight = hn::Mul(hn::Mul(gain, trust), hn::Mul(confidence, whole));
     // A flow that is not a number is no even one.
     const auto counts = hn::And(hn::Gt(weight, Const(params::kSmallestWeight)), hn::Eq(bend, bend));
     const V signal = hn::Mul(hn::NegMulAdd(Const(2), noise, video), perVideo);

@@ -46,6 +46,14 @@ inline double bendAt(const Cells& flow, int x, int y) {
     return std::sqrt(dx.head<2>().squaredNorm() + dy.head<2>().squaredNorm()) / 8;
 }
 
+/// How much the flow's step from cell to cell changes at one [px].
+inline double tearAt(const Cells& flow, int x, int y) {
+    const Eigen::Vector4d here = 2 * flow.at(x, y);
+    const Eigen::Vector4d dx = flow.at(x + 1, y) + flow.at(x - 1, y) - here;
+    const Eigen::Vector4d dy = flow.at(x, y + 1) + flow.at(x, y - 1) - here;
+    return std::sqrt(dx.head<2>().squaredNorm() + dy.head<2>().squaredNorm());
+}
+
 inline double smoothstep(double low, double high, double v) {
     const double t = std::clamp((v - low) / (high - low), 0.0, 1.0);
     return t * t * (3 - 2 * t);
@@ -74,7 +82,8 @@ inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& hal
     const double trust = std::lerp(
         params::kLookUpLoss * smoothstep(params::kUnlikePatches, params::kAlikePatches, ncc2),
         ncc2 * ncc2, smoothstep(params::kEvenFlow, params::kBentFlow, bendAt(flow, x, y)));
-    const double w = a * trust * conf;
+    const double torn = smoothstep(params::kSmoothStep, params::kTornStep, tearAt(flow, x, y));
+    const double w = a * trust * conf * (1 - torn);
     const bool textured = s[1] >= params::kTexturedContrast * (noise + params::kPatchPixels);
     return {w > params::kSmallestWeight ? w : 0, conf,
             std::clamp((s[1] - 2 * noise) / (s[1] + noise), 0.0, 1.0),

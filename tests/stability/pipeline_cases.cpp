@@ -40,6 +40,14 @@ VirtualObject objectFor(Context& c, double unit) {
     return o;
 }
 
+void checkDepth(Context& c, const Pipeline& p) {
+    const InverseDepthField& depth = p.inverseDepth();
+    for (std::size_t i = 0; i < depth.rho.size(); ++i) {
+        c.checks.within(depth.rho[i], 0, 1e30, "real inverse depth");
+        c.checks.require(depth.variance[i] >= 0, "variance of real inverse depth");
+    }
+}
+
 void checkPipeline(Context& c, const Pipeline& p, const StereoRig& rig) {
     for (const float v : p.readFlow())
         c.checks.within(v, -2e4, 2e4, "flow");
@@ -51,11 +59,6 @@ void checkPipeline(Context& c, const Pipeline& p, const StereoRig& rig) {
     for (const double v : {s.meanConfidence, s.explained, s.changed})
         c.checks.within(v, 0, 1, "statistics");
     c.checks.within(s.epipolarError, 0, 1e7, "epipolar error");
-    const InverseDepthField& depth = p.inverseDepth();
-    for (std::size_t i = 0; i < depth.rho.size(); ++i) {
-        c.checks.within(depth.rho[i], 0, 1e30, "real inverse depth");
-        c.checks.require(depth.variance[i] >= 0, "variance of real inverse depth");
-    }
     c.gl.frame(c.checks, pixelsOf(rig.video.size));
 }
 
@@ -73,7 +76,8 @@ void frames(Context& c) {
     if (c.scale == Scale::Mixed || rig.still.size.width < rig.video.size.width)
         options.output = {2 * rig.video.size.width, 2 * rig.video.size.height};
     Pipeline pipeline(rig, options);
-    if (c.hostile.chance(0.7)) {
+    const bool hasObjects = c.hostile.chance(0.7);
+    if (hasObjects) {
         std::vector<VirtualObject> objects;
         for (int i = c.hostile.integer(1, 3); i > 0; --i)
             objects.push_back(objectFor(c, unit));
@@ -87,6 +91,7 @@ void frames(Context& c) {
             pipeline.setStill(c.hostile.picture(rig.still.size).view(), time, poseFor(c, unit));
         time = time + std::chrono::milliseconds(c.hostile.pick({33, 0, -33, 100000}));
         pipeline.run(c.hostile.picture(rig.video.size).view(), time, poseFor(c, unit));
+        if (hasObjects || options.depthEverywhere) checkDepth(c, pipeline);
         checkPipeline(c, pipeline, rig);
     }
 }

@@ -28,6 +28,10 @@ inline constexpr float kAlikePatches = 0.6F;
 /// Change of the flow per pixel that noise explains, and that makes another view of it.
 inline constexpr float kEvenFlow = 0.015F;
 inline constexpr float kBentFlow = 0.07F;
+/// Change of the flow's step from one cell to the next that a surface may show, and that means two
+/// things at different places: between them look-ups lead nowhere [video px].
+inline constexpr float kSmoothStep = 1.0F;
+inline constexpr float kTornStep = 4.0F;
 /// Weights below change nothing that is seen.
 inline constexpr float kSmallestWeight = 0.004F;
 /// Variance of a textured patch: times that of the noise and of one grey level.

@@ -57,13 +57,13 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
 }
 
 TEST_F(Weigh, WeightsMatchTwin) {
-    // From an even flow on the left to one that bends on the right.
+    // From an even flow on the left to one that bends on the right, torn a little at the bottom.
     twin::Cells displacement{kWhole, {}};
     for (int y = 0; y < kWhole.height; ++y)
         for (int x = 0; x < kWhole.width; ++x)
-            for (const float v :
-                 {0.012F * static_cast<float>(x * x), 0.3F * static_cast<float>(y % 2),
-                  10.0F + static_cast<float>(x), 20.0F})
+            for (const float v : {0.012F * static_cast<float>(x * x),
+                                  (2 * y > kWhole.height ? 0.9F : 0.3F) * static_cast<float>(y % 2),
+                                  10.0F + static_cast<float>(x), 20.0F})
                 displacement.values.push_back(v);
     const twin::Cells statistics = randomStatistics(kWhole, 1), half = randomStatistics(kHalf, 2);
     const Weighed got = weigh(displacement, statistics, half, kSigma);
@@ -110,6 +110,29 @@ TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
             bent.values.push_back(v);
     const double even = weigh(matched, matched, half, 0.3).field.at(5, 5)[2];
     EXPECT_LT(weigh(bent, matched, half, 0.3).field.at(5, 5)[2], 0.4 * even);
+}
+
+// Between two cells that look at different places, look-ups lead nowhere. Turns and zooms tear
+// nothing.
+TEST_F(Weigh, ATornFlowIsNotTrusted) {
+    const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
+    const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
+    const auto weightsWithJump = [&](float jump) {
+        twin::Cells flow{kWhole, {}};
+        for (int i = 0; i < kWhole.width * kWhole.height; ++i) {
+            const int x = i % kWhole.width, y = i / kWhole.width;
+            for (const float v :
+                 {(x > 5 ? jump : 0.0F) + 0.2F * static_cast<float>(x + y), 0.0F, 0.0F, 0.0F})
+                flow.values.push_back(v);
+        }
+        return weigh(flow, alike, half, 0.3).field;
+    };
+    const twin::Cells even = weightsWithJump(0), torn = weightsWithJump(5);
+    for (const int x : {5, 6})
+        EXPECT_EQ(torn.at(x, 5)[2], 0);
+    for (const int x : {4, 7})
+        EXPECT_NEAR(torn.at(x, 5)[2], even.at(x, 5)[2], 1e-4);
+    EXPECT_GT(even.at(5, 5)[2], 0.9);
 }
 
 TEST_F(Weigh, AlikeTextureCountsFullyAndUnrelatedNotAtAll) {

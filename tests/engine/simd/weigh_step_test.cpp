@@ -215,7 +215,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{{149, 37}, {300, 75}, true, 1}, Shape{{128, 64}, {512, 256}, false, 0}));
 
 WeighCase plainCase() {
-    return {{61, 45}, {220, 163}, true, 0};
+    return {{93, 61}, {340, 223}, true, 0};
 }
 
 template <class T>
