@@ -55,7 +55,8 @@ TEST(EpipolarLens, CopiesShareRaysAndAPartLeavesThoseOfTheWhole) {
     const EpipolarLens whole(fisheye(), 1);
     EpipolarLens part = whole;
     EXPECT_EQ(part.raysX().data(), whole.raysX().data());
-    const std::vector<float> x = whole.raysX(), y = whole.raysY();
+    const auto copied = [](const auto& rays) { return std::vector(rays.begin(), rays.end()); };
+    const std::vector<float> x = copied(whole.raysX()), y = copied(whole.raysY());
     const Size size = whole.size();
     for (const PixelRect& pixels :
          {PixelRect{2, 1, 9, 6}, PixelRect{0, 3, 4, 5}, PixelRect{1, 0, size.width, 2}}) {
