@@ -32,8 +32,8 @@ inline constexpr float kSharpenNear = -0.14123F;
 inline constexpr float kSharpenFar = 0.0385F;
 
 /// Width of what a video pixel sees of the still, in its pitch: 4x4 samples a quarter of this apart
-/// (1 is 0.01 dB better on photographs and 0.12 to 0.16 dB worse on synthetic scenes).
-inline constexpr float kSeen = 1.08F;
+/// (1.08 is as good on photographs, and worse where a still was reduced).
+inline constexpr float kSeen = 1.0F;
 
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;  ///< of tiles
