@@ -1,13 +1,17 @@
 #include "daemon/engine_memory.h"
 
+#include "base/whole_file.h"
 #include "daemon/engine_config.h"
 
 #include <nlohmann/json.hpp>
 
 #include <system_error>
 
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <stdexcept>
+#include <string>
 
 namespace mfar {
 namespace {
@@ -46,16 +50,13 @@ bool rememberEngines(const std::filesystem::path& file, const std::string& key,
     if (file.empty()) return false;
     nlohmann::json all = kept(file);
     all[key] = describe(choice);
-    std::filesystem::path part = file;
-    part += ".part";
-    {
-        std::ofstream out(part);
-        out << all.dump(2) << '\n';
-        if (!out.flush()) return false;
+    const std::string text = all.dump(2) + '\n';
+    try {
+        writeWholeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        return true;
+    } catch (const std::runtime_error&) {
+        return false;
     }
-    std::error_code error;
-    std::filesystem::rename(part, file, error);
-    return !error;
 }
 
 }  // namespace mfar

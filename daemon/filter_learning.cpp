@@ -1,6 +1,7 @@
 #include "daemon/filter_learning.h"
 
 #include "base/thread_priority.h"
+#include "base/whole_file.h"
 #include "pipeline/enlarge/stored_numbers.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 #include <utility>
 
 namespace mfar {
@@ -169,18 +171,12 @@ void FilterLearning::learn(const std::stop_token& stop) {
 
 void FilterLearning::store(const std::vector<std::uint8_t>& bytes) {
     if (options_.file.empty()) return;
-    std::filesystem::path part = options_.file;
-    part += ".part";
-    std::ofstream out(part, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(bytes.data()),
-              static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(part, options_.file, error);
-    if (out && !error) return;
-    std::filesystem::remove(part, error);
-    const std::lock_guard lock(mutex_);
-    warnings_.push_back(options_.file.string() + ": learned filters cannot be written");
+    try {
+        writeWholeFile(options_.file, bytes);
+    } catch (const std::runtime_error& fault) {
+        const std::lock_guard lock(mutex_);
+        warnings_.push_back(std::string(fault.what()) + "; learned filters cannot be written");
+    }
 }
 
 }  // namespace mfar

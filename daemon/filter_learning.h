@@ -51,7 +51,7 @@ public:
     /// Forgets everything, the file too.
     void reset();
     [[nodiscard]] LearningCounts counts() const;
-    /// What has gone wrong with the file, each once.
+    /// Faults of the file since the last call.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:

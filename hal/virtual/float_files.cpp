@@ -1,5 +1,5 @@
+#include "base/whole_file.h"
 #include "hal/virtual/image_files.h"
-#include "hal/virtual/whole_file.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 #include "hal/virtual/image_files.h"
 
 #include "base/image_layout.h"
+#include "base/whole_file.h"
 #include "hal/image_codec.h"
 #include "hal/virtual/bgr_picture.h"
-#include "hal/virtual/whole_file.h"
 
 #include <fmt/format.h>
 #include <opencv2/core.hpp>

@@ -2,8 +2,8 @@
 
 #include "base/calibration/sensor_yaml.h"
 #include "base/image_layout.h"
+#include "base/whole_file.h"
 #include "hal/virtual/image_files.h"
-#include "hal/virtual/whole_file.h"
 
 #include <fmt/format.h>
 

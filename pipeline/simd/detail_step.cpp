@@ -35,8 +35,8 @@ struct DetailStep::Frame {
     const DetailInput& in;
     DetailOptions options;
     Rows<std::uint32_t> out;
-    bool usesStill, blends, linear;
-    const FilterBank* bank;  // null: nothing is learned
+    bool warps, blends, linear;  // how the still is used: at most one of both
+    const FilterBank* bank;      // null: nothing is learned
     BlendPicture picture;
     const DetailStep& step;
 };
@@ -63,7 +63,7 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     const TileWork& work = frame.in.work;
     const TileWork::Tile& tile = work.at(column, row);
     if (!work.drawsWhole() && tile.changed == 0) return Show::Nothing;
-    if (!frame.usesStill) return Show::Video;
+    if (!frame.warps && !frame.blends) return Show::Video;
     const bool upscaled = classes_.at(column, row) == TileClass::Upscaled;
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
@@ -93,13 +93,13 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
     Frame frame{in,
                 options,
                 out,
-                usesStill,
-                blends,
+                usesStill && !blends,
+                usesStill && blends,
                 !options.cubic && options.mode == SuperResMode::Off,
                 options.mode == SuperResMode::Detail ? options.learned : nullptr,
                 {},
                 *this};
-    if (usesStill && blends) frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
+    if (frame.blends) frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
     choose(frame);
     // One pointer and one reference: std::function keeps them without allocating.
     workers_->forRange(output_.height, kGrain, [this, &frame](int first, int last) {
@@ -157,17 +157,15 @@ void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& s
         if (detail) append(scratch.detailSpans, {from, to});
     }
     if (frame.bank != nullptr) scratch.learned.cover(scratch.learnedSpans);
-    if (frame.usesStill && !frame.blends) scratch.warped.cover(scratch.detailSpans);
+    if (frame.warps) scratch.warped.cover(scratch.detailSpans);
 }
 
 void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& strip) const {
-    const bool warps = frame.usesStill && !frame.blends;
-    const bool sharpens = warps && frame.bank == nullptr;
+    const bool sharpens = frame.warps && frame.bank == nullptr;
     s.video.begin(frame.in.video, sharpens ? frame.in.trust : Rows<const TrustCell>{}, videoTaps_,
                   frame.linear, strip.x0, strip.x1);
-    if (frame.usesStill && frame.blends)
-        s.lookUps.begin(frame.in.lookUps, lookUpTaps_, true, strip.x0, strip.x1);
-    if (warps)
+    if (frame.blends) s.lookUps.begin(frame.in.lookUps, lookUpTaps_, true, strip.x0, strip.x1);
+    if (frame.warps)
         s.warped.begin(frame.in.still, frame.in.lookUps, lookUpTaps_, warpedTaps_,
                        {strip.x0, strip.x1});
     if (frame.bank != nullptr)
@@ -188,11 +186,10 @@ void DetailStep::drawRow(const Frame& frame, Scratch& s, int y) const {
     const EnlargedRows rows = s.video.rows(taps.rows);
     std::uint32_t* to = frame.out[y];
     const std::int16_t* learnedRow = s.learnedSpans.empty() ? nullptr : s.learned.row(y);
-    const bool warps = frame.usesStill && !frame.blends && !s.detailSpans.empty();
-    const WarpedRow warped = warps ? s.warped.row(y) : WarpedRow{};
+    const WarpedRow warped = frame.warps && !s.detailSpans.empty() ? s.warped.row(y) : WarpedRow{};
     for (const auto& [begin, end, detail, learned] : s.segments) {
         const std::int16_t* added = learned ? learnedRow : nullptr;
-        if (detail && !frame.blends) {
+        if (detail && frame.warps) {
             detailRow(warped, s.warped.lookUps(y), added, begin, end, s.added[0]);
             added = s.added[0];
         }

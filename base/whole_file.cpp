@@ -1,4 +1,4 @@
-#include "hal/virtual/whole_file.h"
+#include "base/whole_file.h"
 
 #include <fmt/format.h>
 
