@@ -1,6 +1,8 @@
 #include "daemon/filter_learning.h"
 #include "tests/learn/sensor_pair.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -25,8 +27,10 @@ struct FilterLearningTest : testing::Test {
         }
     }
 
-    FilterLearningOptions options{
-        std::filesystem::path(testing::TempDir()) / "mfar-filters.learned", "video, still", true};
+    // Tests run at the same time, each in a process of its own.
+    FilterLearningOptions options{std::filesystem::path(testing::TempDir()) /
+                                      ("mfar-filters-" + std::to_string(::getpid()) + ".learned"),
+                                  "video, still", true};
 };
 
 TEST_F(FilterLearningTest, LearnsAndHandsOutFiltersOnce) {
