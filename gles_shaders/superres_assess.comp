@@ -52,9 +52,6 @@ void main() {
     if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
     int index = cell.y * params.columns + cell.x;
     vec2 u = patches[params.forward + index].xy;
-    vec3 alike = vec3(0.0);
-    if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u)
-        alike = spreadOf(params.video, params.still, cell, u);
 
     vec2 centre = 4.0 * vec2(cell) + 1.5;
     vec2 q = centre + u;
@@ -68,6 +65,10 @@ void main() {
 
     vec2 scale = vec2(params.scaleX, params.scaleY);
     vec2 offset = clamp(inStill - (centre + 0.5) * scale + 0.5, vec2(-kFarthestOffset), vec2(kFarthestOffset));
+    // Last: with this loop in front of the rest, Mesa 22.3's compiler for V3D never ends.
+    vec3 alike = vec3(0.0);
+    if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u)
+        alike = spreadOf(params.video, params.still, cell, u);
     imageStore(displacement, cell, vec4(u, offset));
     imageStore(statistics, cell, vec4(alike, confidence));
 }

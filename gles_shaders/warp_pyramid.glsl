@@ -16,25 +16,26 @@ uvec4 packArea(Area a) {
     return uvec4(packUnorm4x8(a.object), packUnorm4x8(a.catcher), a.id, packUnorm4x8(vec4(a.weights, 0.0, 0.0)));
 }
 
-// Half of an area known is as good as all of it.
-Area merged(Area parts[4]) {
+// Of four texels. Half of an area known is as good as all of it. The parts stay packed and the object is chosen
+// before colours are read, so that all fits the registers of a Mali.
+Area merged(uvec4 parts[4]) {
     Area best = Area(vec4(0.0), vec4(0.0), 0u, vec2(0.0));
     for (int i = 0; i < 4; ++i) {
         float weight = 0.0;
-        vec4 sum = vec4(0.0);
-        for (int j = 0; j < 4; ++j) {
-            if (parts[j].id != parts[i].id) continue;
-            weight += parts[j].weights.x;
-            sum += parts[j].weights.x * parts[j].object;
-        }
+        for (int j = 0; j < 4; ++j)
+            if (parts[j].z == parts[i].z) weight += unpackUnorm4x8(parts[j].w).x;
         if (weight > best.weights.x) {
             best.weights.x = weight;
-            best.object = sum / weight;
-            best.id = parts[i].id;
+            best.id = parts[i].z;
         }
-        best.weights.y += parts[i].weights.y;
-        best.catcher += parts[i].weights.y * parts[i].catcher;
     }
+    for (int i = 0; i < 4; ++i) {
+        vec2 weights = unpackUnorm4x8(parts[i].w).xy;
+        if (parts[i].z == best.id) best.object += weights.x * unpackUnorm4x8(parts[i].x);
+        best.catcher += weights.y * unpackUnorm4x8(parts[i].y);
+        best.weights.y += weights.y;
+    }
+    if (best.weights.x > 0.0) best.object /= best.weights.x;
     best.catcher /= max(best.weights.y, 1e-6);
     best.weights = min(0.5 * best.weights, vec2(1.0));
     return best;

@@ -15,11 +15,13 @@
 #include "hal/gl_context.h"
 #include "tests/engine/gles/shader_budget.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -80,7 +82,40 @@ private:
     std::string log_;
 };
 
-/// Zeros at every binding, and one pixel to draw into: drivers make the final code of a shader when
+struct ImageFormat {
+    std::string_view name;
+    gpu::TexelFormat format;
+};
+
+constexpr std::array kImageFormats{
+    ImageFormat{"rgba8", gpu::TexelFormat::Rgba8},
+    ImageFormat{"r32f", gpu::TexelFormat::R32F},
+    ImageFormat{"rgba16f", gpu::TexelFormat::Rgba16F},
+    ImageFormat{"rgba32f", gpu::TexelFormat::Rgba32F},
+};
+
+/// An image of one pixel at each of its bindings. A driver without one there may end or hang when
+/// it makes the final code.
+std::vector<gpu::Texture> boundImages(const std::string& text) {
+    static const std::regex declared("layout\\(([^)]*)\\)[^;]*\\bimage2D\\b");
+    static const std::regex binding("binding = ([0-9]+)");
+    std::vector<gpu::Texture> images;
+    for (std::sregex_iterator i(text.begin(), text.end(), declared), end; i != end; ++i) {
+        const std::string layout = (*i)[1];
+        std::smatch unit;
+        const auto* known = std::ranges::find_if(kImageFormats, [&](const ImageFormat& f) {
+            return std::regex_search(layout, std::regex("\\b" + std::string(f.name) + "\\b"));
+        });
+        if (known == kImageFormats.end() || !std::regex_search(layout, unit, binding))
+            throw std::runtime_error("an image of unknown format or binding: " + layout);
+        images.emplace_back(Size{1, 1}, known->format);
+        glBindImageTexture(static_cast<GLuint>(std::stoi(unit[1])), images.back().id(), 0, GL_FALSE,
+                           0, GL_WRITE_ONLY, static_cast<GLenum>(known->format));
+    }
+    return images;
+}
+
+/// Zeros in every buffer, and one pixel to draw into: drivers make the final code of a shader when
 /// it is first used.
 class Use {
 public:
@@ -93,8 +128,9 @@ public:
             glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, zeros_.id());
         }
     }
-    void compute(const LinkedProgram& program) {
+    void compute(const LinkedProgram& program, const std::string& text) {
         if (!dispatch_) return;
+        const std::vector<gpu::Texture> images = boundImages(text);
         glUseProgram(program.id());
         glDispatchCompute(1, 1, 1);
         gpu::checkErrors("dispatch");
@@ -140,7 +176,7 @@ bool compiles(const Shader& shader, Use& use) {
     if (shader.name.ends_with(".comp")) {
         const LinkedProgram program({shader});
         log = program.log();
-        if (log.empty()) use.compute(program);
+        if (log.empty()) use.compute(program, shader.text);
     } else {
         log = drawn(shader, use);
     }
