@@ -68,9 +68,21 @@ ExitCode App::run() {
         events_.wake();
     });
     setTicks();
-    while (end.wait_for(Seconds(0)) != std::future_status::ready)
-        handle(events_.wait());
-    return finish(end);
+    try {
+        while (end.wait_for(Seconds(0)) != std::future_status::ready)
+            handle(events_.wait());
+        return finish(end);
+    } catch (const std::exception& error) {
+        // Else the thread would be waited for, which nobody has told to end.
+        input_.request_stop();
+        cancel_.request_stop();
+        if (isReading()) {
+            log_.endStatus();
+            log_.error(error.what());
+            std::_Exit(static_cast<int>(exitCode(error)));
+        }
+        throw;
+    }
 }
 
 std::string App::runSession(const Config& config) {
@@ -97,6 +109,7 @@ void App::handle(const Event& event) {
     case Event::Kind::Wake: break;
     }
     onReady();
+    onRead();
     calls_.runAll(*this);
 }
 
@@ -113,7 +126,7 @@ void App::onReady() {
 }
 
 void App::onSignal(int signal) {
-    if (signal == SIGHUP) return reload();
+    if (signal == SIGHUP) return onHangUp();
     if (stopSignal_) {
         log_.endStatus();
         log_.warning(fmt::format("second {}, ended at once", signalName(signal)));
@@ -150,41 +163,68 @@ void App::stop(const std::string& reason) {
     if (!stopper_.joinable()) stopper_ = std::jthread([this] { input_.request_stop(); });
 }
 
-void App::reload() {
-    if (!options_.config)
-        return log_.warning("SIGHUP: started without --config, nothing to read again");
-    try {
-        (void)readAgain();
-    } catch (const Failure&) {
-        // The log has it.
-    }
+void App::onHangUp() {
+    if (options_.config)
+        (void)reload();  // the log tells how it went
+    else
+        log_.warning("SIGHUP: started without --config, nothing to read again");
 }
 
-// Returns what has changed; throws Failure when the old configuration stays.
-std::string App::readAgain() {
-    if (running_) service_.reloading();
-    const std::shared_ptr<void> atEnd(nullptr, [this](void*) {
-        if (running_) service_.ready(running_->startLine);
-    });
-    try {
-        const Config wanted = effectiveConfig(options_);
-        const std::string restart = needRestart(config_, wanted);
-        config_.superres = wanted.superres;
-        config_.trigger = wanted.trigger;
-        config_.status = wanted.status;
-        config_.objects = wanted.objects;
-        config_.light = wanted.light;
-        changes_.put(tunables(config_));
-        setTicks();
-        if (running_) running_->description.mode = name(config_.superres.mode);
-        std::string said = options_.config->string() + ": read again" +
-                           (restart.empty() ? "" : "; after a restart only: " + restart);
-        log_.notice(said);
-        return said;
-    } catch (const Failure& failure) {
-        log_.error(fmt::format("{}\nthe old configuration stays", failure.what()));
-        throw;
+std::shared_future<std::string> App::reload() {
+    if (!options_.config)
+        throw std::runtime_error("started without --config, nothing to read again");
+    if (reload_) {
+        if (!nextReload_) nextReload_.emplace();
+        return nextReload_->answer;
     }
+    reload_.emplace();
+    readAgain();
+    return reload_->answer;
+}
+
+void App::readAgain() {
+    if (running_) service_.reloading();
+    std::packaged_task<Config()> read([this] { return effectiveConfig(options_); });
+    reload_->config = read.get_future();
+    reload_->reader = std::jthread([this, read = std::move(read)]() mutable {
+        read();
+        events_.wake();
+    });
+}
+
+bool App::isReading() const {
+    return reload_ && reload_->config.wait_for(Seconds(0)) != std::future_status::ready;
+}
+
+void App::onRead() {
+    if (!reload_ || isReading()) return;
+    Reload done = std::move(*reload_);
+    try {
+        done.said.set_value(take(done.config.get()));
+    } catch (const std::exception& error) {
+        log_.error(fmt::format("{}\nthe old configuration stays", error.what()));
+        done.said.set_exception(std::current_exception());
+    }
+    if (running_) service_.ready(running_->startLine);
+    reload_ = std::exchange(nextReload_, std::nullopt);
+    if (reload_) readAgain();
+}
+
+// Returns what has changed.
+std::string App::take(const Config& wanted) {
+    const std::string restart = needRestart(config_, wanted);
+    config_.superres = wanted.superres;
+    config_.trigger = wanted.trigger;
+    config_.status = wanted.status;
+    config_.objects = wanted.objects;
+    config_.light = wanted.light;
+    changes_.put(tunables(config_));
+    setTicks();
+    if (running_) running_->description.mode = name(config_.superres.mode);
+    std::string said = options_.config->string() + ": read again" +
+                       (restart.empty() ? "" : "; after a restart only: " + restart);
+    log_.notice(said);
+    return said;
 }
 
 void App::setTicks() {
@@ -238,14 +278,22 @@ void App::showStatus() {
 ExitCode App::finish(std::future<std::string>& end) {
     calls_.close();
     sessionCalls_.close();
-    control_.reset();
+    for (std::optional<Reload>* one : {&reload_, &nextReload_})
+        if (*one)
+            (*one)->said.set_exception(
+                std::make_exception_ptr(std::runtime_error("mfard is ending")));
+    control_.reset();  // it may wait for that
     onReady();
     showStatus();
     log_.endStatus();
     try {
         const std::string reason = end.get();
-        return writeSummary(stopReason_.value_or(reason), ExitCode::Ok) ? ExitCode::Ok
-                                                                        : ExitCode::OutputFailed;
+        const ExitCode code = writeSummary(stopReason_.value_or(reason), ExitCode::Ok)
+                                  ? ExitCode::Ok
+                                  : ExitCode::OutputFailed;
+        // Reading cannot be interrupted, and all that counts is done.
+        if (isReading()) std::_Exit(static_cast<int>(code));
+        return code;
     } catch (const std::exception& error) {
         if (cancel_.stop_requested()) {
             log_.warning(fmt::format("not everything was written: {}", error.what()));

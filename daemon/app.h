@@ -49,6 +49,13 @@ private:
         std::string startLine;
         Timestamp time;
     };
+    /// The configuration is read again by a thread of its own, as models may take long.
+    struct Reload {
+        std::promise<std::string> said;  ///< what has changed, or why the old one stays
+        std::shared_future<std::string> answer = said.get_future().share();
+        std::future<Config> config;
+        std::jthread reader;
+    };
 
     [[nodiscard]] std::string runSession(const Config& config);
     void handle(const Event& event);
@@ -58,8 +65,13 @@ private:
     void stop(const std::string& reason);
     [[nodiscard]] bool writes() const;
     [[noreturn]] void leave(const std::string& why);
-    void reload();
-    [[nodiscard]] std::string readAgain();
+    void onHangUp();
+    /// Its answer waits until the configuration is read. Throws std::runtime_error without a file.
+    std::shared_future<std::string> reload();
+    void readAgain();
+    [[nodiscard]] bool isReading() const;
+    void onRead();
+    [[nodiscard]] std::string take(const Config& wanted);
     [[nodiscard]] ControlActions controlActions();
     [[nodiscard]] nlohmann::ordered_json statusNow();
     [[nodiscard]] nlohmann::ordered_json statsNow();
@@ -90,6 +102,8 @@ private:
     std::optional<Ready> running_;
     std::uint64_t progressFed_ = 0;  ///< the watchdog's last meal was about this
     Timestamp statusShown_;
+    /// The second one follows the first: the file may have changed meanwhile.
+    std::optional<Reload> reload_, nextReload_;
     std::optional<std::string> fault_;  ///< that the log has said last
     bool firstPictureShown_ = false;    ///< by the log
 

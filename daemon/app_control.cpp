@@ -25,11 +25,10 @@ ControlActions App::controlActions() {
     actions.status = [here] { return here([](App& app) { return app.statusNow(); }); };
     actions.stats = [here] { return here([](App& app) { return app.statsNow(); }); };
     actions.reload = [here] {
-        return here([](App& app) -> std::string {
-            if (!app.options_.config)
-                throw std::runtime_error("started without --config, nothing to read again");
-            return app.readAgain();
-        });
+        const std::shared_future<std::string> answer = here([](App& app) { return app.reload(); });
+        if (answer.wait_for(kAnswerTime) != std::future_status::ready)
+            throw std::runtime_error("the configuration is still being read, the log tells more");
+        return answer.get();
     };
     actions.snapshot = [session](bool screen) {
         return session([screen](Session& s) { return s.snapshot(screen); });

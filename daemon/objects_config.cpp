@@ -8,6 +8,9 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -42,13 +45,37 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     file.integer(prefix + "squares", out.squares, 1, 256);
 }
 
-void readModel(TomlReader& file, const std::string& prefix, const std::filesystem::path& folder,
+/// Reads each model once, however many objects show it.
+class ModelReader {
+public:
+    explicit ModelReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    /// Throws ModelError.
+    std::shared_ptr<const Model> operator()(std::string_view name) {
+        std::shared_ptr<const Model>& known = models_[std::string(name)];
+        if (!known) known = std::make_shared<const Model>(load(name));
+        return known;
+    }
+
+private:
+    [[nodiscard]] Model load(std::string_view name) const {
+        try {
+            return name == "showpiece" ? showpiece() : loadGltf(folder_ / name);
+        } catch (const std::bad_alloc&) {
+            throw ModelError((folder_ / name).string() + ": needs more memory than there is");
+        }
+    }
+
+    std::filesystem::path folder_;
+    std::map<std::string, std::shared_ptr<const Model>> models_;
+};
+
+void readModel(TomlReader& file, const std::string& prefix, ModelReader& models,
                PlacedObject& out) {
     file.text(prefix + "model", out.modelName,
               [&](std::string_view name) -> std::optional<std::string> {
                   try {
-                      out.model = std::make_shared<const Model>(
-                          name == "showpiece" ? showpiece() : loadGltf(folder / name));
+                      out.model = models(name);
                       return std::nullopt;
                   } catch (const ModelError& error) {
                       return error.what();
@@ -71,10 +98,9 @@ void readTag(TomlReader& file, const std::string& prefix, std::optional<TagKey>&
     if (key.id >= 0) tag = key;
 }
 
-PlacedObject readObject(TomlReader& file, const std::string& prefix,
-                        const std::filesystem::path& folder) {
+PlacedObject readObject(TomlReader& file, const std::string& prefix, ModelReader& models) {
     PlacedObject out;
-    readModel(file, prefix, folder, out);
+    readModel(file, prefix, models, out);
     readShape(file, prefix, out.shape);
     readTag(file, prefix, out.tag);
     RigidTransform& T = out.T_anchor_object;
@@ -89,8 +115,9 @@ PlacedObject readObject(TomlReader& file, const std::string& prefix,
 
 void readObjects(TomlReader& file, const std::filesystem::path& folder,
                  std::vector<PlacedObject>& objects) {
+    ModelReader models(folder);
     for (const std::string& prefix : file.sections("objects", kMostObjects))
-        objects.push_back(readObject(file, prefix, folder));
+        objects.push_back(readObject(file, prefix, models));
 }
 
 std::optional<RigidTransform> worldPlace(const PlacedObject& object, const TagMap& tags) {

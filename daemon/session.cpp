@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace mfar {
@@ -132,10 +133,16 @@ void Session::apply(const Tunables& wanted) {
     pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
     pipeline_.setMeasure(wanted.measure);
     setLearning(wanted.superres.learn);
-    objects_ = wanted.objects;
-    light_ = wanted.light;
-    placeObjects();
     policy_.configure(wanted.trigger);
+    const auto before =
+        std::pair(std::exchange(objects_, wanted.objects), std::exchange(light_, wanted.light));
+    try {
+        placeObjects();
+    } catch (const std::exception& error) {
+        stats_.warn(fmt::format("objects: {}; those before stay", error.what()));
+        std::tie(objects_, light_) = before;
+        placeObjects();
+    }
 }
 
 // Previews of virtual objects are drawn with GL, whatever engine does the steps.

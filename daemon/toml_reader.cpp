@@ -62,6 +62,12 @@ std::string place(const std::string& file, const toml::source_position& at) {
     return fmt::format("{}:{}:{}: ", file, at.line, at.column);
 }
 
+// TOML++ gives no double for a whole number above 2^53.
+double numberOf(const toml::node& node) {
+    const auto whole = node.value_exact<std::int64_t>();
+    return whole ? static_cast<double>(*whole) : node.value_exact<double>().value();
+}
+
 }  // namespace
 
 TomlReader::TomlReader(std::string_view text, std::string file) : file_(std::move(file)) {
@@ -76,7 +82,7 @@ void TomlReader::number(std::string_view key, double& out, double least, double 
                         const NumberCheck& check) {
     const toml::node* node = find(key, "a number", &toml::node::is_number);
     if (node == nullptr) return;
-    const double value = node->value<double>().value();
+    const double value = numberOf(*node);
     if (!(value >= least && value <= most))
         return fault(node->source(),
                      fmt::format("{} must be from {} to {}, not {}", key, least, most, value));
@@ -150,7 +156,7 @@ void TomlReader::numbers(std::string_view key, std::span<double> out, double lea
                      fmt::format("{} must be a list of {} numbers", key, out.size()));
     std::vector<double> values;
     for (const toml::node& element : *list) {
-        const double value = element.is_number() ? element.value<double>().value() : NAN;
+        const double value = element.is_number() ? numberOf(element) : NAN;
         if (!(value >= least && value <= most))
             return fault(element.source(),
                          fmt::format("{} must hold numbers from {} to {}", key, least, most));

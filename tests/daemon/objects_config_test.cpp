@@ -83,9 +83,12 @@ position = [0, 0.1, 0]
 model = "showpiece"
 tag = 1
 family = "tag25h9"
+[[objects]]
+model = "thing.glb"
 )",
                                       (folder / "test.toml").string());
-    ASSERT_EQ(config.objects.size(), 2U);
+    ASSERT_EQ(config.objects.size(), 3U);
+    EXPECT_EQ(config.objects[0].model, config.objects[2].model) << "read once";
     const PlacedObject& thing = config.objects[0];
     ASSERT_TRUE(thing.model);
     EXPECT_EQ(thing.model->meshes.size(), 1U);
