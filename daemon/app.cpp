@@ -144,8 +144,8 @@ void App::onDeadline() {
     leave("a device or display did not end in time, ended without it");
 }
 
-bool App::writes() const {
-    return !config_.recordTo.empty() || recordsOnDemand_ || keepsPictures(config_.display);
+bool App::writes() {
+    return finishesRecording_ || !stats_.look().recording.empty() || keepsPictures(config_.display);
 }
 
 void App::leave(const std::string& why) {

@@ -63,7 +63,7 @@ private:
     void onSignal(int signal);
     void onDeadline();
     void stop(const std::string& reason);
-    [[nodiscard]] bool writes() const;
+    [[nodiscard]] bool writes();
     [[noreturn]] void leave(const std::string& why);
     void onHangUp();
     /// Its answer waits until the configuration is read. Throws std::runtime_error without a file.
@@ -93,7 +93,7 @@ private:
     Mailbox<Tunables> changes_{HandOver::NewestWins};
     CallQueue<App> calls_{[this] { events_.wake(); }};
     CallQueue<Session> sessionCalls_;
-    std::atomic<bool> recordsOnDemand_{false};
+    std::atomic<bool> finishesRecording_{false};  ///< one that mfarctl has ended
     std::stop_source input_;
     std::stop_source cancel_;
     std::jthread stopper_;  ///< stops the devices, which may take its time

@@ -33,9 +33,8 @@ ControlActions App::controlActions() {
     actions.snapshot = [session](bool screen) {
         return session([screen](Session& s) { return s.snapshot(screen); });
     };
-    actions.record = [this, session](const std::string& name) {
+    actions.record = [session](const std::string& name) {
         session([name](Session& s) { s.startRecording(name); });
-        recordsOnDemand_ = true;
     };
     actions.stopRecording = [this] { return stopRecording(); };
     actions.trigger = [session] { session([](Session& s) { s.askForStill(); }); };
@@ -62,8 +61,9 @@ ordered_json App::statusNow() {
                 {"mode", run.mode},
                 {"frames", counted.frames},
                 {"fps", counted.recentFps},
-                {"recording", recordsOnDemand_ || !config_.recordTo.empty()},
+                {"recording", nullptr},
                 {"line", statusLine(counted, run, elapsed)}});
+    if (!counted.recording.empty()) out["recording"] = counted.recording.string();
     if (counted.learning) out["learned"] = describe(*counted.learning);
     return out;
 }
@@ -80,8 +80,9 @@ ordered_json App::statsNow() {
 ordered_json App::stopRecording() {
     const auto finish =
         sessionCalls_.call([](Session& s) { return s.stopRecording(); }, kAnswerTime);
+    finishesRecording_ = true;
+    const std::shared_ptr<void> atEnd(nullptr, [this](void*) { finishesRecording_ = false; });
     const Recorded recorded = finish();
-    recordsOnDemand_ = false;
     return {{"video", recorded.video}, {"stills", recorded.stills}, {"dropped", recorded.dropped}};
 }
 

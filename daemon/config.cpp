@@ -73,9 +73,11 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     readGovernor(file, config.governor);
     if (!config.governor.table.empty())
         config.governor.table = besides(fileName, config.governor.table);
-    std::string recordTo;
-    file.text("record.directory", recordTo);
-    config.recordTo = recordTo;
+    std::string directory;
+    file.text("record.directory", directory);
+    config.record.directory = directory;
+    file.number("record.least_free_mb", config.record.leastFreeMb, 0, 1e9);
+    file.number("record.most_mb", config.record.mostMb, 0, 1e9);
     file.number("status.interval_s", config.status.intervalS, 0.1, 3600);
     file.boolean("status.measure", config.status.measure);
     const std::filesystem::path folder = std::filesystem::path(fileName).parent_path();
@@ -115,7 +117,7 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.size == wanted.size, "size");
     compare(running.pace == wanted.pace, "pace");
     compare(running.seed == wanted.seed, "seed");
-    compare(running.recordTo == wanted.recordTo, "record.directory");
+    compare(running.record == wanted.record, "record");
     // Another tag map is another world, and a tracker that starts anew has no pose for a while.
     compare(running.pose == wanted.pose, "pose");
     compare(running.engine == wanted.engine, "engine");

@@ -40,6 +40,14 @@ struct StatusConfig {
     bool operator==(const StatusConfig&) const = default;
 };
 
+struct RecordConfig {
+    /// Everything is recorded, in a new folder of this one, named by the start's time. Empty: not.
+    std::filesystem::path directory;
+    double leastFreeMb = 512;  ///< stays free on the disk
+    double mostMb = 0;         ///< of one recording; 0: no limit
+    bool operator==(const RecordConfig&) const = default;
+};
+
 /// Everything the daemon can be told, from the configuration file and the command line. The
 /// defaults here are the product's; systemd/mfard.toml shows them.
 struct Config {
@@ -49,8 +57,9 @@ struct Config {
     PictureSize size;
     SourcePace pace = SourcePace::Auto;
     std::uint64_t seed = 1;          ///< of the synthetic board
-    std::filesystem::path recordTo;  ///< empty: nothing is recorded
-    CamerasConfig cameras;           ///< used when source is "cameras"
+    std::filesystem::path recordTo;  ///< a new folder; empty: none
+    RecordConfig record;
+    CamerasConfig cameras;  ///< used when source is "cameras"
     SuperResConfig superres;
     TriggerConfig trigger;
     PoseConfig pose;

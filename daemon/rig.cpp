@@ -9,6 +9,7 @@
 #include "hal/virtual/recording_player.h"
 #include "hal/virtual/synthetic_board.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <array>
@@ -159,8 +160,11 @@ std::unique_ptr<RigSource> openSource(const Config& config) {
 
 }  // namespace
 
-Rig::Rig(const Config& config) : source_(openSource(config)) {
-    if (!config.recordTo.empty()) startRecording(config.recordTo);
+Rig::Rig(const Config& config)
+    : source_(openSource(config)), mustRecord_(!config.recordTo.empty()) {
+    const auto bytes = [](double mb) { return static_cast<std::uint64_t>(mb * (1 << 20)); };
+    recording_.leastFreeBytes = bytes(config.record.leastFreeMb);
+    recording_.mostBytes = bytes(config.record.mostMb);
 }
 
 Rig::~Rig() = default;
@@ -227,15 +231,19 @@ void Rig::startRecording(const std::filesystem::path& folder) {
     const std::lock_guard lock(mutex_);
     if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is under way already");
     try {
-        recorder_ = std::make_shared<Recorder>(folder, geometry(), video().info().rateHz);
+        recorder_ =
+            std::make_shared<Recorder>(folder, geometry(), video().info().rateHz, recording_);
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
     }
+    broke_.reset();
 }
 
 std::function<Recorded()> Rig::stopRecording() {
     const std::lock_guard lock(mutex_);
-    if (!recorder_) throw Failure(ExitCode::OutputFailed, "nothing is being recorded");
+    if (!recorder_)
+        throw Failure(ExitCode::OutputFailed,
+                      broke_ ? "the recording has ended: " + *broke_ : "nothing is being recorded");
     lostBefore_ += lostBy(*recorder_);
     return [recorder = std::exchange(recorder_, nullptr)]() -> Recorded {
         finish(*recorder);
@@ -258,12 +266,7 @@ void Rig::recordPose(const Pose& pose) {
 
 void Rig::recordTags(const TagMap& tags) {
     const auto to = recorder();
-    if (!to || tags.empty()) return;
-    try {
-        to->addFile("tags.toml", tomlOf(tags));
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::OutputFailed, error.what());
-    }
+    if (to && !tags.empty()) to->addFile("tags.toml", tomlOf(tags));
 }
 
 std::uint64_t Rig::notRecorded() const {
@@ -271,15 +274,42 @@ std::uint64_t Rig::notRecorded() const {
     return lostBefore_ + (recorder_ ? lostBy(*recorder_) : 0);
 }
 
-void Rig::checkRecording() const {
+std::filesystem::path Rig::recordingFolder() const {
     const auto to = recorder();
-    if (!to) return;
-    if (const std::optional<std::string> error = to->error())
-        throw Failure(ExitCode::OutputFailed, *error);
+    return to ? to->folder() : std::filesystem::path();
+}
+
+std::optional<std::string> Rig::endBrokenRecording() {
+    const std::lock_guard lock(mutex_);
+    if (!recorder_) return std::nullopt;
+    const std::optional<std::string> error = recorder_->error();
+    if (!error) return std::nullopt;
+    lostBefore_ += lostBy(*recorder_);
+    broke_ = error;
+    // The disk may hang, and neither this thread nor one that still copies a frame may wait for it.
+    ending_.emplace_back([recorder = std::exchange(recorder_, nullptr)]() mutable {
+        while (recorder.use_count() > 1)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        recorder.reset();
+    });
+    return error;
 }
 
 void Rig::finishRecording() {
-    if (const auto to = recorder()) finish(*to);
+    if (const auto to = recorder()) return finish(*to);
+    const std::lock_guard lock(mutex_);
+    if (broke_ && mustRecord_) throw Failure(ExitCode::OutputFailed, *broke_);
+}
+
+std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {
+    const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+    const std::string name = fmt::format("{:%Y%m%d-%H%M%S}", fmt::gmtime(seconds));
+    // A board without a clock of its own begins each day at the same time.
+    std::filesystem::path folder = directory / name;
+    std::error_code ignored;
+    for (int i = 2; std::filesystem::exists(folder, ignored); ++i)
+        folder = directory / fmt::format("{}-{}", name, i);
+    return folder;
 }
 
 void releaseTrigger(const TriggerLineConfig& line) {

@@ -9,6 +9,7 @@
 #include "hal/display.h"
 #include "hal/still_matcher.h"
 #include "hal/trigger.h"
+#include "hal/virtual/recorder.h"
 
 #include <chrono>
 #include <cstdint>
@@ -20,10 +21,11 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <vector>
 
 namespace mfar {
 
-class Recorder;
 class RigSource;
 
 /// Pictures of a recording, by what became of them.
@@ -36,7 +38,7 @@ struct Recorded {
 /// The devices of one run. This is the one place that knows which kinds exist.
 class Rig {
 public:
-    /// Opens the source that the configuration names, and the recorder. Throws Failure.
+    /// Opens the source that the configuration names. Throws Failure.
     explicit Rig(const Config& config);
     ~Rig();
 
@@ -68,13 +70,16 @@ public:
     void recordStill(const Frame& frame);
     /// The same with the pose of a frame.
     void recordPose(const Pose& pose);
-    /// Before the first frame. Throws Failure.
     void recordTags(const TagMap& tags);
     /// Frames and stills that the recording misses. Any thread.
     [[nodiscard]] std::uint64_t notRecorded() const;
-    /// Throws Failure when the recording can no longer be written. Any thread, never waits.
-    void checkRecording() const;
-    /// Waits until everything is written. Throws Failure.
+    /// What is recorded into; empty: nothing is. Any thread.
+    [[nodiscard]] std::filesystem::path recordingFolder() const;
+    /// Ends a recording that can no longer be written, and says why; what it has stays readable.
+    /// Any thread, never waits.
+    [[nodiscard]] std::optional<std::string> endBrokenRecording();
+    /// Waits until everything is written. Throws Failure, also where --record asked for a recording
+    /// that ended before.
     void finishRecording();
     /// Begins to record into this new folder. Throws Failure, also when something is recorded
     /// already. Any thread, as stopRecording().
@@ -87,10 +92,17 @@ private:
     [[nodiscard]] std::shared_ptr<Recorder> recorder() const;
 
     std::unique_ptr<RigSource> source_;
+    RecorderOptions recording_;
+    bool mustRecord_;
     mutable std::mutex mutex_;
     std::shared_ptr<Recorder> recorder_;
-    std::uint64_t lostBefore_ = 0;  ///< not recorded, of recordings that have ended
+    std::uint64_t lostBefore_ = 0;      ///< not recorded, of recordings that have ended
+    std::optional<std::string> broke_;  ///< why the last one ended by itself
+    std::vector<std::jthread> ending_;  ///< wait for the disk of those
 };
+
+/// A folder for a recording that begins now, named by the time (UTC), that does not exist yet.
+[[nodiscard]] std::filesystem::path newRecordingIn(const std::filesystem::path& directory);
 
 /// Brings a trigger line to its safe level. Throws Failure.
 void releaseTrigger(const TriggerLineConfig& line);

@@ -43,7 +43,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
       levels_(governedLevels(config.governor)), objects_(config.objects), light_(config.light),
       tags_(poses_.tags()), sensors_(sensorsOf(config, rig_)) {
-    rig_.recordTags(tags_);
+    beginRecording(config);
     pipeline_.setMeasure(config.status.measure);
     PlaneImporter* importer = gl_.context ? gl_.context->planeImporter() : nullptr;
     pipeline_.setImporter(importer);
@@ -66,6 +66,25 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
 }
 
 Session::~Session() = default;
+
+// Who names a folder on the command line is told at once; a service goes on without its recording.
+void Session::beginRecording(const Config& config) {
+    if (!config.recordTo.empty()) {
+        startRecording(config.recordTo);
+    } else if (!config.record.directory.empty()) {
+        try {
+            startRecording(newRecordingIn(config.record.directory));
+        } catch (const Failure& failure) {
+            stats_.warn(fmt::format("nothing is recorded: {}", failure.what()));
+        }
+    }
+}
+
+void Session::checkRecording() {
+    if (const std::optional<std::string> why = rig_.endBrokenRecording())
+        stats_.warn(fmt::format("the recording has ended: {}", *why));
+    stats_.recording(rig_.recordingFolder());
+}
 
 PipelineOptions Session::pipelineOptions(const Config& config) const {
     PipelineOptions options;
@@ -105,6 +124,7 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
         if (!captured && mailbox.over()) break;
         if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
         calls_.runAll(*this);
+        checkRecording();
         if (!captured) {
             showFault();
             continue;
@@ -199,7 +219,6 @@ void Session::process(CapturedFrame captured) {
         govern();
     }
     tell(time);
-    rig_.checkRecording();
     if (validation_) tellFaultyPasses();
 }
 
@@ -325,7 +344,10 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
 
 // Frames bring the fault with them; without them it is shown over the last picture.
 void Session::showFault() {
-    if (!rig_.fault()) return;
+    const std::optional<std::string> fault = rig_.fault();
+    // The thread that tells it otherwise may wait for the device that is at fault.
+    stats_.fault(fault);
+    if (!fault) return;
     show(Timestamp::now(), true);
     stats_.pictureOfFault();
 }

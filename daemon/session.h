@@ -79,6 +79,8 @@ public:
     [[nodiscard]] std::function<Recorded()> stopRecording() { return rig_.stopRecording(); }
 
 private:
+    void beginRecording(const Config& config);
+    void checkRecording();
     void apply(const Tunables& wanted);
     [[nodiscard]] PipelineOptions pipelineOptions(const Config& config) const;
     /// Opens GL for the objects where it is not open yet; reports where that fails.

@@ -164,6 +164,11 @@ void Stats::mailboxDropped(std::uint64_t total) {
     counted_.drops.mailbox = total;
 }
 
+void Stats::recording(const std::filesystem::path& folder) {
+    const std::lock_guard lock(mutex_);
+    if (counted_.recording != folder) counted_.recording = folder;
+}
+
 void Stats::recorderDropped(std::uint64_t total) {
     const std::lock_guard lock(mutex_);
     counted_.drops.recorder = total;

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -75,6 +76,7 @@ struct Counted {
     ValidationCounts validation{};             ///< zero where it is not asked for
     std::optional<ProcessUse> atFirstPicture;  ///< when the display had it
     std::optional<LearningCounts> learning{};  ///< where filters are learned
+    std::filesystem::path recording;           ///< the folder; empty: nothing is recorded
 };
 
 /// One finished picture.
@@ -119,6 +121,8 @@ public:
     void matching(const StillCounters& counters);
     void mailboxDropped(std::uint64_t total);
     void recorderDropped(std::uint64_t total);
+    /// What is recorded into; empty: nothing is.
+    void recording(const std::filesystem::path& folder);
 
     [[nodiscard]] Counted count();
     /// The same without being a previous call: recentFps is that of the last count().

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 namespace mfar {
 namespace {
@@ -37,9 +38,10 @@ void beginCamera(const fs::path& folder, const SensorYaml& sensor, const char* c
 
 Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateHz,
                    const RecorderOptions& options)
-    : root_(emptyFolder(root)), video_(root / "cam0", rig.video.size, options.videoBuffers),
+    : root_(emptyFolder(root)), options_(options),
+      video_(root / "cam0", rig.video.size, options.videoBuffers),
       still_(root / "cam1", rig.still.size, options.stillBuffers),
-      poses_{root / "state_groundtruth_estimate0"}, maxPoses_(options.poses) {
+      poses_{root / "state_groundtruth_estimate0"} {
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
     beginCamera(video_.folder, {rig.video, {}, videoRateHz}, "video sensor, body frame");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0}, "still sensor");
@@ -64,9 +66,12 @@ bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp 
     // An RGBA buffer is large enough for every format; the writer's thread makes RGB of it.
     const ImageView copy = packInto(slot->data, image);
     const auto loan = std::make_shared<Frame>(stream.pool.lend(*slot, time));
-    writer_.post([&stream, loan, copy] {
+    writer_.post([this, &stream, loan, copy] {
         const std::string name = fmt::format("{}.png", loan->time().ns);
-        savePng(stream.folder / "data" / name, copy);
+        const fs::path file = stream.folder / "data" / name;
+        checkSpace(copy.stride * copy.size.height);
+        savePng(file, copy);
+        bytes_ += fs::file_size(file);
         appendToFile(stream.folder / "data.csv", fmt::format("{},{}\n", loan->time().ns, name));
         ++stream.written;
     });
@@ -76,7 +81,7 @@ bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp 
 bool Recorder::pose(const Pose& pose) {
     const RigidTransform& T = pose.T_world_video;
     const bool valid = T.translation.allFinite() && std::abs(T.rotation.norm() - 1) < 1e-3;
-    if (!valid || pendingPoses_ >= maxPoses_ || !accepts(poses_, pose.time)) {
+    if (!valid || pendingPoses_ >= options_.poses || !accepts(poses_, pose.time)) {
         ++poses_.dropped;
         return false;
     }
@@ -90,8 +95,19 @@ bool Recorder::pose(const Pose& pose) {
     return true;
 }
 
-void Recorder::addFile(std::string_view name, std::string_view text) const {
-    appendToFile(root_ / name, text);
+void Recorder::addFile(std::string_view name, std::string_view text) {
+    writer_.post([file = root_ / name, text = std::vector<std::uint8_t>(text.begin(), text.end())] {
+        writeWholeFile(file, text);
+    });
+}
+
+void Recorder::checkSpace(std::uintmax_t bytes) {
+    if (fs::space(root_).available < options_.leastFreeBytes + bytes)
+        throw std::runtime_error(fmt::format("{}: less than {} MB are free on the disk",
+                                             root_.string(), options_.leastFreeBytes >> 20));
+    if (options_.mostBytes > 0 && bytes_ > options_.mostBytes)
+        throw std::runtime_error(fmt::format("{}: has become longer than {} MB", root_.string(),
+                                             options_.mostBytes >> 20));
 }
 
 void Recorder::writePose(const Pose& pose) {

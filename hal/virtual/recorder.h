@@ -18,6 +18,9 @@ struct RecorderOptions {
     int videoBuffers = 16;  ///< video pictures copied and not yet written, at most
     int stillBuffers = 3;   ///< the same for stills
     int poses = 256;        ///< poses taken and not yet written, at most
+    /// So much stays free on the disk: a recording that would need it ends with an error.
+    std::uint64_t leastFreeBytes = 64U << 20;
+    std::uint64_t mostBytes = 0;  ///< the same for a recording that becomes longer; 0: no limit
 };
 
 /// Writes a recording while the frames it is made of are in use. video(), still() and pose() copy
@@ -47,8 +50,8 @@ public:
     bool video(const ImageView& image, Timestamp time) { return picture(video_, image, time); }
     bool still(const ImageView& image, Timestamp time) { return picture(still_, image, time); }
     bool pose(const Pose& pose);
-    /// A further file of the recording, written at once. Throws std::runtime_error.
-    void addFile(std::string_view name, std::string_view text) const;
+    /// A further file of the recording; in place of what it held.
+    void addFile(std::string_view name, std::string_view text);
 
     /// Waits until all that was taken is written. Throws std::runtime_error with the first write
     /// error of the recording (disk full, folder gone). May be called more than once.
@@ -59,6 +62,7 @@ public:
     [[nodiscard]] Counts videoCounts() const { return video_.counts(); }
     [[nodiscard]] Counts stillCounts() const { return still_.counts(); }
     [[nodiscard]] Counts poseCounts() const { return poses_.counts(); }
+    [[nodiscard]] const std::filesystem::path& folder() const { return root_; }
 
 private:
     struct Stream {
@@ -78,12 +82,15 @@ private:
     [[nodiscard]] bool accepts(const Stream& stream, Timestamp time) const;
     bool picture(PictureStream& stream, const ImageView& image, Timestamp time);
     void writePose(const Pose& pose);
+    /// Throws std::runtime_error where no further picture may be written.
+    void checkSpace(std::uintmax_t bytes);
 
     std::filesystem::path root_;
+    RecorderOptions options_;
+    std::uintmax_t bytes_ = 0;  // of all pictures; of the writer's thread
     PictureStream video_;
     PictureStream still_;
     Stream poses_;
-    int maxPoses_;
     std::atomic<int> pendingPoses_{0};
     BackgroundWriter writer_{1};  // last: its thread uses all of the above
 };

@@ -83,7 +83,7 @@ measure = true
     pose.fullSearchInterval = 30;
     pose.bridgeFrames = 0;
     EXPECT_EQ(config.pose, pose);
-    EXPECT_EQ(config.recordTo, "/data/new");
+    EXPECT_EQ(config.record.directory, "/data/new");
     EXPECT_EQ(config.status, (StatusConfig{0.5, true}));
 }
 

@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# Every start records into a folder of its own; one that cannot be written ends, and mfard goes on.
+. "$(dirname "$0")/lib.sh"
+
+ctl="$(dirname "$sim")/mfarctl"
+status() { "$ctl" --socket control status; }
+frames() { status | sed -n 's/^frames  *//p'; }
+goes_on() {
+    local shown
+    shown=$(frames)
+    more() { [ "$(frames)" -gt $((shown + 5)) ]; }
+    until_true more
+}
+quiet='source = "synthetic:flat,rest"
+[superres]
+mode = "off"
+[record]
+directory = "films"'
+stop_it() {
+    kill -TERM "$pid"
+    ends_with 0 3000
+}
+
+echo "two starts, two folders"
+echo "$quiet" >mfard.toml
+run 0 --config mfard.toml --check-config
+for count in 1 2; do
+    start --config mfard.toml --control control
+    until_true started
+    listed() { [ "$(cat films/*/cam0/data.csv 2>/dev/null | wc -l)" -gt $((4 * count)) ]; }
+    until_true listed
+    says <(status) '^recording +films/[0-9]{8}-[0-9]{6}(-[0-9]+)?$'
+    stop_it
+    [ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = "$count" ] || fail "not $count folders"
+done
+
+echo "one that has become too long"
+rm -rf films
+printf '%s\nmost_mb = 0.05\n' "$quiet" >mfard.toml
+start --config mfard.toml --control control
+until_true started
+ended() { grep -q 'the recording has ended: films/.*: has become longer than' err; }
+until_true ended
+says <(status) '^recording +null$'
+goes_on
+"$ctl" --socket control record more
+stop_it
+run 0 --recording films/* --frames 1
+run 0 --recording more --frames 1
+
+echo "a disk without space, and no folder"
+printf '%s\nleast_free_mb = 1e9\n' "$quiet" >mfard.toml
+start --config mfard.toml --control control
+ended() { grep -q 'the recording has ended: films/.*MB are free on the disk' err; }
+until_true ended
+goes_on
+stop_it
+run 74 --config mfard.toml --record films/new --frames 60 --pace consumer
+says err 'MB are free on the disk'
+echo "${quiet/films//dev/null/films}" >mfard.toml
+start --config mfard.toml --control control
+refused() { grep -q 'nothing is recorded: .*/dev/null/films' err; }
+until_true refused
+until_true started
+goes_on
+stop_it
