@@ -35,6 +35,10 @@ constexpr const char* kSuperResHelp =
     "with the truth.\n"
     "Luma (Rec. 601), 32 px of border left out. harm_rate: share of pixels whose error "
     "exceeds bicubic's by more than 2 grey levels. psnr_rgb_db: over red, green and blue.\n"
+    "tiles_below: share of the 64x64 output tiles whose root mean square error exceeds bicubic's\n"
+    "by more than 0.25 grey levels; incomplete tiles at the right and bottom are left out.\n"
+    "--classes adds for pixels outside the still's view, unmatched (hidden there, or confidence\n"
+    "below 0.5) and matched their share and what each method gains there over bicubic.\n"
     "The reference of a frame is the still nearest to it in time that does not show the "
     "frame's very own view: a still whose pose relative to the frame is below 1e-6 (from the "
     "rig at equal times, from the recorded poses otherwise) is never used.\n"
@@ -117,6 +121,12 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     sub->add_option("recording", o.superres.recordings, "folders in the EuRoC layout")->required();
     sub->add_option("--methods", o.superres.methods, "of: " + joined(superResMethodNames()))
         ->delimiter(',');
+    sub->add_option(
+        "--dnn-model", o.superres.dnnModels,
+        "files of OpenCV's dnn_superres as further peers: EDSR_x4.pb, or ESPCN, FSRCNN, "
+        "LapSRN and their factor");
+    sub->add_flag("--classes", o.superres.classes,
+                  "tell apart what the still shows, what it does not and what lies outside");
     addPoseSource(*sub, o.superres.poses);
     addDisturbances(*sub, o);
     sub->add_option("--degrade-video", o.degradeVideo,
@@ -127,7 +137,8 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     sub->add_flag("--no-still", o.superres.noStill,
-                  "give no still to any method, and leave out those that need one");
+                  "give no still to any method, and leave out those that need one")
+        ->excludes("--classes");
     sub->add_option("--learn", o.superres.learn,
                     "learn filters from so many matched stills of the recording before")
         ->check(CLI::Range(1, 100000));

@@ -82,9 +82,9 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
                                     MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 2 * 6 + 6) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 2 * 7 + 7) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
-                             "psnr_rgb_db"));
+                             "psnr_rgb_db,tiles_below"));
     for (std::size_t i = 1; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].size(), rows[0].size());
         EXPECT_EQ(rows[i][0], "tiny");
@@ -98,6 +98,8 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
     EXPECT_EQ(rows[4][2], "bilinear");
     EXPECT_EQ(rows[5][2], "bicubic");
     EXPECT_EQ(std::stod(rows[5][8]), 0);
+    EXPECT_EQ(std::stod(rows[5][10]), 0);
+    EXPECT_EQ(rows[6][2], "lanczos");
     EXPECT_EQ(rows.back()[1], "mean");
     EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1000_detail.png"));
     EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1001_truth.png"));
@@ -115,6 +117,31 @@ TEST(MfarEval, SuperResWithoutAStillComparesWhatEnlargesTheVideo) {
     ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2) << "detail2d needs a still";
     EXPECT_EQ(rows[1][2], "detail");
     EXPECT_EQ(rows[2][2], "bicubic");
+}
+
+TEST(MfarEval, SuperResTellsClassesOfPixelsApart) {
+    const TempFolder folder;
+    writeRecording(folder / "tiny", true);
+    const Outcome outcome = execute(
+        folder, fmt::format("{0} superres {1}/tiny --classes --methods detail,bicubic --csv "
+                            "{1}/out.csv",
+                            MFAR_EVAL, folder.path().string()));
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_EQ(outcome.text.find("classes by the match"), 0U) << outcome.text;
+    const auto rows = readCsv(folder / "out.csv");
+    ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2);
+    ASSERT_EQ(rows[0].size(), 17U);
+    EXPECT_EQ(rows[0][11], "outside_share");
+    EXPECT_EQ(rows[0][16], "matched_gain_db");
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+        double shares = 0;
+        for (const std::size_t c : {11U, 13U, 15U})
+            shares += std::stod(rows[i].at(c));
+        EXPECT_NEAR(shares, 1, 1e-5);
+        if (rows[i][2] != "bicubic") continue;
+        for (const std::size_t c : {12U, 14U, 16U})
+            EXPECT_TRUE(rows[i][c].empty() || std::abs(std::stod(rows[i][c])) < 1e-6);
+    }
 }
 
 TEST(MfarEval, SuperResMakesTheVideoWorseForEveryMethod) {
@@ -168,7 +195,7 @@ TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
     EXPECT_EQ(rows.at(0), split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
                                 "msssim,lpc_si_p10,lpc_si_median,lpc_si_p90,lpc_ratio,hdrvdp_qmos,"
                                 "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma,"
-                                "psnr_rgb_db"));
+                                "psnr_rgb_db,tiles_below"));
     ASSERT_EQ(rows.at(1).size(), rows[0].size());
     EXPECT_TRUE(rows[1][5].empty());  // ssim was not asked for
     EXPECT_GT(std::stod(rows[1][6]), 0);
@@ -349,8 +376,11 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"superres " + dir + "/tiny", "no truth"},
         {"superres " + dir + "/tiny --methods detail,wonder",
          "unknown method 'wonder' (valid: detail, detail2d, blend, bilinear, "
-         "bicubic, paper)"},
+         "bicubic, lanczos, paper)"},
         {"superres " + dir + "/tiny --degrade gain=0", "gain=0"},
+        {"superres " + dir + "/tiny --classes --no-still", "--classes"},
+        {"superres " + dir + "/truth --methods bicubic --dnn-model x4.pb",
+         "x4.pb: a model's name is"},
         {"superres " + dir + "/tiny --degrade-video blur=-1", "--degrade-video: 'blur=-1'"},
         {"flow " + dir + "/absent", "no such folder"},
         {"flow " + dir + "/tiny", "no truth"},

@@ -116,7 +116,7 @@ std::string Report::table() const {
             lines.back().push_back(
                 row.values[c] ? fmt::format("{:.{}f}", *row.values[c], columns_[c].decimals) : "-");
     }
-    return layOut(lines);
+    return head_ + layOut(lines);
 }
 
 std::string Report::csv() const {

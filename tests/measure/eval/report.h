@@ -34,6 +34,8 @@ public:
     /// The same with the middle values of the frames, `frame` = "median".
     void addMedians();
 
+    /// Lines above the table: what has to be known to read it.
+    void setHead(std::string head) { head_ = std::move(head); }
     /// Columns that were never measured are left out.
     [[nodiscard]] std::string table() const;
     [[nodiscard]] std::string csv() const;
@@ -54,6 +56,7 @@ private:
                     const std::string& method, const std::vector<const Row*>& of);
 
     std::vector<Column> columns_;
+    std::string head_;
     std::vector<Row> rows_;
 };
 

@@ -51,6 +51,14 @@ TEST(Report, TableLeavesOutWhatWasNotMeasured) {
                                       "a          mean   x       2.0   1.000\n");
 }
 
+TEST(Report, AHeadIsShownAboveTheTableAlone) {
+    Report report = twoFrames("a");
+    const std::string table = report.table(), csv = report.csv();
+    report.setHead("how to read it\n");
+    EXPECT_EQ(report.table(), "how to read it\n" + table);
+    EXPECT_EQ(report.csv(), csv);
+}
+
 TEST(Report, CsvQuotesNamesWithCommas) {
     Report report({{"ms", 1}});
     report.add("a,\"b\"", "1", "x", {1.0});

@@ -2,9 +2,12 @@
 
 #include "hal/virtual/recording.h"
 #include "tests/measure/eval/labels.h"
+#include "tests/measure/eval/match_classes.h"
 #include "tests/measure/eval/metrics/harm_rate.h"
 #include "tests/measure/eval/metrics/luma.h"
+#include "tests/measure/eval/metrics/tiles_below.h"
 #include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/rig_resample.h"
 #include "tests/measure/eval/superres_learning.h"
 #include "tests/measure/eval/superres_methods.h"
 #include "tests/measure/eval/superres_samples.h"
@@ -13,12 +16,19 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <cmath>
+
 namespace mfar::eval {
 namespace {
 
 /// Over all three channels of 8 bits [dB].
 double colourPsnr(const cv::Mat& picture, const cv::Mat& truth) {
     return cv::PSNR(picture, withoutBorder(truth), 255);
+}
+
+/// Nothing where there is no tile.
+std::optional<double> shareOf(double tiles) {
+    return std::isnan(tiles) ? std::nullopt : std::optional(tiles);
 }
 
 /// One recording with the methods set up for its rig.
@@ -29,7 +39,10 @@ public:
         : request_(request), recording_(recording), poses_(recording, request.poses),
           label_(std::move(label)) {
         for (const std::string& name : request.methods)
-            methods_.push_back(factory.create(name, recording.rig));
+            methods_.push_back({name, factory.create(name, recording.rig)});
+        for (const std::filesystem::path& file : request.dnnModels)
+            methods_.push_back({file.stem().string(), factory.createModel(file, recording.rig)});
+        if (request.classes) matcher_ = factory.createMatcher(recording.rig);
     }
 
     void measure(const SuperResSample& sample, Report& report) {
@@ -40,10 +53,13 @@ public:
         cv::resize(frame.picture, bicubicPicture, truthPicture.size(), 0, 0, cv::INTER_CUBIC);
         const cv::Mat bicubic = luma(withoutBorder(bicubicPicture));
         if (!request_.noStill) setStill(sample);
+        const cv::Mat classes = matcher_ ? matchClasses(recording_.rig, outputSize(recording_.rig),
+                                                        matcher_->run(frame))
+                                         : cv::Mat();
         const std::string name = std::to_string(sample.video.time.ns);
         save(name, "truth", truthPicture);
-        for (std::size_t i = 0; i < methods_.size(); ++i) {
-            const auto result = methods_[i]->run(frame);
+        for (const Named& method : methods_) {
+            const auto result = method.method->run(frame);
             CV_Assert(result.picture.size() == truthPicture.size());
             const cv::Mat picture = luma(withoutBorder(result.picture));
             const PictureScores scores = scoreOf(picture, truth, request_.metrics);
@@ -51,12 +67,21 @@ public:
                                       scores.hdrVdpQ, harmRate(picture, bicubic, truth)},
                                      furtherValues(scores, request_.metrics));
             values.emplace_back(colourPsnr(withoutBorder(result.picture), truthPicture));
-            report.add(label_, name, request_.methods[i], values);
-            save(name, request_.methods[i], result.picture);
+            values.push_back(shareOf(tilesBelow(picture, bicubic, truth)));
+            if (matcher_)
+                values = followedBy(
+                    values, matchClassValues(withoutBorder(classes), picture, bicubic, truth));
+            report.add(label_, name, method.name, values);
+            save(name, method.name, result.picture);
         }
     }
 
 private:
+    struct Named {
+        std::string name;
+        std::unique_ptr<SuperResMethod> method;
+    };
+
     [[nodiscard]] Shot loadFrame(const SuperResSample& sample) const {
         const Timestamp time = sample.video.time;
         const cv::Mat picture = degrade(loadPicture(sample.video.file), request_.videoDegradation,
@@ -72,8 +97,9 @@ private:
         const cv::Mat picture = degrade(loadPicture(sample.still.file), request_.degradation,
                                         static_cast<std::uint64_t>(time.ns));
         const Shot still{picture, time, poses_.of(sample.video.time, time).still};
-        for (const auto& method : methods_)
-            method->setStill(still);
+        for (const Named& method : methods_)
+            method.method->setStill(still);
+        if (matcher_) matcher_->setStill(still);
         stillTime_ = time;
     }
 
@@ -92,7 +118,8 @@ private:
     const Recording& recording_;
     KnownPoses poses_;
     std::string label_;
-    std::vector<std::unique_ptr<SuperResMethod>> methods_;
+    std::vector<Named> methods_;
+    std::unique_ptr<StillMatcher> matcher_;  // where classes are wanted
     std::optional<Timestamp> stillTime_;
 };
 
@@ -103,7 +130,10 @@ Report evaluateSuperRes(const SuperResRequest& request) {
         {{"ms", 1}, {"psnr_db", 2}, {"ssim", 4}, {"lpc_si", 4}, {"hdrvdp_q", 2}, {"harm_rate", 4}},
         furtherColumns(request.metrics));
     columns.push_back({"psnr_rgb_db", 2});
+    columns.push_back({"tiles_below", 4});
+    if (request.classes) columns = followedBy(columns, matchClassColumns());
     Report report(columns);
+    if (request.classes) report.setHead(matchClassesHead());
     const auto labels = labelsOf(request.recordings);
     SuperResFactory factory(request.alpha);
     const bool learnsElsewhere = request.learn != 0 && !request.learnFrom.empty();

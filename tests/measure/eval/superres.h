@@ -14,10 +14,12 @@ namespace mfar::eval {
 
 struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
-    std::vector<std::string> methods;  ///< of superResMethodNames()
-    bool noStill = false;              ///< the video alone is enlarged
-    Degradation degradation;           ///< done to every still
-    Degradation videoDegradation;      ///< done to every frame of the video
+    std::vector<std::string> methods;              ///< of superResMethodNames()
+    std::vector<std::filesystem::path> dnnModels;  ///< peers beside them, named as the files
+    bool classes = false;                          ///< what each method gains by matchClasses()
+    bool noStill = false;                          ///< the video alone is enlarged
+    Degradation degradation;                       ///< done to every still
+    Degradation videoDegradation;                  ///< done to every frame of the video
     int learn = 0;  ///< matched stills that filters are learned from before; 0: as shipped
     /// Recordings to learn from; empty: each from itself.
     std::vector<std::filesystem::path> learnFrom;
@@ -29,7 +31,7 @@ struct SuperResRequest {
     PictureMetrics metrics{{"psnr", "ssim"}, {}};
 };
 
-/// Measures every method on every frame with truth/highres; columns as in design.md, section 10.
+/// Measures every method on every frame with truth/highres.
 /// One line per frame left out goes to stderr. Throws EvalError and RecordingError.
 [[nodiscard]] Report evaluateSuperRes(const SuperResRequest& request);
 

@@ -1,6 +1,7 @@
 #include "tests/measure/eval/superres_methods.h"
 
 #include "pipeline/pipeline.h"
+#include "tests/measure/eval/dnn_peer.h"
 #include "tests/measure/eval/paper_pipeline.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/rig_resample.h"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include <functional>
 #include <stdexcept>
 
 namespace mfar::eval {
@@ -48,25 +50,33 @@ private:
     Pipeline pipeline_;
 };
 
-class Upscaling final : public SuperResMethod {
+/// What needs no still.
+class Enlarging final : public SuperResMethod {
 public:
-    /// `filter`: of cv::InterpolationFlags.
-    Upscaling(Size output, int filter) : output_(output.width, output.height), filter_(filter) {}
+    using Enlarge = std::function<cv::Mat(const cv::Mat& video)>;
+    explicit Enlarging(Enlarge enlarge) : enlarge_(std::move(enlarge)) {}
 
     void setStill(const Shot&) override {}
 
     Result run(const Shot& frame) override {
-        Result out;
-        const auto resize = [&] { cv::resize(frame.picture, out.picture, output_, 0, 0, filter_); };
-        resize();
-        out.ms = wallMs(resize);
+        Result out{enlarge_(frame.picture), 0};
+        out.ms = wallMs([&] { (void)enlarge_(frame.picture); });
         return out;
     }
 
 private:
-    cv::Size output_;
-    int filter_;
+    Enlarge enlarge_;
 };
+
+/// `filter`: of cv::InterpolationFlags.
+std::unique_ptr<SuperResMethod> upscaling(Size output, int filter) {
+    const cv::Size size(output.width, output.height);
+    return std::make_unique<Enlarging>(
+        [size, filter, out = cv::Mat()](const cv::Mat& video) mutable {
+            cv::resize(video, out, size, 0, 0, filter);
+            return out;
+        });
+}
 
 class PaperMethod final : public SuperResMethod {
 public:
@@ -85,11 +95,36 @@ private:
     PaperPipeline paper_;
 };
 
+class PipelineMatcher final : public StillMatcher {
+public:
+    explicit PipelineMatcher(const StereoRig& rig)
+        : video_(rig.video.size.width, rig.video.size.height),
+          pipeline_(rig, {.output = {}, .skipUnchanged = false}) {}
+
+    void setStill(const Shot& still) override {
+        const cv::Mat rgba = toRgba(still.picture);
+        pipeline_.setStill(viewOf(rgba), still.time, still.pose);
+    }
+
+    StillMatch run(const Shot& frame) override {
+        const cv::Mat rgba = toRgba(frame.picture);
+        pipeline_.run(viewOf(rgba), frame.time, frame.pose);
+        const std::vector<float> flow = pipeline_.readFlow();
+        const std::vector<float> confidence = pipeline_.readConfidence();
+        return {cv::Mat(flow, true).reshape(2, video_.height),
+                cv::Mat(confidence, true).reshape(1, video_.height)};
+    }
+
+private:
+    cv::Size video_;
+    Pipeline pipeline_;
+};
+
 }  // namespace
 
 const std::vector<std::string>& superResMethodNames() {
-    static const std::vector<std::string> names{"detail",   "detail2d", "blend",
-                                                "bilinear", "bicubic",  "paper"};
+    static const std::vector<std::string> names{"detail",  "detail2d", "blend", "bilinear",
+                                                "bicubic", "lanczos",  "paper"};
     return names;
 }
 
@@ -99,15 +134,30 @@ bool needsStill(const std::string& method) {
 
 std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
                                                         const StereoRig& rig) {
-    if (name == "bicubic") return std::make_unique<Upscaling>(outputSize(rig), cv::INTER_CUBIC);
-    if (name == "bilinear") return std::make_unique<Upscaling>(outputSize(rig), cv::INTER_LINEAR);
+    if (name == "bicubic") return upscaling(outputSize(rig), cv::INTER_CUBIC);
+    if (name == "bilinear") return upscaling(outputSize(rig), cv::INTER_LINEAR);
+    if (name == "lanczos") return upscaling(outputSize(rig), cv::INTER_LANCZOS4);
     if (name == "paper") return std::make_unique<PaperMethod>(rig, alpha_);
     const bool blend = name == "blend";
     if (!blend && name != "detail" && name != "detail2d")
         throw std::invalid_argument(fmt::format("unknown method '{}'", name));
-    if (!context_) context_ = createGlContext();
+    requireContext();
     return std::make_unique<PipelineMethod>(rig, blend ? SuperResMode::Blend : SuperResMode::Detail,
                                             name != "detail2d", filters_);
+}
+
+std::unique_ptr<SuperResMethod> SuperResFactory::createModel(const std::filesystem::path& file,
+                                                             const StereoRig& rig) {
+    return std::make_unique<Enlarging>(dnnEnlarger(file, outputSize(rig)));
+}
+
+std::unique_ptr<StillMatcher> SuperResFactory::createMatcher(const StereoRig& rig) {
+    requireContext();
+    return std::make_unique<PipelineMatcher>(rig);
+}
+
+void SuperResFactory::requireContext() {
+    if (!context_) context_ = createGlContext();
 }
 
 }  // namespace mfar::eval

@@ -2,8 +2,10 @@
 
 #include "hal/gl_context.h"
 #include "pipeline/enlarge/filter_bank.h"
+#include "tests/measure/eval/match_classes.h"
 #include "tests/measure/eval/shot.h"
 
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +25,15 @@ public:
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
 
+/// Finds what of a frame the still shows, as the product does.
+class StillMatcher {
+public:
+    virtual ~StillMatcher() = default;
+
+    virtual void setStill(const Shot& still) = 0;
+    [[nodiscard]] virtual StillMatch run(const Shot& frame) = 0;
+};
+
 /// What --methods accepts for superres.
 [[nodiscard]] const std::vector<std::string>& superResMethodNames();
 /// Does this method say nothing, or nothing of its own, without a still?
@@ -37,8 +48,14 @@ public:
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
                                                          const StereoRig& rig);
+    /// A model of OpenCV's dnn_superres. Throws EvalError as dnnEnlarger() does.
+    [[nodiscard]] static std::unique_ptr<SuperResMethod>
+    createModel(const std::filesystem::path& file, const StereoRig& rig);
+    [[nodiscard]] std::unique_ptr<StillMatcher> createMatcher(const StereoRig& rig);
 
 private:
+    void requireContext();
+
     std::shared_ptr<const FilterBank> filters_;
     double alpha_;  ///< of the paper's confidence [video px]
     std::unique_ptr<GlContext> context_;

@@ -3,6 +3,7 @@
 #include "tests/measure/eval/metrics/luma.h"
 #include "tests/measure/eval/metrics/psnr.h"
 #include "tests/measure/eval/metrics/ssim.h"
+#include "tests/measure/eval/metrics/tiles_below.h"
 
 #include <gtest/gtest.h>
 
@@ -70,6 +71,30 @@ TEST(HarmRate, CountsPixelsWorseThanBicubicByMoreThanTwo) {
     picture.at<double>(0, 1) = 106.5;
     picture.at<double>(0, 2) = 93;  // the error's sign plays no role
     EXPECT_DOUBLE_EQ(harmRate(picture, bicubic, truth), 0.02);
+}
+
+TEST(TilesBelow, CountsWholeTilesThatAreWorseByMoreThanAQuarter) {
+    const cv::Mat truth = constant(100, {5 * 64 + 63, 2 * 64 + 1}), bicubic = truth + 3;
+    cv::Mat picture = truth - 3.2;  // within the tolerance
+    EXPECT_EQ(tilesBelow(picture, bicubic, truth), 0);
+    picture(cv::Rect(64, 64, 64, 64)) = 96;
+    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // a part of a tile
+    picture(cv::Rect(0, 2 * 64, 64, 1)) = 0;
+    EXPECT_DOUBLE_EQ(tilesBelow(picture, bicubic, truth), 0.1);
+    EXPECT_EQ(tilesBelow(picture, bicubic, truth, 2), 0);
+    EXPECT_EQ(tilesBelow(picture, bicubic, truth, 0), 1);
+    EXPECT_EQ(tilesBelow(bicubic, picture, truth, 0), 0);
+}
+
+TEST(TilesBelow, OneBadPixelMakesATileWorse) {
+    const cv::Mat truth = constant(100, {64, 64}), bicubic = truth + 0.5;
+    cv::Mat picture = truth.clone();
+    picture.at<double>(7, 9) = 200;  // 100^2 / 64^2 is more than 0.75^2
+    EXPECT_EQ(tilesBelow(picture, bicubic, truth), 1);
+}
+
+TEST(TilesBelow, NoTileHasNoShare) {
+    EXPECT_TRUE(std::isnan(tilesBelow(constant(1), constant(2), constant(3))));
 }
 
 TEST(FlowError, MeasuresDistanceAndShares) {
