@@ -23,7 +23,9 @@ namespace {
 
 constexpr int kRequestMs = 2000;
 constexpr int kAnswerMs = 5000;
+constexpr int kPauseMs = 100;  // where no descriptor is free
 constexpr int kWaitingClients = 8;
+constexpr std::size_t kMostClients = 16;  // at once
 constexpr mode_t kOwnerAndGroup = 0660;
 
 Failure cannotListen(const std::filesystem::path& path, const std::string& why) {
@@ -65,6 +67,11 @@ int listenAt(const std::filesystem::path& path) {
     return fd;
 }
 
+int millisecondsTo(Timestamp end) {
+    return static_cast<int>(std::max<std::int64_t>((end - Timestamp::now()).count(), 0) /
+                            1'000'000);
+}
+
 }  // namespace
 
 ControlSocket::ControlSocket(std::filesystem::path path, Handler handler)
@@ -82,9 +89,7 @@ ControlSocket::~ControlSocket() {
 bool ControlSocket::isReady(int fd, short events, int timeoutMs) const {
     std::array<pollfd, 2> waiting{{{fd, events, 0}, {stop_.get(), POLLIN, 0}}};
     const Timestamp end = Timestamp::now() + std::chrono::milliseconds(timeoutMs);
-    for (int left = timeoutMs;;
-         left = static_cast<int>(std::max<std::int64_t>((end - Timestamp::now()).count(), 0) /
-                                 1'000'000)) {
+    for (int left = timeoutMs;; left = millisecondsTo(end)) {
         const int count = poll(waiting.data(), waiting.size(), left);
         if (count < 0 && errno == EINTR) continue;
         return count > 0 && waiting[1].revents == 0;
@@ -92,54 +97,78 @@ bool ControlSocket::isReady(int fd, short events, int timeoutMs) const {
 }
 
 void ControlSocket::serve() {
-    constexpr int kEver = 1 << 30;
-    for (;;) {
-        if (!isReady(listening_.get(), POLLIN, kEver)) {
-            pollfd stop{stop_.get(), POLLIN, 0};
-            if (poll(&stop, 1, 0) != 0) return;
-            continue;
-        }
-        const int client =
-            accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-        if (client < 0) continue;
-        serveOne(client);
-        close(client);
+    std::vector<Client> clients;
+    while (waitFor(clients)) {
+        for (Client& client : clients)
+            if (client.isReady) read(client);
+        for (Client& client : clients)
+            if (client.isComplete) answer(client);
+        std::erase_if(clients, [](const Client& client) {
+            return client.isComplete || client.isGone || Timestamp::now() >= client.end;
+        });
     }
 }
 
-void ControlSocket::serveOne(int client) {
-    std::string request;
-    if (!receive(client, request)) return;
-    ControlAnswer answer = handler_(request);
-    answer.line += '\n';
-    send(client, answer.line.data(), answer.line.size());
-    send(client, answer.data.data(), answer.data.size());
+// Until a client has something to say, a new one comes or the time of one is over. False at the end
+// of this object.
+bool ControlSocket::waitFor(std::vector<Client>& clients) {
+    std::vector<pollfd> waiting{{stop_.get(), POLLIN, 0}};
+    // Others wait in the queue of the socket.
+    waiting.push_back({clients.size() < kMostClients ? listening_.get() : -1, POLLIN, 0});
+    int timeout = clients.empty() ? -1 : kRequestMs;
+    for (const Client& client : clients) {
+        waiting.push_back({client.fd->get(), POLLIN, 0});
+        timeout = std::min(timeout, millisecondsTo(client.end));
+    }
+    if (poll(waiting.data(), waiting.size(), timeout) < 0) return true;
+    if (waiting[0].revents != 0) return false;
+    for (std::size_t i = 0; i < clients.size(); ++i)
+        clients[i].isReady = waiting[i + 2].revents != 0;
+    return waiting[1].revents == 0 || accept(clients);
+}
+
+bool ControlSocket::accept(std::vector<Client>& clients) {
+    const int fd = accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (fd >= 0)
+        clients.push_back({std::make_unique<Fd>(fd, "client"),
+                           Timestamp::now() + std::chrono::milliseconds(kRequestMs)});
+    else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
+        // The client stays in the queue, so the socket stays ready: without a pause, this spins.
+        return !isReady(stop_.get(), POLLIN, kPauseMs);
+    return true;
 }
 
 // Up to the line end, or to the end of what the client has to say. A request that is too long is
 // cut off, which the handler sees at its length.
-bool ControlSocket::receive(int client, std::string& request) const {
-    const Timestamp end = Timestamp::now() + std::chrono::milliseconds(kRequestMs);
+void ControlSocket::read(Client& client) {
     std::array<char, 1024> part{};
-    while (request.size() <= kLongestRequest) {
-        const auto left = (end - Timestamp::now()).count() / 1'000'000;
-        if (left <= 0 || !isReady(client, POLLIN, static_cast<int>(left))) return false;
-        const ssize_t bytes = recv(client, part.data(), part.size(), 0);
-        if (bytes < 0) return false;
-        request.append(part.data(), static_cast<std::size_t>(bytes));
-        const std::size_t lineEnd = request.find('\n');
-        if (lineEnd != request.npos) request.resize(lineEnd);
-        if (lineEnd != request.npos || bytes == 0) return !request.empty();
+    const ssize_t bytes = recv(client.fd->get(), part.data(), part.size(), 0);
+    if (bytes < 0) {
+        client.isGone = errno != EAGAIN && errno != EINTR;
+        return;
     }
-    return true;
+    std::string& request = client.request;
+    request.append(part.data(), static_cast<std::size_t>(bytes));
+    const std::size_t lineEnd = request.find('\n');
+    if (lineEnd != request.npos) request.resize(lineEnd);
+    const bool isWhole = lineEnd != request.npos || bytes == 0 || request.size() > kLongestRequest;
+    client.isComplete = isWhole && !request.empty();
+    client.isGone = isWhole && request.empty();
+}
+
+void ControlSocket::answer(const Client& client) {
+    ControlAnswer answer = handler_(client.request);
+    answer.line += '\n';
+    send(client.fd->get(), answer.line.data(), answer.line.size());
+    send(client.fd->get(), answer.data.data(), answer.data.size());
 }
 
 void ControlSocket::send(int client, const void* data, std::size_t bytes) const {
     const Timestamp end = Timestamp::now() + std::chrono::milliseconds(kAnswerMs);
     const auto* at = static_cast<const std::uint8_t*>(data);
     while (bytes > 0) {
-        const auto left = (end - Timestamp::now()).count() / 1'000'000;
-        if (left <= 0 || !isReady(client, POLLOUT, static_cast<int>(left))) return;
+        const int left = millisecondsTo(end);
+        if (left <= 0 || !isReady(client, POLLOUT, left)) return;
         const ssize_t sent = ::send(client, at, bytes, MSG_NOSIGNAL);
         if (sent < 0) return;
         at += sent;

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "base/time.h"
 #include "daemon/events.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -20,8 +22,9 @@ struct ControlAnswer {
 };
 
 /// A Unix stream socket for requests of one line each. A connection carries one request and its
-/// answer; connections are served one after the other, and one that is slow is given up: 2 s for
-/// its request, 5 s for taking the answer. The owner and the group of this process may connect.
+/// answer. Requests are read side by side and answered one after the other; a client that is slow
+/// is given up: 2 s for its request, 5 s for taking the answer. The owner and the group of this
+/// process may connect.
 class ControlSocket {
 public:
     static constexpr std::size_t kLongestRequest = 4096;  ///< [byte], line end included
@@ -38,10 +41,19 @@ public:
     ~ControlSocket();
 
 private:
+    struct Client {
+        std::unique_ptr<Fd> fd;
+        Timestamp end;  ///< of its time for the request
+        std::string request{};
+        bool isReady = false, isComplete = false, isGone = false;
+    };
+
     void serve();
-    void serveOne(int client);
+    [[nodiscard]] bool waitFor(std::vector<Client>& clients);
+    [[nodiscard]] bool accept(std::vector<Client>& clients);
+    static void read(Client& client);
+    void answer(const Client& client);
     [[nodiscard]] bool isReady(int fd, short events, int timeoutMs) const;
-    [[nodiscard]] bool receive(int client, std::string& request) const;
     void send(int client, const void* data, std::size_t bytes) const;
 
     std::filesystem::path path_;

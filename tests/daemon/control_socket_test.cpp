@@ -2,15 +2,20 @@
 #include "daemon/exit_code.h"
 #include "daemon/tools/control_client.h"
 
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <future>
 #include <gmock/gmock.h>
+#include <thread>
+#include <vector>
 
 namespace mfar {
 namespace {
@@ -36,6 +41,11 @@ struct ControlSocketTest : testing::Test {
         path.native().copy(address.sun_path, sizeof address.sun_path - 1);
         EXPECT_EQ(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
         return fd;
+    }
+    static double processSeconds() {
+        timespec used{};
+        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+        return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
     }
     static ControlAnswer echo(std::string_view request) {
         return {json{{"ok", true}, {"length", request.size()}}.dump()};
@@ -88,6 +98,44 @@ TEST_F(ControlSocketTest, ClientsThatGoAwayOrSayTooLittleDoNoHarm) {
     EXPECT_EQ(send(half, "{", 1, MSG_NOSIGNAL), 1);
     EXPECT_EQ(ask(path, {{"command", "status"}}).body["length"], 20);
     close(half);
+}
+
+TEST_F(ControlSocketTest, NobodyWaitsForAClientThatSaysNothing) {
+    const ControlSocket socket(path, echo);
+    const std::array<int, 3> idle{connected(), connected(), connected()};
+    const Timestamp begun = Timestamp::now();
+    EXPECT_EQ(ask(path, {{"command", "status"}}).body["length"], 20);
+    EXPECT_LT(Timestamp::now() - begun, std::chrono::milliseconds(1000));
+    for (const int fd : idle)
+        close(fd);
+}
+
+// A thread that tries again and again would need the whole time of a processor.
+TEST_F(ControlSocketTest, WithoutAFreeDescriptorItWaits) {
+    const ControlSocket socket(path, echo);
+    std::vector<int> all{connected()};
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const int waiting = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit tight{static_cast<rlim_t>(waiting) + 1, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &tight), 0);
+    for (int fd = dup(0); fd >= 0; fd = dup(0))
+        all.push_back(fd);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    path.native().copy(address.sun_path, sizeof address.sun_path - 1);
+    ASSERT_EQ(connect(waiting, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    const double cpu = processSeconds();
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    EXPECT_LT(processSeconds() - cpu, 0.25);
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+    for (const int fd : all)
+        close(fd);
+    EXPECT_EQ(send(waiting, "status\n", 7, MSG_NOSIGNAL), 7);
+    std::string answer(200, '\0');
+    EXPECT_GT(recv(waiting, answer.data(), answer.size(), 0), 0);
+    close(waiting);
 }
 
 TEST_F(ControlSocketTest, SocketOfADeadProcessIsReplacedThatOfALivingOneIsNot) {
