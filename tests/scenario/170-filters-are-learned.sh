@@ -35,7 +35,7 @@ sed -i '/superres/,$d' mfard.toml
 echo "shaders learn, too"
 sed -i 's/"simd"/"gles"/' mfard.toml
 mv "$file" kept
-learn --frames 6
+learn --frames 10
 [ "$(stills)" -ge 1 ] || fail "no still was learned from"
 sed -i 's/"gles"/"simd"/' mfard.toml
 mv kept "$file"
