@@ -106,6 +106,7 @@ Report evaluateSuperRes(const SuperResRequest& request) {
     Report report(columns);
     const auto labels = labelsOf(request.recordings);
     SuperResFactory factory(request.alpha);
+    if (request.learn != 0) factory.needContext();
     const bool learnsElsewhere = request.learn != 0 && !request.learnFrom.empty();
     if (learnsElsewhere) factory.setFilters(learnedFilters(request, request.learnFrom));
     for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -97,6 +97,10 @@ bool needsStill(const std::string& method) {
     return method == "detail2d" || method == "blend" || method == "paper";
 }
 
+void SuperResFactory::needContext() {
+    if (!context_) context_ = createGlContext();
+}
+
 std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
                                                         const StereoRig& rig) {
     if (name == "bicubic") return std::make_unique<Upscaling>(outputSize(rig), cv::INTER_CUBIC);
@@ -105,7 +109,7 @@ std::unique_ptr<SuperResMethod> SuperResFactory::create(const std::string& name,
     const bool blend = name == "blend";
     if (!blend && name != "detail" && name != "detail2d")
         throw std::invalid_argument(fmt::format("unknown method '{}'", name));
-    if (!context_) context_ = createGlContext();
+    needContext();
     return std::make_unique<PipelineMethod>(rig, blend ? SuperResMode::Blend : SuperResMode::Detail,
                                             name != "detail2d", filters_);
 }

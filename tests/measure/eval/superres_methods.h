@@ -35,6 +35,8 @@ public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
     /// What the product's methods enlarge by; null: as shipped.
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
+    /// Makes the context, for pipelines of others.
+    void needContext();
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
                                                          const StereoRig& rig);
 
