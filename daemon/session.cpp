@@ -235,9 +235,8 @@ void Session::tell(Timestamp time) {
     }
 }
 
-// Only where filters are used: elsewhere nothing would come of it.
 void Session::setLearning(bool wanted) {
-    if (wanted == (learning_ != nullptr) || (wanted && !engines_.learns())) return;
+    if (wanted == (learning_ != nullptr)) return;
     pipeline_.setMatchListener(nullptr);
     pipeline_.setFilters(nullptr);
     learning_.reset();

@@ -2,6 +2,7 @@
 // Variant: #define PLAIN_TILE
 #include "tile_params.glsl"
 #include "look_up.glsl"
+#include "columns.glsl"
 #include "upscale.glsl"
 
 layout(binding = 1) uniform sampler2D still;

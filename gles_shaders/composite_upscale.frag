@@ -1,6 +1,13 @@
-// Output where the still adds nothing: the upscaled video, cubic or linear.
+// Output where the still adds nothing: the upscaled video, cubic or linear, or with LEARNED cubic and what the
+// learned enlarger adds.
 // Variant: #define LINEAR
+// Variant: #define LEARNED
 #include "tile_params.glsl"
+#ifdef LEARNED
+#include "learned.glsl"
+#else
+#include "columns.glsl"
+#endif
 #include "upscale.glsl"
 
 layout(location = 0) out vec4 colour;
@@ -18,6 +25,8 @@ vec3 upscaledLinearly() {
 void main() {
 #ifdef LINEAR
     colour = vec4(upscaledLinearly(), 1.0);
+#elif defined(LEARNED)
+    colour = vec4(upscaled().rgb + learned(), 1.0);
 #else
     colour = vec4(upscaled().rgb, 1.0);
 #endif

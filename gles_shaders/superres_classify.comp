@@ -1,7 +1,7 @@
 // Class of every tile and the draw lists of the frame.
 // In: change flags, cell field. Out: lists[] = four lists of changed tiles (all, upscaled, trusted, blended;
 // empty when the whole frame is drawn at once, the first two when it is enlarged at once; the first also has the
-// tiles around those that show detail, which is made of what lies there), draws[] = their indirect commands and
+// tiles around those that show detail or are enlarged by filters, which is made of what lies there), draws[] = their indirect commands and
 // the counts of the frame, classes[] per tile.
 // One invocation a tile; draws[] is zeroed before.
 // Range: classes 0..3, 0..16
@@ -97,7 +97,8 @@ void main() {
         }
         if (!whole) append(0u, packTile(tile));
         if (!whole || (header.x == 2u && kind != kTileUpscaled)) append(kind, packTile(tile));
-        if (!whole && kind != kTileUpscaled && params.detailFrame != 0u) appendUnchangedAround(tile);
+        bool learns = params.learns != 0 && changed[index].y != 0u;
+        if (!whole && (learns || kind != kTileUpscaled) && params.detailFrame != 0u) appendUnchangedAround(tile);
     }
     classes[index] = uvec2(kind, unexplained);
     atomicAdd(counts[kind], 1u);

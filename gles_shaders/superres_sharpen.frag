@@ -4,35 +4,14 @@
 // that it would show of the still, which composite_detail.frag takes off.
 
 #include "tile_params.glsl"
+#include "still_seen.glsl"
+
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D weightField;
-layout(binding = 2) uniform sampler2D lookupField;
-layout(binding = 3) uniform sampler2D still;
 layout(location = 0) out vec4 colour;
 
 vec3 at(ivec2 p) {
     return texelFetch(picture, clamp(p, ivec2(0), videoSize() - 1), 0).rgb;
-}
-
-// Where a place in the video lies in the still.
-vec2 inStill(vec2 p) {
-    vec2 scale = vec2(params.stillScaleX, params.stillScaleY) / vec2(params.scaleX, params.scaleY);
-    return (p * scale + textureLod(lookupField, p / vec2(4 * cellCount()), 0.0).xy) *
-           vec2(params.stillTexelX, params.stillTexelY);
-}
-
-// Mean over this pixel: 4x4 samples. Within a pixel the look-ups are bilinear.
-float stillSeen() {
-    const float reach = 0.375 * kSeen;
-    vec2 first = inStill(gl_FragCoord.xy - reach), last = inStill(gl_FragCoord.xy + reach);
-    vec2 right = inStill(gl_FragCoord.xy + vec2(reach, -reach));
-    vec2 below = inStill(gl_FragCoord.xy + vec2(-reach, reach));
-    float sum = 0.0;
-    for (int i = 0; i < 16; ++i) {
-        vec2 share = vec2(i & 3, i >> 2) / 3.0;
-        sum += textureLod(still, mix(mix(first, right, share.x), mix(below, last, share.x), share.y), 0.0).r;
-    }
-    return sum / 16.0;
 }
 
 void main() {

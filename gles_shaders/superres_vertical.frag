@@ -1,10 +1,37 @@
 // Upscaling, first half: columns of four channels. In: prefiltered video. Out: video width x output height.
+// With LEARNED integers, of the video as it is and of what it shows of the still [1/64 grey level], and of the
+// residual that superres_enlarge.comp made, four sub-pixels a texel [1/64 grey level].
 // Variant: #define LINEAR
+// Variant: #define LEARNED
 #include "cubic.glsl"
 
 #include "tile_params.glsl"
 layout(binding = 0) uniform sampler2D picture;
+#ifdef LEARNED
+#include "pipeline/engine/params/enlarge.h"
+layout(binding = 1) uniform isampler2D seen;
+layout(binding = 2) uniform isampler2D grid;
+layout(location = 0) out ivec4 colour;
+layout(location = 1) out ivec4 residual;
+
+vec4 pictureAt(ivec2 p) {
+    return vec4(255.0 * float(kPassScale) * texelFetch(picture, p, 0).rgb, float(texelFetch(seen, p, 0).r));
+}
+
+ivec4 residualBetween() {
+    float y = float(kGrid) * gl_FragCoord.y * params.scaleY - 0.5;
+    int x = int(gl_FragCoord.x), row = int(floor(y)), last = kGrid * params.videoHeight - 1;
+    vec4 upper = vec4(texelFetch(grid, ivec2(x, clamp(row, 0, last)), 0));
+    vec4 lower = vec4(texelFetch(grid, ivec2(x, clamp(row + 1, 0, last)), 0));
+    return ivec4(floor(float(kPassScale / kResidualScale) * mix(upper, lower, y - floor(y)) + 0.5));
+}
+#else
 layout(location = 0) out vec4 colour;
+
+vec4 pictureAt(ivec2 p) {
+    return texelFetch(picture, p, 0);
+}
+#endif
 
 void main() {
     float y = gl_FragCoord.y * params.scaleY - 0.5;
@@ -20,6 +47,11 @@ void main() {
 #endif
     vec4 sum = vec4(0.0);
     for (int i = first; i <= last; ++i)
-        sum += w[i] * texelFetch(picture, ivec2(x, clamp(row + i - 1, 0, params.videoHeight - 1)), 0);
+        sum += w[i] * pictureAt(ivec2(x, clamp(row + i - 1, 0, params.videoHeight - 1)));
+#ifdef LEARNED
+    colour = ivec4(floor(sum + 0.5));
+    residual = residualBetween();
+#else
     colour = sum;
+#endif
 }

@@ -1,7 +1,6 @@
-// Bicubic upscaling, second half: rows; alpha as superres_sharpen.frag has it. Needs tile_params.glsl.
+// Bicubic upscaling, second half: rows; alpha as superres_vertical.frag has it. Needs tile_params.glsl, and
+// columns.glsl or learned.glsl.
 #include "cubic.glsl"
-
-layout(binding = 0) uniform sampler2D columns;
 
 vec4 upscaled() {
     float x = gl_FragCoord.x * params.scaleX - 0.5;
@@ -9,8 +8,6 @@ vec4 upscaled() {
     int column = int(floor(x));
     vec4 w = cubicWeights(x - floor(x));
     int last = params.videoWidth - 1;
-    return w.x * texelFetch(columns, ivec2(clamp(column - 1, 0, last), y), 0) +
-           w.y * texelFetch(columns, ivec2(clamp(column, 0, last), y), 0) +
-           w.z * texelFetch(columns, ivec2(clamp(column + 1, 0, last), y), 0) +
-           w.w * texelFetch(columns, ivec2(clamp(column + 2, 0, last), y), 0);
+    return w.x * columnAt(ivec2(clamp(column - 1, 0, last), y)) + w.y * columnAt(ivec2(clamp(column, 0, last), y)) +
+           w.z * columnAt(ivec2(clamp(column + 1, 0, last), y)) + w.w * columnAt(ivec2(clamp(column + 2, 0, last), y));
 }

@@ -220,7 +220,7 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
 void Pipeline::State::listen(const CellWeights& weights) {
     if (!isNewStill || quality.mode != SuperResMode::Detail) return;
     isNewStill = false;
-    if (matchListener == nullptr || !learns()) return;
+    if (matchListener == nullptr || !quality.learned) return;
     const CameraModel& looked = stillPictures->rig.still;
     matchListener->matched(now, stillPictures->luma.host(), weights.lookUps.host(),
                            {looked.size, looked.fx / rig.video.fx, looked.fy / rig.video.fy});
@@ -229,7 +229,7 @@ void Pipeline::State::listen(const CellWeights& weights) {
 void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
                                  const Match* match) {
     const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles,
-                            options.skips.plainTiles, learns() ? filterBank() : nullptr};
+                            options.skips.plainTiles, quality.learned ? filterBank() : nullptr};
     if (match != nullptr) {
         const DetailStep::Matched matched{*stillPictures, match->weights};
         detail->draw(frame, &matched, work, how);

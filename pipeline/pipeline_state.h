@@ -80,7 +80,6 @@ struct Pipeline::State {
     void forgetMoving(const DepthMatches& matches);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
     [[nodiscard]] Engine& engineOf(EngineKind kind);
-    [[nodiscard]] bool learns() const { return quality.learned && options.engines.learns(); }
     [[nodiscard]] const FilterBank* filterBank() const {
         return filters ? filters.get() : &FilterBank::prior();
     }

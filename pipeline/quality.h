@@ -16,8 +16,7 @@ struct Quality {
     SuperResMode mode = SuperResMode::Detail;
     /// Enlarges with Keys' cubic; false, and in mode Off alone: linearly, from half the samples.
     bool cubic = true;
-    /// Mode Detail enlarges by learned filters, where the engines do that; see
-    /// EngineChoice::learns().
+    /// Mode Detail enlarges by learned filters.
     bool learned = true;
     /// Off: matched in both dimensions though the poses are known.
     bool alongLines = true;

@@ -33,7 +33,8 @@ std::string shaderPreamble(std::string_view defines) {
     return "#version 310 es\n" + std::string(defines) +
            "precision highp float;\nprecision highp int;\n"
            "precision highp sampler2D;\nprecision highp usampler2D;\n"
-           "precision highp image2D;\nprecision highp uimage2D;\n#line 1\n";
+           "precision highp isampler2D;\nprecision highp image2D;\n"
+           "precision highp uimage2D;\nprecision highp iimage2D;\n#line 1\n";
 }
 
 Program::Program(std::string_view computeShader, std::string_view defines, std::size_t paramsBytes)

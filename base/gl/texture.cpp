@@ -99,12 +99,13 @@ void Texture::uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, in
 }
 
 void Texture::upload(std::span<const std::uint32_t> values) {
-    assert(format_ == TexelFormat::R32Ui);
-    assert(values.size() == static_cast<std::size_t>(size_.width) * size_.height);
+    const bool four = format_ == TexelFormat::Rgba32Ui;
+    assert(four || format_ == TexelFormat::R32Ui);
+    assert(values.size() == (four ? 4UL : 1UL) * size_.width * size_.height);
     glBindTexture(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height, GL_RED_INTEGER,
-                    GL_UNSIGNED_INT, values.data());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, size_.width, size_.height,
+                    four ? GL_RGBA_INTEGER : GL_RED_INTEGER, GL_UNSIGNED_INT, values.data());
 }
 
 std::vector<std::uint8_t> Texture::readRgba8() const {

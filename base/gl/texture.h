@@ -21,6 +21,8 @@ enum class TexelFormat : GLenum {
     R32F = GL_R32F,
     Rg32F = GL_RG32F,
     Rgba32F = GL_RGBA32F,
+    R16I = GL_R16I,
+    Rgba16I = GL_RGBA16I,
     R32Ui = GL_R32UI,
     Rgba32Ui = GL_RGBA32UI,
     Depth24 = GL_DEPTH_COMPONENT24,
@@ -52,7 +54,7 @@ public:
     void upload(std::span<const float> values, int firstRow = 0);
     /// Replaces level 0 of an Rgba8 texture from a row on: rows without padding. Asserts as above.
     void uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow = 0);
-    /// The same of an R32Ui texture, all of it.
+    /// The same of an R32Ui or Rgba32Ui texture, all of it: one or four numbers a texel.
     void upload(std::span<const std::uint32_t> values);
     /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;

@@ -41,10 +41,6 @@ struct EngineChoice {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||
                detail == kind || occlusion == kind;
     }
-    /// Is the video enlarged by learned filters? Where shaders do a part, pictures are theirs.
-    [[nodiscard]] bool learns() const {
-        return still == EngineKind::Simd && detail == EngineKind::Simd;
-    }
     bool operator==(const EngineChoice&) const = default;
 };
 

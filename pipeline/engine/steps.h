@@ -128,7 +128,7 @@ struct DetailOptions {
     bool cubic = true;          ///< Quality::cubic
     bool upscaledTiles = true;  ///< SkipOptions::upscaledTiles
     bool plainTiles = true;     ///< SkipOptions::plainTiles
-    /// Quality::learned, where EngineChoice::learns(); null: not enlarged by filters.
+    /// Where Quality::learned; null: not enlarged by filters.
     const FilterBank* filters = nullptr;
 };
 

@@ -4,6 +4,7 @@
 #include "pipeline/enlarge/stored_numbers.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -67,9 +68,15 @@ std::array<std::array<double, 5>, kGrid> cubicWeights() {
     return out;
 }
 
+std::uint64_t nextNumber() {
+    static std::atomic<std::uint64_t> last = 0;
+    return ++last;
+}
+
 }  // namespace
 
-FilterBank::FilterBank(std::span<const Filter> unique) : cubic_({kFilterSize, 1}) {
+FilterBank::FilterBank(std::span<const Filter> unique)
+    : number_(nextNumber()), cubic_({kFilterSize, 1}) {
     if (unique.size() != kUnique)
         throw FilterBankError("filters of " + std::to_string(unique.size()) +
                               " classes, expected " + std::to_string(kUnique));

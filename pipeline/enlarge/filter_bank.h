@@ -28,6 +28,8 @@ public:
     /// What the product ships: learned by mfar-train-enlarger, part of the program.
     [[nodiscard]] static const FilterBank& prior();
 
+    /// Another one than that of any other bank: tells whether a copy of this one is up to date.
+    [[nodiscard]] std::uint64_t number() const { return number_; }
     /// A row per class.
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
@@ -35,6 +37,7 @@ public:
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
+    std::uint64_t number_;
     AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
 };
 

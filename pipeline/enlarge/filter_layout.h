@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pipeline/engine/params/enlarge.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,8 +12,8 @@
 /// the pixel's class. The mean of two such residuals is used, of two ways to make classes.
 namespace mfar::enlarge {
 
-inline constexpr int kGrid = 4;  ///< sub-pixels of a pixel along each axis
-inline constexpr int kPhases = kGrid * kGrid, kTaps = 24, kPairs = kTaps / 2;
+using params::kGrid, params::kPairs, params::kLumaScale, params::kResidualScale;
+inline constexpr int kPhases = kGrid * kGrid, kTaps = 2 * kPairs;
 /// Numbers of a filter: [pair of taps][phase, row-major][tap of the pair].
 inline constexpr int kFilterSize = kTaps * kPhases;
 [[nodiscard]] constexpr int filterIndex(int tap, int phase) {
@@ -33,27 +35,32 @@ inline constexpr std::array<Offset, kTaps> kTapAt{
     return -1;
 }
 
-inline constexpr int kLumaScale = 8;        ///< luma in steps of 1/8 grey level
 inline constexpr int kWeightScale = 16384;  ///< a weight of one, of the sum of both residuals
-inline constexpr int kResidualScale = 32;   ///< residuals in steps of 1/32 grey level
 
 /// By the structure tensor, the sum of the gradient's products over 5x5 pixels: angle of its main
 /// axis, square root of the larger eigenvalue [grey levels per px], (s1 - s2) / (s1 + s2) of both
 /// roots. Class: (angle * strengths + strength) * coherences + coherence.
 struct GradientClasses {
-    static constexpr int kAngles = 16;
-    static constexpr std::array<float, 3> kStrengthFrom{2, 6, 16};
-    static constexpr std::array<float, 2> kCoherenceFrom{0.25F, 0.5F};
-    static constexpr int kKinds = 4 * 3;  ///< of an angle
+    static constexpr int kAngles = params::kGradientAngles;
+    static constexpr std::array<float, 3> kStrengthFrom{params::kWeakFrom, params::kMediumFrom,
+                                                        params::kStrongFrom};
+    static constexpr std::array<float, 2> kCoherenceFrom{params::kPartlyCoherentFrom,
+                                                         params::kCoherentFrom};
+    static constexpr int kKinds = params::kGradientKinds;  ///< of an angle
+    static_assert(kKinds == (kStrengthFrom.size() + 1) * (kCoherenceFrom.size() + 1));
     static constexpr int kCount = kAngles * kKinds;
 };
 /// By the second derivatives: angle of the main axis, Laplacian, difference of the eigenvalues
 /// [grey levels per px^2]. Class: (angle * Laplacians + Laplacian) * differences + difference.
 struct CurvatureClasses {
-    static constexpr int kAngles = 8;
-    static constexpr std::array<float, 6> kLaplacianFrom{-24, -8, -2.5F, 2.5F, 8, 24};
-    static constexpr std::array<float, 3> kDifferenceFrom{3, 10, 25};
-    static constexpr int kKinds = 7 * 4;
+    static constexpr int kAngles = params::kCurvatureAngles;
+    static constexpr std::array<float, 6> kLaplacianFrom{
+        -params::kHighLaplacian, -params::kMediumLaplacian, -params::kLowLaplacian,
+        params::kLowLaplacian,   params::kMediumLaplacian,  params::kHighLaplacian};
+    static constexpr std::array<float, 3> kDifferenceFrom{
+        params::kLowDifference, params::kMediumDifference, params::kHighDifference};
+    static constexpr int kKinds = params::kCurvatureKinds;
+    static_assert(kKinds == (kLaplacianFrom.size() + 1) * (kDifferenceFrom.size() + 1));
     static constexpr int kCount = kAngles * kKinds;
 };
 
@@ -91,5 +98,6 @@ inline constexpr int kUnique = kUniqueGradient + kUniqueCurvature;
 /// The residual is limited so that the sum with the cubic stays in the range of the surrounding 5x5
 /// pixels, made larger on both sides by this share of it, as a power of two: a quarter.
 inline constexpr int kOvershootShift = 2;
+static_assert(params::kOvershoot * (1 << kOvershootShift) == 1);
 
 }  // namespace mfar::enlarge

@@ -9,8 +9,11 @@ namespace mfar {
 namespace {
 
 constexpr std::uint32_t kQuadVertices = 6;
-constexpr const char* kLinear = "#define LINEAR\n";
 constexpr const char* kPlain = "#define PLAIN_TILE\n";
+
+const FilterBank* filtersOf(const DetailOptions& options) {
+    return options.mode == SuperResMode::Detail ? options.filters : nullptr;
+}
 
 }  // namespace
 
@@ -24,9 +27,7 @@ DetailPainter::DetailPainter(const StereoRig& stillRig, Size output)
       lists_(20 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
       draws_{gpu::Buffer(sizeof(DrawBlock)), gpu::Buffer(sizeof(DrawBlock))},
       classify_("superres_classify.comp"), sharpen_("superres_sharpen.frag"),
-      wholeDetail_("composite_detail.frag"), wholeBlend_("composite_blend.frag"),
-      detail_("tile_rect.vert", "composite_detail.frag", ""),
-      plainDetail_("tile_rect.vert", "composite_detail.frag", kPlain),
+      columnsPass_("superres_vertical.frag"), wholeBlend_("composite_blend.frag"),
       blend_("tile_rect.vert", "composite_blend.frag", ""),
       plainBlend_("tile_rect.vert", "composite_blend.frag", kPlain) {}
 
@@ -37,6 +38,7 @@ void DetailPainter::classify(const Matched* matched, const TileBuffer& tiles,
     for (auto& command : block.commands)
         command[0] = kQuadVertices;
     draws_[current_].write(std::span<const DrawBlock>(&block, 1));
+    const bool learns = filtersOf(options) != nullptr;
     const bool hasDetail = matched != nullptr && options.mode == SuperResMode::Detail;
     classified_ = std::max(classified_ + 1, 1U);
     classify_.run({.columns = tiles_.width,
@@ -46,7 +48,8 @@ void DetailPainter::classify(const Matched* matched, const TileBuffer& tiles,
                    .leastWeight = options.upscaledTiles ? params::kLeastDetailWeight : -1.0F,
                    .plainFlow = options.plainTiles ? params::kPlainFlow : 0.0F,
                    .stillGiven = matched != nullptr ? 1 : 0,
-                   .detailFrame = hasDetail ? classified_ : 0},
+                   .detailFrame = hasDetail || learns ? classified_ : 0,
+                   .learns = learns ? 1 : 0},
                   {gpu::storage(0, tiles.buffer()), gpu::storage(1, classes_),
                    gpu::storage(2, draws_[current_]), gpu::storage(3, lists_),
                    gpu::sampler(0, matched != nullptr ? matched->weighed : blank_),
@@ -60,7 +63,7 @@ gpu::InstanceList DetailPainter::list(List which) const {
     return {draws_[current_], 16 * index, lists_, 4 * index * tiles};
 }
 
-DetailPainter::TileParams DetailPainter::tileParams(bool sharpens) const {
+DetailPainter::TileParams DetailPainter::tileParams() const {
     TileParams p{};
     p.videoWidth = video_.width;
     p.videoHeight = video_.height;
@@ -72,37 +75,60 @@ DetailPainter::TileParams DetailPainter::tileParams(bool sharpens) const {
     p.stillTexelY = 1.0F / static_cast<float>(rig_.still.size.height);
     p.stillScaleX = p.scaleX * static_cast<float>(rig_.still.fx / rig_.video.fx);
     p.stillScaleY = p.scaleY * static_cast<float>(rig_.still.fy / rig_.video.fy);
-    p.sharpening = sharpens ? 1.0F : 0.0F;
+    p.sharpening = 1;
     return p;
-}
-
-void DetailPainter::drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
-                             const gpu::Framebuffer& target, const TileWork& work) {
-    if (work.drawsWhole())
-        pass.whole.run(params, bindings, target);
-    else
-        pass.tiles.runTiles(params, bindings, target, list(List::All));
 }
 
 // Tiles beside those that are drawn are looked at, too: after frames without, all are made.
 void DetailPainter::sharpen(const TileParams& params, const gpu::Texture& video,
                             const Matched& matched, const TileWork& work) {
-    const gpu::Bindings from{gpu::sampler(0, video), gpu::sampler(1, matched.trust),
-                             gpu::sampler(2, matched.lookUps), gpu::sampler(3, matched.still)};
-    if (sharpenedIsOld_)
-        sharpen_.whole.run(params, from, sharpenedTarget_);
-    else
-        drawBoth(sharpen_, params, from, sharpenedTarget_, work);
+    sharpen_.run(work.drawsWhole() || sharpenedIsOld_, params,
+                 {gpu::sampler(0, video), gpu::sampler(1, matched.trust),
+                  gpu::sampler(2, matched.lookUps), gpu::sampler(3, matched.still)},
+                 sharpenedTarget_, list(List::All));
 }
 
-DetailPainter::Enlarging& DetailPainter::enlarging(bool cubic) {
-    if (cubic) return cubicly_;
-    if (!linearly_) linearly_.emplace(kLinear);
-    return *linearly_;
+void DetailPainter::enlargeLearned(const TileParams& params, const gpu::Texture& video,
+                                   const Matched* matched, const TileBuffer& tiles,
+                                   const FilterBank& filters) {
+    if (!learned_) learned_.emplace(video_, output_.size());
+    if (matched == nullptr) {
+        learned_->run(video, nullptr, tiles, filters, params, list(List::All));
+        return;
+    }
+    const LearnedEnlarger::Seen seen{matched->still, matched->lookUps};
+    learned_->run(video, &seen, tiles, filters, params, list(List::All));
 }
 
-void DetailPainter::drawDetail(gpu::DrawPass<TileParams>& detail, const TileParams& params,
-                               gpu::Bindings bindings, const TileWork& work) {
+// The first half of enlarging, for the composites.
+void DetailPainter::enlargeColumns(const TileParams& params, const gpu::Texture& video,
+                                   const Matched* matched, const TileBuffer& tiles,
+                                   const DetailOptions& options) {
+    const FilterBank* filters = filtersOf(options);
+    const bool sharpens =
+        filters == nullptr && matched != nullptr && options.mode == SuperResMode::Detail;
+    if (sharpens) sharpen(params, video, *matched, tiles.work());
+    sharpenedIsOld_ = !sharpens;
+    if (filters != nullptr) {
+        enlargeLearned(params, video, matched, tiles, *filters);
+        return;
+    }
+    if (learned_) learned_->skip();
+    if (!options.cubic && !linear_) linear_.emplace();
+    TilePass& columns = options.cubic ? columnsPass_ : linear_->columns;
+    columns.run(tiles.work().drawsWhole(), params, {gpu::sampler(0, sharpens ? sharpened_ : video)},
+                columnsTarget_, list(List::All));
+}
+
+DetailPainter::Composites DetailPainter::compositesFor(const DetailOptions& options) {
+    DetailPasses& detail = filtersOf(options) != nullptr ? learned_->passes() : detailPasses_;
+    TilePass& enlarged = options.cubic ? detail.enlarged : linear_->rows;
+    if (options.mode == SuperResMode::Blend) return {enlarged, wholeBlend_, blend_, plainBlend_};
+    return {enlarged, detail.whole, detail.tiles, detail.plain};
+}
+
+void DetailPainter::drawDetail(Composites passes, const TileParams& params, gpu::Bindings bindings,
+                               const TileWork& work) {
     const PixelRect in = outputOf(work.detailTiles);
     const auto [width, height] = output_.size();
     for (const PixelRect& part :
@@ -110,10 +136,10 @@ void DetailPainter::drawDetail(gpu::DrawPass<TileParams>& detail, const TilePara
           PixelRect{0, in.y0, in.x0, in.y1}, PixelRect{in.x1, in.y0, width, in.y1}}) {
         if (part.empty()) continue;
         const gpu::Scissor scissor(part);
-        cubicly_.rows.whole.run(params, {gpu::sampler(0, columns_)}, outputTarget_);
+        passes.enlarged.whole.run(params, bindings, outputTarget_);
     }
     const gpu::Scissor scissor(in);
-    detail.run(params, bindings, outputTarget_);
+    passes.whole.run(params, bindings, outputTarget_);
 }
 
 // The pixels of the output that show these tiles, or parts of them.
@@ -136,33 +162,39 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
     // A draw of no tiles would have its shader compiled all the same.
     if (restingFrames_ > 0) return;
 
-    const bool sharpens = matched != nullptr && options.mode == SuperResMode::Detail;
-    const TileParams p = tileParams(sharpens);
-    if (sharpens) sharpen(p, video, *matched, work);
-    sharpenedIsOld_ = !sharpens;
-    Enlarging& enlarging = this->enlarging(options.cubic);
-    drawBoth(enlarging.columns, p, {gpu::sampler(0, sharpens ? sharpened_ : video)}, columnsTarget_,
-             work);
-    if (!work.drawsWhole())
-        enlarging.rows.tiles.runTiles(p, {gpu::sampler(0, columns_)}, outputTarget_,
-                                      list(List::Upscaled));
-    const bool enlargesAll =
-        matched == nullptr ? work.drawsWhole() : work.draw == TileWork::Draw::WholeEnlarged;
-    if (enlargesAll) enlarging.rows.whole.run(p, {gpu::sampler(0, columns_)}, outputTarget_);
-    if (matched != nullptr) drawMatched(*matched, p, work, options.mode);
+    const TileParams p = tileParams();
+    enlargeColumns(p, video, matched, tiles, options);
+    const Composites passes = compositesFor(options);
+    const bool learns = filtersOf(options) != nullptr;
+    const gpu::Texture& columns = learns ? learned_->columns() : columns_;
+    // What is not there is not read.
+    const gpu::Texture& still = matched != nullptr ? matched->still : blank_;
+    const gpu::Texture& lookUps = matched != nullptr ? matched->lookUps : blank_;
+    if (learns)
+        composite(passes, p,
+                  {gpu::sampler(0, columns), gpu::sampler(1, still), gpu::sampler(2, lookUps),
+                   gpu::sampler(3, learned_->residuals()), gpu::sampler(4, learned_->tiles())},
+                  matched != nullptr, work);
+    else
+        composite(passes, p,
+                  {gpu::sampler(0, columns), gpu::sampler(1, still), gpu::sampler(2, lookUps)},
+                  matched != nullptr, work);
 }
 
-void DetailPainter::drawMatched(const Matched& matched, const TileParams& params,
-                                const TileWork& work, SuperResMode mode) {
-    const bool blend = mode == SuperResMode::Blend;
-    const gpu::Bindings from{gpu::sampler(0, columns_), gpu::sampler(1, matched.still),
-                             gpu::sampler(2, matched.lookUps)};
+void DetailPainter::composite(Composites passes, const TileParams& params, gpu::Bindings bindings,
+                              bool isMatched, const TileWork& work) {
+    if (!work.drawsWhole())
+        passes.enlarged.tiles.runTiles(params, bindings, outputTarget_, list(List::Upscaled));
+    const bool enlargesAll =
+        !isMatched ? work.drawsWhole() : work.draw == TileWork::Draw::WholeEnlarged;
+    if (enlargesAll) passes.enlarged.whole.run(params, bindings, outputTarget_);
+    if (!isMatched) return;
     if (work.draw == TileWork::Draw::Whole) {
-        drawDetail(blend ? wholeBlend_ : wholeDetail_, params, from, work);
+        drawDetail(passes, params, bindings, work);
         return;
     }
-    (blend ? plainBlend_ : plainDetail_).runTiles(params, from, outputTarget_, list(List::Trusted));
-    (blend ? blend_ : detail_).runTiles(params, from, outputTarget_, list(List::Blended));
+    passes.plain.runTiles(params, bindings, outputTarget_, list(List::Trusted));
+    passes.tiles.runTiles(params, bindings, outputTarget_, list(List::Blended));
 }
 
 TileSummary DetailPainter::summary(int which) const {

@@ -3,7 +3,9 @@
 #include "base/gl/pass.h"
 #include "pipeline/engine/params/detail.h"
 #include "pipeline/engine/steps.h"
+#include "pipeline/gles/learned_enlarger.h"
 #include "pipeline/gles/tile_buffer.h"
+#include "pipeline/gles/tile_pass.h"
 
 #include <array>
 #include <cstdint>
@@ -43,16 +45,15 @@ public:
 
 private:
     using TileParams = params::DrawTiles;
-    /// The same shader over the whole target and over a list of tiles.
-    struct TilePass {
-        explicit TilePass(const char* fragment, const char* defines = "")
-            : whole(fragment, defines), tiles("tile_rect.vert", fragment, defines) {}
-        gpu::DrawPass<TileParams> whole, tiles;
+    /// Enlarges linearly.
+    struct Linear {
+        TilePass columns{"superres_vertical.frag", "#define LINEAR\n"};
+        TilePass rows{"composite_upscale.frag", "#define LINEAR\n"};
     };
-    struct Enlarging {
-        explicit Enlarging(const char* defines = "")
-            : columns("superres_vertical.frag", defines), rows("composite_upscale.frag", defines) {}
-        TilePass columns, rows;
+    /// Draws tiles of one kind, or the detail of a whole frame.
+    struct Composites {
+        TilePass& enlarged;
+        gpu::DrawPass<TileParams>&whole, &tiles, &plain;
     };
     /// draws[] of superres_classify.comp.
     struct DrawBlock {
@@ -66,15 +67,17 @@ private:
     void classify(const Matched* matched, const TileBuffer& tiles, const DetailOptions& options);
     void sharpen(const TileParams& params, const gpu::Texture& video, const Matched& matched,
                  const TileWork& work);
-    void drawBoth(TilePass& pass, const TileParams& params, gpu::Bindings bindings,
-                  const gpu::Framebuffer& target, const TileWork& work);
-    void drawMatched(const Matched& matched, const TileParams& params, const TileWork& work,
-                     SuperResMode mode);
-    void drawDetail(gpu::DrawPass<TileParams>& detail, const TileParams& params,
-                    gpu::Bindings bindings, const TileWork& work);
+    void enlargeLearned(const TileParams& params, const gpu::Texture& video, const Matched* matched,
+                        const TileBuffer& tiles, const FilterBank& filters);
+    void enlargeColumns(const TileParams& params, const gpu::Texture& video, const Matched* matched,
+                        const TileBuffer& tiles, const DetailOptions& options);
+    void composite(Composites passes, const TileParams& params, gpu::Bindings bindings,
+                   bool isMatched, const TileWork& work);
+    void drawDetail(Composites passes, const TileParams& params, gpu::Bindings bindings,
+                    const TileWork& work);
     [[nodiscard]] PixelRect outputOf(const PixelRect& tiles) const;
-    [[nodiscard]] TileParams tileParams(bool sharpens) const;
-    [[nodiscard]] Enlarging& enlarging(bool cubic);
+    [[nodiscard]] TileParams tileParams() const;
+    [[nodiscard]] Composites compositesFor(const DetailOptions& options);
 
     StereoRig rig_;
     Size video_, cells_, tiles_;
@@ -86,11 +89,12 @@ private:
     std::uint32_t classified_ = 0;  // frames
     bool sharpenedIsOld_ = true;    // from a frame before the last
     gpu::ComputePass<params::ClassifyTiles> classify_;
-    TilePass sharpen_;
-    Enlarging cubicly_;
-    std::optional<Enlarging> linearly_;  // made for the first frame that wants it
-    gpu::DrawPass<TileParams> wholeDetail_, wholeBlend_;
-    gpu::DrawPass<TileParams> detail_, plainDetail_, blend_, plainBlend_;
+    TilePass sharpen_, columnsPass_;
+    DetailPasses detailPasses_;
+    gpu::DrawPass<TileParams> wholeBlend_, blend_, plainBlend_;
+    // Made for the first frame that wants it.
+    std::optional<Linear> linear_;
+    std::optional<LearnedEnlarger> learned_;
 };
 
 }  // namespace mfar

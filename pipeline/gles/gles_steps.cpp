@@ -39,6 +39,7 @@ public:
         : still_(setup.rig, setup.output, frame.stillPicture()), lumaCopy_(frame.stillPicture()),
           raisedCopy_(still_.raised()) {
         pictures_.rig = still_.rig();
+        pictures_.luma = Field<std::uint8_t>({}, setup.transfers);
     }
 
     const StillPictures& run(const ImageView& still, SuperResMode) override {

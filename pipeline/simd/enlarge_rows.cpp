@@ -72,9 +72,8 @@ HWY_INLINE hn::Vec<F> AngleBin(hn::Vec<F> cosine, hn::Vec<F> sine) {
     const auto c = hn::Abs(cosine), s = hn::Abs(sine), one = hn::Set(d, 1.0F);
     auto bin = hn::IfThenElseZero(hn::Gt(s, c), one);
     if constexpr (kBins == 16) {
-        constexpr float kTangent = 0.414213562F;  // of 22.5 degrees; of 67.5 it is that and two
-        const auto low = hn::Gt(s, hn::Mul(c, hn::Set(d, kTangent)));
-        const auto high = hn::Gt(s, hn::Mul(c, hn::Set(d, kTangent + 2)));
+        const auto low = hn::Gt(s, hn::Mul(c, hn::Set(d, params::kLowTangent)));
+        const auto high = hn::Gt(s, hn::Mul(c, hn::Set(d, params::kHighTangent)));
         bin = hn::Add(bin, hn::Add(hn::IfThenElseZero(low, one), hn::IfThenElseZero(high, one)));
     }
     const auto left = hn::Lt(cosine, hn::Zero(d)), lower = hn::Lt(sine, hn::Zero(d));

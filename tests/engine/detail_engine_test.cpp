@@ -42,16 +42,16 @@ public:
           still_(stillEngine_->still()), step_(detailEngine_->detail()),
           pictures_(still_->run(first.stillView(), SuperResMode::Detail)) {}
 
-    Rows<const std::uint32_t> draw(const DetailCase& frame) {
+    Rows<const std::uint32_t> draw(const DetailCase& frame, const FilterBank* filters = nullptr) {
         CellWeights weights;
         weights.weighed.writtenOnHost(rowsOf(frame.weighed, frame.cells));
         weights.lookUps.writtenOnHost(rowsOf(frame.lookUps, frame.cells));
         weights.trust.writtenOnHost(rowsOf(frame.trust, frame.cells));
         const DetailStep::Matched matched{pictures_, weights};
-        const ImageView view = frame.videoView();
-        step_->draw({view, frame.video, ++number_}, &matched, frame.work,
-                    {.mode = SuperResMode::Detail, .upscaledTiles = false, .plainTiles = false});
-        return step_->output().host();
+        return draw(frame, &matched, filters);
+    }
+    Rows<const std::uint32_t> drawWithoutStill(const DetailCase& frame, const FilterBank* filters) {
+        return draw(frame, nullptr, filters);
     }
     /// Its raised luma.
     [[nodiscard]] twin::Grey luma() const {
@@ -64,6 +64,16 @@ public:
     }
 
 private:
+    Rows<const std::uint32_t> draw(const DetailCase& frame, const DetailStep::Matched* matched,
+                                   const FilterBank* filters) {
+        const ImageView view = frame.videoView();
+        step_->draw({view, frame.video, ++number_}, matched, frame.work,
+                    {.mode = SuperResMode::Detail,
+                     .upscaledTiles = false,
+                     .plainTiles = false,
+                     .filters = filters});
+        return step_->output().host();
+    }
     template <class T>
     static Rows<const T> rowsOf(const std::vector<T>& cells, Size size) {
         return {cells.data(), size.width, size};
@@ -108,59 +118,146 @@ TEST_P(DetailEngineTest, WholeFrameIsTheOraclesAtAnySize) {
     }
 }
 
+/// Errors of a picture, all channels, where `of` says what they are compared with.
+template <class F>
+void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
+    for (int y = 0; y < drawn.size.height; ++y)
+        for (int x = 0; x < drawn.size.width; ++x)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(channel(drawn, x, y, c), of(x, y, c), most)
+                    << drawn.size.width << ": " << x << " " << y << " " << c;
+}
+
+constexpr double kLearnedError = 1.3;  // luma is in 1/8 grey level, limits in quarters of that
+
+TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
+    const bool shaders = GetParam().detail == EngineKind::Gles;
+    const simd::DetailOptions options{SuperResMode::Detail, true, false, false, &simd::evenBank()};
+    for (const auto& [video, stillSize, output] : simd::kSizes) {
+        if (output.width > 1000) continue;  // slow, and its video is small
+        const DetailCase frame = withRoom(DetailCase(video, stillSize));
+        Drawing drawing(GetParam(), frame, output);
+        simd::Wanted alone(frame, output, options, false), wanted(frame, output, options, true);
+        if (shaders) wanted.seeStill();
+        expectPicture(
+            drawing.drawWithoutStill(frame, options.learned),
+            [&](int x, int y, int c) { return alone.enlarged(x, y, c); }, kLearnedError);
+        const twin::Grey still = drawing.luma();
+        // Shaders read the still with weights of 8 bits at places in half precision.
+        expectPicture(
+            drawing.draw(frame, options.learned),
+            [&](int x, int y, int c) { return wanted.withStill(x, y, c, still); },
+            kLearnedError + (shaders ? 1.2 : 0));
+    }
+}
+
+TEST_P(DetailEngineTest, TilesWithoutStructureAreNotEnlargedByFilters) {
+    const Size output{576, 432};
+    DetailCase frame = withRoom(DetailCase({160, 120}, {400, 300}));
+    for (std::size_t i = 0; i < frame.work.flags.size(); ++i)
+        frame.work.flags[i].matched = i % 3 == 0;
+    const simd::DetailOptions options{SuperResMode::Detail, true, false, false, &simd::evenBank()};
+    const simd::Wanted with(frame, output, options, false),
+        without(frame, output, simd::kDetail, false);
+    Drawing drawing(GetParam(), frame, output);
+    expectPicture(
+        drawing.drawWithoutStill(frame, options.learned),
+        [&](int x, int y, int c) {
+            const int tile =
+                simd::tileAt(y, 120, 432) * frame.work.tiles.width + simd::tileAt(x, 160, 576);
+            return (tile % 3 == 0 ? with : without).enlarged(x, y, c);
+        },
+        kLearnedError);
+}
+
+TEST_P(DetailEngineTest, NewFiltersAndNoneShowInTheNextFrame) {
+    const Size video{53, 37}, output{191, 133};
+    const DetailCase frame = withRoom(DetailCase(video, {200, 140}));
+    const std::array<const FilterBank*, 5> banks{&simd::evenBank(), &FilterBank::prior(), nullptr,
+                                                 &simd::evenBank(), nullptr};
+    Drawing drawing(GetParam(), frame, output);
+    for (std::size_t i = 0; i < banks.size(); ++i) {
+        Drawing other(GetParam(), frame, output);
+        const Rows<const std::uint32_t> a = drawing.draw(frame, banks[i]),
+                                        b = other.draw(frame, banks[i]);
+        for (int y = 0; y < output.height; ++y)
+            ASSERT_TRUE(std::equal(a[y], a[y] + output.width, b[y])) << i << ": row " << y;
+    }
+}
+
 // Look-ups move everywhere, but only some tiles are drawn: their detail is made of what lies around
 // them, too.
-TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
-    for (const auto& [video, stillSize, output] : simd::kSizes) {
-        const DetailCase before = withRoom(DetailCase(video, stillSize));
-        DetailCase part = withRoom(DetailCase(video, stillSize, 0.4));
-        for (LookUpCell& cell : part.lookUps) {
-            cell.x += 3.5F;
-            cell.y -= 2.25F;
-        }
-        DetailCase whole = part;
-        whole.work = before.work;
-        Drawing drawing(GetParam(), before, output), other(GetParam(), before, output);
-        drawing.draw(before);
-        const Rows<const std::uint32_t> some = drawing.draw(part), all = other.draw(whole);
-        Drawing third(GetParam(), before, output);
-        const Rows<const std::uint32_t> old = third.draw(before);
-        int most = 0;
-        for (int y = 0; y < output.height; ++y)
-            for (int x = 0; x < output.width; ++x) {
-                const bool changed = part.work
-                                         .at(simd::tileAt(x, video.width, output.width),
-                                             simd::tileAt(y, video.height, output.height))
-                                         .changed != 0;
-                ASSERT_EQ(some[y][x], changed ? all[y][x] : old[y][x])
-                    << output.width << ": " << x << " " << y;
-                most = std::max(most, std::abs(static_cast<int>(channel(all, x, y, 1)) -
-                                               static_cast<int>(channel(old, x, y, 1))));
-            }
-        EXPECT_TRUE(most > 5 || output == video) << "what the still shows moves: " << most;
+void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes,
+                            const FilterBank* filters) {
+    const auto& [video, stillSize, output] = sizes;
+    const DetailCase before = withRoom(DetailCase(video, stillSize));
+    DetailCase part = withRoom(DetailCase(video, stillSize, 0.4));
+    for (LookUpCell& cell : part.lookUps) {
+        cell.x += 3.5F;
+        cell.y -= 2.25F;
     }
+    DetailCase whole = part;
+    whole.work = before.work;
+    Drawing drawing(engines, before, output), other(engines, before, output);
+    drawing.draw(before, filters);
+    const Rows<const std::uint32_t> some = drawing.draw(part, filters),
+                                    all = other.draw(whole, filters);
+    Drawing third(engines, before, output);
+    const Rows<const std::uint32_t> old = third.draw(before, filters);
+    int most = 0;
+    for (int y = 0; y < output.height; ++y)
+        for (int x = 0; x < output.width; ++x) {
+            const bool changed = part.work
+                                     .at(simd::tileAt(x, video.width, output.width),
+                                         simd::tileAt(y, video.height, output.height))
+                                     .changed != 0;
+            ASSERT_EQ(some[y][x], changed ? all[y][x] : old[y][x])
+                << output.width << ": " << x << " " << y;
+            most = std::max(most, std::abs(static_cast<int>(channel(all, x, y, 1)) -
+                                           static_cast<int>(channel(old, x, y, 1))));
+        }
+    EXPECT_TRUE(most > 5 || output == video) << "what the still shows moves: " << most;
+}
+
+TEST_P(DetailEngineTest, OnlyChangedTilesAreDrawnAndLookAsInAWholeFrame) {
+    for (const simd::Sizes& sizes : simd::kSizes)
+        expectOnlyChangedTiles(GetParam(), sizes, nullptr);
+}
+
+TEST_P(DetailEngineTest, OnlyChangedTilesAreEnlargedByFilters) {
+    for (const simd::Sizes& sizes : simd::kSizes)
+        expectOnlyChangedTiles(GetParam(), sizes, &FilterBank::prior());
 }
 
 using DetailEngines = GlTest;
 
 // The kernels take the mean of the warped still, which has to be finer than the video for it.
-TEST_F(DetailEngines, DrawTheSamePicture) {
+void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         if (2 * output.width < 3 * video.width) continue;
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing gles({EngineKind::Gles, EngineKind::Simd}, frame, output),
             simd({EngineKind::Simd, EngineKind::Simd}, frame, output);
-        const Rows<const std::uint32_t> a = gles.draw(frame), b = simd.draw(frame);
+        const Rows<const std::uint32_t> a = gles.draw(frame, filters),
+                                        b = simd.draw(frame, filters);
         double squares = 0;
         for (int y = 0; y < output.height; ++y)
             for (int x = 0; x < output.width; ++x)
                 for (int c = 0; c < 3; ++c) {
                     const double off = channel(a, x, y, c) - channel(b, x, y, c);
-                    ASSERT_LE(std::abs(off), 4) << output.width << ": " << x << " " << y;
+                    ASSERT_LE(std::abs(off), most) << output.width << ": " << x << " " << y;
                     squares += off * off;
                 }
-        EXPECT_LE(std::sqrt(squares / (3.0 * output.width * output.height)), 0.85) << output.width;
+        EXPECT_LE(std::sqrt(squares / (3.0 * output.width * output.height)), rms) << output.width;
     }
+}
+
+TEST_F(DetailEngines, DrawTheSamePicture) {
+    expectTheSamePicture(nullptr, 4, 0.85);
+}
+
+TEST_F(DetailEngines, EnlargeByTheSameFilters) {
+    expectTheSamePicture(&FilterBank::prior(), 4, 0.6);
 }
 
 }  // namespace

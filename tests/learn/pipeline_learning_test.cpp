@@ -1,7 +1,6 @@
 #include "pipeline/pipeline.h"
+#include "tests/engine/gl_test.h"
 #include "tests/learn/sensor_pair.h"
-
-#include <gtest/gtest.h>
 
 namespace mfar {
 namespace {
@@ -28,14 +27,19 @@ struct Heard final : MatchListener {
     }
 };
 
-class PipelineLearning : public testing::Test {
+class PipelineLearning : public GlTest, public testing::WithParamInterface<EngineKind> {
 protected:
     PipelineLearning()
-        : still_(sharp_.values.begin(), sharp_.values.end()),
+        : current_(makeCurrent()), still_(sharp_.values.begin(), sharp_.values.end()),
           video_(low_.values.begin(), low_.values.end()), pipeline_(made()), other_(made()) {}
 
+    // Before the pipelines.
+    static bool makeCurrent() {
+        context().makeCurrent();
+        return true;
+    }
     static Pipeline made() {
-        return {simpleRig(), {.output = {}, .engines = EngineChoice::all(EngineKind::Simd)}};
+        return {simpleRig(), {.output = {}, .engines = EngineChoice::all(GetParam())}};
     }
     void setStill(Pipeline& pipeline) const {
         pipeline.setStill(
@@ -50,12 +54,17 @@ protected:
     /// Both draw the same.
     bool alike() { return picture(pipeline_) == picture(other_); }
 
+    bool current_;
     const twin::Grey sharp_ = sharpDiscs(1), low_ = videoOf(sharp_, {});
     const std::vector<std::uint8_t> still_, video_;
     Pipeline pipeline_, other_;
 };
 
-TEST_F(PipelineLearning, EachStillThatIsMatchedIsHeardOfOnce) {
+INSTANTIATE_TEST_SUITE_P(Engines, PipelineLearning,
+                         testing::Values(EngineKind::Gles, EngineKind::Simd),
+                         [](const auto& tested) { return std::string(nameOf(tested.param)); });
+
+TEST_P(PipelineLearning, EachStillThatIsMatchedIsHeardOfOnce) {
     Heard heard;
     pipeline_.setMatchListener(&heard);
     (void)picture(pipeline_);
@@ -78,7 +87,7 @@ TEST_F(PipelineLearning, EachStillThatIsMatchedIsHeardOfOnce) {
     EXPECT_EQ(heard.times, 2);
 }
 
-TEST_F(PipelineLearning, FiltersComeInWithTheNextStillOrAtOnceWithoutAny) {
+TEST_P(PipelineLearning, FiltersComeInWithTheNextStillOrAtOnceWithoutAny) {
     const auto none = std::make_shared<const FilterBank>(
         std::vector<FilterBank::Filter>(enlarge::kUnique, FilterBank::Filter{}));
     pipeline_.setFilters(none);

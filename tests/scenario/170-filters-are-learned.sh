@@ -32,6 +32,14 @@ learn --frames 6
 summary_has stills_learned 0
 sed -i '/superres/,$d' mfard.toml
 
+echo "shaders learn, too"
+sed -i 's/"simd"/"gles"/' mfard.toml
+mv "$file" kept
+learn --frames 10
+[ "$(stills)" -ge 1 ] || fail "no still was learned from"
+sed -i 's/"gles"/"simd"/' mfard.toml
+mv kept "$file"
+
 echo "on demand it is forgotten"
 start --config mfard.toml --source synthetic:office,rest --control control
 until_true started

@@ -158,6 +158,7 @@ void evenPicture(Context& c) {
     PipelineOptions options;
     options.mode = SuperResMode::Detail;
     Pipeline pipeline(plainRig(video, still), options);
+    pipeline.setQuality({.learned = c.hostile.chance(0.5)});
     pipeline.setStill(c.hostile.picture(still).view(), {});
     for (int i = 0; i < 2; ++i)
         pipeline.run(TestPicture(video, PixelFormat::Rgba8, level).view(), {});

@@ -122,6 +122,7 @@ void knownTruth(Context& c) {
     options.output = c.hostile.pick({rig.still.size, Size{2 * video.width, 2 * video.height}});
     options.engines = enginesFor(c);
     Pipeline pipeline(rig, options);
+    pipeline.setQuality({.mode = options.mode, .learned = c.hostile.chance(0.5)});
     const TestPicture frame = waves.shoot(video, {.shift = shift});
     const auto truth = fine(pipeline.outputSize(), shift).bytes;
     pipeline.run(frame.view(), {});

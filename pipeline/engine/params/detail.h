@@ -41,7 +41,8 @@ struct alignas(16) ClassifyTiles {
     float leastWeight;          ///< kLeastDetailWeight, or -1: no tile is only enlarged
     float plainFlow;            ///< kPlainFlow, or 0: no tile is plain [video px]
     std::int32_t stillGiven;    ///< 0: the fields are blank
-    std::uint32_t detailFrame;  ///< other than in earlier frames; 0: no detail is drawn
+    std::uint32_t detailFrame;  ///< other than in earlier frames; 0: nothing depends on neighbours
+    std::int32_t learns;        ///< matched tiles are enlarged by filters
 };
 
 /// Of all programs that draw tiles.

@@ -174,7 +174,8 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
               .leastWeight = params::kLeastDetailWeight,
               .plainFlow = params::kPlainFlow,
               .stillGiven = hasStill ? 1 : 0,
-              .detailFrame = detailFrame},
+              .detailFrame = detailFrame,
+              .learns = 0},
              {gpu::storage(0, changedBuffer), gpu::storage(1, classes), gpu::storage(2, draws),
               gpu::storage(3, lists), gpu::sampler(0, cells), gpu::sampler(1, weights)},
              {1, 1, 1});

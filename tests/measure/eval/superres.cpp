@@ -136,6 +136,7 @@ Report evaluateSuperRes(const SuperResRequest& request) {
     if (request.classes) report.setHead(matchClassesHead());
     const auto labels = labelsOf(request.recordings);
     SuperResFactory factory(request.alpha);
+    if (request.learn != 0) factory.requireContext();
     const bool learnsElsewhere = request.learn != 0 && !request.learnFrom.empty();
     if (learnsElsewhere) factory.setFilters(learnedFilters(request, request.learnFrom));
     for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -82,8 +82,6 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
 std::shared_ptr<const FilterBank>
 learnedFilters(const SuperResRequest& request,
                const std::vector<std::filesystem::path>& recordings) {
-    if (!EngineChoice::fromEnvironment().learns())
-        throw EvalError("--learn needs the SIMD engine: MFAR_ENGINE=simd");
     Learning learning;
     int left = request.learn == kEachOnce ? 1000000 : request.learn;
     for (const std::filesystem::path& root : recordings)

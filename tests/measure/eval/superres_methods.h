@@ -46,6 +46,8 @@ public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
     /// What the product's methods enlarge by; null: as shipped.
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
+    /// Makes the context, for pipelines of others.
+    void requireContext();
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
                                                          const StereoRig& rig);
     /// A model of OpenCV's dnn_superres. Throws EvalError as dnnEnlarger() does.
@@ -54,8 +56,6 @@ public:
     [[nodiscard]] std::unique_ptr<StillMatcher> createMatcher(const StereoRig& rig);
 
 private:
-    void requireContext();
-
     std::shared_ptr<const FilterBank> filters_;
     double alpha_;  ///< of the paper's confidence [video px]
     std::unique_ptr<GlContext> context_;

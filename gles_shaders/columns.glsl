@@ -1,0 +1,6 @@
+// What superres_vertical.frag made.
+layout(binding = 0) uniform sampler2D columns;
+
+vec4 columnAt(ivec2 p) {
+    return texelFetch(columns, p, 0);
+}

@@ -1,0 +1,37 @@
+// Classes of the learned enlarger, as GradientClasses and CurvatureClasses number them. Needs
+// pipeline/engine/params/enlarge.h.
+
+// Bin of an angle whose double has this cosine and sine, up to a factor: see Symmetry. `inQuadrant`: its bin where
+// both are positive.
+int angleBin(float cosine, float sine, int inQuadrant, int bins) {
+    bool left = cosine < 0.0, lower = sine < 0.0;
+    int bin = left != lower ? bins / 2 - 1 - inQuadrant : inQuadrant;
+    return lower ? bin : bin + bins / 2;
+}
+
+int gradientClass(vec3 sums) {
+    float scale = 2.0 * 25.0 * float(4 * kLumaScale * kLumaScale);
+    float cosine = sums.x - sums.z, sine = 2.0 * sums.y, sum = sums.x + sums.z;
+    float spread = sqrt(cosine * cosine + sine * sine);
+    vec3 strengths = scale * vec3(kWeakFrom * kWeakFrom, kMediumFrom * kMediumFrom, kStrongFrom * kStrongFrom);
+    vec2 roots = vec2(kPartlyCoherentFrom, kCoherentFrom);
+    // (s1 - s2) / (s1 + s2) >= from, in terms of the eigenvalues' sum and difference.
+    vec2 coherences = sum * 2.0 * roots / (1.0 + roots * roots);
+    int kind = int(dot(step(strengths, vec3(sum + spread)), vec3(3.0)) + dot(step(coherences, vec2(spread)), vec2(1.0)));
+    float c = abs(cosine), s = abs(sine);
+    int bin = int(s > c) + int(s > c * kLowTangent) + int(s > c * kHighTangent);
+    return angleBin(cosine, sine, bin, kGradientAngles) * kGradientKinds + kind;
+}
+
+// Of second derivatives [1/8 grey level per px^2].
+int curvatureClass(float xx, float yy, float fourXy) {
+    float cosine = xx - yy, sine = 0.5 * fourXy, scale = float(kLumaScale);
+    float square = cosine * cosine + sine * sine;
+    vec3 laplacians = scale * vec3(kLowLaplacian, kMediumLaplacian, kHighLaplacian);
+    vec3 differences = scale * vec3(kLowDifference, kMediumDifference, kHighDifference);
+    vec3 laplacian = vec3(xx + yy);
+    int kind = int(dot(step(laplacians, laplacian) + step(-laplacians, laplacian), vec3(4.0)) +
+                   dot(step(differences * differences, vec3(square)), vec3(1.0)));
+    int bin = abs(sine) > abs(cosine) ? 1 : 0;
+    return angleBin(cosine, sine, bin, kCurvatureAngles) * kCurvatureKinds + kind;
+}

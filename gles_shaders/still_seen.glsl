@@ -1,0 +1,24 @@
+// What a video pixel shows of the still. Needs tile_params.glsl.
+layout(binding = 2) uniform sampler2D lookupField;
+layout(binding = 3) uniform sampler2D still;  // raised luma
+
+// Where a place in the video lies in the still.
+vec2 inStill(vec2 p) {
+    vec2 scale = vec2(params.stillScaleX, params.stillScaleY) / vec2(params.scaleX, params.scaleY);
+    return (p * scale + textureLod(lookupField, p / vec2(4 * cellCount()), 0.0).xy) *
+           vec2(params.stillTexelX, params.stillTexelY);
+}
+
+// Mean over this pixel: 4x4 samples. Within a pixel the look-ups are bilinear.
+float stillSeen() {
+    const float reach = 0.375 * kSeen;
+    vec2 first = inStill(gl_FragCoord.xy - reach), last = inStill(gl_FragCoord.xy + reach);
+    vec2 right = inStill(gl_FragCoord.xy + vec2(reach, -reach));
+    vec2 below = inStill(gl_FragCoord.xy + vec2(-reach, reach));
+    float sum = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        vec2 share = vec2(i & 3, i >> 2) / 3.0;
+        sum += textureLod(still, mix(mix(first, right, share.x), mix(below, last, share.x), share.y), 0.0).r;
+    }
+    return sum / 16.0;
+}

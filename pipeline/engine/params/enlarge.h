@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+
+// The learned enlarger, see pipeline/enlarge/filter_layout.h: superres_enlarge.comp,
+// superres_vertical.frag, learned.glsl and their SIMD twins. Shaders read this header, too:
+// gles_shaders/params_to_glsl.cmake.
+namespace mfar::params {
+
+inline constexpr int kGrid = 4;    ///< sub-pixels of a pixel along each axis
+inline constexpr int kGridShift = 2;
+static_assert(kGrid == 1 << kGridShift);
+inline constexpr int kPairs = 12;  ///< pairs of taps of a filter
+
+inline constexpr int kLumaScale = 8;       ///< luma in steps of 1/8 grey level
+inline constexpr int kResidualScale = 32;  ///< residuals in steps of 1/32 grey level
+/// Colours and luma that shaders keep between passes, in steps of 1/64 grey level.
+inline constexpr int kPassScale = 64;
+
+/// Thresholds of GradientClasses: strength [grey levels per px] and coherence.
+inline constexpr float kWeakFrom = 2.0F;
+inline constexpr float kMediumFrom = 6.0F;
+inline constexpr float kStrongFrom = 16.0F;
+inline constexpr float kPartlyCoherentFrom = 0.25F;
+inline constexpr float kCoherentFrom = 0.5F;
+/// Classes of an angle.
+inline constexpr int kGradientKinds = 12;
+inline constexpr int kGradientAngles = 16;
+
+/// Thresholds of CurvatureClasses [grey levels per px^2]: Laplacian of either sign, difference of
+/// the eigenvalues.
+inline constexpr float kLowLaplacian = 2.5F;
+inline constexpr float kMediumLaplacian = 8.0F;
+inline constexpr float kHighLaplacian = 24.0F;
+inline constexpr float kLowDifference = 3.0F;
+inline constexpr float kMediumDifference = 10.0F;
+inline constexpr float kHighDifference = 25.0F;
+inline constexpr int kCurvatureKinds = 28;
+inline constexpr int kCurvatureAngles = 8;
+
+/// Tangents of 22.5 and 67.5 degrees, between bins of the double angle.
+inline constexpr float kLowTangent = 0.414213562F;
+inline constexpr float kHighTangent = kLowTangent + 2.0F;
+
+/// The residual is limited so that the sum with the cubic stays in the range of the surrounding 5x5
+/// pixels, made larger on both sides by this share of it.
+inline constexpr float kOvershoot = 0.25F;
+
+struct alignas(16) EnlargeTiles {
+    std::int32_t videoWidth, videoHeight;  ///< [px]
+    std::int32_t columns, rows;            ///< of tiles
+    std::int32_t firstColumn, firstRow;    ///< tile where the dispatch begins
+};
+
+}  // namespace mfar::params

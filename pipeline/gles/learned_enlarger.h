@@ -1,0 +1,54 @@
+#pragma once
+
+#include "base/gl/pass.h"
+#include "pipeline/engine/params/enlarge.h"
+#include "pipeline/enlarge/filter_bank.h"
+#include "pipeline/gles/tile_buffer.h"
+#include "pipeline/gles/tile_pass.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace mfar {
+
+/// Enlarges the video by learned filters, up to the composite. Needs a current context for its
+/// whole life.
+class LearnedEnlarger {
+public:
+    LearnedEnlarger(Size video, Size output);
+
+    /// A still on the GPU, and where it is looked up.
+    struct Seen {
+        const gpu::Texture &still, &lookUps;
+    };
+    /// Makes what the composites read, in the tiles of `list` or, where the plan says so, in all.
+    /// `seen` may be null.
+    void run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
+             const FilterBank& filters, const params::DrawTiles& params,
+             const gpu::InstanceList& list);
+    /// A frame is drawn by other passes: all tiles are made for the next.
+    void skip() { columnsAreOld_ = seenIsOld_ = true; }
+
+    // What composites with LEARNED read: at bindings 0, 3 and 4.
+    [[nodiscard]] const gpu::Texture& columns() const { return columns_; }
+    [[nodiscard]] const gpu::Texture& residuals() const { return residuals_; }
+    [[nodiscard]] const gpu::Texture& tiles() const { return learned_; }
+    [[nodiscard]] DetailPasses& passes() { return passes_; }
+
+private:
+    void takeFilters(const FilterBank& filters);
+    void takeTiles(const TileWork& work);
+    void fillGrid(const gpu::Texture& video, const TileBuffer& tiles);
+
+    Size video_, tiles_;
+    std::uint64_t number_ = 0;                      // of the filters on the GPU
+    std::vector<std::uint8_t> mask_;                // of the tiles on the GPU
+    bool columnsAreOld_ = true, seenIsOld_ = true;  // from a frame before the last
+    gpu::Texture filters_, learned_, grid_, seen_, columns_, residuals_;
+    gpu::Framebuffer seenTarget_, columnsTarget_;
+    gpu::ComputePass<params::EnlargeTiles> enlarge_;
+    TilePass see_, enlargeColumns_;
+    DetailPasses passes_;
+};
+
+}  // namespace mfar
