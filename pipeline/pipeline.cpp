@@ -52,10 +52,7 @@ Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     const StepSetup setup{rig, output, options.flow2d, workers, &transfers};
     if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
     if (options.engines.uses(EngineKind::Simd)) simd = makeSimdEngine(setup);
-    still = engineOf(options.engines.still).still();
-    pyramid = engineOf(options.engines.pyramid).pyramid();
-    flow = engineOf(options.engines.flow).flow();
-    weigh = engineOf(options.engines.weigh).weigh();
+    newest = makeReference();
     detail = engineOf(options.engines.detail).detail();
     quality.mode = options.mode;
     if (!options.skips.tileLists) plan.drawWholeFrom(0);
@@ -64,6 +61,12 @@ Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
 
 Engine& Pipeline::State::engineOf(EngineKind kind) {
     return kind == EngineKind::Gles ? *gles : *simd;
+}
+
+Reference Pipeline::State::makeReference() {
+    const EngineChoice& engines = options.engines;
+    return {engineOf(engines.still).still(), engineOf(engines.pyramid).pyramid(),
+            engineOf(engines.flow).flow(), engineOf(engines.weigh).weigh()};
 }
 
 Pipeline::Pipeline(const StereoRig& rig, const PipelineOptions& options)
@@ -75,38 +78,37 @@ Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<Pose>& pose) {
     State& s = *state_;
     requireFit(still, s.rig.still.size, "still");
-    s.stillPictures = &s.still->run(still, s.quality.mode);
+    s.newest.pictures = &s.newest.still->run(still, s.quality.mode);
     if (s.epipolar) s.epipolar->dropStill();
     if (pose) s.needEpipolar().setStill(still, *pose);
     if (s.depth) s.depth->stage.renew();
-    s.pyramid->still(*s.stillPictures);
+    s.newest.pyramid->still(*s.newest.pictures);
     s.redraw = true;
-    s.lastFlow = nullptr;
+    s.newest.lastFlow = nullptr;
     s.filters = s.nextFilters;
     s.isNewStill = true;
 }
 
 void Pipeline::dropStill() {
-    state_->stillPictures = nullptr;
+    state_->newest.drop();
     if (state_->epipolar) state_->epipolar->dropStill();
     state_->redraw = true;
-    state_->lastFlow = nullptr;
 }
 
 void Pipeline::setMode(SuperResMode mode) {
     state_->quality.mode = mode;
     state_->quality.cubic = true;
-    state_->still->setMode(mode);
+    state_->newest.still->setMode(mode);
     state_->redraw = true;
 }
 
 void Pipeline::setQuality(const Quality& quality) {
     validate(quality);
     State& s = *state_;
-    if (quality.mode != s.quality.mode) s.still->setMode(quality.mode);
+    if (quality.mode != s.quality.mode) s.newest.still->setMode(quality.mode);
     s.quality = quality;
     s.quality.cubic = quality.cubic || quality.mode != SuperResMode::Off;
-    s.flow->setOptions(quality.flow2d);
+    s.newest.flow->setOptions(quality.flow2d);
     s.options.epipolar = changed(s.options.epipolar, quality.epipolar);
     if (s.epipolar) s.epipolar->setOptions(s.options.epipolar);
 }
@@ -114,7 +116,7 @@ void Pipeline::setQuality(const Quality& quality) {
 void Pipeline::setFilters(std::shared_ptr<const FilterBank> filters) {
     State& s = *state_;
     s.nextFilters = std::move(filters);
-    if (s.stillPictures != nullptr) return;
+    if (s.newest.pictures != nullptr) return;
     s.filters = s.nextFilters;
     s.redraw = true;
 }
@@ -149,7 +151,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 
     const PixelRect decides = s.placeObjects(pose, time);
     const TileWork& work = s.planFrame(frame);
-    const bool usesStill = s.stillPictures != nullptr && s.quality.mode != SuperResMode::Off;
+    const bool usesStill = s.newest.pictures != nullptr && s.quality.mode != SuperResMode::Off;
     const bool usesPose =
         usesStill && s.quality.alongLines && pose && s.epipolar && s.epipolar->hasStill();
     std::optional<State::Match> match;
@@ -196,7 +198,7 @@ const TileWork& Pipeline::State::planFrame(const VideoFrame& frame) {
 Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, const TileWork& work,
                                                    const std::optional<Pose>& pose,
                                                    const PixelRect& forDepth) {
-    const LumaPyramid& pyramids = pyramid->video(frame, work);
+    const LumaPyramid& pyramids = newest.pyramid->video(frame, work);
     lap("pyramid");
     const FlowCells* found = nullptr;
     if (pose) {
@@ -204,15 +206,16 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
         const int tiles = forDepth.empty() ? work.matched : work.changed;
         if (tiles > 0 && !where.empty()) epipolar->run(frame.view, *pose, where);
         lap("epipolar");
-        found = &flow->refine(pyramids, work, epipolar->forward(), epipolar->hidden());
+        found = &newest.flow->refine(pyramids, work, epipolar->forward(), epipolar->hidden());
     } else {
-        found = &flow->run(pyramids, work, lastFlow != nullptr && options.skips.knownFlow);
+        found = &newest.flow->run(pyramids, work,
+                                  newest.lastFlow != nullptr && options.skips.knownFlow);
     }
     lap("flow");
-    const CellWeights& weights = weigh->run(pyramids, *found, work);
+    const CellWeights& weights = newest.weigh->run(pyramids, *found, work);
     lap("weigh");
-    lastFlow = found;
-    lastWeights = &weights;
+    newest.lastFlow = found;
+    newest.lastWeights = &weights;
     listen(weights);
     return {*found, weights};
 }
@@ -221,8 +224,8 @@ void Pipeline::State::listen(const CellWeights& weights) {
     if (!isNewStill || quality.mode != SuperResMode::Detail) return;
     isNewStill = false;
     if (matchListener == nullptr || !learns()) return;
-    const CameraModel& looked = stillPictures->rig.still;
-    matchListener->matched(now, stillPictures->luma.host(), weights.lookUps.host(),
+    const CameraModel& looked = newest.pictures->rig.still;
+    matchListener->matched(now, newest.pictures->luma.host(), weights.lookUps.host(),
                            {looked.size, looked.fx / rig.video.fx, looked.fy / rig.video.fy});
 }
 
@@ -231,11 +234,11 @@ void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
     const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles,
                             options.skips.plainTiles, learns() ? filterBank() : nullptr};
     if (match != nullptr) {
-        const DetailStep::Matched matched{*stillPictures, match->weights};
+        const DetailStep::Matched matched{*newest.pictures, match->weights};
         detail->draw(frame, &matched, work, how);
     } else {
         detail->draw(frame, nullptr, work, how);
-        lastFlow = nullptr;
+        newest.lastFlow = nullptr;
     }
     if (gles) gles->flush();
     lap("detail");
@@ -264,7 +267,7 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
     stats.explained = summary.explained;
     stats.changed = summary.changed;
     stats.usedStill = usedStill;
-    stats.searched2d = flow->finishedSearchedCount();
+    stats.searched2d = newest.flow->finishedSearchedCount();
     if (usedPose) publishPose(*epipolar, stats);
     stats.transfers = {transfers.uploadedBytes - transfersBefore.uploadedBytes,
                        transfers.downloadedBytes - transfersBefore.downloadedBytes};

@@ -6,6 +6,7 @@
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/reference.h"
 #include "pipeline/stage_clock.h"
 
 #include <future>
@@ -87,6 +88,7 @@ struct Pipeline::State {
     /// Closes a stage of the frame.
     void lap(const char* stage);
 
+    [[nodiscard]] Reference makeReference();
     /// The size asked for, or the full one.
     static Size outputSize(const StereoRig& rig, Size wanted);
 
@@ -96,10 +98,7 @@ struct Pipeline::State {
     std::shared_ptr<Workers> workers;
     Transfers transfers, transfersBefore;  // in all
     std::unique_ptr<Engine> gles, simd;    // as far as the choice needs them
-    std::unique_ptr<StillStep> still;
-    std::unique_ptr<PyramidStep> pyramid;
-    std::unique_ptr<FlowStep> flow;
-    std::unique_ptr<WeighStep> weigh;
+    Reference newest;
     std::unique_ptr<DetailStep> detail;
     RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
     WorkPlan plan;
@@ -111,9 +110,6 @@ struct Pipeline::State {
     std::optional<SceneFollower> sceneFollower;
     std::optional<LightFollower> lightFollower;
     Quality quality;
-    const StillPictures* stillPictures = nullptr;  // the newest still's
-    const FlowCells* lastFlow = nullptr;           // belongs to that still
-    const CellWeights* lastWeights = nullptr;
     std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the shipped ones
     MatchListener* matchListener = nullptr;
     bool isNewStill = false;  // no frame was matched to it
