@@ -45,6 +45,11 @@ struct EngineChoice {
     [[nodiscard]] bool learns() const {
         return still == EngineKind::Simd && detail == EngineKind::Simd;
     }
+    /// Is a second still kept for what the newest misses? Shaders draw from one alone.
+    [[nodiscard]] bool keepsTwo() const {
+        return learns() && pyramid == EngineKind::Simd && flow == EngineKind::Simd &&
+               weigh == EngineKind::Simd;
+    }
     bool operator==(const EngineChoice&) const = default;
 };
 
