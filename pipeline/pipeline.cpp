@@ -1,6 +1,7 @@
 #include "pipeline/pipeline.h"
 
 #include "base/image_layout.h"
+#include "pipeline/flow/cell_field.h"
 #include "pipeline/gles/device_copies.h"
 #include "pipeline/pipeline_state.h"
 
@@ -53,6 +54,10 @@ Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
     if (options.engines.uses(EngineKind::Simd)) simd = makeSimdEngine(setup);
     newest = makeReference();
+    if (options.engines.keepsTwo()) {
+        second = makeReference();
+        secondTiles.emplace(tilesOf(rig.video.size));
+    }
     detail = engineOf(options.engines.detail).detail();
     quality.mode = options.mode;
     if (!options.skips.tileLists) plan.drawWholeFrom(0);
@@ -65,8 +70,11 @@ Engine& Pipeline::State::engineOf(EngineKind kind) {
 
 Reference Pipeline::State::makeReference() {
     const EngineChoice& engines = options.engines;
-    return {engineOf(engines.still).still(), engineOf(engines.pyramid).pyramid(),
-            engineOf(engines.flow).flow(), engineOf(engines.weigh).weigh()};
+    Reference out{engineOf(engines.still).still(), engineOf(engines.pyramid).pyramid(),
+                  engineOf(engines.flow).flow(), engineOf(engines.weigh).weigh()};
+    const Size cells = cellsOf(rig.video.size);
+    if (engines.keepsTwo()) out.first.reserve(static_cast<std::size_t>(cells.width) * cells.height);
+    return out;
 }
 
 Pipeline::Pipeline(const StereoRig& rig, const PipelineOptions& options)
@@ -78,19 +86,28 @@ Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<Pose>& pose) {
     State& s = *state_;
     requireFit(still, s.rig.still.size, "still");
-    s.newest.pictures = &s.newest.still->run(still, s.quality.mode);
+    s.retireNewest();
+    s.newest.take(still, s.quality.mode);
     if (s.epipolar) s.epipolar->dropStill();
     if (pose) s.needEpipolar().setStill(still, *pose);
     if (s.depth) s.depth->stage.renew();
-    s.newest.pyramid->still(*s.newest.pictures);
     s.redraw = true;
-    s.newest.lastFlow = nullptr;
     s.filters = s.nextFilters;
     s.isNewStill = true;
 }
 
+void Pipeline::State::retireNewest() {
+    if (!secondTiles || newest.pictures == nullptr) return;
+    if (!keepsSecond())
+        second.drop();
+    else if (!keepsOlder(second, newest))
+        std::swap(newest, second);
+    secondTiles->forget();
+}
+
 void Pipeline::dropStill() {
     state_->newest.drop();
+    state_->second.drop();
     if (state_->epipolar) state_->epipolar->dropStill();
     state_->redraw = true;
 }
@@ -109,6 +126,7 @@ void Pipeline::setQuality(const Quality& quality) {
     s.quality = quality;
     s.quality.cubic = quality.cubic || quality.mode != SuperResMode::Off;
     s.newest.flow->setOptions(quality.flow2d);
+    if (s.second.flow) s.second.flow->setOptions(quality.flow2d);
     s.options.epipolar = changed(s.options.epipolar, quality.epipolar);
     if (s.epipolar) s.epipolar->setOptions(s.options.epipolar);
 }
@@ -157,6 +175,7 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
     std::optional<State::Match> match;
     if (usesStill)
         match.emplace(s.matchStill(frame, work, usesPose ? pose : std::nullopt, decides));
+    if (match) match->second = s.matchSecond(frame, work);
     const State::DepthTask task =
         s.prepareDepth(decides, pose.has_value(), usesPose ? &match->flow : nullptr);
     s.drawDetail(frame, work, match ? &*match : nullptr);
@@ -220,6 +239,30 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
     return {*found, weights};
 }
 
+const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const TileWork& work) {
+    if (!keepsSecond() || work.matched == 0) return nullptr;
+    if (newest.first.empty()) newest.keepFirst();
+    const SecondTiles::Match shown{newest.lastWeights->weighed.host(),
+                                   newest.lastWeights->trust.host()};
+    const double share = second.pictures != nullptr ? quality.secondShare : 0;
+    const int most = static_cast<int>(std::ceil(share * static_cast<double>(work.flags.size())));
+    const TileWork& missed = secondTiles->choose(work, plan.measured(), shown, most);
+    newest.count(secondTiles->matched(), secondTiles->shownByNewest());
+    if (missed.matched == 0) {
+        second.lastFlow = nullptr;  // of too long ago to be where a search begins
+        return nullptr;
+    }
+    const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
+    const bool usePrior = second.lastFlow != nullptr && options.skips.knownFlow;
+    second.lastFlow = &second.flow->run(pyramids, missed, usePrior);
+    second.lastWeights = &second.weigh->run(pyramids, *second.lastFlow, missed);
+    secondTiles->judge(shown, second.lastWeights->weighed.host());
+    second.count(missed.matched, secondTiles->gained());
+    result.stats.matchedSecond = missed.matched;
+    lap("second still");
+    return second.lastWeights;
+}
+
 void Pipeline::State::listen(const CellWeights& weights) {
     if (!isNewStill || quality.mode != SuperResMode::Detail) return;
     isNewStill = false;
@@ -234,7 +277,10 @@ void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
     const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles,
                             options.skips.plainTiles, learns() ? filterBank() : nullptr};
     if (match != nullptr) {
-        const DetailStep::Matched matched{*newest.pictures, match->weights};
+        DetailStep::Matched matched{*newest.pictures, match->weights};
+        std::optional<DetailStep::Matched> also;
+        if (match->second != nullptr)
+            matched.second = &also.emplace(DetailStep::Matched{*second.pictures, *match->second});
         detail->draw(frame, &matched, work, how);
     } else {
         detail->draw(frame, nullptr, work, how);
@@ -266,6 +312,7 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
     stats.meanConfidence = summary.meanConfidence;
     stats.explained = summary.explained;
     stats.changed = summary.changed;
+    stats.showSecond = summary.second;
     stats.usedStill = usedStill;
     stats.searched2d = newest.flow->finishedSearchedCount();
     if (usedPose) publishPose(*epipolar, stats);

@@ -6,6 +6,7 @@
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/plan/second_tiles.h"
 #include "pipeline/reference.h"
 #include "pipeline/stage_clock.h"
 
@@ -48,6 +49,7 @@ struct Pipeline::State {
     struct Match {
         const FlowCells& flow;
         const CellWeights& weights;
+        const CellWeights* second = nullptr;  ///< of the second still, where that is used
     };
 
     /// Begins to make what searches along lines, in a thread of its own: the first picture does not
@@ -63,6 +65,11 @@ struct Pipeline::State {
     /// Along epipolar lines where a pose is given, else in both dimensions.
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
+    /// Before a new still comes: keeps the newest as the second, where that is worth more.
+    void retireNewest();
+    /// Matches the second still with the tiles that the newest does not show; null where there are
+    /// none. After matchStill().
+    const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
     /// Decides whether depth is measured, and takes from the flow what that needs: a read after the
     /// frame's drawing has begun would wait for the drawing.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
@@ -82,6 +89,10 @@ struct Pipeline::State {
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
     [[nodiscard]] Engine& engineOf(EngineKind kind);
     [[nodiscard]] bool learns() const { return quality.learned && options.engines.learns(); }
+    [[nodiscard]] bool keepsSecond() const {
+        return secondTiles && quality.mode == SuperResMode::Detail && learns() &&
+               quality.secondShare > 0;
+    }
     [[nodiscard]] const FilterBank* filterBank() const {
         return filters ? filters.get() : &FilterBank::prior();
     }
@@ -98,7 +109,8 @@ struct Pipeline::State {
     std::shared_ptr<Workers> workers;
     Transfers transfers, transfersBefore;  // in all
     std::unique_ptr<Engine> gles, simd;    // as far as the choice needs them
-    Reference newest;
+    Reference newest, second;
+    std::optional<SecondTiles> secondTiles;  // where the engines keep a second still
     std::unique_ptr<DetailStep> detail;
     RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
     WorkPlan plan;

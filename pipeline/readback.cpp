@@ -37,6 +37,7 @@ FrameStats Pipeline::readStats() const {
     stats.meanConfidence = drawn.meanConfidence;
     stats.explained = drawn.explained;
     stats.changed = drawn.changed;
+    stats.showSecond = drawn.second;
     stats.searched2d = state_->newest.flow->searchedCount();
     return stats;
 }
