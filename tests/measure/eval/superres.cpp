@@ -13,6 +13,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <optional>
+#include <utility>
+
 namespace mfar::eval {
 namespace {
 
@@ -39,7 +42,7 @@ public:
         cv::Mat bicubicPicture;
         cv::resize(frame.picture, bicubicPicture, truthPicture.size(), 0, 0, cv::INTER_CUBIC);
         const cv::Mat bicubic = luma(withoutBorder(bicubicPicture));
-        if (!request_.noStill) setStill(sample);
+        if (!request_.noStill) setStills(sample);
         const std::string name = std::to_string(sample.video.time.ns);
         save(name, "truth", truthPicture);
         for (std::size_t i = 0; i < methods_.size(); ++i) {
@@ -57,6 +60,8 @@ public:
     }
 
 private:
+    using Times = std::pair<Timestamp, Timestamp>;
+
     [[nodiscard]] Shot loadFrame(const SuperResSample& sample) const {
         const Timestamp time = sample.video.time;
         const cv::Mat picture = degrade(loadPicture(sample.video.file), request_.videoDegradation,
@@ -66,15 +71,22 @@ private:
         return out;
     }
 
-    void setStill(const SuperResSample& sample) {
-        const Timestamp time = sample.still.time;
-        if (time == stillTime_) return;
-        const cv::Mat picture = degrade(loadPicture(sample.still.file), request_.degradation,
-                                        static_cast<std::uint64_t>(time.ns));
-        const Shot still{picture, time, poses_.of(sample.video.time, time).still};
+    [[nodiscard]] Shot loadStill(const RecordedImage& still, Timestamp frame) const {
+        return {degrade(loadPicture(still.file), request_.degradation,
+                        static_cast<std::uint64_t>(still.time.ns)),
+                still.time, poses_.of(frame, still.time).still};
+    }
+
+    void setStills(const SuperResSample& sample) {
+        const bool both = request_.stills > 1 && sample.second;
+        const Times times{sample.still.time, both ? sample.second->time : Timestamp{}};
+        if (times == stillTimes_) return;
+        const Shot newest = loadStill(sample.still, sample.video.time);
+        std::optional<Shot> second;
+        if (both) second = loadStill(*sample.second, sample.video.time);
         for (const auto& method : methods_)
-            method->setStill(still);
-        stillTime_ = time;
+            method->setStills(newest, second ? &*second : nullptr);
+        stillTimes_ = times;
     }
 
     void save(const std::string& frame, const std::string& name, const cv::Mat& picture) const {
@@ -93,7 +105,7 @@ private:
     KnownPoses poses_;
     std::string label_;
     std::vector<std::unique_ptr<SuperResMethod>> methods_;
-    std::optional<Timestamp> stillTime_;
+    std::optional<Times> stillTimes_;
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ struct SuperResRequest {
     std::vector<std::filesystem::path> recordings;
     std::vector<std::string> methods;  ///< of superResMethodNames()
     bool noStill = false;              ///< the video alone is enlarged
+    int stills = 1;                    ///< 2: a second one, next to the reference in time
     Degradation degradation;           ///< done to every still
     Degradation videoDegradation;      ///< done to every frame of the video
     int learn = 0;  ///< matched stills that filters are learned from before; 0: as shipped
