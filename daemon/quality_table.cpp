@@ -51,6 +51,7 @@ QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
     file.boolean(prefix + "learned", out.quality.learned);
     file.boolean(prefix + "along_lines", out.quality.alongLines);
     file.number(prefix + "detail_share", out.quality.detailShare, kLeastShare, 1);
+    file.number(prefix + "second_share", out.quality.secondShare, 0, 1);
     for (const LevelKey& key : kLevelKeys)
         file.integer(prefix + key.name, key.in(out.quality), key.least, key.most);
     return out;
@@ -90,6 +91,7 @@ psnr_db = 27.26
 mode = "detail"
 learned = false
 detail_share = 0.050
+second_share = 0.000
 flow2d.plane_fits = 1
 epipolar.finest = 2
 
@@ -100,6 +102,7 @@ psnr_db = 27.37
 mode = "detail"
 learned = false
 detail_share = 0.120
+second_share = 0.000
 flow2d.plane_fits = 1
 epipolar.finest = 2
 
@@ -109,6 +112,7 @@ ms = 69.6
 psnr_db = 27.80
 mode = "detail"
 detail_share = 0.250
+second_share = 0.000
 flow2d.plane_fits = 1
 epipolar.finest = 2
 
@@ -118,6 +122,7 @@ ms = 83.1
 psnr_db = 29.73
 mode = "detail"
 along_lines = false
+second_share = 0.000
 flow2d.search_radius = 5
 flow2d.candidates = 1
 flow2d.steps = 1
@@ -130,6 +135,7 @@ ms = 92.4
 psnr_db = 30.44
 mode = "detail"
 along_lines = false
+second_share = 0.000
 flow2d.candidates = 2
 flow2d.steps = 2
 flow2d.plane_fits = 1
@@ -139,6 +145,7 @@ name = "lines-half-15"
 ms = 98.7
 psnr_db = 30.55
 mode = "detail"
+second_share = 0.000
 flow2d.plane_fits = 1
 epipolar.finest = 1
 epipolar.most_predicted = 15
@@ -148,6 +155,7 @@ name = "lines-half"
 ms = 108.2
 psnr_db = 30.59
 mode = "detail"
+second_share = 0.000
 epipolar.finest = 1
 
 [[level]]
@@ -183,6 +191,8 @@ std::string toToml(std::span<const QualityLevel> levels) {
         if (!quality.alongLines) out += "along_lines = false\n";
         if (quality.detailShare != usual.detailShare)
             out += fmt::format("detail_share = {:.3f}\n", quality.detailShare);
+        if (quality.secondShare != usual.secondShare)
+            out += fmt::format("second_share = {:.3f}\n", quality.secondShare);
         for (const LevelKey& key : kLevelKeys)
             if (key.in(quality) != key.in(usual))
                 out += fmt::format("{} = {}\n", key.name, key.in(quality));
@@ -198,7 +208,10 @@ std::vector<QualityLevel> limitedTo(std::span<const QualityLevel> levels, SuperR
             level.quality.mode = best;
         if (best == SuperResMode::Off)
             level.quality = {.mode = SuperResMode::Off, .cubic = level.quality.cubic};
-        if (level.quality.mode != SuperResMode::Detail) level.quality.learned = true;  // not used
+        if (level.quality.mode != SuperResMode::Detail) {  // not used
+            level.quality.learned = Quality().learned;
+            level.quality.secondShare = Quality().secondShare;
+        }
         const auto same = [&](const QualityLevel& other) { return other.quality == level.quality; };
         if (std::ranges::none_of(out, same)) out.push_back(level);
     }

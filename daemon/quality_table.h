@@ -22,9 +22,9 @@ struct QualityLevel {
 [[nodiscard]] const std::vector<QualityLevel>& builtInQualityLevels();
 
 /// Levels from the text of such a file, sorted by their times: sections [[level]] with the keys
-/// name, ms, psnr_db, mode, cubic, learned, along_lines, detail_share, depth_every and, of the
-/// flow, flow2d.KEY and epipolar.KEY. What is absent is as by default. Throws ConfigError with
-/// every fault; `file` is for messages.
+/// name, ms, psnr_db, mode, cubic, learned, along_lines, detail_share, second_share, depth_every
+/// and, of the flow, flow2d.KEY and epipolar.KEY. What is absent is as by default. Throws
+/// ConfigError with every fault; `file` is for messages.
 [[nodiscard]] std::vector<QualityLevel> parseQualityLevels(std::string_view toml,
                                                            const std::string& file);
 

@@ -35,6 +35,9 @@ void Stats::picture(const FinishedPicture& picture) {
     }
     for (std::size_t i = 0; i < kTileClasses; ++i)
         counted_.tiles[i] += static_cast<std::uint64_t>(std::max(picture.stats.tiles[i], 0));
+    counted_.tilesMatchedSecond +=
+        static_cast<std::uint64_t>(std::max(picture.stats.matchedSecond, 0));
+    counted_.tilesShowSecond += static_cast<std::uint64_t>(std::max(picture.stats.showSecond, 0));
     if (picture.stats.usedStill) {
         confidenceSum_ += picture.stats.meanConfidence;
         ++confidenceFrames_;

@@ -49,6 +49,8 @@ struct Counted {
     Histogram latencyMs;   ///< from the frame's arrival to its picture shown
     std::vector<std::pair<std::string, Histogram>> stageMs;
     std::array<std::uint64_t, kTileClasses> tiles{};
+    std::uint64_t tilesMatchedSecond = 0;  ///< with the second still, too
+    std::uint64_t tilesShowSecond = 0;
     double meanConfidence = 0;  ///< over the frames that used a still
     Drops drops;
     StillCounts stills;

@@ -1,6 +1,7 @@
 #include "pipeline/pipeline.h"
 
 #include "base/image_layout.h"
+#include "pipeline/flow/cell_field.h"
 #include "pipeline/gles/device_copies.h"
 #include "pipeline/pipeline_state.h"
 
@@ -52,10 +53,11 @@ Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     const StepSetup setup{rig, output, options.flow2d, workers, &transfers};
     if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
     if (options.engines.uses(EngineKind::Simd)) simd = makeSimdEngine(setup);
-    still = engineOf(options.engines.still).still();
-    pyramid = engineOf(options.engines.pyramid).pyramid();
-    flow = engineOf(options.engines.flow).flow();
-    weigh = engineOf(options.engines.weigh).weigh();
+    newest = makeReference();
+    if (options.engines.keepsTwo()) {
+        second = makeReference();
+        secondTiles.emplace(tilesOf(rig.video.size));
+    }
     detail = engineOf(options.engines.detail).detail();
     quality.mode = options.mode;
     if (!options.skips.tileLists) plan.drawWholeFrom(0);
@@ -64,6 +66,15 @@ Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
 
 Engine& Pipeline::State::engineOf(EngineKind kind) {
     return kind == EngineKind::Gles ? *gles : *simd;
+}
+
+Reference Pipeline::State::makeReference() {
+    const EngineChoice& engines = options.engines;
+    Reference out{engineOf(engines.still).still(), engineOf(engines.pyramid).pyramid(),
+                  engineOf(engines.flow).flow(), engineOf(engines.weigh).weigh()};
+    const Size cells = cellsOf(rig.video.size);
+    if (engines.keepsTwo()) out.first.reserve(static_cast<std::size_t>(cells.width) * cells.height);
+    return out;
 }
 
 Pipeline::Pipeline(const StereoRig& rig, const PipelineOptions& options)
@@ -75,38 +86,47 @@ Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<Pose>& pose) {
     State& s = *state_;
     requireFit(still, s.rig.still.size, "still");
-    s.stillPictures = &s.still->run(still, s.quality.mode);
+    s.retireNewest();
+    s.newest.take(still, s.quality.mode);
     if (s.epipolar) s.epipolar->dropStill();
     if (pose) s.needEpipolar().setStill(still, *pose);
     if (s.depth) s.depth->stage.renew();
-    s.pyramid->still(*s.stillPictures);
     s.redraw = true;
-    s.lastFlow = nullptr;
     s.filters = s.nextFilters;
     s.isNewStill = true;
 }
 
+void Pipeline::State::retireNewest() {
+    if (!secondTiles || newest.pictures == nullptr) return;
+    if (!keepsSecond())
+        second.drop();
+    else if (!keepsOlder(second, newest))
+        std::swap(newest, second);
+    secondTiles->forget();
+}
+
 void Pipeline::dropStill() {
-    state_->stillPictures = nullptr;
+    state_->newest.drop();
+    state_->second.drop();
     if (state_->epipolar) state_->epipolar->dropStill();
     state_->redraw = true;
-    state_->lastFlow = nullptr;
 }
 
 void Pipeline::setMode(SuperResMode mode) {
     state_->quality.mode = mode;
     state_->quality.cubic = true;
-    state_->still->setMode(mode);
+    state_->newest.still->setMode(mode);
     state_->redraw = true;
 }
 
 void Pipeline::setQuality(const Quality& quality) {
     validate(quality);
     State& s = *state_;
-    if (quality.mode != s.quality.mode) s.still->setMode(quality.mode);
+    if (quality.mode != s.quality.mode) s.newest.still->setMode(quality.mode);
     s.quality = quality;
     s.quality.cubic = quality.cubic || quality.mode != SuperResMode::Off;
-    s.flow->setOptions(quality.flow2d);
+    s.newest.flow->setOptions(quality.flow2d);
+    if (s.second.flow) s.second.flow->setOptions(quality.flow2d);
     s.options.epipolar = changed(s.options.epipolar, quality.epipolar);
     if (s.epipolar) s.epipolar->setOptions(s.options.epipolar);
 }
@@ -114,7 +134,7 @@ void Pipeline::setQuality(const Quality& quality) {
 void Pipeline::setFilters(std::shared_ptr<const FilterBank> filters) {
     State& s = *state_;
     s.nextFilters = std::move(filters);
-    if (s.stillPictures != nullptr) return;
+    if (s.newest.pictures != nullptr) return;
     s.filters = s.nextFilters;
     s.redraw = true;
 }
@@ -149,12 +169,13 @@ const FrameResult& Pipeline::run(const ImageView& video, Timestamp time,
 
     const PixelRect decides = s.placeObjects(pose, time);
     const TileWork& work = s.planFrame(frame);
-    const bool usesStill = s.stillPictures != nullptr && s.quality.mode != SuperResMode::Off;
+    const bool usesStill = s.newest.pictures != nullptr && s.quality.mode != SuperResMode::Off;
     const bool usesPose =
         usesStill && s.quality.alongLines && pose && s.epipolar && s.epipolar->hasStill();
     std::optional<State::Match> match;
     if (usesStill)
         match.emplace(s.matchStill(frame, work, usesPose ? pose : std::nullopt, decides));
+    if (match) match->second = s.matchSecond(frame, work);
     const State::DepthTask task =
         s.prepareDepth(decides, pose.has_value(), usesPose ? &match->flow : nullptr);
     s.drawDetail(frame, work, match ? &*match : nullptr);
@@ -196,7 +217,7 @@ const TileWork& Pipeline::State::planFrame(const VideoFrame& frame) {
 Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, const TileWork& work,
                                                    const std::optional<Pose>& pose,
                                                    const PixelRect& forDepth) {
-    const LumaPyramid& pyramids = pyramid->video(frame, work);
+    const LumaPyramid& pyramids = newest.pyramid->video(frame, work);
     lap("pyramid");
     const FlowCells* found = nullptr;
     if (pose) {
@@ -204,25 +225,50 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
         const int tiles = forDepth.empty() ? work.matched : work.changed;
         if (tiles > 0 && !where.empty()) epipolar->run(frame.view, *pose, where);
         lap("epipolar");
-        found = &flow->refine(pyramids, work, epipolar->forward(), epipolar->hidden());
+        found = &newest.flow->refine(pyramids, work, epipolar->forward(), epipolar->hidden());
     } else {
-        found = &flow->run(pyramids, work, lastFlow != nullptr && options.skips.knownFlow);
+        found = &newest.flow->run(pyramids, work,
+                                  newest.lastFlow != nullptr && options.skips.knownFlow);
     }
     lap("flow");
-    const CellWeights& weights = weigh->run(pyramids, *found, work);
+    const CellWeights& weights = newest.weigh->run(pyramids, *found, work);
     lap("weigh");
-    lastFlow = found;
-    lastWeights = &weights;
+    newest.lastFlow = found;
+    newest.lastWeights = &weights;
     listen(weights);
     return {*found, weights};
+}
+
+const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const TileWork& work) {
+    if (!keepsSecond() || work.matched == 0) return nullptr;
+    if (newest.first.empty()) newest.keepFirst();
+    const SecondTiles::Match shown{newest.lastWeights->weighed.host(),
+                                   newest.lastWeights->trust.host()};
+    const double share = second.pictures != nullptr ? quality.secondShare : 0;
+    const int most = static_cast<int>(std::ceil(share * static_cast<double>(work.flags.size())));
+    const TileWork& missed = secondTiles->choose(work, plan.measured(), shown, most);
+    newest.count(secondTiles->matched(), secondTiles->shownByNewest());
+    if (missed.matched == 0) {
+        second.lastFlow = nullptr;  // of too long ago to be where a search begins
+        return nullptr;
+    }
+    const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
+    const bool usePrior = second.lastFlow != nullptr && options.skips.knownFlow;
+    second.lastFlow = &second.flow->run(pyramids, missed, usePrior);
+    second.lastWeights = &second.weigh->run(pyramids, *second.lastFlow, missed);
+    secondTiles->judge(shown, second.lastWeights->weighed.host());
+    second.count(missed.matched, secondTiles->gained());
+    result.stats.matchedSecond = missed.matched;
+    lap("second still");
+    return second.lastWeights;
 }
 
 void Pipeline::State::listen(const CellWeights& weights) {
     if (!isNewStill || quality.mode != SuperResMode::Detail) return;
     isNewStill = false;
     if (matchListener == nullptr || !quality.learned) return;
-    const CameraModel& looked = stillPictures->rig.still;
-    matchListener->matched(now, stillPictures->luma.host(), weights.lookUps.host(),
+    const CameraModel& looked = newest.pictures->rig.still;
+    matchListener->matched(now, newest.pictures->luma.host(), weights.lookUps.host(),
                            {looked.size, looked.fx / rig.video.fx, looked.fy / rig.video.fy});
 }
 
@@ -231,11 +277,14 @@ void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,
     const DetailOptions how{quality.mode, quality.cubic, options.skips.upscaledTiles,
                             options.skips.plainTiles, quality.learned ? filterBank() : nullptr};
     if (match != nullptr) {
-        const DetailStep::Matched matched{*stillPictures, match->weights};
+        DetailStep::Matched matched{*newest.pictures, match->weights};
+        std::optional<DetailStep::Matched> also;
+        if (match->second != nullptr)
+            matched.second = &also.emplace(DetailStep::Matched{*second.pictures, *match->second});
         detail->draw(frame, &matched, work, how);
     } else {
         detail->draw(frame, nullptr, work, how);
-        lastFlow = nullptr;
+        newest.lastFlow = nullptr;
     }
     if (gles) gles->flush();
     lap("detail");
@@ -263,8 +312,9 @@ void Pipeline::State::publish(const TileWork& work, bool usedStill, bool usedPos
     stats.meanConfidence = summary.meanConfidence;
     stats.explained = summary.explained;
     stats.changed = summary.changed;
+    stats.showSecond = summary.second;
     stats.usedStill = usedStill;
-    stats.searched2d = flow->finishedSearchedCount();
+    stats.searched2d = newest.flow->finishedSearchedCount();
     if (usedPose) publishPose(*epipolar, stats);
     stats.transfers = {transfers.uploadedBytes - transfersBefore.uploadedBytes,
                        transfers.downloadedBytes - transfersBefore.downloadedBytes};

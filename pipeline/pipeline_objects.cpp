@@ -116,7 +116,7 @@ Pipeline::State::DepthTask Pipeline::State::prepareDepth(const PixelRect& where,
         task.matches->vectors.resize(alongLines->count());
         std::memcpy(task.matches->vectors.data(), alongLines->cells.host().data,
                     sizeof(FlowCell) * alongLines->count());
-        task.matches->searched2d = flow->searchedTiles();
+        task.matches->searched2d = newest.flow->searchedTiles();
     }
     return task;
 }

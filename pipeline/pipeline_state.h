@@ -6,6 +6,8 @@
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"
 #include "pipeline/pipeline.h"
+#include "pipeline/plan/second_tiles.h"
+#include "pipeline/reference.h"
 #include "pipeline/stage_clock.h"
 
 #include <future>
@@ -47,6 +49,7 @@ struct Pipeline::State {
     struct Match {
         const FlowCells& flow;
         const CellWeights& weights;
+        const CellWeights* second = nullptr;  ///< of the second still, where that is used
     };
 
     /// Begins to make what searches along lines, in a thread of its own: the first picture does not
@@ -62,6 +65,11 @@ struct Pipeline::State {
     /// Along epipolar lines where a pose is given, else in both dimensions.
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
+    /// Before a new still comes: keeps the newest as the second, where that is worth more.
+    void retireNewest();
+    /// Matches the second still with the tiles that the newest does not show; null where there are
+    /// none. After matchStill().
+    const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
     /// Decides whether depth is measured, and takes from the flow what that needs: a read after the
     /// frame's drawing has begun would wait for the drawing.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
@@ -80,12 +88,17 @@ struct Pipeline::State {
     void forgetMoving(const DepthMatches& matches);
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
     [[nodiscard]] Engine& engineOf(EngineKind kind);
+    [[nodiscard]] bool keepsSecond() const {
+        return secondTiles && quality.mode == SuperResMode::Detail && quality.learned &&
+               quality.secondShare > 0;
+    }
     [[nodiscard]] const FilterBank* filterBank() const {
         return filters ? filters.get() : &FilterBank::prior();
     }
     /// Closes a stage of the frame.
     void lap(const char* stage);
 
+    [[nodiscard]] Reference makeReference();
     /// The size asked for, or the full one.
     static Size outputSize(const StereoRig& rig, Size wanted);
 
@@ -95,10 +108,8 @@ struct Pipeline::State {
     std::shared_ptr<Workers> workers;
     Transfers transfers, transfersBefore;  // in all
     std::unique_ptr<Engine> gles, simd;    // as far as the choice needs them
-    std::unique_ptr<StillStep> still;
-    std::unique_ptr<PyramidStep> pyramid;
-    std::unique_ptr<FlowStep> flow;
-    std::unique_ptr<WeighStep> weigh;
+    Reference newest, second;
+    std::optional<SecondTiles> secondTiles;  // where the engines keep a second still
     std::unique_ptr<DetailStep> detail;
     RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
     WorkPlan plan;
@@ -110,9 +121,6 @@ struct Pipeline::State {
     std::optional<SceneFollower> sceneFollower;
     std::optional<LightFollower> lightFollower;
     Quality quality;
-    const StillPictures* stillPictures = nullptr;  // the newest still's
-    const FlowCells* lastFlow = nullptr;           // belongs to that still
-    const CellWeights* lastWeights = nullptr;
     std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the shipped ones
     MatchListener* matchListener = nullptr;
     bool isNewStill = false;  // no frame was matched to it

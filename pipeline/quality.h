@@ -25,6 +25,10 @@ struct Quality {
     /// Tiles that are matched with the still, at most, as a share of all; (0, 1]. Those with the
     /// least structure are enlarged alone. Not in mode Blend, which fades all of the still over.
     double detailShare = 1;
+    /// Tiles that are matched with a second, older still, where the newest does not show them, at
+    /// most, as a share of all; [0, 1], 0: none is kept. Where tiles are enlarged by learned
+    /// filters and the engines do that, see EngineChoice::keepsTwo().
+    double secondShare = 0.25;
     /// Real depth is measured in one of so many frames, and carried on in between; [1, 60].
     int depthEvery = 1;
 

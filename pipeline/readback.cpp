@@ -37,18 +37,19 @@ FrameStats Pipeline::readStats() const {
     stats.meanConfidence = drawn.meanConfidence;
     stats.explained = drawn.explained;
     stats.changed = drawn.changed;
-    stats.searched2d = state_->flow->searchedCount();
+    stats.showSecond = drawn.second;
+    stats.searched2d = state_->newest.flow->searchedCount();
     return stats;
 }
 
 std::vector<float> Pipeline::readFlow() const {
     const State& s = *state_;
-    if (s.lastFlow == nullptr) return {};
+    if (s.newest.lastFlow == nullptr) return {};
     const Size video = s.rig.video.size;
     std::vector<float> out(2UL * video.width * video.height);
     for (int channel = 0; channel < 2; ++channel)
-        channelInto(out, 2, channel, *s.lastWeights, channel, video);
-    if (!s.lastFlow->errorsGiven) return out;
+        channelInto(out, 2, channel, *s.newest.lastWeights, channel, video);
+    if (!s.newest.lastFlow->errorsGiven) return out;
     // The cells' vectors are refined to a fraction of a pixel, the lines' are those of the pixels:
     // they say on which side of an edge a pixel lies.
     const std::vector<bool> searched = readSearchedTiles();
@@ -68,9 +69,9 @@ std::vector<float> Pipeline::readFlow() const {
 
 std::vector<float> Pipeline::readConfidence() const {
     const State& s = *state_;
-    if (s.lastFlow == nullptr) return {};
+    if (s.newest.lastFlow == nullptr) return {};
     std::vector<float> out(1UL * s.rig.video.size.width * s.rig.video.size.height);
-    channelInto(out, 1, 0, *s.lastWeights, 3, s.rig.video.size);
+    channelInto(out, 1, 0, *s.newest.lastWeights, 3, s.rig.video.size);
     return out;
 }
 
@@ -79,7 +80,7 @@ std::vector<TileClass> Pipeline::readTileClasses() const {
 }
 
 std::vector<bool> Pipeline::readSearchedTiles() const {
-    return state_->flow->searchedTiles();
+    return state_->newest.flow->searchedTiles();
 }
 
 std::vector<float> Pipeline::readShownObjects() const {

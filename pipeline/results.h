@@ -14,7 +14,7 @@ namespace mfar {
 struct FrameStats {
     std::array<int, kTileClasses> tiles{};  ///< count per TileClass
     double meanConfidence = 0;              ///< of eq. 2 over the frame, [0, 1]
-    double explained = 0;  ///< share of tiles that are flat or that the still accounts for, [0, 1]
+    double explained = 0;  ///< share of tiles that are flat or that a still accounts for, [0, 1]
     double changed = 0;    ///< share of tiles whose video differs from when they were last drawn
     bool usedStill = false;
     bool usedPose = false;     ///< matched along epipolar lines, as the poses of both were known
@@ -25,6 +25,9 @@ struct FrameStats {
     /// Tiles that those lines did not explain (something moves there, or a pose is wrong), which
     /// were searched in both dimensions. Without poses all changed tiles are, and none counted.
     int searched2d = 0;
+    /// Tiles that the newest still does not show and that were matched with a second one; those of
+    /// them and beside them that show some of it.
+    int matchedSecond = 0, showSecond = 0;
     /// Tiles in which real depth was measured, as a virtual object may be hidden there.
     int depthTiles = 0;
     /// Tiles under a virtual object in which real depth was not measured, as it is known to lie

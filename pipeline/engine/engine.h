@@ -41,6 +41,11 @@ struct EngineChoice {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||
                detail == kind || occlusion == kind;
     }
+    /// Is a second still kept for what the newest misses? Shaders draw from one alone.
+    [[nodiscard]] bool keepsTwo() const {
+        return still == EngineKind::Simd && pyramid == EngineKind::Simd &&
+               flow == EngineKind::Simd && weigh == EngineKind::Simd && detail == EngineKind::Simd;
+    }
     bool operator==(const EngineChoice&) const = default;
 };
 

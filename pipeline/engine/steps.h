@@ -119,8 +119,9 @@ public:
 struct TileSummary {
     std::array<int, kTileClasses> tiles{};  ///< per TileClass
     double meanConfidence = 0;              ///< [0, 1]
-    double explained = 0;  ///< share of tiles that are flat or that the still accounts for, [0, 1]
+    double explained = 0;  ///< share of tiles that are flat or that a still accounts for, [0, 1]
     double changed = 0;    ///< share of tiles that were drawn, [0, 1]
+    int second = 0;        ///< tiles that show some of the second still
 };
 
 struct DetailOptions {
@@ -138,6 +139,9 @@ public:
     struct Matched {
         const StillPictures& still;
         const CellWeights& weights;
+        /// A second still, seen where it counts for more; null: none. For engines that
+        /// EngineChoice::keepsTwo(), in mode Detail alone.
+        const Matched* second = nullptr;
     };
 
     virtual ~DetailStep() = default;

@@ -130,6 +130,27 @@ void DetailRow(const WarpedRow& warped, const LookUpRows& rows, const std::int16
     }
 }
 
+void FadeRow(const std::int16_t* second, const LookUpRows& secondRows, const LookUpRows& rows,
+             int begin, int end, std::int16_t* inOut) {
+    const F df;
+    const hn::Rebind<std::int16_t, F> d16;
+    const int lanes = static_cast<int>(hn::Lanes(df));
+    const auto zero = hn::Zero(df), one = hn::Set(df, 1.0F);
+    const auto from = hn::Set(df, kSecondFrom),
+               rise = hn::Set(df, 1 / (kSecondAlone - kSecondFrom));
+    const auto at = [&](const std::int16_t* row) HWY_ATTR {
+        return hn::ConvertTo(F(), hn::PromoteTo(I(), hn::LoadU(d16, row)));
+    };
+    for (int x = begin; x < end; x += lanes) {
+        const auto more =
+            hn::Sub(Between(secondRows.share, secondRows.t, x), Between(rows.share, rows.t, x));
+        const auto seen = hn::Min(hn::Max(hn::Mul(hn::Sub(more, from), rise), zero), one);
+        const auto first = at(inOut + x);
+        const auto faded = hn::MulAdd(hn::Sub(at(second + x), first), seen, first);
+        hn::StoreU(hn::DemoteTo(d16, hn::NearestInt(faded)), d16, inOut + x);
+    }
+}
+
 using I16 = hn::ScalableTag<std::int16_t>;
 using U16 = hn::RebindToUnsigned<I16>;
 
@@ -259,6 +280,7 @@ namespace mfar::simd {
 
 HWY_EXPORT(WarpRow);
 HWY_EXPORT(DetailRow);
+HWY_EXPORT(FadeRow);
 HWY_EXPORT(ComposeRow);
 HWY_EXPORT(BlendRow);
 
@@ -270,6 +292,11 @@ void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int e
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to) {
     HWY_DYNAMIC_DISPATCH(DetailRow)(warped, lookUp, learned, begin, end, to);
+}
+
+void fadeRow(const std::int16_t* second, const LookUpRows& secondLookUp, const LookUpRows& lookUp,
+             int begin, int end, std::int16_t* inOut) {
+    HWY_DYNAMIC_DISPATCH(FadeRow)(second, secondLookUp, lookUp, begin, end, inOut);
 }
 
 void composeRow(const EnlargedRows& rows, const std::array<std::int16_t, 4>& weights,

@@ -43,11 +43,13 @@ struct DetailStep::Frame {
 
 DetailStep::Scratch::Scratch(const DetailStep& step)
     : video(step.video_, step.output_.width), lookUps(step.lookUpTaps_.cells, step.output_.width),
-      warped(step.video_, step.output_, step.warpedTaps_), learned(step.video_, step.output_.width),
-      added({step.output_.width, 1}) {
+      warped(step.video_, step.output_, step.warpedTaps_),
+      second(step.video_, step.output_, step.warpedTaps_), learned(step.video_, step.output_.width),
+      added({step.output_.width, 2}) {
     segments.reserve(step.tiles_.width);
     learnedSpans.reserve(step.tiles_.width);
     detailSpans.reserve(step.tiles_.width);
+    secondSpans.reserve(step.tiles_.width);
 }
 
 DetailStep::DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers)
@@ -64,6 +66,7 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     const TileWork::Tile& tile = work.at(column, row);
     if (!work.drawsWhole() && tile.changed == 0) return Show::Nothing;
     if (!frame.warps && !frame.blends) return Show::Video;
+    if (classes_.showsSecond(column, row)) return Show::BothStills;
     const bool upscaled = classes_.at(column, row) == TileClass::Upscaled;
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
@@ -86,8 +89,11 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
     const bool blends = options.mode == SuperResMode::Blend;
     const bool usesStill = options.mode != SuperResMode::Off &&
                            (blends ? in.picture.data != nullptr : in.still.data != nullptr);
+    using Match = TileClasses::Match;
+    const bool usesSecond = usesStill && !blends && in.second.still.data != nullptr;
     const TileSummary summary =
-        classes_.classify(in.work, usesStill ? in.weighed : Rows<const WeighedCell>{}, in.trust,
+        classes_.classify(in.work, usesStill ? Match{in.weighed, in.trust} : Match{},
+                          usesSecond ? Match{in.second.weighed, in.second.trust} : Match{},
                           {options.upscaledTiles, options.plainTiles}, *workers_);
     if (!in.work.drawsWhole() && in.work.changed == 0) return summary;
     Frame frame{in,
@@ -141,23 +147,25 @@ void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& s
     segments.clear();
     scratch.learnedSpans.clear();
     scratch.detailSpans.clear();
+    scratch.secondSpans.clear();
     for (int column = tileAt(columnsAt_, begin); column < tiles_.width; ++column) {
         const int from = std::max(begin, columnsAt_[column]),
                   to = std::min(end, columnsAt_[column + 1]);
         if (from >= to) continue;
         const Show show = shows_[static_cast<std::size_t>(row) * tiles_.width + column];
-        const bool detail = show == Show::Detail;
         const bool learned = frame.bank != nullptr && frame.in.work.at(column, row).matched != 0;
-        if (!segments.empty() && segments.back().detail == detail &&
-            segments.back().learned == learned)
+        if (!segments.empty() && segments.back().show == show && segments.back().learned == learned)
             segments.back().end = to;
         else
-            segments.push_back({from, to, detail, learned});
+            segments.push_back({from, to, show, learned});
         if (learned) append(scratch.learnedSpans, {from, to});
-        if (detail) append(scratch.detailSpans, {from, to});
+        if (show == Show::Detail || show == Show::BothStills)
+            append(scratch.detailSpans, {from, to});
+        if (show == Show::BothStills) append(scratch.secondSpans, {from, to});
     }
     if (frame.bank != nullptr) scratch.learned.cover(scratch.learnedSpans);
     if (frame.warps) scratch.warped.cover(scratch.detailSpans);
+    if (!scratch.secondSpans.empty()) scratch.second.cover(scratch.secondSpans);
 }
 
 void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& strip) const {
@@ -167,6 +175,9 @@ void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& stri
     if (frame.blends) s.lookUps.begin(frame.in.lookUps, lookUpTaps_, true, strip.x0, strip.x1);
     if (frame.warps)
         s.warped.begin(frame.in.still, frame.in.lookUps, lookUpTaps_, warpedTaps_,
+                       {strip.x0, strip.x1});
+    if (frame.warps && frame.in.second.still.data != nullptr)
+        s.second.begin(frame.in.second.still, frame.in.second.lookUps, lookUpTaps_, warpedTaps_,
                        {strip.x0, strip.x1});
     if (frame.bank != nullptr)
         s.learned.begin(frame.in.video, learnedTaps_, *frame.bank, {strip.x0, strip.x1});
@@ -186,16 +197,27 @@ void DetailStep::drawRow(const Frame& frame, Scratch& s, int y) const {
     const EnlargedRows rows = s.video.rows(taps.rows);
     std::uint32_t* to = frame.out[y];
     const std::int16_t* learnedRow = s.learnedSpans.empty() ? nullptr : s.learned.row(y);
-    const WarpedRow warped = frame.warps && !s.detailSpans.empty() ? s.warped.row(y) : WarpedRow{};
-    for (const auto& [begin, end, detail, learned] : s.segments) {
+    if (frame.warps && !s.detailSpans.empty()) s.detail = s.warped.row(y);
+    if (!s.secondSpans.empty()) s.secondDetail = s.second.row(y);
+    for (const Segment& segment : s.segments) {
+        const auto& [begin, end, show, learned] = segment;
+        const bool detail = show == Show::Detail || show == Show::BothStills;
         const std::int16_t* added = learned ? learnedRow : nullptr;
-        if (detail && frame.warps) {
-            detailRow(warped, s.warped.lookUps(y), added, begin, end, s.added[0]);
-            added = s.added[0];
-        }
+        if (detail && frame.warps) added = detailOf(s, segment, added, y);
         composeRow(rows, taps.weights, added, begin, end, to);
         if (detail && frame.blends) blendRow(frame.picture, s.lookUps.row(y), begin, end, to);
     }
+}
+
+const std::int16_t* DetailStep::detailOf(Scratch& s, const Segment& segment,
+                                         const std::int16_t* learned, int y) {
+    const LookUpRows lookUps = s.warped.lookUps(y);
+    detailRow(s.detail, lookUps, learned, segment.begin, segment.end, s.added[0]);
+    if (segment.show != Show::BothStills) return s.added[0];
+    const LookUpRows second = s.second.lookUps(y);
+    detailRow(s.secondDetail, second, learned, segment.begin, segment.end, s.added[1]);
+    fadeRow(s.added[1], second, lookUps, segment.begin, segment.end, s.added[0]);
+    return s.added[0];
 }
 
 }  // namespace mfar::simd

@@ -41,6 +41,15 @@ struct DetailInput {
     Rows<const WeighedCell> weighed;
     Rows<const LookUpCell> lookUps;
     Rows<const TrustCell> trust;
+    /// A second still, seen where it counts for more than the first; in mode Detail alone. Without
+    /// data: there is none.
+    struct Second {
+        StillPairs still{};
+        Rows<const WeighedCell> weighed{};
+        Rows<const LookUpCell> lookUps{};
+        Rows<const TrustCell> trust{};
+    };
+    Second second{};
 };
 
 /// Turns video, still and flow into the high-resolution picture on the host: what SuperRes::draw()
@@ -58,22 +67,24 @@ public:
     [[nodiscard]] const std::vector<TileClass>& classes() const { return classes_.classes(); }
 
 private:
-    enum class Show : std::uint8_t { Nothing, Video, Detail };
+    enum class Show : std::uint8_t { Nothing, Video, Detail, BothStills };
     /// Pixels of a row that are drawn alike.
     struct Segment {
         int begin, end;
-        bool detail, learned;
+        Show show;
+        bool learned;
     };
     struct Frame;
     struct Scratch {
         Scratch(const DetailStep& step);
         VideoRows video;
         LookUpRowCache lookUps;  // of mode Blend
-        WarpedStill warped;
+        WarpedStill warped, second;
         LearnedRows learned;
-        AlignedRows<std::int16_t> added;
+        WarpedRow detail{}, secondDetail{};  // of a row
+        AlignedRows<std::int16_t> added;     // a row of each still
         std::vector<Segment> segments;
-        PixelSpans learnedSpans, detailSpans;
+        PixelSpans learnedSpans, detailSpans, secondSpans;
     };
 
     [[nodiscard]] Show showOf(const Frame& frame, int column, int row) const;
@@ -83,6 +94,9 @@ private:
     void drawStrip(const Frame& frame, Scratch& scratch, const PixelRect& strip) const;
     void cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const;
     void drawRow(const Frame& frame, Scratch& scratch, int y) const;
+    /// What stills, and filters as far as these leave a share, add to the video's pixels.
+    static const std::int16_t* detailOf(Scratch& scratch, const Segment& segment,
+                                        const std::int16_t* learned, int y);
 
     Size video_, output_, tiles_;
     std::shared_ptr<Workers> workers_;

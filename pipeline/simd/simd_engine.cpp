@@ -178,6 +178,8 @@ public:
             in.weighed = matched->weights.weighed.host();
             in.lookUps = matched->weights.lookUps.host();
             in.trust = matched->weights.trust.host();
+            if (matched->second != nullptr && options.mode == SuperResMode::Detail)
+                in.second = secondOf(*matched->second);
         }
         const simd::TileSummary counts =
             detail_.draw(in,
@@ -198,7 +200,12 @@ private:
         out.changed = 1 - counts.tiles[0] / all;
         out.explained = 1 - counts.unexplained / all;
         out.meanConfidence = counts.confidence / (256 * all);
+        out.second = counts.second;
         return out;
+    }
+    simd::DetailInput::Second secondOf(const Matched& second) {
+        return {pairsOf(second.still), second.weights.weighed.host(), second.weights.lookUps.host(),
+                second.weights.trust.host()};
     }
     simd::StillPairs pairsOf(const StillPictures& still) {
         if (!still.pairs.isEmpty()) {

@@ -1,6 +1,7 @@
 #include "pipeline/simd/tile_classes.h"
 
 #include "pipeline/engine/params/detail.h"
+#include "pipeline/simd/detail_kernels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@ constexpr int kTileRowGrain = 4;  // rows of tiles
 struct TileClasses::Fields {
     Rows<const WeighedCell> weighed;
     Rows<const TrustCell> trust;
+    Match second;
     float leastWeight, plainFlow;
 
     [[nodiscard]] bool known() const { return weighed.data != nullptr; }
@@ -27,6 +29,12 @@ struct TileClasses::Fields {
     }
     [[nodiscard]] TileClass classOf(int column, int row) const;
     [[nodiscard]] int unexplainedCells(int column, int row) const;
+    /// As far as pixels of the tile look: between its cells and those beside it.
+    [[nodiscard]] bool showsSecond(int column, int row) const;
+    [[nodiscard]] bool secondExplains(int x, int y) const {
+        return second.weighed.data != nullptr && at(second.trust, x, y).unexplained < 0.5F &&
+               at(second.weighed, x, y).weight > at(weighed, x, y).weight + kSecondFrom;
+    }
     [[nodiscard]] float confidence(int column, int row) const;
 };
 
@@ -63,9 +71,19 @@ int TileClasses::Fields::unexplainedCells(int column, int row) const {
     int out = 0;
     for (int i = 0; i < kCells * kCells; ++i) {
         const int x = kCells * column + i % kCells, y = kCells * row + i / kCells;
-        out += at(trust, x, y).unexplained >= 0.5F ? 1 : 0;
+        out += at(trust, x, y).unexplained >= 0.5F && !secondExplains(x, y) ? 1 : 0;
     }
     return out;
+}
+
+bool TileClasses::Fields::showsSecond(int column, int row) const {
+    if (second.weighed.data == nullptr) return false;
+    const int x0 = kCells * column - 1, y0 = kCells * row - 1;
+    for (int i = 0; i < kWithBorder * kWithBorder; ++i) {
+        const int x = x0 + i % kWithBorder, y = y0 + i / kWithBorder;
+        if (at(second.weighed, x, y).weight > at(weighed, x, y).weight + kSecondFrom) return true;
+    }
+    return false;
 }
 
 float TileClasses::Fields::confidence(int column, int row) const {
@@ -77,7 +95,7 @@ float TileClasses::Fields::confidence(int column, int row) const {
 
 TileClasses::TileClasses(Size video)
     : tiles_(tilesOf(video)), classes_(static_cast<std::size_t>(tiles_.width) * tiles_.height),
-      unexplained_(classes_.size()), rowSums_(tiles_.height) {}
+      unexplained_(classes_.size()), second_(classes_.size()), rowSums_(tiles_.height) {}
 
 void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int row) {
     TileSummary sum;
@@ -90,6 +108,9 @@ void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int ro
                                                        : TileClass::Upscaled;
             unexplained_[index] =
                 fields.known() ? fields.unexplainedCells(column, row) : kCells * kCells;
+            second_[index] = fields.known() && fields.showsSecond(column, row) ? 1 : 0;
+            if (second_[index] != 0) kind = TileClass::Blended;
+            sum.second += second_[index];
         }
         classes_[index] = kind;
         ++sum.tiles[static_cast<std::size_t>(kind)];
@@ -99,9 +120,10 @@ void TileClasses::classifyRow(const TileWork& work, const Fields& fields, int ro
     rowSums_[row] = sum;
 }
 
-TileSummary TileClasses::classify(const TileWork& work, Rows<const WeighedCell> weighed,
-                                  Rows<const TrustCell> trust, Skips skips, Workers& workers) {
-    const Fields fields{weighed, trust, skips.upscaledTiles ? params::kLeastDetailWeight : -1.0F,
+TileSummary TileClasses::classify(const TileWork& work, const Match& match, const Match& second,
+                                  Skips skips, Workers& workers) {
+    const Fields fields{match.weighed, match.trust, second,
+                        skips.upscaledTiles ? params::kLeastDetailWeight : -1.0F,
                         skips.plainTiles ? params::kPlainFlow : 0.0F};
     struct Loop {
         TileClasses& self;
@@ -118,6 +140,7 @@ TileSummary TileClasses::classify(const TileWork& work, Rows<const WeighedCell> 
         for (std::size_t i = 0; i < kTileClasses; ++i)
             out.tiles[i] += row.tiles[i];
         out.unexplained += row.unexplained;
+        out.second += row.second;
         out.confidence += row.confidence;
     }
     return out;

@@ -34,6 +34,7 @@ TEST(QualityTable, WhatIsWrittenIsRead) {
     fast.epipolar = {
         .windowRadius = 1, .stepPenalty = 2, .jumpPenalty = 3, .finest = 2, .mostPredicted = 4};
     fast.detailShare = 0.125;
+    fast.secondShare = 0.5;
     const std::vector<QualityLevel> levels{{"slow", 20, 30, {}}, {"fast", 10.5, 25.25, fast}};
     const auto read = parseQualityLevels(toToml(levels), "file");
     ASSERT_EQ(read.size(), 2U);

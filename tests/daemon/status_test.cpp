@@ -23,6 +23,8 @@ void showPictures(Stats& stats, int count) {
         frame.usedStill = i >= count / 2;
         frame.usedPose = frame.usedStill;
         frame.searched2d = frame.usedPose ? 3 : 0;
+        frame.matchedSecond = frame.usedStill ? 5 : 0;
+        frame.showSecond = frame.usedStill ? 4 : 0;
         const Timestamp arrived = Timestamp::fromSeconds(10 + 0.05 * i);
         stats.picture({frame, kStages, arrived, arrived + std::chrono::milliseconds(20), 1.5});
     }
@@ -77,6 +79,8 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     EXPECT_EQ(json["stills"]["triggered"], 3);
     EXPECT_EQ(json["stills"]["received"], 1);
     EXPECT_EQ(json["stills"]["lost"], 2);
+    EXPECT_EQ(json["stills"]["tiles_matched_second"], 55) << "of 11 frames with a still";
+    EXPECT_EQ(json["stills"]["tiles_show_second"], 44);
     EXPECT_EQ(json["drops"]["mailbox"], 4);
     EXPECT_EQ(json["drops"]["sensor"], 5);
     EXPECT_EQ(json["drops"]["recorder"], 6);

@@ -137,6 +137,8 @@ TEST_F(QualityTest, SettingsOutOfRangeAreRefusedAndChangeNothing) {
          {Quality{.flow2d = {.steps = 17}}, Quality{.epipolar = {.finest = 3}},
           Quality{.detailShare = 0}, Quality{.detailShare = 1.01},
           Quality{.detailShare = std::numeric_limits<double>::quiet_NaN()},
+          Quality{.secondShare = -0.01}, Quality{.secondShare = 1.01},
+          Quality{.secondShare = std::numeric_limits<double>::quiet_NaN()},
           Quality{.depthEvery = 0}, Quality{.depthEvery = std::numeric_limits<int>::max()},
           Quality{.mode = SuperResMode::Off, .epipolar = {.windowRadius = -1}}})
         EXPECT_THROW(p.setQuality(wrong), std::invalid_argument);

@@ -36,7 +36,7 @@ public:
     void setStill(const Shot& still) {
         if (stillTime_ == still.time) return;
         for (const auto& method : methods_)
-            method->setStill(still);
+            method->setStills(still, nullptr);
         stillTime_ = still.time;
     }
 

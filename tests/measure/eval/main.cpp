@@ -139,6 +139,9 @@ CLI::App* addSuperRes(CLI::App& app, Options& o) {
     sub->add_flag("--no-still", o.superres.noStill,
                   "give no still to any method, and leave out those that need one")
         ->excludes("--classes");
+    sub->add_option("--stills", o.superres.stills,
+                    "2: give the product a second still, next to the reference in time")
+        ->check(CLI::Range(1, 2));
     sub->add_option("--learn", o.superres.learn,
                     "learn filters from so many matched stills of the recording before")
         ->check(CLI::Range(1, 100000));

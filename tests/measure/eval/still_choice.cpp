@@ -12,6 +12,22 @@ bool isIdentity(const RigidTransform& t) {
            t.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kSameView;
 }
 
+/// The nearest in time that may be used, but for one.
+std::optional<std::size_t> nearestStill(const Recording& recording, Timestamp frame,
+                                        std::optional<std::size_t> but) {
+    std::optional<std::size_t> best;
+    std::chrono::nanoseconds nearest{};
+    for (std::size_t i = 0; i < recording.stills.size(); ++i) {
+        const Timestamp time = recording.stills[i].time;
+        const auto distance = std::chrono::abs(time - frame);
+        if (i == but || (best && distance >= nearest)) continue;
+        if (showsOwnView(recording, time, frame)) continue;
+        best = i;
+        nearest = distance;
+    }
+    return best;
+}
+
 }  // namespace
 
 bool showsOwnView(const Recording& recording, Timestamp still, Timestamp frame) {
@@ -23,17 +39,11 @@ bool showsOwnView(const Recording& recording, Timestamp still, Timestamp frame) 
 }
 
 std::optional<std::size_t> referenceStill(const Recording& recording, Timestamp frame) {
-    std::optional<std::size_t> best;
-    std::chrono::nanoseconds nearest{};
-    for (std::size_t i = 0; i < recording.stills.size(); ++i) {
-        const Timestamp time = recording.stills[i].time;
-        const auto distance = std::chrono::abs(time - frame);
-        if (best && distance >= nearest) continue;
-        if (showsOwnView(recording, time, frame)) continue;
-        best = i;
-        nearest = distance;
-    }
-    return best;
+    return nearestStill(recording, frame, {});
+}
+
+std::optional<std::size_t> secondStill(const Recording& recording, Timestamp frame) {
+    return nearestStill(recording, frame, referenceStill(recording, frame));
 }
 
 }  // namespace mfar::eval

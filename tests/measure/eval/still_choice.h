@@ -13,6 +13,9 @@ namespace mfar::eval {
 [[nodiscard]] std::optional<std::size_t> referenceStill(const Recording& recording,
                                                         Timestamp frame);
 
+/// The still that comes next to that one, by the same rule.
+[[nodiscard]] std::optional<std::size_t> secondStill(const Recording& recording, Timestamp frame);
+
 /// Whether the still taken at `still` shows the very view of the video frame at `frame`: relative
 /// pose [R|t] = T_still_world T_world_video below 1e-6 (radians, metres). Known from the rig alone
 /// at equal times, from the recorded poses otherwise; without them different times are different

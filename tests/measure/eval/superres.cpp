@@ -17,6 +17,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace mfar::eval {
 namespace {
@@ -52,7 +54,7 @@ public:
         cv::Mat bicubicPicture;
         cv::resize(frame.picture, bicubicPicture, truthPicture.size(), 0, 0, cv::INTER_CUBIC);
         const cv::Mat bicubic = luma(withoutBorder(bicubicPicture));
-        if (!request_.noStill) setStill(sample);
+        if (!request_.noStill) setStills(sample);
         const cv::Mat classes = matcher_ ? matchClasses(recording_.rig, outputSize(recording_.rig),
                                                         matcher_->run(frame))
                                          : cv::Mat();
@@ -81,6 +83,7 @@ private:
         std::string name;
         std::unique_ptr<SuperResMethod> method;
     };
+    using Times = std::pair<Timestamp, Timestamp>;
 
     [[nodiscard]] Shot loadFrame(const SuperResSample& sample) const {
         const Timestamp time = sample.video.time;
@@ -91,16 +94,23 @@ private:
         return out;
     }
 
-    void setStill(const SuperResSample& sample) {
-        const Timestamp time = sample.still.time;
-        if (time == stillTime_) return;
-        const cv::Mat picture = degrade(loadPicture(sample.still.file), request_.degradation,
-                                        static_cast<std::uint64_t>(time.ns));
-        const Shot still{picture, time, poses_.of(sample.video.time, time).still};
+    [[nodiscard]] Shot loadStill(const RecordedImage& still, Timestamp frame) const {
+        return {degrade(loadPicture(still.file), request_.degradation,
+                        static_cast<std::uint64_t>(still.time.ns)),
+                still.time, poses_.of(frame, still.time).still};
+    }
+
+    void setStills(const SuperResSample& sample) {
+        const bool both = request_.stills > 1 && sample.second;
+        const Times times{sample.still.time, both ? sample.second->time : Timestamp{}};
+        if (times == stillTimes_) return;
+        const Shot newest = loadStill(sample.still, sample.video.time);
+        std::optional<Shot> second;
+        if (both) second = loadStill(*sample.second, sample.video.time);
         for (const Named& method : methods_)
-            method.method->setStill(still);
-        if (matcher_) matcher_->setStill(still);
-        stillTime_ = time;
+            method.method->setStills(newest, second ? &*second : nullptr);
+        if (matcher_) matcher_->setStill(newest);
+        stillTimes_ = times;
     }
 
     void save(const std::string& frame, const std::string& name, const cv::Mat& picture) const {
@@ -120,7 +130,7 @@ private:
     std::string label_;
     std::vector<Named> methods_;
     std::unique_ptr<StillMatcher> matcher_;  // where classes are wanted
-    std::optional<Timestamp> stillTime_;
+    std::optional<Times> stillTimes_;
 };
 
 }  // namespace

@@ -18,6 +18,7 @@ struct SuperResRequest {
     std::vector<std::filesystem::path> dnnModels;  ///< peers beside them, named as the files
     bool classes = false;                          ///< what each method gains by matchClasses()
     bool noStill = false;                          ///< the video alone is enlarged
+    int stills = 1;                                ///< 2: a second one, next in time to the first
     Degradation degradation;                       ///< done to every still
     Degradation videoDegradation;                  ///< done to every frame of the video
     int learn = 0;  ///< matched stills that filters are learned from before; 0: as shipped

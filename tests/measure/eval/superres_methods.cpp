@@ -26,9 +26,10 @@ public:
         pipeline_.setFilters(std::move(filters));
     }
 
-    void setStill(const Shot& still) override {
-        const cv::Mat rgba = toRgba(still.picture);
-        pipeline_.setStill(viewOf(rgba), still.time, usePoses_ ? still.pose : std::nullopt);
+    void setStills(const Shot& newest, const Shot* second) override {
+        pipeline_.dropStill();
+        if (second != nullptr) setStill(*second);
+        setStill(newest);
     }
 
     Result run(const Shot& frame) override {
@@ -46,6 +47,11 @@ public:
     }
 
 private:
+    void setStill(const Shot& still) {
+        const cv::Mat rgba = toRgba(still.picture);
+        pipeline_.setStill(viewOf(rgba), still.time, usePoses_ ? still.pose : std::nullopt);
+    }
+
     bool usePoses_;
     Pipeline pipeline_;
 };
@@ -56,7 +62,7 @@ public:
     using Enlarge = std::function<cv::Mat(const cv::Mat& video)>;
     explicit Enlarging(Enlarge enlarge) : enlarge_(std::move(enlarge)) {}
 
-    void setStill(const Shot&) override {}
+    void setStills(const Shot&, const Shot*) override {}
 
     Result run(const Shot& frame) override {
         Result out{enlarge_(frame.picture), 0};
@@ -83,7 +89,7 @@ public:
     PaperMethod(const StereoRig& rig, double alpha)
         : paper_(rig, outputSize(rig), {DisPreset::Medium, alpha}) {}
 
-    void setStill(const Shot& still) override { paper_.setStill(still.picture); }
+    void setStills(const Shot& newest, const Shot*) override { paper_.setStill(newest.picture); }
 
     Result run(const Shot& frame) override {
         Result out{paper_.run(frame.picture).clone(), 0};

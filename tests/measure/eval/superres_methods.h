@@ -17,7 +17,8 @@ class SuperResMethod {
 public:
     virtual ~SuperResMethod() = default;
 
-    virtual void setStill(const Shot& still) = 0;
+    /// `second`: null where there is none; for methods that use two.
+    virtual void setStills(const Shot& newest, const Shot* second) = 0;
     struct Result {
         cv::Mat picture;
         double ms = 0;  ///< wall time of a second run on the same frame, work finished

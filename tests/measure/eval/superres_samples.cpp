@@ -20,11 +20,14 @@ std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int li
         if (!truth) continue;
         anyTruth = true;
         const auto still = referenceStill(recording, video.time);
-        if (still)
-            out.push_back({video, recording.stills[*still], *truth});
-        else
+        if (!still) {
             fmt::print(stderr, "mfar-eval: {}: no other still for frame {}, left out\n",
                        recording.root.string(), video.time.ns);
+            continue;
+        }
+        out.push_back({video, recording.stills[*still], {}, *truth});
+        if (const auto second = secondStill(recording, video.time))
+            out.back().second = recording.stills[*second];
     }
     if (!anyTruth)
         throw EvalError(fmt::format("{}: no truth: truth/highres has no picture of a video frame",

@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace mfar::eval {
@@ -13,6 +14,7 @@ namespace mfar::eval {
 struct SuperResSample {
     RecordedImage video;
     RecordedImage still;
+    std::optional<RecordedImage> second;  ///< another still, where there is one
     std::filesystem::path truth;
 };
 

@@ -1,0 +1,106 @@
+#include "pipeline/plan/second_tiles.h"
+
+#include <algorithm>
+
+namespace mfar {
+namespace {
+
+constexpr int kCells = 4;  // of a tile, along an axis
+// Tiles must not come and go with the noise of what they miss.
+constexpr float kRather = 1.5F;
+
+/// Calls body(cell index x, y) for the cells of a tile that the field has.
+template <class Body>
+void forCells(Size tiles, int tile, Size cells, const Body& body) {
+    const int x0 = kCells * (tile % tiles.width), y0 = kCells * (tile / tiles.width);
+    for (int y = y0; y < std::min(y0 + kCells, cells.height); ++y)
+        for (int x = x0; x < std::min(x0 + kCells, cells.width); ++x)
+            body(x, y);
+}
+
+/// Mean over a tile's cells of what their weight lacks to one, as far as the video has structure
+/// there. What is not a number lacks nothing.
+float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
+    float sum = 0;
+    forCells(tiles, tile, newest.weighed.size, [&](int x, int y) {
+        const float lack = newest.trust[y][x].signal * (1 - newest.weighed[y][x].weight);
+        if (lack > 0) sum += std::min(lack, 1.0F);
+    });
+    return sum / (kCells * kCells);
+}
+
+/// The same of what the second still's weight is above the newest's.
+float gainOf(Size tiles, int tile, const SecondTiles::Match& newest,
+             const Rows<const WeighedCell>& second) {
+    float sum = 0;
+    forCells(tiles, tile, newest.weighed.size, [&](int x, int y) {
+        const float more =
+            newest.trust[y][x].signal * (second[y][x].weight - newest.weighed[y][x].weight);
+        if (more > 0) sum += std::min(more, 1.0F);
+    });
+    return sum / (kCells * kCells);
+}
+
+}  // namespace
+
+SecondTiles::SecondTiles(Size tiles) : work_(TileWork::everything(tiles)) {
+    const std::size_t count = work_.flags.size();
+    candidates_.reserve(count);
+    showed_.resize(count);
+    rest_.resize(count);
+    // No tile is kept from a frame before: others are matched in each.
+    work_.draw = TileWork::Draw::WholeEnlarged;
+}
+
+void SecondTiles::forget() {
+    showed_.assign(showed_.size(), false);
+    std::ranges::fill(rest_, std::uint8_t{0});
+}
+
+const TileWork& SecondTiles::choose(const TileWork& work, std::span<const TileMeasure> measured,
+                                    const Match& newest, int most) {
+    candidates_.clear();
+    matched_ = shownByNewest_ = gained_ = 0;
+    const auto count = static_cast<int>(work.flags.size());
+    for (int tile = 0; tile < count; ++tile) {
+        const auto i = static_cast<std::size_t>(tile);
+        work_.flags[i].matched = 0;
+        if (work.flags[i].matched == 0 || !work.draws(i)) continue;
+        ++matched_;
+        const float lack = lackOf(work.tiles, tile, newest);
+        if (lack < kLack) {
+            ++shownByNewest_;
+            continue;
+        }
+        if (rest_[i] > 0) {
+            --rest_[i];
+            continue;
+        }
+        const float kept = showed_[i] ? kRather : 1.0F;
+        candidates_.push_back({kept * lack * measured[i].structure, tile});
+    }
+    if (static_cast<int>(candidates_.size()) > most) {
+        const auto more = [](const Candidate& a, const Candidate& b) {
+            return a.missing != b.missing ? a.missing > b.missing : a.tile < b.tile;
+        };
+        std::ranges::nth_element(candidates_, candidates_.begin() + most, more);
+        candidates_.resize(static_cast<std::size_t>(most));
+    }
+    for (const Candidate& candidate : candidates_)
+        work_.flags[static_cast<std::size_t>(candidate.tile)].matched = 1;
+    work_.matched = static_cast<int>(candidates_.size());
+    work_.noise = work.noise;
+    return work_;
+}
+
+void SecondTiles::judge(const Match& newest, Rows<const WeighedCell> second) {
+    for (const Candidate& candidate : candidates_) {
+        const auto i = static_cast<std::size_t>(candidate.tile);
+        const bool gained = gainOf(work_.tiles, candidate.tile, newest, second) >= kGain;
+        showed_[i] = gained;
+        rest_[i] = gained ? 0 : kRest;
+        gained_ += gained ? 1 : 0;
+    }
+}
+
+}  // namespace mfar

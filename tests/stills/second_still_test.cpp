@@ -1,0 +1,190 @@
+#include "pipeline/pipeline.h"
+#include "tests/learn/sensor_pair.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+using twin::Grey;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr Size kVideo{256, 192}, kStill{1024, 768};
+const PixelRect kHidden{0, 0, 400, 768};  // of the still [px]
+constexpr int kRoom = 24;                 // around a border [px]
+
+StereoRig simpleRig() {
+    StereoRig rig;
+    rig.video = {kVideo, 240, 240, 127.5, 95.5, {}};
+    rig.still = {kStill, 960, 960, 511.5, 383.5, {}};
+    return rig;
+}
+
+/// Another scene in a part of the picture.
+Grey hidden(const Grey& scene) {
+    const Grey front = sharpDiscs(77);
+    return twin::greyOf(
+        scene.size, [&](int x, int y) { return x < kHidden.x1 ? front.at(x, y) : scene.at(x, y); });
+}
+
+Bytes bytesOf(const Grey& picture) {
+    return {picture.values.begin(), picture.values.end()};
+}
+
+/// A scene, a still that shows all of it, and one that does not show its left.
+class SecondStill : public testing::Test {
+protected:
+    static Pipeline made(double share = Quality().secondShare,
+                         const EngineChoice& engines = EngineChoice::all(EngineKind::Simd)) {
+        Pipeline out(simpleRig(), {.output = {}, .engines = engines});
+        out.setQuality({.secondShare = share});
+        return out;
+    }
+    static void setStill(Pipeline& pipeline, const Bytes& still) {
+        pipeline.setStill({still.data(), kStill, std::size_t(kStill.width), PixelFormat::Gray8},
+                          {});
+    }
+    FrameStats run(Pipeline& pipeline) {
+        pipeline.redraw();
+        pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
+        return pipeline.readStats();
+    }
+    /// Mean square error where the newest still shows another scene, or where it does not.
+    double error(const Pipeline& pipeline, bool inHidden) const {
+        const Bytes picture = pipeline.readImage();
+        double sum = 0, count = 0;
+        for (int y = kRoom; y < kStill.height - kRoom; ++y)
+            for (int x = kRoom; x < kStill.width - kRoom; ++x) {
+                if (inHidden ? x >= kHidden.x1 - kRoom : x < kHidden.x1 + kRoom) continue;
+                const double off =
+                    picture[4 * (std::size_t(y) * kStill.width + x)] - scene_.at(x, y);
+                sum += off * off;
+                ++count;
+            }
+        return sum / count;
+    }
+
+    const Grey scene_ = sharpDiscs(1);
+    const Bytes whole_ = bytesOf(scene_), part_ = bytesOf(hidden(scene_)),
+                video_ = bytesOf(videoOf(scene_, {}));
+};
+
+TEST_F(SecondStill, ShowsWhatTheNewestDoesNot) {
+    Pipeline one = made(0), two = made(1);
+    FrameStats stats;
+    for (Pipeline* pipeline : {&one, &two}) {
+        setStill(*pipeline, whole_);
+        run(*pipeline);
+        setStill(*pipeline, part_);
+        stats = run(*pipeline);
+    }
+    EXPECT_GT(stats.matchedSecond, 30) << "of 72 tiles that are hidden";
+    EXPECT_GT(stats.showSecond, 30);
+    EXPECT_GT(stats.explained, one.readStats().explained + 0.1);
+    EXPECT_LT(error(two, true), 0.5 * error(one, true));
+    EXPECT_LT(error(two, false), 1.02 * error(one, false));
+}
+
+TEST_F(SecondStill, CostsNothingWhereTheNewestShowsAll) {
+    Pipeline pipeline = made(1);
+    setStill(pipeline, whole_);
+    EXPECT_EQ(run(pipeline).matchedSecond, 0) << "there is one still";
+    setStill(pipeline, whole_);
+    for (int frame = 0; frame < 3; ++frame)
+        EXPECT_LE(run(pipeline).matchedSecond, 2) << "at the picture's border";
+    pipeline.setMeasure(true);
+    pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
+    for (const StageTime& stage : pipeline.stageTimes())
+        EXPECT_STRNE(stage.stage, "second still") << "nothing has changed";
+}
+
+TEST_F(SecondStill, IsMatchedInNoMoreTilesThanAskedFor) {
+    Pipeline pipeline = made(0.05);
+    setStill(pipeline, whole_);
+    run(pipeline);
+    setStill(pipeline, part_);
+    EXPECT_EQ(run(pipeline).matchedSecond, 10) << "of 192";
+    pipeline.setQuality({.secondShare = 0});
+    EXPECT_EQ(run(pipeline).matchedSecond, 0);
+    pipeline.setQuality({.secondShare = 0.1});
+    EXPECT_EQ(run(pipeline).matchedSecond, 20) << "it was kept";
+    setStill(pipeline, whole_);
+    pipeline.setQuality({.secondShare = 0});
+    setStill(pipeline, part_);
+    pipeline.setQuality({.secondShare = 1});
+    EXPECT_EQ(run(pipeline).matchedSecond, 0) << "none is kept while the share is zero";
+}
+
+TEST_F(SecondStill, IsUsedInModeDetailWithFiltersAlone) {
+    Pipeline pipeline = made(1);
+    setStill(pipeline, whole_);
+    run(pipeline);
+    setStill(pipeline, part_);
+    pipeline.setMode(SuperResMode::Blend);
+    EXPECT_EQ(run(pipeline).matchedSecond, 0);
+    pipeline.setMode(SuperResMode::Off);
+    EXPECT_EQ(run(pipeline).matchedSecond, 0);
+    pipeline.setQuality({.learned = false, .secondShare = 1});
+    EXPECT_EQ(run(pipeline).matchedSecond, 0);
+    pipeline.setQuality({.secondShare = 1});
+    EXPECT_GT(run(pipeline).matchedSecond, 30);
+}
+
+TEST_F(SecondStill, IsDroppedWithTheNewest) {
+    Pipeline pipeline = made(1), fresh = made(1);
+    setStill(pipeline, whole_);
+    run(pipeline);
+    setStill(pipeline, part_);
+    run(pipeline);
+    pipeline.dropStill();
+    EXPECT_FALSE(run(pipeline).usedStill);
+    for (int frame = 0; frame < 3; ++frame)  // both have seen as much of the video's noise
+        run(fresh);
+    setStill(pipeline, part_);
+    setStill(fresh, part_);
+    EXPECT_EQ(run(pipeline).matchedSecond, 0);
+    run(fresh);
+    EXPECT_EQ(pipeline.readImage(), fresh.readImage());
+}
+
+TEST_F(SecondStill, StaysWhileNewStillsMissTheSame) {
+    Pipeline pipeline = made(1);
+    setStill(pipeline, whole_);
+    run(pipeline);
+    for (int still = 0; still < 4; ++still) {
+        setStill(pipeline, part_);
+        EXPECT_GT(run(pipeline).showSecond, 30) << still;
+    }
+}
+
+TEST_F(SecondStill, OfAnotherExposureDoesNoHarm) {
+    const Bytes dark = bytesOf(twin::greyOf(
+        kStill, [&](int x, int y) { return 255 * 0.7 * std::pow(scene_.at(x, y) / 255, 1.3); }));
+    Pipeline one = made(0), two = made(1);
+    for (Pipeline* pipeline : {&one, &two}) {
+        setStill(*pipeline, dark);
+        run(*pipeline);
+        setStill(*pipeline, part_);
+        run(*pipeline);
+    }
+    EXPECT_LT(error(two, true), 0.6 * error(one, true));
+    EXPECT_LT(error(two, false), 1.02 * error(one, false));
+}
+
+TEST_F(SecondStill, OfAnotherSceneDoesNoHarm) {
+    const Bytes other = bytesOf(sharpDiscs(5));
+    Pipeline one = made(0), two = made(1);
+    for (Pipeline* pipeline : {&one, &two}) {
+        setStill(*pipeline, other);
+        run(*pipeline);
+        setStill(*pipeline, part_);
+        run(*pipeline);
+    }
+    EXPECT_LT(error(two, true), 1.01 * error(one, true));
+    EXPECT_LT(error(two, false), 1.01 * error(one, false));
+}
+
+}  // namespace
+}  // namespace mfar
