@@ -296,7 +296,14 @@ std::optional<std::string> Rig::endBrokenRecording() {
 }
 
 void Rig::finishRecording() {
-    if (const auto to = recorder()) return finish(*to);
+    if (const auto to = recorder()) {
+        try {
+            return finish(*to);
+        } catch (const Failure&) {
+            if (mustRecord_) throw;
+            return;  // endBrokenRecording() tells it
+        }
+    }
     const std::lock_guard lock(mutex_);
     if (broke_ && mustRecord_) throw Failure(ExitCode::OutputFailed, *broke_);
 }

@@ -78,8 +78,8 @@ public:
     /// Ends a recording that can no longer be written, and says why; what it has stays readable.
     /// Any thread, never waits.
     [[nodiscard]] std::optional<std::string> endBrokenRecording();
-    /// Waits until everything is written. Throws Failure, also where --record asked for a recording
-    /// that ended before.
+    /// Waits until everything is written. Throws Failure where --record asked for a recording that
+    /// cannot be written; endBrokenRecording() tells it of others.
     void finishRecording();
     /// Begins to record into this new folder. Throws Failure, also when something is recorded
     /// already. Any thread, as stopRecording().

@@ -136,6 +136,7 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
     }
     capture.stop();
     capture.join();
+    checkRecording();
     stats_.recorderDropped(rig_.notRecorded());
     try {
         display_->finish();

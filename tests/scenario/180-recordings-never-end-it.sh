@@ -44,6 +44,8 @@ until_true ended
 says <(status) '^recording +null$'
 goes_on
 "$ctl" --socket control record more
+listed() { [ "$(cat more/cam0/data.csv 2>/dev/null | wc -l)" -gt 1 ]; }
+until_true listed
 stop_it
 run 0 --recording films/* --frames 1
 run 0 --recording more --frames 1

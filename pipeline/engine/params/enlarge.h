@@ -7,7 +7,7 @@
 // gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
-inline constexpr int kGrid = 4;    ///< sub-pixels of a pixel along each axis
+inline constexpr int kGrid = 4;  ///< sub-pixels of a pixel along each axis
 inline constexpr int kGridShift = 2;
 static_assert(kGrid == 1 << kGridShift);
 inline constexpr int kPairs = 12;  ///< pairs of taps of a filter

@@ -91,13 +91,14 @@ constexpr std::array kImageFormats{
     ImageFormat{"rgba8", gpu::TexelFormat::Rgba8},
     ImageFormat{"r32f", gpu::TexelFormat::R32F},
     ImageFormat{"rgba16f", gpu::TexelFormat::Rgba16F},
+    ImageFormat{"rgba16i", gpu::TexelFormat::Rgba16I},
     ImageFormat{"rgba32f", gpu::TexelFormat::Rgba32F},
 };
 
 /// An image of one pixel at each of its bindings. A driver without one there may end or hang when
 /// it makes the final code.
 std::vector<gpu::Texture> boundImages(const std::string& text) {
-    static const std::regex declared("layout\\(([^)]*)\\)[^;]*\\bimage2D\\b");
+    static const std::regex declared("layout\\(([^)]*)\\)[^;]*\\b[iu]?image2D\\b");
     static const std::regex binding("binding = ([0-9]+)");
     std::vector<gpu::Texture> images;
     for (std::sregex_iterator i(text.begin(), text.end(), declared), end; i != end; ++i) {

@@ -1,19 +1,7 @@
-#include "hal/virtual/image_files.h"
-#include "hal/virtual/recorder.h"
-#include "tests/measure/bench/workload.h"
-#include "tests/measure/eval/picture.h"
-#include "tests/unit/run_program.h"
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-#include <opencv2/imgproc.hpp>
+#include "tests/measure/eval/tiny_recording.h"
 
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <sstream>
-#include <string>
-#include <vector>
 
 /// The programs as a user runs them, on tiny pictures: they must not rot. How good and how fast the
 /// product is, is not asserted here.
@@ -25,42 +13,6 @@ using test::Outcome;
 using test::TempFolder;
 namespace fs = std::filesystem;
 
-std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> out;
-    std::istringstream in(line + ",");
-    for (std::string field; std::getline(in, field, ',');)
-        out.push_back(field);
-    return out;
-}
-
-std::vector<std::vector<std::string>> readCsv(const fs::path& file) {
-    std::vector<std::vector<std::string>> out;
-    std::istringstream in(test::readFile(file));
-    for (std::string line; std::getline(in, line);)
-        out.push_back(split(line));
-    return out;
-}
-
-/// Two video frames and a still of a synthetic scene, with the true high-resolution picture of
-/// both.
-void writeRecording(const fs::path& root, bool withTruth) {
-    const bench::Workload work = bench::syntheticWorkload({160, 120}, {576, 432}, 2);
-    Recorder recorder(root, work.rig, 30);
-    const cv::Mat still = toRgba(work.stills[0]);
-    ASSERT_TRUE(recorder.still(viewOf(still), {500}));
-    for (std::size_t i = 0; i < work.frames.size(); ++i) {
-        const Timestamp time{static_cast<std::int64_t>(1000 + i)};
-        const cv::Mat frame = toRgba(work.frames[i]);
-        ASSERT_TRUE(recorder.video(viewOf(frame), time));
-        if (!withTruth) continue;
-        cv::Mat truth;
-        cv::resize(frame, truth, {576, 432}, 0, 0, cv::INTER_LANCZOS4);
-        fs::create_directories(root / "truth" / "highres");
-        savePng(root / "truth" / "highres" / fmt::format("{}.png", time.ns), viewOf(truth));
-    }
-    recorder.finish();
-}
-
 /// A texture and the same moved by (3, -2) pixels, with the flow that says so.
 void writePair(const fs::path& folder) {
     const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
@@ -71,136 +23,6 @@ void writePair(const fs::path& folder) {
     FlowImage flow{{160, 120}, {}};
     flow.vectors.assign(160 * 120, {3, -2});
     saveFlo(folder / "flow10.flo", flow);
-}
-
-TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
-    const TempFolder folder;
-    writeRecording(folder / "tiny", true);
-    const Outcome outcome =
-        execute(folder, fmt::format("{0} superres {1}/tiny --degrade gain=0.9,noise=1 --csv "
-                                    "{1}/out.csv --save {1}/pictures",
-                                    MFAR_EVAL, folder.path().string()));
-    ASSERT_EQ(outcome.status, 0) << outcome.text;
-    const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 2 * 7 + 7) << outcome.text;
-    EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
-                             "psnr_rgb_db,tiles_below"));
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-        ASSERT_EQ(rows[i].size(), rows[0].size());
-        EXPECT_EQ(rows[i][0], "tiny");
-        EXPECT_GT(std::stod(rows[i][3]), 0);
-        EXPECT_GT(std::stod(rows[i][4]), 10);
-        EXPECT_LE(std::stod(rows[i][5]), 1);
-        EXPECT_TRUE(rows[i][6].empty() && rows[i][7].empty());
-        EXPECT_LE(std::stod(rows[i][8]), 1);
-    }
-    EXPECT_EQ(rows[2][2], "detail2d");
-    EXPECT_EQ(rows[4][2], "bilinear");
-    EXPECT_EQ(rows[5][2], "bicubic");
-    EXPECT_EQ(std::stod(rows[5][8]), 0);
-    EXPECT_EQ(std::stod(rows[5][10]), 0);
-    EXPECT_EQ(rows[6][2], "lanczos");
-    EXPECT_EQ(rows.back()[1], "mean");
-    EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1000_detail.png"));
-    EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1001_truth.png"));
-}
-
-TEST(MfarEval, SuperResWithoutAStillComparesWhatEnlargesTheVideo) {
-    const TempFolder folder;
-    writeRecording(folder / "tiny", true);
-    const Outcome outcome = execute(
-        folder, fmt::format("{0} superres {1}/tiny --no-still --methods detail,detail2d,bicubic "
-                            "--csv {1}/out.csv",
-                            MFAR_EVAL, folder.path().string()));
-    ASSERT_EQ(outcome.status, 0) << outcome.text;
-    const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2) << "detail2d needs a still";
-    EXPECT_EQ(rows[1][2], "detail");
-    EXPECT_EQ(rows[2][2], "bicubic");
-}
-
-TEST(MfarEval, SuperResTellsClassesOfPixelsApart) {
-    const TempFolder folder;
-    writeRecording(folder / "tiny", true);
-    const Outcome outcome = execute(
-        folder, fmt::format("{0} superres {1}/tiny --classes --methods detail,bicubic --csv "
-                            "{1}/out.csv",
-                            MFAR_EVAL, folder.path().string()));
-    ASSERT_EQ(outcome.status, 0) << outcome.text;
-    EXPECT_EQ(outcome.text.find("classes by the match"), 0U) << outcome.text;
-    const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2);
-    ASSERT_EQ(rows[0].size(), 17U);
-    EXPECT_EQ(rows[0][11], "outside_share");
-    EXPECT_EQ(rows[0][16], "matched_gain_db");
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-        double shares = 0;
-        for (const std::size_t c : {11U, 13U, 15U})
-            shares += std::stod(rows[i].at(c));
-        EXPECT_NEAR(shares, 1, 1e-5);
-        if (rows[i][2] != "bicubic") continue;
-        for (const std::size_t c : {12U, 14U, 16U})
-            EXPECT_TRUE(rows[i][c].empty() || std::abs(std::stod(rows[i][c])) < 1e-6);
-    }
-}
-
-TEST(MfarEval, SuperResMakesTheVideoWorseForEveryMethod) {
-    const TempFolder folder;
-    writeRecording(folder / "tiny", true);
-    const auto psnrOf = [&](const std::string& options) {
-        const Outcome outcome =
-            execute(folder, fmt::format("{0} superres {1}/tiny --methods detail,bicubic {2} --csv "
-                                        "{1}/out.csv",
-                                        MFAR_EVAL, folder.path().string(), options));
-        EXPECT_EQ(outcome.status, 0) << outcome.text;
-        const auto rows = readCsv(folder / "out.csv");
-        return std::array{std::stod(rows.at(1).at(4)), std::stod(rows.at(2).at(4)),
-                          std::stod(rows.at(2).at(9))};
-    };
-    const auto clean = psnrOf(""), noisy = psnrOf("--degrade-video noise=20");
-    EXPECT_LT(noisy[0], clean[0] - 1);
-    EXPECT_LT(noisy[1], clean[1] - 1);
-    EXPECT_LT(noisy[2], clean[2] - 1) << "colours";
-}
-
-TEST(MfarEval, SuperResLearnsFromStillsBeforeItMeasures) {
-    const TempFolder folder;
-    writeRecording(folder / "tiny", true);
-    const auto learning = [&](const char* engine, const char* how) {
-        return execute(folder, fmt::format("MFAR_ENGINE={0} {1} superres {2}/tiny --no-still "
-                                           "--methods detail --frames 1 {3} {2}/tiny",
-                                           engine, MFAR_EVAL, folder.path().string(), how));
-    };
-    const Outcome elsewhere = learning("simd", "--learn-from");
-    ASSERT_EQ(elsewhere.status, 0) << elsewhere.text;
-    EXPECT_NE(elsewhere.text.find("learned from"), std::string::npos) << elsewhere.text;
-    const Outcome itself = learning("simd", "--learn 2");
-    ASSERT_EQ(itself.status, 0) << itself.text;
-    EXPECT_NE(itself.text.find("learned from"), std::string::npos) << itself.text;
-    const Outcome shaders = learning("gles", "--learn 2");
-    ASSERT_EQ(shaders.status, 0) << shaders.text;
-    EXPECT_NE(shaders.text.find("learned from"), std::string::npos) << shaders.text;
-}
-
-TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
-    const TempFolder folder;
-    writeRecording(folder / "tiny", true);
-    const Outcome outcome =
-        execute(folder, fmt::format("{0} superres {1}/tiny --methods bicubic --frames 1 --metrics "
-                                    "psnr,msssim,lpc_si,lpc_si_tiles,hdrvdp --ppd 40 --csv "
-                                    "{1}/out.csv",
-                                    MFAR_EVAL, folder.path().string()));
-    ASSERT_EQ(outcome.status, 0) << outcome.text;
-    const auto rows = readCsv(folder / "out.csv");
-    EXPECT_EQ(rows.at(0), split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
-                                "msssim,lpc_si_p10,lpc_si_median,lpc_si_p90,lpc_ratio,hdrvdp_qmos,"
-                                "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma,"
-                                "psnr_rgb_db,tiles_below"));
-    ASSERT_EQ(rows.at(1).size(), rows[0].size());
-    EXPECT_TRUE(rows[1][5].empty());  // ssim was not asked for
-    EXPECT_GT(std::stod(rows[1][6]), 0);
-    EXPECT_LT(std::stod(rows[1][7]), 100);
-    EXPECT_EQ(std::stod(rows[1][15]), 40);
 }
 
 TEST(MfarEval, MetricComparesTwoPictures) {
