@@ -51,8 +51,10 @@ private:
     };
     /// The configuration is read again by a thread of its own, as models may take long.
     struct Reload {
+        Reload() : answer(said.get_future().share()) {}
+
         std::promise<std::string> said;  ///< what has changed, or why the old one stays
-        std::shared_future<std::string> answer = said.get_future().share();
+        std::shared_future<std::string> answer;
         std::future<Config> config;
         std::jthread reader;
     };

@@ -282,7 +282,7 @@ std::filesystem::path Rig::recordingFolder() const {
 std::optional<std::string> Rig::endBrokenRecording() {
     const std::lock_guard lock(mutex_);
     if (!recorder_) return std::nullopt;
-    const std::optional<std::string> error = recorder_->error();
+    std::optional<std::string> error = recorder_->error();
     if (!error) return std::nullopt;
     lostBefore_ += lostBy(*recorder_);
     broke_ = error;

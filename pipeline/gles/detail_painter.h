@@ -47,13 +47,18 @@ private:
     using TileParams = params::DrawTiles;
     /// Enlarges linearly.
     struct Linear {
-        TilePass columns{"superres_vertical.frag", "#define LINEAR\n"};
-        TilePass rows{"composite_upscale.frag", "#define LINEAR\n"};
+        Linear()
+            : columns("superres_vertical.frag", "#define LINEAR\n"),
+              rows("composite_upscale.frag", "#define LINEAR\n") {}
+
+        TilePass columns, rows;
     };
     /// Draws tiles of one kind, or the detail of a whole frame.
     struct Composites {
         TilePass& enlarged;
-        gpu::DrawPass<TileParams>&whole, &tiles, &plain;
+        gpu::DrawPass<TileParams>& whole;
+        gpu::DrawPass<TileParams>& tiles;
+        gpu::DrawPass<TileParams>& plain;
     };
     /// draws[] of superres_classify.comp.
     struct DrawBlock {
