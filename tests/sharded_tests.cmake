@@ -1,0 +1,35 @@
+# Tests of a program that takes longer to start (OpenGL contexts, shaders to compile) than one of its
+# tests takes: a few processes run them all.
+#   target       the program
+#   name         of the tests; a number follows it
+#   SHARDS       how many processes (default: 4)
+#   FILTER       of GoogleTest
+#   LABELS       of CTest
+#   ENVIRONMENT  variables, as NAME=VALUE
+function(mfar_add_sharded_tests target name)
+    cmake_parse_arguments(PARSE_ARGV 2 arg "" "SHARDS;FILTER;LABELS" "ENVIRONMENT")
+    if(NOT arg_SHARDS)
+        set(arg_SHARDS 4)
+    endif()
+    if(NOT arg_FILTER)
+        set(arg_FILTER *)
+    endif()
+    if(CMAKE_CROSSCOMPILING)
+        set(properties)
+        foreach(property LABELS ENVIRONMENT)
+            if(arg_${property})
+                list(APPEND properties ${property} "${arg_${property}}")
+            endif()
+        endforeach()
+        gtest_discover_tests(${target} TEST_LIST ${name} TEST_FILTER ${arg_FILTER}
+                             PROPERTIES ${properties})
+        return()
+    endif()
+    math(EXPR last "${arg_SHARDS} - 1")
+    foreach(shard RANGE ${last})
+        add_test(NAME ${name}-${shard} COMMAND ${target} --gtest_filter=${arg_FILTER})
+        set_tests_properties(${name}-${shard} PROPERTIES
+            ENVIRONMENT "GTEST_TOTAL_SHARDS=${arg_SHARDS};GTEST_SHARD_INDEX=${shard};${arg_ENVIRONMENT}"
+            LABELS "${arg_LABELS}" FAIL_REGULAR_EXPRESSION "Running 0 tests from")
+    endforeach()
+endfunction()
