@@ -94,8 +94,10 @@ void CameraV4l2::stop() {
 std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
     const auto until = steady_clock::now() + timeout;
     while (running_) {
+        stream_->takeBack();
         const Wait waited = wait(until);
         if (waited == Wait::Nothing) return std::nullopt;
+        if (waited == Wait::Buffer) continue;
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
@@ -111,13 +113,15 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
 
 CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
     // The device first: it is in trouble once stopped, and then the other already says why.
-    std::array<pollfd, 2> fds{pollfd{stream_->device().fd(), POLLIN, 0},
-                              pollfd{wake_.get(), POLLIN, 0}};
+    std::array<pollfd, 3> fds{pollfd{stream_->device().fd(), POLLIN, 0},
+                              pollfd{wake_.get(), POLLIN, 0},
+                              pollfd{stream_->givenBack(), POLLIN, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
     const int ready =
         poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
     if (ready < 0 && errno == EINTR) return Wait::Picture;  // take() will find what there is
     if (ready <= 0 || fds[1].revents != 0) return Wait::Nothing;
+    if (fds[0].revents == 0) return Wait::Buffer;
     return (fds[0].revents & (POLLERR | POLLHUP | POLLNVAL)) != 0 ? Wait::Trouble : Wait::Picture;
 }
 

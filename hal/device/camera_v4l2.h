@@ -33,11 +33,11 @@ struct CameraV4l2Options {
 ///     while (auto frame = camera.next(500ms)) ...
 ///
 /// Pictures are lent from the driver's own buffers without a copy (JPEG is decoded into buffers of
-/// its own) and may outlive the camera. Frame::time() is the driver's stamp, moved by half the
-/// exposure where that is known (a manual exposure_time_absolute): later where the driver stamps
-/// the start of the exposure, earlier where it stamps the end of the frame; plus timeOffset.
-/// Buffers that the driver marks as broken, that are not full, or whose stamp cannot be true are
-/// counted and never delivered.
+/// its own) and may outlive the camera; a buffer that is given back goes to the driver with the
+/// next next(). Frame::time() is the driver's stamp, moved by half the exposure where that is known
+/// (a manual exposure_time_absolute): later where the driver stamps the start of the exposure,
+/// earlier where it stamps the end of the frame; plus timeOffset. Buffers that the driver marks as
+/// broken, that are not full, or whose stamp cannot be true are counted and never delivered.
 ///
 /// The constructor throws std::runtime_error with one sentence (no such camera, busy, size not
 /// offered and what is, a control refused); next() throws DeviceLost once the device has gone: make
@@ -68,7 +68,7 @@ public:
     [[nodiscard]] const Counts& counts() const { return counts_; }
 
 private:
-    enum class Wait { Picture, Nothing, Trouble };
+    enum class Wait { Picture, Buffer, Nothing, Trouble };
     [[nodiscard]] Wait wait(std::chrono::steady_clock::time_point until) const;
     [[nodiscard]] std::optional<Frame> frameOf(const V4l2Filled& filled);
     [[nodiscard]] bool isWhole(const V4l2Filled& filled) const;

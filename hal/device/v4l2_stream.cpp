@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -33,8 +35,11 @@ struct V4l2Stream::Argument {
 };
 
 V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
-    : device_(std::move(device)), type_(bufferType(*device_)), pieces_(layout.memoryPlanes) {
+    : device_(std::move(device)), type_(bufferType(*device_)), pieces_(layout.memoryPlanes),
+      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (wake_.get() < 0) throw std::runtime_error("no further file can be opened");
     allocate(buffers);
+    returned_.reserve(buffers_.size());
     for (int i = 0; i < static_cast<int>(buffers_.size()); ++i) {
         mapBuffer(i);
         for (int p = 0; p < pieces_; ++p)
@@ -112,6 +117,8 @@ int V4l2Stream::queue(int index) noexcept {
 void V4l2Stream::start() {
     const std::scoped_lock lock(mutex_);
     if (running_) return;
+    for (const int index : takeReturned())
+        buffers_[static_cast<std::size_t>(index)].holder = Holder::Nobody;
     for (std::size_t i = 0; i < buffers_.size(); ++i)
         if (buffers_[i].holder == Holder::Nobody)
             if (const int error = queue(static_cast<int>(i)))
@@ -168,12 +175,30 @@ std::optional<V4l2Filled> V4l2Stream::take() {
 }
 
 void V4l2Stream::giveBack(int index) noexcept {
+    const std::scoped_lock lock(returnedMutex_);
+    returned_.push_back(index);
+    constexpr std::uint64_t kOne = 1;
+    static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
+}
+
+std::vector<int> V4l2Stream::takeReturned() noexcept {
+    const std::scoped_lock lock(returnedMutex_);
+    std::uint64_t drained = 0;
+    static_cast<void>(!read(wake_.get(), &drained, sizeof drained));
+    std::vector<int> out = returned_;
+    returned_.clear();  // and keeps its memory
+    return out;
+}
+
+void V4l2Stream::takeBack() noexcept {
     const std::scoped_lock lock(mutex_);
-    if (running_)
-        // The next take() says so if the device has gone.
-        static_cast<void>(queue(index));
-    else
-        buffers_[static_cast<std::size_t>(index)].holder = Holder::Nobody;
+    for (const int index : takeReturned()) {
+        if (running_)
+            // The next take() says so if the device has gone.
+            static_cast<void>(queue(index));
+        else
+            buffers_[static_cast<std::size_t>(index)].holder = Holder::Nobody;
+    }
 }
 
 std::array<const std::uint8_t*, 3> V4l2Stream::memory(int index) const {

@@ -245,6 +245,7 @@ TEST(CameraV4l2, RunsAgainAfterStop) {
     fake.deliver({.ageMs = 10, .level = 9});
     EXPECT_EQ(camera.next(1s)->view().data[0], 9);
     held.reset();
+    EXPECT_FALSE(camera.next(0ms).has_value());
     EXPECT_EQ(fake.queued(), 4);
 }
 
@@ -264,9 +265,47 @@ TEST(CameraV4l2, EveryBufferMayBeLentAtOnce) {
     for (int i = 0; i < 4; ++i)
         EXPECT_EQ(held[static_cast<std::size_t>(i)].view().data[100], i);
     held.pop_back();
+    EXPECT_FALSE(camera.next(0ms).has_value());
     EXPECT_TRUE(fake.deliver());
     EXPECT_TRUE(camera.next(1s).has_value());
     EXPECT_EQ(camera.counts().missed, 1U);
+}
+
+TEST(CameraV4l2, ABufferThatIsGivenBackReachesADriverThatWaitsForIt) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.deliver({.ageMs = 30});
+    auto held = camera.next(1s);
+    ASSERT_TRUE(held.has_value());
+    EXPECT_EQ(fake.queued(), 3);
+    auto waiting = std::async(std::launch::async, [&] { return camera.next(60s).has_value(); });
+    EXPECT_EQ(waiting.wait_for(20ms), std::future_status::timeout);
+    held.reset();
+    for (const auto end = std::chrono::steady_clock::now() + 20s;
+         fake.queued() < 4 && std::chrono::steady_clock::now() < end;)
+        std::this_thread::sleep_for(1ms);
+    EXPECT_EQ(fake.queued(), 4);
+    fake.deliver();
+    EXPECT_TRUE(waiting.get());
+}
+
+TEST(CameraV4l2, GivingAPictureBackDoesNotWaitForADriverThatHangs) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted(), fake);
+    camera.start();
+    fake.deliver({.ageMs = 30});
+    auto held = camera.next(1s);
+    ASSERT_TRUE(held.has_value());
+    fake.hang(true);
+    fake.deliver({.ageMs = 20});
+    auto hung = std::async(std::launch::async, [&] { return camera.next(60s).has_value(); });
+    while (!fake.hangs())
+        std::this_thread::sleep_for(1ms);
+    auto given = std::async(std::launch::async, [&] { held.reset(); });
+    EXPECT_EQ(given.wait_for(20s), std::future_status::ready);
+    fake.hang(false);
+    EXPECT_TRUE(hung.get());
 }
 
 TEST(CameraV4l2, FramesOutliveTheCameraAndDoNotBlockTheNextOne) {

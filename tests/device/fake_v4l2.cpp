@@ -70,6 +70,12 @@ int FakeV4l2::open(const char* path) {
 }
 
 int FakeV4l2::ioctl(int fd, unsigned long request, void* argument) {
+    if (request == VIDIOC_DQBUF || request == VIDIOC_QBUF || request == VIDIOC_STREAMOFF) {
+        std::unique_lock lock(hangMutex_);
+        ++inside_;
+        mayGoOn_.wait(lock, [&] { return !hanging_; });
+        --inside_;
+    }
     const std::scoped_lock lock(mutex_);
     int error = gone_ ? ENODEV : 0;
     if (error == 0 && request == VIDIOC_QUERYCAP) {
@@ -356,6 +362,19 @@ bool FakeV4l2::deliver(const FakePicture& picture) {
     }
     done_.push_back(static_cast<int>(next->said.index));
     return write(pictureEnd_, "x", 1) == 1;
+}
+
+void FakeV4l2::hang(bool wanted) {
+    {
+        const std::scoped_lock lock(hangMutex_);
+        hanging_ = wanted;
+    }
+    mayGoOn_.notify_all();
+}
+
+bool FakeV4l2::hangs() {
+    const std::scoped_lock lock(hangMutex_);
+    return hanging_ && inside_ > 0;
 }
 
 void FakeV4l2::hangUp() {

@@ -5,6 +5,7 @@
 
 #include <linux/videodev2.h>
 
+#include <condition_variable>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -61,6 +62,9 @@ public:
     void unplug();
     /// poll() reports an error, while calls still work.
     void hangUp();
+    /// From now on the driver's calls that move buffers do not return, until they may again.
+    void hang(bool wanted);
+    [[nodiscard]] bool hangs();  ///< a call is inside it
     /// How many buffers wait to be filled.
     [[nodiscard]] int queued();
     [[nodiscard]] bool released();  ///< the buffers were given up
@@ -98,6 +102,10 @@ private:
     [[nodiscard]] const FakeFormat* find(std::uint32_t fourcc) const;
 
     std::mutex mutex_;
+    std::mutex hangMutex_;
+    std::condition_variable mayGoOn_;
+    bool hanging_ = false;
+    int inside_ = 0;
     int memory_ = -1;
     std::uint8_t* bytes_ = nullptr;
     int pictureEnd_ = -1, readEnd_ = -1;  // of the pipe: deliver() writes, the camera polls
