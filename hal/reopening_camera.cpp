@@ -37,20 +37,24 @@ void ReopeningCamera::keepOpen() {
     };
     for (;;) {
         changed_.wait(lock, [&] { return stopped_ || !camera_; });
+        if (stopped_) return finish(lock);
+        busy_ = Timestamp::now();
         if (std::shared_ptr<Camera> lost = std::exchange(lost_, nullptr)) {
             lock.unlock();
             lost.reset();
             lock.lock();
+            busy_.reset();
             if (hasSent_ || Timestamp::now() - opened_ > options_.longestPause)
                 pause = options_.firstPause;
             else
                 rest();
+            if (stopped_) return;
+            busy_ = Timestamp::now();
         }
-        if (stopped_) return;
         lock.unlock();
         std::shared_ptr<Camera> camera = tryOpen();
         lock.lock();
-        if (stopped_) return;
+        busy_.reset();
         if (camera) {
             camera_ = std::move(camera);
             opened_ = lastFrame_ = Timestamp::now();
@@ -60,6 +64,14 @@ void ReopeningCamera::keepOpen() {
             rest();
         }
     }
+}
+
+/// With the mutex held. Here, as stop() is not to wait for the driver.
+void ReopeningCamera::finish(std::unique_lock<std::mutex>& lock) {
+    const std::shared_ptr<Camera> camera = camera_;
+    lock.unlock();
+    if (camera) camera->stop();
+    lock.lock();
 }
 
 std::shared_ptr<Camera> ReopeningCamera::tryOpen() {
@@ -78,8 +90,11 @@ std::shared_ptr<Camera> ReopeningCamera::tryOpen() {
 
 std::shared_ptr<Camera> ReopeningCamera::opened(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
+    const Timestamp end = Timestamp::now() + timeout;
     changed_.wait_for(lock, timeout, [&] { return stopped_ || camera_; });
-    return stopped_ ? nullptr : camera_;
+    if (stopped_ || !camera_) return nullptr;
+    answer_ = end;
+    return camera_;
 }
 
 std::optional<Frame> ReopeningCamera::next(std::chrono::milliseconds timeout) {
@@ -105,6 +120,7 @@ std::optional<Frame> ReopeningCamera::next(std::chrono::milliseconds timeout) {
 
 void ReopeningCamera::sent() {
     const std::lock_guard lock(mutex_);
+    answer_.reset();
     lastFrame_ = Timestamp::now();
     hasSent_ = true;
     fault_.reset();
@@ -114,6 +130,7 @@ bool ReopeningCamera::hasStalled() {
     // Asked before the lock is taken, as the other one may ask us.
     const bool isExcused = options_.busyElsewhere && options_.busyElsewhere();
     const std::lock_guard lock(mutex_);
+    answer_.reset();
     if (options_.silent.count() == 0) {
         fault_.reset();  // it is there, and that is all that can be known
         return false;
@@ -124,6 +141,7 @@ bool ReopeningCamera::hasStalled() {
 void ReopeningCamera::lose(const std::string& reason) {
     {
         const std::lock_guard lock(mutex_);
+        answer_.reset();
         fault_ = info_.name + ": " + reason;
         if (!camera_) return;
         lost_ = std::exchange(camera_, nullptr);
@@ -133,18 +151,23 @@ void ReopeningCamera::lose(const std::string& reason) {
 }
 
 void ReopeningCamera::stop() {
-    std::shared_ptr<Camera> camera;
     {
         const std::lock_guard lock(mutex_);
         stopped_ = true;
-        camera = camera_;
     }
-    if (camera) camera->stop();
     changed_.notify_all();
+}
+
+/// With the mutex held.
+bool ReopeningCamera::hangs() const {
+    const Timestamp now = Timestamp::now();
+    return (answer_ && now - *answer_ >= options_.stalled) ||
+           (busy_ && now - *busy_ >= options_.excused);
 }
 
 std::optional<std::string> ReopeningCamera::fault() const {
     const std::lock_guard lock(mutex_);
+    if (hangs()) return info_.name + ": its driver does not answer";
     if (fault_) return fault_;
     if (options_.silent.count() > 0 && Timestamp::now() - lastFrame_ > options_.silent)
         return info_.name + ": sends no pictures";
