@@ -167,6 +167,8 @@ Rig::Rig(const Config& config)
     recording_.mostBytes = bytes(config.record.mostMb);
 }
 
+Rig::Rig(std::unique_ptr<RigSource> source) : source_(std::move(source)) {}
+
 Rig::~Rig() = default;
 
 const StereoRig& Rig::geometry() const {

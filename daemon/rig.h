@@ -40,6 +40,8 @@ class Rig {
 public:
     /// Opens the source that the configuration names. Throws Failure.
     explicit Rig(const Config& config);
+    /// Takes the devices as they are.
+    explicit Rig(std::unique_ptr<RigSource> source);
     ~Rig();
 
     [[nodiscard]] const StereoRig& geometry() const;
@@ -64,8 +66,8 @@ public:
     /// What it means when a camera fails.
     [[nodiscard]] ExitCode inputFailure() const;
 
-    /// Copies a frame into the recording, if there is one; never waits. Both are called from the
-    /// capture thread.
+    /// Copies a frame into the recording, if there is one; never waits. Each is called from one
+    /// thread.
     void recordVideo(const Frame& frame);
     void recordStill(const Frame& frame);
     /// The same with the pose of a frame.
@@ -93,7 +95,7 @@ private:
 
     std::unique_ptr<RigSource> source_;
     RecorderOptions recording_;
-    bool mustRecord_;
+    bool mustRecord_ = false;
     mutable std::mutex mutex_;
     std::shared_ptr<Recorder> recorder_;
     std::uint64_t lostBefore_ = 0;      ///< not recorded, of recordings that have ended

@@ -135,6 +135,11 @@ void Stats::stillUsed() {
     ++counted_.stills.used;
 }
 
+void Stats::stillsSuperseded(std::uint64_t stills) {
+    const std::lock_guard lock(mutex_);
+    counted_.stills.superseded += stills;
+}
+
 void Stats::framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker) {
     const std::lock_guard lock(mutex_);
     counted_.poses.addFrame(pose, tracker);

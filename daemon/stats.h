@@ -30,8 +30,9 @@ struct Drops {
 struct StillCounts {
     std::uint64_t triggered = 0;
     std::uint64_t received = 0;
-    std::uint64_t used = 0;  ///< became the reference of a frame
-    std::uint64_t lost = 0;  ///< triggered and not received in time
+    std::uint64_t used = 0;        ///< became the reference of a frame
+    std::uint64_t superseded = 0;  ///< by a newer one, before a frame could use them
+    std::uint64_t lost = 0;        ///< triggered and not received in time
 };
 
 /// What was checked of what passes wrote.
@@ -114,6 +115,7 @@ public:
     void videoGap(std::uint64_t frames);
     void stillReceived();
     void stillUsed();
+    void stillsSuperseded(std::uint64_t stills);
     /// See PoseCounts.
     void framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker);
     void stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms);

@@ -244,6 +244,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
          {{"triggered", counted.stills.triggered},
           {"received", counted.stills.received},
           {"used", counted.stills.used},
+          {"superseded", counted.stills.superseded},
           {"lost", counted.stills.lost},
           {"tiles_matched_second", counted.tilesMatchedSecond},
           {"tiles_show_second", counted.tilesShowSecond}}},
