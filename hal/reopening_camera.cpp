@@ -56,6 +56,8 @@ void ReopeningCamera::keepOpen() {
         lock.lock();
         busy_.reset();
         if (camera) {
+            for (std::string& text : camera->takeWarnings())
+                warnings_.push_back(std::move(text));
             camera_ = std::move(camera);
             opened_ = lastFrame_ = Timestamp::now();
             hasSent_ = false;
@@ -146,6 +148,7 @@ void ReopeningCamera::lose(const std::string& reason) {
         if (!camera_) return;
         lost_ = std::exchange(camera_, nullptr);
         ++losses_;
+        before_ += lost_->cameraCounters();
     }
     changed_.notify_all();
 }
@@ -182,6 +185,19 @@ bool ReopeningCamera::absent() const {
 std::uint64_t ReopeningCamera::losses() const {
     const std::lock_guard lock(mutex_);
     return losses_;
+}
+
+CameraCounters ReopeningCamera::cameraCounters() const {
+    const std::lock_guard lock(mutex_);
+    CameraCounters all = before_;
+    if (camera_) all += camera_->cameraCounters();
+    all.reopened = losses_;
+    return all;
+}
+
+std::vector<std::string> ReopeningCamera::takeWarnings() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(warnings_, {});
 }
 
 }  // namespace mfar

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace mfar {
 
@@ -60,6 +61,9 @@ public:
     [[nodiscard]] bool absent() const;
     /// How often it was lost since the start.
     [[nodiscard]] std::uint64_t losses() const;
+    /// Of all devices that it was, one after the other.
+    [[nodiscard]] CameraCounters cameraCounters() const override;
+    [[nodiscard]] std::vector<std::string> takeWarnings() override;
 
 private:
     void keepOpen();
@@ -80,6 +84,8 @@ private:
     std::optional<std::string> fault_;  ///< why there is none
     Timestamp opened_, lastFrame_;      ///< the latter as the former until there is one
     std::uint64_t losses_ = 0;
+    CameraCounters before_;  ///< of the devices that were lost
+    std::vector<std::string> warnings_;
     std::shared_ptr<Camera> lost_;     ///< to be closed
     std::optional<Timestamp> answer_;  ///< when next() was to have its frame; nothing: nobody asks
     std::optional<Timestamp> busy_;    ///< since when it is being opened or closed

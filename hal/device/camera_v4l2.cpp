@@ -78,7 +78,7 @@ void CameraV4l2::start() {
     std::uint64_t drained = 0;
     static_cast<void>(!read(wake_.get(), &drained, sizeof drained));
     exposure_ = manualExposure();
-    sequence_.reset();
+    drops_.pause();
     stream_->start();
     running_ = true;
 }
@@ -126,17 +126,16 @@ CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
 }
 
 std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
-    countMissed(filled.sequence);
     const auto loan = std::make_shared<Loan>(stream_, filled.index);
-    if (!isWhole(filled)) {
-        ++counts_.broken;
-        return std::nullopt;
-    }
+    const bool whole = isWhole(filled);
     const auto time = timeOf(filled);
-    if (!time) {
-        ++counts_.badTimes;
-        return std::nullopt;
-    }
+    // One on trigger has no rate that times could tell.
+    if (whole && time && options_.wish.rateHz > 0)
+        drops_.add(*time, filled.sequence);
+    else
+        drops_.addUntimed(filled.sequence);
+    if (!whole) return refuse(&CameraCounters::broken);
+    if (!time) return refuse(&CameraCounters::badTimes);
     auto memory = stream_->memory(filled.index);
     for (std::size_t i = 0; i < memory.size(); ++i)
         if (memory[i] != nullptr) memory[i] += filled.offset[i];
@@ -155,7 +154,7 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
     }
     out->exposure = exposure_;
     last_ = time;
-    ++counts_.delivered;
+    count(&CameraCounters::delivered);
     return out;
 }
 
@@ -164,6 +163,7 @@ bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
     for (int p = 0; p < layout_.memoryPlanes; ++p) {
         const auto i = static_cast<std::size_t>(p);
         // V4L2 counts the offset as used.
+    if (!out) return refuse(&CameraCounters::broken);
         const std::size_t room = stream_->memoryBytes(filled.index, p);
         if (filled.bytes[i] > room || filled.offset[i] >= filled.bytes[i] ||
             filled.bytes[i] - filled.offset[i] < layout_.bytes[i])
@@ -201,12 +201,25 @@ nanoseconds CameraV4l2::manualExposure() const {
     return nanoseconds(0);
 }
 
-void CameraV4l2::countMissed(std::uint32_t sequence) {
-    if (sequence_) {
-        const std::uint32_t step = sequence - *sequence_;  // wraps as the driver's count does
-        if (step > 1 && step <= kMostMissed) counts_.missed += step - 1;
-    }
-    sequence_ = sequence;
+std::nullopt_t CameraV4l2::refuse(std::uint64_t CameraCounters::* why) {
+    count(why);
+    return std::nullopt;
+}
+
+void CameraV4l2::count(std::uint64_t CameraCounters::* what) {
+    const std::lock_guard lock(countsMutex_);
+    if (what != nullptr) ++(counts_.*what);
+    counts_.missed = drops_.dropped();
+}
+
+CameraCounters CameraV4l2::cameraCounters() const {
+    const std::lock_guard lock(countsMutex_);
+    return counts_;
+}
+
+std::vector<std::string> CameraV4l2::takeWarnings() {
+    const std::lock_guard lock(countsMutex_);
+    return std::exchange(warnings_, {});
 }
 
 }  // namespace mfar

@@ -5,10 +5,13 @@
 #include "hal/device/jpeg_decoder.h"
 #include "hal/device/v4l2_controls.h"
 #include "hal/device/v4l2_stream.h"
+#include "hal/frame_drops.h"
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,13 +47,6 @@ struct CameraV4l2Options {
 /// a new camera then.
 class CameraV4l2 final : public Camera {
 public:
-    struct Counts {
-        std::uint64_t delivered = 0;
-        std::uint64_t broken = 0;    ///< marked by the driver, not full, or no whole JPEG
-        std::uint64_t badTimes = 0;  ///< stamps of the future, the distant past, or out of order
-        std::uint64_t missed = 0;    ///< numbers the driver left out: it had no buffer to fill
-    };
-
     explicit CameraV4l2(const CameraV4l2Options& options, V4l2Api& api = kernelV4l2());
     CameraV4l2(const CameraV4l2&) = delete;
     CameraV4l2& operator=(const CameraV4l2&) = delete;
@@ -64,8 +60,8 @@ public:
 
     /// While the camera lives.
     [[nodiscard]] const V4l2Controls& controls() const { return *controls_; }
-    /// Called from the thread of next().
-    [[nodiscard]] const Counts& counts() const { return counts_; }
+    [[nodiscard]] CameraCounters cameraCounters() const override;
+    [[nodiscard]] std::vector<std::string> takeWarnings() override;
 
 private:
     enum class Wait { Picture, Buffer, Nothing, Trouble };
@@ -74,7 +70,8 @@ private:
     [[nodiscard]] bool isWhole(const V4l2Filled& filled) const;
     [[nodiscard]] std::optional<Timestamp> timeOf(const V4l2Filled& filled);
     [[nodiscard]] std::chrono::nanoseconds manualExposure() const;
-    void countMissed(std::uint32_t sequence);
+    std::nullopt_t refuse(std::uint64_t CameraCounters::* why);
+    void count(std::uint64_t CameraCounters::* what);
 
     CameraV4l2Options options_;
     V4l2Layout layout_;
@@ -86,8 +83,10 @@ private:
     std::atomic<bool> running_{false};
     std::chrono::nanoseconds exposure_{0};
     std::optional<Timestamp> last_;
-    std::optional<std::uint32_t> sequence_;
-    Counts counts_;
+    FrameDrops drops_;
+    mutable std::mutex countsMutex_;  ///< of what follows
+    CameraCounters counts_;
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace mfar

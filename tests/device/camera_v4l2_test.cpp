@@ -47,7 +47,7 @@ TEST(CameraV4l2, LendsThePicturesOfTheDriver) {
     EXPECT_EQ(frame->view().range, YuvRange::Full);
     EXPECT_EQ(frame->view().data[frame->view().stride * 23 + 63], 77);
     EXPECT_NEAR(std::chrono::duration<double>(before - frame->time()).count(), 0.02, 0.015);
-    EXPECT_EQ(camera.counts().delivered, 1U);
+    EXPECT_EQ(camera.cameraCounters().delivered, 1U);
 }
 
 TEST(CameraV4l2, FormatsAreTakenInTheOrderOfPreference) {
@@ -168,11 +168,11 @@ TEST(CameraV4l2, BrokenPicturesAreCountedAndNeverDelivered) {
         ASSERT_TRUE(fake.deliver({.missingBytes = 1, .level = 2}));
         EXPECT_FALSE(camera.next(0ms).has_value());
     }
-    EXPECT_EQ(camera.counts().broken, 20U);
+    EXPECT_EQ(camera.cameraCounters().broken, 20U);
     EXPECT_EQ(fake.queued(), 4) << "their buffers are back";
     ASSERT_TRUE(fake.deliver({.level = 3}));
     EXPECT_EQ(camera.next(1s)->view().data[0], 3);
-    EXPECT_EQ(camera.counts().delivered, 1U);
+    EXPECT_EQ(camera.cameraCounters().delivered, 1U);
 }
 
 TEST(CameraV4l2, ImpossibleTimesAreCountedAndNeverDelivered) {
@@ -186,7 +186,7 @@ TEST(CameraV4l2, ImpossibleTimesAreCountedAndNeverDelivered) {
     EXPECT_TRUE(camera.next(1s).has_value());
     fake.deliver({.ageMs = 500});
     EXPECT_FALSE(camera.next(0ms).has_value()) << "before the one before";
-    EXPECT_EQ(camera.counts().badTimes, 3U);
+    EXPECT_EQ(camera.cameraCounters().badTimes, 3U);
 }
 
 TEST(CameraV4l2, MissedPicturesAreCounted) {
@@ -197,7 +197,7 @@ TEST(CameraV4l2, MissedPicturesAreCounted) {
     fake.deliver({.ageMs = 20, .skipped = 3});
     static_cast<void>(camera.next(1s));
     static_cast<void>(camera.next(1s));
-    EXPECT_EQ(camera.counts().missed, 3U);
+    EXPECT_EQ(camera.cameraCounters().missed, 3U);
 }
 
 TEST(CameraV4l2, TimeIsTheMiddleOfAManualExposure) {
@@ -268,7 +268,7 @@ TEST(CameraV4l2, EveryBufferMayBeLentAtOnce) {
     EXPECT_FALSE(camera.next(0ms).has_value());
     EXPECT_TRUE(fake.deliver());
     EXPECT_TRUE(camera.next(1s).has_value());
-    EXPECT_EQ(camera.counts().missed, 1U);
+    EXPECT_EQ(camera.cameraCounters().missed, 1U);
 }
 
 TEST(CameraV4l2, ABufferThatIsGivenBackReachesADriverThatWaitsForIt) {
@@ -397,7 +397,7 @@ TEST(CameraV4l2, ABrokenJpegIsCounted) {
     camera.start();
     fake.deliver();
     EXPECT_FALSE(camera.next(0ms).has_value());
-    EXPECT_EQ(camera.counts().broken, 1U);
+    EXPECT_EQ(camera.cameraCounters().broken, 1U);
     EXPECT_EQ(fake.queued(), 4);
 }
 

@@ -54,6 +54,13 @@ public:
     }
     void stop() override { waitForAnswer(); }
     [[nodiscard]] bool ended() const override { return false; }
+    [[nodiscard]] CameraCounters cameraCounters() const override {
+        CameraCounters out;
+        out.missed = 3;
+        out.broken = 1;
+        return out;
+    }
+    [[nodiscard]] std::vector<std::string> takeWarnings() override { return {"it is old"}; }
 
 private:
     void waitForAnswer() {
@@ -193,6 +200,25 @@ TEST(ReopeningCamera, OneWhoseDriverHangsIsNamedAndStopDoesNotWaitForIt) {
         std::this_thread::sleep_for(milliseconds(1));
     EXPECT_TRUE(stopped);
     socket.answers = true;
+}
+
+TEST(ReopeningCamera, CountsWhatEveryDeviceThatItWasHasCounted) {
+    Socket socket;
+    ReopeningCamera camera = cameraOn(socket);
+    EXPECT_EQ(camera.cameraCounters().missed, std::nullopt);
+    camera.start();
+    for (unsigned i = 1; i <= 3; ++i) {
+        ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+        EXPECT_EQ(camera.cameraCounters().missed, 3 * i);
+        EXPECT_EQ(camera.cameraCounters().broken, i);
+        EXPECT_EQ(camera.takeWarnings(), std::vector<std::string>{"it is old"});
+        EXPECT_TRUE(camera.takeWarnings().empty());
+        socket.plugged = false;
+        ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.absent(); }));
+        EXPECT_EQ(camera.cameraCounters().missed, 3 * i) << "while it is away";
+        EXPECT_EQ(camera.cameraCounters().reopened, i);
+        socket.plugged = true;
+    }
 }
 
 TEST(ReopeningCamera, OneThatIsLostBeforeItSendsIsNotOpenedAtFullSpeed) {
