@@ -1,5 +1,6 @@
 #include "hal/device/camera_v4l2.h"
 
+#include "base/image_layout.h"
 #include "hal/device/v4l2_selection.h"
 
 #include <fmt/format.h>
@@ -24,8 +25,9 @@ using std::chrono::steady_clock;
 // called next()).
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
-// More numbers left out at once are a restarted count.
-constexpr std::uint32_t kMostMissed = 10000;
+
+/// Fewer, and a driver may find none to fill while pictures are held.
+constexpr int kEnoughBuffers = 4;
 
 /// A filled buffer, which goes back with the last of those that hold it.
 class Loan {
@@ -64,6 +66,12 @@ CameraV4l2::CameraV4l2(const CameraV4l2Options& options, V4l2Api& api) : options
         controls_->set(name, value);
     if (layout_.format.jpeg)
         decoder_ = std::make_unique<JpegDecoder>(layout_.size, options.buffers);
+    if (!decoder_ && stream_->buffers() < std::min(options.buffers, kEnoughBuffers)) {
+        copies_.emplace(layout_.size, layout_.format.picture, options.buffers);
+        warnings_.push_back(
+            fmt::format("{}: the driver gives {} of {} buffers, pictures are copied",
+                        stream_->device().path(), stream_->buffers(), options.buffers));
+    }
     wake_ = OwnedFd(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
     if (wake_.get() < 0) throw std::runtime_error("no further file can be opened");
 }
@@ -146,16 +154,28 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
         ImageView view = layout_.view(memory);
         const bool atBegin = filled.offset == decltype(filled.offset){};
         view.shared = atBegin ? stream_->shared(filled.index) : nullptr;
-        out.emplace(view, *time, [loan] {});
+        if (copies_)
+            out = copyOf(view, *time);
+        else
+            out.emplace(view, *time, [loan] {});
     }
-    if (!out) {
-        ++counts_.broken;
-        return std::nullopt;
+    if (!out && copies_) {  // all copies are held
+        drops_.lose();
+        return refuse(nullptr);
     }
+    if (!out) return refuse(&CameraCounters::broken);
     out->exposure = exposure_;
     last_ = time;
     count(&CameraCounters::delivered);
     return out;
+}
+
+std::optional<Frame> CameraV4l2::copyOf(const ImageView& view, Timestamp time) {
+    const auto slot = copies_->acquire(std::chrono::milliseconds(0));
+    if (!slot) return std::nullopt;
+    ImageView copy = packInto(slot->data, view);
+    copy.shared = nullptr;
+    return copies_->lend(*slot, copy, time);
 }
 
 bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
@@ -163,7 +183,6 @@ bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
     for (int p = 0; p < layout_.memoryPlanes; ++p) {
         const auto i = static_cast<std::size_t>(p);
         // V4L2 counts the offset as used.
-    if (!out) return refuse(&CameraCounters::broken);
         const std::size_t room = stream_->memoryBytes(filled.index, p);
         if (filled.bytes[i] > room || filled.offset[i] >= filled.bytes[i] ||
             filled.bytes[i] - filled.offset[i] < layout_.bytes[i])

@@ -21,7 +21,8 @@ namespace mfar {
 struct CameraV4l2Options {
     CameraWish device;  ///< by path ("/dev/video0"), card or bus
     V4l2Wish wish;      ///< exactly this size; format and rate as far as they are given
-    int buffers = 6;    ///< of the driver, 2 to 32; one more than pictures are held at a time
+    /// Of the driver, 2 to 32; one more than pictures are held at a time.
+    int buffers = 6;
     /// Added to the driver's timestamps, e.g. minus the sensor's readout time where the driver
     /// stamps the end of the frame.
     std::chrono::nanoseconds timeOffset{0};
@@ -36,11 +37,12 @@ struct CameraV4l2Options {
 ///     while (auto frame = camera.next(500ms)) ...
 ///
 /// Pictures are lent from the driver's own buffers without a copy (JPEG is decoded into buffers of
-/// its own) and may outlive the camera; a buffer that is given back goes to the driver with the
-/// next next(). Frame::time() is the driver's stamp, moved by half the exposure where that is known
-/// (a manual exposure_time_absolute): later where the driver stamps the start of the exposure,
-/// earlier where it stamps the end of the frame; plus timeOffset. Buffers that the driver marks as
-/// broken, that are not full, or whose stamp cannot be true are counted and never delivered.
+/// its own; a driver that grants fewer than four gets each back at once, for a copy) and may
+/// outlive the camera; a buffer that is given back goes to the driver with the next next().
+/// Frame::time() is the driver's stamp, moved by half the exposure where that is known (a manual
+/// exposure_time_absolute): later where the driver stamps the start of the exposure, earlier where
+/// it stamps the end of the frame; plus timeOffset. Buffers that the driver marks as broken, that
+/// are not full, or whose stamp cannot be true are counted and never delivered.
 ///
 /// The constructor throws std::runtime_error with one sentence (no such camera, busy, size not
 /// offered and what is, a control refused); next() throws DeviceLost once the device has gone: make
@@ -67,6 +69,7 @@ private:
     enum class Wait { Picture, Buffer, Nothing, Trouble };
     [[nodiscard]] Wait wait(std::chrono::steady_clock::time_point until) const;
     [[nodiscard]] std::optional<Frame> frameOf(const V4l2Filled& filled);
+    [[nodiscard]] std::optional<Frame> copyOf(const ImageView& view, Timestamp time);
     [[nodiscard]] bool isWhole(const V4l2Filled& filled) const;
     [[nodiscard]] std::optional<Timestamp> timeOf(const V4l2Filled& filled);
     [[nodiscard]] std::chrono::nanoseconds manualExposure() const;
@@ -79,6 +82,7 @@ private:
     std::shared_ptr<V4l2Stream> stream_;
     std::unique_ptr<V4l2Controls> controls_;
     std::unique_ptr<JpegDecoder> decoder_;  // where pictures come as JPEG
+    std::optional<FramePool> copies_;       // where the driver grants too few buffers
     OwnedFd wake_;                          // eventfd, readable once stopped
     std::atomic<bool> running_{false};
     std::chrono::nanoseconds exposure_{0};

@@ -52,13 +52,20 @@ V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
 }
 
 void V4l2Stream::allocate(int buffers) {
-    constexpr std::uint32_t kFewest = 2, kMost = 64;
+    constexpr std::uint32_t kMost = 64;
     v4l2_requestbuffers request{};
-    request.type = type_;
-    request.memory = V4L2_MEMORY_MMAP;
-    request.count = static_cast<std::uint32_t>(std::clamp(buffers, 2, 32));
-    device_->call(VIDIOC_REQBUFS, &request, "allocating buffers");
-    if (request.count < kFewest || request.count > kMost)
+    auto count = static_cast<std::uint32_t>(std::clamp(buffers, 2, 32));
+    int error = ENOMEM;
+    // A driver may find memory for fewer.
+    for (; error == ENOMEM && count > 0; --count) {
+        request = {};
+        request.type = type_;
+        request.memory = V4L2_MEMORY_MMAP;
+        request.count = count;
+        error = device_->tryCall(VIDIOC_REQBUFS, &request);
+    }
+    if (error != 0) device_->fail("allocating buffers", error);
+    if (request.count < 1 || request.count > kMost)
         throw std::runtime_error(
             fmt::format("{}: the driver gives {} buffers", device_->path(), request.count));
     buffers_.resize(request.count);

@@ -29,7 +29,8 @@ struct V4l2Filled {
 /// who gives a buffer back: that thread may be the one that makes the picture.
 class V4l2Stream {
 public:
-    /// Takes the device, whose format is set. Throws std::runtime_error, DeviceLost.
+    /// Takes the device, whose format is set. The driver may grant fewer buffers, or more. Throws
+    /// std::runtime_error, DeviceLost.
     V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers);
     V4l2Stream(const V4l2Stream&) = delete;
     V4l2Stream& operator=(const V4l2Stream&) = delete;
@@ -54,6 +55,8 @@ public:
     /// Readable as long as buffers were given back and not handed to the driver, for poll().
     [[nodiscard]] int givenBack() const { return wake_.get(); }
 
+    /// How many there are.
+    [[nodiscard]] int buffers() const { return static_cast<int>(buffers_.size()); }
     /// Readable while the caller holds the buffer.
     [[nodiscard]] std::array<const std::uint8_t*, 3> memory(int index) const;
     [[nodiscard]] std::size_t memoryBytes(int index, int piece) const;

@@ -290,6 +290,69 @@ TEST(CameraV4l2, ABufferThatIsGivenBackReachesADriverThatWaitsForIt) {
     EXPECT_TRUE(waiting.get());
 }
 
+TEST(CameraV4l2, AFewBuffersDoForManyPictures) {
+    for (const bool refuses : {false, true})
+        for (const std::uint32_t buffers : {1U, 2U, 3U}) {
+            FakeV4l2 fake;
+            fake.mostBuffers = buffers;
+            fake.refusesMore = refuses;
+            CameraV4l2Options options = wanted();
+            options.buffers = 6;
+            CameraV4l2 camera(options, fake);
+            EXPECT_EQ(camera.takeWarnings(),
+                      std::vector<std::string>{"/dev/video0: the driver gives " +
+                                               std::to_string(buffers) +
+                                               " of 6 buffers, pictures are copied"});
+            EXPECT_TRUE(camera.takeWarnings().empty()) << "once";
+            camera.start();
+            std::vector<Frame> held;
+            for (std::uint8_t i = 0; i < 6; ++i) {
+                ASSERT_TRUE(fake.deliver({.ageMs = 50 - i, .level = i})) << buffers;
+                auto frame = camera.next(1s);
+                ASSERT_TRUE(frame.has_value());
+                held.push_back(std::move(*frame));
+                EXPECT_FALSE(camera.next(0ms).has_value());
+            }
+            for (std::size_t i = 0; i < held.size(); ++i) {
+                EXPECT_EQ(held[i].view().size, kSize);
+                EXPECT_EQ(held[i].view().data[100], i);
+            }
+            // More pictures than it was made for: the next is lost and counted.
+            ASSERT_TRUE(fake.deliver());
+            EXPECT_FALSE(camera.next(0ms).has_value());
+            EXPECT_EQ(camera.cameraCounters().missed, 1U);
+            EXPECT_EQ(camera.cameraCounters().delivered, 6U);
+        }
+}
+
+TEST(CameraV4l2, EnoughBuffersAreLentWithoutACopy) {
+    FakeV4l2 fake;
+    fake.mostBuffers = 4;
+    CameraV4l2Options options = wanted();
+    options.buffers = 6;
+    CameraV4l2 camera(options, fake);
+    EXPECT_TRUE(camera.takeWarnings().empty());
+    camera.start();
+    fake.deliver();
+    const auto held = camera.next(1s);
+    EXPECT_FALSE(camera.next(0ms).has_value());
+    EXPECT_EQ(fake.queued(), 3);
+}
+
+TEST(CameraV4l2, NumbersThatBeginAnewAreNoGap) {
+    FakeV4l2 fake;
+    CameraV4l2 camera(wanted({}, 30), fake);
+    camera.start();
+    fake.deliver({.ageMs = 40, .skipped = 200});
+    fake.deliver({.flags = V4L2_BUF_FLAG_ERROR, .ageMs = 30});
+    fake.deliver({.ageMs = 20, .skipped = -201});
+    fake.deliver({.ageMs = 10});
+    for (int i = 0; i < 3; ++i)
+        ASSERT_TRUE(camera.next(1s).has_value());
+    EXPECT_EQ(camera.cameraCounters().missed, 0U);
+    EXPECT_EQ(camera.cameraCounters().broken, 1U);
+}
+
 TEST(CameraV4l2, GivingAPictureBackDoesNotWaitForADriverThatHangs) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);

@@ -209,7 +209,8 @@ int FakeV4l2::requestBuffers(v4l2_requestbuffers& request) {
     if (running_ || busy) return EBUSY;
     buffers_.clear();
     released_ = request.count == 0;
-    request.count = std::min(request.count, 16U);
+    if (refusesMore && request.count > mostBuffers) return ENOMEM;
+    request.count = std::min(request.count, mostBuffers);
     buffers_.resize(request.count);
     for (std::size_t i = 0; i < buffers_.size(); ++i) {
         Buffer& b = buffers_[i];

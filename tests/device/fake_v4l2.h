@@ -77,7 +77,9 @@ public:
     bool rounds = false;  ///< answers S_FMT with another size
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     std::size_t padding = 0;  ///< of rows [bytes]
-    int sizeFault = 0;        ///< added to the size it says a picture has
+    std::uint32_t mostBuffers = 16;
+    bool refusesMore = false;  ///< has no memory for more than that, instead of granting fewer
+    int sizeFault = 0;         ///< added to the size it says a picture has
     std::uint32_t colorspace = V4L2_COLORSPACE_SRGB, quantization = V4L2_QUANTIZATION_DEFAULT;
     std::vector<FakeFormat> formats{{V4L2_PIX_FMT_YUYV, {{32, 24}, {64, 48}}}};
     std::vector<FakeControl> controls{};
