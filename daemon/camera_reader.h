@@ -1,6 +1,9 @@
 #pragma once
 
+#include "daemon/camera_watch.h"
 #include "daemon/exit_code.h"
+#include "daemon/rig.h"
+#include "daemon/stats.h"
 #include "hal/camera.h"
 #include "hal/frame.h"
 
@@ -13,13 +16,12 @@ namespace mfar {
 /// How soon it is told that a camera sends nothing. Stopping it wakes who waits at once.
 inline constexpr std::chrono::milliseconds kFrameWait{50};
 
-/// Fetches the frames of one camera and refuses those that cannot be its own. One thread.
+/// Fetches the frames of one camera of a rig, refuses those that cannot be its own and tells
+/// `stats` how the camera is. One thread.
 class CameraReader {
 public:
-    /// `camera` must outlive this; its frames have the size `expected`; `failure` is what it means
-    /// when the camera fails.
-    CameraReader(Camera& camera, Size expected, ExitCode failure)
-        : camera_(camera), expected_(expected), failure_(failure) {}
+    /// Both must outlive this.
+    CameraReader(Rig& rig, CameraRole role, Stats& stats);
 
     /// See Camera. Throws Failure for a camera that fails and a frame of another size.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout);
@@ -29,9 +31,14 @@ public:
     [[nodiscard]] bool isWaiting() const { return waiting_; }
 
 private:
+    void tell();
+
     Camera& camera_;
+    CameraRole role_;
     Size expected_;
-    ExitCode failure_;
+    ExitCode failure_;  ///< what it means when the camera fails
+    CameraWatch watch_;
+    Stats& stats_;
     std::atomic<bool> waiting_{false};
 };
 

@@ -2,7 +2,6 @@
 
 #include "daemon/exit_code.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -26,9 +25,8 @@ CapturedFrame FramePairer::pair(Frame video, Timestamp arrived) {
 }
 
 CaptureThread::CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<CapturedFrame>& out)
-    : rig_(rig), poses_(poses), stats_(stats), out_(out),
-      video_(rig.video(), rig.geometry().video.size, rig.inputFailure()),
-      still_(rig.still(), rig.geometry().still.size, rig.inputFailure()) {
+    : rig_(rig), poses_(poses), stats_(stats), out_(out), video_(rig, CameraRole::Video, stats),
+      still_(rig, CameraRole::Still, stats) {
     try {
         rig_.video().start();
         rig_.still().start();
@@ -36,6 +34,7 @@ CaptureThread::CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<
         throw Failure(rig_.inputFailure(), error.what());
     }
     if (rig_.handOver() == HandOver::NewestWins) stills_.emplace(rig_, poses_, stats_);
+    isOver_ = over_.get_future();
     thread_ = std::thread([this] { run(); });
 }
 
@@ -54,8 +53,7 @@ void CaptureThread::stop() {
 
 void CaptureThread::join() {
     if (!thread_.joinable()) return;
-    const std::future<void> over = over_.get_future();
-    while (over.wait_for(kStopTime) != std::future_status::ready)
+    while (isOver_.wait_for(kStopTime) != std::future_status::ready)
         // What the thread would have done at its end.
         if (rig_.handOver() == HandOver::NewestWins && video_.isWaiting())
             return rig_.finishRecording();
@@ -94,7 +92,6 @@ bool CaptureThread::captureOne(FramePairer& pairer) {
     if (stills_) stills_->check();
     if (!video) return !stopped_ && !video_.ended();
     const Timestamp arrived = Timestamp::now();
-    countGap(video->time());
     rig_.recordVideo(*video);
     CapturedFrame captured = pairer.pair(std::move(*video), arrived);
     captured.pose = poses_.ofVideo(captured.video);
@@ -109,16 +106,6 @@ bool CaptureThread::captureOne(FramePairer& pairer) {
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());
     return put != Mailbox<CapturedFrame>::Put::Closed;
-}
-
-void CaptureThread::countGap(Timestamp time) {
-    const double rate = rig_.video().info().rateHz;
-    if (lastVideo_ && rate > 0 && rig_.handOver() == HandOver::NewestWins) {
-        const double intervals = static_cast<double>((time - *lastVideo_).count()) * 1e-9 * rate;
-        if (intervals > 1.5)
-            stats_.videoGap(static_cast<std::uint64_t>(std::llround(intervals)) - 1);
-    }
-    lastVideo_ = time;
 }
 
 }  // namespace mfar

@@ -76,7 +76,6 @@ private:
     void run();
     [[nodiscard]] FramePairer::NextStill stillSource();
     bool captureOne(FramePairer& pairer);
-    void countGap(Timestamp time);
 
     Rig& rig_;
     PoseFinder& poses_;
@@ -84,11 +83,11 @@ private:
     Mailbox<CapturedFrame>& out_;
     CameraReader video_;
     CameraReader still_;  ///< of a source that loses nothing
-    std::optional<Timestamp> lastVideo_;
     std::atomic<bool> stopped_{false};
     std::exception_ptr failure_;
     std::optional<StillThread> stills_;  ///< of a live source
     std::promise<void> over_;
+    std::future<void> isOver_;  ///< of over_
     std::thread thread_;
 };
 

@@ -191,6 +191,11 @@ HandOver Rig::handOver() const {
     return source_->handOver;
 }
 
+CameraKind Rig::cameraKind() const {
+    if (source_->handOver == HandOver::Lossless) return CameraKind::Stored;
+    return source_->hasSensors ? CameraKind::Sensor : CameraKind::Live;
+}
+
 std::chrono::nanoseconds Rig::stillTimeOffset() const {
     return source_->stillTimeOffset;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "daemon/camera_watch.h"
 #include "daemon/config.h"
 #include "daemon/exit_code.h"
 #include "daemon/mailbox.h"
@@ -50,6 +51,7 @@ public:
     /// nullptr where stills come by themselves.
     [[nodiscard]] Trigger* trigger();
     [[nodiscard]] HandOver handOver() const;
+    [[nodiscard]] CameraKind cameraKind() const;
     /// What brings a still's time to the video's clock.
     [[nodiscard]] std::chrono::nanoseconds stillTimeOffset() const;
     /// How many video frames there will be at most, where that is known.

@@ -69,6 +69,7 @@ public:
         } catch (const TriggerBusy&) {
             throw;
         } catch (const std::runtime_error& error) {
+            if (open_) missedBefore_ += open_->missedEdges();
             open_.reset();
             fault_ = "trigger: " + std::string(error.what());
             throw;
@@ -88,6 +89,10 @@ public:
     void endPulse() override {
         const std::lock_guard lock(mutex_);
         if (open_) open_->endPulse();
+    }
+    [[nodiscard]] std::uint64_t missedEdges() const override {
+        const std::lock_guard lock(mutex_);
+        return missedBefore_ + (open_ ? open_->missedEdges() : 0);
     }
     [[nodiscard]] std::string name() const override {
         return fmt::format("trigger line {}", options_.line);
@@ -110,6 +115,7 @@ private:
     const TriggerOptions options_;
     mutable std::mutex mutex_;
     std::unique_ptr<PulseTrigger> open_;
+    std::uint64_t missedBefore_ = 0;  ///< of lines that were opened before
     std::optional<Timestamp> tried_;
     std::optional<std::string> fault_;
 };
@@ -217,6 +223,7 @@ CamerasSource::CamerasSource(const CamerasConfig& config)
           config.video, wishFor(config.video, config.still, false), "video camera", false,
           [this] { return config_.still.driver == CameraDriver::Libcamera && still_->absent(); })) {
     const RigCalibration calibration = calibrationOf(config);
+    hasSensors = true;
     geometry_ = calibration.rig;
     stillTimeOffset = nanoseconds(calibration.stillTimeOffset * 1e3);
     auto still = waitingCamera(

@@ -34,8 +34,7 @@ std::optional<CapturedStill> StillBox::take() {
 }
 
 StillThread::StillThread(Rig& rig, PoseFinder& poses, Stats& stats)
-    : rig_(rig), poses_(poses), stats_(stats),
-      reader_(rig.still(), rig.geometry().still.size, rig.inputFailure()),
+    : rig_(rig), poses_(poses), stats_(stats), reader_(rig, CameraRole::Still, stats),
       thread_([this] { run(); }) {}
 
 StillThread::~StillThread() {

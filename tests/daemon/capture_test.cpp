@@ -23,8 +23,8 @@ PoseConfig noPoses() {
 
 /// The capture of two fake cameras, without poses.
 struct Capture {
-    explicit Capture(HandOver handOver)
-        : source(new FakeSource(handOver)), rig(std::unique_ptr<RigSource>(source)),
+    explicit Capture(HandOver handOver, bool sensors = false)
+        : source(new FakeSource(handOver, sensors)), rig(std::unique_ptr<RigSource>(source)),
           poses(noPoses(), rig.poseInputs(), stats), mailbox(handOver),
           thread(std::in_place, rig, poses, stats, mailbox) {}
 
@@ -154,6 +154,52 @@ TEST(CaptureThread, AStillCameraThatFailsEndsTheRunWhoeverReadsIt) {
         capture.still().fail("the still camera has burnt");
         capture.video().send(2);
         EXPECT_EQ(endOf(capture), "the still camera has burnt");
+    }
+}
+
+TEST(CaptureThread, MissedFramesAreThoseThatTheCameraCounts) {
+    Capture capture(HandOver::NewestWins);
+    CameraCounters counters;
+    counters.missed = 7;
+    counters.broken = 2;
+    capture.video().count(counters);
+    counters.missed = 1;
+    capture.still().count(counters);
+    capture.video().warn("few buffers");
+    ASSERT_TRUE(becomesTrue([&] {
+        const Counted counted = capture.stats.count();
+        return counted.drops.sensor == 7 && counted.cameras[1].counters.missed == 1;
+    }));
+    EXPECT_EQ(capture.stats.count().cameras[0].counters.broken, 2U);
+    EXPECT_EQ(capture.stats.takeWarnings(), std::vector<std::string>{"few buffers"});
+}
+
+TEST(CaptureThread, ACameraThatIsSlowerThanConfiguredDropsNothing) {
+    Capture capture(HandOver::NewestWins);
+    const auto send = [&](double time) {
+        capture.video().send(time);
+        return capture.take().has_value();
+    };
+    int i = 0;
+    for (; i < 40; ++i)
+        ASSERT_TRUE(send(i / 15.));
+    EXPECT_EQ(capture.stats.count().drops.sensor, 0U) << "it is configured as 30 Hz";
+    EXPECT_NEAR(capture.stats.count().cameras[0].rateHz, 15, 0.01);
+    EXPECT_EQ(capture.stats.count().cameras[0].configuredHz, 30);
+    ASSERT_TRUE(send((i + 3) / 15.));
+    EXPECT_EQ(capture.stats.count().drops.sensor, 3U);
+}
+
+TEST(CaptureThread, AStillPictureIsWatchedForOfSensorsAlone) {
+    for (const bool sensors : {true, false}) {
+        Capture capture(HandOver::NewestWins, sensors);
+        for (int i = 1; i <= 5; ++i) {
+            capture.video().send(i, 9);
+            ASSERT_TRUE(capture.take());
+        }
+        const CameraState video = capture.stats.count().cameras[0];
+        EXPECT_EQ(video.repeated, sensors ? 4U : 0U);
+        EXPECT_EQ(video.distinctAgeS.has_value(), sensors);
     }
 }
 

@@ -9,6 +9,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -52,6 +53,24 @@ public:
         return ends_ && waiting_.empty();
     }
 
+    [[nodiscard]] CameraCounters cameraCounters() const override {
+        const std::lock_guard lock(mutex_);
+        return counters_;
+    }
+    [[nodiscard]] std::vector<std::string> takeWarnings() override {
+        const std::lock_guard lock(mutex_);
+        return std::exchange(warnings_, {});
+    }
+
+    /// What it says of itself.
+    void count(const CameraCounters& counters) {
+        const std::lock_guard lock(mutex_);
+        counters_ = counters;
+    }
+    void warn(const std::string& text) {
+        const std::lock_guard lock(mutex_);
+        warnings_.push_back(text);
+    }
     /// A picture of `level`, exposed at `seconds`.
     void send(double seconds, std::uint8_t level = 0, std::optional<Size> size = std::nullopt) {
         const Size picture = size.value_or(info_.size);
@@ -102,6 +121,8 @@ private:
     std::condition_variable changed_;
     std::deque<Frame> waiting_;
     std::set<std::thread::id> askers_;
+    CameraCounters counters_;
+    std::vector<std::string> warnings_;
     std::optional<std::string> broken_;
     bool stopped_ = false, ends_ = false, hangs_ = false, hung_ = false;
 };
@@ -111,8 +132,9 @@ inline constexpr Size kFakeVideo{8, 6}, kFakeStill{16, 12};
 /// A video and a still camera of the tests.
 class FakeSource final : public RigSource {
 public:
-    explicit FakeSource(HandOver mode) {
+    explicit FakeSource(HandOver mode, bool sensors = false) {
         handOver = mode;
+        hasSensors = sensors;
         geometry_.video.size = kFakeVideo;
         geometry_.still.size = kFakeStill;
     }
