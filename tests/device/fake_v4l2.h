@@ -6,6 +6,7 @@
 #include <linux/videodev2.h>
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -41,6 +42,9 @@ struct FakePicture {
     std::uint8_t level = 100;  ///< of all its bytes
     std::span<const std::uint8_t> jpeg{};
 };
+
+/// Text into a fixed field, which need not end in a zero.
+void putText(void* field, std::size_t bytes, const std::string& text);
 
 /// A capture device as the kernel's documentation describes one: one node that captures, one beside
 /// it that does not. A pipe stands for its descriptor, so that poll() and close() are the real
