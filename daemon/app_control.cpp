@@ -61,6 +61,7 @@ ordered_json App::statusNow() {
                 {"mode", run.mode},
                 {"frames", counted.frames},
                 {"fps", counted.recentFps},
+                {"cameras", cameraStatus(counted)},
                 {"recording", nullptr},
                 {"line", statusLine(counted, run, elapsed)}});
     if (!counted.recording.empty()) out["recording"] = counted.recording.string();

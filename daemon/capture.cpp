@@ -2,17 +2,15 @@
 
 #include "daemon/exit_code.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 namespace mfar {
 namespace {
 
-/// How soon it is told that a camera sends nothing. stop() wakes the thread at once.
-constexpr std::chrono::milliseconds kFrameWait{50};
+/// A camera that was stopped answers sooner, or hangs. A process that is to end waits little
+/// longer.
+constexpr std::chrono::milliseconds kStopTime{100};
 
 }  // namespace
 
@@ -20,19 +18,23 @@ CapturedFrame FramePairer::pair(Frame video, Timestamp arrived) {
     CapturedFrame paired{std::move(video), std::nullopt, arrived};
     for (;;) {
         if (!upcoming_) upcoming_ = nextStill_();
-        if (!upcoming_ || upcoming_->time() > paired.video.time()) return paired;
-        paired.still = CapturedStill{*std::exchange(upcoming_, std::nullopt)};
+        if (!upcoming_ || upcoming_->frame.time() > paired.video.time()) return paired;
+        if (paired.still) ++paired.stillsSuperseded;
+        paired.still = *std::exchange(upcoming_, std::nullopt);
     }
 }
 
 CaptureThread::CaptureThread(Rig& rig, PoseFinder& poses, Stats& stats, Mailbox<CapturedFrame>& out)
-    : rig_(rig), poses_(poses), stats_(stats), out_(out) {
+    : rig_(rig), poses_(poses), stats_(stats), out_(out), video_(rig, CameraRole::Video, stats),
+      still_(rig, CameraRole::Still, stats) {
     try {
         rig_.video().start();
         rig_.still().start();
     } catch (const std::runtime_error& error) {
         throw Failure(rig_.inputFailure(), error.what());
     }
+    if (rig_.handOver() == HandOver::NewestWins) stills_.emplace(rig_, poses_, stats_);
+    isOver_ = over_.get_future();
     thread_ = std::thread([this] { run(); });
 }
 
@@ -43,33 +45,31 @@ CaptureThread::~CaptureThread() {
 
 void CaptureThread::stop() {
     stopped_ = true;
+    if (stills_) stills_->stop();
     rig_.still().stop();  // with its trigger line, which nobody else would leave safe
     rig_.video().stop();
     out_.close();
 }
 
 void CaptureThread::join() {
-    if (thread_.joinable()) thread_.join();
+    if (!thread_.joinable()) return;
+    while (isOver_.wait_for(kStopTime) != std::future_status::ready)
+        // What the thread would have done at its end.
+        if (rig_.handOver() == HandOver::NewestWins && video_.isWaiting())
+            return rig_.finishRecording();
+    thread_.join();
     if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void CaptureThread::run() {
     try {
-        const Size size = rig_.geometry().still.size;
-        FramePairer pairer([&]() -> std::optional<Frame> {
-            std::optional<Frame> still = take(rig_.still(), std::chrono::milliseconds(0), size);
-            if (still) {
-                still->shift(rig_.stillTimeOffset());
-                stats_.stillReceived();
-                rig_.recordStill(*still);
-            }
-            return still;
-        });
+        FramePairer pairer(stillSource());
         while (captureOne(pairer)) {
         }
     } catch (...) {
         failure_ = std::current_exception();
     }
+    if (stills_) stills_->stop();
     out_.finish();
     // Beside the last picture, for which a process in a hurry does not wait.
     try {
@@ -77,53 +77,35 @@ void CaptureThread::run() {
     } catch (...) {
         if (!failure_) failure_ = std::current_exception();
     }
+    over_.set_value();
+}
+
+FramePairer::NextStill CaptureThread::stillSource() {
+    if (stills_) return [this] { return stills_->take(); };
+    return [this] { return nextStill(still_, rig_, stats_, std::chrono::milliseconds(0)); };
 }
 
 bool CaptureThread::captureOne(FramePairer& pairer) {
-    std::optional<Frame> video = take(rig_.video(), kFrameWait, rig_.geometry().video.size);
+    std::optional<Frame> video = video_.next(kFrameWait);
     // From here, as the GL thread may be busy with a picture for a while.
     stats_.fault(rig_.fault());
-    if (!video) return !stopped_ && !rig_.video().ended();
+    if (stills_) stills_->check();
+    if (!video) return !stopped_ && !video_.ended();
     const Timestamp arrived = Timestamp::now();
-    countGap(video->time());
     rig_.recordVideo(*video);
     CapturedFrame captured = pairer.pair(std::move(*video), arrived);
     captured.pose = poses_.ofVideo(captured.video);
-    if (captured.still) captured.still->pose = poses_.ofStill(captured.still->frame);
+    if (captured.still) {
+        CapturedStill& still = *captured.still;
+        if (!still.measured) still.measured = poses_.measure(still.frame);
+        still.pose = poses_.place(*still.measured, still.frame.time());
+    }
     // What is only predicted, a replay predicts as well; a still's lies between those of the
     // frames.
     if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());
     return put != Mailbox<CapturedFrame>::Put::Closed;
-}
-
-std::optional<Frame> CaptureThread::take(Camera& camera, std::chrono::milliseconds timeout,
-                                         Size expected) {
-    std::optional<Frame> frame;
-    try {
-        frame = camera.next(timeout);
-    } catch (const std::runtime_error& error) {
-        throw Failure(rig_.inputFailure(), error.what());
-    }
-    if (!frame) return frame;
-    const Size size = frame->view().size;
-    if (size != expected)
-        throw Failure(rig_.inputFailure(),
-                      fmt::format("{}: sent a picture of {}x{}, calibrated are {}x{}",
-                                  camera.info().name, size.width, size.height, expected.width,
-                                  expected.height));
-    return frame;
-}
-
-void CaptureThread::countGap(Timestamp time) {
-    const double rate = rig_.video().info().rateHz;
-    if (lastVideo_ && rate > 0 && rig_.handOver() == HandOver::NewestWins) {
-        const double intervals = static_cast<double>((time - *lastVideo_).count()) * 1e-9 * rate;
-        if (intervals > 1.5)
-            stats_.videoGap(static_cast<std::uint64_t>(std::llround(intervals)) - 1);
-    }
-    lastVideo_ = time;
 }
 
 }  // namespace mfar

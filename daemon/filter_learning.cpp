@@ -21,7 +21,7 @@ namespace {
 constexpr double kShare = 0.1;
 constexpr std::chrono::minutes kStoreEvery{1};
 // A state has 1.2 MB; a longer file is none of ours.
-constexpr std::uintmax_t kMostBytes = 4 << 20;
+constexpr std::uintmax_t kMostFilterBytes = 4 << 20;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ void FilterLearning::restore() {
     const std::string name = options_.file.string();
     try {
         const std::uintmax_t size = std::filesystem::file_size(options_.file, error);
-        if (error || size > kMostBytes) throw FilterBankError(name + ": not a file of filters");
+        if (error || size > kMostFilterBytes) throw FilterBankError(name + ": not a file of filters");
         std::ifstream in(options_.file, std::ios::binary);
         const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
         const std::vector<std::uint8_t> bytes(text.begin(), text.end());

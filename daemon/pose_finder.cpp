@@ -49,18 +49,21 @@ std::optional<Pose> PoseFinder::ofVideo(const Frame& video) {
     return pose;
 }
 
-std::optional<Pose> PoseFinder::ofStill(const Frame& still) {
-    if (recorded_) {
-        std::optional<Pose> pose = recorded_(still.time());
-        stats_.stillPose(pose, {});
-        return pose;
-    }
-    if (!tracker_) return std::nullopt;
+StillMeasurement PoseFinder::measure(const Frame& still) {
+    if (recorded_) return {recorded_(still.time())};
+    if (!tracker_) return {};
     const auto begin = std::chrono::steady_clock::now();
-    std::optional<Pose> pose = tracker_->trackStill(still.view(), still.time());
+    StillMeasurement out{tracker_->trackStill(still.view(), still.time())};
     const std::chrono::duration<double, std::milli> span = std::chrono::steady_clock::now() - begin;
-    if (!pose) pose = history_.at(still.time());
-    stats_.stillPose(pose, span.count());
+    out.ms = span.count();
+    return out;
+}
+
+std::optional<Pose> PoseFinder::place(const StillMeasurement& measured, Timestamp time) {
+    if (!recorded_ && !tracker_) return std::nullopt;
+    std::optional<Pose> pose = measured.pose;
+    if (!pose && tracker_) pose = history_.at(time);
+    stats_.stillPose(pose, measured.ms);
     return pose;
 }
 

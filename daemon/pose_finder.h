@@ -23,6 +23,12 @@ struct PoseInputs {
     std::function<std::optional<Pose>(Timestamp)> recorded;
 };
 
+/// What a still itself says about the video camera's pose at its time.
+struct StillMeasurement {
+    std::optional<Pose> pose{};
+    std::optional<double> ms{};  ///< that the search for tags took, where there was one
+};
+
 /// Gives frames and stills the video camera's pose at their time, from where the configuration
 /// says. Used by one thread, which is not the GL thread, where nothing else is said.
 class PoseFinder {
@@ -32,9 +38,11 @@ public:
 
     /// Frames in the order of their times. Nothing when the pose is not known.
     [[nodiscard]] std::optional<Pose> ofVideo(const Frame& video);
-    /// A still that is not younger than the last frame. One whose own tags cannot be used gets the
-    /// pose between those of the frames around it, where PoseHistory has one.
-    [[nodiscard]] std::optional<Pose> ofStill(const Frame& still);
+    /// Seeks tags in a still, which takes long. By one thread, which may be a further one.
+    [[nodiscard]] StillMeasurement measure(const Frame& still);
+    /// The pose of a still that is not younger than the last frame. One whose own tags cannot be
+    /// used gets the pose between those of the frames around it, where PoseHistory has one.
+    [[nodiscard]] std::optional<Pose> place(const StillMeasurement& measured, Timestamp time);
 
     /// Not only predicted.
     [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }

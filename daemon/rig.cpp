@@ -167,6 +167,8 @@ Rig::Rig(const Config& config)
     recording_.mostBytes = bytes(config.record.mostMb);
 }
 
+Rig::Rig(std::unique_ptr<RigSource> source) : source_(std::move(source)) {}
+
 Rig::~Rig() = default;
 
 const StereoRig& Rig::geometry() const {
@@ -187,6 +189,11 @@ Trigger* Rig::trigger() {
 
 HandOver Rig::handOver() const {
     return source_->handOver;
+}
+
+CameraKind Rig::cameraKind() const {
+    if (source_->handOver == HandOver::Lossless) return CameraKind::Stored;
+    return source_->hasSensors ? CameraKind::Sensor : CameraKind::Live;
 }
 
 std::chrono::nanoseconds Rig::stillTimeOffset() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "daemon/camera_watch.h"
 #include "daemon/config.h"
 #include "daemon/exit_code.h"
 #include "daemon/mailbox.h"
@@ -40,6 +41,8 @@ class Rig {
 public:
     /// Opens the source that the configuration names. Throws Failure.
     explicit Rig(const Config& config);
+    /// Takes the devices as they are.
+    explicit Rig(std::unique_ptr<RigSource> source);
     ~Rig();
 
     [[nodiscard]] const StereoRig& geometry() const;
@@ -48,6 +51,7 @@ public:
     /// nullptr where stills come by themselves.
     [[nodiscard]] Trigger* trigger();
     [[nodiscard]] HandOver handOver() const;
+    [[nodiscard]] CameraKind cameraKind() const;
     /// What brings a still's time to the video's clock.
     [[nodiscard]] std::chrono::nanoseconds stillTimeOffset() const;
     /// How many video frames there will be at most, where that is known.
@@ -64,8 +68,8 @@ public:
     /// What it means when a camera fails.
     [[nodiscard]] ExitCode inputFailure() const;
 
-    /// Copies a frame into the recording, if there is one; never waits. Both are called from the
-    /// capture thread.
+    /// Copies a frame into the recording, if there is one; never waits. Each is called from one
+    /// thread.
     void recordVideo(const Frame& frame);
     void recordStill(const Frame& frame);
     /// The same with the pose of a frame.
@@ -93,7 +97,7 @@ private:
 
     std::unique_ptr<RigSource> source_;
     RecorderOptions recording_;
-    bool mustRecord_;
+    bool mustRecord_ = false;
     mutable std::mutex mutex_;
     std::shared_ptr<Recorder> recorder_;
     std::uint64_t lostBefore_ = 0;      ///< not recorded, of recordings that have ended

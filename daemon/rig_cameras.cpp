@@ -27,6 +27,8 @@ constexpr double kNominalView = std::numbers::pi / 3;  // across the picture [ra
 constexpr double kNominalBaseline = 0.014;             // [m]
 // Frames that a camera may leave out before it is called silent, and before it is opened anew.
 constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
+// The period of one that sends as it likes and whose rate is not configured, at most.
+constexpr double kUnknownPeriodMs = 500;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
@@ -67,6 +69,7 @@ public:
         } catch (const TriggerBusy&) {
             throw;
         } catch (const std::runtime_error& error) {
+            if (open_) missedBefore_ += open_->missedEdges();
             open_.reset();
             fault_ = "trigger: " + std::string(error.what());
             throw;
@@ -86,6 +89,10 @@ public:
     void endPulse() override {
         const std::lock_guard lock(mutex_);
         if (open_) open_->endPulse();
+    }
+    [[nodiscard]] std::uint64_t missedEdges() const override {
+        const std::lock_guard lock(mutex_);
+        return missedBefore_ + (open_ ? open_->missedEdges() : 0);
     }
     [[nodiscard]] std::string name() const override {
         return fmt::format("trigger line {}", options_.line);
@@ -108,6 +115,7 @@ private:
     const TriggerOptions options_;
     mutable std::mutex mutex_;
     std::unique_ptr<PulseTrigger> open_;
+    std::uint64_t missedBefore_ = 0;  ///< of lines that were opened before
     std::optional<Timestamp> tried_;
     std::optional<std::string> fault_;
 };
@@ -139,18 +147,18 @@ std::unique_ptr<Camera> openCamera(const CameraConfig& config, const CameraWish&
 }
 
 std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const CameraWish& wish,
-                                               const char* role,
+                                               const char* role, bool onTrigger,
                                                std::function<bool()> busyElsewhere) {
     ReopeningOptions options;
     if (config.driver == CameraDriver::Libcamera) options.busyElsewhere = std::move(busyElsewhere);
-    // One that waits for its trigger is silent as long as it likes.
-    const double periodMs = config.rateHz > 0 ? 1e3 / config.rateHz : 0;
+    const double periodMs = config.rateHz > 0 ? 1e3 / config.rateHz : kUnknownPeriodMs;
     const auto periods = [&](double count) {
         return std::chrono::milliseconds(std::lround(count * periodMs));
     };
-    options.silent = config.rateHz > 0 ? std::max(options.silent, periods(kSilentPeriods))
-                                       : std::chrono::milliseconds(0);
-    options.stalled = std::max(options.stalled, periods(kStalledPeriods));
+    // One that waits for its trigger is silent as long as it likes.
+    options.silent = onTrigger ? std::chrono::milliseconds(0)
+                               : std::max(options.silent, periods(kSilentPeriods));
+    if (!onTrigger) options.stalled = std::max(options.stalled, periods(kStalledPeriods));
     return std::make_unique<ReopeningCamera>(
         CameraInfo{role, config.size, PixelFormat::Nv12, config.rateHz},
         [config, wish] { return openCamera(config, wish); }, options);
@@ -212,13 +220,15 @@ StereoRig nominalRig(Size video, Size still) {
 CamerasSource::CamerasSource(const CamerasConfig& config)
     : config_(config),
       video_(waitingCamera(
-          config.video, wishFor(config.video, config.still, false), "video camera",
+          config.video, wishFor(config.video, config.still, false), "video camera", false,
           [this] { return config_.still.driver == CameraDriver::Libcamera && still_->absent(); })) {
     const RigCalibration calibration = calibrationOf(config);
+    hasSensors = true;
     geometry_ = calibration.rig;
     stillTimeOffset = nanoseconds(calibration.stillTimeOffset * 1e3);
     auto still = waitingCamera(
         config.still, wishFor(config.still, config.video, true), "still camera",
+        config.still.rateHz == 0 && !config.trigger.line.empty(),
         [this] { return config_.video.driver == CameraDriver::Libcamera && video_->absent(); });
     still_ = still.get();
     if (config.trigger.line.empty()) {

@@ -28,6 +28,7 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
 
     HandOver handOver = HandOver::NewestWins;
+    bool hasSensors = false;  ///< its pictures have noise and a rate to keep
     ExitCode failure = ExitCode::Unavailable;
     std::optional<std::uint64_t> videoFrames{};
     std::chrono::nanoseconds stillTimeOffset{0};  ///< to the video's clock

@@ -193,6 +193,7 @@ void Session::placeObjects() {
 void Session::process(CapturedFrame captured) {
     const Timestamp begun = Timestamp::now();
     const bool newStill = captured.still.has_value();
+    stats_.stillsSuperseded(captured.stillsSuperseded);
     if (captured.still) takeStill(*std::exchange(captured.still, std::nullopt));
     if (std::optional<TagMap> found = poses_.takeFoundTags()) {
         tags_ = *std::move(found);

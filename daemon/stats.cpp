@@ -120,9 +120,10 @@ void Stats::traced(const TracedLayerCounters& counters, Timestamp frame) {
         counted_.referenceAgeS = static_cast<double>((frame - *since).count()) * 1e-9;
 }
 
-void Stats::videoGap(std::uint64_t frames) {
+void Stats::camera(CameraRole role, const CameraState& state) {
     const std::lock_guard lock(mutex_);
-    counted_.drops.sensor += frames;
+    counted_.cameras[static_cast<std::size_t>(role)] = state;
+    if (role == CameraRole::Video) counted_.drops.sensor = state.counters.missed.value_or(0);
 }
 
 void Stats::stillReceived() {
@@ -133,6 +134,11 @@ void Stats::stillReceived() {
 void Stats::stillUsed() {
     const std::lock_guard lock(mutex_);
     ++counted_.stills.used;
+}
+
+void Stats::stillsSuperseded(std::uint64_t stills) {
+    const std::lock_guard lock(mutex_);
+    counted_.stills.superseded += stills;
 }
 
 void Stats::framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker) {
@@ -194,7 +200,19 @@ Counted Stats::look() {
     return counted_;
 }
 
+void Stats::age(Timestamp now) {
+    constexpr double kSilentS = 1, kSilentPeriods = 5;
+    for (CameraState& camera : counted_.cameras) {
+        if (camera.lastFrame && camera.rateHz > 0 &&
+            (now - *camera.lastFrame).count() * 1e-9 >
+                std::max(kSilentS, kSilentPeriods / camera.rateHz))
+            camera.rateHz = 0;
+        if (camera.lastDistinct) camera.distinctAgeS = (now - *camera.lastDistinct).count() * 1e-9;
+    }
+}
+
 void Stats::total() {
+    age(Timestamp::now());
     if (firstShown_) {
         counted_.seconds = lastShown_.seconds() - firstShown_->seconds();
         counted_.fps = rate(counted_.frames - 1, *firstShown_, lastShown_);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/camera_watch.h"
 #include "daemon/histogram.h"
 #include "daemon/learning_counts.h"
 #include "daemon/pose_counts.h"
@@ -22,7 +23,7 @@ namespace mfar {
 
 /// Frames that never became a picture, by cause.
 struct Drops {
-    std::uint64_t sensor = 0;    ///< gaps in the video's time stamps
+    std::uint64_t sensor = 0;    ///< missed by the video camera
     std::uint64_t mailbox = 0;   ///< replaced by a newer frame before they were processed
     std::uint64_t recorder = 0;  ///< shown, but not recorded
 };
@@ -30,9 +31,12 @@ struct Drops {
 struct StillCounts {
     std::uint64_t triggered = 0;
     std::uint64_t received = 0;
-    std::uint64_t used = 0;  ///< became the reference of a frame
-    std::uint64_t lost = 0;  ///< triggered and not received in time
+    std::uint64_t used = 0;        ///< became the reference of a frame
+    std::uint64_t superseded = 0;  ///< by a newer one, before a frame could use them
+    std::uint64_t lost = 0;        ///< triggered and not received in time
 };
+
+enum class CameraRole : std::uint8_t { Video, Still };
 
 /// What was checked of what passes wrote.
 struct ValidationCounts {
@@ -54,7 +58,8 @@ struct Counted {
     double meanConfidence = 0;  ///< over the frames that used a still
     Drops drops;
     StillCounts stills;
-    StillCounters matching;  ///< zero without a trigger line of ours
+    std::array<CameraState, 2> cameras{};  ///< by CameraRole
+    StillCounters matching;                ///< zero without a trigger line of ours
     PoseCounts poses;
     QualityCounts quality;
     std::uint64_t epipolarFrames = 0;     ///< pictures that were matched along epipolar lines
@@ -111,9 +116,10 @@ public:
     void learning(const std::optional<LearningCounts>& counts);
     /// Of the path tracer, at a frame's time.
     void traced(const TracedLayerCounters& counters, Timestamp frame);
-    void videoGap(std::uint64_t frames);
+    void camera(CameraRole role, const CameraState& state);
     void stillReceived();
     void stillUsed();
+    void stillsSuperseded(std::uint64_t stills);
     /// See PoseCounts.
     void framePose(const std::optional<Pose>& pose, const std::optional<TrackStats>& tracker);
     void stillPose(const std::optional<Pose>& pose, const std::optional<double>& ms);
@@ -134,6 +140,8 @@ public:
 
 private:
     void total();
+    /// How old what the cameras sent is.
+    void age(Timestamp now);
     /// What virtual objects needed of a picture. Under the mutex, too.
     void objects(const FrameStats& frame);
 

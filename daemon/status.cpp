@@ -149,9 +149,33 @@ std::string tracing(const Counted& counted) {
 }
 
 nlohmann::ordered_json lineSummary(const StillCounters& line) {
-    return {{"fired", line.fired},        {"matched", line.matched}, {"unmatched", line.unmatched},
-            {"lost", line.lost},          {"late", line.late},       {"repeated", line.repeated},
-            {"relearned", line.relearned}};
+    return {{"fired", line.fired},
+            {"matched", line.matched},
+            {"unmatched", line.unmatched},
+            {"lost", line.lost},
+            {"late", line.late},
+            {"repeated", line.repeated},
+            {"relearned", line.relearned},
+            {"overtaken", line.overtaken},
+            {"missed_edges", line.missedEdges}};
+}
+
+// Without what nobody counts.
+nlohmann::ordered_json cameraSummary(const CameraState& camera) {
+    const CameraCounters& c = camera.counters;
+    nlohmann::ordered_json out = {{"configured_hz", camera.configuredHz},
+                                  {"measured_hz", camera.rateHz},
+                                  {"delivered", c.delivered},
+                                  {"broken", c.broken},
+                                  {"bad_times", c.badTimes},
+                                  {"startup", c.startup},
+                                  {"untimed", c.untimed},
+                                  {"restarts", c.restarts},
+                                  {"reopened", c.reopened},
+                                  {"repeated_pictures", camera.repeated}};
+    if (c.missed) out["missed"] = *c.missed;
+    if (camera.distinctAgeS) out["distinct_age_s"] = *camera.distinctAgeS;
+    return out;
 }
 
 nlohmann::ordered_json tileSummary(const Counted& counted) {
@@ -218,6 +242,11 @@ std::string firstPictureLine(const ProcessUse& use) {
                        use.residentMb);
 }
 
+nlohmann::ordered_json cameraStatus(const Counted& counted) {
+    return {{"video", cameraSummary(counted.cameras[0])},
+            {"still", cameraSummary(counted.cameras[1])}};
+}
+
 nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run,
                                const std::string& exitReason, int exitCode) {
     nlohmann::ordered_json stages = nlohmann::ordered_json::object();
@@ -244,11 +273,13 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
          {{"triggered", counted.stills.triggered},
           {"received", counted.stills.received},
           {"used", counted.stills.used},
+          {"superseded", counted.stills.superseded},
           {"lost", counted.stills.lost},
           {"tiles_matched_second", counted.tilesMatchedSecond},
           {"tiles_show_second", counted.tilesShowSecond}}},
         {"quality", qualitySummary(counted.quality)},
         {"learning", learningSummary(counted.learning.value_or(LearningCounts{}))},
+        {"cameras", cameraStatus(counted)},
         {"trigger_line", lineSummary(counted.matching)},
         {"pose", poseSummary(counted, run.poses)},
         {"virtual", virtualSummary(counted)},

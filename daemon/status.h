@@ -29,6 +29,9 @@ struct RunDescription {
 /// "first picture 430 ms after the start, 90 MB resident"
 [[nodiscard]] std::string firstPictureLine(const ProcessUse& use);
 
+/// What the cameras do, by their names.
+[[nodiscard]] nlohmann::ordered_json cameraStatus(const Counted& counted);
+
 /// What the run measured, for programs. Shares and confidences are in [0, 1], times in ms.
 [[nodiscard]] nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run,
                                              const std::string& exitReason, int exitCode);

@@ -37,21 +37,27 @@ void ReopeningCamera::keepOpen() {
     };
     for (;;) {
         changed_.wait(lock, [&] { return stopped_ || !camera_; });
+        if (stopped_) return finish(lock);
+        busy_ = Timestamp::now();
         if (std::shared_ptr<Camera> lost = std::exchange(lost_, nullptr)) {
             lock.unlock();
             lost.reset();
             lock.lock();
+            busy_.reset();
             if (hasSent_ || Timestamp::now() - opened_ > options_.longestPause)
                 pause = options_.firstPause;
             else
                 rest();
+            if (stopped_) return;
+            busy_ = Timestamp::now();
         }
-        if (stopped_) return;
         lock.unlock();
         std::shared_ptr<Camera> camera = tryOpen();
         lock.lock();
-        if (stopped_) return;
+        busy_.reset();
         if (camera) {
+            for (std::string& text : camera->takeWarnings())
+                warnings_.push_back(std::move(text));
             camera_ = std::move(camera);
             opened_ = lastFrame_ = Timestamp::now();
             hasSent_ = false;
@@ -60,6 +66,14 @@ void ReopeningCamera::keepOpen() {
             rest();
         }
     }
+}
+
+/// With the mutex held. Here, as stop() is not to wait for the driver.
+void ReopeningCamera::finish(std::unique_lock<std::mutex>& lock) {
+    const std::shared_ptr<Camera> camera = camera_;
+    lock.unlock();
+    if (camera) camera->stop();
+    lock.lock();
 }
 
 std::shared_ptr<Camera> ReopeningCamera::tryOpen() {
@@ -78,8 +92,11 @@ std::shared_ptr<Camera> ReopeningCamera::tryOpen() {
 
 std::shared_ptr<Camera> ReopeningCamera::opened(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
+    const Timestamp end = Timestamp::now() + timeout;
     changed_.wait_for(lock, timeout, [&] { return stopped_ || camera_; });
-    return stopped_ ? nullptr : camera_;
+    if (stopped_ || !camera_) return nullptr;
+    answer_ = end;
+    return camera_;
 }
 
 std::optional<Frame> ReopeningCamera::next(std::chrono::milliseconds timeout) {
@@ -105,6 +122,7 @@ std::optional<Frame> ReopeningCamera::next(std::chrono::milliseconds timeout) {
 
 void ReopeningCamera::sent() {
     const std::lock_guard lock(mutex_);
+    answer_.reset();
     lastFrame_ = Timestamp::now();
     hasSent_ = true;
     fault_.reset();
@@ -114,6 +132,7 @@ bool ReopeningCamera::hasStalled() {
     // Asked before the lock is taken, as the other one may ask us.
     const bool isExcused = options_.busyElsewhere && options_.busyElsewhere();
     const std::lock_guard lock(mutex_);
+    answer_.reset();
     if (options_.silent.count() == 0) {
         fault_.reset();  // it is there, and that is all that can be known
         return false;
@@ -124,27 +143,34 @@ bool ReopeningCamera::hasStalled() {
 void ReopeningCamera::lose(const std::string& reason) {
     {
         const std::lock_guard lock(mutex_);
+        answer_.reset();
         fault_ = info_.name + ": " + reason;
         if (!camera_) return;
         lost_ = std::exchange(camera_, nullptr);
         ++losses_;
+        before_ += lost_->cameraCounters();
     }
     changed_.notify_all();
 }
 
 void ReopeningCamera::stop() {
-    std::shared_ptr<Camera> camera;
     {
         const std::lock_guard lock(mutex_);
         stopped_ = true;
-        camera = camera_;
     }
-    if (camera) camera->stop();
     changed_.notify_all();
+}
+
+/// With the mutex held.
+bool ReopeningCamera::hangs() const {
+    const Timestamp now = Timestamp::now();
+    return (answer_ && now - *answer_ >= options_.stalled) ||
+           (busy_ && now - *busy_ >= options_.excused);
 }
 
 std::optional<std::string> ReopeningCamera::fault() const {
     const std::lock_guard lock(mutex_);
+    if (hangs()) return info_.name + ": its driver does not answer";
     if (fault_) return fault_;
     if (options_.silent.count() > 0 && Timestamp::now() - lastFrame_ > options_.silent)
         return info_.name + ": sends no pictures";
@@ -159,6 +185,19 @@ bool ReopeningCamera::absent() const {
 std::uint64_t ReopeningCamera::losses() const {
     const std::lock_guard lock(mutex_);
     return losses_;
+}
+
+CameraCounters ReopeningCamera::cameraCounters() const {
+    const std::lock_guard lock(mutex_);
+    CameraCounters all = before_;
+    if (camera_) all += camera_->cameraCounters();
+    all.reopened = losses_;
+    return all;
+}
+
+std::vector<std::string> ReopeningCamera::takeWarnings() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(warnings_, {});
 }
 
 }  // namespace mfar

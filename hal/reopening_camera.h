@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace mfar {
 
@@ -31,9 +32,10 @@ struct ReopeningOptions {
     std::chrono::milliseconds excused{6000};
 };
 
-/// A camera that outlives its device: it is opened and closed by a thread of its own, again
-/// whenever it is lost, so that whoever asks for frames never waits for a device that is not there.
-/// next() is called from one thread, the rest from any.
+/// A camera that outlives its device: it is opened, stopped and closed by a thread of its own,
+/// again whenever it is lost, so that whoever asks for frames never waits for a device that is not
+/// there. next() is called from one thread, the rest from any; of a driver that hangs only next()
+/// and the destructor wait, and fault() says so.
 class ReopeningCamera final : public Camera {
 public:
     /// Opens the device and throws std::exception when it cannot be had.
@@ -59,10 +61,15 @@ public:
     [[nodiscard]] bool absent() const;
     /// How often it was lost since the start.
     [[nodiscard]] std::uint64_t losses() const;
+    /// Of all devices that it was, one after the other.
+    [[nodiscard]] CameraCounters cameraCounters() const override;
+    [[nodiscard]] std::vector<std::string> takeWarnings() override;
 
 private:
     void keepOpen();
+    void finish(std::unique_lock<std::mutex>& lock);
     void sent();
+    [[nodiscard]] bool hangs() const;
     [[nodiscard]] bool hasStalled();
     void lose(const std::string& reason);
     [[nodiscard]] std::shared_ptr<Camera> opened(std::chrono::milliseconds timeout);
@@ -77,8 +84,12 @@ private:
     std::optional<std::string> fault_;  ///< why there is none
     Timestamp opened_, lastFrame_;      ///< the latter as the former until there is one
     std::uint64_t losses_ = 0;
-    std::shared_ptr<Camera> lost_;  ///< to be closed
-    bool hasSent_ = false;          ///< the one that is open, or was last
+    CameraCounters before_;  ///< of the devices that were lost
+    std::vector<std::string> warnings_;
+    std::shared_ptr<Camera> lost_;     ///< to be closed
+    std::optional<Timestamp> answer_;  ///< when next() was to have its frame; nothing: nobody asks
+    std::optional<Timestamp> busy_;    ///< since when it is being opened or closed
+    bool hasSent_ = false;             ///< the one that is open, or was last
     bool stopped_ = false;
     std::thread opener_;
 };

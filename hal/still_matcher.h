@@ -32,6 +32,9 @@ struct StillCounters {
     std::uint64_t late = 0;       ///< of these, pulses whose still came after all
     std::uint64_t repeated = 0;   ///< pulses fired in place of a lost one
     std::uint64_t relearned = 0;  ///< the camera's clock has stepped
+    // Of the camera and its line, not counted here.
+    std::uint64_t overtaken = 0;    ///< matched, but after a later one: left out
+    std::uint64_t missedEdges = 0;  ///< see Trigger
 };
 
 /// Says which still belongs to which pulse, by time and never by order: stills may come late, in

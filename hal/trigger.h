@@ -2,6 +2,7 @@
 
 #include "base/time.h"
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -30,6 +31,9 @@ public:
     /// driven is reported by the next fire().
     virtual void endPulse() {}
     [[nodiscard]] virtual std::string name() const = 0;
+    /// Pulses whose edges were looked for on the line and not both seen: when and how long the
+    /// sensor exposed is not verified. Any thread.
+    [[nodiscard]] virtual std::uint64_t missedEdges() const { return 0; }
 };
 
 }  // namespace mfar

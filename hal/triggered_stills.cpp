@@ -100,13 +100,14 @@ Timestamp TriggeredStillCamera::fire() {
 }
 
 StillCounters TriggeredStillCamera::counters() const {
-    std::lock_guard lock(mutex_);
-    return matcher_.counters();
-}
-
-std::uint64_t TriggeredStillCamera::overtaken() const {
-    std::lock_guard lock(mutex_);
-    return overtaken_;
+    StillCounters out;
+    {
+        std::lock_guard lock(mutex_);
+        out = matcher_.counters();
+        out.overtaken = overtaken_;
+    }
+    out.missedEdges = missedEdges();
+    return out;
 }
 
 }  // namespace mfar

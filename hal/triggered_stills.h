@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mfar {
 
@@ -49,8 +50,13 @@ public:
     [[nodiscard]] std::string name() const override { return trigger_->name(); }
 
     [[nodiscard]] StillCounters counters() const;
-    /// Matched stills that came after a later one and were left out.
-    [[nodiscard]] std::uint64_t overtaken() const;
+    [[nodiscard]] CameraCounters cameraCounters() const override {
+        return camera_->cameraCounters();
+    }
+    [[nodiscard]] std::vector<std::string> takeWarnings() override {
+        return camera_->takeWarnings();
+    }
+    [[nodiscard]] std::uint64_t missedEdges() const override { return trigger_->missedEdges(); }
 
 private:
     void repeatLost();

@@ -32,6 +32,19 @@ LibcameraCounters LibcameraCamera::counters() const {
     return stream_->counters();
 }
 
+CameraCounters LibcameraCamera::cameraCounters() const {
+    const LibcameraCounters counted = counters();
+    CameraCounters out;
+    out.delivered = counted.frames;
+    out.missed = counted.dropped;
+    out.broken = counted.broken;
+    out.badTimes = counted.badTimes;
+    out.startup = counted.startup;
+    out.untimed = counted.untimed;
+    out.restarts = counted.restarted;
+    return out;
+}
+
 std::vector<ListedCamera> listLibcameras() {
     return listCameras(libcameraManager()->cameras());
 }

@@ -32,10 +32,11 @@ struct LibcameraOptions {
 
 struct LibcameraCounters {
     std::uint64_t frames = 0;     ///< given out or ready to be
-    std::uint64_t dropped = 0;    ///< by the gaps between the times of frames
+    std::uint64_t dropped = 0;    ///< see FrameDrops
     std::uint64_t broken = 0;     ///< with an error or too few bytes, never shown
     std::uint64_t startup = 0;    ///< from before the sensor had settled, never shown
-    std::uint64_t untimed = 0;    ///< without a plausible time: that of their arrival is used
+    std::uint64_t badTimes = 0;   ///< of the future, the distant past, or not after the one before
+    std::uint64_t untimed = 0;    ///< without a time: that of their arrival is used
     std::uint64_t restarted = 0;  ///< times that it had given up waiting for its sensor
     SensorClock::Kind clock = SensorClock::Kind::Monotonic;  ///< which the driver has used
 };
@@ -50,7 +51,8 @@ struct LibcameraCounters {
 ///
 /// A frame's time is libcamera's SensorTimestamp, by its documentation the start of the exposure of
 /// the first row, + half the exposure where the camera tells that; a driver that takes the time
-/// elsewhere is off by a constant, which calibration finds. Frames may outlive the camera.
+/// elsewhere is off by a constant, which calibration finds. Frames whose time cannot be true are
+/// never delivered. Frames may outlive the camera.
 class LibcameraCamera final : public Camera {
 public:
     /// Throws std::runtime_error that says what there is instead.
@@ -67,6 +69,7 @@ public:
 
     /// Any thread.
     [[nodiscard]] LibcameraCounters counters() const;
+    [[nodiscard]] CameraCounters cameraCounters() const override;
 
 private:
     class Stream;

@@ -1,5 +1,6 @@
 #include "hal/device/camera_v4l2.h"
 
+#include "base/image_layout.h"
 #include "hal/device/v4l2_selection.h"
 
 #include <fmt/format.h>
@@ -24,8 +25,9 @@ using std::chrono::steady_clock;
 // called next()).
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
-// More numbers left out at once are a restarted count.
-constexpr std::uint32_t kMostMissed = 10000;
+
+/// Fewer, and a driver may find none to fill while pictures are held.
+constexpr int kEnoughBuffers = 4;
 
 /// A filled buffer, which goes back with the last of those that hold it.
 class Loan {
@@ -64,6 +66,12 @@ CameraV4l2::CameraV4l2(const CameraV4l2Options& options, V4l2Api& api) : options
         controls_->set(name, value);
     if (layout_.format.jpeg)
         decoder_ = std::make_unique<JpegDecoder>(layout_.size, options.buffers);
+    if (!decoder_ && stream_->buffers() < std::min(options.buffers, kEnoughBuffers)) {
+        copies_.emplace(layout_.size, layout_.format.picture, options.buffers);
+        warnings_.push_back(
+            fmt::format("{}: the driver gives {} of {} buffers, pictures are copied",
+                        stream_->device().path(), stream_->buffers(), options.buffers));
+    }
     wake_ = OwnedFd(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
     if (wake_.get() < 0) throw std::runtime_error("no further file can be opened");
 }
@@ -78,7 +86,7 @@ void CameraV4l2::start() {
     std::uint64_t drained = 0;
     static_cast<void>(!read(wake_.get(), &drained, sizeof drained));
     exposure_ = manualExposure();
-    sequence_.reset();
+    drops_.pause();
     stream_->start();
     running_ = true;
 }
@@ -94,8 +102,10 @@ void CameraV4l2::stop() {
 std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
     const auto until = steady_clock::now() + timeout;
     while (running_) {
+        stream_->takeBack();
         const Wait waited = wait(until);
         if (waited == Wait::Nothing) return std::nullopt;
+        if (waited == Wait::Buffer) continue;
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
@@ -111,28 +121,29 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
 
 CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
     // The device first: it is in trouble once stopped, and then the other already says why.
-    std::array<pollfd, 2> fds{pollfd{stream_->device().fd(), POLLIN, 0},
-                              pollfd{wake_.get(), POLLIN, 0}};
+    std::array<pollfd, 3> fds{pollfd{stream_->device().fd(), POLLIN, 0},
+                              pollfd{wake_.get(), POLLIN, 0},
+                              pollfd{stream_->givenBack(), POLLIN, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
     const int ready =
         poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
     if (ready < 0 && errno == EINTR) return Wait::Picture;  // take() will find what there is
     if (ready <= 0 || fds[1].revents != 0) return Wait::Nothing;
+    if (fds[0].revents == 0) return Wait::Buffer;
     return (fds[0].revents & (POLLERR | POLLHUP | POLLNVAL)) != 0 ? Wait::Trouble : Wait::Picture;
 }
 
 std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
-    countMissed(filled.sequence);
     const auto loan = std::make_shared<Loan>(stream_, filled.index);
-    if (!isWhole(filled)) {
-        ++counts_.broken;
-        return std::nullopt;
-    }
+    const bool whole = isWhole(filled);
     const auto time = timeOf(filled);
-    if (!time) {
-        ++counts_.badTimes;
-        return std::nullopt;
-    }
+    // One on trigger has no rate that times could tell.
+    if (whole && time && options_.wish.rateHz > 0)
+        drops_.add(*time, filled.sequence);
+    else
+        drops_.addUntimed(filled.sequence);
+    if (!whole) return refuse(&CameraCounters::broken);
+    if (!time) return refuse(&CameraCounters::badTimes);
     auto memory = stream_->memory(filled.index);
     for (std::size_t i = 0; i < memory.size(); ++i)
         if (memory[i] != nullptr) memory[i] += filled.offset[i];
@@ -143,16 +154,28 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
         ImageView view = layout_.view(memory);
         const bool atBegin = filled.offset == decltype(filled.offset){};
         view.shared = atBegin ? stream_->shared(filled.index) : nullptr;
-        out.emplace(view, *time, [loan] {});
+        if (copies_)
+            out = copyOf(view, *time);
+        else
+            out.emplace(view, *time, [loan] {});
     }
-    if (!out) {
-        ++counts_.broken;
-        return std::nullopt;
+    if (!out && copies_) {  // all copies are held
+        drops_.lose();
+        return refuse(nullptr);
     }
+    if (!out) return refuse(&CameraCounters::broken);
     out->exposure = exposure_;
     last_ = time;
-    ++counts_.delivered;
+    count(&CameraCounters::delivered);
     return out;
+}
+
+std::optional<Frame> CameraV4l2::copyOf(const ImageView& view, Timestamp time) {
+    const auto slot = copies_->acquire(std::chrono::milliseconds(0));
+    if (!slot) return std::nullopt;
+    ImageView copy = packInto(slot->data, view);
+    copy.shared = nullptr;
+    return copies_->lend(*slot, copy, time);
 }
 
 bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
@@ -197,12 +220,25 @@ nanoseconds CameraV4l2::manualExposure() const {
     return nanoseconds(0);
 }
 
-void CameraV4l2::countMissed(std::uint32_t sequence) {
-    if (sequence_) {
-        const std::uint32_t step = sequence - *sequence_;  // wraps as the driver's count does
-        if (step > 1 && step <= kMostMissed) counts_.missed += step - 1;
-    }
-    sequence_ = sequence;
+std::nullopt_t CameraV4l2::refuse(std::uint64_t CameraCounters::* why) {
+    count(why);
+    return std::nullopt;
+}
+
+void CameraV4l2::count(std::uint64_t CameraCounters::* what) {
+    const std::lock_guard lock(countsMutex_);
+    if (what != nullptr) ++(counts_.*what);
+    counts_.missed = drops_.dropped();
+}
+
+CameraCounters CameraV4l2::cameraCounters() const {
+    const std::lock_guard lock(countsMutex_);
+    return counts_;
+}
+
+std::vector<std::string> CameraV4l2::takeWarnings() {
+    const std::lock_guard lock(countsMutex_);
+    return std::exchange(warnings_, {});
 }
 
 }  // namespace mfar

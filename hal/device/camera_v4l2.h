@@ -5,10 +5,13 @@
 #include "hal/device/jpeg_decoder.h"
 #include "hal/device/v4l2_controls.h"
 #include "hal/device/v4l2_stream.h"
+#include "hal/frame_drops.h"
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +21,8 @@ namespace mfar {
 struct CameraV4l2Options {
     CameraWish device;  ///< by path ("/dev/video0"), card or bus
     V4l2Wish wish;      ///< exactly this size; format and rate as far as they are given
-    int buffers = 6;    ///< of the driver, 2 to 32; one more than pictures are held at a time
+    /// Of the driver, 2 to 32; one more than pictures are held at a time.
+    int buffers = 6;
     /// Added to the driver's timestamps, e.g. minus the sensor's readout time where the driver
     /// stamps the end of the frame.
     std::chrono::nanoseconds timeOffset{0};
@@ -33,24 +37,18 @@ struct CameraV4l2Options {
 ///     while (auto frame = camera.next(500ms)) ...
 ///
 /// Pictures are lent from the driver's own buffers without a copy (JPEG is decoded into buffers of
-/// its own) and may outlive the camera. Frame::time() is the driver's stamp, moved by half the
-/// exposure where that is known (a manual exposure_time_absolute): later where the driver stamps
-/// the start of the exposure, earlier where it stamps the end of the frame; plus timeOffset.
-/// Buffers that the driver marks as broken, that are not full, or whose stamp cannot be true are
-/// counted and never delivered.
+/// its own; a driver that grants fewer than four gets each back at once, for a copy) and may
+/// outlive the camera; a buffer that is given back goes to the driver with the next next().
+/// Frame::time() is the driver's stamp, moved by half the exposure where that is known (a manual
+/// exposure_time_absolute): later where the driver stamps the start of the exposure, earlier where
+/// it stamps the end of the frame; plus timeOffset. Buffers that the driver marks as broken, that
+/// are not full, or whose stamp cannot be true are counted and never delivered.
 ///
 /// The constructor throws std::runtime_error with one sentence (no such camera, busy, size not
 /// offered and what is, a control refused); next() throws DeviceLost once the device has gone: make
 /// a new camera then.
 class CameraV4l2 final : public Camera {
 public:
-    struct Counts {
-        std::uint64_t delivered = 0;
-        std::uint64_t broken = 0;    ///< marked by the driver, not full, or no whole JPEG
-        std::uint64_t badTimes = 0;  ///< stamps of the future, the distant past, or out of order
-        std::uint64_t missed = 0;    ///< numbers the driver left out: it had no buffer to fill
-    };
-
     explicit CameraV4l2(const CameraV4l2Options& options, V4l2Api& api = kernelV4l2());
     CameraV4l2(const CameraV4l2&) = delete;
     CameraV4l2& operator=(const CameraV4l2&) = delete;
@@ -64,17 +62,19 @@ public:
 
     /// While the camera lives.
     [[nodiscard]] const V4l2Controls& controls() const { return *controls_; }
-    /// Called from the thread of next().
-    [[nodiscard]] const Counts& counts() const { return counts_; }
+    [[nodiscard]] CameraCounters cameraCounters() const override;
+    [[nodiscard]] std::vector<std::string> takeWarnings() override;
 
 private:
-    enum class Wait { Picture, Nothing, Trouble };
+    enum class Wait { Picture, Buffer, Nothing, Trouble };
     [[nodiscard]] Wait wait(std::chrono::steady_clock::time_point until) const;
     [[nodiscard]] std::optional<Frame> frameOf(const V4l2Filled& filled);
+    [[nodiscard]] std::optional<Frame> copyOf(const ImageView& view, Timestamp time);
     [[nodiscard]] bool isWhole(const V4l2Filled& filled) const;
     [[nodiscard]] std::optional<Timestamp> timeOf(const V4l2Filled& filled);
     [[nodiscard]] std::chrono::nanoseconds manualExposure() const;
-    void countMissed(std::uint32_t sequence);
+    std::nullopt_t refuse(std::uint64_t CameraCounters::* why);
+    void count(std::uint64_t CameraCounters::* what);
 
     CameraV4l2Options options_;
     V4l2Layout layout_;
@@ -82,12 +82,15 @@ private:
     std::shared_ptr<V4l2Stream> stream_;
     std::unique_ptr<V4l2Controls> controls_;
     std::unique_ptr<JpegDecoder> decoder_;  // where pictures come as JPEG
+    std::optional<FramePool> copies_;       // where the driver grants too few buffers
     OwnedFd wake_;                          // eventfd, readable once stopped
     std::atomic<bool> running_{false};
     std::chrono::nanoseconds exposure_{0};
     std::optional<Timestamp> last_;
-    std::optional<std::uint32_t> sequence_;
-    Counts counts_;
+    FrameDrops drops_;
+    mutable std::mutex countsMutex_;  ///< of what follows
+    CameraCounters counts_;
+    std::vector<std::string> warnings_;
 };
 
 }  // namespace mfar

@@ -251,13 +251,18 @@ void LibcameraCamera::Stream::completed(libcamera::Request* request) {
         return;
     }
     const libcamera::FrameMetadata& metadata = request->findBuffer(stream_)->metadata();
-    if (!isSound(metadata)) {
+    std::optional<Done> done;
+    if (isSound(metadata))
+        done = describe(index, *request, metadata);
+    else
+        drops_.addUntimed(metadata.sequence);
+    if (!done) {
         request->reuse(libcamera::Request::ReuseBuffers);
         queue(slot);
         return;
     }
     slot.state = State::Ready;
-    ready_.push_back(describe(index, *request, metadata));
+    ready_.push_back(*done);
 }
 
 bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) {
@@ -274,26 +279,41 @@ bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) 
     return sound;
 }
 
-LibcameraCamera::Stream::Done
+/// Nothing for a frame whose time cannot be true.
+std::optional<LibcameraCamera::Stream::Done>
 LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
                                   const libcamera::FrameMetadata& metadata) {
     namespace controls = libcamera::controls;
     const libcamera::ControlList& told = request.metadata();
-    const auto stamp = told.get(controls::SensorTimestamp);
+    const auto stamp =
+        told.get(controls::SensorTimestamp).value_or(static_cast<std::int64_t>(metadata.timestamp));
     const auto now = SensorClock::Now::read();
-    const auto start =
-        clock_.toMonotonic({stamp ? *stamp : static_cast<std::int64_t>(metadata.timestamp)}, now);
-    if (!start) ++counters_.untimed;
     const auto exposure = std::chrono::microseconds(told.get(controls::ExposureTime).value_or(0));
-    const Timestamp time = start ? *start + exposure / 2 : now.monotonic;
-    ++counters_.frames;
-    if (options_.rateHz > 0) drops_.add(time);
-    if (!viewChecked_) {
-        viewChecked_ = true;
-        viewFault_ =
-            cropFault(*camera_, told.get(controls::ScalerCrop), options_).value_or(std::string());
+    const bool timed = stamp != 0;
+    std::optional<Timestamp> time = now.monotonic;
+    if (timed) time = clock_.toMonotonic({stamp}, now);
+    if (timed && time) time = *time + exposure / 2;
+    if (!time || (last_ && *time <= *last_)) {
+        ++counters_.badTimes;
+        drops_.addUntimed(metadata.sequence);
+        return std::nullopt;
     }
-    return {slot, time, exposure};
+    if (!timed) ++counters_.untimed;
+    if (timed && options_.rateHz > 0)
+        drops_.add(*time, metadata.sequence);
+    else
+        drops_.addUntimed(metadata.sequence);
+    ++counters_.frames;
+    last_ = time;
+    checkView(told);
+    return Done{slot, *time, exposure};
+}
+
+void LibcameraCamera::Stream::checkView(const libcamera::ControlList& told) {
+    if (viewChecked_) return;
+    viewChecked_ = true;
+    const auto crop = told.get(libcamera::controls::ScalerCrop);
+    viewFault_ = cropFault(*camera_, crop, options_).value_or(std::string());
 }
 
 std::optional<Frame> LibcameraCamera::Stream::next(std::chrono::milliseconds timeout) {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "hal/device/camera_libcamera.h"
-#include "hal/device/frame_drops.h"
 #include "hal/device/libcamera_buffers.h"
 #include "hal/device/libcamera_setup.h"
+#include "hal/frame_drops.h"
 
 #include <condition_variable>
 #include <deque>
@@ -52,8 +52,9 @@ private:
     void completed(libcamera::Request* request);
     void disconnected();
     [[nodiscard]] bool isSound(const libcamera::FrameMetadata& metadata);
-    [[nodiscard]] Done describe(std::size_t slot, libcamera::Request& request,
-                                const libcamera::FrameMetadata& metadata);
+    [[nodiscard]] std::optional<Done> describe(std::size_t slot, libcamera::Request& request,
+                                               const libcamera::FrameMetadata& metadata);
+    void checkView(const libcamera::ControlList& told);
     void queue(Slot& slot);
     void giveBack(std::size_t slot);
     void lose(const std::string& why);
@@ -85,6 +86,7 @@ private:
     LibcameraCounters counters_;
     FrameDrops drops_;
     SensorClock clock_;
+    std::optional<Timestamp> last_;  ///< of the frames that were delivered
 };
 
 }  // namespace mfar

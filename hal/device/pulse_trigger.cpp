@@ -133,7 +133,7 @@ std::optional<MeasuredPulse> PulseTrigger::measured() const {
     return measured_;
 }
 
-std::uint64_t PulseTrigger::loopbackMissed() const {
+std::uint64_t PulseTrigger::missedEdges() const {
     std::lock_guard lock(mutex_);
     return missed_;
 }

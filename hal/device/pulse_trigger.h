@@ -47,7 +47,7 @@ public:
     /// The last pulse whose both edges the loopback has seen.
     [[nodiscard]] std::optional<MeasuredPulse> measured() const;
     /// Pulses of which the loopback missed an edge.
-    [[nodiscard]] std::uint64_t loopbackMissed() const;
+    [[nodiscard]] std::uint64_t missedEdges() const override;
 
 private:
     void endLater(const std::stop_token& stop);

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -33,8 +35,11 @@ struct V4l2Stream::Argument {
 };
 
 V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
-    : device_(std::move(device)), type_(bufferType(*device_)), pieces_(layout.memoryPlanes) {
+    : device_(std::move(device)), type_(bufferType(*device_)), pieces_(layout.memoryPlanes),
+      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (wake_.get() < 0) throw std::runtime_error("no further file can be opened");
     allocate(buffers);
+    returned_.reserve(buffers_.size());
     for (int i = 0; i < static_cast<int>(buffers_.size()); ++i) {
         mapBuffer(i);
         for (int p = 0; p < pieces_; ++p)
@@ -47,13 +52,20 @@ V4l2Stream::V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers)
 }
 
 void V4l2Stream::allocate(int buffers) {
-    constexpr std::uint32_t kFewest = 2, kMost = 64;
+    constexpr std::uint32_t kMost = 64;
     v4l2_requestbuffers request{};
-    request.type = type_;
-    request.memory = V4L2_MEMORY_MMAP;
-    request.count = static_cast<std::uint32_t>(std::clamp(buffers, 2, 32));
-    device_->call(VIDIOC_REQBUFS, &request, "allocating buffers");
-    if (request.count < kFewest || request.count > kMost)
+    auto count = static_cast<std::uint32_t>(std::clamp(buffers, 2, 32));
+    int error = ENOMEM;
+    // A driver may find memory for fewer.
+    for (; error == ENOMEM && count > 0; --count) {
+        request = {};
+        request.type = type_;
+        request.memory = V4L2_MEMORY_MMAP;
+        request.count = count;
+        error = device_->tryCall(VIDIOC_REQBUFS, &request);
+    }
+    if (error != 0) device_->fail("allocating buffers", error);
+    if (request.count < 1 || request.count > kMost)
         throw std::runtime_error(
             fmt::format("{}: the driver gives {} buffers", device_->path(), request.count));
     buffers_.resize(request.count);
@@ -112,6 +124,8 @@ int V4l2Stream::queue(int index) noexcept {
 void V4l2Stream::start() {
     const std::scoped_lock lock(mutex_);
     if (running_) return;
+    for (const int index : takeReturned())
+        buffers_[static_cast<std::size_t>(index)].holder = Holder::Nobody;
     for (std::size_t i = 0; i < buffers_.size(); ++i)
         if (buffers_[i].holder == Holder::Nobody)
             if (const int error = queue(static_cast<int>(i)))
@@ -168,12 +182,30 @@ std::optional<V4l2Filled> V4l2Stream::take() {
 }
 
 void V4l2Stream::giveBack(int index) noexcept {
+    const std::scoped_lock lock(returnedMutex_);
+    returned_.push_back(index);
+    constexpr std::uint64_t kOne = 1;
+    static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
+}
+
+std::vector<int> V4l2Stream::takeReturned() noexcept {
+    const std::scoped_lock lock(returnedMutex_);
+    std::uint64_t drained = 0;
+    static_cast<void>(!read(wake_.get(), &drained, sizeof drained));
+    std::vector<int> out = returned_;
+    returned_.clear();  // and keeps its memory
+    return out;
+}
+
+void V4l2Stream::takeBack() noexcept {
     const std::scoped_lock lock(mutex_);
-    if (running_)
-        // The next take() says so if the device has gone.
-        static_cast<void>(queue(index));
-    else
-        buffers_[static_cast<std::size_t>(index)].holder = Holder::Nobody;
+    for (const int index : takeReturned()) {
+        if (running_)
+            // The next take() says so if the device has gone.
+            static_cast<void>(queue(index));
+        else
+            buffers_[static_cast<std::size_t>(index)].holder = Holder::Nobody;
+    }
 }
 
 std::array<const std::uint8_t*, 3> V4l2Stream::memory(int index) const {

@@ -24,9 +24,13 @@ struct V4l2Filled {
 /// The memory-mapped buffers of a capture device: allocated once, on their way between the driver
 /// and those who hold a picture. Thread-safe. Holders keep it alive by shared_ptr, so that a
 /// picture can be read, and handed back, after the device was closed.
+///
+/// A driver that hangs holds up who calls start(), stop(), close(), takeBack() or take(), but never
+/// who gives a buffer back: that thread may be the one that makes the picture.
 class V4l2Stream {
 public:
-    /// Takes the device, whose format is set. Throws std::runtime_error, DeviceLost.
+    /// Takes the device, whose format is set. The driver may grant fewer buffers, or more. Throws
+    /// std::runtime_error, DeviceLost.
     V4l2Stream(V4l2Device device, const V4l2Layout& layout, int buffers);
     V4l2Stream(const V4l2Stream&) = delete;
     V4l2Stream& operator=(const V4l2Stream&) = delete;
@@ -44,8 +48,15 @@ public:
     /// A filled buffer, which is the caller's until giveBack(); nothing when there is none or the
     /// stream does not run. Throws DeviceLost when no further will come.
     [[nodiscard]] std::optional<V4l2Filled> take();
+    /// Notes that a buffer is free; makes no call of the driver.
     void giveBack(int index) noexcept;
+    /// Hands the buffers that were given back to the driver.
+    void takeBack() noexcept;
+    /// Readable as long as buffers were given back and not handed to the driver, for poll().
+    [[nodiscard]] int givenBack() const { return wake_.get(); }
 
+    /// How many there are.
+    [[nodiscard]] int buffers() const { return static_cast<int>(buffers_.size()); }
     /// Readable while the caller holds the buffer.
     [[nodiscard]] std::array<const std::uint8_t*, 3> memory(int index) const;
     [[nodiscard]] std::size_t memoryBytes(int index, int piece) const;
@@ -71,6 +82,7 @@ private:
     void mapBuffer(int index);
     void exportBuffer(int index, const V4l2Layout& layout);
     [[nodiscard]] int queue(int index) noexcept;
+    [[nodiscard]] std::vector<int> takeReturned() noexcept;
 
     std::optional<V4l2Device> device_;
     std::uint32_t type_;
@@ -78,6 +90,10 @@ private:
     mutable std::mutex mutex_;
     bool running_ = false;
     std::vector<Buffer> buffers_;
+
+    std::mutex returnedMutex_;  ///< of what follows; never held during a call of the driver
+    std::vector<int> returned_;
+    OwnedFd wake_;  ///< eventfd
 };
 
 }  // namespace mfar

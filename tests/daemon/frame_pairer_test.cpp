@@ -17,11 +17,11 @@ public:
     explicit Stills(std::initializer_list<double> times) : times_(times) {}
 
     FramePairer::NextStill source() {
-        return [this]() -> std::optional<Frame> {
+        return [this]() -> std::optional<CapturedStill> {
             if (times_.empty()) return std::nullopt;
             const double time = times_.front();
             times_.pop_front();
-            return frame(time);
+            return CapturedStill{frame(time)};
         };
     }
     void add(double time) { times_.push_back(time); }

@@ -42,7 +42,8 @@ std::optional<Pose> video(PoseFinder& finder, double at, bool withTag = true) {
 }
 
 std::optional<Pose> still(PoseFinder& finder, double at, bool withTag) {
-    return finder.ofStill(Shot(kRig.still, at, withTag).frame);
+    const Shot shot(kRig.still, at, withTag);
+    return finder.place(finder.measure(shot.frame), shot.frame.time());
 }
 
 double rotationError(const Pose& pose, double at) {

@@ -63,7 +63,9 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     stats.stillUsed();
     stats.triggers(3, 2);
     stats.mailboxDropped(4);
-    stats.videoGap(5);
+    CameraState video;
+    video.counters.missed = 5;
+    stats.camera(CameraRole::Video, video);
     stats.recorderDropped(6);
     stats.firstPicture({431.6, 380, 90.4});
     const auto json = summary(
@@ -87,6 +89,57 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     EXPECT_EQ(json["first_picture"]["since_start_ms"], 431.6);
     EXPECT_EQ(json["first_picture"]["cpu_ms"], 380);
     EXPECT_EQ(json["first_picture"]["resident_mb"], 90.4);
+}
+
+TEST(Status, TellsWhatTheCamerasDo) {
+    Stats stats;
+    CameraState video;
+    video.configuredHz = 30;
+    video.rateHz = 14.9;
+    video.lastFrame = Timestamp::now();
+    video.lastDistinct = Timestamp::now() - std::chrono::seconds(7);
+    video.repeated = 6;
+    video.counters = {.delivered = 100,
+                      .missed = 5,
+                      .broken = 1,
+                      .badTimes = 2,
+                      .startup = 3,
+                      .untimed = 4,
+                      .restarts = 8,
+                      .reopened = 9};
+    stats.camera(CameraRole::Video, video);
+    StillCounters line;
+    line.overtaken = 3;
+    line.missedEdges = 4;
+    stats.matching(line);
+    const auto json = summary(stats.count(), {}, "", 0);
+    const auto camera = json["cameras"]["video"];
+    EXPECT_EQ(camera["configured_hz"], 30);
+    EXPECT_EQ(camera["measured_hz"], 14.9);
+    EXPECT_EQ(camera["delivered"], 100);
+    EXPECT_EQ(camera["missed"], 5);
+    EXPECT_EQ(camera["broken"], 1);
+    EXPECT_EQ(camera["bad_times"], 2);
+    EXPECT_EQ(camera["startup"], 3);
+    EXPECT_EQ(camera["untimed"], 4);
+    EXPECT_EQ(camera["restarts"], 8);
+    EXPECT_EQ(camera["reopened"], 9);
+    EXPECT_EQ(camera["repeated_pictures"], 6);
+    EXPECT_NEAR(camera["distinct_age_s"].get<double>(), 7, 1);
+    EXPECT_FALSE(json["cameras"]["still"].contains("missed")) << "nobody counts them";
+    EXPECT_FALSE(json["cameras"]["still"].contains("distinct_age_s"));
+    EXPECT_EQ(json["trigger_line"]["overtaken"], 3);
+    EXPECT_EQ(json["trigger_line"]["missed_edges"], 4);
+    EXPECT_EQ(json["drops"]["sensor"], 5);
+}
+
+TEST(Status, ACameraThatHasFallenSilentHasNoRate) {
+    Stats stats;
+    CameraState video;
+    video.rateHz = 30;
+    video.lastFrame = Timestamp::now() - std::chrono::seconds(3);
+    stats.camera(CameraRole::Video, video);
+    EXPECT_EQ(stats.look().cameras[0].rateHz, 0);
 }
 
 TEST(Status, SaysWhenTheFirstPictureWasThere) {

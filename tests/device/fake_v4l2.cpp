@@ -17,18 +17,17 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 20;  // bytes of the memory file for each plane
 constexpr std::size_t kPieces = 3 * 16;
 
-/// Fixed fields need not end in a zero.
-void put(void* field, std::size_t bytes, const std::string& text) {
-    std::memset(field, 0, bytes);
-    std::memcpy(field, text.data(), std::min(text.size(), bytes));
-}
-
 int bytesAPixel(std::uint32_t fourcc) {
     if (fourcc == V4L2_PIX_FMT_YUYV) return 2;
     return fourcc == V4L2_PIX_FMT_XBGR32 ? 4 : 1;
 }
 
 }  // namespace
+
+void putText(void* field, std::size_t bytes, const std::string& text) {
+    std::memset(field, 0, bytes);
+    std::memcpy(field, text.data(), std::min(text.size(), bytes));
+}
 
 FakeV4l2::FakeV4l2() : memory_(memfd_create("fake", MFD_CLOEXEC)) {
     static_cast<void>(ftruncate(memory_, kPiece * kPieces) == 0);
@@ -70,12 +69,18 @@ int FakeV4l2::open(const char* path) {
 }
 
 int FakeV4l2::ioctl(int fd, unsigned long request, void* argument) {
+    if (request == VIDIOC_DQBUF || request == VIDIOC_QBUF || request == VIDIOC_STREAMOFF) {
+        std::unique_lock lock(hangMutex_);
+        ++inside_;
+        mayGoOn_.wait(lock, [&] { return !hanging_; });
+        --inside_;
+    }
     const std::scoped_lock lock(mutex_);
     int error = gone_ ? ENODEV : 0;
     if (error == 0 && request == VIDIOC_QUERYCAP) {
         auto& about = *static_cast<v4l2_capability*>(argument);
-        put(about.card, sizeof about.card, card);
-        put(about.bus_info, sizeof about.bus_info, "fake:1");
+        putText(about.card, sizeof about.card, card);
+        putText(about.bus_info, sizeof about.bus_info, "fake:1");
         about.capabilities = V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
         const std::uint32_t kind =
             multiPlanar ? V4L2_CAP_VIDEO_CAPTURE_MPLANE : V4L2_CAP_VIDEO_CAPTURE;
@@ -203,7 +208,8 @@ int FakeV4l2::requestBuffers(v4l2_requestbuffers& request) {
     if (running_ || busy) return EBUSY;
     buffers_.clear();
     released_ = request.count == 0;
-    request.count = std::min(request.count, 16U);
+    if (refusesMore && request.count > mostBuffers) return ENOMEM;
+    request.count = std::min(request.count, mostBuffers);
     buffers_.resize(request.count);
     for (std::size_t i = 0; i < buffers_.size(); ++i) {
         Buffer& b = buffers_[i];
@@ -281,57 +287,6 @@ int FakeV4l2::stream(unsigned long request, void* argument) {
     }
 }
 
-int FakeV4l2::knobs(unsigned long request, void* argument) {
-    if (request == VIDIOC_QUERY_EXT_CTRL) {
-        auto& query = *static_cast<v4l2_query_ext_ctrl*>(argument);
-        const std::uint32_t after =
-            query.id & ~(V4L2_CTRL_FLAG_NEXT_CTRL | V4L2_CTRL_FLAG_NEXT_COMPOUND);
-        for (const FakeControl& c : controls) {
-            if (c.id <= after) continue;
-            query = {};
-            query.id = c.id;
-            query.type = c.type;
-            put(query.name, sizeof query.name, c.name);
-            query.minimum = c.minimum;
-            query.maximum = c.maximum;
-            query.step = static_cast<std::uint64_t>(c.step);
-            query.default_value = c.value;
-            query.flags = c.flags;
-            return 0;
-        }
-        return EINVAL;
-    }
-    if (request == VIDIOC_QUERYMENU) {
-        auto& query = *static_cast<v4l2_querymenu*>(argument);
-        for (const FakeControl& c : controls)
-            if (c.id == query.id && query.index < c.menu.size() && !c.menu[query.index].empty()) {
-                put(query.name, sizeof query.name, c.menu[query.index]);
-                return 0;
-            }
-        return EINVAL;
-    }
-    return value(request, *static_cast<v4l2_ext_controls*>(argument)->controls);
-}
-
-int FakeV4l2::value(unsigned long request, v4l2_ext_control& one) {
-    for (FakeControl& c : controls) {
-        if (c.id != one.id) continue;
-        const bool wide = c.type == V4L2_CTRL_TYPE_INTEGER64;
-        if (request == VIDIOC_S_EXT_CTRLS) {
-            if ((c.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0) return EACCES;
-            if (c.busy) return EBUSY;
-            const std::int64_t asked = wide ? std::int64_t{one.value64} : one.value;
-            c.value = c.minimum + (asked - c.minimum) / std::max<std::int64_t>(c.step, 1) * c.step;
-        }
-        if (wide)
-            one.value64 = c.value;
-        else
-            one.value = static_cast<std::int32_t>(c.value);
-        return 0;
-    }
-    return EINVAL;
-}
-
 bool FakeV4l2::deliver(const FakePicture& picture) {
     const std::scoped_lock lock(mutex_);
     sequence_ += static_cast<std::uint32_t>(picture.skipped);
@@ -356,6 +311,19 @@ bool FakeV4l2::deliver(const FakePicture& picture) {
     }
     done_.push_back(static_cast<int>(next->said.index));
     return write(pictureEnd_, "x", 1) == 1;
+}
+
+void FakeV4l2::hang(bool wanted) {
+    {
+        const std::scoped_lock lock(hangMutex_);
+        hanging_ = wanted;
+    }
+    mayGoOn_.notify_all();
+}
+
+bool FakeV4l2::hangs() {
+    const std::scoped_lock lock(hangMutex_);
+    return hanging_ && inside_ > 0;
 }
 
 void FakeV4l2::hangUp() {

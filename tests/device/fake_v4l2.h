@@ -5,6 +5,8 @@
 
 #include <linux/videodev2.h>
 
+#include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -41,6 +43,9 @@ struct FakePicture {
     std::span<const std::uint8_t> jpeg{};
 };
 
+/// Text into a fixed field, which need not end in a zero.
+void putText(void* field, std::size_t bytes, const std::string& text);
+
 /// A capture device as the kernel's documentation describes one: one node that captures, one beside
 /// it that does not. A pipe stands for its descriptor, so that poll() and close() are the real
 /// ones, a memory file for its buffers.
@@ -61,6 +66,9 @@ public:
     void unplug();
     /// poll() reports an error, while calls still work.
     void hangUp();
+    /// From now on the driver's calls that move buffers do not return, until they may again.
+    void hang(bool wanted);
+    [[nodiscard]] bool hangs();  ///< a call is inside it
     /// How many buffers wait to be filled.
     [[nodiscard]] int queued();
     [[nodiscard]] bool released();  ///< the buffers were given up
@@ -73,7 +81,9 @@ public:
     bool rounds = false;  ///< answers S_FMT with another size
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
     std::size_t padding = 0;  ///< of rows [bytes]
-    int sizeFault = 0;        ///< added to the size it says a picture has
+    std::uint32_t mostBuffers = 16;
+    bool refusesMore = false;  ///< has no memory for more than that, instead of granting fewer
+    int sizeFault = 0;         ///< added to the size it says a picture has
     std::uint32_t colorspace = V4L2_COLORSPACE_SRGB, quantization = V4L2_QUANTIZATION_DEFAULT;
     std::vector<FakeFormat> formats{{V4L2_PIX_FMT_YUYV, {{32, 24}, {64, 48}}}};
     std::vector<FakeControl> controls{};
@@ -98,6 +108,10 @@ private:
     [[nodiscard]] const FakeFormat* find(std::uint32_t fourcc) const;
 
     std::mutex mutex_;
+    std::mutex hangMutex_;
+    std::condition_variable mayGoOn_;
+    bool hanging_ = false;
+    int inside_ = 0;
     int memory_ = -1;
     std::uint8_t* bytes_ = nullptr;
     int pictureEnd_ = -1, readEnd_ = -1;  // of the pipe: deliver() writes, the camera polls

@@ -1,4 +1,4 @@
-#include "hal/device/frame_drops.h"
+#include "hal/frame_drops.h"
 
 #include <gtest/gtest.h>
 
@@ -49,6 +49,57 @@ TEST(FrameDrops, NewRateIsLearned) {
         drops.add(time = time + 2 * kPeriod);
     EXPECT_EQ(drops.dropped(), before);
     EXPECT_EQ(drops.period(), 2 * kPeriod);
+}
+
+TEST(FrameDrops, NumbersAreExactAtAnyRate) {
+    for (const auto period : {kPeriod, 2 * kPeriod, 5 * kPeriod}) {
+        FrameDrops drops;
+        Timestamp time{0};
+        std::uint32_t number = 4294967290;  // wraps after six
+        for (int i = 0; i < 100; ++i) {
+            const int gap = i > 0 && i % 7 == 0 ? i % 5 : 0;
+            time = time + period * (1 + gap);
+            number += static_cast<std::uint32_t>(1 + gap);
+            EXPECT_EQ(drops.add(time, number), gap) << i;
+        }
+    }
+}
+
+TEST(FrameDrops, ACountThatBeginsAnewIsLeftToTheTimes) {
+    FrameDrops drops;
+    Timestamp time{0};
+    std::uint32_t number = 50000;
+    for (int i = 0; i < 40; ++i)
+        EXPECT_EQ(drops.add(time = time + kPeriod, number++), 0);
+    EXPECT_EQ(drops.add(time = time + kPeriod, 0), 0) << "back to zero, nothing missing";
+    EXPECT_EQ(drops.add(time = time + kPeriod, 1), 0);
+    EXPECT_EQ(drops.add(time = time + 3 * kPeriod, 0), 2) << "the same behind a gap";
+    EXPECT_EQ(drops.add(time = time + kPeriod, 5000), 0) << "forward, which no time confirms";
+    EXPECT_EQ(drops.add(time = time + kPeriod, 5000), 0) << "a count that stands still";
+    EXPECT_EQ(drops.add(time = time + 2 * kPeriod, 5000), 1);
+    EXPECT_EQ(drops.add(time = time + 2 * kPeriod), 1) << "no number at all";
+}
+
+TEST(FrameDrops, BrokenFramesAreNotMissing) {
+    for (const bool numbered : {true, false}) {
+        FrameDrops drops;
+        Timestamp time{0};
+        std::uint32_t number = 0;
+        const auto next = [&] {
+            return numbered ? std::optional(number++) : std::optional<std::uint32_t>{};
+        };
+        for (int i = 0; i < 100; ++i) {
+            time = time + kPeriod;
+            if (i % 9 == 8)
+                EXPECT_EQ(drops.addUntimed(next()), 0);
+            else
+                EXPECT_EQ(drops.add(time, next()), 0) << i;
+        }
+        number += 3;
+        EXPECT_EQ(drops.addUntimed(next()), numbered ? 3 : 0);
+        EXPECT_EQ(drops.add(time + 5 * kPeriod, next()), numbered ? 0 : 3) << "each once";
+        EXPECT_EQ(drops.dropped(), 3U);
+    }
 }
 
 TEST(FrameDrops, PauseAndTimesThatDoNotRiseAreNoGaps) {

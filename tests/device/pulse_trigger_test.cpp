@@ -184,7 +184,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
         EXPECT_EQ(edge, levels[1].time);
         EXPECT_EQ(measured.start, levels[1].time);
         EXPECT_EQ(measured.end, levels[2].time);
-        EXPECT_EQ(trigger->loopbackMissed(), 0U);
+        EXPECT_EQ(trigger->missedEdges(), 0U);
     }
 }
 
@@ -196,7 +196,7 @@ TEST(PulseTrigger, MissedEdgesAreCountedAndNeverTakenForOthers) {
             const auto trigger = triggerOn(wire, pulse, true);
             const Timestamp before = Timestamp::now();
             const Timestamp edge = trigger->fire();
-            while (trigger->loopbackMissed() == 0)
+            while (trigger->missedEdges() == 0)
                 std::this_thread::sleep_for(100us);
             EXPECT_FALSE(trigger->measured());
             const std::vector<Level> levels = wire->all();
@@ -213,7 +213,7 @@ TEST(PulseTrigger, LoopbackOnAnotherClockIsNotBelieved) {
     const Timestamp edge = trigger->fire();
     EXPECT_LE(edge, Timestamp::now());
     EXPECT_FALSE(trigger->measured());
-    EXPECT_EQ(trigger->loopbackMissed(), 1U);
+    EXPECT_EQ(trigger->missedEdges(), 1U);
 }
 
 TEST(PulseTrigger, LineThatCannotBeDrivenIsReported) {

@@ -46,12 +46,12 @@ int capture(mfar::CameraV4l2& camera, int frames) {
                     std::string(mfar::nameOf(view.format)).c_str(), meanLuma(view));
     }
     camera.stop();
-    const auto& counts = camera.counts();
+    const mfar::CameraCounters counts = camera.cameraCounters();
     std::printf("delivered %llu broken %llu bad-times %llu missed %llu\n",
                 static_cast<unsigned long long>(counts.delivered),
                 static_cast<unsigned long long>(counts.broken),
                 static_cast<unsigned long long>(counts.badTimes),
-                static_cast<unsigned long long>(counts.missed));
+                static_cast<unsigned long long>(counts.missed.value_or(0)));
     return got == frames ? 0 : 1;
 }
 

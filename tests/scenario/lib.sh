@@ -1,6 +1,7 @@
-# Common words of the scenarios. Each is run as "NNN-name.sh MFARD MFAR-SIM", the paths of the two
-# programs, and tells one story of the real program in a folder of its own. MFAR_PATIENCE (default 1)
-# stretches all time limits, for sanitizers and slow machines.
+# Common words of the scenarios. Each is run as "NNN-name.sh MFARD MFAR-SIM LIBRARY", the paths of the
+# two programs and of tests/device/pretended_v4l2.cpp, and tells one story of the real program in a
+# folder of its own. MFAR_PATIENCE (default 1) stretches all time limits, for sanitizers and slow
+# machines.
 
 set -eu -o pipefail
 

@@ -18,7 +18,8 @@ struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
     std::atomic<int> open{0}, opened{0};
-    std::atomic<bool> closes{true};  ///< closing it ends
+    std::atomic<bool> closes{true};   ///< closing it ends
+    std::atomic<bool> answers{true};  ///< asking it for a picture ends, and so does stopping it
     Size size{4, 2};
 };
 
@@ -41,6 +42,7 @@ public:
     }
     void start() override {}
     [[nodiscard]] std::optional<Frame> next(milliseconds timeout) override {
+        waitForAnswer();
         if (!socket_.plugged) throw DeviceLost("it has gone");
         if (socket_.sends) {
             std::this_thread::sleep_for(milliseconds(1));
@@ -50,10 +52,22 @@ public:
         std::this_thread::sleep_for(std::min(timeout, milliseconds(5)));
         return std::nullopt;
     }
-    void stop() override {}
+    void stop() override { waitForAnswer(); }
     [[nodiscard]] bool ended() const override { return false; }
+    [[nodiscard]] CameraCounters cameraCounters() const override {
+        CameraCounters out;
+        out.missed = 3;
+        out.broken = 1;
+        return out;
+    }
+    [[nodiscard]] std::vector<std::string> takeWarnings() override { return {"it is old"}; }
 
 private:
+    void waitForAnswer() {
+        while (!socket_.answers)
+            std::this_thread::sleep_for(milliseconds(1));
+    }
+
     Socket& socket_;
     std::array<std::uint8_t, 8> pixels_{};
 };
@@ -154,6 +168,57 @@ TEST(ReopeningCamera, ADeviceThatIsSlowToCloseHoldsNobodyUp) {
     socket.closes = true;
     socket.plugged = true;
     EXPECT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+}
+
+TEST(ReopeningCamera, OneWhoseDriverHangsIsNamedAndStopDoesNotWaitForIt) {
+    Socket socket;
+    ReopeningOptions options = quick();
+    options.silent = milliseconds(0);  // on trigger, so that silence alone says nothing
+    ReopeningCamera camera = cameraOn(socket, options);
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    EXPECT_EQ(camera.fault(), std::nullopt);
+    socket.answers = false;
+    std::jthread asker([&] { (void)camera.next(milliseconds(5)); });
+    const Timestamp end = Timestamp::now() + std::chrono::seconds(5);
+    while (!camera.fault() && Timestamp::now() < end)
+        std::this_thread::sleep_for(milliseconds(1));
+    EXPECT_EQ(camera.fault(), "video camera: its driver does not answer");
+    socket.answers = true;
+    asker.join();
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    EXPECT_EQ(camera.fault(), std::nullopt);
+
+    socket.answers = false;
+    std::atomic<bool> stopped{false};
+    std::jthread stopper([&] {
+        camera.stop();
+        stopped = true;
+    });
+    for (const Timestamp limit = Timestamp::now() + std::chrono::seconds(20);
+         !stopped && Timestamp::now() < limit;)
+        std::this_thread::sleep_for(milliseconds(1));
+    EXPECT_TRUE(stopped);
+    socket.answers = true;
+}
+
+TEST(ReopeningCamera, CountsWhatEveryDeviceThatItWasHasCounted) {
+    Socket socket;
+    ReopeningCamera camera = cameraOn(socket);
+    EXPECT_EQ(camera.cameraCounters().missed, std::nullopt);
+    camera.start();
+    for (unsigned i = 1; i <= 3; ++i) {
+        ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+        EXPECT_EQ(camera.cameraCounters().missed, 3 * i);
+        EXPECT_EQ(camera.cameraCounters().broken, i);
+        EXPECT_EQ(camera.takeWarnings(), std::vector<std::string>{"it is old"});
+        EXPECT_TRUE(camera.takeWarnings().empty());
+        socket.plugged = false;
+        ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.absent(); }));
+        EXPECT_EQ(camera.cameraCounters().missed, 3 * i) << "while it is away";
+        EXPECT_EQ(camera.cameraCounters().reopened, i);
+        socket.plugged = true;
+    }
 }
 
 TEST(ReopeningCamera, OneThatIsLostBeforeItSendsIsNotOpenedAtFullSpeed) {

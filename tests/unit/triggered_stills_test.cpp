@@ -233,7 +233,7 @@ TEST_F(TriggeredStills, TimesNeverGoBackwards) {
     EXPECT_EQ(still->time(), second + 300us);
     EXPECT_FALSE(camera->next(0ms));
     EXPECT_EQ(camera->counters().matched, 2U);
-    EXPECT_EQ(camera->overtaken(), 1U);
+    EXPECT_EQ(camera->counters().overtaken, 1U);
     EXPECT_EQ(sensor.loans, 1);
 }
 

@@ -1,0 +1,63 @@
+#include "daemon/still_thread.h"
+
+#include <utility>
+
+namespace mfar {
+
+std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& stats,
+                                       std::chrono::milliseconds timeout) {
+    std::optional<Frame> still = reader.next(timeout);
+    if (!still) return std::nullopt;
+    still->shift(rig.stillTimeOffset());
+    stats.stillReceived();
+    rig.recordStill(*still);
+    return CapturedStill{*std::move(still)};
+}
+
+bool StillBox::put(CapturedStill still) {
+    std::optional<CapturedStill> oldest;  // destroyed without the lock
+    const std::lock_guard lock(mutex_);
+    if (stills_.size() == kCapacity) {
+        oldest = std::move(stills_.front());
+        stills_.pop_front();
+    }
+    stills_.push_back(std::move(still));
+    return !oldest;
+}
+
+std::optional<CapturedStill> StillBox::take() {
+    const std::lock_guard lock(mutex_);
+    if (stills_.empty()) return std::nullopt;
+    std::optional<CapturedStill> still = std::move(stills_.front());
+    stills_.pop_front();
+    return still;
+}
+
+StillThread::StillThread(Rig& rig, PoseFinder& poses, Stats& stats)
+    : rig_(rig), poses_(poses), stats_(stats), reader_(rig, CameraRole::Still, stats),
+      thread_([this] { run(); }) {}
+
+StillThread::~StillThread() {
+    stop();
+    thread_.join();
+}
+
+void StillThread::check() const {
+    if (failed_) std::rethrow_exception(failure_);
+}
+
+void StillThread::run() {
+    try {
+        while (!stopped_ && !reader_.ended()) {
+            std::optional<CapturedStill> still = nextStill(reader_, rig_, stats_, kFrameWait);
+            if (!still) continue;
+            still->measured = poses_.measure(still->frame);
+            if (!box_.put(*std::move(still))) stats_.stillsSuperseded(1);
+        }
+    } catch (...) {
+        failure_ = std::current_exception();
+        failed_ = true;
+    }
+}
+
+}  // namespace mfar

@@ -1,0 +1,377 @@
+// A library to be loaded before a program (LD_PRELOAD): V4L2 cameras that the machine does not
+// have, on the program's own calls of open(), ioctl() and mmap(). The devices are the files of the
+// folder MFAR_PRETENDED_V4L2, each "/dev/NAME" a camera that gives YUYV of any size. The file's
+// words say what is wrong with it, and may change at any time, by renaming another file onto it:
+//   hang          the calls that move buffers do not return
+//   silent        no further picture
+//   repeat        the same picture again and again
+//   rate HZ       other than was asked for
+//   buffers N     grants no more, to the next who asks
+//   error N       one of N pictures has the error flag
+//   short N       one of N pictures lacks its end
+//   backward N    one of N pictures is stamped before the one before
+//   future N      one of N pictures is stamped in an hour
+//   skip N        with each word's first sight, N numbers are left out
+//   restart       with each word's first sight, numbers begin at 0
+// Pictures are noise over a gray that is brighter with each picture. One that finds no buffer has
+// no number, so that only `skip` leaves numbers out, however slow the machine is.
+
+#include <fcntl.h>
+#include <linux/videodev2.h>
+#include <sys/eventfd.h>
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <cstdarg>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using std::chrono::steady_clock;
+
+/// The words of a device's file, each with its number, 1 where there is none.
+using Words = std::map<std::string, double>;
+
+class Device {
+public:
+    Device(std::string file, std::string name)
+        : file_(std::move(file)), name_(std::move(name)),
+          fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)),
+          memory_(memfd_create("pretended", MFD_CLOEXEC)) {}
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+    ~Device() {
+        stop();
+        close(memory_);
+    }
+
+    [[nodiscard]] int fd() const { return fd_; }
+    [[nodiscard]] int memory() const { return memory_; }
+
+    int call(unsigned long request, void* argument) {
+        if (request == VIDIOC_DQBUF || request == VIDIOC_QBUF || request == VIDIOC_STREAMOFF)
+            while (words().contains("hang"))
+                std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        switch (request) {
+        case VIDIOC_QUERYCAP: return describe(*static_cast<v4l2_capability*>(argument));
+        case VIDIOC_ENUM_FMT: {
+            auto& query = *static_cast<v4l2_fmtdesc*>(argument);
+            query.pixelformat = V4L2_PIX_FMT_YUYV;
+            return query.index == 0 ? 0 : EINVAL;
+        }
+        case VIDIOC_ENUM_FRAMESIZES: {
+            auto& query = *static_cast<v4l2_frmsizeenum*>(argument);
+            query.type = V4L2_FRMSIZE_TYPE_STEPWISE;
+            query.stepwise = {16, 4096, 2, 16, 4096, 2};
+            return query.index == 0 ? 0 : EINVAL;
+        }
+        case VIDIOC_G_PARM:
+        case VIDIOC_S_PARM: return rate(request, *static_cast<v4l2_streamparm*>(argument));
+        case VIDIOC_S_FMT: return setFormat(*static_cast<v4l2_format*>(argument));
+        case VIDIOC_REQBUFS: return allocate(*static_cast<v4l2_requestbuffers*>(argument));
+        case VIDIOC_QUERYBUF: return query(*static_cast<v4l2_buffer*>(argument));
+        case VIDIOC_QBUF: return queue(*static_cast<v4l2_buffer*>(argument));
+        case VIDIOC_DQBUF: return dequeue(*static_cast<v4l2_buffer*>(argument));
+        case VIDIOC_STREAMON: return start();
+        case VIDIOC_STREAMOFF: stop(); return 0;
+        default: return request == VIDIOC_QUERY_EXT_CTRL ? EINVAL : ENOTTY;
+        }
+    }
+
+private:
+    [[nodiscard]] Words words() const {
+        std::ifstream in(file_);
+        Words out;
+        for (std::string word; in >> word;) {
+            double number = 1;
+            const auto at = in.tellg();
+            if (!(in >> number)) {
+                in.clear();
+                in.seekg(at);
+                number = 1;
+            }
+            out[word] = number;
+        }
+        return out;
+    }
+
+    int describe(v4l2_capability& about) const {
+        about = {};
+        std::strncpy(reinterpret_cast<char*>(about.card), name_.c_str(), sizeof about.card - 1);
+        std::strncpy(reinterpret_cast<char*>(about.bus_info), name_.c_str(),
+                     sizeof about.bus_info - 1);
+        about.capabilities = V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+        about.device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+        return 0;
+    }
+
+    int rate(unsigned long request, v4l2_streamparm& parameters) {
+        auto& capture = parameters.parm.capture;
+        const v4l2_fract asked = capture.timeperframe;
+        if (request == VIDIOC_S_PARM && asked.numerator > 0 && asked.denominator > 0)
+            rateHz_ = static_cast<double>(asked.denominator) / asked.numerator;
+        capture.capability = V4L2_CAP_TIMEPERFRAME;
+        capture.timeperframe = {1000, static_cast<std::uint32_t>(rateHz_ * 1000)};
+        return 0;
+    }
+
+    int setFormat(v4l2_format& format) {
+        auto& pix = format.fmt.pix;
+        pix.pixelformat = V4L2_PIX_FMT_YUYV;
+        pix.bytesperline = pix.width * 2;
+        pix.sizeimage = pix.bytesperline * pix.height;
+        bytes_ = pix.sizeimage;
+        return 0;
+    }
+
+    int allocate(v4l2_requestbuffers& request) {
+        const std::lock_guard lock(mutex_);
+        const Words wrong = words();
+        const auto most = wrong.contains("buffers") ? wrong.at("buffers") : 32;
+        request.count = std::min(request.count, static_cast<std::uint32_t>(most));
+        room_ = (bytes_ + 4095) / 4096 * 4096;
+        buffers_.assign(request.count, {});
+        return ftruncate(memory_, static_cast<off_t>(room_ * buffers_.size())) == 0 ? 0 : ENOMEM;
+    }
+
+    int query(v4l2_buffer& to) {
+        const std::lock_guard lock(mutex_);
+        if (to.index >= buffers_.size()) return EINVAL;
+        to.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+        to.length = static_cast<std::uint32_t>(bytes_);
+        to.m.offset = static_cast<std::uint32_t>(room_ * to.index);
+        return 0;
+    }
+
+    int queue(v4l2_buffer& from) {
+        const std::lock_guard lock(mutex_);
+        if (from.index >= buffers_.size()) return EINVAL;
+        free_.push_back(from.index);
+        return 0;
+    }
+
+    int dequeue(v4l2_buffer& to) {
+        const std::lock_guard lock(mutex_);
+        if (filled_.empty()) return EAGAIN;
+        to = buffers_[filled_.front()];
+        filled_.pop_front();
+        std::uint64_t one = 0;
+        static_cast<void>(!read(fd_, &one, sizeof one));
+        return 0;
+    }
+
+    int start() {
+        const std::lock_guard lock(mutex_);
+        running_ = true;
+        picture_.assign(bytes_, 0);
+        maker_ = std::thread([this] { make(); });
+        return 0;
+    }
+
+    void stop() {
+        running_ = false;
+        if (maker_.joinable()) maker_.join();
+        const std::lock_guard lock(mutex_);
+        free_.clear();
+        for (; !filled_.empty(); filled_.pop_front()) {
+            std::uint64_t one = 0;
+            static_cast<void>(!read(fd_, &one, sizeof one));
+        }
+    }
+
+    void make() {
+        auto due = steady_clock::now();
+        std::uint32_t number = 0;
+        Words before;
+        for (std::uint64_t i = 1; running_; ++i) {
+            const Words wrong = words();
+            const double hz = wrong.contains("rate") ? wrong.at("rate") : rateHz_.load();
+            due += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / hz));
+            while (running_ && steady_clock::now() < due)
+                std::this_thread::sleep_for(std::min<steady_clock::duration>(
+                    due - steady_clock::now(), std::chrono::milliseconds(20)));
+            if (wrong.contains("skip") && !before.contains("skip"))
+                number += static_cast<std::uint32_t>(wrong.at("skip"));
+            if (wrong.contains("restart") && !before.contains("restart")) number = 0;
+            const bool silent = wrong.contains("silent");
+            if (!running_ || silent || fill(wrong, i, number)) ++number;
+            before = wrong;
+        }
+    }
+
+    /// False without a free buffer.
+    bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number) {
+        if (!wrong.contains("repeat")) paint(i);
+        const std::lock_guard lock(mutex_);
+        if (free_.empty() || wrong.contains("hang")) return false;
+        const std::uint32_t index = free_.front();
+        free_.pop_front();
+        void* to = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, memory_,
+                        static_cast<off_t>(room_ * index));
+        std::memcpy(to, picture_.data(), bytes_);
+        munmap(to, bytes_);
+        const auto isDue = [&](const char* word) {
+            const auto at = wrong.find(word);
+            return at != wrong.end() && i % static_cast<std::uint64_t>(at->second) == 0;
+        };
+        v4l2_buffer said{};
+        said.index = index;
+        said.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+        said.memory = V4L2_MEMORY_MMAP;
+        said.sequence = number;
+        said.length = static_cast<std::uint32_t>(bytes_);
+        said.bytesused = said.length - (isDue("short") ? 4096 : 0);
+        said.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+        if (isDue("error")) said.flags |= V4L2_BUF_FLAG_ERROR;
+        timespec now{};
+        clock_gettime(CLOCK_MONOTONIC, &now);
+        std::int64_t us = now.tv_sec * 1'000'000LL + now.tv_nsec / 1000;
+        if (isDue("backward")) us -= 200'000;
+        if (isDue("future")) us += 3'600'000'000LL;
+        said.timestamp.tv_sec = us / 1'000'000;
+        said.timestamp.tv_usec = us % 1'000'000;
+        buffers_[index] = said;
+        filled_.push_back(index);
+        const std::uint64_t one = 1;
+        static_cast<void>(!write(fd_, &one, sizeof one));
+        return true;
+    }
+
+    void paint(std::uint64_t i) {
+        std::uint64_t random = i * 0x9e3779b97f4a7c15ULL;
+        const auto gray = static_cast<std::uint8_t>(64 + i % 64);
+        for (std::size_t at = 0; at < picture_.size(); at += 2) {
+            random ^= random << 13;
+            random ^= random >> 7;
+            random ^= random << 17;
+            picture_[at] = static_cast<std::uint8_t>(gray + (random & 15));
+            picture_[at + 1] = 128;
+        }
+    }
+
+    const std::string file_, name_;
+    const int fd_;  ///< readable as often as there are filled buffers; closed by the program
+    const int memory_;
+    std::atomic<double> rateHz_{30};
+    std::size_t bytes_ = 0, room_ = 0;
+    std::atomic<bool> running_{false};
+    std::thread maker_;
+    std::vector<std::uint8_t> picture_;
+    std::mutex mutex_;
+    std::vector<v4l2_buffer> buffers_;
+    std::deque<std::uint32_t> free_, filled_;
+};
+
+std::mutex devicesMutex;
+
+std::map<int, std::shared_ptr<Device>>& devices() {
+    static auto* all = new std::map<int, std::shared_ptr<Device>>;  // threads outlive main()
+    return *all;
+}
+
+std::shared_ptr<Device> deviceOf(int fd) {
+    const std::lock_guard lock(devicesMutex);
+    const auto at = devices().find(fd);
+    return at == devices().end() ? nullptr : at->second;
+}
+
+int openDevice(const char* path) {
+    const char* folder = std::getenv("MFAR_PRETENDED_V4L2");
+    if (folder == nullptr || std::strncmp(path, "/dev/", 5) != 0) return -1;
+    const std::string name = path + 5;
+    const std::string file = std::string(folder) + "/" + name;
+    if (name.find('/') != std::string::npos || access(file.c_str(), R_OK) != 0) return -1;
+    auto device = std::make_shared<Device>(file, name);
+    const std::lock_guard lock(devicesMutex);
+    devices()[device->fd()] = device;
+    return device->fd();
+}
+
+void* mapFile(void* at, std::size_t length, int protection, int flags, int fd, off_t offset) {
+    if (fd >= 0)
+        if (const auto device = deviceOf(fd)) fd = device->memory();
+    const long out = syscall(SYS_mmap, at, length, protection, flags, fd, offset);
+    return reinterpret_cast<void*>(out);
+}
+
+int openFile(const char* path, int flags, mode_t mode) {
+    const int pretended = openDevice(path);
+    if (pretended >= 0) return pretended;
+    return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+}
+
+}  // namespace
+
+extern "C" {
+
+int open(const char* path, int flags, ...) {
+    va_list rest;
+    va_start(rest, flags);
+    const auto mode = static_cast<mode_t>(va_arg(rest, int));
+    va_end(rest);
+    return openFile(path, flags, mode);
+}
+
+int open64(const char* path, int flags, ...) {
+    va_list rest;
+    va_start(rest, flags);
+    const auto mode = static_cast<mode_t>(va_arg(rest, int));
+    va_end(rest);
+    return openFile(path, flags | O_LARGEFILE, mode);
+}
+
+int ioctl(int fd, unsigned long request, ...) noexcept {
+    va_list rest;
+    va_start(rest, request);
+    void* argument = va_arg(rest, void*);
+    va_end(rest);
+    if (const auto device = deviceOf(fd)) {
+        const int error = device->call(request, argument);
+        if (error == 0) return 0;
+        errno = error;
+        return -1;
+    }
+    return static_cast<int>(syscall(SYS_ioctl, fd, request, argument));
+}
+
+void* mmap(void* at, std::size_t length, int protection, int flags, int fd, off_t offset) noexcept {
+    return mapFile(at, length, protection, flags, fd, offset);
+}
+
+void* mmap64(void* at, std::size_t length, int protection, int flags, int fd,
+             off64_t offset) noexcept {
+    return mapFile(at, length, protection, flags, fd, offset);
+}
+
+// A descriptor that is closed may come back as any other file.
+int close(int fd) {
+    std::shared_ptr<Device> closed;
+    {
+        const std::lock_guard lock(devicesMutex);
+        const auto at = devices().find(fd);
+        if (at != devices().end()) {
+            closed = at->second;
+            devices().erase(at);
+        }
+    }
+    closed.reset();
+    return static_cast<int>(syscall(SYS_close, fd));
+}
+
+}  // extern "C"

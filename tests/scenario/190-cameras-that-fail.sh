@@ -1,0 +1,144 @@
+#!/usr/bin/env bash
+# Two V4L2 cameras, pretended to mfard by a library, fail in many ways. The video goes on as long as
+# its own camera does, and the picture, status and summary name what is wrong.
+. "$(dirname "$0")/lib.sh"
+
+ctl="$(dirname "$sim")/mfarctl"
+pretended=$3
+mkdir cameras
+touch cameras/video90 cameras/video91
+cat >mfard.toml <<'END'
+source = "cameras"
+[superres]
+mode = "off"
+[pose]
+source = "none"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/video90"
+width = 64
+height = 48
+[cameras.still]
+driver = "v4l2"
+camera = "/dev/video91"
+width = 128
+height = 96
+rate_hz = 5.0
+END
+
+# says_of CAMERA WORD...: what is wrong with it from now on.
+says_of() {
+    local camera=$1
+    shift
+    echo "$*" >cameras/.new
+    mv cameras/.new "cameras/$camera"
+}
+
+# begin: mfard with these cameras, until pictures come.
+begin() {
+    rm -f summary.json
+    export LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$work/cameras
+    start --config mfard.toml --display none --control control --summary summary.json
+    unset LD_PRELOAD MFAR_PRETENDED_V4L2
+    until_true shows_pictures 5
+}
+stop_now() {
+    kill -TERM "$pid"
+    ends_with 0 "$1"
+}
+status() { timeout -s KILL 30 "$ctl" --socket control status >answer 2>err.ctl; }
+stats() { timeout -s KILL 30 "$ctl" --socket control stats >stats.json 2>err.ctl; }
+# shows_pictures COUNT: that many at least since the start.
+shows_pictures() { status && [ "$(awk '$1 == "frames" {print $2}' answer)" -ge "$1" ] 2>/dev/null; }
+goes_on() {
+    status || fail "mfard does not answer"
+    until_true shows_pictures $(($(awk '$1 == "frames" {print $2}' answer) + 20))
+}
+fault_is() { status && grep -Eq "^fault +$1" answer; }
+# counts CAMERA KEY: as the camera is described in stats.json.
+counts() {
+    awk -v camera="\"$1\": {" -v key="\"$2\":" \
+        '/"cameras": {/ {in_cameras = 1} in_cameras && index($0, camera) {here = 1}
+         here && index($0, key) {gsub(/[",]/, ""); print $2; exit}' stats.json
+}
+at_least() { stats && [ "$(counts "$1" "$2")" -ge "$3" ] 2>/dev/null; }
+warned() { grep -q -- "$1" err; }
+
+echo "the still driver hangs: the video goes on, and the still camera is named"
+begin
+until_true fault_is null
+says_of video91 hang
+until_true fault_is 'still camera: its driver does not answer'
+goes_on
+echo "and it does not hold up the end"
+stop_now 1500
+summary_has exit_code 0
+says_of video91
+
+echo "it comes back"
+begin
+says_of video91 hang
+until_true fault_is 'still camera: its driver does not answer'
+says_of video91
+until_true fault_is null
+goes_on
+
+echo "a still camera that sends nothing is named"
+says_of video91 silent
+until_true fault_is 'still camera: sends no pictures'
+goes_on
+says_of video91
+until_true fault_is null
+
+echo "the video driver hangs: it is the one that is named"
+says_of video90 hang
+until_true fault_is 'video camera: its driver does not answer'
+says_of video90
+until_true fault_is null
+goes_on
+
+echo "one picture for ever"
+says_of video90 repeat
+until_true warned 'video camera: sends the same picture again and again'
+says_of video90
+goes_on
+stats
+awk -v age="$(counts video distinct_age_s)" 'BEGIN {exit !(age < 1)}' || fail "no new picture"
+
+echo "frames that are broken, short, or of another time are counted and not shown"
+says_of video90 error 3 short 5 backward 7 future 11
+until_true at_least video broken 10
+until_true at_least video bad_times 10
+goes_on
+says_of video90
+
+echo "numbers that are left out are counted exactly, numbers that begin anew are no gap"
+stats
+before=$(counts video missed)
+says_of video90 skip 12
+until_true at_least video missed $((before + 12))
+says_of video90 restart
+goes_on
+stats
+[ "$(counts video missed)" = $((before + 12)) ] ||
+    fail "missed $(counts video missed), before $before, left out 12"
+stop_now 1500
+
+echo "a camera at half its rate drops nothing and is named"
+says_of video90 rate 15
+begin
+until_true warned 'video camera: sends 1[45]\.[0-9] pictures a second, 30 are configured'
+stats
+[ "$(counts video missed)" -le 3 ] || fail "missed $(counts video missed) at half the rate"
+stop_now 1500
+
+echo "a driver with few buffers is used"
+for buffers in 1 3; do
+    says_of video90 buffers $buffers
+    says_of video91 buffers $buffers
+    begin
+    goes_on
+    says err "/dev/video90: the driver gives $buffers of 6 buffers, pictures are copied"
+    stats
+    stop_now 1500
+done
