@@ -6,6 +6,7 @@
 #include "daemon/control_socket.h"
 #include "daemon/events.h"
 #include "daemon/exit_code.h"
+#include "daemon/health.h"
 #include "daemon/log.h"
 #include "daemon/mailbox.h"
 #include "daemon/options.h"
@@ -80,8 +81,10 @@ private:
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
     void setTicks();
-    void feedWatchdog();
-    void showStatus();
+    [[nodiscard]] Health health(const Counted& counted);
+    void feedWatchdog(const Health& health);
+    void logHealth(const Health& health);
+    void showStatus(const Counted& counted, const Health& health);
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
     [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
 
@@ -102,12 +105,14 @@ private:
     std::optional<std::string> stopReason_;
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
-    std::uint64_t progressFed_ = 0;  ///< the watchdog's last meal was about this
+    bool isProven_ = false;       ///< all shaders are compiled, so limits hold as they are
+    bool patienceEnded_ = false;  ///< and the watchdog's, too
+    HealthRecord health_;
     Timestamp statusShown_;
     /// The second one follows the first: the file may have changed meanwhile.
     std::optional<Reload> reload_, nextReload_;
-    std::optional<std::string> fault_;  ///< that the log has said last
-    bool firstPictureShown_ = false;    ///< by the log
+    Health told_;                     ///< that the log has said last
+    bool firstPictureShown_ = false;  ///< by the log
 
     std::mutex mutex_;
     std::optional<Ready> ready_;  ///< guarded by the mutex; moves to running_

@@ -1,5 +1,6 @@
 #include "daemon/capture.h"
 
+#include "daemon/budgets.h"
 #include "daemon/exit_code.h"
 
 #include <fmt/format.h>
@@ -55,6 +56,7 @@ void CaptureThread::join() {
 
 void CaptureThread::run() {
     try {
+        Heartbeat heart(stats_.heartbeats(), "capture", budget::kCapture);
         const Size size = rig_.geometry().still.size;
         FramePairer pairer([&]() -> std::optional<Frame> {
             std::optional<Frame> still = take(rig_.still(), std::chrono::milliseconds(0), size);
@@ -65,8 +67,8 @@ void CaptureThread::run() {
             }
             return still;
         });
-        while (captureOne(pairer)) {
-        }
+        while (captureOne(pairer, heart))
+            heart.beat();
     } catch (...) {
         failure_ = std::current_exception();
     }
@@ -79,7 +81,7 @@ void CaptureThread::run() {
     }
 }
 
-bool CaptureThread::captureOne(FramePairer& pairer) {
+bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     std::optional<Frame> video = take(rig_.video(), kFrameWait, rig_.geometry().video.size);
     // From here, as the GL thread may be busy with a picture for a while.
     stats_.fault(rig_.fault());
@@ -93,6 +95,8 @@ bool CaptureThread::captureOne(FramePairer& pairer) {
     // What is only predicted, a replay predicts as well; a still's lies between those of the
     // frames.
     if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
+    // It waits until the picture before is finished.
+    if (rig_.handOver() == HandOver::Lossless) heart.rest();
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());
     return put != Mailbox<CapturedFrame>::Put::Closed;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/heartbeats.h"
 #include "daemon/mailbox.h"
 #include "daemon/pose_finder.h"
 #include "daemon/rig.h"
@@ -68,7 +69,7 @@ public:
 
 private:
     void run();
-    bool captureOne(FramePairer& pairer);
+    bool captureOne(FramePairer& pairer, Heartbeat& heart);
     std::optional<Frame> take(Camera& camera, std::chrono::milliseconds timeout, Size expected);
     void countGap(Timestamp time);
 

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# A driver that never returns: the watchdog is no longer fed, and status, log and service manager say
+# which thread hangs. A camera that is away, which somebody tries to open, is fed for. The cameras
+# are a library under mfard, the service manager is a program that writes down what it hears.
+# Usage: 190-driver-that-hangs.sh MFARD MFAR-SIM CAMERAS.so NOTIFY-LISTENER
+. "$(dirname "$0")/lib.sh"
+
+cameras=$3
+listener=$4
+ctl="$(dirname "$sim")/mfarctl"
+
+"$listener" notify heard &
+pids+=($!)
+until_true test -S notify
+export NOTIFY_SOCKET=$PWD/notify WATCHDOG_USEC=10000000 MFAR_PRETENDED=$PWD
+heard() { grep -Eq -- "$1" heard; }
+meals() { grep -c '^WATCHDOG=1$' heard || true; }
+fed() { [ "$(meals)" -gt $((before + ${1:-0})) ]; }
+status() { timeout 10 "$ctl" --socket control status; }
+status_says() { status | grep -Eq -- "$1"; }
+# Fed three times from now.
+is_fed() {
+    before=$(meals)
+    until_true fed 2
+}
+# The log's messages reach the file heard after they are true.
+is_hungry() {
+    before=$(meals)
+    sleep 4
+    fed && fail "the watchdog is fed while $1"
+    true
+}
+
+cat >mfard.toml <<'END'
+source = "cameras"
+[superres]
+mode = "off"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/pretended-video"
+[cameras.still]
+driver = "v4l2"
+camera = "/dev/pretended-still"
+width = 640
+height = 480
+rate_hz = 30.0
+END
+start_hangable() {
+    LD_PRELOAD=$cameras start --config mfard.toml --display none --control control
+    until_true started
+    until_true status_says '"state":"ok"'
+    frames() { [ "$(status | sed -n 's/^frames  *//p')" -gt 12 ]; }
+    until_true frames
+}
+
+echo "the video driver hangs"
+start_hangable
+is_fed
+touch hang-video
+until_true status_says 'health.*"state":"stalled","cause":"the .*capture thread hangs"'
+status_says '"thread":".*capture"' || fail "the thread is not named"
+until_true heard '^STATUS=the .*capture thread hangs \(stalled for [0-9.]+ s, last picture [0-9.]+ s ago\)'
+says err 'warning: the .*capture thread hangs \(stalled for'
+is_hungry "the driver hangs"
+
+echo "it returns after all"
+rm hang-video
+until_true status_says '"state":"ok"'
+is_fed
+
+echo "SIGTERM while it hangs"
+touch hang-video
+until_true status_says '"state":"stalled"'
+kill -TERM "$pid"
+ends_with 0 1500
+rm hang-video
+
+echo "a camera that is away is waited for, and that is alive"
+sed -i 's/pretended-video/pretended-nothing/' mfard.toml
+LD_PRELOAD=$cameras start --config mfard.toml --display none --control control
+until_true started
+until_true status_says '"state":"degraded","cause":"video camera: '
+is_fed
+kill -TERM "$pid"
+ends_with 0 1500
