@@ -23,6 +23,7 @@ using Seconds = std::chrono::duration<double>;
 constexpr Seconds kLeaveTime{0.2};   ///< after a signal: for the picture in work
 constexpr Seconds kFlushTime{0.4};   ///< the same, for what is being written
 constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
+constexpr std::chrono::milliseconds kLastResort{2500};
 constexpr Seconds kLookTime{1};               ///< how often threads are looked at, at least
 constexpr std::uint64_t kFirstPictures = 10;  ///< see kFirstPatience
 
@@ -143,6 +144,8 @@ void App::onSignal(int signal) {
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;
+    // Says nothing: whoever takes the messages may be what hangs.
+    lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
     events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
 }

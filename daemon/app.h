@@ -7,6 +7,7 @@
 #include "daemon/events.h"
 #include "daemon/exit_code.h"
 #include "daemon/health.h"
+#include "daemon/last_resort.h"
 #include "daemon/log.h"
 #include "daemon/mailbox.h"
 #include "daemon/options.h"
@@ -34,7 +35,8 @@ namespace mfar {
 ///     0.2 s, with nothing to be written: the process ends as it is, in the midst of a picture
 ///     0.4 s, otherwise: slow readers of the display's pipe are given up, 0.5 s later the process
 ///            ends as it is
-/// A second signal ends it at once.
+/// A second signal ends it at once. Where the main thread itself hangs on the way out, as in a
+/// driver or on a disk that does not return, another one ends the process 2.5 s after the signal.
 class App {
 public:
     /// Throws ConfigError, Failure.
@@ -88,6 +90,7 @@ private:
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
     [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
 
+    LastResort lastResort_;  ///< first: it watches over the destruction of the others, too
     const Options options_;
     Log& log_;
     Config config_;
