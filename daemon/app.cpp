@@ -1,5 +1,7 @@
 #include "daemon/app.h"
 
+#include "daemon/budgets.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -21,10 +23,9 @@ using Seconds = std::chrono::duration<double>;
 constexpr Seconds kLeaveTime{0.2};   ///< after a signal: for the picture in work
 constexpr Seconds kFlushTime{0.4};   ///< the same, for what is being written
 constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
-/// Shaders are compiled for the first pictures, which may take the watchdog's limit many times on a
-/// small board.
-constexpr std::uint64_t kFirstPictures = 10;
-constexpr int kFirstPatience = 6;
+constexpr std::chrono::milliseconds kLastResort{2500};
+constexpr Seconds kLookTime{1};               ///< how often threads are looked at, at least
+constexpr std::uint64_t kFirstPictures = 10;  ///< see kFirstPatience
 
 const char* signalName(int signal) {
     return signal == SIGINT ? "SIGINT" : "SIGTERM";
@@ -54,9 +55,12 @@ App::App(const Options& options, Log& log)
     // A display pipe whose reader has gone is an error of that write, not the end of the process.
     signal(SIGPIPE, SIG_IGN);
     if (options_.control)
-        control_.emplace(*options_.control, [actions = controlActions()](std::string_view request) {
-            return answerControl(actions, request);
-        });
+        control_.emplace(
+            *options_.control,
+            [actions = controlActions()](std::string_view request) {
+                return answerControl(actions, request);
+            },
+            &stats_.heartbeats());
 }
 
 ExitCode App::run() {
@@ -69,8 +73,15 @@ ExitCode App::run() {
     });
     setTicks();
     try {
-        while (end.wait_for(Seconds(0)) != std::future_status::ready)
-            handle(events_.wait());
+        {
+            Heartbeat heart(stats_.heartbeats(), "main", budget::kMain);
+            while (end.wait_for(Seconds(0)) != std::future_status::ready) {
+                heart.rest();
+                const Event event = events_.wait();
+                heart.beat();
+                handle(event);
+            }
+        }
         return finish(end);
     } catch (const std::exception& error) {
         // Else the thread would be waited for, which nobody has told to end.
@@ -133,6 +144,8 @@ void App::onSignal(int signal) {
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;
+    // Says nothing: whoever takes the messages may be what hangs.
+    lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
     events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
 }
@@ -145,7 +158,8 @@ void App::onDeadline() {
 }
 
 bool App::writes() {
-    return finishesRecording_ || !stats_.look().recording.empty() || keepsPictures(config_.display);
+    return finishesRecording_ || !stats_.count().recording.empty() ||
+           keepsPictures(config_.display);
 }
 
 void App::leave(const std::string& why) {
@@ -187,6 +201,7 @@ void App::readAgain() {
     std::packaged_task<Config()> read([this] { return effectiveConfig(options_); });
     reload_->config = read.get_future();
     reload_->reader = std::jthread([this, read = std::move(read)]() mutable {
+        const Heartbeat heart(stats_.heartbeats(), "reload", budget::kReload, ThreadRole::Helper);
         read();
         events_.wake();
     });
@@ -229,48 +244,72 @@ std::string App::take(const Config& wanted) {
 
 void App::setTicks() {
     const Seconds status(config_.status.intervalS);
-    events_.tickEvery(std::min(service_.watchdogPeriod().value_or(status), status));
+    const Seconds look = std::min(kLookTime, service_.watchdogPeriod().value_or(kLookTime));
+    events_.tickEvery(std::min(look, status));
 }
 
 void App::onTick() {
-    feedWatchdog();
-    const Timestamp now = Timestamp::now();
+    const Counted counted = stats_.count();
+    const Health now = health(counted);
+    logHealth(now);
+    feedWatchdog(now);
+    log_.sayKept();
     // Ticks may come more often, for the watchdog.
-    if (now.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
-    statusShown_ = now;
-    showStatus();
+    const Timestamp time = Timestamp::now();
+    if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
+    statusShown_ = time;
+    showStatus(counted, now);
+}
+
+Health App::health(const Counted& counted) {
+    isProven_ = isProven_ || counted.frames >= kFirstPictures;
+    Observed seen{Timestamp::now()};
+    seen.patience = isProven_ ? 1 : kFirstPatience;
+    seen.late = stats_.heartbeats().late(seen.patience);
+    seen.waiting = stats_.heartbeats().waiting();
+    seen.fault = counted.fault;
+    seen.display = counted.displayFault;
+    seen.lastPicture = counted.lastPicture;
+    seen.lastBanner = counted.lastBanner;
+    if (running_) {
+        seen.started = running_->time;
+        seen.rateHz = running_->description.videoRateHz;
+    }
+    return health_.judge(seen);
 }
 
 // Before and after the pictures there is nothing to watch: systemd has limits of its own for both.
-void App::feedWatchdog() {
+void App::feedWatchdog(const Health& health) {
     if (!running_ || !service_.watchdogPeriod()) return;
-    const std::uint64_t progress = stats_.progress();
-    if (progress == progressFed_ && !stopReason_) return;
-    if (progressFed_ < kFirstPictures && progress >= kFirstPictures) service_.watchdogPatience(1);
-    progressFed_ = progress;
-    service_.alive();
+    if (isProven_ && !std::exchange(patienceEnded_, true)) service_.watchdogPatience(1);
+    if (health.isAlive() || stopReason_) service_.alive();
 }
 
-void App::showStatus() {
+void App::logHealth(const Health& health) {
+    if (health.state == told_.state && health.cause == told_.cause) return;
+    // At the end, threads and pictures end as well.
+    if (stopReason_ && health.state == HealthState::Stalled) return;
+    if (health.state != HealthState::Ok)
+        log_.warning(sentence(health), health.cause);
+    else if (told_.isDevice)
+        log_.change("all devices are there");
+    else
+        log_.change(fmt::format("ok again after {:.1f} s", told_.sinceS), "ok again");
+    told_ = health;
+}
+
+void App::showStatus(const Counted& counted, const Health& health) {
     if (!running_) return;
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
-    const Counted counted = stats_.count();
-    if (counted.fault != fault_) {
-        fault_ = counted.fault;
-        if (fault_)
-            log_.warning(*fault_);
-        else
-            log_.notice("all devices are there");
-    }
     if (!counted.display.empty() && counted.display != running_->description.display) {
         running_->description.display = counted.display;
-        log_.notice("display " + counted.display);
+        log_.change("display " + counted.display);
     }
     if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
         log_.notice(firstPictureLine(*counted.atFirstPicture));
     for (const std::string& text : stats_.takeWarnings())
         log_.warning(text);
-    const std::string line = statusLine(counted, running_->description, elapsed);
+    const std::string line = statusLine(counted, running_->description, elapsed, health);
     log_.status(line);
     if (!stopReason_) service_.status(line);
 }
@@ -284,7 +323,10 @@ ExitCode App::finish(std::future<std::string>& end) {
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
     control_.reset();  // it may wait for that
     onReady();
-    showStatus();
+    const Counted counted = stats_.count();
+    const Health last = health(counted);
+    logHealth(last);
+    showStatus(counted, last);
     log_.endStatus();
     try {
         const std::string reason = end.get();

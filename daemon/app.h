@@ -6,6 +6,8 @@
 #include "daemon/control_socket.h"
 #include "daemon/events.h"
 #include "daemon/exit_code.h"
+#include "daemon/health.h"
+#include "daemon/last_resort.h"
 #include "daemon/log.h"
 #include "daemon/mailbox.h"
 #include "daemon/options.h"
@@ -33,7 +35,8 @@ namespace mfar {
 ///     0.2 s, with nothing to be written: the process ends as it is, in the midst of a picture
 ///     0.4 s, otherwise: slow readers of the display's pipe are given up, 0.5 s later the process
 ///            ends as it is
-/// A second signal ends it at once.
+/// A second signal ends it at once. Where the main thread itself hangs on the way out, as in a
+/// driver or on a disk that does not return, another one ends the process 2.5 s after the signal.
 class App {
 public:
     /// Throws ConfigError, Failure.
@@ -80,11 +83,14 @@ private:
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
     void setTicks();
-    void feedWatchdog();
-    void showStatus();
+    [[nodiscard]] Health health(const Counted& counted);
+    void feedWatchdog(const Health& health);
+    void logHealth(const Health& health);
+    void showStatus(const Counted& counted, const Health& health);
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
     [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
 
+    LastResort lastResort_;  ///< first: it watches over the destruction of the others, too
     const Options options_;
     Log& log_;
     Config config_;
@@ -102,12 +108,14 @@ private:
     std::optional<std::string> stopReason_;
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
-    std::uint64_t progressFed_ = 0;  ///< the watchdog's last meal was about this
+    bool isProven_ = false;       ///< all shaders are compiled, so limits hold as they are
+    bool patienceEnded_ = false;  ///< and the watchdog's, too
+    HealthRecord health_;
     Timestamp statusShown_;
     /// The second one follows the first: the file may have changed meanwhile.
     std::optional<Reload> reload_, nextReload_;
-    std::optional<std::string> fault_;  ///< that the log has said last
-    bool firstPictureShown_ = false;    ///< by the log
+    Health told_;                     ///< that the log has said last
+    bool firstPictureShown_ = false;  ///< by the log
 
     std::mutex mutex_;
     std::optional<Ready> ready_;  ///< guarded by the mutex; moves to running_

@@ -43,11 +43,12 @@ ControlActions App::controlActions() {
 }
 
 ordered_json App::statusNow() {
-    const Counted counted = stats_.look();
+    const Counted counted = stats_.count();
+    const Health now = health(counted);
     const char* state = "starting";
     if (running_) state = "running";
     if (stopReason_) state = "ending";
-    ordered_json out = {{"state", state}, {"fault", nullptr}};
+    ordered_json out = {{"state", state}, {"health", healthJson(now)}, {"fault", nullptr}};
     if (counted.fault) out["fault"] = *counted.fault;
     if (!running_) return out;
     const RunDescription& run = running_->description;
@@ -63,17 +64,18 @@ ordered_json App::statusNow() {
                 {"fps", counted.recentFps},
                 {"cameras", cameraStatus(counted)},
                 {"recording", nullptr},
-                {"line", statusLine(counted, run, elapsed)}});
+                {"line", statusLine(counted, run, elapsed, now)}});
     if (!counted.recording.empty()) out["recording"] = counted.recording.string();
     if (counted.learning) out["learned"] = describe(*counted.learning);
     return out;
 }
 
 ordered_json App::statsNow() {
-    ordered_json out =
-        summary(stats_.look(), running_ ? running_->description : RunDescription{}, "", 0);
+    const Counted counted = stats_.count();
+    ordered_json out = summary(counted, running_ ? running_->description : RunDescription{}, "", 0);
     out.erase("exit_reason");
     out.erase("exit_code");
+    out["health"] = healthJson(health(counted));
     return out;
 }
 

@@ -1,5 +1,6 @@
 #include "daemon/capture.h"
 
+#include "daemon/budgets.h"
 #include "daemon/exit_code.h"
 
 #include <stdexcept>
@@ -63,9 +64,10 @@ void CaptureThread::join() {
 
 void CaptureThread::run() {
     try {
+        Heartbeat heart(stats_.heartbeats(), "video capture", budget::kCapture);
         FramePairer pairer(stillSource());
-        while (captureOne(pairer)) {
-        }
+        while (captureOne(pairer, heart))
+            heart.beat();
     } catch (...) {
         failure_ = std::current_exception();
     }
@@ -85,7 +87,7 @@ FramePairer::NextStill CaptureThread::stillSource() {
     return [this] { return nextStill(still_, rig_, stats_, std::chrono::milliseconds(0)); };
 }
 
-bool CaptureThread::captureOne(FramePairer& pairer) {
+bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     std::optional<Frame> video = video_.next(kFrameWait);
     // From here, as the GL thread may be busy with a picture for a while.
     stats_.fault(rig_.fault());
@@ -103,6 +105,8 @@ bool CaptureThread::captureOne(FramePairer& pairer) {
     // What is only predicted, a replay predicts as well; a still's lies between those of the
     // frames.
     if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
+    // It waits until the picture before is finished.
+    if (rig_.handOver() == HandOver::Lossless) heart.rest();
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());
     return put != Mailbox<CapturedFrame>::Put::Closed;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/heartbeats.h"
 #include "daemon/camera_reader.h"
 #include "daemon/mailbox.h"
 #include "daemon/pose_finder.h"
@@ -75,7 +76,7 @@ public:
 private:
     void run();
     [[nodiscard]] FramePairer::NextStill stillSource();
-    bool captureOne(FramePairer& pairer);
+    bool captureOne(FramePairer& pairer, Heartbeat& heart);
 
     Rig& rig_;
     PoseFinder& poses_;

@@ -1,6 +1,7 @@
 #include "daemon/control_socket.h"
 
 #include "base/time.h"
+#include "daemon/budgets.h"
 #include "daemon/exit_code.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace mfar {
@@ -74,8 +76,9 @@ int millisecondsTo(Timestamp end) {
 
 }  // namespace
 
-ControlSocket::ControlSocket(std::filesystem::path path, Handler handler)
-    : path_(std::move(path)), handler_(std::move(handler)), listening_(listenAt(path_), "socket"),
+ControlSocket::ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts)
+    : path_(std::move(path)), handler_(std::move(handler)), hearts_(hearts),
+      listening_(listenAt(path_), "socket"),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"), thread_([this] { serve(); }) {}
 
 ControlSocket::~ControlSocket() {
@@ -98,11 +101,21 @@ bool ControlSocket::isReady(int fd, short events, int timeoutMs) const {
 
 void ControlSocket::serve() {
     std::vector<Client> clients;
-    while (waitFor(clients)) {
+    std::optional<Heartbeat> heart;
+    if (hearts_ != nullptr) heart.emplace(*hearts_, "control", budget::kControl);
+    const auto waits = [&] {
+        if (heart) heart->rest();
+        const bool goesOn = waitFor(clients);
+        if (heart) heart->beat();
+        return goesOn;
+    };
+    while (waits()) {
         for (Client& client : clients)
             if (client.isReady) read(client);
+        if (heart) heart->rest();  // others have the answer, and clients take it when they like
         for (Client& client : clients)
             if (client.isComplete) answer(client);
+        if (heart) heart->beat();
         std::erase_if(clients, [](const Client& client) {
             return client.isComplete || client.isGone || Timestamp::now() >= client.end;
         });
@@ -157,6 +170,9 @@ void ControlSocket::read(Client& client) {
 }
 
 void ControlSocket::answer(const Client& client) {
+    std::optional<Heartbeat> heart;
+    if (hearts_ != nullptr)
+        heart.emplace(*hearts_, "control answer", budget::kAnswer, ThreadRole::Helper);
     ControlAnswer answer = handler_(client.request);
     answer.line += '\n';
     send(client.fd->get(), answer.line.data(), answer.line.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/heartbeats.h"
 #include "base/time.h"
 #include "daemon/events.h"
 
@@ -33,8 +34,9 @@ public:
     using Handler = std::function<ControlAnswer(std::string_view request)>;
 
     /// Makes the socket and begins to listen. One that a dead process has left is replaced. Throws
-    /// Failure(Unavailable) when somebody listens there, or the path cannot be used.
-    ControlSocket(std::filesystem::path path, Handler handler);
+    /// Failure(Unavailable) when somebody listens there, or the path cannot be used. `hearts`,
+    /// which must outlive this, has the thread watched.
+    ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts = nullptr);
     ControlSocket(const ControlSocket&) = delete;
     ControlSocket& operator=(const ControlSocket&) = delete;
     /// Gives up what is being served.
@@ -58,6 +60,7 @@ private:
 
     std::filesystem::path path_;
     Handler handler_;
+    Heartbeats* hearts_;
     Fd listening_;
     Fd stop_;
     std::thread thread_;

@@ -2,6 +2,7 @@
 #include "daemon/exit_code.h"
 #include "daemon/log.h"
 #include "daemon/options.h"
+#include "daemon/restart_pause.h"
 #include "daemon/rig.h"
 #include "daemon/rig_cameras.h"
 
@@ -15,6 +16,7 @@
 
 int main(int argc, char** argv) {
     using namespace mfar;
+    const Timestamp started = Timestamp::now();
     Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO));
     // libcamera tells standard error by itself how it is; what is wrong, we say.
     setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
@@ -40,6 +42,7 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
         log.endStatus();
         log.error(error.what());
+        pauseBeforeRestart(exitCode(error), error.what(), started, log);
         return static_cast<int>(exitCode(error));
     }
 }

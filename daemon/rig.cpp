@@ -335,10 +335,11 @@ void releaseTrigger(const TriggerLineConfig& line) {
     }
 }
 
-std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::stop_token cancel) {
+std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::stop_token cancel,
+                                     const FileDisplayPolicy& policy) {
     try {
         if (isScreen(config.display)) return openScreen(config.display);
-        return openFileDisplay(config.display, rateHz, std::move(cancel));
+        return openFileDisplay(config.display, rateHz, std::move(cancel), policy);
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
     }

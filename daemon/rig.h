@@ -10,6 +10,7 @@
 #include "hal/display.h"
 #include "hal/still_matcher.h"
 #include "hal/trigger.h"
+#include "hal/virtual/display_files.h"
 #include "hal/virtual/recorder.h"
 
 #include <chrono>
@@ -114,7 +115,8 @@ void releaseTrigger(const TriggerLineConfig& line);
 /// Opens the display that the configuration names. A request on `cancel` ends its waiting. Throws
 /// Failure.
 [[nodiscard]] std::unique_ptr<Display> openDisplay(const Config& config, double rateHz,
-                                                   std::stop_token cancel);
+                                                   std::stop_token cancel,
+                                                   const FileDisplayPolicy& policy = {});
 
 /// A copy of a picture, see copyPicture().
 [[nodiscard]] ScreenPicture copyOf(const Picture& picture);

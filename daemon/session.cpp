@@ -1,5 +1,6 @@
 #include "daemon/session.h"
 
+#include "daemon/budgets.h"
 #include "daemon/exit_code.h"
 #include "daemon/filter_learning.h"
 
@@ -33,7 +34,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), rig_(config),
       poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl(config)),
       validation_(config.validate ? std::make_unique<gpu::Validation>() : nullptr),
-      display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel)),
+      display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel, displayPolicy())),
       output_(outputSizeFor(config.size, rig_.geometry(), display_->screenSize())),
       engines_(chooseEngines(config, gl_.context.get(), rig_.geometry(), output_)),
       pipeline_(rig_.geometry(), pipelineOptions(config)),
@@ -60,7 +61,8 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                     rig_.videoFrames(),
                     std::nullopt,
                     poses_.description(),
-                    describe(engines_)};
+                    describe(engines_),
+                    rig_.video().info().rateHz};
     if (description_.source.starts_with("cameras"))
         description_.source += importer != nullptr ? ", read in place by the GPU" : ", copied";
 }
@@ -118,8 +120,11 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
     Mailbox<CapturedFrame> mailbox(rig_.handOver());
     CaptureThread capture(rig_, poses_, stats_, mailbox);
     const std::stop_callback onStop(stop_.input, [&] { capture.stop(); });
+    Heartbeat heart(stats_.heartbeats(), "picture", budget::kPicture);
+    heart_ = &heart;
     bool enough = false;
     while (!enough) {
+        heart.beat();
         std::optional<CapturedFrame> captured = mailbox.takeWithin(kFaultInterval);
         if (!captured && mailbox.over()) break;
         if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
@@ -134,16 +139,37 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
         process(std::move(*captured));
         enough = maxFrames && pictures_ >= *maxFrames;
     }
+    heart.rest();
     capture.stop();
     capture.join();
     checkRecording();
     stats_.recorderDropped(rig_.notRecorded());
+    finishDisplay();
+    heart_ = nullptr;
+    return enough ? "all frames asked for are shown" : "end of the source";
+}
+
+void Session::finishDisplay() {
     try {
         display_->finish();
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
     }
-    return enough ? "all frames asked for are shown" : "end of the source";
+}
+
+// Recordings keep every picture, and who waits for that says so.
+FileDisplayPolicy Session::displayPolicy() {
+    FileDisplayPolicy policy;
+    policy.isLive = rig_.handOver() == HandOver::NewestWins;
+    policy.stalled = budget::kWriter;
+    policy.waiting = [this](const char* what) {
+        if (heart_ == nullptr) return;
+        if (what != nullptr)
+            heart_->restFor(what);
+        else
+            heart_->beat();
+    };
+    return policy;
 }
 
 void Session::apply(const Tunables& wanted) {
@@ -350,7 +376,7 @@ void Session::showFault() {
     stats_.fault(fault);
     if (!fault) return;
     show(Timestamp::now(), true);
-    stats_.pictureOfFault();
+    stats_.bannerShown(Timestamp::now());
 }
 
 // The last picture of the pipeline, with what is wrong over it.
@@ -365,6 +391,7 @@ void Session::show(Timestamp time, bool unchanged) {
             display_->show(*shown_, time);
         }
         stats_.display(display_->name());
+        stats_.displayed(display_->fault(), display_->leftOut());
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
     }

@@ -94,6 +94,8 @@ private:
     /// Takes the governor's choice for the next frame.
     void govern();
     void showFault();
+    void finishDisplay();
+    [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
     void tell(Timestamp time);
     void tellLearning();
@@ -101,6 +103,7 @@ private:
     void show(Timestamp time, bool unchanged);
 
     Stats& stats_;
+    Heartbeat* heart_ = nullptr;  ///< of the thread, while pictures are made
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;

@@ -5,6 +5,8 @@
 namespace mfar {
 namespace {
 
+constexpr std::chrono::seconds kRateWindow{1};
+
 double milliseconds(std::chrono::nanoseconds d) {
     return static_cast<double>(d.count()) * 1e-6;
 }
@@ -17,14 +19,28 @@ double rate(std::uint64_t intervals, Timestamp from, Timestamp to) {
 
 }  // namespace
 
+void PictureRate::add(Timestamp shown) {
+    times_[count_++ % kMost] = shown;
+}
+
+double PictureRate::at(Timestamp now) const {
+    if (count_ < 2) return 0;
+    const auto shown = [&](std::size_t back) { return times_[(count_ - 1 - back) % kMost]; };
+    const std::size_t known = std::min(count_, kMost);
+    std::size_t intervals = 1;
+    while (intervals + 1 < known && shown(0) - shown(intervals + 1) <= kRateWindow)
+        ++intervals;
+    const double fps = rate(intervals, shown(intervals), shown(0));
+    const double since = now.seconds() - shown(0).seconds();
+    return fps * since > 1 ? 1 / since : fps;
+}
+
 void Stats::picture(const FinishedPicture& picture) {
     const std::lock_guard lock(mutex_);
     ++counted_.frames;
-    if (!firstShown_) {
-        firstShown_ = shownBefore_ = picture.shown;
-        framesBefore_ = 1;
-    }
+    if (!firstShown_) firstShown_ = picture.shown;
     lastShown_ = picture.shown;
+    rate_.add(picture.shown);
     counted_.latencyMs.add(milliseconds(picture.shown - picture.arrived));
     for (const StageTime& stage : picture.stages) {
         auto known = std::find_if(counted_.stageMs.begin(), counted_.stageMs.end(),
@@ -102,14 +118,15 @@ void Stats::display(const std::string& name) {
     if (counted_.display != name) counted_.display = name;
 }
 
-void Stats::pictureOfFault() {
+void Stats::displayed(const std::optional<std::string>& fault, std::uint64_t leftOut) {
     const std::lock_guard lock(mutex_);
-    ++faultPictures_;
+    counted_.displayFault = fault;
+    counted_.drops.display = leftOut;
 }
 
-std::uint64_t Stats::progress() {
+void Stats::bannerShown(Timestamp shown) {
     const std::lock_guard lock(mutex_);
-    return counted_.frames + faultPictures_;
+    counted_.lastBanner = shown;
 }
 
 void Stats::traced(const TracedLayerCounters& counters, Timestamp frame) {
@@ -183,20 +200,9 @@ void Stats::recorderDropped(std::uint64_t total) {
     counted_.drops.recorder = total;
 }
 
-Counted Stats::count() {
+Counted Stats::count(Timestamp now) {
     const std::lock_guard lock(mutex_);
-    total();
-    if (firstShown_) {
-        counted_.recentFps = rate(counted_.frames - framesBefore_, shownBefore_, lastShown_);
-        framesBefore_ = counted_.frames;
-        shownBefore_ = lastShown_;
-    }
-    return counted_;
-}
-
-Counted Stats::look() {
-    const std::lock_guard lock(mutex_);
-    total();
+    total(now);
     return counted_;
 }
 
@@ -211,9 +217,11 @@ void Stats::age(Timestamp now) {
     }
 }
 
-void Stats::total() {
-    age(Timestamp::now());
+void Stats::total(Timestamp now) {
+    age(now);
+    counted_.recentFps = rate_.at(now);
     if (firstShown_) {
+        counted_.lastPicture = lastShown_;
         counted_.seconds = lastShown_.seconds() - firstShown_->seconds();
         counted_.fps = rate(counted_.frames - 1, *firstShown_, lastShown_);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/heartbeats.h"
 #include "daemon/camera_watch.h"
 #include "daemon/histogram.h"
 #include "daemon/learning_counts.h"
@@ -26,6 +27,7 @@ struct Drops {
     std::uint64_t sensor = 0;    ///< missed by the video camera
     std::uint64_t mailbox = 0;   ///< replaced by a newer frame before they were processed
     std::uint64_t recorder = 0;  ///< shown, but not recorded
+    std::uint64_t display = 0;   ///< finished, but not written by a display that is slower
 };
 
 struct StillCounts {
@@ -49,7 +51,7 @@ struct Counted {
     std::uint64_t frames = 0;
     double seconds = 0;  ///< from the first to the last picture
     double fps = 0;
-    double recentFps = 0;  ///< since the previous call of Stats::count()
+    double recentFps = 0;  ///< of the last second, see PictureRate
     Histogram latencyMs;   ///< from the frame's arrival to its picture shown
     std::vector<std::pair<std::string, Histogram>> stageMs;
     std::array<std::uint64_t, kTileClasses> tiles{};
@@ -76,14 +78,18 @@ struct Counted {
     std::optional<double> referenceAgeS;        ///< of the picture it showed, at the last frame
     FrameStats last;
     std::vector<StageTime> lastStages;
-    std::optional<double> stillAgeS;           ///< at the last frame
-    std::optional<std::string> fault;          ///< of a device, as the picture says it
-    std::string display;                       ///< what is shown where
-    std::uint64_t faults = 0;                  ///< times that there was none before
-    ValidationCounts validation{};             ///< zero where it is not asked for
-    std::optional<ProcessUse> atFirstPicture;  ///< when the display had it
-    std::optional<LearningCounts> learning{};  ///< where filters are learned
-    std::filesystem::path recording;           ///< the folder; empty: nothing is recorded
+    std::optional<double> stillAgeS;         ///< at the last frame
+    std::optional<std::string> fault;        ///< of a device, as the picture says it
+    std::string display;                     ///< what is shown where
+    std::uint64_t faults = 0;                ///< times that there was none before
+    std::optional<Timestamp> lastPicture{};  ///< when it was shown
+    std::optional<Timestamp>
+        lastBanner{};  ///< when a picture that says a fault was, without frames
+    std::optional<std::string> displayFault{};  ///< see Display::fault()
+    ValidationCounts validation{};              ///< zero where it is not asked for
+    std::optional<ProcessUse> atFirstPicture;   ///< when the display had it
+    std::optional<LearningCounts> learning{};   ///< where filters are learned
+    std::filesystem::path recording;            ///< the folder; empty: nothing is recorded
 };
 
 /// One finished picture.
@@ -96,9 +102,26 @@ struct FinishedPicture {
     double ms = 0;  ///< from the frame's begin to `shown`, with the work for a new still
 };
 
+/// How fast pictures come, from the times of the last ones. It does not depend on who asks when.
+class PictureRate {
+public:
+    void add(Timestamp shown);
+    /// Of the pictures of the last second before the newest, at least of the last two. Where the
+    /// next one is overdue, one picture in the time since: a rate that falls as long as none comes.
+    [[nodiscard]] double at(Timestamp now) const;
+
+private:
+    static constexpr std::size_t kMost = 128;  // more than a screen shows in a second
+    std::array<Timestamp, kMost> times_{};     // a ring
+    std::size_t count_ = 0;                    // of all
+};
+
 /// Collects what the threads report. Thread-safe.
 class Stats {
 public:
+    /// Of the threads that report.
+    [[nodiscard]] Heartbeats& heartbeats() { return heartbeats_; }
+
     void picture(const FinishedPicture& picture);
     void firstPicture(const ProcessUse& use);
     /// What is missing, as the picture says it; nothing when all is well.
@@ -108,8 +131,10 @@ public:
     [[nodiscard]] std::vector<std::string> takeWarnings();
     /// What is shown where, as Display::name() says it now.
     void display(const std::string& name);
+    /// See Display::fault(), leftOut().
+    void displayed(const std::optional<std::string>& fault, std::uint64_t leftOut);
     /// A picture was shown that says what is missing, while no frames come.
-    void pictureOfFault();
+    void bannerShown(Timestamp shown);
     /// Totals so far.
     void validation(const ValidationCounts& counts);
     /// Nothing where no filters are learned.
@@ -132,14 +157,10 @@ public:
     /// What is recorded into; empty: nothing is.
     void recording(const std::filesystem::path& folder);
 
-    [[nodiscard]] Counted count();
-    /// The same without being a previous call: recentFps is that of the last count().
-    [[nodiscard]] Counted look();
-    /// Grows as long as pictures are shown.
-    [[nodiscard]] std::uint64_t progress();
+    [[nodiscard]] Counted count(Timestamp now = Timestamp::now());
 
 private:
-    void total();
+    void total(Timestamp now);
     /// How old what the cameras sent is.
     void age(Timestamp now);
     /// What virtual objects needed of a picture. Under the mutex, too.
@@ -153,10 +174,9 @@ private:
     std::uint64_t epipolarErrorFrames_ = 0;
     std::optional<Timestamp> firstShown_;
     Timestamp lastShown_;
-    std::uint64_t faultPictures_ = 0;
+    PictureRate rate_;
     std::vector<std::string> warnings_;
-    std::uint64_t framesBefore_ = 0;  ///< at the previous count()
-    Timestamp shownBefore_;
+    Heartbeats heartbeats_;
 };
 
 }  // namespace mfar

@@ -205,16 +205,18 @@ nlohmann::ordered_json validationSummary(const ValidationCounts& counts) {
 }  // namespace
 
 // The most important first: what does not fit on the terminal is cut off.
-std::string statusLine(const Counted& counted, const RunDescription& run, double elapsedS) {
+std::string statusLine(const Counted& counted, const RunDescription& run, double elapsedS,
+                       const Health& health) {
     std::string line;
     const auto out = std::back_inserter(line);
     if (const std::optional<double> done = progress(counted, run, elapsedS)) line = bar(*done);
-    if (counted.fault) line += *counted.fault + " | ";
+    if (health.state != HealthState::Ok) line += sentence(health) + " | ";
     if (counted.frames == 0) return line + "waiting for the first picture";
     fmt::format_to(out, "{:.1f} fps", counted.recentFps);
     const Drops& drops = counted.drops;
     fmt::format_to(out, ", {} dropped", drops.mailbox + drops.sensor);
     if (drops.recorder > 0) fmt::format_to(out, ", {} not recorded", drops.recorder);
+    if (drops.display > 0) fmt::format_to(out, ", {} not written", drops.display);
     line += quality(counted.quality);
     if (counted.last.usedStill) {
         fmt::format_to(out, ", confidence {:.2f}, still {:.1f} s", counted.last.meanConfidence,
@@ -286,7 +288,8 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
         {"drops",
          {{"sensor", counted.drops.sensor},
           {"mailbox", counted.drops.mailbox},
-          {"recorder", counted.drops.recorder}}},
+          {"recorder", counted.drops.recorder},
+          {"display", counted.drops.display}}},
         {"faults", counted.faults},
         {"validation", validationSummary(counted.validation)},
     };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/health.h"
 #include "daemon/stats.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -20,11 +21,13 @@ struct RunDescription {
     std::optional<double> plannedSeconds;        ///< --seconds
     std::string poses;                           ///< where they come from
     std::string engine{};                        ///< see describe() in engine_config.h
+    double videoRateHz = 0;                      ///< at which pictures are to come; 0: unknown
 };
 
-/// One line for the terminal: with a bar where the end is known. `elapsedS` since the first frame.
+/// One line for the terminal: with a bar where the end is known, and the health where it is not
+/// well. `elapsedS` since the first frame.
 [[nodiscard]] std::string statusLine(const Counted& counted, const RunDescription& run,
-                                     double elapsedS);
+                                     double elapsedS, const Health& health = {});
 
 /// "first picture 430 ms after the start, 90 MB resident"
 [[nodiscard]] std::string firstPictureLine(const ProcessUse& use);

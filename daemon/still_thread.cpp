@@ -1,5 +1,8 @@
 #include "daemon/still_thread.h"
 
+#include "base/heartbeats.h"
+#include "daemon/budgets.h"
+
 #include <utility>
 
 namespace mfar {
@@ -48,7 +51,10 @@ void StillThread::check() const {
 
 void StillThread::run() {
     try {
+        // The picture goes on without new stills.
+        Heartbeat heart(stats_.heartbeats(), "still capture", budget::kCapture, ThreadRole::Helper);
         while (!stopped_ && !reader_.ended()) {
+            heart.beat();
             std::optional<CapturedStill> still = nextStill(reader_, rig_, stats_, kFrameWait);
             if (!still) continue;
             still->measured = poses_.measure(still->frame);

@@ -43,6 +43,11 @@ public:
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const { return std::nullopt; }
     /// Of the screen that pictures go to, looked for if need be; nothing where there is none now.
     [[nodiscard]] virtual std::optional<Size> screenSize() { return std::nullopt; }
+    /// Why not every picture is seen or written at present, for people; nothing when all is well.
+    /// To be asked on the thread of show().
+    [[nodiscard]] virtual std::optional<std::string> fault() const { return std::nullopt; }
+    /// Pictures that came too fast and were left out, so far.
+    [[nodiscard]] virtual std::uint64_t leftOut() const { return 0; }
     [[nodiscard]] virtual std::string name() const = 0;
 };
 

@@ -38,6 +38,14 @@ void BackgroundWriter::drain() {
     if (error_) throw std::runtime_error(*error_);
 }
 
+bool BackgroundWriter::drainWithin(std::chrono::milliseconds limit) {
+    std::unique_lock lock(mutex_);
+    const bool done =
+        idle_.wait_for(lock, limit, [this] { return jobs_.empty() && running_ == 0; });
+    if (error_) throw std::runtime_error(*error_);
+    return done;
+}
+
 std::optional<std::string> BackgroundWriter::error() const {
     const std::lock_guard lock(mutex_);
     return error_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <functional>
@@ -27,6 +28,8 @@ public:
     void post(std::function<void()> job);
     /// Waits until every posted job is done. Throws std::runtime_error with the first failure.
     void drain();
+    /// The same for at most `limit`; false when that was too short.
+    [[nodiscard]] bool drainWithin(std::chrono::milliseconds limit);
     /// The first failure, without waiting. Thread-safe.
     [[nodiscard]] std::optional<std::string> error() const;
 

@@ -9,7 +9,14 @@
 
 #include <unistd.h>
 
+#include <atomic>
+#include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,19 +43,37 @@ public:
 /// Copies pictures into a few buffers and hands them to a writer.
 class FileDisplay : public Display {
 public:
-    explicit FileDisplay(int threads) : writer_(threads) {}
+    FileDisplay(int threads, std::stop_token cancel, FileDisplayPolicy policy)
+        : policy_(std::move(policy)),
+          onCancel_(std::move(cancel), [this] { cancel_.request_stop(); }), writer_(threads) {}
 
     void show(const Picture& picture, Timestamp time) final {
         if (!pool_ || pool_->size() != picture.size()) {
             checkSize(picture.size());
             pool_.emplace(picture.size(), PixelFormat::Rgba8, kBuffers);
         }
-        const FramePool::Slot slot = waitForBuffer();
-        const auto loan = std::make_shared<Frame>(pool_->lend(slot, time));
-        copyPicture(picture, slot.data, slot.stride);
-        writer_.post([this, loan] { write(*loan); });
+        const std::optional<FramePool::Slot> slot = policy_.isLive ? freeBuffer() : waitForBuffer();
+        if (!slot) return;
+        auto loan = std::make_shared<Frame>(pool_->lend(*slot, time));
+        copyPicture(picture, slot->data, slot->stride);
+        {
+            const std::lock_guard lock(mutex_);
+            waiting_.push_back(std::move(loan));
+        }
+        writer_.post([this] { writeOldest(); });
     }
-    void finish() final { writer_.drain(); }
+    void finish() final {
+        const Waits waits(*this);
+        if (!policy_.isLive) return writer_.drain();
+        if (drainWhileWriting()) return;
+        cancel_.request_stop();
+        throw std::runtime_error(takesNothing());
+    }
+    [[nodiscard]] std::uint64_t leftOut() const final { return leftOut_; }
+    [[nodiscard]] std::optional<std::string> fault() const final {
+        if (!writesFor(policy_.stalled)) return std::nullopt;
+        return takesNothing();
+    }
 
 protected:
     /// Called on the thread of show() before the first picture of a size. Throws when it cannot be
@@ -56,9 +81,15 @@ protected:
     virtual void checkSize(Size size) = 0;
     /// Called on a writer thread.
     virtual void write(const Frame& picture) = 0;
+    /// What is waited for, for people.
+    [[nodiscard]] virtual const char* consumer() const = 0;
+    /// Ends waiting for a reader.
+    [[nodiscard]] std::stop_token cancelled() const { return cancel_.get_token(); }
     /// Destructors of derived classes call this: the writer uses them.
     void finishQuietly() noexcept {
         try {
+            // What the time is too short for is given up, as far as that is possible.
+            if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {
             // finish() reports errors; here nobody is left to hear of one.
@@ -66,21 +97,102 @@ protected:
     }
 
 private:
+    /// Tells that and for what it waits, from its first call of begin() to its end.
+    class Waits {
+    public:
+        explicit Waits(const FileDisplay& of) : of_(of) {
+            if (of_.policy_.waiting) of_.policy_.waiting(of_.consumer());
+        }
+        Waits(const Waits&) = delete;
+        Waits& operator=(const Waits&) = delete;
+        ~Waits() {
+            if (of_.policy_.waiting) of_.policy_.waiting(nullptr);
+        }
+
+    private:
+        const FileDisplay& of_;
+    };
+
+    [[nodiscard]] std::string takesNothing() const {
+        return fmt::format("{}: {} takes nothing", name(), consumer());
+    }
+
+    // One picture has been written for so long.
+    [[nodiscard]] bool writesFor(std::chrono::milliseconds time) const {
+        const std::lock_guard lock(mutex_);
+        return !writing_.empty() && Timestamp::now() - *writing_.begin() > time;
+    }
+
+    // False when what is written does not come to an end.
+    [[nodiscard]] bool drainWhileWriting() {
+        while (!writer_.drainWithin(kErrorPoll))
+            if (writesFor(policy_.finish)) return false;
+        return true;
+    }
+
+    void throwError() const {
+        if (const std::optional<std::string> error = writer_.error())
+            throw std::runtime_error(*error);
+    }
+
     FramePool::Slot waitForBuffer() {
+        throwError();
+        if (const auto slot = pool_->acquire(std::chrono::milliseconds(0))) return *slot;
+        const Waits waits(*this);
         for (;;) {
-            if (const std::optional<std::string> error = writer_.error())
-                throw std::runtime_error(*error);
+            throwError();
             if (const auto slot = pool_->acquire(kErrorPoll)) return *slot;
         }
     }
 
+    // Nothing where all buffers are being written: the picture is left out.
+    std::optional<FramePool::Slot> freeBuffer() {
+        throwError();
+        if (const auto slot = pool_->acquire(std::chrono::milliseconds(0))) return slot;
+        ++leftOut_;
+        std::shared_ptr<Frame> oldest;
+        {
+            const std::lock_guard lock(mutex_);
+            if (waiting_.empty()) return std::nullopt;
+            oldest = std::move(waiting_.front());
+            waiting_.pop_front();
+        }
+        oldest.reset();
+        return pool_->acquire(std::chrono::milliseconds(0));
+    }
+
+    void writeOldest() {
+        const Timestamp begun = Timestamp::now();
+        std::shared_ptr<Frame> picture;
+        {
+            const std::lock_guard lock(mutex_);
+            if (waiting_.empty()) return;  // it was left out
+            picture = std::move(waiting_.front());
+            waiting_.pop_front();
+            writing_.insert(begun);
+        }
+        const std::shared_ptr<void> atEnd(nullptr, [&](void*) {
+            const std::lock_guard lock(mutex_);
+            writing_.erase(writing_.find(begun));
+        });
+        write(*picture);
+    }
+
+    const FileDisplayPolicy policy_;
+    std::stop_source cancel_;
     std::optional<FramePool> pool_;
-    BackgroundWriter writer_;
+    std::atomic<std::uint64_t> leftOut_{0};
+    mutable std::mutex mutex_;
+    std::deque<std::shared_ptr<Frame>> waiting_;  ///< for the writer
+    std::multiset<Timestamp> writing_;            ///< since when pictures are
+    std::stop_callback<std::function<void()>> onCancel_;
+    BackgroundWriter writer_;  // last: its threads use all of the above
 };
 
 class PngDisplay final : public FileDisplay {
 public:
-    explicit PngDisplay(fs::path folder) : FileDisplay(2), folder_(std::move(folder)) {
+    PngDisplay(fs::path folder, std::stop_token cancel, const FileDisplayPolicy& policy)
+        : FileDisplay(2, std::move(cancel), policy), folder_(std::move(folder)) {
         if (folder_.empty()) throw std::runtime_error("png: needs a folder, png:DIR");
         std::error_code error;
         fs::create_directories(folder_, error);
@@ -94,6 +206,7 @@ public:
 
 protected:
     void checkSize(Size) override {}
+    [[nodiscard]] const char* consumer() const override { return "the disk"; }
     void write(const Frame& picture) override {
         savePng(folder_ / fmt::format("{}.png", picture.time().ns), picture.view());
     }
@@ -104,12 +217,16 @@ private:
 
 class Y4mDisplay final : public FileDisplay {
 public:
-    Y4mDisplay(std::string_view target, double rateHz, std::stop_token cancel)
-        : FileDisplay(1), sink_(target, std::move(cancel)), rateHz_(rateHz) {}
+    Y4mDisplay(std::string_view target, double rateHz, std::stop_token cancel,
+               const FileDisplayPolicy& policy)
+        : FileDisplay(1, std::move(cancel), policy), sink_(target, cancelled()), rateHz_(rateHz) {}
     ~Y4mDisplay() override { finishQuietly(); }
     [[nodiscard]] std::string name() const override { return "y4m:" + sink_.name(); }
 
 protected:
+    [[nodiscard]] const char* consumer() const override {
+        return sink_.isPipe() ? "the reader of the pipe" : "the disk";
+    }
     void checkSize(Size size) override {
         if (size_ != Size{} && size != size_)
             throw std::runtime_error(sink_.name() + ": the size of a Y4M video cannot change");
@@ -137,14 +254,15 @@ private:
 }  // namespace
 
 std::unique_ptr<Display> openFileDisplay(std::string_view spec, double rateHz,
-                                         std::stop_token cancel) {
+                                         std::stop_token cancel, const FileDisplayPolicy& policy) {
     if (spec == "none") return std::make_unique<NoDisplay>();
-    if (spec.starts_with("png:")) return std::make_unique<PngDisplay>(spec.substr(4));
+    if (spec.starts_with("png:"))
+        return std::make_unique<PngDisplay>(spec.substr(4), std::move(cancel), policy);
     if (spec.starts_with("y4m:")) {
         if (!(rateHz >= 0.001 && rateHz < 1e6))
             throw std::runtime_error(
                 fmt::format("y4m: a frame rate of {} Hz is impossible", rateHz));
-        return std::make_unique<Y4mDisplay>(spec.substr(4), rateHz, std::move(cancel));
+        return std::make_unique<Y4mDisplay>(spec.substr(4), rateHz, std::move(cancel), policy);
     }
     throw std::runtime_error(
         fmt::format("display '{}' is unknown: png:DIR, y4m:FILE, y4m:- or none", spec));

@@ -34,6 +34,7 @@ public:
     /// std::runtime_error "target: reason".
     void write(std::span<const std::uint8_t> bytes);
     [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] bool isPipe() const { return isPipe_; }
 
 private:
     [[nodiscard]] int open(const char* path) const;

@@ -67,6 +67,66 @@ TEST(Log, StatusLineNeverWraps) {
     EXPECT_EQ(out, "\r\x1b[K" + std::string(79, 'x'));
 }
 
+// A pipe stands for standard error and the test for the clock.
+TEST(Log, EventsThatRepeatAreSaidWithTheirCount) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe(ends.data()), 0);
+    Timestamp now = Timestamp::fromSeconds(100);
+    {
+        Log log(ends[1], Log::Style::Journal, [&] { return now; });
+        const auto pass = [&](double s) {
+            now = Timestamp::fromSeconds(now.seconds() + s);
+            log.sayKept();
+        };
+        for (int i = 0; i < 8; ++i) {
+            log.warning("camera: gone");
+            now = now + std::chrono::milliseconds(1);
+            log.change("all devices are there");
+            log.notice("reloaded");
+        }
+        pass(9);
+        log.warning("hangs for 1 s", "hang");
+        log.warning("hangs for 2 s", "hang");
+        pass(1);
+        log.endStatus();
+    }
+    close(ends[1]);
+    std::string all(4096, ' ');
+    const ssize_t n = read(ends[0], all.data(), all.size());
+    close(ends[0]);
+    ASSERT_GT(n, 0);
+    all.resize(static_cast<std::size_t>(n));
+    std::string expected = "<4>mfard: warning: camera: gone\n<5>mfard: all devices are there\n";
+    for (int i = 0; i < 8; ++i)
+        expected += "<5>mfard: reloaded\n";
+    EXPECT_EQ(all, expected + "<4>mfard: warning: hangs for 1 s\n"
+                              "<4>mfard: warning: camera: gone (7 more times in 10 s)\n"
+                              "<5>mfard: all devices are there (7 more times in 10 s)\n"
+                              "<4>mfard: warning: hangs for 2 s (once more in 1 s)\n");
+}
+
+TEST(Log, MessagesThatNobodyTakesDoNotHangAThread) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
+    const std::string part(4096, 'x');
+    while (write(ends[1], part.data(), part.size()) > 0) {
+    }
+    fcntl(ends[1], F_SETFL, 0);  // blocks from here on
+    Log log(ends[1], Log::Style::Plain);
+    for (int i = 0; i < 20; ++i)
+        log.notice("lost");
+    std::string taken(1 << 20, ' ');
+    while (read(ends[0], taken.data(), taken.size()) > 0) {
+    }
+    log.notice("here again");
+    const ssize_t n = read(ends[0], taken.data(), taken.size());
+    ASSERT_GT(n, 0);
+    EXPECT_EQ(taken.substr(0, static_cast<std::size_t>(n)),
+              "mfard: 20 messages were not taken\nmfard: here again\n");
+    close(ends[0]);
+    close(ends[1]);
+}
+
 TEST(Log, StyleFollowsTheJournalsSocket) {
     const int file = open("/dev/null", O_WRONLY | O_CLOEXEC);
     ASSERT_GE(file, 0);

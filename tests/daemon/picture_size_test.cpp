@@ -7,6 +7,7 @@ namespace mfar {
 namespace {
 
 using Fits = PictureSize::Fits;
+using test::configFaults;
 using testing::HasSubstr;
 
 StereoRig product() {

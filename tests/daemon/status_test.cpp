@@ -14,7 +14,7 @@ using testing::Not;
 
 const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
 
-/// A second of pictures, 50 ms apart, each 20 ms after its frame.
+/// A second of pictures, 50 ms apart, each 20 ms after its frame. The 21st is shown at 11.02 s.
 void showPictures(Stats& stats, int count) {
     for (int i = 0; i < count; ++i) {
         FrameStats frame;
@@ -33,7 +33,7 @@ void showPictures(Stats& stats, int count) {
 TEST(Stats, RatesLatencyAndSharesAreThoseOfThePictures) {
     Stats stats;
     showPictures(stats, 21);
-    const Counted counted = stats.count();
+    const Counted counted = stats.count(Timestamp::fromSeconds(11.05));
     EXPECT_EQ(counted.frames, 21U);
     EXPECT_NEAR(counted.fps, 20, 1e-6);
     EXPECT_NEAR(counted.recentFps, 20, 1e-6);
@@ -49,11 +49,39 @@ TEST(Stats, NothingShownIsAllZero) {
     EXPECT_EQ(counted.meanConfidence, 0);
 }
 
-TEST(Stats, RecentRateFallsToZeroWhenPicturesStop) {
+TEST(Stats, RecentRateFallsWhenPicturesStop) {
     Stats stats;
-    showPictures(stats, 10);
-    EXPECT_GT(stats.count().recentFps, 0);
-    EXPECT_EQ(stats.count().recentFps, 0);
+    showPictures(stats, 21);
+    const auto fpsAt = [&](double s) { return stats.count(Timestamp::fromSeconds(s)).recentFps; };
+    EXPECT_NEAR(fpsAt(11.07), 20, 1e-6) << "the next one is due now";
+    EXPECT_NEAR(fpsAt(11.12), 10, 1e-6);
+    EXPECT_NEAR(fpsAt(21.02), 0.1, 1e-6);
+    EXPECT_LT(fpsAt(1000), 0.01);
+}
+
+// Asked more often than pictures are made, it said 0.
+TEST(Stats, RecentRateOfSlowPicturesIsTrueWheneverItIsAsked) {
+    Stats stats;
+    for (int i = 0; i < 4; ++i) {
+        const Timestamp shown = Timestamp::fromSeconds(10 + 2.5 * i);
+        stats.picture({{}, kStages, shown, shown, {}});
+    }
+    for (const double s : {17.6, 17.7, 18.5, 19.9})
+        EXPECT_NEAR(stats.count(Timestamp::fromSeconds(s)).recentFps, 0.4, 1e-6) << s;
+}
+
+TEST(Stats, RecentRateIsThatOfTheLastSecond) {
+    Stats stats;
+    const auto show = [&](double s) {
+        const Timestamp shown = Timestamp::fromSeconds(s);
+        stats.picture({{}, kStages, shown, shown, {}});
+    };
+    for (int i = 0; i < 300; ++i)
+        show(10 + 0.01 * i);
+    EXPECT_NEAR(stats.count(Timestamp::fromSeconds(13)).recentFps, 100, 1e-3);
+    for (int i = 0; i < 20; ++i)
+        show(13 + 0.1 * i);
+    EXPECT_NEAR(stats.count(Timestamp::fromSeconds(15)).recentFps, 10, 1e-3);
 }
 
 TEST(Status, SummaryHoldsWhatTheRunMeasured) {
@@ -139,7 +167,7 @@ TEST(Status, ACameraThatHasFallenSilentHasNoRate) {
     video.rateHz = 30;
     video.lastFrame = Timestamp::now() - std::chrono::seconds(3);
     stats.camera(CameraRole::Video, video);
-    EXPECT_EQ(stats.look().cameras[0].rateHz, 0);
+    EXPECT_EQ(stats.count().cameras[0].rateHz, 0);
 }
 
 TEST(Status, SaysWhenTheFirstPictureWasThere) {
@@ -272,12 +300,21 @@ TEST(Status, SummaryOfAnEmptyRunHasNoHoles) {
 TEST(Status, LineShowsTheLastFrame) {
     Stats stats;
     showPictures(stats, 21);
-    const std::string line = statusLine(stats.count(), {}, 1);
+    const std::string line = statusLine(stats.count(Timestamp::fromSeconds(11.05)), {}, 1);
     EXPECT_THAT(line,
                 AllOf(HasSubstr("20.0 fps"), HasSubstr("flow 30.0"), HasSubstr("confidence 0.80"),
                       HasSubstr("still 1.5 s"), HasSubstr("unchanged 50%"), HasSubstr("0 dropped"),
                       Not(HasSubstr("hidden"))));
     EXPECT_THAT(line, Not(HasSubstr("["))) << "no bar where the end is unknown";
+}
+
+TEST(Status, LineBeginsWithWhatIsWrong) {
+    Stats stats;
+    showPictures(stats, 2);
+    Health health{HealthState::Stalled, "the capture thread hangs", 5.2, 5.3, "capture"};
+    EXPECT_THAT(statusLine(stats.count(), {}, 1, health),
+                testing::StartsWith("the capture thread hangs (stalled for 5.2 s, last picture 5.3 "
+                                    "s ago) | "));
 }
 
 TEST(Status, LineSaysThatNothingHasComeYet) {

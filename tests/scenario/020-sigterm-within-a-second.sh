@@ -93,3 +93,16 @@ kill -TERM "$pid"
 code=0
 wait "$pid" || code=$?
 [ "$code" = 0 ] || [ "$code" = 143 ] || fail "ended with $code"
+
+echo "while nobody takes its messages"
+mkfifo words
+exec 4<>words
+head -c 65536 /dev/zero >&4 # all that a pipe holds
+"$mfard" --source synthetic:flat,rest --display none >out 2>words 4>&- &
+pid=$!
+pids+=("$pid")
+until_true signals_watched
+sleep 1
+kill -TERM "$pid"
+ends_with 0 3000
+exec 4>&-

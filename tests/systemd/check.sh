@@ -44,4 +44,14 @@ done
 # The configuration error of daemon/exit_code.h must not be tried again.
 grep -q '^RestartPreventExitStatus=.*\<78\>' "$unit" || fault "exit code 78 would restart"
 
+# Debian 12 has systemd 252, which ignores what it does not know.
+grep -Eq '^(RestartSteps|RestartMaxDelaySec|RestartMode)=' "$unit" &&
+    fault "a key that needs systemd 254"
+# The budgets of the threads are made for this limit.
+limit=$(sed -n "s/^constexpr milliseconds kWatchdog{\([0-9]*\)'000};$/\1/p" \
+    "$sources/../daemon/budgets.h")
+grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s of budgets.h"
+# Every code that is started again is one that mfard waits out.
+grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" || fault "isRestarted() knows other codes"
+
 [[ $failures == 0 ]]

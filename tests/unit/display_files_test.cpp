@@ -10,7 +10,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace mfar {
 namespace {
@@ -192,6 +197,114 @@ TEST_F(FileDisplays, CancelEndsTheWaitForAReaderThatTakesNothing) {
     stop.request_stop();
     EXPECT_THROW(display->finish(), std::runtime_error);
     close(reader);
+}
+
+/// A pipe whose reader takes what the test says.
+struct PipeDisplays : FileDisplays {
+    PipeDisplays() {
+        mkfifo(pipe.c_str(), 0600);
+        reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    }
+    ~PipeDisplays() override {
+        if (reader >= 0) close(reader);
+    }
+    /// Takes everything until `count` pictures have come, and says what the first pixel's luma of
+    /// the last one was.
+    int readPictures(std::size_t count) const {
+        const std::size_t header = y4mHeader(kSize, 30).size();
+        const std::size_t picture = 6 + 640 * 480 * 3 / 2;
+        std::string all;
+        std::vector<char> part(1 << 16);
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (all.size() < header + count * picture && std::chrono::steady_clock::now() < end) {
+            const ssize_t n = read(reader, part.data(), part.size());
+            if (n > 0)
+                all.append(part.data(), static_cast<std::size_t>(n));
+            else
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        EXPECT_EQ(all.size(), header + count * picture);
+        return static_cast<std::uint8_t>(all[header + (count - 1) * picture + 6]);
+    }
+    template <class Condition>
+    static bool comesTrue(Condition condition) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (!condition() && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        return condition();
+    }
+
+    static constexpr Size kSize{640, 480};  // more than a pipe holds
+    fs::path pipe = folder_ / "pipe";
+    int reader = -1;
+};
+
+TEST_F(PipeDisplays, LivePicturesDoNotWaitForAReaderThatTakesNothing) {
+    const FileDisplayPolicy live{.isLive = true, .stalled = std::chrono::milliseconds(20)};
+    const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
+    show(*display, plain(kSize, 0), {0});
+    EXPECT_TRUE(comesTrue([&] { return display->fault().has_value(); }));
+    EXPECT_EQ(display->fault(), "y4m:" + pipe.string() + ": the reader of the pipe takes nothing");
+    for (int i = 1; i <= 50; ++i)
+        show(*display, plain(kSize, static_cast<std::uint8_t>(5 * i)), {i});
+    // One is in work, and of the others as many wait as there are buffers.
+    EXPECT_EQ(display->leftOut(), 47U);
+    const int last = readPictures(4);
+    EXPECT_NEAR(last, 16 + 219 * 250 / 255, 1) << "the newest picture is written";
+    display->finish();
+    EXPECT_EQ(display->fault(), std::nullopt);
+}
+
+TEST_F(PipeDisplays, LivePicturesAreGivenUpAtTheEnd) {
+    const FileDisplayPolicy live{.isLive = true, .finish = std::chrono::milliseconds(100)};
+    const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
+    show(*display, plain(kSize, 1), {1});
+    try {
+        display->finish();
+        FAIL() << "nobody has read it";
+    } catch (const std::runtime_error& e) {
+        EXPECT_EQ(e.what(), "y4m:" + pipe.string() + ": the reader of the pipe takes nothing");
+    }
+}
+
+TEST_F(PipeDisplays, WaitForAReaderIsSaid) {
+    std::atomic<const char*> said{""};
+    const FileDisplayPolicy lossless{.waiting = [&](const char* what) { said = what; }};
+    const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, lossless);
+    std::thread reads([&] {
+        EXPECT_TRUE(comesTrue([&] {
+            return said.load() != nullptr && std::string(said.load()) == "the reader of the pipe";
+        }));
+        (void)readPictures(6);
+    });
+    for (int i = 0; i < 6; ++i)
+        show(*display, plain(kSize, 1), {i});
+    display->finish();
+    reads.join();
+    EXPECT_EQ(said.load(), nullptr);
+    EXPECT_EQ(display->leftOut(), 0U) << "every picture is written";
+}
+
+TEST_F(PipeDisplays, ReaderThatGoesAwayEndsALiveDisplay) {
+    const FileDisplayPolicy live{.isLive = true};
+    const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
+    close(std::exchange(reader, -1));
+    EXPECT_TRUE(comesTrue([&] {
+        try {
+            show(*display, plain(kSize, 1), {1});
+            return false;
+        } catch (const std::runtime_error& e) {
+            return e.what() == pipe.string() + ": the reading program has closed the pipe";
+        }
+    }));
+}
+
+TEST_F(FileDisplays, FullDiskEndsALiveDisplay) {
+    const FileDisplayPolicy live{.isLive = true};
+    const auto display = openFileDisplay("y4m:/dev/full", 30, {}, live);
+    show(*display, plain({64, 48}, 1), {1});
+    EXPECT_THROW(display->finish(), std::runtime_error);
+    EXPECT_THROW(show(*display, plain({64, 48}, 1), {2}), std::runtime_error);
 }
 
 TEST_F(FileDisplays, NoneTakesEverythingAndLeavesNothing) {

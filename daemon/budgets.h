@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+
+namespace mfar {
+
+/// How long threads may be silent, see Heartbeat. A thread on the way of the pictures that is
+/// silent for longer hangs, and the watchdog is no longer fed.
+namespace budget {
+
+using std::chrono::milliseconds;
+
+/// One picture of a camera, with its tags sought: 50 ms of waiting, 20 ms of work on a PC.
+constexpr milliseconds kCapture{1500};
+/// One picture, with a new still and the display.
+constexpr milliseconds kPicture{2000};
+/// One request, without the time that others need for the answer or a client to take it.
+constexpr milliseconds kControl{500};
+/// One event of the main thread.
+constexpr milliseconds kMain{500};
+
+/// systemd/mfard.service.in. Devices that are slow, but within these, must not add up to a process
+/// that is ended: threads may wait for each other.
+constexpr milliseconds kWatchdog{10'000};
+static_assert(kCapture + kPicture + kControl + kMain < kWatchdog / 2);
+
+// Threads that the picture can do without.
+/// Reads the configuration and models from files.
+constexpr milliseconds kReload{60'000};
+/// Waits for other threads and for the client, each of which is limited by itself.
+constexpr milliseconds kAnswer{20'000};
+/// Writes one picture to a file.
+constexpr milliseconds kWriter{2000};
+
+}  // namespace budget
+
+/// A picture that has been shown for longer is stale.
+constexpr std::chrono::milliseconds kStalePicture{3000};
+/// Shaders are compiled for the first pictures, which may take all limits many times on a small
+/// board.
+constexpr int kFirstPatience = 6;
+
+}  // namespace mfar

@@ -1,0 +1,112 @@
+#include "daemon/health.h"
+
+#include "daemon/budgets.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+/// A wait that is shorter is none that people want to know of.
+constexpr std::chrono::seconds kWorthTelling{1};
+constexpr double kStalePeriods = 5;
+
+/// A state with its cause, and since when it has been so where that is known better than by
+/// looking.
+struct Judged {
+    HealthState state = HealthState::Ok;
+    std::string cause{};
+    std::optional<Timestamp> since{};
+    std::string thread{};
+    bool isDevice = false;
+};
+
+double inSeconds(std::chrono::nanoseconds d) {
+    return std::chrono::duration<double>(d).count();
+}
+
+std::optional<Judged> hanging(const Observed& seen, ThreadRole role, HealthState state) {
+    for (const Heartbeats::Late& late : seen.late)
+        if (late.role == role)
+            return Judged{state, fmt::format("the {} thread hangs", late.thread),
+                          seen.now - late.since, late.thread};
+    return std::nullopt;
+}
+
+// A slow camera is no fault.
+bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
+    if (!shown) return false;
+    const double period = seen.rateHz > 0 ? 1 / seen.rateHz : 0;
+    const double limit = std::max(inSeconds(kStalePicture), kStalePeriods * period);
+    return inSeconds(seen.now - *shown) <= seen.patience * limit;
+}
+
+// Pictures that do not come, while no thread hangs and no device is at fault.
+std::optional<Judged> standingStill(const Observed& seen) {
+    if (isFresh(seen.lastPicture, seen) || (seen.fault && isFresh(seen.lastBanner, seen)))
+        return std::nullopt;
+    const std::optional<Timestamp> begin = std::max(seen.lastPicture, seen.started);
+    if (!begin || isFresh(begin, seen)) return std::nullopt;
+    std::string cause = "no new picture";
+    if (seen.waiting && seen.waiting->role == ThreadRole::Vital)
+        cause = fmt::format("waiting for {}", seen.waiting->what);
+    return Judged{HealthState::Stalled, std::move(cause), *begin};
+}
+
+Judged judged(const Observed& seen) {
+    if (auto found = hanging(seen, ThreadRole::Vital, HealthState::Stalled)) return *found;
+    if (auto found = standingStill(seen)) return *found;
+    if (seen.fault) return {HealthState::Degraded, *seen.fault, std::nullopt, "", true};
+    if (auto found = hanging(seen, ThreadRole::Helper, HealthState::Degraded)) return *found;
+    if (seen.waiting && seen.waiting->since > kWorthTelling)
+        return {HealthState::Degraded, fmt::format("waiting for {}", seen.waiting->what),
+                seen.now - seen.waiting->since};
+    if (seen.display) return {HealthState::Degraded, *seen.display};
+    return {};
+}
+
+}  // namespace
+
+std::string_view name(HealthState state) {
+    if (state == HealthState::Stalled) return "stalled";
+    return state == HealthState::Degraded ? "degraded" : "ok";
+}
+
+std::string sentence(const Health& health) {
+    if (health.state == HealthState::Ok) return "ok";
+    std::string out =
+        fmt::format("{} ({} for {:.1f} s", health.cause, name(health.state), health.sinceS);
+    if (health.pictureAgeS) out += fmt::format(", last picture {:.1f} s ago", *health.pictureAgeS);
+    return out + ")";
+}
+
+nlohmann::ordered_json healthJson(const Health& health) {
+    nlohmann::ordered_json out = {{"state", name(health.state)},
+                                  {"cause", nullptr},
+                                  {"since_s", health.sinceS},
+                                  {"picture_age_s", nullptr},
+                                  {"thread", nullptr}};
+    if (!health.cause.empty()) out["cause"] = health.cause;
+    if (health.pictureAgeS) out["picture_age_s"] = *health.pictureAgeS;
+    if (!health.thread.empty()) out["thread"] = health.thread;
+    return out;
+}
+
+Health HealthRecord::judge(const Observed& seen) {
+    Judged now = judged(seen);
+    const bool isNew = now.state != last_.state || now.cause != last_.cause;
+    if (now.since)
+        since_ = *now.since;
+    else if (isNew || since_ == Timestamp{})
+        since_ = seen.now;
+    last_ = {now.state,    std::move(now.cause),  inSeconds(seen.now - since_),
+             std::nullopt, std::move(now.thread), now.isDevice};
+    if (seen.lastPicture) last_.pictureAgeS = inSeconds(seen.now - *seen.lastPicture);
+    return last_;
+}
+
+}  // namespace mfar

@@ -1,0 +1,71 @@
+#include "daemon/repeat_limit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+std::string times(std::uint64_t count, std::chrono::nanoseconds span) {
+    const double s = std::chrono::duration<double>(span).count();
+    return count == 1 ? fmt::format(" (once more in {:.0f} s)", s)
+                      : fmt::format(" ({} more times in {:.0f} s)", count, s);
+}
+
+}  // namespace
+
+bool RepeatLimit::mayPass(std::string_view event, const Message& message, Timestamp now) {
+    auto found = events_.find(event);
+    if (found == events_.end() && events_.size() >= kMostEvents) found = events_.find("");
+    if (found == events_.end()) {
+        const bool isFull = events_.size() + 1 >= kMostEvents;
+        events_.emplace(isFull ? std::string() : std::string(event), Entry{now});
+        return true;
+    }
+    Entry& entry = found->second;
+    if (entry.kept == 0 && now - entry.said >= kInterval) {
+        entry.said = now;
+        return true;
+    }
+    ++entry.kept;
+    entry.last = now;
+    entry.newest = message;
+    return false;
+}
+
+std::vector<RepeatLimit::Message> RepeatLimit::due(Timestamp now) {
+    return take(now, false);
+}
+
+std::vector<RepeatLimit::Message> RepeatLimit::rest(Timestamp now) {
+    return take(now, true);
+}
+
+std::vector<RepeatLimit::Message> RepeatLimit::take(Timestamp now, bool all) {
+    std::vector<std::pair<Timestamp, Message>> found;
+    for (auto one = events_.begin(); one != events_.end();) {
+        Entry& entry = one->second;
+        const bool isOver = all || now - entry.said >= kInterval;
+        if (isOver && entry.kept == 0) {
+            one = events_.erase(one);
+            continue;
+        }
+        if (isOver) {
+            entry.newest.text += times(entry.kept, now - entry.said);
+            found.emplace_back(entry.last, std::move(entry.newest));
+            entry = Entry{now};
+        }
+        ++one;
+    }
+    std::ranges::stable_sort(found, {}, [](const auto& one) { return one.first; });
+    std::vector<Message> out;
+    out.reserve(found.size());
+    for (auto& [last, message] : found)
+        out.push_back(std::move(message));
+    return out;
+}
+
+}  // namespace mfar

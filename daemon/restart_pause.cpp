@@ -1,0 +1,93 @@
+#include "daemon/restart_pause.h"
+
+#include "daemon/log.h"
+#include "daemon/service.h"
+
+#include <fmt/format.h>
+
+#include <signal.h>
+#include <system_error>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <string_view>
+
+namespace mfar {
+namespace {
+
+constexpr std::chrono::seconds kLongestWait{30};
+constexpr std::chrono::seconds kWaitWithoutCount{5};
+constexpr std::chrono::seconds kRan{60};
+// From the end of one process to the start of the next: RestartSec= and what a busy system takes.
+constexpr std::chrono::seconds kInARow{60};
+constexpr int kMostCounted = 1000;
+
+std::string_view hint(ExitCode code) {
+    if (code == ExitCode::Unavailable)
+        return "a device or OpenGL ES is not there; if it stays away, choose others in the "
+               "configuration (engine.use = \"simd\" needs no OpenGL ES, cameras may be absent)";
+    if (code == ExitCode::OutputFailed)
+        return "look at `display` and [record] in the configuration, at free space and at the "
+               "program that reads the pipe";
+    return "this is a fault of mfard itself: the lines above belong into a report";
+}
+
+}  // namespace
+
+std::filesystem::path RestartPause::defaultFile() {
+    const char* folder = std::getenv("STATE_DIRECTORY");
+    return folder != nullptr && *folder == '/' ? std::filesystem::path(folder) / "restarts"
+                                               : std::filesystem::path();
+}
+
+// The file has the count and when the last process ended, on the clock that begins with the system.
+int RestartPause::failuresBefore(Timestamp started) const {
+    std::ifstream in(file_);
+    int count = 0;
+    Timestamp ended;
+    if (!(in >> count >> ended.ns) || count < 0 || count > kMostCounted) return 0;
+    const bool isRecent = ended <= started && started - ended <= kInARow;
+    return isRecent ? count : 0;
+}
+
+RestartPause::Next RestartPause::failed(Timestamp started, Timestamp now) const {
+    Next next;
+    if (now - started < kRan) next.inARow = failuresBefore(started) + 1;
+    const int doublings = std::min(next.inARow - 1, 5);
+    next.wait = std::min(std::chrono::seconds((1 << doublings) - 1), kLongestWait);
+    std::ofstream out(file_);
+    out << std::min(next.inARow, kMostCounted) << ' ' << (now + next.wait).ns << '\n';
+    out.flush();
+    if (!out) next = {1, kWaitWithoutCount};
+    return next;
+}
+
+bool isRestarted(ExitCode code) {
+    return code == ExitCode::Unavailable || code == ExitCode::Internal ||
+           code == ExitCode::OutputFailed;
+}
+
+void pauseBeforeRestart(ExitCode code, const std::string& error, Timestamp started, Log& log) {
+    const Service service;
+    if (!service.listening() || !isRestarted(code)) return;
+    const RestartPause::Next next =
+        RestartPause(RestartPause::defaultFile()).failed(started, Timestamp::now());
+    log.notice(fmt::format("{}\nfailed {} in a row, ends in {} s to be started again", hint(code),
+                           next.inARow == 1 ? "once" : fmt::format("{} times", next.inARow),
+                           next.wait.count()));
+    service.status(fmt::format("{}; to be started again in {} s", error, next.wait.count()));
+    sigset_t ends;
+    sigemptyset(&ends);
+    sigaddset(&ends, SIGTERM);
+    sigaddset(&ends, SIGINT);
+    const timespec second{1, 0};
+    for (std::chrono::seconds left = next.wait; left.count() > 0; left -= std::chrono::seconds(1)) {
+        // What it waits for has ended well before: there is nothing to be watched.
+        service.alive();
+        if (sigtimedwait(&ends, nullptr, &second) > 0) return;
+    }
+}
+
+}  // namespace mfar

@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# A program that reads the display's pipe and stops: a live source goes on, and status says who takes
+# nothing; a recording waits for it, and says that. When the reader goes away, mfard ends.
+. "$(dirname "$0")/lib.sh"
+
+ctl="$(dirname "$sim")/mfarctl"
+status() { timeout 10 "$ctl" --socket control status; }
+status_says() { status | grep -Eq -- "$1"; }
+frames() { status | sed -n 's/^frames  *//p'; }
+mkfifo pipe
+record run 3 --source synthetic:flat,rest
+
+echo "live"
+printf '[superres]\nmode = "off"\n[trigger]\nmode = "off"\n' >mfard.toml
+exec 3<>pipe
+start --config mfard.toml --source synthetic:flat,rest --display y4m:pipe --control control \
+    --summary summary.json 3>&-
+until_true started
+until_true status_says '"state":"degraded","cause":"y4m:pipe: the reader of the pipe takes nothing"'
+shown=$(frames)
+more() { [ "$(frames)" -gt $((shown + 20)) ]; }
+until_true more
+until_true status_says '^line .*the reader of the pipe takes nothing.* [0-9]+ not written'
+says err 'warning: y4m:pipe: the reader of the pipe takes nothing \(degraded'
+
+echo "it reads again"
+cat <pipe >/dev/null 3>&- &
+reader=$!
+pids+=("$reader")
+until_true status_says '"state":"ok"'
+
+echo "and goes away"
+exec 3>&-
+kill -KILL "$reader"
+ends_with 74 10000
+says err 'pipe: the reading program has closed the pipe'
+says summary.json '"display": [1-9]'
+
+echo "a recording waits"
+exec 3<>pipe
+start --recording run --display y4m:pipe --control control 3>&-
+until_true status_says 'waiting for the reader of the pipe'
+kill -TERM "$pid"
+ends_with 0 1500

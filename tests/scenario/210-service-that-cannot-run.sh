@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# What a service needs is missing, and the service manager starts it again at once: mfard says what to
+# do and waits longer each time before it ends. From a command line it ends at once.
+# Usage: 210-service-that-cannot-run.sh MFARD MFAR-SIM NOTIFY-LISTENER
+. "$(dirname "$0")/lib.sh"
+
+listener=$3
+missing=(--source synthetic:flat --control nowhere/control --frames 1)
+
+run 69 "${missing[@]}"
+grep -q 'started again' err && fail "nobody starts it again"
+
+"$listener" notify heard &
+pids+=($!)
+until_true test -S notify
+export NOTIFY_SOCKET=$PWD/notify STATE_DIRECTORY=$PWD/state
+mkdir state
+run 69 "${missing[@]}"
+says err 'nowhere/control: No such file or directory'
+says err 'mfard: a device or OpenGL ES is not there; if it stays away, .*engine.use'
+says err 'failed once in a row, ends in 0 s to be started again'
+run 69 "${missing[@]}"
+says err 'failed 2 times in a row, ends in 1 s to be started again'
+run 69 "${missing[@]}"
+says err 'failed 3 times in a row, ends in 3 s to be started again'
+says heard '^STATUS=.*nowhere/control: No such file or directory; to be started again in 3 s'
+
+echo "SIGTERM does not wait"
+start "${missing[@]}"
+waits() { grep -q 'failed 4 times in a row, ends in 7 s' err; }
+until_true waits
+kill -TERM "$pid"
+ends_with 69 1500
+
+echo "a wrong configuration is not started again"
+run 64 --no-such-option
+grep -q 'started again' err && fail "it would help nobody"
+echo "nonsense = 1" >bad.toml
+run 78 --config bad.toml
+grep -q 'started again' err && fail "it would help nobody"
+true

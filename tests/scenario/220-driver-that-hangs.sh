@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# A driver that never returns: the watchdog is no longer fed, and status, log and service manager say
+# which thread hangs. A camera that is away, which somebody tries to open, is fed for. The cameras
+# are a library under mfard, the service manager is a program that writes down what it hears.
+# Usage: 220-driver-that-hangs.sh MFARD MFAR-SIM PRETENDED.so NOTIFY-LISTENER
+. "$(dirname "$0")/lib.sh"
+
+pretended=$3
+listener=$4
+ctl="$(dirname "$sim")/mfarctl"
+
+"$listener" notify heard &
+pids+=($!)
+until_true test -S notify
+export NOTIFY_SOCKET=$PWD/notify WATCHDOG_USEC=10000000 MFAR_PRETENDED_V4L2=$work/cameras
+heard() { grep -Eq -- "$1" heard; }
+meals() { grep -c '^WATCHDOG=1$' heard || true; }
+fed() { [ "$(meals)" -gt $((before + $1)) ]; }
+status() { timeout 10 "$ctl" --socket control status; }
+status_says() { status | grep -Eq -- "$1"; }
+# Fed three times from now.
+is_fed() {
+    before=$(meals)
+    until_true fed 2
+}
+# Not fed for four seconds, though a tick comes every second.
+is_hungry() {
+    before=$(meals)
+    sleep 4
+    fed 0 && fail "the watchdog is fed while $1"
+    true
+}
+
+mkdir cameras
+touch cameras/video90 cameras/video91
+cat >mfard.toml <<'END'
+source = "cameras"
+[superres]
+mode = "off"
+[pose]
+source = "none"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/video90"
+width = 64
+height = 48
+[cameras.still]
+driver = "v4l2"
+camera = "/dev/video91"
+width = 128
+height = 96
+rate_hz = 5.0
+END
+start_hangable() {
+    LD_PRELOAD=$pretended start --config mfard.toml --display none --control control
+    until_true started
+    until_true status_says '"state":"ok"'
+    frames() { [ "$(status | sed -n 's/^frames  *//p')" -gt 12 ]; }
+    until_true frames
+}
+
+echo "the video driver hangs"
+start_hangable
+is_fed
+echo hang >cameras/video90
+until_true status_says 'health.*"state":"stalled","cause":"the .*capture thread hangs"'
+status_says '"thread":".*capture"' || fail "the thread is not named"
+until_true heard '^STATUS=the .*capture thread hangs \(stalled for [0-9.]+ s, last picture [0-9.]+ s ago\)'
+says err 'warning: the .*capture thread hangs \(stalled for'
+is_hungry "the driver hangs"
+
+echo "it returns after all"
+: >cameras/video90
+until_true status_says '"state":"ok"'
+is_fed
+
+echo "SIGTERM while it hangs"
+echo hang >cameras/video90
+until_true status_says '"state":"stalled"'
+kill -TERM "$pid"
+ends_with 0 1500
+: >cameras/video90
+
+echo "a camera that is away is waited for, and that is alive"
+sed -i 's/video90/video92/' mfard.toml
+LD_PRELOAD=$pretended start --config mfard.toml --display none --control control
+until_true started
+until_true status_says '"state":"degraded","cause":"video camera: '
+is_fed
+kill -TERM "$pid"
+ends_with 0 1500
