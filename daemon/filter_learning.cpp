@@ -35,8 +35,12 @@ std::filesystem::path learnedFiltersFile(const std::string& sensors) {
 
 std::string describe(const LearningCounts& counts) {
     const EnlargerLearner::Counts& of = counts.learner;
-    return fmt::format("{} stills, {} of {} classes, {:.2f} dB over the cubic ({:.2f} as shipped)",
-                       of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
+    std::string out =
+        fmt::format("{} stills, {} of {} classes, {:.2f} dB over the cubic ({:.2f} as shipped)",
+                    of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
+    if (of.guidance > 0)
+        out += fmt::format("; guided by {:.2f}: {:.2f} dB", of.guidance, of.guidanceGainDb);
+    return out;
 }
 
 FilterLearning::FilterLearning(FilterLearningOptions options) : options_(std::move(options)) {
@@ -72,19 +76,33 @@ void FilterLearning::restore() {
 void FilterLearning::matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                              Rows<const LookUpCell> lookUps,
                              const MatchedPictures::LookedUp& lookedUp) {
-    {
+    const bool hasOlder = std::exchange(olderTaken_, false);
+    if (!mayTake()) {
         const std::lock_guard lock(mutex_);
-        if (isFull_ || (!options_.waits && Clock::now() < mayLearn_)) {
-            ++counts_.leftOut;
-            return;
-        }
+        ++counts_.leftOut;
+        return;
     }
     pictures_.take(video, still, lookUps, lookedUp);
+    hasOlder_ = hasOlder;
     {
         const std::lock_guard lock(mutex_);
         isFull_ = true;
     }
     begun_.notify_one();
+}
+
+bool FilterLearning::mayTake() const {
+    const std::lock_guard lock(mutex_);
+    return !isFull_ && (options_.waits || Clock::now() >= mayLearn_);
+}
+
+void FilterLearning::replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                              Rows<const LookUpCell> lookUps,
+                              const MatchedPictures::LookedUp& lookedUp) {
+    olderTaken_ = options_.rig.has_value() && mayTake();
+    if (!olderTaken_) return;
+    older_.take(video, still, lookUps, lookedUp);
+    olderVideo_ = video;
 }
 
 std::shared_ptr<const FilterBank> FilterLearning::takeFilters() {
@@ -154,10 +172,11 @@ void FilterLearning::forget() {
 void FilterLearning::learn(const std::stop_token& stop) {
     const double before = threadCpuMs();
     const EnlargerLearner::Outcome outcome = learner_.add(pictures_, stop);
-    const double ms = threadCpuMs() - before;
     const bool hasLearned =
         outcome == EnlargerLearner::Outcome::Replaced || outcome == EnlargerLearner::Outcome::Kept;
-    isStored_ = isStored_ && !hasLearned;
+    const bool hasGuidance = hasLearned && hasOlder_ && learnGuidance(stop);
+    const double ms = threadCpuMs() - before;
+    isStored_ = isStored_ && !hasLearned && !hasGuidance;
     const Clock::time_point now = Clock::now();
     if (!isStored_ && now - stored_ >= kStoreEvery && !stop.stop_requested()) {
         store(learner_.stored(options_.sensors));
@@ -167,6 +186,14 @@ void FilterLearning::learn(const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     mayLearn_ = now + std::chrono::duration_cast<Clock::duration>(
                           std::chrono::duration<double, std::milli>(ms * (1 / kShare - 1)));
+}
+
+bool FilterLearning::learnGuidance(const std::stop_token& stop) {
+    if (!matcher_) matcher_ = std::make_unique<FrameMatcher>(*options_.rig);
+    matcher_->match(*olderVideo_, pictures_.still.rows(), truth_);
+    const EnlargerLearner::Outcome outcome = learner_.addOlder(truth_, older_, stop);
+    return outcome == EnlargerLearner::Outcome::Replaced ||
+           outcome == EnlargerLearner::Outcome::Kept;
 }
 
 void FilterLearning::store(const std::vector<std::uint8_t>& bytes) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "base/geometry.h"
 #include "daemon/learning_counts.h"
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/match_listener.h"
+#include "pipeline/frame_matcher.h"
+#include "pipeline/plan/rgb_planes.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -25,6 +28,8 @@ struct FilterLearningOptions {
     /// filters. Else stills that come while one is learned from, or so soon that learning would
     /// take more than a tenth of a processor, are left out.
     bool waits = false;
+    /// Where it is known, guidance is learned, too: see enlarge::GuidanceLearner.
+    std::optional<StereoRig> rig = std::nullopt;
 };
 
 /// Learns the enlarger's filters from matched stills, in a thread of low priority that stores the
@@ -42,6 +47,9 @@ public:
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override;
+    void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                  Rows<const LookUpCell> lookUps,
+                  const MatchedPictures::LookedUp& lookedUp) override;
     /// The filters in place, where they are others than at the last call.
     [[nodiscard]] std::shared_ptr<const FilterBank> takeFilters();
     /// With FilterLearningOptions::waits: until the last still is learned from.
@@ -60,12 +68,21 @@ private:
     void restore();
     void run(const std::stop_token& stop);
     void learn(const std::stop_token& stop);
+    [[nodiscard]] bool mayTake() const;
+    [[nodiscard]] bool learnGuidance(const std::stop_token& stop);
     void forget();
     void store(const std::vector<std::uint8_t>& bytes);
 
     const FilterLearningOptions options_;
-    EnlargerLearner learner_;   // of the thread; of the constructor and destructor
-    MatchedPictures pictures_;  // of the frame's thread, or with isFull_ of the other one
+    EnlargerLearner learner_;  // of the thread; of the constructor and destructor
+    // Of the frame's thread, or with isFull_ of the other one: the new still; the one before, with
+    // the last frame that was drawn with it.
+    MatchedPictures pictures_, older_;
+    std::optional<RgbPlanes> olderVideo_;
+    bool hasOlder_ = false;                  // `older_` is of the still before that of `pictures_`
+    bool olderTaken_ = false;                // of the frame's thread: since the last still
+    MatchedPictures truth_;                  // of the other thread, as the next
+    std::unique_ptr<FrameMatcher> matcher_;  // since it is needed for the first time
 
     mutable std::mutex mutex_;
     std::condition_variable_any begun_;

@@ -269,8 +269,9 @@ void Session::setLearning(bool wanted) {
     pipeline_.setFilters(nullptr);
     learning_.reset();
     if (wanted) {
-        learning_ = std::make_unique<FilterLearning>(FilterLearningOptions{
-            learnedFiltersFile(sensors_), sensors_, rig_.handOver() == HandOver::Lossless});
+        learning_ = std::make_unique<FilterLearning>(
+            FilterLearningOptions{learnedFiltersFile(sensors_), sensors_,
+                                  rig_.handOver() == HandOver::Lossless, rig_.geometry()});
         pipeline_.setMatchListener(learning_.get());
         pipeline_.setFilters(learning_->takeFilters());
     }

@@ -191,11 +191,16 @@ nlohmann::ordered_json firstPictureSummary(const ProcessUse& use) {
 }
 
 nlohmann::ordered_json learningSummary(const LearningCounts& counts) {
-    return {
-        {"stills_learned", counts.learner.stills},  {"stills_repeated", counts.learner.repeated},
-        {"stills_refused", counts.learner.refused}, {"stills_left_out", counts.leftOut},
-        {"classes", counts.learner.classes},        {"gain_db", counts.learner.gainDb},
-        {"shipped_gain_db", counts.learner.priorDb}};
+    return {{"stills_learned", counts.learner.stills},
+            {"stills_repeated", counts.learner.repeated},
+            {"stills_refused", counts.learner.refused},
+            {"stills_left_out", counts.leftOut},
+            {"classes", counts.learner.classes},
+            {"gain_db", counts.learner.gainDb},
+            {"shipped_gain_db", counts.learner.priorDb},
+            {"still_pairs", counts.learner.pairs},
+            {"guidance", counts.learner.guidance},
+            {"guidance_gain_db", counts.learner.guidanceGainDb}};
 }
 
 nlohmann::ordered_json validationSummary(const ValidationCounts& counts) {

@@ -1,11 +1,18 @@
 // Where the video is enlarged by filters and not sharpened: luma that each video pixel shows of the still.
-// In: look-ups, raised luma of the still. Out: luma [1/64 grey level].
+// In: video, look-ups, raised luma of the still. Out: luma, its difference to the video's [1/64 grey level], and
+// 1 where the still is trusted; elsewhere the difference is 0.
 #include "tile_params.glsl"
 #include "still_seen.glsl"
+#include "luma.glsl"
 #include "pipeline/engine/params/enlarge.h"
 
+layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out ivec4 seen;
 
 void main() {
-    seen = ivec4(255.0 * float(kPassScale) * stillSeen() + 0.5);
+    float scale = 255.0 * float(kPassScale), shown = stillSeen();
+    ivec2 p = ivec2(gl_FragCoord.xy);
+    int trusted = texelFetch(lookupField, p >> 2, 0).z > 0.0 ? 1 : 0;
+    float off = shown - lumaOf(texelFetch(picture, p, 0).rgb);
+    seen = ivec4(scale * shown + 0.5, trusted * int(floor(scale * off + 0.5)), trusted, 0);
 }

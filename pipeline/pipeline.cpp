@@ -86,6 +86,7 @@ Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<Pose>& pose) {
     State& s = *state_;
     requireFit(still, s.rig.still.size, "still");
+    s.tellReplaced();
     s.retireNewest();
     s.newest.take(still, s.quality.mode);
     if (s.epipolar) s.epipolar->dropStill();
@@ -267,9 +268,20 @@ void Pipeline::State::listen(const CellWeights& weights) {
     if (!isNewStill || quality.mode != SuperResMode::Detail) return;
     isNewStill = false;
     if (matchListener == nullptr || !quality.learned) return;
+    matchListener->matched(now, newest.pictures->luma.host(), weights.lookUps.host(), lookedUp());
+}
+
+MatchedPictures::LookedUp Pipeline::State::lookedUp() const {
     const CameraModel& looked = newest.pictures->rig.still;
-    matchListener->matched(now, newest.pictures->luma.host(), weights.lookUps.host(),
-                           {looked.size, looked.fx / rig.video.fx, looked.fy / rig.video.fy});
+    return {looked.size, looked.fx / rig.video.fx, looked.fy / rig.video.fy};
+}
+
+void Pipeline::State::tellReplaced() {
+    if (matchListener == nullptr || !quality.learned || quality.mode != SuperResMode::Detail)
+        return;
+    if (newest.pictures == nullptr || newest.lastFlow == nullptr) return;
+    matchListener->replaced(drawn, newest.pictures->luma.host(), newest.lastWeights->lookUps.host(),
+                            lookedUp());
 }
 
 void Pipeline::State::drawDetail(const VideoFrame& frame, const TileWork& work,

@@ -74,6 +74,9 @@ struct Pipeline::State {
     /// frame's drawing has begun would wait for the drawing.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
     void listen(const CellWeights& weights);
+    /// Before a new still comes: tells the listener how the newest was matched.
+    void tellReplaced();
+    [[nodiscard]] MatchedPictures::LookedUp lookedUp() const;
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
     void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);

@@ -76,6 +76,22 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
     return replaced ? Outcome::Replaced : Outcome::Kept;
 }
 
+EnlargerLearner::Outcome EnlargerLearner::addOlder(const MatchedPictures& truth,
+                                                   const MatchedPictures& older,
+                                                   const std::stop_token& stop) {
+    const TrustedPairs pairs(truth, stop);
+    if (stop.stop_requested()) return Outcome::Stopped;
+    if (!(pairs.trustedShare() >= kLeastTrusted && pairs.sharpness() >= kLeastSharpness))
+        return Outcome::Refused;
+    const bool learned = guidance_.add(pairs, older, *inPlace_, stop);
+    if (stop.stop_requested()) return Outcome::Stopped;
+    if (!learned) return Outcome::Refused;
+    const bool changes = guidance_.guidance() != inPlace_->guidance();
+    if (changes) putInPlace(current_, learned_);
+    measure();
+    return changes ? Outcome::Replaced : Outcome::Kept;
+}
+
 bool EnlargerLearner::findNew(const MatchedPictures& pictures) {
     const Size tiles = tilesOf(pictures.video);
     const Size blocks{tiles.width * kTileSize / kBlock, tiles.height * kTileSize / kBlock};
@@ -192,7 +208,7 @@ bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
     for (const ClassWeights& of : weights)
         filters.push_back(roundedFilter(of));
     try {
-        inPlace_ = std::make_shared<const FilterBank>(filters);
+        inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance());
     } catch (const FilterBankError&) {
         return false;  // weights too large for the kernels: what is in place stays
     }
@@ -216,6 +232,9 @@ void EnlargerLearner::measure() {
     };
     counts_.gainDb = gain(all.inPlace);
     counts_.priorDb = gain(all.prior);
+    counts_.pairs = guidance_.pairs();
+    counts_.guidance = guidance_.guidance();
+    counts_.guidanceGainDb = guidance_.gainDb();
 }
 
 }  // namespace mfar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/enlarge/class_sums.h"
+#include "pipeline/enlarge/guidance_learner.h"
 #include "pipeline/enlarge/learner_counts.h"
 #include "pipeline/enlarge/matched_pictures.h"
 #include "pipeline/enlarge/trusted_pairs.h"
@@ -36,6 +37,10 @@ public:
     };
     /// `stop`: ends the work soon, with nothing learned.
     Outcome add(const MatchedPictures& pictures, const std::stop_token& stop = {});
+    /// Learns guidance, see enlarge::GuidanceLearner: `truth` is a frame and a new still, `older`
+    /// the same frame and the still that it was drawn with.
+    Outcome addOlder(const MatchedPictures& truth, const MatchedPictures& older,
+                     const std::stop_token& stop = {});
 
     /// What is in place. Never null; the shipped ones at first.
     [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return inPlace_; }
@@ -78,6 +83,7 @@ private:
     std::vector<enlarge::ClassWeights> prior_, current_;
     std::vector<bool> learned_;  // of each class: `current_` is no shipped filter and not zero
     enlarge::SumsOfClasses sums_, held_;
+    enlarge::GuidanceLearner guidance_;
     std::shared_ptr<const FilterBank> inPlace_;
     // Means of 4x4 pixels: those that were learned from, and the last picture's.
     std::vector<std::uint8_t> shown_, means_;

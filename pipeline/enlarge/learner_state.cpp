@@ -15,7 +15,8 @@ using namespace enlarge;
 
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
-constexpr std::array<std::uint64_t, 4> kHeader{1, kUnique, kTaps, kPhases};
+constexpr std::array<std::uint64_t, 4> kHeader{2, kUnique, kTaps, kPhases};
+constexpr std::uint64_t kWithoutGuidance = 1;  // a version that is still read
 constexpr std::size_t kChecksumSize = 4;
 constexpr std::size_t kMostKeySize = 4096;
 
@@ -58,7 +59,8 @@ public:
             std::memcmp(bytes.data(), kMagic, kMagicSize) != 0)
             refuse("not a file of learned filters");
         at_ = kMagicSize;
-        if (bytes_.size() >= at_ + 8 && getNumber(&bytes_[at_], 8) != kHeader[0])
+        version_ = bytes_.size() >= at_ + 8 ? getNumber(&bytes_[at_], 8) : kHeader[0];
+        if (version_ != kHeader[0] && version_ != kWithoutGuidance)
             refuse("another version than this program's");
         bytes_ = bytes.first(bytes.size() - kChecksumSize);
         if (getNumber(bytes.data() + bytes_.size(), kChecksumSize) != fnv1a(bytes_))
@@ -67,6 +69,7 @@ public:
     [[noreturn]] void refuse(const std::string& why) const {
         throw FilterBankError(name_ + ": " + why);
     }
+    [[nodiscard]] std::uint64_t version() const { return version_; }
     std::uint64_t number() { return getNumber(take(8), 8); }
     /// Neither infinite nor not a number.
     double real() {
@@ -112,6 +115,7 @@ private:
     std::span<const std::uint8_t> bytes_;
     const std::string& name_;
     std::size_t at_ = 0;
+    std::uint64_t version_ = 0;
 };
 
 }  // namespace
@@ -130,13 +134,15 @@ std::vector<std::uint8_t> EnlargerLearner::stored(const std::string& key) const 
         out.sums(sums_[i]);
         out.sums(held_[i]);
     }
+    for (const double value : guidance_.stored())
+        out.number(value);
     return std::move(out).finished();
 }
 
 EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
                                           const std::string& key, const std::string& name) {
     Reader in(bytes, name);
-    for (const std::uint64_t value : kHeader)
+    for (const std::uint64_t value : {in.version(), kHeader[1], kHeader[2], kHeader[3]})
         if (in.number() != value)
             in.refuse("other classes or sizes of filters than this program's");
     if (in.text() != key) in.refuse("was learned from other sensors");
@@ -150,6 +156,12 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
         weights.push_back(in.weights());
         out.sums_.edit(i) = in.sums();
         out.held_.edit(i) = in.sums();
+    }
+    if (in.version() != kWithoutGuidance) {
+        std::array<double, GuidanceLearner::kNumbers> numbers{};
+        for (double& value : numbers)
+            value = in.real();
+        if (!out.guidance_.restore(numbers)) in.refuse("has a guidance that is out of range");
     }
     in.finish();
     if (!out.putInPlace(weights, learned)) in.refuse("has weights that are too large");

@@ -23,31 +23,7 @@ constexpr double kLeastNoise = 1;  // variance [grey levels^2]
 constexpr int kTrustReach = 3;     // px: of 7x7
 constexpr int kMeanReach = 8;
 constexpr double kMostShift = 0.5;  // video px
-constexpr int kGridScale = 64;
-constexpr double kStructure = 36;  // variance [grey levels^2]
-
-/// Catmull and Rom's cubic: weights of the entries at -1 to 2.
-std::array<float, 4> catmullRom(float t) {
-    const float t2 = t * t, t3 = t2 * t;
-    return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t),
-            0.5F * (t3 - t2)};
-}
-
-float sample(const AlignedRows<std::uint8_t>& picture, float x, float y) {
-    const auto [width, height] = picture.size();
-    const float floorX = std::floor(x), floorY = std::floor(y);
-    const int left = static_cast<int>(floorX) - 1, top = static_cast<int>(floorY) - 1;
-    const auto wx = catmullRom(x - floorX), wy = catmullRom(y - floorY);
-    float out = 0;
-    for (int j = 0; j < 4; ++j) {
-        const std::uint8_t* row = picture[std::clamp(top + j, 0, height - 1)];
-        float sum = 0;
-        for (int i = 0; i < 4; ++i)
-            sum += wx[i] * static_cast<float>(row[std::clamp(left + i, 0, width - 1)]);
-        out += wy[j] * sum;
-    }
-    return out;
-}
+constexpr double kStructure = 36;   // variance [grey levels^2]
 
 /// Most that noise alone makes both differ by, from the mean squares of 7x7 pixels each: those of a
 /// fifth, where nothing else does, and a half more. Less would choose pixels by their noise.
@@ -58,33 +34,20 @@ double noiseOf(std::vector<double>& differences) {
     return std::max(kLeastNoise, 1.5 * *fifth);
 }
 
-/// A value between cells along one axis, of a pixel at `at` [video px].
-struct BetweenCells {
-    BetweenCells(double at, int count) {
-        const double cell = std::clamp((at - 1.5) / kCell, 0.0, count - 1.0);
-        first = std::min(static_cast<int>(cell), std::max(count - 2, 0));
-        second = std::min(first + 1, count - 1);
-        t = static_cast<float>(cell - first);
-    }
-    int first, second;
-    float t;
-};
-
 }  // namespace
 
 TrustedPairs::TrustedPairs(const MatchedPictures& pictures, std::stop_token stop)
     : in_(pictures), stop_(std::move(stop)), video_(pictures.video),
       cells_(pictures.lookUps.size()), lookUps_(cells_), known_(cells_), trusted_(video_),
-      grid_({kGrid * video_.width, kGrid * video_.height}),
-      low_(static_cast<std::size_t>(video_.width) * video_.height), seen_(low_.size()),
-      mean_(low_.size()) {
+      still_(video_), seen_(static_cast<std::size_t>(video_.width) * video_.height),
+      mean_(seen_.size()) {
     findCells();
-    warp();
+    still_.warp(in_, lookUps_, known_, stop_);
     fitTone();
     fitBlur();
     fitMean();
     shift();
-    warp();
+    still_.warp(in_, lookUps_, known_, stop_);
     fitTone();
     fitBlur();
     fitMean();
@@ -107,47 +70,6 @@ double TrustedPairs::videoAt(int x, int y) const {
     return in_.row(y)[x] / double(kLumaScale);
 }
 
-/// The still on the grid of sub-pixels, and its mean over each pixel.
-void TrustedPairs::warp() {
-    // Where a sub-pixel has several pixels of the still, it is their mean.
-    const int samples =
-        std::max(1, static_cast<int>(std::lround(in_.scaleX * in_.stillPerX / kGrid)));
-    const int perPixel = kGrid * samples;
-    for (int y = 0; y < video_.height && !stop_.stop_requested(); ++y)
-        for (int x = 0; x < video_.width; ++x) {
-            if (known_[y / kCell][x / kCell] == 0) continue;
-            float sum = 0;
-            for (int phase = 0; phase < kPhases; ++phase) {
-                float value = 0;
-                for (int k = 0; k < samples * samples; ++k) {
-                    const int column = phase % kGrid * samples + k % samples,
-                              row = phase / kGrid * samples + k / samples;
-                    const double px = x - 0.5 + (column + 0.5) / perPixel,
-                                 py = y - 0.5 + (row + 0.5) / perPixel;
-                    const BetweenCells u(px, cells_.width), v(py, cells_.height);
-                    const auto between = [&](float LookUpCell::* part) {
-                        const auto along = [&](int cell) {
-                            const float a = lookUps_[cell][u.first].*part;
-                            return a + u.t * (lookUps_[cell][u.second].*part - a);
-                        };
-                        const float a = along(v.first);
-                        return a + v.t * (along(v.second) - a);
-                    };
-                    const double sx = (px + 0.5) * in_.scaleX - 0.5 + between(&LookUpCell::x);
-                    const double sy = (py + 0.5) * in_.scaleY - 0.5 + between(&LookUpCell::y);
-                    value += sample(in_.still, static_cast<float>((sx + 0.5) * in_.stillPerX - 0.5),
-                                    static_cast<float>((sy + 0.5) * in_.stillPerY - 0.5));
-                }
-                value /= static_cast<float>(samples * samples);
-                sum += value;
-                grid_[kGrid * y + phase / kGrid][kGrid * x + phase % kGrid] =
-                    static_cast<std::int16_t>(
-                        std::lround(std::clamp(value, -64.0F, 320.0F) * kGridScale));
-            }
-            low_[at(x, y)] = sum / kPhases;
-        }
-}
-
 /// The video's level as a function of the still's: linear between the means of 16 ranges.
 void TrustedPairs::fitTone() {
     constexpr int kRanges = 16;
@@ -158,7 +80,7 @@ void TrustedPairs::fitTone() {
     for (int y = kBorder; y < video_.height - kBorder; ++y)
         for (int x = kBorder; x < video_.width - kBorder; ++x) {
             if (known_[y / kCell][x / kCell] == 0) continue;
-            const float value = low_[at(x, y)];
+            const float value = still_.mean(x, y);
             Range& range = ranges[std::clamp(static_cast<int>(value) / kRanges, 0, kRanges - 1)];
             ++range.count;
             range.still += value;
@@ -201,9 +123,10 @@ void TrustedPairs::fitBlur() {
                   b = std::min(std::abs(dx), std::abs(dy));
         return a * (a + 1) / 2 + b;
     };
-    Plane toned(low_.size());
-    for (std::size_t i = 0; i < low_.size(); ++i)
-        toned[i] = toneOf(low_[i]);
+    Plane toned(seen_.size());
+    for (int y = 0; y < video_.height; ++y)
+        for (int x = 0; x < video_.width; ++x)
+            toned[at(x, y)] = toneOf(still_.mean(x, y));
     const auto around = [&](int x, int y) {
         Weights sums = Weights::Zero();
         for (int dy = -kReach; dy <= kReach; ++dy)
@@ -324,28 +247,17 @@ void TrustedPairs::trust() {
 
 Phases TrustedPairs::stillOf(int x, int y) const {
     Phases out;
-    for (int phase = 0; phase < kPhases; ++phase) {
-        const std::int16_t value = grid_[kGrid * y + phase / kGrid][kGrid * x + phase % kGrid];
-        out[phase] = toneOf(static_cast<float>(value) / kGridScale) + mean_[at(x, y)];
-    }
+    for (int phase = 0; phase < kPhases; ++phase)
+        out[phase] = toneOf(still_.at(x, y, phase)) + mean_[at(x, y)];
     return out;
 }
 
-Phases TrustedPairs::cubicOf(int x, int y) const {
-    const std::int16_t* cubic = FilterBank::prior().cubic();
-    Phases out = Phases::Constant(videoAt(x, y));
-    for (int tap = 0; tap < kTaps; ++tap) {
-        const Offset of = kTapAt[tap];
-        const double step =
-            double(in_.row(y + of.y)[x + of.x] - in_.row(y)[x]) / kLumaScale / kWeightScale;
-        for (int phase = 0; phase < kPhases; ++phase)
-            out[phase] += step * cubic[filterIndex(tap, phase)];
-    }
-    return out;
+Phases TrustedPairs::videoOf(int x, int y) const {
+    return cubicOf(x, y, [&](int i, int j) { return videoAt(i, j); });
 }
 
 Phases TrustedPairs::target(int x, int y) const {
-    return stillOf(x, y) - cubicOf(x, y);
+    return stillOf(x, y) - videoOf(x, y);
 }
 
 void TrustedPairs::measureSharpness() {
@@ -356,7 +268,7 @@ void TrustedPairs::measureSharpness() {
             const auto varianceOf = [](const Phases& values) {
                 return (values.array() - values.mean()).square().mean();
             };
-            const double ofCubic = varianceOf(cubicOf(x, y));
+            const double ofCubic = varianceOf(videoOf(x, y));
             if (ofCubic < kStructure) continue;
             cubic += ofCubic;
             still += varianceOf(stillOf(x, y));

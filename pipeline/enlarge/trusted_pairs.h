@@ -3,6 +3,7 @@
 #include "base/rows.h"
 #include "pipeline/enlarge/class_sums.h"
 #include "pipeline/enlarge/matched_pictures.h"
+#include "pipeline/enlarge/warped_grid.h"
 
 #include <cstdint>
 #include <stop_token>
@@ -49,7 +50,6 @@ private:
         return static_cast<std::size_t>(y) * video_.width + x;
     }
     void findCells();
-    void warp();
     void fitTone();
     void fitBlur();
     void fitMean();
@@ -59,7 +59,7 @@ private:
     void measureSharpness();
     [[nodiscard]] float toneOf(float value) const;
     [[nodiscard]] double videoAt(int x, int y) const;
-    [[nodiscard]] Phases cubicOf(int x, int y) const;
+    [[nodiscard]] Phases videoOf(int x, int y) const;
     [[nodiscard]] Phases stillOf(int x, int y) const;
 
     const MatchedPictures& in_;
@@ -68,11 +68,10 @@ private:
     AlignedRows<LookUpCell> lookUps_;
     AlignedRows<std::uint8_t> known_;    // of each cell: matched
     AlignedRows<std::uint8_t> trusted_;  // of each pixel
-    AlignedRows<std::int16_t> grid_;     // the warped still [1/64 grey level]
-    Plane low_;                          // its mean over a pixel
-    Plane seen_;                         // the same as the video's sensor sees it, in tone and blur
-    Plane mean_;                         // what that lacks over larger areas
-    std::vector<float> tone_;            // of each grey level
+    WarpedGrid still_;
+    Plane seen_;               // its means as the video's sensor sees it, in tone and blur
+    Plane mean_;               // what that lacks over larger areas
+    std::vector<float> tone_;  // of each grey level
     double trustedShare_ = 0, sharpness_ = 0;
 };
 

@@ -43,12 +43,12 @@ LearnedEnlarger::LearnedEnlarger(Size video, Size output)
       filters_({kFilterWords / 4, kClasses}, gpu::TexelFormat::Rgba32Ui),
       learned_(tiles_, gpu::TexelFormat::R8),
       grid_({video.width, enlarge::kGrid * video.height}, gpu::TexelFormat::Rgba16I),
-      seen_(video, gpu::TexelFormat::R16I),
+      seen_(video, gpu::TexelFormat::Rgba16I), guided_(video, gpu::TexelFormat::R16I),
       columns_({video.width, output.height}, gpu::TexelFormat::Rgba16I),
       residuals_(columns_.size(), gpu::TexelFormat::Rgba16I), seenTarget_(seen_),
-      columnsTarget_(targetOf(columns_, residuals_)), enlarge_("superres_enlarge.comp"),
-      see_("superres_seen.frag"), enlargeColumns_("superres_vertical.frag", kLearned),
-      passes_(kLearned) {}
+      guidedTarget_(guided_), columnsTarget_(targetOf(columns_, residuals_)),
+      enlarge_("superres_enlarge.comp"), see_("superres_seen.frag"), guide_("superres_guide.frag"),
+      enlargeColumns_("superres_vertical.frag", kLearned), passes_(kLearned) {}
 
 // As half floats, which shaders unpack in one instruction: a weight of one has eleven bits of 14.
 void LearnedEnlarger::takeFilters(const FilterBank& filters) {
@@ -90,21 +90,30 @@ void LearnedEnlarger::fillGrid(const gpu::Texture& video, const TileBuffer& tile
 
 // Tiles beside those that are drawn are looked at, too: after frames without, all are made.
 void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
-                          const FilterBank& filters, const params::DrawTiles& params,
+                          const FilterBank& filters, params::DrawTiles params,
                           const gpu::InstanceList& list) {
     takeFilters(filters);
     takeTiles(tiles.work());
     fillGrid(video, tiles);
     const bool whole = tiles.work().drawsWhole();
+    params.guidance = filters.guidance();
+    const bool guides = seen != nullptr && params.guidance > 0;
     if (seen != nullptr)
-        see_.run(whole || seenIsOld_, params,
-                 {gpu::sampler(2, seen->lookUps), gpu::sampler(3, seen->still)}, seenTarget_, list);
+        see_.run(
+            whole || seenIsOld_, params,
+            {gpu::sampler(0, video), gpu::sampler(2, seen->lookUps), gpu::sampler(3, seen->still)},
+            seenTarget_, list);
+    if (guides)
+        guide_.run(whole || guidedIsOld_, params, {gpu::sampler(1, seen_)}, guidedTarget_, list);
     // Columns show what is seen.
-    const bool allColumns = whole || columnsAreOld_ || (seen != nullptr && seenIsOld_);
-    enlargeColumns_.run(allColumns, params,
-                        {gpu::sampler(0, video), gpu::sampler(1, seen_), gpu::sampler(2, grid_)},
-                        columnsTarget_, list);
+    const bool allColumns =
+        whole || columnsAreOld_ || (seen != nullptr && seenIsOld_) || guides == guidedIsOld_;
+    enlargeColumns_.run(
+        allColumns, params,
+        {gpu::sampler(0, video), gpu::sampler(1, guides ? guided_ : seen_), gpu::sampler(2, grid_)},
+        columnsTarget_, list);
     seenIsOld_ = seen == nullptr;
+    guidedIsOld_ = !guides;
     columnsAreOld_ = false;
 }
 

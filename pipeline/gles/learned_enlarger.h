@@ -24,10 +24,9 @@ public:
     /// Makes what the composites read, in the tiles of `list` or, where the plan says so, in all.
     /// `seen` may be null.
     void run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
-             const FilterBank& filters, const params::DrawTiles& params,
-             const gpu::InstanceList& list);
+             const FilterBank& filters, params::DrawTiles params, const gpu::InstanceList& list);
     /// A frame is drawn by other passes: all tiles are made for the next.
-    void skip() { columnsAreOld_ = seenIsOld_ = true; }
+    void skip() { columnsAreOld_ = seenIsOld_ = guidedIsOld_ = true; }
 
     // What composites with LEARNED read: at bindings 0, 3 and 4.
     [[nodiscard]] const gpu::Texture& columns() const { return columns_; }
@@ -44,10 +43,11 @@ private:
     std::uint64_t number_ = 0;                      // of the filters on the GPU
     std::vector<std::uint8_t> mask_;                // of the tiles on the GPU
     bool columnsAreOld_ = true, seenIsOld_ = true;  // from a frame before the last
-    gpu::Texture filters_, learned_, grid_, seen_, columns_, residuals_;
-    gpu::Framebuffer seenTarget_, columnsTarget_;
+    bool guidedIsOld_ = true;
+    gpu::Texture filters_, learned_, grid_, seen_, guided_, columns_, residuals_;
+    gpu::Framebuffer seenTarget_, guidedTarget_, columnsTarget_;
     gpu::ComputePass<params::EnlargeTiles> enlarge_;
-    TilePass see_, enlargeColumns_;
+    TilePass see_, guide_, enlargeColumns_;
     DetailPasses passes_;
 };
 

@@ -106,6 +106,25 @@ void WarpRow(const StillPairs& still, const LookUpRows& rows, int begin, int end
     }
 }
 
+void GuideRow(const GuideRows& rows, float share, int begin, int end, const float* from,
+              float* to) {
+    const F df;
+    const int lanes = static_cast<int>(hn::Lanes(df)), reach = params::kGuideReach;
+    constexpr int kMiddle = params::kGuideReach;
+    for (int x = begin; x < end; x += lanes) {
+        auto sum = hn::Zero(df), count = hn::Zero(df);
+        for (std::size_t k = 0; k < GuideRows::kRows; ++k)
+            for (int i = x - reach; i <= x + reach; ++i) {
+                sum = hn::Add(sum, hn::LoadU(df, rows.differences[k] + i));
+                count = hn::Add(count, hn::LoadU(df, rows.trusted[k] + i));
+            }
+        const auto mean = hn::Div(sum, hn::Max(count, hn::Set(df, 1.0F)));
+        const auto weight = hn::Mul(hn::LoadU(df, rows.trusted[kMiddle] + x), hn::Set(df, share));
+        const auto off = hn::Sub(hn::LoadU(df, rows.differences[kMiddle] + x), mean);
+        hn::StoreU(hn::NegMulAdd(weight, off, hn::LoadU(df, from + x)), df, to + x);
+    }
+}
+
 void DetailRow(const WarpedRow& warped, const LookUpRows& rows, const std::int16_t* learned,
                int begin, int end, std::int16_t* to) {
     const F df;
@@ -279,6 +298,7 @@ HWY_AFTER_NAMESPACE();
 namespace mfar::simd {
 
 HWY_EXPORT(WarpRow);
+HWY_EXPORT(GuideRow);
 HWY_EXPORT(DetailRow);
 HWY_EXPORT(FadeRow);
 HWY_EXPORT(ComposeRow);
@@ -287,6 +307,11 @@ HWY_EXPORT(BlendRow);
 void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int end,
              std::int16_t* to) {
     HWY_DYNAMIC_DISPATCH(WarpRow)(still, lookUp, begin, end, to);
+}
+
+void guideRow(const GuideRows& rows, float share, int begin, int end, const float* from,
+              float* to) {
+    HWY_DYNAMIC_DISPATCH(GuideRow)(rows, share, begin, end, from, to);
 }
 
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,

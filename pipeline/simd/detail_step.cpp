@@ -173,12 +173,14 @@ void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& stri
     s.video.begin(frame.in.video, sharpens ? frame.in.trust : Rows<const TrustCell>{}, videoTaps_,
                   frame.linear, strip.x0, strip.x1);
     if (frame.blends) s.lookUps.begin(frame.in.lookUps, lookUpTaps_, true, strip.x0, strip.x1);
+    const WarpedStill::Guide guide{frame.in.video,
+                                   frame.bank != nullptr ? frame.bank->guidance() : 0.0F};
     if (frame.warps)
         s.warped.begin(frame.in.still, frame.in.lookUps, lookUpTaps_, warpedTaps_,
-                       {strip.x0, strip.x1});
+                       {strip.x0, strip.x1}, guide);
     if (frame.warps && frame.in.second.still.data != nullptr)
         s.second.begin(frame.in.second.still, frame.in.second.lookUps, lookUpTaps_, warpedTaps_,
-                       {strip.x0, strip.x1});
+                       {strip.x0, strip.x1}, guide);
     if (frame.bank != nullptr)
         s.learned.begin(frame.in.video, learnedTaps_, *frame.bank, {strip.x0, strip.x1});
     int row = -1;

@@ -1,12 +1,19 @@
 #include "pipeline/simd/warped_still.h"
 
 #include "pipeline/engine/params/detail.h"
+#include "pipeline/enlarge/filter_layout.h"
+#include "pipeline/flow/cell_field.h"
+#include "pipeline/simd/enlarge_rows.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace mfar::simd {
 namespace {
+
+constexpr int kReach = params::kGuideReach;
+constexpr int kMargin = 16;  // columns beside a row: a cache line
+constexpr float kMeanScale = 32;
 
 /// Taps of the mean over a video pixel along one axis. The warped still is read linearly once more,
 /// which widens what a pixel sees: the samples lie closer, so that their spread is as without.
@@ -17,11 +24,12 @@ RowTaps meanOf(int output, int video) {
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
 }
 
-/// Rows from a row of detail to the last that it looks at, at most.
-int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output) {
+/// Rows from a row of detail to the last that it looks at, at most. `reach`: rows of the video
+/// behind the last that it is made of.
+int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output, int reach) {
     int most = mean.taps();
     for (int y = 0; y < output.height; ++y) {
-        const int last = std::min(cubic.first(y) + cubic.taps(), video.height) - 1;
+        const int last = std::min(cubic.first(y) + cubic.taps() + reach, video.height) - 1;
         const int end = std::min(mean.first(last) + mean.taps(), output.height);
         most = std::max(most, end - y);
     }
@@ -34,14 +42,17 @@ WarpedStillTaps::WarpedStillTaps(Size video, Size output)
     : meanRows(meanOf(output.width, video.width)), meanColumns(meanOf(output.height, video.height)),
       cubicRows(RowTaps::cubic(video.width, output.width)),
       cubicColumns(RowTaps::cubic(video.height, output.height)),
-      kept(rowsLookedAt(meanColumns, cubicColumns, video, output)) {}
+      kept(rowsLookedAt(meanColumns, cubicColumns, video, output, 0)),
+      keptGuided(rowsLookedAt(meanColumns, cubicColumns, video, output, kReach)) {}
 
 WarpedStill::WarpedStill(Size video, Size output, const WarpedStillTaps& taps)
     : video_(video), output_(output), lookUps_(cellsOf(video), output.width),
-      warpedRows_(taps.kept), luma_({output.width, taps.kept}), column_({output.width, 1}),
-      mean_({video.width, 1}), low_({output.width, 4}) {
+      warpedRows_(taps.keptGuided), luma_({output.width, taps.keptGuided}),
+      column_({output.width, 1}), mean_({video.width, 1}), low_({output.width, 4}),
+      videoLuma_({video.width, 1}), seen_({video.width + 2 * kMargin, GuideRows::kRows}),
+      differences_(seen_.size()), trusted_(seen_.size()) {
     const std::size_t most = static_cast<std::size_t>(output.width) / 2 + 1;
-    for (PixelSpans* spans : {&covered_, &means_, &warped_})
+    for (PixelSpans* spans : {&covered_, &means_, &compared_, &warped_})
         spans->reserve(most);
     weighed_.reserve(taps.meanColumns.taps());
     weights_.reserve(taps.meanColumns.taps());
@@ -49,16 +60,19 @@ WarpedStill::WarpedStill(Size video, Size output, const WarpedStillTaps& taps)
 
 void WarpedStill::begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
                         const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps,
-                        const PixelSpan& pixels) {
+                        const PixelSpan& pixels, const Guide& guide) {
     still_ = still;
     taps_ = &taps;
-    covered_.clear();
-    means_.clear();
-    warped_.clear();
+    field_ = lookUps;
+    guide_ = guide.share > 0 ? &guide.video : nullptr;
+    share_ = guide.share;
+    slots_ = guide_ != nullptr ? taps.keptGuided : taps.kept;
+    for (PixelSpans* spans : {&covered_, &means_, &compared_, &warped_})
+        spans->clear();
     spread(pixels);
     lookUps_.begin(lookUps, lookUpTaps, false, warped_.front().begin, warped_.front().end);
-    means_.clear();
-    warped_.clear();
+    for (PixelSpans* spans : {&means_, &compared_, &warped_})
+        spans->clear();
 }
 
 // Adds what a span needs.
@@ -66,26 +80,30 @@ void WarpedStill::spread(const PixelSpan& span) {
     const RowTaps &cubic = taps_->cubicRows, &mean = taps_->meanRows;
     const int first = cubic.first(span.begin),
               last = std::min(cubic.first(span.end - 1) + cubic.taps(), video_.width) - 1;
+    const int reach = guide_ != nullptr ? kReach : 0;
+    const int from = std::max(first - reach, 0), to = std::min(last + reach, video_.width - 1);
     append(means_, {first, last + 1});
-    append(warped_, {std::min(mean.first(first), span.begin),
-                     std::max(std::min(mean.first(last) + mean.taps(), output_.width), span.end)});
+    append(compared_, {from, to + 1});
+    append(warped_, {std::min(mean.first(from), span.begin),
+                     std::max(std::min(mean.first(to) + mean.taps(), output_.width), span.end)});
 }
 
 void WarpedStill::cover(const PixelSpans& pixels) {
     const bool known = contains(covered_, pixels);
     if (pixels == covered_) return;
     covered_ = pixels;
-    means_.clear();
-    warped_.clear();
+    for (PixelSpans* spans : {&means_, &compared_, &warped_})
+        spans->clear();
     for (const PixelSpan& span : covered_)
         spread(span);
     if (known) return;
     std::ranges::fill(warpedRows_, -1);
     lowRows_.fill(-1);
+    comparedRows_.fill(-1);
 }
 
 void WarpedStill::warp(int y) {
-    const int slot = y % taps_->kept;
+    const int slot = y % slots_;
     if (warpedRows_[slot] == y) return;
     const LookUpRows lookUps = lookUps_.row(y);
     for (const PixelSpan& span : warped_)
@@ -93,8 +111,8 @@ void WarpedStill::warp(int y) {
     warpedRows_[slot] = y;
 }
 
-// What the video would show of the still in one of its rows, at the output's width.
-void WarpedStill::makeLow(int row) {
+// What the video would show of the still in one of its rows.
+void WarpedStill::makeMean(int row, float* to) {
     const RowTaps& columns = taps_->meanColumns;
     weighed_.clear();
     weights_.clear();
@@ -103,17 +121,63 @@ void WarpedStill::makeLow(int row) {
         if (weight == 0) continue;
         const int y = columns.first(row) + k;
         warp(y);
-        weighed_.push_back(luma_[y % taps_->kept]);
+        weighed_.push_back(luma_[y % slots_]);
         weights_.push_back(weight);
     }
-    const int slot = row % 4;
     for (const PixelSpan& span : warped_)
         weighRows(weighed_.data(), weights_.data(), static_cast<int>(weighed_.size()), span.begin,
                   span.end, column_[0]);
-    for (const PixelSpan& span : means_)
-        resampleRow(column_[0], taps_->meanRows.table(), span.begin, span.end, mean_[0]);
+    for (const PixelSpan& span : compared_)
+        resampleRow(column_[0], taps_->meanRows.table(), span.begin, span.end, to);
+}
+
+// Of one of the video's rows, what it and the still differ in.
+void WarpedStill::compare(int row) {
+    const int slot = row % GuideRows::kRows;
+    if (comparedRows_[slot] == row) return;
+    float* seen = seen_[slot] + kMargin;
+    float *differences = differences_[slot] + kMargin, *trusted = trusted_[slot] + kMargin;
+    makeMean(row, seen);
+    const LookUpCell* cells = field_[row / kCell];
+    for (const auto& [begin, end] : compared_) {
+        lumaEighthsRow({guide_->row(0, row), guide_->row(1, row), guide_->row(2, row)}, begin, end,
+                       videoLuma_[0]);
+        for (int x = begin; x < end; ++x) {
+            const bool counts = cells[x / kCell].weight > 0;
+            const float video =
+                kMeanScale / enlarge::kLumaScale * static_cast<float>(videoLuma_[0][x]);
+            trusted[x] = counts ? 1.0F : 0.0F;
+            differences[x] = counts ? seen[x] - video : 0.0F;
+        }
+        for (float* values : {differences, trusted}) {
+            if (begin == 0) std::fill_n(values - kReach, kReach, values[0]);
+            if (end == video_.width) std::fill_n(values + end, kReach, values[end - 1]);
+        }
+    }
+    comparedRows_[slot] = row;
+}
+
+const float* WarpedStill::guided(int row) {
+    GuideRows rows{};
+    for (int k = 0; k < GuideRows::kRows; ++k) {
+        const int at = std::clamp(row + k - kReach, 0, video_.height - 1),
+                  slot = at % GuideRows::kRows;
+        compare(at);
+        rows.differences[k] = differences_[slot] + kMargin;
+        rows.trusted[k] = trusted_[slot] + kMargin;
+    }
+    for (const auto& [begin, end] : means_)
+        guideRow(rows, share_, begin, end, seen_[row % GuideRows::kRows] + kMargin, mean_[0]);
+    return mean_[0];
+}
+
+// The same at the output's width.
+void WarpedStill::makeLow(int row) {
+    if (guide_ == nullptr) makeMean(row, mean_[0]);
+    const float* mean = guide_ != nullptr ? guided(row) : mean_[0];
+    const int slot = row % 4;
     for (const PixelSpan& span : covered_)
-        resampleRow(mean_[0], taps_->cubicRows.table(), span.begin, span.end, 2, low_[slot]);
+        resampleRow(mean, taps_->cubicRows.table(), span.begin, span.end, 2, low_[slot]);
     lowRows_[slot] = row;
 }
 
@@ -126,7 +190,7 @@ WarpedRow WarpedStill::row(int y) {
         out.low[k] = low_[slot];
     }
     warp(y);
-    out.luma = luma_[y % taps_->kept];
+    out.luma = luma_[y % slots_];
     return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/plan/rgb_planes.h"
 #include "pipeline/simd/look_up_rows.h"
 #include "pipeline/simd/pixel_spans.h"
 
@@ -15,7 +16,8 @@ struct WarpedStillTaps {
 
     RowTaps meanRows, meanColumns;    ///< from the output to the video's pixels
     RowTaps cubicRows, cubicColumns;  ///< and back
-    int kept;                         ///< output rows from one to the last that its detail needs
+    /// Output rows from one to the last that its detail needs, and that guided detail needs.
+    int kept, keptGuided;
 };
 
 /// The still as this frame's camera sees it, and what of it the video cannot show: the still,
@@ -27,10 +29,17 @@ class WarpedStill {
 public:
     WarpedStill(Size video, Size output, const WarpedStillTaps& taps);
 
+    /// Share of what the video shows, too, that is the still's: see FilterBank::guidance().
+    struct Guide {
+        const RgbPlanes& video;
+        float share;
+    };
+
     /// Starts with a still and a field of look-ups, for these pixels of the output alone. Nothing
     /// is covered then.
     void begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
-               const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps, const PixelSpan& pixels);
+               const LookUpTaps& lookUpTaps, const WarpedStillTaps& taps, const PixelSpan& pixels,
+               const Guide& guide);
     /// The only pixels that are asked for from now on, ascending.
     void cover(const PixelSpans& pixels);
     /// In the covered pixels; valid until the next call. Rows ascend.
@@ -42,6 +51,9 @@ private:
     void spread(const PixelSpan& span);
     void warp(int y);
     void makeLow(int row);
+    void makeMean(int row, float* to);
+    void compare(int row);
+    [[nodiscard]] const float* guided(int row);
 
     Size video_, output_;
     StillPairs still_{};
@@ -49,6 +61,7 @@ private:
     LookUpRowCache lookUps_;
     PixelSpans covered_;
     PixelSpans means_, warped_;    // columns of the video, pixels of the output
+    PixelSpans compared_;          // columns of the video: `means_`, where guided with those around
     std::vector<int> warpedRows_;  // the row that each slot holds
     std::array<int, 4> lowRows_{};
     std::vector<const std::int16_t*> weighed_;
@@ -56,6 +69,15 @@ private:
     AlignedRows<std::int16_t> luma_;    // taps.kept rows [1/32 grey level]
     AlignedRows<float> column_, mean_;  // a row of the output; of the video
     AlignedRows<std::int16_t> low_;     // four rows at the output's width [1/64 grey level]
+
+    const RgbPlanes* guide_ = nullptr;  // null: nothing is guided
+    float share_ = 0;
+    Rows<const LookUpCell> field_{};
+    int slots_ = 0;                                   // rows of luma_ in use
+    std::array<int, GuideRows::kRows> comparedRows_;  // the row that each slot holds
+    AlignedRows<std::int16_t> videoLuma_;             // a row [1/8 grey level]
+    // Rows of the video with a margin, by slot [1/32 grey level]; see GuideRows.
+    AlignedRows<float> seen_, differences_, trusted_;
 };
 
 }  // namespace mfar::simd

@@ -45,6 +45,51 @@ TEST_F(FilterLearningTest, LearnsAndHandsOutFiltersOnce) {
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
+StereoRig discsRig() {
+    StereoRig rig;
+    rig.video = {{256, 192}, 240, 240, 127.5, 95.5, {}};
+    rig.still = {{1024, 768}, 960, 960, 511.5, 383.5, {}};
+    return rig;
+}
+
+/// A still is replaced by another one of the same view, with a video that is noisy.
+void replace(FilterLearning& learning, unsigned seed) {
+    const twin::Grey sharp = sharpDiscs(seed);
+    const SensorPair noisy{.videoNoise = 4, .seed = seed};
+    showReplacedTo(learning, sharp, sharp, noisy);
+    showTo(learning, sharp, sharp, noisy);
+    learning.finish();
+}
+
+TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheStillBeforeAndKept) {
+    options.rig = discsRig();
+    {
+        FilterLearning learning(options);
+        show(learning, 1, 1);
+        EXPECT_EQ(learning.counts().learner.pairs, 0U) << "there was no still before";
+        replace(learning, 2);
+        EXPECT_EQ(learning.counts().learner.pairs, 1U);
+        EXPECT_GT(learning.counts().learner.guidance, 0.5);
+        EXPECT_GT(learning.takeFilters()->guidance(), 0.5F);
+        show(learning, 3, 3);
+        EXPECT_EQ(learning.counts().learner.pairs, 1U) << "nothing was said of the still before";
+    }
+    FilterLearning learning(options);
+    EXPECT_EQ(learning.counts().learner.pairs, 1U);
+    EXPECT_GT(learning.takeFilters()->guidance(), 0.5F);
+    learning.reset();
+    learning.finish();
+    EXPECT_EQ(learning.takeFilters()->guidance(), 0);
+    EXPECT_THAT(learning.takeWarnings(), IsEmpty());
+}
+
+TEST_F(FilterLearningTest, WithoutARigNoGuidanceIsLearned) {
+    FilterLearning learning(options);
+    replace(learning, 2);
+    EXPECT_EQ(learning.counts().learner.pairs, 0U);
+    EXPECT_EQ(learning.takeFilters()->guidance(), 0);
+}
+
 TEST_F(FilterLearningTest, GoesOnAfterARestart) {
     {
         FilterLearning learning(options);

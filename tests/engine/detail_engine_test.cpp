@@ -151,6 +151,24 @@ TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
     }
 }
 
+TEST_P(DetailEngineTest, GuidedFramesAreTheOracles) {
+    const bool shaders = GetParam().detail == EngineKind::Gles;
+    const simd::DetailOptions options{SuperResMode::Detail, true, false, false,
+                                      &simd::guidedBank()};
+    for (const auto& [video, stillSize, output] : simd::kSizes) {
+        if (output.width > 1000) continue;  // slow, and its video is small
+        const DetailCase frame = withRoom(DetailCase(video, stillSize));
+        Drawing drawing(GetParam(), frame, output);
+        simd::Wanted wanted(frame, output, options, true);
+        if (shaders) wanted.seeStill();
+        const twin::Grey still = drawing.luma();
+        expectPicture(
+            drawing.draw(frame, options.learned),
+            [&](int x, int y, int c) { return wanted.withStill(x, y, c, still); },
+            kLearnedError + (shaders ? 1.2 : 0));
+    }
+}
+
 TEST_P(DetailEngineTest, TilesWithoutStructureAreNotEnlargedByFilters) {
     const Size output{576, 432};
     DetailCase frame = withRoom(DetailCase({160, 120}, {400, 300}));
@@ -173,8 +191,9 @@ TEST_P(DetailEngineTest, TilesWithoutStructureAreNotEnlargedByFilters) {
 TEST_P(DetailEngineTest, NewFiltersAndNoneShowInTheNextFrame) {
     const Size video{53, 37}, output{191, 133};
     const DetailCase frame = withRoom(DetailCase(video, {200, 140}));
-    const std::array<const FilterBank*, 5> banks{&simd::evenBank(), &FilterBank::prior(), nullptr,
-                                                 &simd::evenBank(), nullptr};
+    const std::array<const FilterBank*, 6> banks{&simd::evenBank(),    &simd::guidedBank(),
+                                                 &FilterBank::prior(), nullptr,
+                                                 &simd::guidedBank(),  nullptr};
     Drawing drawing(GetParam(), frame, output);
     for (std::size_t i = 0; i < banks.size(); ++i) {
         Drawing other(GetParam(), frame, output);
@@ -229,6 +248,11 @@ TEST_P(DetailEngineTest, OnlyChangedTilesAreEnlargedByFilters) {
         expectOnlyChangedTiles(GetParam(), sizes, &FilterBank::prior());
 }
 
+TEST_P(DetailEngineTest, OnlyChangedTilesAreGuided) {
+    for (const simd::Sizes& sizes : simd::kSizes)
+        expectOnlyChangedTiles(GetParam(), sizes, &simd::guidedBank());
+}
+
 using DetailEngines = GlTest;
 
 // The kernels take the mean of the warped still, which has to be finer than the video for it.
@@ -258,6 +282,10 @@ TEST_F(DetailEngines, DrawTheSamePicture) {
 
 TEST_F(DetailEngines, EnlargeByTheSameFilters) {
     expectTheSamePicture(&FilterBank::prior(), 4, 0.6);
+}
+
+TEST_F(DetailEngines, GuideByTheSameShare) {
+    expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ EnlargerLearner learned() {
     EnlargerLearner out;
     for (int i = 1; i <= 3; ++i)
         out.add(matchedPictures(sharpDiscs(i), kPair));
+    const MatchedPictures noisy = matchedPictures(sharpDiscs(5), {.videoNoise = 4});
+    out.addOlder(noisy, noisy);
     return out;
 }
 
@@ -36,6 +38,8 @@ TEST(LearnerState, IsRestoredToTheBitAndGoesOnAlike) {
     EXPECT_EQ(second.counts().stills, first.counts().stills);
     EXPECT_EQ(second.counts().classes, first.counts().classes);
     EXPECT_DOUBLE_EQ(second.counts().gainDb, first.counts().gainDb);
+    EXPECT_GT(second.filters()->guidance(), 0.5);
+    EXPECT_EQ(second.filters()->guidance(), first.filters()->guidance());
     for (EnlargerLearner* learner : {&first, &second})
         learner->add(matchedPictures(sharpDiscs(9), kPair));
     EXPECT_EQ(second.stored("a, b"), first.stored("a, b"));
@@ -69,6 +73,29 @@ TEST(LearnerState, NumbersThatAreNotFiniteAreRefusedThoughTheSumIsRight) {
         bytes[i] = 0xff;
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
     EXPECT_THAT(faultOf(bytes), HasSubstr("not finite"));
+}
+
+constexpr std::size_t kGuidanceSize = 8 * enlarge::GuidanceLearner::kNumbers;
+
+TEST(LearnerState, WithoutGuidanceIsStillRead) {
+    const EnlargerLearner now = learned();
+    auto bytes = now.stored("a, b");
+    bytes.resize(bytes.size() - 4 - kGuidanceSize);
+    bytes[8] = 1;
+    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+    const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
+    EXPECT_EQ(then.filters()->guidance(), 0);
+    EXPECT_EQ(then.counts().pairs, 0U);
+    EXPECT_EQ(then.counts().stills, now.counts().stills);
+    EXPECT_DOUBLE_EQ(then.counts().gainDb, now.counts().gainDb);
+}
+
+TEST(LearnerState, AGuidanceOutOfRangeIsRefusedThoughTheSumIsRight) {
+    auto bytes = learned().stored("a, b");
+    bytes.resize(bytes.size() - 4);
+    bytes[bytes.size() - kGuidanceSize + 15] ^= 0x40;  // a guidance of far more than one
+    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+    EXPECT_THAT(faultOf(bytes), HasSubstr("guidance that is out of range"));
 }
 
 TEST(LearnerState, OneThatIsTooLongOrShortIsRefusedThoughTheSumIsRight) {

@@ -13,7 +13,16 @@ StereoRig simpleRig() {
 }
 
 struct Heard final : MatchListener {
-    int times = 0, weighed = 0;
+    int times = 0, weighed = 0, replacements = 0;
+    void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                  Rows<const LookUpCell> lookUps,
+                  const MatchedPictures::LookedUp& lookedUp) override {
+        matched(video, still, lookUps, lookedUp);
+        --times;
+        ++replacements;
+        lastLuma = video.row(1, 0)[0];
+    }
+    int lastLuma = -1;
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override {
@@ -85,6 +94,26 @@ TEST_P(PipelineLearning, EachStillThatIsMatchedIsHeardOfOnce) {
     pipeline_.setMode(SuperResMode::Detail);
     (void)picture(pipeline_);
     EXPECT_EQ(heard.times, 2);
+}
+
+TEST_P(PipelineLearning, AStillThatIsReplacedIsHeardOfWithTheLastPicture) {
+    Heard heard;
+    pipeline_.setMatchListener(&heard);
+    setStill(pipeline_);
+    setStill(pipeline_);
+    EXPECT_EQ(heard.replacements, 0) << "no frame was matched to it";
+    (void)picture(pipeline_);
+    (void)picture(pipeline_);
+    EXPECT_EQ(heard.replacements, 0);
+    setStill(pipeline_);
+    EXPECT_EQ(heard.replacements, 1);
+    EXPECT_EQ(heard.lastLuma, video_[0]);
+    EXPECT_GT(heard.weighed, 1000) << "of 3072 cells";
+    pipeline_.dropStill();
+    setStill(pipeline_);
+    pipeline_.setMode(SuperResMode::Off);
+    setStill(pipeline_);
+    EXPECT_EQ(heard.replacements, 1);
 }
 
 TEST_P(PipelineLearning, FiltersComeInWithTheNextStillOrAtOnceWithoutAny) {

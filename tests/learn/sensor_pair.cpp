@@ -39,6 +39,26 @@ std::vector<std::uint8_t> bytesOf(const Grey& g) {
     return {g.values.begin(), g.values.end()};
 }
 
+using Hear = decltype(&MatchListener::matched);
+void tell(MatchListener& listener, Hear hear, const Grey& sharp, const Grey& still,
+          const SensorPair& pair) {
+    const Grey video = videoOf(sharp, pair);
+    Grey seen = twin::greyOf(still.size, [&](int x, int y) {
+        return 255 * pair.gain * std::pow(still.at(x, y) / 255, pair.gamma);
+    });
+    finish(seen, pair.stillBlur, pair.stillNoise, pair.seed + 1000);
+    const std::vector<std::uint8_t> videoBytes = bytesOf(video), stillBytes = bytesOf(seen);
+    RgbPlanes planes(video.size);
+    planes.take({videoBytes.data(), video.size, std::size_t(video.size.width), PixelFormat::Gray8});
+    AlignedRows<LookUpCell> lookUps(cellsOf(video.size));
+    for (int y = 0; y < lookUps.size().height; ++y)
+        std::fill_n(
+            lookUps[y], lookUps.size().width,
+            LookUpCell{float(kGrid * pair.shift), 0, float(pair.weight), float(pair.confidence)});
+    (listener.*hear)(planes, {stillBytes.data(), seen.size.width, seen.size}, lookUps.rows(),
+                     {seen.size, kGrid, kGrid});
+}
+
 }  // namespace
 
 Grey sharpDiscs(unsigned seed, Size video) {
@@ -70,21 +90,12 @@ Grey videoOf(const Grey& sharp, const SensorPair& pair) {
 }
 
 void showTo(MatchListener& listener, const Grey& sharp, const Grey& still, const SensorPair& pair) {
-    const Grey video = videoOf(sharp, pair);
-    Grey seen = twin::greyOf(still.size, [&](int x, int y) {
-        return 255 * pair.gain * std::pow(still.at(x, y) / 255, pair.gamma);
-    });
-    finish(seen, pair.stillBlur, pair.stillNoise, pair.seed + 1000);
-    const std::vector<std::uint8_t> videoBytes = bytesOf(video), stillBytes = bytesOf(seen);
-    RgbPlanes planes(video.size);
-    planes.take({videoBytes.data(), video.size, std::size_t(video.size.width), PixelFormat::Gray8});
-    AlignedRows<LookUpCell> lookUps(cellsOf(video.size));
-    for (int y = 0; y < lookUps.size().height; ++y)
-        std::fill_n(
-            lookUps[y], lookUps.size().width,
-            LookUpCell{float(kGrid * pair.shift), 0, float(pair.weight), float(pair.confidence)});
-    listener.matched(planes, {stillBytes.data(), seen.size.width, seen.size}, lookUps.rows(),
-                     {seen.size, kGrid, kGrid});
+    tell(listener, &MatchListener::matched, sharp, still, pair);
+}
+
+void showReplacedTo(MatchListener& listener, const Grey& sharp, const Grey& still,
+                    const SensorPair& pair) {
+    tell(listener, &MatchListener::replaced, sharp, still, pair);
 }
 
 MatchedPictures matchedPictures(const Grey& sharp, const Grey& still, const SensorPair& pair) {

@@ -25,6 +25,9 @@ struct SensorPair {
 /// Gives a listener both, where the still shows `still`.
 void showTo(MatchListener& listener, const twin::Grey& sharp, const twin::Grey& still,
             const SensorPair& pair);
+/// The same of a still that is about to be replaced.
+void showReplacedTo(MatchListener& listener, const twin::Grey& sharp, const twin::Grey& still,
+                    const SensorPair& pair);
 [[nodiscard]] MatchedPictures matchedPictures(const twin::Grey& sharp, const twin::Grey& still,
                                               const SensorPair& pair);
 [[nodiscard]] inline MatchedPictures matchedPictures(const twin::Grey& sharp,

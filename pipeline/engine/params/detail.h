@@ -35,6 +35,11 @@ inline constexpr float kSharpenFar = 0.0385F;
 /// (1.08 is as good on photographs, and worse where a still was reduced).
 inline constexpr float kSeen = 1.0F;
 
+/// A still guides the video's finest detail: the difference of what both show, less its mean over
+/// the trusted pixels of a square that reaches so far around a pixel [video px]. Differences in
+/// exposure are in the mean. A reach of 1 gained 0.08 to 0.1 dB less on synthetic scenes.
+inline constexpr int kGuideReach = 2;
+
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;  ///< of tiles
     std::int32_t cellColumns, cellRows;
@@ -53,6 +58,7 @@ struct alignas(16) DrawTiles {
     float stillTexelX, stillTexelY;  ///< 1 / size of the still [1/px]
     float stillScaleX, stillScaleY;  ///< still pixels per output pixel
     float sharpening;                ///< strength; 0: none
+    float guidance;                  ///< FilterBank::guidance()
 };
 
 }  // namespace mfar::params

@@ -31,6 +31,27 @@ TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
         }
 }
 
+TEST(DetailStepLearned, GuidedFramesAreTheOracles) {
+    for (const auto& [video, stillSize, output] : kSizes) {
+        if (output.width > 1000) continue;  // slow, and its video is small
+        const DetailCase frame(video, stillSize);
+        const DetailOptions options{SuperResMode::Detail, true, false, true, &guidedBank()};
+        const Drawn drawn(frame, output, options),
+            without(frame, output, {SuperResMode::Detail, true, false, true, &evenBank()});
+        Wanted wanted(frame, output, options, true);
+        const Grey still = lumaPlane(drawn.still);
+        double most = 0;
+        for (int y = 0; y < output.height; ++y)
+            for (int x = 0; x < output.width; ++x) {
+                const double value = wanted.withStill(x, y, 1, still);
+                ASSERT_NEAR(drawn.channel(x, y, 1), value, kLearnedError)
+                    << output.width << ": " << x << " " << y;
+                most = std::max(most, std::abs(value - without.channel(x, y, 1)));
+            }
+        EXPECT_GT(most, 4) << output.width << ": guidance would show";
+    }
+}
+
 TEST(DetailStepLearned, TilesWithoutStructureAreNotEnlargedByFilters) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});

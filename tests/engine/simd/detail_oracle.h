@@ -91,7 +91,7 @@ public:
                                 return there(i * output_.width / video.width - 0.5,
                                              j * output_.height / video.height - 0.5, still);
                             });
-            detail_ = twin::enlarged(seen, output_);
+            detail_ = twin::enlarged(guided(seen), output_);
             for (std::size_t i = 0; i < detail_.values.size(); ++i)
                 detail_.values[i] = warped.values[i] - detail_.values[i];
         }
@@ -114,6 +114,33 @@ private:
                      py = (y + 0.5) * still.size.height / output_.height + lookUpAt(x, y, 1) - 0.5;
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
                               std::clamp(py, -1.0, double(still.size.height)));
+    }
+    /// Less the share of what it differs by from the video, beyond the mean of 5x5 pixels: of those
+    /// whose cells have a weight.
+    [[nodiscard]] Grey guided(const Grey& seen) const {
+        const double share = options_.learned != nullptr ? options_.learned->guidance() : 0;
+        if (share == 0) return seen;
+        const auto [width, height] = seen.size;
+        const auto trusted = [&](int x, int y) {
+            return frame_.lookUps[(y / 4) * frame_.cells.width + x / 4].weight > 0;
+        };
+        const auto off = [&](int x, int y) {
+            const auto at = [&](int c) { return double(frame_.video.row(c, y)[x]); };
+            return seen.at(x, y) - (0.299 * at(0) + 0.587 * at(1) + 0.114 * at(2));
+        };
+        return twin::greyOf(seen.size, [&, width = width, height = height](int x, int y) {
+            if (!trusted(x, y)) return seen.at(x, y);
+            double sum = 0;
+            int count = 0;
+            for (int k = 0; k < 25; ++k) {
+                const int i = std::clamp(x + k % 5 - 2, 0, width - 1),
+                          j = std::clamp(y + k / 5 - 2, 0, height - 1);
+                if (!trusted(i, j)) continue;
+                sum += off(i, j);
+                ++count;
+            }
+            return seen.at(x, y) - share * (off(x, y) - sum / count);
+        });
     }
     void addLearned() {
         const Grey luma = twin::greyOf(frame_.rig.video.size, [&](int x, int y) {
@@ -168,19 +195,25 @@ inline int tileAt(int pixel, int video, int output) {
 
 /// The same filter for every class, so that no rounding decides which is used. Filters are mirrored
 /// for classes: this one is its own mirror image.
+inline std::vector<FilterBank::Filter> evenFilters() {
+    FilterBank::Filter filter;
+    for (int tap = 0; tap < enlarge::kTaps; ++tap)
+        for (int phase = 0; phase < enlarge::kPhases; ++phase) {
+            const auto [x, y] = enlarge::kTapAt[tap];
+            const int column = phase % 4, row = phase / 4;
+            const double d = std::hypot(x - (column - 1.5) / 4, y - (row - 1.5) / 4);
+            filter[enlarge::filterIndex(tap, phase)] =
+                static_cast<std::int16_t>(std::lround(-2500 * std::cos(2 * d) * std::exp(-d)));
+        }
+    return std::vector(enlarge::kUnique, filter);
+}
 inline const FilterBank& evenBank() {
-    static const FilterBank bank([] {
-        FilterBank::Filter filter;
-        for (int tap = 0; tap < enlarge::kTaps; ++tap)
-            for (int phase = 0; phase < enlarge::kPhases; ++phase) {
-                const auto [x, y] = enlarge::kTapAt[tap];
-                const int column = phase % 4, row = phase / 4;
-                const double d = std::hypot(x - (column - 1.5) / 4, y - (row - 1.5) / 4);
-                filter[enlarge::filterIndex(tap, phase)] =
-                    static_cast<std::int16_t>(std::lround(-2500 * std::cos(2 * d) * std::exp(-d)));
-            }
-        return std::vector(enlarge::kUnique, filter);
-    }());
+    static const FilterBank bank(evenFilters());
+    return bank;
+}
+/// The same with guidance.
+inline const FilterBank& guidedBank() {
+    static const FilterBank bank(evenFilters(), 0.7F);
     return bank;
 }
 

@@ -2,6 +2,7 @@
 
 #include "hal/virtual/recording.h"
 #include "pipeline/enlarge/enlarger_learner.h"
+#include "pipeline/frame_matcher.h"
 #include "pipeline/pipeline.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/still_choice.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 
 namespace mfar::eval {
 namespace {
@@ -22,11 +24,33 @@ public:
                  const MatchedPictures::LookedUp& lookedUp) override {
         pictures_.take(video, still, lookUps, lookedUp);
         learner_.add(pictures_);
+        if (!hasOlder_) return;
+        hasOlder_ = false;
+        matcher_->match(olderVideo_, still, truth_);
+        learner_.addOlder(truth_, older_);
     }
+    void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                  Rows<const LookUpCell> lookUps,
+                  const MatchedPictures::LookedUp& lookedUp) override {
+        hasOlder_ = mayUseOlder_;
+        if (!hasOlder_) return;
+        older_.take(video, still, lookUps, lookedUp);
+        olderVideo_ = video;
+    }
+    /// Of the stills to come.
+    void begin(const StereoRig& rig) {
+        matcher_.emplace(rig);
+        hasOlder_ = false;
+    }
+    /// Whether the next still may tell what the last frame should look like.
+    void setMayUseOlder(bool may) { mayUseOlder_ = may; }
     [[nodiscard]] const EnlargerLearner& learner() const { return learner_; }
 
 private:
-    MatchedPictures pictures_;
+    MatchedPictures pictures_, older_, truth_;
+    RgbPlanes olderVideo_{Size{1, 1}};
+    bool hasOlder_ = false, mayUseOlder_ = false;
+    std::optional<FrameMatcher> matcher_;
     EnlargerLearner learner_;
 };
 
@@ -55,6 +79,8 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
     const KnownPoses poses(recording, request.poses);
     Pipeline pipeline(recording.rig, {.output = {}, .skipUnchanged = false});
     pipeline.setMatchListener(&learning);
+    learning.begin(recording.rig);
+    std::optional<Timestamp> last;  // of the frames
     for (std::size_t rank = 0; left != 0; ++rank) {
         const std::vector<Match> matches = matchesOf(recording, rank);
         if (matches.empty()) return;
@@ -70,6 +96,9 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
             const cv::Mat video =
                 toRgba(degrade(loadPicture(recording.video[frame].file), request.videoDegradation,
                                ~static_cast<std::uint64_t>(at.ns) - 1));
+            // A still that shows the very view of a frame is that frame's truth.
+            learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
+            last = at;
             pipeline.setStill(viewOf(picture), stillAt, pose.still);
             pipeline.run(viewOf(video), at, pose.frame);
         }
@@ -89,9 +118,10 @@ learnedFilters(const SuperResRequest& request,
     const EnlargerLearner::Counts& counts = learning.learner().counts();
     fmt::print(stderr,
                "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
-               "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}\n",
+               "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
+               "from {} pairs of stills, held out {:.2f} dB\n",
                counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
-               counts.gainDb, counts.priorDb);
+               counts.gainDb, counts.priorDb, counts.guidance, counts.pairs, counts.guidanceGainDb);
     return learning.learner().filters();
 }
 

@@ -1,0 +1,20 @@
+// What each video pixel shows of the still, as superres_seen.frag makes it, less a share of what it differs by from
+// the video beyond the mean around it: see kGuideReach. In and out: luma [1/64 grey level].
+#include "tile_params.glsl"
+
+layout(binding = 1) uniform isampler2D seen;
+layout(location = 0) out ivec4 guided;
+
+ivec3 seenAt(ivec2 p) {
+    return texelFetch(seen, clamp(p, ivec2(0), videoSize() - 1), 0).rgb;
+}
+
+void main() {
+    ivec2 p = ivec2(gl_FragCoord.xy), sum = ivec2(0);
+    for (int y = -kGuideReach; y <= kGuideReach; ++y)
+        for (int x = -kGuideReach; x <= kGuideReach; ++x)
+            sum += seenAt(p + ivec2(x, y)).gb;
+    ivec3 here = seenAt(p);
+    float off = float(here.g) - float(sum.x) / float(max(sum.y, 1));
+    guided = ivec4(floor(float(here.r) - params.guidance * float(here.b) * off + 0.5));
+}

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "base/rows.h"
+#include "pipeline/enlarge/class_sums.h"
+#include "pipeline/enlarge/matched_pictures.h"
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+namespace mfar::enlarge {
+
+/// A still on the grid of a video frame's sub-pixels, and its mean over each pixel [grey levels].
+class WarpedGrid {
+public:
+    explicit WarpedGrid(Size video);
+
+    /// Reads the still of `pictures` where the pixels of these cells look; `known`: which cells
+    /// look anywhere. The other pixels keep their values. `stop`: ends soon.
+    void warp(const MatchedPictures& pictures, const AlignedRows<LookUpCell>& lookUps,
+              const AlignedRows<std::uint8_t>& known, const std::stop_token& stop);
+
+    [[nodiscard]] float at(int x, int y, int phase) const {
+        return static_cast<float>(grid_[kGrid * y + phase / kGrid][kGrid * x + phase % kGrid]) /
+               kScale;
+    }
+    [[nodiscard]] float mean(int x, int y) const {
+        return mean_[static_cast<std::size_t>(y) * video_.width + x];
+    }
+
+private:
+    static constexpr int kScale = 64;
+
+    Size video_;
+    AlignedRows<std::int16_t> grid_;
+    std::vector<float> mean_;
+};
+
+/// A part of look-ups at the sub-pixels of a pixel: bilinear between cells, as detail is drawn.
+[[nodiscard]] Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part,
+                                  int x, int y);
+
+/// What Keys' cubic makes of values of the pixels at the sub-pixels of one.
+template <class ValueAt>
+[[nodiscard]] Phases cubicOf(int x, int y, const ValueAt& valueAt) {
+    const std::int16_t* cubic = FilterBank::prior().cubic();
+    const double here = valueAt(x, y);
+    Phases out = Phases::Constant(here);
+    for (int tap = 0; tap < kTaps; ++tap) {
+        const Offset of = kTapAt[tap];
+        const double step = (valueAt(x + of.x, y + of.y) - here) / kWeightScale;
+        for (int phase = 0; phase < kPhases; ++phase)
+            out[phase] += step * cubic[filterIndex(tap, phase)];
+    }
+    return out;
+}
+
+}  // namespace mfar::enlarge

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "pipeline/engine/engine.h"
+#include "pipeline/enlarge/matched_pictures.h"
+#include "pipeline/plan/rgb_planes.h"
+
+#include <memory>
+
+namespace mfar {
+
+/// Matches a frame to a still beside the frame path: on the host, in the caller's thread alone, in
+/// both dimensions, without what earlier frames tell. Allocates in the constructor.
+class FrameMatcher {
+public:
+    explicit FrameMatcher(const StereoRig& rig);
+
+    /// `still`: luma of the rig's still.
+    void match(const RgbPlanes& video, Rows<const std::uint8_t> still, MatchedPictures& out);
+
+private:
+    StereoRig rig_;
+    std::unique_ptr<Engine> engine_;
+    std::unique_ptr<StillStep> still_;
+    std::unique_ptr<PyramidStep> pyramid_;
+    std::unique_ptr<FlowStep> flow_;
+    std::unique_ptr<WeighStep> weigh_;
+    std::uint64_t frames_ = 0;
+};
+
+}  // namespace mfar
