@@ -69,25 +69,6 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
 
 Session::~Session() = default;
 
-// Who names a folder on the command line is told at once; a service goes on without its recording.
-void Session::beginRecording(const Config& config) {
-    if (!config.recordTo.empty()) {
-        startRecording(config.recordTo);
-    } else if (!config.record.directory.empty()) {
-        try {
-            startRecording(newRecordingIn(config.record.directory));
-        } catch (const Failure& failure) {
-            stats_.warn(fmt::format("nothing is recorded: {}", failure.what()));
-        }
-    }
-}
-
-void Session::checkRecording() {
-    if (const std::optional<std::string> why = rig_.endBrokenRecording())
-        stats_.warn(fmt::format("the recording has ended: {}", *why));
-    stats_.recording(rig_.recordingFolder());
-}
-
 PipelineOptions Session::pipelineOptions(const Config& config) const {
     PipelineOptions options;
     options.mode = config.superres.mode;
@@ -340,11 +321,6 @@ ScreenPicture Session::snapshot(bool ofScreen) const {
 void Session::askForStill() {
     if (rig_.trigger() == nullptr) throw std::runtime_error("there is no trigger");
     policy_.ask();
-}
-
-void Session::startRecording(const std::filesystem::path& folder) {
-    rig_.startRecording(folder);
-    rig_.recordTags(tags_);
 }
 
 void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {

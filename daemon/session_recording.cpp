@@ -1,0 +1,34 @@
+// What a session records.
+#include "daemon/session.h"
+
+#include "daemon/exit_code.h"
+
+#include <fmt/format.h>
+
+namespace mfar {
+
+// Who names a folder on the command line is told at once; a service goes on without its recording.
+void Session::beginRecording(const Config& config) {
+    if (!config.recordTo.empty()) {
+        startRecording(config.recordTo);
+    } else if (!config.record.directory.empty()) {
+        try {
+            startRecording(newRecordingIn(config.record.directory));
+        } catch (const Failure& failure) {
+            stats_.warn(fmt::format("nothing is recorded: {}", failure.what()));
+        }
+    }
+}
+
+void Session::checkRecording() {
+    if (const std::optional<std::string> why = rig_.endBrokenRecording())
+        stats_.warn(fmt::format("the recording has ended: {}", *why));
+    stats_.recording(rig_.recordingFolder());
+}
+
+void Session::startRecording(const std::filesystem::path& folder) {
+    rig_.startRecording(folder);
+    rig_.recordTags(tags_);
+}
+
+}  // namespace mfar

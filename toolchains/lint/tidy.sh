@@ -1,0 +1,79 @@
+# clang-tidy over what has changed since it passed last. Read by `run`, in the project's folder.
+
+# clang-tidy reads a file once for each of its commands. The second build of the SIMD kernels, for
+# Highway's scalar target, is left out.
+tidyCommands() {
+    mkdir -p .build/host/lint
+    awk -v RS='}' -v ORS='' \
+        '/mfar_simd_scalar\.dir/ { next } { print separator $0; separator = "}" }' \
+        .build/host/compile_commands.json >.build/host/lint/compile_commands.json
+}
+
+# Everything, as the build's unity files: the headers that sources share are parsed and checked once.
+# Sources that the build makes are left out.
+everything() {
+    sed -n 's|^ *"file": "\(.*\)",\?$|\1|p' .build/host/lint/compile_commands.json |
+        sort -u |
+        { xargs grep -sL '^#include "[^"]*/\.build/' || true; } | # of what is not made yet, too
+        grep . # which fails for an empty list
+}
+
+# What clang-tidy has not passed since it, a header or the checks changed.
+unlinted() {
+    local stamp=$1 changed
+    if [[ ! -f $stamp ]]; then everything; return; fi
+    changed=$(find .clang-tidy toolchains/lint base daemon hal pipeline gles_shaders tests \
+        -newer "$stamp" \( -name '*.h' -o -name '.clang-tidy' -o -name CMakeLists.txt \
+        -o -path 'toolchains/lint/*' \) -print -quit)
+    if [[ -n $changed ]]; then everything; return; fi
+    changed=$(find base daemon hal pipeline gles_shaders tests -name '*.cpp' -newer "$stamp" -printf "$PWD/%p\n")
+    [[ -n $changed ]] || return 0
+    # What is read with the flags of its target: the unity file with it, or it alone.
+    {
+        everything | xargs grep -sFl -e "$changed" || true
+        everything | grep -xF -e "$changed" || true
+    } | sort -u
+}
+
+# Makes the plugin with which clang-tidy leaves other people's headers alone, in a third of the time.
+# LLVM is built without RTTI.
+tidyPlugin() {
+    local plugin=$1 source=toolchains/lint/own_code.cpp
+    [[ $plugin -nt $source ]] ||
+        { ccache c++ -std=c++17 -fno-rtti -fPIC -isystem /usr/lib/llvm-19/include \
+            -c "$source" -o "$plugin.o" && c++ -shared "$plugin.o" -o "$plugin"; }
+}
+
+# The sources are named, which shows the progress; what clang-tidy has to say about them follows.
+# Flags that GCC alone knows do not disturb it. A kernel's file is read for one instruction set.
+tidyFile() {
+    local file=$1 sources=$1 said status=0
+    if [[ $file == */Unity/* ]]; then
+        sources=$(sed -n 's|^#include "\(.*\)"$|\1|p' "$file")
+        sources=${sources//"$PWD/"/}
+    fi
+    said=$(clang-tidy-19 -p .build/host/lint --load .build/host/own_code.so --quiet \
+        --extra-arg=-DHWY_COMPILE_ONLY_STATIC --extra-arg=-Wno-unknown-warning-option "$file" 2>/dev/null) || status=1
+    # shellcheck disable=SC2086 # a list of words
+    printf '  %s\n' $sources
+    [[ -z $said ]] || printf '%s\n' "$said"
+    return "$status"
+}
+
+tidy() {
+    local stamp=.build/host/.linted plugin=.build/host/own_code.so begun files
+    tidyCommands
+    files=$(unlinted "$stamp") || return
+    [[ -n $files ]] || return 0
+    tidyPlugin "$plugin" || return
+    tests/lint/check.sh "$plugin" || return
+    begun=$(mktemp -p .build/host)
+    export -f tidyFile
+    # shellcheck disable=SC2016 # the inner shell expands $1
+    if xargs -P "$jobs" -n 1 bash -c 'tidyFile "$1"' bash <<<"$files"; then
+        mv "$begun" "$stamp"
+    else
+        rm "$begun"
+        return 1
+    fi
+}
