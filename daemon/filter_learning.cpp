@@ -63,7 +63,8 @@ void FilterLearning::restore() {
     const std::string name = options_.file.string();
     try {
         const std::uintmax_t size = std::filesystem::file_size(options_.file, error);
-        if (error || size > kMostFilterBytes) throw FilterBankError(name + ": not a file of filters");
+        if (error || size > kMostFilterBytes)
+            throw FilterBankError(name + ": not a file of filters");
         std::ifstream in(options_.file, std::ios::binary);
         const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
         const std::vector<std::uint8_t> bytes(text.begin(), text.end());

@@ -1,7 +1,6 @@
 // What a session records.
-#include "daemon/session.h"
-
 #include "daemon/exit_code.h"
+#include "daemon/session.h"
 
 #include <fmt/format.h>
 

@@ -207,6 +207,23 @@ nlohmann::ordered_json validationSummary(const ValidationCounts& counts) {
     return {{"values_checked", counts.values}, {"faulty_outputs", counts.faults}};
 }
 
+nlohmann::ordered_json stillSummary(const Counted& counted) {
+    return {{"triggered", counted.stills.triggered},
+            {"received", counted.stills.received},
+            {"used", counted.stills.used},
+            {"superseded", counted.stills.superseded},
+            {"lost", counted.stills.lost},
+            {"tiles_matched_second", counted.tilesMatchedSecond},
+            {"tiles_show_second", counted.tilesShowSecond}};
+}
+
+nlohmann::ordered_json dropSummary(const Drops& drops) {
+    return {{"sensor", drops.sensor},
+            {"mailbox", drops.mailbox},
+            {"recorder", drops.recorder},
+            {"display", drops.display}};
+}
+
 }  // namespace
 
 // The most important first: what does not fit on the terminal is cut off.
@@ -276,25 +293,14 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
         {"stage_ms", stages},
         {"tile_share", tileSummary(counted)},
         {"mean_confidence", counted.meanConfidence},
-        {"stills",
-         {{"triggered", counted.stills.triggered},
-          {"received", counted.stills.received},
-          {"used", counted.stills.used},
-          {"superseded", counted.stills.superseded},
-          {"lost", counted.stills.lost},
-          {"tiles_matched_second", counted.tilesMatchedSecond},
-          {"tiles_show_second", counted.tilesShowSecond}}},
+        {"stills", stillSummary(counted)},
         {"quality", qualitySummary(counted.quality)},
         {"learning", learningSummary(counted.learning.value_or(LearningCounts{}))},
         {"cameras", cameraStatus(counted)},
         {"trigger_line", lineSummary(counted.matching)},
         {"pose", poseSummary(counted, run.poses)},
         {"virtual", virtualSummary(counted)},
-        {"drops",
-         {{"sensor", counted.drops.sensor},
-          {"mailbox", counted.drops.mailbox},
-          {"recorder", counted.drops.recorder},
-          {"display", counted.drops.display}}},
+        {"drops", dropSummary(counted.drops)},
         {"faults", counted.faults},
         {"validation", validationSummary(counted.validation)},
     };

@@ -77,8 +77,8 @@ public:
         const Phases weights = betweenCells(cells_, &LookUpCell::weight, x, y);
         guided = cubicOf(x, y, [&](int i, int j) { return guide_[at(i, j)]; });
         for (int phase = 0; phase < kPhases; ++phase) {
-            const double residual =
-                double(residual_[phase / kGrid][kGrid * x + phase % kGrid]) / kResidualScale;
+            const int row = phase / kGrid, column = kGrid * x + phase % kGrid;
+            const double residual = double(residual_[row][column]) / kResidualScale;
             const double detail = still_.at(x, y, phase) - low[phase], weight = weights[phase];
             added[phase] = weight * detail + (1 - std::min(weight, 1.0)) * residual;
             guided[phase] *= weight;

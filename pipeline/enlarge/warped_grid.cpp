@@ -100,9 +100,11 @@ void WarpedGrid::warp(const MatchedPictures& pictures, const AlignedRows<LookUpC
 
 Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part, int x, int y) {
     Phases out;
-    for (int phase = 0; phase < kPhases; ++phase)
-        out[phase] = between(cells, part, x - 0.5 + (phase % kGrid + 0.5) / kGrid,
-                             y - 0.5 + (phase / kGrid + 0.5) / kGrid);
+    for (int phase = 0; phase < kPhases; ++phase) {
+        const int row = phase / kGrid, column = phase % kGrid;
+        out[phase] =
+            between(cells, part, x - 0.5 + (column + 0.5) / kGrid, y - 0.5 + (row + 0.5) / kGrid);
+    }
     return out;
 }
 

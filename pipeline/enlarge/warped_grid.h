@@ -21,8 +21,8 @@ public:
               const AlignedRows<std::uint8_t>& known, const std::stop_token& stop);
 
     [[nodiscard]] float at(int x, int y, int phase) const {
-        return static_cast<float>(grid_[kGrid * y + phase / kGrid][kGrid * x + phase % kGrid]) /
-               kScale;
+        const int row = kGrid * y + phase / kGrid, column = kGrid * x + phase % kGrid;
+        return static_cast<float>(grid_[row][column]) / kScale;
     }
     [[nodiscard]] float mean(int x, int y) const {
         return mean_[static_cast<std::size_t>(y) * video_.width + x];

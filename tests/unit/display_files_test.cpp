@@ -250,7 +250,7 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAReaderThatTakesNothing) {
     // One is in work, and of the others as many wait as there are buffers.
     EXPECT_EQ(display->leftOut(), 47U);
     const int last = readPictures(4);
-    EXPECT_NEAR(last, 16 + 219 * 250 / 255, 1) << "the newest picture is written";
+    EXPECT_NEAR(last, 16 + 219 * 250 / 255., 1) << "the newest picture is written";
     display->finish();
     EXPECT_EQ(display->fault(), std::nullopt);
 }
