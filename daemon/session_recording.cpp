@@ -1,4 +1,5 @@
-// What a session records.
+#include "daemon/session.h"
+
 #include "daemon/exit_code.h"
 #include "daemon/session.h"
 

@@ -5,8 +5,9 @@ set -euo pipefail
 cd "${1:-$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../..}"
 
 rooms=(base daemon hal pipeline gles_shaders tests systemd toolchains)
-topLevel=' CMakeLists.txt CMakePresets.json README.md LICENSE run .clang-format .clang-tidy .ci
-  .gitignore base daemon hal pipeline gles_shaders tests systemd toolchains '
+topLevel=' CMakeLists.txt CMakePresets.json README.md LICENSE CHANGELOG.md CONTRIBUTING.md CITATION.cff
+  run .clang-format .clang-tidy .ci .gitignore base daemon hal pipeline gles_shaders tests systemd
+  toolchains docs '
 # Not part of the tree: version control, build and output folders, recordings for measurements.
 ignored=' .git .build out shared '
 maxLines=400
