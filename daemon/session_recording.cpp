@@ -1,5 +1,3 @@
-#include "daemon/session.h"
-
 #include "daemon/exit_code.h"
 #include "daemon/session.h"
 
