@@ -14,7 +14,7 @@
 
 namespace mfar {
 
-/// What a thread is for decides what follows when it hangs.
+/// A thread's role decides what happens when it hangs.
 enum class ThreadRole {
     Vital,   ///< the picture or the way out need it: the process has to be started again
     Helper,  ///< files, configuration: the picture goes on, and the fault is reported

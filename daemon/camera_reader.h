@@ -13,7 +13,7 @@
 
 namespace mfar {
 
-/// How soon it is told that a camera sends nothing. Stopping it wakes who waits at once.
+/// A camera that sends nothing is reported after this time. Stopping it ends the wait at once.
 inline constexpr std::chrono::milliseconds kFrameWait{50};
 
 /// Fetches the frames of one camera of a rig, refuses those that cannot be its own and tells

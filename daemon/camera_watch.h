@@ -25,7 +25,7 @@ struct CameraState {
     std::optional<double> distinctAgeS{};  ///< of that, when somebody asked
 };
 
-/// What a source's frames can tell of its camera.
+/// A camera's state, as its frames show it.
 enum class CameraKind {
     Stored,  ///< nothing: no frame is ever left out
     Live,    ///< frames may be left out
@@ -46,11 +46,11 @@ public:
     CameraWatch(const CameraInfo& info, CameraKind kind);
 
     void add(const Frame& frame, Timestamp now);
-    /// What the camera itself counts by now.
+    /// The camera's own counters, up to now.
     void add(const CameraCounters& counters);
 
     [[nodiscard]] const CameraState& state() const { return state_; }
-    /// What is to be said of the camera, each once.
+    /// Returns the new warnings about the camera, each once.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:
@@ -69,8 +69,8 @@ private:
     std::vector<std::string> warnings_;
 };
 
-/// Of at most sixteen rows of the first plane, spread over the picture. Pictures of a sensor differ
-/// in it by their noise.
+/// Covers at most sixteen rows of the first plane, spread over the picture. A sensor's noise makes
+/// it differ from picture to picture.
 [[nodiscard]] std::uint64_t sparseChecksum(const ImageView& picture);
 
 }  // namespace mfar

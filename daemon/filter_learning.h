@@ -75,8 +75,8 @@ private:
 
     const FilterLearningOptions options_;
     EnlargerLearner learner_;  // of the thread; of the constructor and destructor
-    // Of the frame's thread, or with isFull_ of the other one: the new still; the one before, with
-    // the last frame that was drawn with it.
+    // The new still, and the one before with the last frame that was drawn with it. They belong to
+    // the frame's thread, and to the learner's while isFull_ is set.
     MatchedPictures pictures_, older_;
     std::optional<RgbPlanes> olderVideo_;
     bool hasOlder_ = false;                  // `older_` is of the still before that of `pictures_`

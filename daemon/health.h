@@ -20,7 +20,7 @@ enum class HealthState {
 
 [[nodiscard]] std::string_view name(HealthState state);
 
-/// How mfard is, in one record for the service manager, the log and mfarctl.
+/// The state of mfard: one record for the service manager, the log and mfarctl.
 struct Health {
     HealthState state = HealthState::Ok;
     std::string cause{};                  ///< in words, without times; empty where all is well
