@@ -5,6 +5,7 @@
 #include "tests/measure/eval/metrics/luma.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/scene_run.h"
+#include "tests/measure/eval/superres_learning.h"
 #include "tests/measure/eval/superres_methods.h"
 #include "tests/measure/eval/superres_samples.h"
 
@@ -70,11 +71,27 @@ private:
     std::optional<Timestamp> stillTime_;
 };
 
+/// What the product learns from the next stills of a scene.
+std::shared_ptr<const FilterBank> learnedFrom(SceneRun& board, int stills) {
+    StillLearning learning;
+    learning.begin(board.rig());
+    Pipeline pipeline(board.rig(), {.output = {}, .skipUnchanged = false});
+    pipeline.setMatchListener(&learning);
+    for (int i = 0; i < kStillEvery * stills; ++i) {
+        const SceneRun::Shots shots = board.next();
+        if (i % kStillEvery == 0) board.fire();
+        runOn(pipeline, shots);
+    }
+    learning.report();
+    return learning.filters();
+}
+
 Figure7Scene ofScene(const Figure7Request& request, synthetic::Scene scene,
                      SuperResFactory& factory) {
     SyntheticOptions options;
     options.scene = scene;
     SceneRun board(options, PoseSource::Recorded);
+    if (request.learn > 0) factory.setFilters(learnedFrom(board, request.learn));
     Figure7Run run(request, std::string(synthetic::name(scene)), board.rig(), factory);
     for (int i = 0; i < kStillEvery * (request.frames - 1) + kScoredFrame + 1; ++i) {
         const SceneRun::Shots shots = board.next();
@@ -92,6 +109,11 @@ Figure7Scene ofScene(const Figure7Request& request, synthetic::Scene scene,
 Figure7Scene ofRecording(const Figure7Request& request, const std::filesystem::path& folder,
                          const std::string& name, SuperResFactory& factory) {
     const Recording recording = loadRecording(folder);
+    if (request.learn > 0) {
+        SuperResRequest asFor;
+        asFor.learn = request.learn;
+        factory.setFilters(learnedFilters(asFor, {folder}));
+    }
     Figure7Run run(request, name, recording.rig, factory);
     for (const SuperResSample& sample : superResSamplesOf(recording, request.frames)) {
         const PosePair poses = posesOf(recording, sample.video.time, sample.still.time);
@@ -106,6 +128,7 @@ Figure7Scene ofRecording(const Figure7Request& request, const std::filesystem::p
 
 std::vector<Figure7Scene> evaluateFigure7(const Figure7Request& request) {
     SuperResFactory factory(2);  // the paper's alpha [video px]
+    if (request.learn > 0) factory.requireContext();
     std::vector<Figure7Scene> out;
     for (const synthetic::Scene scene : request.scenes)
         out.push_back(ofScene(request, scene, factory));

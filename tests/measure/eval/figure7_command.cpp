@@ -31,6 +31,9 @@ CLI::App* addFigure7Command(CLI::App& app, Figure7Request& request, std::string&
     sub->add_option("--frames", request.frames, "of each scene, at most")
         ->check(CLI::Range(1, 1000))
         ->capture_default_str();
+    sub->add_option("--learn", request.learn,
+                    "let the product learn from so many stills of each before")
+        ->check(CLI::Range(0, 1000));
     addMetricParameters(*sub, request.metrics);
     sub->add_option("--svg", request.svg, "file for the figure");
     sub->add_option("--save", request.save, "folder for the pictures");

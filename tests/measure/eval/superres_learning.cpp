@@ -1,8 +1,6 @@
 #include "tests/measure/eval/superres_learning.h"
 
 #include "hal/virtual/recording.h"
-#include "pipeline/enlarge/enlarger_learner.h"
-#include "pipeline/frame_matcher.h"
 #include "pipeline/pipeline.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/still_choice.h"
@@ -12,47 +10,45 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <optional>
 
 namespace mfar::eval {
+
+void StillLearning::begin(const StereoRig& rig) {
+    matcher_.emplace(rig);
+    hasOlder_ = false;
+}
+
+void StillLearning::matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                            Rows<const LookUpCell> lookUps,
+                            const MatchedPictures::LookedUp& lookedUp) {
+    pictures_.take(video, still, lookUps, lookedUp);
+    learner_.add(pictures_);
+    if (!hasOlder_) return;
+    hasOlder_ = false;
+    matcher_->match(olderVideo_, still, truth_);
+    learner_.addOlder(truth_, older_);
+}
+
+void StillLearning::replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
+                             Rows<const LookUpCell> lookUps,
+                             const MatchedPictures::LookedUp& lookedUp) {
+    hasOlder_ = mayUseOlder_;
+    if (!hasOlder_) return;
+    older_.take(video, still, lookUps, lookedUp);
+    olderVideo_ = video;
+}
+
+void StillLearning::report() const {
+    const EnlargerLearner::Counts& counts = learner_.counts();
+    fmt::print(stderr,
+               "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
+               "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
+               "from {} pairs of stills, held out {:.2f} dB\n",
+               counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
+               counts.gainDb, counts.priorDb, counts.guidance, counts.pairs, counts.guidanceGainDb);
+}
+
 namespace {
-
-class Learning final : public MatchListener {
-public:
-    void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
-                 Rows<const LookUpCell> lookUps,
-                 const MatchedPictures::LookedUp& lookedUp) override {
-        pictures_.take(video, still, lookUps, lookedUp);
-        learner_.add(pictures_);
-        if (!hasOlder_) return;
-        hasOlder_ = false;
-        matcher_->match(olderVideo_, still, truth_);
-        learner_.addOlder(truth_, older_);
-    }
-    void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
-                  Rows<const LookUpCell> lookUps,
-                  const MatchedPictures::LookedUp& lookedUp) override {
-        hasOlder_ = mayUseOlder_;
-        if (!hasOlder_) return;
-        older_.take(video, still, lookUps, lookedUp);
-        olderVideo_ = video;
-    }
-    /// Of the stills to come.
-    void begin(const StereoRig& rig) {
-        matcher_.emplace(rig);
-        hasOlder_ = false;
-    }
-    /// Whether the next still may tell what the last frame should look like.
-    void setMayUseOlder(bool may) { mayUseOlder_ = may; }
-    [[nodiscard]] const EnlargerLearner& learner() const { return learner_; }
-
-private:
-    MatchedPictures pictures_, older_, truth_;
-    RgbPlanes olderVideo_{Size{1, 1}};
-    bool hasOlder_ = false, mayUseOlder_ = false;
-    std::optional<FrameMatcher> matcher_;
-    EnlargerLearner learner_;
-};
 
 struct Match {
     std::size_t frame, still;
@@ -75,7 +71,7 @@ std::vector<Match> matchesOf(const Recording& recording, std::size_t rank) {
 }
 
 void learnFrom(const Recording& recording, const SuperResRequest& request, int& left,
-               Learning& learning) {
+               StillLearning& learning) {
     const KnownPoses poses(recording, request.poses);
     Pipeline pipeline(recording.rig, {.output = {}, .skipUnchanged = false});
     pipeline.setMatchListener(&learning);
@@ -111,18 +107,12 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
 std::shared_ptr<const FilterBank>
 learnedFilters(const SuperResRequest& request,
                const std::vector<std::filesystem::path>& recordings) {
-    Learning learning;
+    StillLearning learning;
     int left = request.learn == kEachOnce ? 1000000 : request.learn;
     for (const std::filesystem::path& root : recordings)
         learnFrom(loadRecording(root), request, left, learning);
-    const EnlargerLearner::Counts& counts = learning.learner().counts();
-    fmt::print(stderr,
-               "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
-               "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
-               "from {} pairs of stills, held out {:.2f} dB\n",
-               counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
-               counts.gainDb, counts.priorDb, counts.guidance, counts.pairs, counts.guidanceGainDb);
-    return learning.learner().filters();
+    learning.report();
+    return learning.filters();
 }
 
 }  // namespace mfar::eval
