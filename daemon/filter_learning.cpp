@@ -38,8 +38,9 @@ std::string describe(const LearningCounts& counts) {
     std::string out =
         fmt::format("{} stills, {} of {} classes, {:.2f} dB over the cubic ({:.2f} as shipped)",
                     of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
-    if (of.guidance > 0)
-        out += fmt::format("; guided by {:.2f}: {:.2f} dB", of.guidance, of.guidanceGainDb);
+    if (of.guidance.any())
+        out += fmt::format("; guided by {:.2f} of the still for {:.2f} of the video: {:.2f} dB",
+                           of.guidance.still, of.guidance.video, of.guidanceGainDb);
     return out;
 }
 

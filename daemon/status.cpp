@@ -199,7 +199,8 @@ nlohmann::ordered_json learningSummary(const LearningCounts& counts) {
             {"gain_db", counts.learner.gainDb},
             {"shipped_gain_db", counts.learner.priorDb},
             {"still_pairs", counts.learner.pairs},
-            {"guidance", counts.learner.guidance},
+            {"guidance_still", counts.learner.guidance.still},
+            {"guidance_video", counts.learner.guidance.video},
             {"guidance_gain_db", counts.learner.guidanceGainDb}};
 }
 

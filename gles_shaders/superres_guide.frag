@@ -1,5 +1,5 @@
-// What each video pixel shows of the still, as superres_seen.frag makes it, less a share of what it differs by from
-// the video beyond the mean around it: see kGuideReach. In and out: luma [1/64 grey level].
+// What each video pixel shows of the still, as superres_seen.frag makes it, less what guidance adds and takes away
+// beyond its mean around: see kGuideReach. In and out: luma [1/64 grey level].
 #include "tile_params.glsl"
 
 layout(binding = 1) uniform isampler2D seen;
@@ -16,5 +16,5 @@ void main() {
             sum += seenAt(p + ivec2(x, y)).gb;
     ivec3 here = seenAt(p);
     float off = float(here.g) - float(sum.x) / float(max(sum.y, 1));
-    guided = ivec4(floor(float(here.r) - params.guidance * float(here.b) * off + 0.5));
+    guided = ivec4(floor(float(here.r) - float(here.b) * off + 0.5));
 }

@@ -1,6 +1,6 @@
 // Where the video is enlarged by filters and not sharpened: luma that each video pixel shows of the still.
-// In: video, look-ups, raised luma of the still. Out: luma, its difference to the video's [1/64 grey level], and
-// 1 where the still is trusted; elsewhere the difference is 0.
+// In: video, look-ups, raised luma of the still. Out: luma, what guidance adds and takes away [1/64 grey level],
+// and 1 where the still is trusted; elsewhere nothing is added.
 #include "tile_params.glsl"
 #include "still_seen.glsl"
 #include "luma.glsl"
@@ -13,6 +13,6 @@ void main() {
     float scale = 255.0 * float(kPassScale), shown = stillSeen();
     ivec2 p = ivec2(gl_FragCoord.xy);
     int trusted = texelFetch(lookupField, p >> 2, 0).z > 0.0 ? 1 : 0;
-    float off = shown - lumaOf(texelFetch(picture, p, 0).rgb);
+    float off = params.guidanceStill * shown - params.guidanceVideo * lumaOf(texelFetch(picture, p, 0).rgb);
     seen = ivec4(scale * shown + 0.5, trusted * int(floor(scale * off + 0.5)), trusted, 0);
 }

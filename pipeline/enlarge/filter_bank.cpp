@@ -75,12 +75,12 @@ std::uint64_t nextNumber() {
 
 }  // namespace
 
-FilterBank::FilterBank(std::span<const Filter> unique, float guidance)
+FilterBank::FilterBank(std::span<const Filter> unique, const Guidance& guidance)
     : number_(nextNumber()), guidance_(guidance), cubic_({kFilterSize, 1}) {
     if (unique.size() != kUnique)
         throw FilterBankError("filters of " + std::to_string(unique.size()) +
                               " classes, expected " + std::to_string(kUnique));
-    if (!(guidance >= 0 && guidance <= 1)) throw FilterBankError("guidance is not in [0, 1]");
+    if (!guidance.isValid()) throw FilterBankError("guidance is out of range");
     for (std::size_t i = 0; i < unique.size(); ++i)
         if (!fits(unique[i]))
             throw FilterBankError("weights of class " + std::to_string(i) + " are too large");

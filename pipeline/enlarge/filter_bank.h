@@ -17,6 +17,21 @@ class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// How far a still guides the finest detail that the video shows by itself, where the still is
+/// trusted; see params::kGuideReach. Both 0: not at all. They are alike where both sensors have
+/// the same exposure.
+struct Guidance {
+    float still = 0;  ///< share of the still's detail that is put in, [0, 1]
+    float video = 0;  ///< share of the video's own that is taken away, [0, kMost]
+
+    static constexpr float kMost = 2;
+    [[nodiscard]] bool any() const { return still > 0 || video > 0; }
+    [[nodiscard]] bool isValid() const {
+        return still >= 0 && still <= 1 && video >= 0 && video <= kMost;
+    }
+    bool operator==(const Guidance&) const = default;
+};
+
 /// Filters of the learned enlarger, one for each class, see filter_layout.h, and how far a still
 /// guides what the video shows, too. Immutable.
 class FilterBank {
@@ -26,7 +41,7 @@ public:
 
     /// `unique`: kUnique filters, those by gradient first. `guidance`: see guidance(). Throws
     /// FilterBankError.
-    explicit FilterBank(std::span<const Filter> unique, float guidance = 0);
+    explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {});
     /// What the product ships: learned by mfar-train-enlarger, part of the program.
     [[nodiscard]] static const FilterBank& prior();
 
@@ -35,16 +50,14 @@ public:
     /// A row per class.
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
-    /// Share of the video's finest detail that gives way to what the still shows of it, where that
-    /// is trusted: [0, 1]; see params::kGuideReach. 0 for the shipped filters: it depends on how
-    /// noisy and how sharp both sensors are.
-    [[nodiscard]] float guidance() const { return guidance_; }
+    /// None for the shipped filters: it depends on how noisy and how sharp both sensors are.
+    [[nodiscard]] const Guidance& guidance() const { return guidance_; }
     /// Keys' cubic on the same grid, less the pixel, as a filter: with 16384 as one, not halved.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
     std::uint64_t number_;
-    float guidance_;
+    Guidance guidance_;
     AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
 };
 

@@ -21,6 +21,9 @@ constexpr double kLeastPixels = 0.02;  // of the picture, in the parts that are 
 constexpr double kWorthwhile = 0.005;
 // A new guidance replaces one that is as near as this never: pictures would change for nothing.
 constexpr float kSame = 0.01F;
+// Below, the factors cannot be told apart: over the product of both squares.
+constexpr double kLeastDeterminant = 1e-9;
+constexpr double kMostPairs = 1e15;  // which a double still counts
 // Levels between which neither sensor is saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
@@ -31,7 +34,8 @@ public:
                const std::stop_token& stop)
         : in_(pictures), filters_(filters), known_(pictures.lookUps.size()),
           cells_(pictures.lookUps.size()), still_(pictures.video),
-          guide_(static_cast<std::size_t>(pictures.video.width) * pictures.video.height),
+          stillFine_(static_cast<std::size_t>(pictures.video.width) * pictures.video.height),
+          videoFine_(stillFine_.size()),
           sums_({pictures.video.width + 2 * MatchedPictures::kMargin, 3}),
           classes_({pictures.video.width, 2}), range_({pictures.video.width, 2}),
           residual_({kGrid * pictures.video.width, kGrid}) {
@@ -71,17 +75,22 @@ public:
             {gradient.data, curvature.data, filters_.cubic(), gradient.pitch, curvature.pitch}, 0,
             width, {residual_[0], residual_[1], residual_[2], residual_[3]});
     }
-    /// What is added to the cubic without guidance, and what full guidance adds to that.
-    void addedTo(int x, int y, Phases& added, Phases& guided) const {
+    struct Added {
+        Phases unguided;      ///< what is added to the cubic without guidance
+        Phases still, video;  ///< what each factor of Guidance adds to that, where it is one
+    };
+    void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
         const Phases weights = betweenCells(cells_, &LookUpCell::weight, x, y);
-        guided = cubicOf(x, y, [&](int i, int j) { return guide_[at(i, j)]; });
+        out.still = cubicOf(x, y, [&](int i, int j) { return stillFine_[at(i, j)]; });
+        out.video = cubicOf(x, y, [&](int i, int j) { return -videoFine_[at(i, j)]; });
         for (int phase = 0; phase < kPhases; ++phase) {
             const int row = phase / kGrid, column = kGrid * x + phase % kGrid;
             const double residual = double(residual_[row][column]) / kResidualScale;
             const double detail = still_.at(x, y, phase) - low[phase], weight = weights[phase];
-            added[phase] = weight * detail + (1 - std::min(weight, 1.0)) * residual;
-            guided[phase] *= weight;
+            out.unguided[phase] = weight * detail + (1 - std::min(weight, 1.0)) * residual;
+            out.still[phase] *= weight;
+            out.video[phase] *= weight;
         }
     }
 
@@ -90,21 +99,25 @@ private:
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * in_.video.width + x;
     }
-    /// See params::kGuideReach.
-    void compare() {
-        const auto difference = [&](int x, int y) {
-            if (!isKnown(x, y)) return 0.0;
-            return still_.mean(x, y) - in_.row(y)[x] / double(kLumaScale);
-        };
-        const BoxSums counts(in_.video, [&](int x, int y) { return isKnown(x, y) ? 1.0 : 0.0; });
-        const BoxSums sums(in_.video, difference);
+    /// What values are beyond their mean around, where the still is known; see
+    /// params::kGuideReach.
+    template <class Value>
+    void beyondMean(const BoxSums& counts, std::vector<float>& out, const Value& value) const {
+        const BoxSums sums(in_.video,
+                           [&](int x, int y) { return isKnown(x, y) ? value(x, y) : 0.0; });
         for (int y = 0; y < in_.video.height; ++y)
             for (int x = 0; x < in_.video.width; ++x) {
                 if (!isKnown(x, y)) continue;
                 const double mean = sums.around(x, y, params::kGuideReach) /
                                     counts.around(x, y, params::kGuideReach);
-                guide_[at(x, y)] = static_cast<float>(difference(x, y) - mean);
+                out[at(x, y)] = static_cast<float>(value(x, y) - mean);
             }
+    }
+    void compare() {
+        const BoxSums counts(in_.video, [&](int x, int y) { return isKnown(x, y) ? 1.0 : 0.0; });
+        beyondMean(counts, stillFine_, [&](int x, int y) { return double(still_.mean(x, y)); });
+        beyondMean(counts, videoFine_,
+                   [&](int x, int y) { return in_.row(y)[x] / double(kLumaScale); });
     }
 
     const MatchedPictures& in_;
@@ -112,7 +125,7 @@ private:
     AlignedRows<std::uint8_t> known_;
     AlignedRows<LookUpCell> cells_;
     WarpedGrid still_;
-    std::vector<float> guide_;
+    std::vector<float> stillFine_, videoFine_;
     AlignedRows<float> sums_;
     AlignedRows<std::uint16_t> classes_;
     AlignedRows<std::int16_t> range_, residual_;
@@ -126,15 +139,43 @@ bool isSaturated(const MatchedPictures& pictures, int x, int y) {
 }  // namespace
 
 void FactorSums::add(const FactorSums& other) {
-    added += other.added;
-    product += other.product;
-    missing += other.missing;
+    still2 += other.still2;
+    video2 += other.video2;
+    missing2 += other.missing2;
+    stillVideo += other.stillVideo;
+    stillMissing += other.stillMissing;
+    videoMissing += other.videoMissing;
     pixels += other.pixels;
 }
 
 void FactorSums::fade(double share) {
-    for (double* sum : {&added, &product, &missing, &pixels})
+    for (double* sum :
+         {&still2, &video2, &missing2, &stillVideo, &stillMissing, &videoMissing, &pixels})
         *sum *= share;
+}
+
+double FactorSums::gainOf(const Guidance& of) const {
+    const double a = of.still, b = of.video;
+    return 2 * (a * stillMissing + b * videoMissing) - a * a * still2 - b * b * video2 -
+           2 * a * b * stillVideo;
+}
+
+Guidance FactorSums::best(double prior) const {
+    if (!(still2 > 0 && video2 > 0 && pixels > 0)) return {};
+    // What the still shows beyond the video, whatever the factor between both.
+    const double apart = std::max(still2 - stillVideo * stillVideo / video2, 0.0);
+    const double pull = apart * prior / pixels;
+    const double a2 = still2 + pull, b2 = video2 + pull;
+    const double determinant = a2 * b2 - stillVideo * stillVideo;
+    if (!(determinant > kLeastDeterminant * a2 * b2)) return {};
+    const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
+    const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
+    // The free optimum, or else the best on the border that it lies beyond.
+    const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
+    double still = std::clamp(free, 0.0, 1.0);
+    const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));
+    still = std::clamp(stillFor(video), 0.0, 1.0);
+    return {static_cast<float>(still), static_cast<float>(video)};
 }
 
 bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& older,
@@ -143,19 +184,22 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
     if (older.video != truth.size()) return false;
     DrawnFrame frame(older, filters, stop);
     FactorSums learn, held;
-    Phases added, guided;
+    DrawnFrame::Added added;
     for (int y = 0; y < height && !stop.stop_requested(); ++y) {
         frame.begin(y);
         for (int x = 0; x < width; ++x) {
             if (!truth.trusts(x, y) || !frame.knows(x, y) || isSaturated(older, x, y)) continue;
-            frame.addedTo(x, y, added, guided);
-            const Phases missing = truth.target(x, y) - added;
+            frame.addedTo(x, y, added);
+            const Phases missing = truth.target(x, y) - added.unguided;
             // Every third tile is held out, by place as for filters.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
-            to.add({guided.squaredNorm(), guided.dot(missing), missing.squaredNorm(), 1});
+            to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
+                    added.still.dot(added.video), added.still.dot(missing),
+                    added.video.dot(missing), 1});
         }
     }
-    const double sum = learn.added + learn.product + learn.missing + held.added + held.missing;
+    const double sum = learn.still2 + learn.video2 + learn.missing2 + held.still2 + held.video2 +
+                       held.missing2;  // the products are no larger
     if (stop.stop_requested() || !std::isfinite(sum)) return false;
     if (!(learn.pixels >= kLeastPixels * width * height && held.pixels > 0)) return false;
     ++pairs_;
@@ -163,50 +207,48 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
     learned_.add(learn);
     held_.fade(kForgetting);
     held_.add(held);
-    const double pull = learned_.added * kPriorPixels / learned_.pixels;
-    const double best = learned_.added > 0 ? learned_.product / (learned_.added + pull) : 0;
-    const auto candidate = static_cast<float>(std::clamp(best, 0.0, 1.0));
-    const auto helps = [&](float factor) {
-        return held_.gainOf(factor) > kWorthwhile * held_.missing && held.gainOf(factor) > 0;
+    const Guidance candidate = learned_.best(kPriorPixels);
+    const auto helps = [&](const Guidance& of) {
+        return held_.gainOf(of) > kWorthwhile * held_.missing2 && held.gainOf(of) > 0;
     };
     if (!helps(candidate))
-        guidance_ = helps(guidance_) ? guidance_ : 0;
-    else if (std::abs(candidate - guidance_) > kSame)
+        guidance_ = helps(guidance_) ? guidance_ : Guidance{};
+    else if (std::abs(candidate.still - guidance_.still) > kSame ||
+             std::abs(candidate.video - guidance_.video) > kSame)
         guidance_ = candidate;
     return true;
 }
 
 double GuidanceLearner::gainDb() const {
-    const double left = held_.missing - held_.gainOf(guidance_);
-    return left > 0 ? 10 * std::log10(held_.missing / left) : 0;
+    const double left = held_.missing2 - held_.gainOf(guidance_);
+    return left > 0 ? 10 * std::log10(held_.missing2 / left) : 0;
 }
 
 std::array<double, GuidanceLearner::kNumbers> GuidanceLearner::stored() const {
-    return {static_cast<double>(pairs_),
-            guidance_,
-            learned_.added,
-            learned_.product,
-            learned_.missing,
-            learned_.pixels,
-            held_.added,
-            held_.product,
-            held_.missing,
-            held_.pixels};
+    std::array<double, kNumbers> out{static_cast<double>(pairs_), guidance_.still, guidance_.video};
+    std::size_t next = 3;
+    for (const FactorSums* of : {&learned_, &held_})
+        for (const double value : {of->still2, of->video2, of->missing2, of->stillVideo,
+                                   of->stillMissing, of->videoMissing, of->pixels})
+            out[next++] = value;
+    return out;
 }
 
 bool GuidanceLearner::restore(const std::array<double, kNumbers>& numbers) {
     const auto sums = [&](std::size_t i) {
-        return FactorSums{numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]};
+        return FactorSums{numbers[i],     numbers[i + 1], numbers[i + 2], numbers[i + 3],
+                          numbers[i + 4], numbers[i + 5], numbers[i + 6]};
     };
     const auto sound = [](const FactorSums& of) {
-        return of.added >= 0 && of.missing >= 0 && of.pixels >= 0;
+        return of.still2 >= 0 && of.video2 >= 0 && of.missing2 >= 0 && of.pixels >= 0;
     };
-    if (!(numbers[0] >= 0 && numbers[0] < 1e15 && numbers[1] >= 0 && numbers[1] <= 1)) return false;
-    if (!sound(sums(2)) || !sound(sums(6))) return false;
+    const Guidance guidance{static_cast<float>(numbers[1]), static_cast<float>(numbers[2])};
+    if (!(numbers[0] >= 0 && numbers[0] < kMostPairs) || !guidance.isValid()) return false;
+    if (!sound(sums(3)) || !sound(sums(10))) return false;
     pairs_ = static_cast<std::uint64_t>(numbers[0]);
-    guidance_ = static_cast<float>(numbers[1]);
-    learned_ = sums(2);
-    held_ = sums(6);
+    guidance_ = guidance;
+    learned_ = sums(3);
+    held_ = sums(10);
     return true;
 }
 

@@ -11,23 +11,25 @@
 
 namespace mfar::enlarge {
 
-/// Least squares for one factor: what is missing, and what the factor would add to it.
+/// Least squares for two factors: products of what is missing, of what the still would add and of
+/// what taking the video's detail away would add.
 struct FactorSums {
-    double added = 0, product = 0, missing = 0;  ///< squares of the one, of both, of the other
+    double still2 = 0, video2 = 0, missing2 = 0;  ///< squares
+    double stillVideo = 0, stillMissing = 0, videoMissing = 0;
     double pixels = 0;
 
     void add(const FactorSums& other);
     /// Counts what is there by this share from now on.
     void fade(double share);
-    /// By how much the sum of squares falls with a factor.
-    [[nodiscard]] double gainOf(double factor) const {
-        return factor * (2 * product - factor * added);
-    }
+    /// By how much the sum of squares falls with guidance.
+    [[nodiscard]] double gainOf(const Guidance& of) const;
+    /// What makes it fall most, where no guidance counts like `prior` pixels.
+    [[nodiscard]] Guidance best(double prior) const;
 };
 
 /// Learns FilterBank::guidance() by leaving one still out: a frame is drawn with an older still,
 /// and a new one tells what it should look like, where it matches that frame. Recursive least
-/// squares with forgetting, drawn towards 0, which is as without; the result is used as long as
+/// squares with forgetting, drawn towards none; the result is used as long as
 /// parts of the pictures that it was not learned from come nearer to the new still by it. The
 /// weight of the detail is not learned this way: a still that was warped has lost a part of its
 /// finest detail, so that one still asks for less of the other's than the scene does. On synthetic
@@ -41,19 +43,19 @@ public:
     bool add(const TrustedPairs& truth, const MatchedPictures& older, const FilterBank& filters,
              const std::stop_token& stop = {});
 
-    [[nodiscard]] float guidance() const { return guidance_; }
+    [[nodiscard]] const Guidance& guidance() const { return guidance_; }
     [[nodiscard]] std::uint64_t pairs() const { return pairs_; }
     /// Of the guidance, in the parts held out [dB].
     [[nodiscard]] double gainDb() const;
 
     /// What is kept for a later run, and the way back. False: not numbers that stored() gives.
-    static constexpr std::size_t kNumbers = 10;
+    static constexpr std::size_t kNumbers = 17;
     [[nodiscard]] std::array<double, kNumbers> stored() const;
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);
 
 private:
     FactorSums learned_, held_;
-    float guidance_ = 0;
+    Guidance guidance_;
     std::uint64_t pairs_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pipeline/enlarge/filter_bank.h"
+
 #include <cstdint>
 
 namespace mfar {
@@ -11,7 +13,7 @@ struct LearnerCounts {
     double gainDb = 0;          ///< of the set in place over the cubic, in the part held out
     double priorDb = 0;         ///< the same of the shipped filters
     std::uint64_t pairs = 0;    ///< of stills that guidance was learned from
-    double guidance = 0;        ///< FilterBank::guidance()
+    Guidance guidance{};        ///< FilterBank::guidance()
     double guidanceGainDb = 0;  ///< over none, in the part held out
 };
 

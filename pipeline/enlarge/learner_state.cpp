@@ -15,8 +15,10 @@ using namespace enlarge;
 
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
-constexpr std::array<std::uint64_t, 4> kHeader{2, kUnique, kTaps, kPhases};
-constexpr std::uint64_t kWithoutGuidance = 1;  // a version that is still read
+constexpr std::array<std::uint64_t, 4> kHeader{3, kUnique, kTaps, kPhases};
+// Versions that are still read: without guidance, and with ten numbers of a single factor.
+constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2;
+constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
 constexpr std::size_t kMostKeySize = 4096;
 
@@ -60,7 +62,7 @@ public:
             refuse("not a file of learned filters");
         at_ = kMagicSize;
         version_ = bytes_.size() >= at_ + 8 ? getNumber(&bytes_[at_], 8) : kHeader[0];
-        if (version_ != kHeader[0] && version_ != kWithoutGuidance)
+        if (version_ < kWithoutGuidance || version_ > kHeader[0])
             refuse("another version than this program's");
         bytes_ = bytes.first(bytes.size() - kChecksumSize);
         if (getNumber(bytes.data() + bytes_.size(), kChecksumSize) != fnv1a(bytes_))
@@ -157,7 +159,10 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
         out.sums_.edit(i) = in.sums();
         out.held_.edit(i) = in.sums();
     }
-    if (in.version() != kWithoutGuidance) {
+    if (in.version() == kOneFactor)  // learned anew
+        for (int i = 0; i < kOneFactorNumbers; ++i)
+            (void)in.real();
+    if (in.version() == kHeader[0]) {
         std::array<double, GuidanceLearner::kNumbers> numbers{};
         for (double& value : numbers)
             value = in.real();

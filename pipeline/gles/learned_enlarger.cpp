@@ -96,8 +96,9 @@ void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const Til
     takeTiles(tiles.work());
     fillGrid(video, tiles);
     const bool whole = tiles.work().drawsWhole();
-    params.guidance = filters.guidance();
-    const bool guides = seen != nullptr && params.guidance > 0;
+    params.guidanceStill = filters.guidance().still;
+    params.guidanceVideo = filters.guidance().video;
+    const bool guides = seen != nullptr && filters.guidance().any();
     if (seen != nullptr)
         see_.run(
             whole || seenIsOld_, params,

@@ -106,8 +106,7 @@ void WarpRow(const StillPairs& still, const LookUpRows& rows, int begin, int end
     }
 }
 
-void GuideRow(const GuideRows& rows, float share, int begin, int end, const float* from,
-              float* to) {
+void GuideRow(const GuideRows& rows, int begin, int end, const float* from, float* to) {
     const F df;
     const int lanes = static_cast<int>(hn::Lanes(df)), reach = params::kGuideReach;
     constexpr int kMiddle = params::kGuideReach;
@@ -119,9 +118,9 @@ void GuideRow(const GuideRows& rows, float share, int begin, int end, const floa
                 count = hn::Add(count, hn::LoadU(df, rows.trusted[k] + i));
             }
         const auto mean = hn::Div(sum, hn::Max(count, hn::Set(df, 1.0F)));
-        const auto weight = hn::Mul(hn::LoadU(df, rows.trusted[kMiddle] + x), hn::Set(df, share));
+        const auto trusted = hn::LoadU(df, rows.trusted[kMiddle] + x);
         const auto off = hn::Sub(hn::LoadU(df, rows.differences[kMiddle] + x), mean);
-        hn::StoreU(hn::NegMulAdd(weight, off, hn::LoadU(df, from + x)), df, to + x);
+        hn::StoreU(hn::NegMulAdd(trusted, off, hn::LoadU(df, from + x)), df, to + x);
     }
 }
 
@@ -309,9 +308,8 @@ void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int e
     HWY_DYNAMIC_DISPATCH(WarpRow)(still, lookUp, begin, end, to);
 }
 
-void guideRow(const GuideRows& rows, float share, int begin, int end, const float* from,
-              float* to) {
-    HWY_DYNAMIC_DISPATCH(GuideRow)(rows, share, begin, end, from, to);
+void guideRow(const GuideRows& rows, int begin, int end, const float* from, float* to) {
+    HWY_DYNAMIC_DISPATCH(GuideRow)(rows, begin, end, from, to);
 }
 
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,

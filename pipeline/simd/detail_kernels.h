@@ -34,17 +34,17 @@ struct StillPairs {
 void warpRow(const StillPairs& still, const LookUpRows& lookUp, int begin, int end,
              std::int16_t* to);
 
-/// What a row of the video and of the still differ in, and where the still is trusted. Rows of the
-/// video's pixels with a margin of kGuideReach on both sides.
+/// What guidance adds to a row of the video and takes away (Guidance), and where the still is
+/// trusted. Rows of the video's pixels with a margin of kGuideReach on both sides.
 struct GuideRows {
     static constexpr int kRows = 2 * params::kGuideReach + 1;
     std::array<const float*, kRows> differences;  ///< zero where not trusted
     std::array<const float*, kRows> trusted;      ///< 1 or 0
 };
 
-/// A row of the still as the video shows it, less `share` of the trusted differences to the video,
-/// which count from their mean around. All in the same unit.
-void guideRow(const GuideRows& rows, float share, int begin, int end, const float* from, float* to);
+/// A row of the still as the video shows it, less the trusted differences, which count from their
+/// mean around. All in the same unit.
+void guideRow(const GuideRows& rows, int begin, int end, const float* from, float* to);
 
 /// A row of the warped still, and the rows whose weighed sum is what the video shows of it.
 struct WarpedRow {

@@ -174,7 +174,7 @@ void DetailStep::drawStrip(const Frame& frame, Scratch& s, const PixelRect& stri
                   frame.linear, strip.x0, strip.x1);
     if (frame.blends) s.lookUps.begin(frame.in.lookUps, lookUpTaps_, true, strip.x0, strip.x1);
     const WarpedStill::Guide guide{frame.in.video,
-                                   frame.bank != nullptr ? frame.bank->guidance() : 0.0F};
+                                   frame.bank != nullptr ? frame.bank->guidance() : Guidance{}};
     if (frame.warps)
         s.warped.begin(frame.in.still, frame.in.lookUps, lookUpTaps_, warpedTaps_,
                        {strip.x0, strip.x1}, guide);

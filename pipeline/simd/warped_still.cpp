@@ -64,8 +64,8 @@ void WarpedStill::begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
     still_ = still;
     taps_ = &taps;
     field_ = lookUps;
-    guide_ = guide.share > 0 ? &guide.video : nullptr;
-    share_ = guide.share;
+    guide_ = guide.guidance.any() ? &guide.video : nullptr;
+    guidance_ = guide.guidance;
     slots_ = guide_ != nullptr ? taps.keptGuided : taps.kept;
     for (PixelSpans* spans : {&covered_, &means_, &compared_, &warped_})
         spans->clear();
@@ -131,7 +131,7 @@ void WarpedStill::makeMean(int row, float* to) {
         resampleRow(column_[0], taps_->meanRows.table(), span.begin, span.end, to);
 }
 
-// Of one of the video's rows, what it and the still differ in.
+// Of one of the video's rows, what guidance adds and takes away.
 void WarpedStill::compare(int row) {
     const int slot = row % GuideRows::kRows;
     if (comparedRows_[slot] == row) return;
@@ -147,7 +147,7 @@ void WarpedStill::compare(int row) {
             const float video =
                 kMeanScale / enlarge::kLumaScale * static_cast<float>(videoLuma_[0][x]);
             trusted[x] = counts ? 1.0F : 0.0F;
-            differences[x] = counts ? seen[x] - video : 0.0F;
+            differences[x] = counts ? guidance_.still * seen[x] - guidance_.video * video : 0.0F;
         }
         for (float* values : {differences, trusted}) {
             if (begin == 0) std::fill_n(values - kReach, kReach, values[0]);
@@ -167,7 +167,7 @@ const float* WarpedStill::guided(int row) {
         rows.trusted[k] = trusted_[slot] + kMargin;
     }
     for (const auto& [begin, end] : means_)
-        guideRow(rows, share_, begin, end, seen_[row % GuideRows::kRows] + kMargin, mean_[0]);
+        guideRow(rows, begin, end, seen_[row % GuideRows::kRows] + kMargin, mean_[0]);
     return mean_[0];
 }
 

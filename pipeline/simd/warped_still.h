@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/plan/rgb_planes.h"
 #include "pipeline/simd/look_up_rows.h"
 #include "pipeline/simd/pixel_spans.h"
@@ -29,10 +30,10 @@ class WarpedStill {
 public:
     WarpedStill(Size video, Size output, const WarpedStillTaps& taps);
 
-    /// Share of what the video shows, too, that is the still's: see FilterBank::guidance().
+    /// The video that a still guides, and how far.
     struct Guide {
         const RgbPlanes& video;
-        float share;
+        Guidance guidance;
     };
 
     /// Starts with a still and a field of look-ups, for these pixels of the output alone. Nothing
@@ -71,7 +72,7 @@ private:
     AlignedRows<std::int16_t> low_;     // four rows at the output's width [1/64 grey level]
 
     const RgbPlanes* guide_ = nullptr;  // null: nothing is guided
-    float share_ = 0;
+    Guidance guidance_;
     Rows<const LookUpCell> field_{};
     int slots_ = 0;                                   // rows of luma_ in use
     std::array<int, GuideRows::kRows> comparedRows_;  // the row that each slot holds

@@ -69,17 +69,17 @@ TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheStillBeforeAndKept) {
         EXPECT_EQ(learning.counts().learner.pairs, 0U) << "there was no still before";
         replace(learning, 2);
         EXPECT_EQ(learning.counts().learner.pairs, 1U);
-        EXPECT_GT(learning.counts().learner.guidance, 0.5);
-        EXPECT_GT(learning.takeFilters()->guidance(), 0.5F);
+        EXPECT_GT(learning.counts().learner.guidance.still, 0.5F);
+        EXPECT_GT(learning.takeFilters()->guidance().video, 0.5F);
         show(learning, 3, 3);
         EXPECT_EQ(learning.counts().learner.pairs, 1U) << "nothing was said of the still before";
     }
     FilterLearning learning(options);
     EXPECT_EQ(learning.counts().learner.pairs, 1U);
-    EXPECT_GT(learning.takeFilters()->guidance(), 0.5F);
+    EXPECT_GT(learning.takeFilters()->guidance().video, 0.5F);
     learning.reset();
     learning.finish();
-    EXPECT_EQ(learning.takeFilters()->guidance(), 0);
+    EXPECT_FALSE(learning.takeFilters()->guidance().any());
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
@@ -87,7 +87,7 @@ TEST_F(FilterLearningTest, WithoutARigNoGuidanceIsLearned) {
     FilterLearning learning(options);
     replace(learning, 2);
     EXPECT_EQ(learning.counts().learner.pairs, 0U);
-    EXPECT_EQ(learning.takeFilters()->guidance(), 0);
+    EXPECT_FALSE(learning.takeFilters()->guidance().any());
 }
 
 TEST_F(FilterLearningTest, GoesOnAfterARestart) {

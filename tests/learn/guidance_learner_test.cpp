@@ -32,8 +32,8 @@ GuidanceLearner learned(double videoNoise, double olderNoise, unsigned stills = 
 }
 
 TEST(GuidanceLearner, BeginsWithNone) {
-    EXPECT_EQ(GuidanceLearner().guidance(), 0);
-    EXPECT_EQ(FilterBank::prior().guidance(), 0);
+    EXPECT_FALSE(GuidanceLearner().guidance().any());
+    EXPECT_FALSE(FilterBank::prior().guidance().any());
     EXPECT_EQ(GuidanceLearner().gainDb(), 0);
 }
 
@@ -42,25 +42,39 @@ TEST(GuidanceLearner, FindsTheBestMeanOfTwoNoisyValues) {
     for (const auto& [video, still] : {std::pair{4.0, 0.0}, {4.0, 8.0}, {4.0, 16.0}}) {
         const double best = video * video / (video * video + still * still / 16);
         const GuidanceLearner learner = learned(video, still);
-        EXPECT_NEAR(learner.guidance(), best, 0.12) << video << " " << still;
+        EXPECT_NEAR(learner.guidance().still, best, 0.12) << video << " " << still;
+        EXPECT_NEAR(learner.guidance().video, best, 0.12) << video << " " << still;
         EXPECT_GT(learner.gainDb(), 0.02);
         EXPECT_EQ(learner.pairs(), 3U);
     }
 }
 
+TEST(GuidanceLearner, FindsWhatEachExposureAsksFor) {
+    // The weight of the detail brings the still to the video's exposure.
+    for (const double gain : {0.5, 0.8}) {  // no more: it would be saturated
+        GuidanceLearner learner;
+        for (unsigned i = 1; i <= 3; ++i) {
+            const Stills of(4, 0, i, {.gain = gain, .weight = 1 / gain});
+            EXPECT_TRUE(learner.add(TrustedPairs(of.truth), of.older, FilterBank::prior()));
+        }
+        EXPECT_NEAR(learner.guidance().still, 1, 0.12) << gain;
+        EXPECT_NEAR(learner.guidance().video, gain, 0.12) << gain;
+    }
+}
+
 TEST(GuidanceLearner, NoiseOfTheStillAloneTeachesNothing) {
-    EXPECT_EQ(learned(0, 16).guidance(), 0);
-    EXPECT_EQ(learned(1, 24).guidance(), 0) << "it would gain less than it may cost";
+    EXPECT_FALSE(learned(0, 16).guidance().any());
+    EXPECT_FALSE(learned(1, 24).guidance().any()) << "it would gain less than it may cost";
 }
 
 TEST(GuidanceLearner, GoesBackToNoneWhereItNoLongerHelps) {
     GuidanceLearner learner = learned(4, 0);
-    ASSERT_GT(learner.guidance(), 0.8);
-    for (unsigned i = 10; i < 13 || (i < 60 && learner.guidance() > 0); ++i) {
+    ASSERT_GT(learner.guidance().still, 0.8);
+    for (unsigned i = 10; i < 13 || (i < 60 && learner.guidance().any()); ++i) {
         const Stills of(0, 16, i);
         learner.add(TrustedPairs(of.truth), of.older, FilterBank::prior());
     }
-    EXPECT_EQ(learner.guidance(), 0);
+    EXPECT_FALSE(learner.guidance().any());
 }
 
 TEST(GuidanceLearner, WhatCannotBeUsedIsIgnored) {
@@ -102,7 +116,7 @@ TEST(GuidanceLearner, AFewLookUpsThatAreNotNumbersChangeLittle) {
             of.older.lookUps[y][7].x = std::numeric_limits<float>::infinity();
         EXPECT_TRUE(learner.add(TrustedPairs(of.truth), of.older, FilterBank::prior()));
     }
-    EXPECT_NEAR(learner.guidance(), learned(4, 8).guidance(), 0.03);
+    EXPECT_NEAR(learner.guidance().still, learned(4, 8).guidance().still, 0.03);
 }
 
 TEST(GuidanceLearner, AStillOfSomethingElseIsNoGuide) {
@@ -112,7 +126,7 @@ TEST(GuidanceLearner, AStillOfSomethingElseIsNoGuide) {
         of.older.still = matchedPictures(sharpDiscs(i + 50), {}).still;
         learner.add(TrustedPairs(of.truth), of.older, FilterBank::prior());
     }
-    EXPECT_LT(learner.guidance(), 0.05);
+    EXPECT_LT(learner.guidance().still, 0.05);
 }
 
 TEST(GuidanceLearner, NumbersOutOfRangeAreNotRestored) {
@@ -124,11 +138,13 @@ TEST(GuidanceLearner, NumbersOutOfRangeAreNotRestored) {
                                     {0, 1e18},
                                     {1, 1.5},
                                     {1, -0.1},
-                                    {2, -1.0},
-                                    {4, -1.0},
+                                    {2, 2.5},
+                                    {2, -0.1},
+                                    {3, -1.0},
                                     {5, -1.0},
-                                    {6, -1.0},
-                                    {9, -1.0}}) {
+                                    {9, -1.0},
+                                    {10, -1.0},
+                                    {16, -1.0}}) {
         auto bad = good;
         bad[static_cast<std::size_t>(at)] = value;
         EXPECT_FALSE(learner.restore(bad)) << at;
@@ -140,12 +156,12 @@ TEST(EnlargerLearner, PutsGuidanceInPlaceWithItsFilters) {
     EnlargerLearner learner;
     const Stills of(4, 8, 1);
     EXPECT_EQ(learner.addOlder(of.truth, of.older), EnlargerLearner::Outcome::Replaced);
-    EXPECT_GT(learner.filters()->guidance(), 0.5);
+    EXPECT_GT(learner.filters()->guidance().still, 0.5);
     EXPECT_EQ(learner.counts().pairs, 1U);
     EXPECT_EQ(learner.counts().guidance, learner.filters()->guidance());
     EXPECT_GT(learner.counts().guidanceGainDb, 0);
     learner.add(of.truth);
-    EXPECT_GT(learner.filters()->guidance(), 0.5) << "with new filters, too";
+    EXPECT_GT(learner.filters()->guidance().still, 0.5) << "with new filters, too";
     EXPECT_EQ(learner.addOlder(matchedPictures(sharpDiscs(1), sharpDiscs(2), {}), of.older),
               EnlargerLearner::Outcome::Refused);
 }

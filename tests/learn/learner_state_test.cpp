@@ -38,7 +38,7 @@ TEST(LearnerState, IsRestoredToTheBitAndGoesOnAlike) {
     EXPECT_EQ(second.counts().stills, first.counts().stills);
     EXPECT_EQ(second.counts().classes, first.counts().classes);
     EXPECT_DOUBLE_EQ(second.counts().gainDb, first.counts().gainDb);
-    EXPECT_GT(second.filters()->guidance(), 0.5);
+    EXPECT_GT(second.filters()->guidance().still, 0.5);
     EXPECT_EQ(second.filters()->guidance(), first.filters()->guidance());
     for (EnlargerLearner* learner : {&first, &second})
         learner->add(matchedPictures(sharpDiscs(9), kPair));
@@ -77,17 +77,20 @@ TEST(LearnerState, NumbersThatAreNotFiniteAreRefusedThoughTheSumIsRight) {
 
 constexpr std::size_t kGuidanceSize = 8 * enlarge::GuidanceLearner::kNumbers;
 
-TEST(LearnerState, WithoutGuidanceIsStillRead) {
+TEST(LearnerState, OlderVersionsAreReadWithoutTheirGuidance) {
     const EnlargerLearner now = learned();
-    auto bytes = now.stored("a, b");
-    bytes.resize(bytes.size() - 4 - kGuidanceSize);
-    bytes[8] = 1;
-    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
-    const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
-    EXPECT_EQ(then.filters()->guidance(), 0);
-    EXPECT_EQ(then.counts().pairs, 0U);
-    EXPECT_EQ(then.counts().stills, now.counts().stills);
-    EXPECT_DOUBLE_EQ(then.counts().gainDb, now.counts().gainDb);
+    for (const auto& [version, numbers] : {std::pair{1, 0}, {2, 10}}) {
+        auto bytes = now.stored("a, b");
+        bytes.resize(bytes.size() - 4 - kGuidanceSize);
+        bytes[8] = static_cast<std::uint8_t>(version);
+        bytes.resize(bytes.size() + 8U * numbers);
+        enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+        const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
+        EXPECT_FALSE(then.filters()->guidance().any()) << version;
+        EXPECT_EQ(then.counts().pairs, 0U);
+        EXPECT_EQ(then.counts().stills, now.counts().stills);
+        EXPECT_DOUBLE_EQ(then.counts().gainDb, now.counts().gainDb);
+    }
 }
 
 TEST(LearnerState, AGuidanceOutOfRangeIsRefusedThoughTheSumIsRight) {

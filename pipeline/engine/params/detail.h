@@ -54,11 +54,11 @@ struct alignas(16) ClassifyTiles {
 struct alignas(16) DrawTiles {
     std::int32_t videoWidth, videoHeight;  ///< [px]
     std::int32_t cellColumns, cellRows;
-    float scaleX, scaleY;            ///< video pixels per output pixel
-    float stillTexelX, stillTexelY;  ///< 1 / size of the still [1/px]
-    float stillScaleX, stillScaleY;  ///< still pixels per output pixel
-    float sharpening;                ///< strength; 0: none
-    float guidance;                  ///< FilterBank::guidance()
+    float scaleX, scaleY;                ///< video pixels per output pixel
+    float stillTexelX, stillTexelY;      ///< 1 / size of the still [1/px]
+    float stillScaleX, stillScaleY;      ///< still pixels per output pixel
+    float sharpening;                    ///< strength; 0: none
+    float guidanceStill, guidanceVideo;  ///< FilterBank::guidance()
 };
 
 }  // namespace mfar::params

@@ -115,18 +115,20 @@ private:
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
                               std::clamp(py, -1.0, double(still.size.height)));
     }
-    /// Less the share of what it differs by from the video, beyond the mean of 5x5 pixels: of those
-    /// whose cells have a weight.
+    /// Less what guidance adds and takes away, beyond the mean of 5x5 pixels: of those whose cells
+    /// have a weight.
     [[nodiscard]] Grey guided(const Grey& seen) const {
-        const double share = options_.learned != nullptr ? options_.learned->guidance() : 0;
-        if (share == 0) return seen;
+        const Guidance guidance =
+            options_.learned != nullptr ? options_.learned->guidance() : Guidance{};
+        if (!guidance.any()) return seen;
         const auto [width, height] = seen.size;
         const auto trusted = [&](int x, int y) {
             return frame_.lookUps[(y / 4) * frame_.cells.width + x / 4].weight > 0;
         };
         const auto off = [&](int x, int y) {
             const auto at = [&](int c) { return double(frame_.video.row(c, y)[x]); };
-            return seen.at(x, y) - (0.299 * at(0) + 0.587 * at(1) + 0.114 * at(2));
+            return guidance.still * seen.at(x, y) -
+                   guidance.video * (0.299 * at(0) + 0.587 * at(1) + 0.114 * at(2));
         };
         return twin::greyOf(seen.size, [&, width = width, height = height](int x, int y) {
             if (!trusted(x, y)) return seen.at(x, y);
@@ -139,7 +141,7 @@ private:
                 sum += off(i, j);
                 ++count;
             }
-            return seen.at(x, y) - share * (off(x, y) - sum / count);
+            return seen.at(x, y) - (off(x, y) - sum / count);
         });
     }
     void addLearned() {
@@ -213,7 +215,7 @@ inline const FilterBank& evenBank() {
 }
 /// The same with guidance.
 inline const FilterBank& guidedBank() {
-    static const FilterBank bank(evenFilters(), 0.7F);
+    static const FilterBank bank(evenFilters(), {0.7F, 0.5F});
     return bank;
 }
 

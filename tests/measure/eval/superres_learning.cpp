@@ -43,9 +43,10 @@ void StillLearning::report() const {
     fmt::print(stderr,
                "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
                "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
-               "from {} pairs of stills, held out {:.2f} dB\n",
+               "of the still for {:.2f} of the video from {} pairs of stills, held out {:.2f} dB\n",
                counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
-               counts.gainDb, counts.priorDb, counts.guidance, counts.pairs, counts.guidanceGainDb);
+               counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video,
+               counts.pairs, counts.guidanceGainDb);
 }
 
 namespace {
