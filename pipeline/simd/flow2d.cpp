@@ -202,9 +202,9 @@ void Flow2d::searchLevel(Ways ways, int level) {
 }
 
 void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
+    errorsGiven_ = false;
     searched_.clear();
     if (work.matched == 0) return;
-    errorsGiven_ = false;
     const Way forward{forwards_,  luma.video, luma.still,
                       luma.words, usePrior,   options_.propagations};
     const Way backward{backwards_, luma.still, luma.video,
@@ -243,9 +243,9 @@ void Flow2d::alignRow(const AlignStep& step, const TileWork& work, int row) {
 }
 
 void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors) {
+    errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    errorsGiven_ = true;
     // Whether a tile is searched depends on those beside it, and the clean-up on the search there.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);

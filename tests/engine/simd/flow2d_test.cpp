@@ -256,6 +256,16 @@ TEST(Flow2d, RefineAligns) {
     EXPECT_FALSE(pair.flow.errorsGiven());
 }
 
+TEST(Flow2d, ErrorsAreGivenByTheLastFrameThoughNothingIsMatched) {
+    Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 0}));
+    pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
+    pair.work.matched = 0;
+    pair.run();
+    EXPECT_FALSE(pair.flow.errorsGiven()) << "vectors would be read as errors";
+    pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
+    EXPECT_TRUE(pair.flow.errorsGiven());
+}
+
 TEST(Flow2d, SeedsThatAreNoNumbersDoNoHarm) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 1}));
     std::vector<Cell> seeds = seedsAround({1, 1}, 0.1);
