@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <string>
 #include <utility>
 
 namespace mfar::gpu {
@@ -9,6 +10,12 @@ namespace mfar::gpu {
 Texture::Texture(Size size, TexelFormat format, Filter filter, int levels)
     : size_(size), format_(format) {
     checkErrors("before Texture");
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (size.width > most || size.height > most)
+        throw GlError("a picture of " + std::to_string(size.width) + "x" +
+                      std::to_string(size.height) + " pixels is larger than this GPU allows, " +
+                      std::to_string(most) + "x" + std::to_string(most));
     glGenTextures(1, &id_);
     glBindTexture(GL_TEXTURE_2D, id_);
     glTexStorage2D(GL_TEXTURE_2D, levels, static_cast<GLenum>(format), size.width, size.height);

@@ -26,6 +26,8 @@ EngineChoice enginesFor(Context& c) {
     return {kind(), kind(), kind(), kind(), kind(), kind()};
 }
 
+constexpr int kMostOutput = 4096;  // [px]
+
 /// Before, around, behind the camera; with a plane through it; tiny and huge.
 VirtualObject objectFor(Context& c, double unit) {
     VirtualObject o;
@@ -72,8 +74,11 @@ void frames(Context& c) {
     options.engines = enginesFor(c);
     if (c.scale == Scale::Product)
         options.output = c.hostile.pick({rig.still.size, Size{1440, 1080}, Size{1067, 800}});
-    // A still narrower than the video has no output of its own.
-    if (c.scale == Scale::Mixed || rig.still.size.width < rig.video.size.width)
+    // A still narrower than the video has no output of its own, one much wider than high has one
+    // that no texture holds.
+    const Size full = Pipeline::fullSize(rig);
+    if (c.scale == Scale::Mixed || rig.still.size.width < rig.video.size.width ||
+        std::max(full.width, full.height) > kMostOutput)
         options.output = {2 * rig.video.size.width, 2 * rig.video.size.height};
     Pipeline pipeline(rig, options);
     const bool hasObjects = c.hostile.chance(0.7);

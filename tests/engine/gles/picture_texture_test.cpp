@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace mfar {
@@ -209,6 +210,17 @@ TEST_F(PictureTexture, MemoryThatTheDriverRefusesIsCopied) {
     EXPECT_EQ(importer.imports, 1);
     EXPECT_EQ(picture.takeImportFault(), "not this memory");
     EXPECT_EQ(picture.takeImportFault(), std::nullopt);
+}
+
+TEST_F(PictureTexture, OneLargerThanTheGpuAllowsIsNamed) {
+    try {
+        const gpu::Texture texture({1 << 20, 8}, gpu::TexelFormat::Rgba8);
+        FAIL() << "no GPU has textures that wide";
+    } catch (const gpu::GlError& e) {
+        EXPECT_NE(std::string(e.what()).find("1048576x8 pixels is larger than this GPU allows"),
+                  std::string::npos)
+            << e.what();
+    }
 }
 
 }  // namespace
