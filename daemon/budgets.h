@@ -24,6 +24,10 @@ constexpr milliseconds kMain{500};
 constexpr milliseconds kWatchdog{10'000};
 static_assert(kCapture + kPicture + kControl + kMain < kWatchdog / 2);
 
+/// Opening, stopping or closing a camera once, while other threads draw the banner and do not wait.
+/// The driver of USB cameras waits 5 s for an answer, several times in a row.
+constexpr milliseconds kOpener{20'000};
+
 // Threads that the picture can do without.
 /// Reads the configuration and models from files.
 constexpr milliseconds kReload{60'000};

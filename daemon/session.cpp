@@ -31,8 +31,9 @@ constexpr std::chrono::milliseconds kFaultInterval{30};
 // on this thread at the end.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
-    : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), rig_(config),
-      poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl(config)),
+    : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)),
+      rig_(config, stats.heartbeats()), poses_(config.pose, rig_.poseInputs(), stats),
+      gl_(openGl(config)),
       validation_(config.validate ? std::make_unique<gpu::Validation>() : nullptr),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel, displayPolicy())),
       output_(outputSizeFor(config.size, rig_.geometry(), display_->screenSize())),

@@ -1,0 +1,82 @@
+// The cameras of a rig on the calls of a V4L2 driver, which is pretended_v4l2.cpp.
+#include "daemon/budgets.h"
+#include "daemon/rig.h"
+#include "tests/unit/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+using namespace std::chrono_literals;
+
+class RigOfCameras : public testing::Test {
+protected:
+    RigOfCameras() {
+        setenv("MFAR_PRETENDED_V4L2", folder_.path().c_str(), 1);
+        config_.source = "cameras";
+        config_.cameras.video = camera("/dev/video90", {64, 48}, 30);
+        config_.cameras.still = camera("/dev/video91", {128, 96}, 5);
+    }
+    ~RigOfCameras() override { unsetenv("MFAR_PRETENDED_V4L2"); }
+
+    static CameraConfig camera(const char* device, Size size, double rateHz) {
+        CameraConfig out;
+        out.driver = CameraDriver::V4l2;
+        out.camera = device;
+        out.size = size;
+        out.rateHz = rateHz;
+        return out;
+    }
+    /// What is wrong with a device from now on.
+    void says(const std::string& device, const std::string& words) const {
+        const std::filesystem::path next = folder_.path() / "next";
+        std::ofstream(next) << words;
+        std::filesystem::rename(next, folder_.path() / device);
+    }
+
+    test::TempFolder folder_;
+    Config config_;
+};
+
+bool becomesTrue(const std::function<bool()>& condition) {
+    for (const auto end = std::chrono::steady_clock::now() + 20s;
+         std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
+        if (condition()) return true;
+    return false;
+}
+
+TEST_F(RigOfCameras, DriverWhoseOpenNeverReturnsIsOverItsBudget) {
+    says("video90", "hang-open");
+    says("video91", "hang-open");
+    std::atomic<std::int64_t> passed{0};
+    Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
+    Rig rig(config_, hearts);
+    rig.video().start();
+    rig.still().start();
+    const std::set<std::pair<std::string, ThreadRole>> openers = {
+        {"video camera opener", ThreadRole::Vital}, {"still camera opener", ThreadRole::Helper}};
+    EXPECT_TRUE(becomesTrue([&] {
+        passed = passed.load() + std::chrono::ceil<std::chrono::seconds>(budget::kOpener).count();
+        std::set<std::pair<std::string, ThreadRole>> late;
+        for (const Heartbeats::Late& one : hearts.late())
+            late.emplace(one.thread, one.role);
+        return late == openers;
+    }));
+    says("video90", "");
+    says("video91", "");
+    EXPECT_TRUE(becomesTrue([&] { return rig.video().next(50ms).has_value(); }));
+    EXPECT_TRUE(hearts.late().empty()) << "it is open";
+}
+
+}  // namespace
+}  // namespace mfar
