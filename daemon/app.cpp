@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <iostream>
 #include <thread>
 #include <utility>
 
@@ -20,16 +19,8 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kLeaveTime{0.2};   ///< after a signal: for the picture in work
-constexpr Seconds kFlushTime{0.4};   ///< the same, for what is being written
-constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
-constexpr std::chrono::milliseconds kLastResort{2500};
 constexpr Seconds kLookTime{1};               ///< how often threads are looked at, at least
 constexpr std::uint64_t kFirstPictures = 10;  ///< see kFirstPatience
-
-const char* signalName(int signal) {
-    return signal == SIGINT ? "SIGINT" : "SIGTERM";
-}
 
 std::ofstream openSummary(const Options& options, const Config& config) {
     std::ofstream file;
@@ -134,47 +125,6 @@ void App::onReady() {
     service_.ready(running_->startLine);
     service_.watchdogPatience(kFirstPatience);
     if (options_.seconds && !stopReason_) events_.deadlineIn(Seconds(*options_.seconds));
-}
-
-void App::onSignal(int signal) {
-    if (signal == SIGHUP) return onHangUp();
-    if (stopSignal_) {
-        log_.endStatus();
-        log_.warning(fmt::format("second {}, ended at once", signalName(signal)));
-        std::_Exit(128 + signal);
-    }
-    stopSignal_ = signal;
-    // Says nothing: whoever takes the messages may be what hangs.
-    lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
-    stop(signalName(signal));
-    events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
-}
-
-void App::onDeadline() {
-    if (!stopSignal_) return stop("--seconds");
-    if (!writes()) leave("ended in the midst of a picture");
-    if (cancel_.request_stop()) return events_.deadlineIn(kCancelTime);
-    leave("a device or display did not end in time, ended without it");
-}
-
-bool App::writes() {
-    return finishesRecording_ || !stats_.count().recording.empty() ||
-           keepsPictures(config_.display);
-}
-
-void App::leave(const std::string& why) {
-    log_.endStatus();
-    log_.warning(why);
-    (void)writeSummary(*stopReason_, ExitCode::Ok);
-    std::error_code ignored;
-    if (options_.control) std::filesystem::remove(*options_.control, ignored);
-    std::_Exit(static_cast<int>(ExitCode::Ok));
-}
-
-void App::stop(const std::string& reason) {
-    if (!stopReason_) service_.stopping("ending: " + reason);
-    stopReason_ = stopReason_.value_or(reason);
-    if (!stopper_.joinable()) stopper_ = std::jthread([this] { input_.request_stop(); });
 }
 
 void App::onHangUp() {
@@ -312,54 +262,6 @@ void App::showStatus(const Counted& counted, const Health& health) {
     const std::string line = statusLine(counted, running_->description, elapsed, health);
     log_.status(line);
     if (!stopReason_) service_.status(line);
-}
-
-ExitCode App::finish(std::future<std::string>& end) {
-    calls_.close();
-    sessionCalls_.close();
-    for (std::optional<Reload>* one : {&reload_, &nextReload_})
-        if (*one)
-            (*one)->said.set_exception(
-                std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // it may wait for that
-    onReady();
-    const Counted counted = stats_.count();
-    const Health last = health(counted);
-    logHealth(last);
-    showStatus(counted, last);
-    log_.endStatus();
-    try {
-        const std::string reason = end.get();
-        const ExitCode code = writeSummary(stopReason_.value_or(reason), ExitCode::Ok)
-                                  ? ExitCode::Ok
-                                  : ExitCode::OutputFailed;
-        // Reading cannot be interrupted, and all that counts is done.
-        if (isReading()) std::_Exit(static_cast<int>(code));
-        return code;
-    } catch (const std::exception& error) {
-        if (cancel_.stop_requested()) {
-            log_.warning(fmt::format("not everything was written: {}", error.what()));
-            (void)writeSummary(*stopReason_, ExitCode::Ok);
-            return ExitCode::Ok;
-        }
-        (void)writeSummary(fmt::format("error: {}", error.what()), exitCode(error));
-        throw;
-    }
-}
-
-bool App::writeSummary(const std::string& reason, ExitCode code) {
-    const Counted counted = stats_.count();
-    if (log_.style() == Log::Style::Terminal)
-        log_.notice(fmt::format("{} pictures in {:.1f} s, {:.1f} fps: {}", counted.frames,
-                                counted.seconds, counted.fps, reason));
-    if (!options_.summary) return true;
-    std::ostream& out = summary_.is_open() ? summary_ : std::cout;
-    const RunDescription description = running_ ? running_->description : RunDescription{};
-    out << summary(counted, description, reason, static_cast<int>(code)).dump(2) << "\n"
-        << std::flush;
-    if (!out)
-        log_.error(fmt::format("{}: the summary cannot be written", options_.summary->string()));
-    return static_cast<bool>(out);
 }
 
 }  // namespace mfar
