@@ -100,7 +100,14 @@ std::string App::runSession(const Config& config) {
         ready_ = Ready{std::move(description), session.startLine(), Timestamp::now()};
     }
     events_.wake();
-    return session.run(options_.frames);
+    return session.run(options_.frames,
+                       [this](const std::string& reason, const std::exception_ptr& error) {
+                           {
+                               const std::lock_guard lock(mutex_);
+                               over_ = Over{reason, error};
+                           }
+                           events_.wake();
+                       });
 }
 
 void App::handle(const Event& event) {
@@ -111,6 +118,7 @@ void App::handle(const Event& event) {
     case Event::Kind::Wake: break;
     }
     onReady();
+    onOver();
     onRead();
     calls_.runAll(*this);
 }
@@ -204,6 +212,7 @@ void App::onTick() {
     logHealth(now);
     feedWatchdog(now);
     log_.sayKept();
+    leaveIfHanging();
     // Ticks may come more often, for the watchdog.
     const Timestamp time = Timestamp::now();
     if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;

@@ -1,6 +1,8 @@
 // The ways in which a run ends: by a signal, by itself, by a device that does not let it.
 
 #include "daemon/app.h"
+#include "daemon/budgets.h"
+#include "daemon/restart_pause.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -42,10 +44,27 @@ void App::onSignal(int signal) {
 }
 
 void App::onDeadline() {
+    if (!stopSignal_ && ended_) leave("a device did not end in time, ended without it");
     if (!stopSignal_) return stop("--seconds");
     if (!writes()) leave("ended in the midst of a picture");
     if (cancel_.request_stop()) return events_.deadlineIn(kCancelTime);
     leave("a device or display did not end in time, ended without it");
+}
+
+void App::onOver() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!over_) return;
+        ended_ = std::exchange(over_, std::nullopt);
+    }
+    if (!stopSignal_) events_.deadlineIn(kLastResort);
+}
+
+// After --seconds, a GPU that hangs ends no frame. What only waits for its output may take longer.
+void App::leaveIfHanging() {
+    if (!stopReason_ || stopSignal_ || ended_) return;
+    for (const Heartbeats::Late& late : stats_.heartbeats().late(isProven_ ? 1 : kFirstPatience))
+        if (late.thread == kPictureThread) leave("the picture thread hangs, ended without it");
 }
 
 bool App::writes() {
@@ -56,10 +75,28 @@ bool App::writes() {
 void App::leave(const std::string& why) {
     log_.endStatus();
     log_.warning(why);
-    (void)writeSummary(*stopReason_, ExitCode::Ok);
+    if (ended_ && ended_->error && !stopSignal_) leaveFailed(ended_->error);
+    const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
+    const bool written = writeSummary(reason, ExitCode::Ok);
     std::error_code ignored;
     if (options_.control) std::filesystem::remove(*options_.control, ignored);
-    std::_Exit(static_cast<int>(ExitCode::Ok));
+    const ExitCode code = written || stopSignal_ ? ExitCode::Ok : ExitCode::OutputFailed;
+    std::_Exit(static_cast<int>(code));
+}
+
+// As main() does it, which cannot be reached.
+void App::leaveFailed(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const std::exception& failure) {
+        const ExitCode code = exitCode(failure);
+        (void)writeSummary(fmt::format("error: {}", failure.what()), code);
+        log_.error(failure.what());
+        std::error_code ignored;
+        if (options_.control) std::filesystem::remove(*options_.control, ignored);
+        pauseBeforeRestart(code, failure.what(), started_, log_);
+        std::_Exit(static_cast<int>(code));
+    }
 }
 
 void App::stop(const std::string& reason) {

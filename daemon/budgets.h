@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string_view>
 
 namespace mfar {
 
@@ -37,6 +38,9 @@ constexpr milliseconds kAnswer{20'000};
 constexpr milliseconds kWriter{2000};
 
 }  // namespace budget
+
+/// The thread that makes pictures and shows them.
+constexpr std::string_view kPictureThread = "picture";
 
 /// A picture that has been shown for longer is stale.
 constexpr std::chrono::milliseconds kStalePicture{3000};

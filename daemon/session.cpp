@@ -98,12 +98,25 @@ std::string Session::startLine() const {
                        TracedLayer::isAvailable() ? "" : "; this build has no path tracer");
 }
 
-std::string Session::run(std::optional<std::uint64_t> maxFrames) {
+std::string Session::run(std::optional<std::uint64_t> maxFrames, const Over& over) {
     Mailbox<CapturedFrame> mailbox(rig_.handOver());
     CaptureThread capture(rig_, poses_, stats_, mailbox);
     const std::stop_callback onStop(stop_.input, [&] { capture.stop(); });
-    Heartbeat heart(stats_.heartbeats(), "picture", budget::kPicture);
+    try {
+        std::string reason = showFrames(mailbox, capture, maxFrames);
+        over(reason, nullptr);
+        return reason;
+    } catch (...) {
+        over("", std::current_exception());
+        throw;
+    }
+}
+
+std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
+                                std::optional<std::uint64_t> maxFrames) {
+    Heartbeat heart(stats_.heartbeats(), std::string(kPictureThread), budget::kPicture);
     heart_ = &heart;
+    const std::shared_ptr<void> atEnd(nullptr, [this](void*) { heart_ = nullptr; });
     bool enough = false;
     while (!enough) {
         heart.beat();
@@ -127,7 +140,6 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
     checkRecording();
     stats_.recorderDropped(rig_.notRecorded());
     finishDisplay();
-    heart_ = nullptr;
     return enough ? "all frames asked for are shown" : "end of the source";
 }
 
