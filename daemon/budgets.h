@@ -34,8 +34,12 @@ constexpr milliseconds kOpener{20'000};
 constexpr milliseconds kReload{60'000};
 /// Waits for other threads and for the client, each of which is limited by itself.
 constexpr milliseconds kAnswer{20'000};
-/// Writes one picture to a file.
-constexpr milliseconds kWriter{2000};
+/// A display's reader or disk takes one picture, else the display says who takes nothing.
+constexpr milliseconds kTaken{2000};
+/// Writes one picture to a file or pipe; a still of 12 megapixels takes 2 s on a small board.
+constexpr milliseconds kWriter{10'000};
+/// Learns from one still, in time that others leave.
+constexpr milliseconds kLearning{60'000};
 
 }  // namespace budget
 

@@ -57,16 +57,30 @@ std::optional<Judged> standingStill(const Observed& seen) {
     return Judged{HealthState::Stalled, std::move(cause), *begin};
 }
 
+// Everything that is missing: no cause hides another.
+Judged missing(const Observed& seen) {
+    std::vector<Judged> all;
+    if (seen.fault) all.push_back({HealthState::Degraded, *seen.fault, std::nullopt, "", true});
+    if (seen.waiting && seen.waiting->since > kWorthTelling)
+        all.push_back({HealthState::Degraded, fmt::format("waiting for {}", seen.waiting->what),
+                       seen.now - seen.waiting->since});
+    if (seen.display) all.push_back({HealthState::Degraded, *seen.display});
+    if (auto found = hanging(seen, ThreadRole::Helper, HealthState::Degraded))
+        all.push_back(*std::move(found));
+    if (all.empty()) return {};
+    Judged out = std::move(all.front());
+    for (auto one = all.begin() + 1; one != all.end(); ++one) {
+        out.cause += "; " + one->cause;
+        out.since.reset();
+        if (out.thread.empty()) out.thread = one->thread;
+    }
+    return out;
+}
+
 Judged judged(const Observed& seen) {
     if (auto found = hanging(seen, ThreadRole::Vital, HealthState::Stalled)) return *found;
     if (auto found = standingStill(seen)) return *found;
-    if (seen.fault) return {HealthState::Degraded, *seen.fault, std::nullopt, "", true};
-    if (auto found = hanging(seen, ThreadRole::Helper, HealthState::Degraded)) return *found;
-    if (seen.waiting && seen.waiting->since > kWorthTelling)
-        return {HealthState::Degraded, fmt::format("waiting for {}", seen.waiting->what),
-                seen.now - seen.waiting->since};
-    if (seen.display) return {HealthState::Degraded, *seen.display};
-    return {};
+    return missing(seen);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "daemon/rig.h"
 
+#include "daemon/budgets.h"
 #include "daemon/rig_cameras.h"
 #include "daemon/rig_source.h"
 #include "hal/device/display_auto.h"
@@ -165,6 +166,7 @@ Rig::Rig(const Config& config, Heartbeats& hearts)
     const auto bytes = [](double mb) { return static_cast<std::uint64_t>(mb * (1 << 20)); };
     recording_.leastFreeBytes = bytes(config.record.leastFreeMb);
     recording_.mostBytes = bytes(config.record.mostMb);
+    recording_.writer = {&hearts, "recorder", budget::kWriter, ThreadRole::Helper};
 }
 
 Rig::Rig(std::unique_ptr<RigSource> source) : source_(std::move(source)) {}

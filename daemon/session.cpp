@@ -155,7 +155,8 @@ void Session::finishDisplay() {
 FileDisplayPolicy Session::displayPolicy() {
     FileDisplayPolicy policy;
     policy.isLive = rig_.handOver() == HandOver::NewestWins;
-    policy.stalled = budget::kWriter;
+    policy.stalled = budget::kTaken;
+    policy.writer = {&stats_.heartbeats(), "display writer", budget::kWriter, ThreadRole::Helper};
     policy.waiting = [this](const char* what) {
         if (heart_ == nullptr) return;
         if (what != nullptr)
@@ -263,9 +264,12 @@ void Session::setLearning(bool wanted) {
     pipeline_.setFilters(nullptr);
     learning_.reset();
     if (wanted) {
-        learning_ = std::make_unique<FilterLearning>(
-            FilterLearningOptions{learnedFiltersFile(sensors_), sensors_,
-                                  rig_.handOver() == HandOver::Lossless, rig_.geometry()});
+        learning_ = std::make_unique<FilterLearning>(FilterLearningOptions{
+            learnedFiltersFile(sensors_),
+            sensors_,
+            rig_.handOver() == HandOver::Lossless,
+            rig_.geometry(),
+            {&stats_.heartbeats(), "filter learning", budget::kLearning, ThreadRole::Helper}});
         pipeline_.setMatchListener(learning_.get());
         pipeline_.setFilters(learning_->takeFilters());
     }

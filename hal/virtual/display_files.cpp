@@ -45,7 +45,8 @@ class FileDisplay : public Display {
 public:
     FileDisplay(int threads, std::stop_token cancel, FileDisplayPolicy policy)
         : policy_(std::move(policy)),
-          onCancel_(std::move(cancel), [this] { cancel_.request_stop(); }), writer_(threads) {}
+          onCancel_(std::move(cancel), [this] { cancel_.request_stop(); }),
+          writer_(threads, policy_.writer) {}
 
     void show(const Picture& picture, Timestamp time) final {
         if (!pool_ || pool_->size() != picture.size()) {

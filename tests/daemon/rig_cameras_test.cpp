@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <atomic>
 #include <cstdlib>
 #include <filesystem>
@@ -53,6 +55,32 @@ bool becomesTrue(const std::function<bool()>& condition) {
          std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
         if (condition()) return true;
     return false;
+}
+
+// A data.csv that is a pipe without a reader is opened for ever.
+TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
+    says("video90", "");
+    std::atomic<std::int64_t> passed{0};
+    Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
+    Rig rig(config_, hearts);
+    const std::filesystem::path recording = folder_ / "recording",
+                                csv = recording / "cam0/data.csv";
+    rig.startRecording(recording);
+    std::filesystem::remove(csv);
+    ASSERT_EQ(mkfifo(csv.c_str(), 0600), 0);
+    rig.video().start();
+    std::optional<Frame> frame;
+    ASSERT_TRUE(becomesTrue([&] { return (frame = rig.video().next(50ms)).has_value(); }));
+    rig.recordVideo(*frame);
+    EXPECT_TRUE(becomesTrue([&] {
+        passed = passed.load() + std::chrono::ceil<std::chrono::seconds>(budget::kWriter).count();
+        const auto late = hearts.late();
+        return late.size() == 1 && late.front().thread == "recorder" &&
+               late.front().role == ThreadRole::Helper;
+    }));
+    std::ifstream reader(csv);
+    rig.finishRecording();
+    EXPECT_TRUE(becomesTrue([&] { return hearts.late().empty(); })) << "it waits for work";
 }
 
 TEST_F(RigOfCameras, DriverWhoseOpenNeverReturnsIsOverItsBudget) {
