@@ -58,7 +58,7 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
         active_->show(picture);
         shown_ = std::min(shown_ + 1, kProven);
         failed_ = nullptr;
-        fault_.clear();
+        if (shown_ == kProven) fault_.clear();
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }
@@ -105,6 +105,12 @@ std::string ScreenDisplay::name() const {
     for (const auto& screen : screens_)
         text += (text.ends_with('(') ? "" : "; ") + screen->status();
     return text + ")";
+}
+
+std::optional<std::string> ScreenDisplay::fault() const {
+    if (active_ == nullptr) return name();
+    if (!fault_.empty()) return fault_;
+    return std::nullopt;
 }
 
 std::optional<ScreenPicture> ScreenDisplay::lastShown() const {
