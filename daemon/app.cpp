@@ -80,7 +80,7 @@ ExitCode App::run() {
         cancel_.request_stop();
         if (isReading()) {
             log_.endStatus();
-            log_.error(error.what());
+            log_.error(error.what(), {message::kFailed});
             std::_Exit(static_cast<int>(exitCode(error)));
         }
         throw;
@@ -129,7 +129,7 @@ void App::onReady() {
         if (!ready_) return;
         running_ = std::exchange(ready_, std::nullopt);
     }
-    log_.notice(running_->startLine);
+    log_.notice(running_->startLine, {message::kStarted});
     service_.ready(running_->startLine);
     service_.watchdogPatience(kFirstPatience);
     if (options_.seconds && !stopReason_) events_.deadlineIn(Seconds(*options_.seconds));
@@ -175,7 +175,8 @@ void App::onRead() {
     try {
         done.said.set_value(take(done.config.get()));
     } catch (const std::exception& error) {
-        log_.error(fmt::format("{}\nthe old configuration stays", error.what()));
+        log_.error(fmt::format("{}\nthe old configuration stays", error.what()),
+                   {message::kReloadRefused});
         done.said.set_exception(std::current_exception());
     }
     if (running_) service_.ready(running_->startLine);
@@ -196,7 +197,7 @@ std::string App::take(const Config& wanted) {
     if (running_) running_->description.mode = name(config_.superres.mode);
     std::string said = options_.config->string() + ": read again" +
                        (restart.empty() ? "" : "; after a restart only: " + restart);
-    log_.notice(said);
+    log_.notice(said, {message::kReloaded});
     return said;
 }
 
@@ -249,11 +250,12 @@ void App::logHealth(const Health& health) {
     // At the end, threads and pictures end as well.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     if (health.state != HealthState::Ok)
-        log_.warning(sentence(health), health.cause);
+        log_.warning(sentence(health), health.cause, subjectOf(health));
     else if (told_.isDevice)
-        log_.change("all devices are there");
+        log_.change("all devices are there", {}, {message::kRecovered});
     else
-        log_.change(fmt::format("ok again after {:.1f} s", told_.sinceS), "ok again");
+        log_.change(fmt::format("ok again after {:.1f} s", told_.sinceS), "ok again",
+                    {message::kRecovered});
     told_ = health;
 }
 
@@ -262,12 +264,12 @@ void App::showStatus(const Counted& counted, const Health& health) {
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
     if (!counted.display.empty() && counted.display != running_->description.display) {
         running_->description.display = counted.display;
-        log_.change("display " + counted.display);
+        log_.change("display " + counted.display, {}, {message::kDisplay});
     }
     if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
         log_.notice(firstPictureLine(*counted.atFirstPicture));
-    for (const std::string& text : stats_.takeWarnings())
-        log_.warning(text);
+    for (const Warning& warning : stats_.takeWarnings())
+        log_.warning(warning.text, {}, warning.subject);
     const std::string line = statusLine(counted, running_->description, elapsed, health);
     log_.status(line);
     if (!stopReason_) service_.status(line);

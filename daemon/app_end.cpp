@@ -33,7 +33,8 @@ void App::onSignal(int signal) {
     if (signal == SIGHUP) return onHangUp();
     if (stopSignal_) {
         log_.endStatus();
-        log_.warning(fmt::format("second {}, ended at once", signalName(signal)));
+        log_.warning(fmt::format("second {}, ended at once", signalName(signal)), {},
+                     {message::kEnded});
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;
@@ -74,7 +75,7 @@ bool App::writes() {
 
 void App::leave(const std::string& why) {
     log_.endStatus();
-    log_.warning(why);
+    log_.warning(why, {}, {message::kEnded});
     if (ended_ && ended_->error && !stopSignal_) leaveFailed(ended_->error);
     const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
     const bool written = writeSummary(reason, ExitCode::Ok);
@@ -91,7 +92,7 @@ void App::leaveFailed(const std::exception_ptr& error) {
     } catch (const std::exception& failure) {
         const ExitCode code = exitCode(failure);
         (void)writeSummary(fmt::format("error: {}", failure.what()), code);
-        log_.error(failure.what());
+        log_.error(failure.what(), {message::kFailed});
         std::error_code ignored;
         if (options_.control) std::filesystem::remove(*options_.control, ignored);
         pauseBeforeRestart(code, failure.what(), started_, log_);
@@ -129,7 +130,8 @@ ExitCode App::finish(std::future<std::string>& end) {
         return code;
     } catch (const std::exception& error) {
         if (cancel_.stop_requested()) {
-            log_.warning(fmt::format("not everything was written: {}", error.what()));
+            log_.warning(fmt::format("not everything was written: {}", error.what()), {},
+                         {message::kEnded});
             (void)writeSummary(*stopReason_, ExitCode::Ok);
             return ExitCode::Ok;
         }

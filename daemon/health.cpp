@@ -98,6 +98,14 @@ std::string sentence(const Health& health) {
     return out + ")";
 }
 
+Subject subjectOf(const Health& health) {
+    Subject out{health.isAlive() ? message::kDegraded : message::kStalled, "", health.thread};
+    for (const std::string_view camera : {"video", "still"})
+        if (health.cause.find(fmt::format("{} camera", camera)) != std::string::npos)
+            out.camera += (out.camera.empty() ? "" : " ") + std::string(camera);
+    return out;
+}
+
 nlohmann::ordered_json healthJson(const Health& health) {
     nlohmann::ordered_json out = {{"state", name(health.state)},
                                   {"cause", nullptr},

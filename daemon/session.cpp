@@ -181,7 +181,8 @@ void Session::apply(const Tunables& wanted) {
     try {
         placeObjects();
     } catch (const std::exception& error) {
-        stats_.warn(fmt::format("objects: {}; those before stay", error.what()));
+        stats_.warn(fmt::format("objects: {}; those before stay", error.what()),
+                    {message::kObjects});
         std::tie(objects_, light_) = before;
         placeObjects();
     }
@@ -199,7 +200,8 @@ bool Session::canShowObjects() {
         }
     }
     stats_.warn("previews of virtual objects are drawn with OpenGL ES 3.1 and are not shown: " +
-                gl_.without);
+                    gl_.without,
+                {message::kObjects});
     return false;
 }
 
@@ -208,7 +210,7 @@ void Session::placeObjects() {
     virtual_.set(objects_, light_, tags_);
     if (tags_.empty() && poses_.mayFindTags()) return;
     for (std::string& text : leftOut(objects_, tags_, virtual_.shapesAlone()))
-        stats_.warn(std::move(text));
+        stats_.warn(std::move(text), {message::kObjects});
 }
 
 void Session::process(CapturedFrame captured) {
@@ -248,7 +250,8 @@ void Session::process(CapturedFrame captured) {
 void Session::tell(Timestamp time) {
     if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
     tellLearning();
-    if (auto error = pipeline_.takeSceneError()) stats_.warn("objects: " + *error);
+    if (auto error = pipeline_.takeSceneError())
+        stats_.warn("objects: " + *error, {message::kObjects});
     if (auto error = pipeline_.takeImportFault()) stats_.warn(*error + ": it is copied");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
@@ -285,7 +288,7 @@ void Session::tellLearning() {
     stats_.learning(learning_ ? std::optional(learning_->counts()) : std::nullopt);
     if (!learning_) return;
     for (std::string& text : learning_->takeWarnings())
-        stats_.warn(std::move(text));
+        stats_.warn(std::move(text), {message::kLearning});
 }
 
 void Session::tellFaultyPasses() {
@@ -357,7 +360,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     if (policy_.lost() > lostTold_) {
         lostTold_ = policy_.lost();
         stats_.warn(fmt::format("{}: no still has come for a pulse{}", trigger->name(),
-                                policy_.pending() ? ", it is asked for once more" : ""));
+                                policy_.pending() ? ", it is asked for once more" : ""),
+                    {message::kStill, "still"});
     }
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()),
                     static_cast<std::uint64_t>(policy_.lost()));

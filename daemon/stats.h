@@ -4,6 +4,7 @@
 #include "daemon/camera_watch.h"
 #include "daemon/histogram.h"
 #include "daemon/learning_counts.h"
+#include "daemon/message_ids.h"
 #include "daemon/pose_counts.h"
 #include "daemon/process_use.h"
 #include "daemon/quality_counts.h"
@@ -116,6 +117,12 @@ private:
     std::size_t count_ = 0;                    // of all
 };
 
+/// What the log is to say, once.
+struct Warning {
+    std::string text;
+    Subject subject{};
+};
+
 /// Collects what the threads report. Thread-safe.
 class Stats {
 public:
@@ -127,8 +134,8 @@ public:
     /// What is missing, as the picture says it; nothing when all is well.
     void fault(const std::optional<std::string>& fault);
     /// The log is to say this, once.
-    void warn(std::string text);
-    [[nodiscard]] std::vector<std::string> takeWarnings();
+    void warn(std::string text, Subject subject = {});
+    [[nodiscard]] std::vector<Warning> takeWarnings();
     /// What is shown where, as Display::name() says it now.
     void display(const std::string& name);
     /// See Display::fault(), leftOut().
@@ -175,7 +182,7 @@ private:
     std::optional<Timestamp> firstShown_;
     Timestamp lastShown_;
     PictureRate rate_;
-    std::vector<std::string> warnings_;
+    std::vector<Warning> warnings_;
     Heartbeats heartbeats_;
 };
 
