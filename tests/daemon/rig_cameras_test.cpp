@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
+#include <malloc.h>
 #include <set>
 #include <string>
 #include <utility>
@@ -81,6 +83,38 @@ TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
     std::ifstream reader(csv);
     rig.finishRecording();
     EXPECT_TRUE(becomesTrue([&] { return hearts.late().empty(); })) << "it waits for work";
+}
+
+/// Of this process: open files, threads, and bytes that were allocated and not given back.
+struct Used {
+    static long entries(const char* folder) {
+        return std::distance(std::filesystem::directory_iterator(folder), {});
+    }
+    long files = entries("/proc/self/fd"), threads = entries("/proc/self/task");
+    std::size_t bytes = mallinfo2().uordblks;
+};
+
+TEST_F(RigOfCameras, AHundredLossesLeaveNothingBehind) {
+    says("video90", "rate 200");
+    Heartbeats hearts;
+    Rig rig(config_, hearts);
+    rig.video().start();
+    const auto comes = [&] { return rig.video().next(50ms).has_value(); };
+    std::optional<Used> before;
+    for (unsigned i = 1; i <= 100; ++i) {
+        ASSERT_TRUE(becomesTrue(comes)) << i;
+        if (i == 10) before.emplace();
+        says("video90", "rate 200 unplug " + std::to_string(i));
+        ASSERT_TRUE(becomesTrue([&] {
+            (void)comes();
+            return rig.video().cameraCounters().reopened == i;
+        })) << i;
+    }
+    ASSERT_TRUE(becomesTrue(comes));
+    const Used after;
+    EXPECT_EQ(after.files, before->files);
+    EXPECT_EQ(after.threads, before->threads);
+    EXPECT_LT(after.bytes, before->bytes + 32'768);
 }
 
 TEST_F(RigOfCameras, DriverWhoseOpenNeverReturnsIsOverItsBudget) {

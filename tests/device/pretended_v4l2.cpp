@@ -5,6 +5,7 @@
 //   hang          the calls that move buffers do not return
 //   hang-open     opening it does not return, and
 //   hang-close    neither does closing it
+//   unplug N      the device is lost that was opened at another N
 //   silent        no further picture
 //   repeat        the same picture again and again
 //   rate HZ       other than was asked for
@@ -75,7 +76,7 @@ void waitWhile(const std::string& file, const char* word) {
 class Device {
 public:
     Device(std::string file, std::string name)
-        : file_(std::move(file)), name_(std::move(name)),
+        : file_(std::move(file)), name_(std::move(name)), plug_(words()["unplug"]),
           fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)),
           memory_(memfd_create("pretended", MFD_CLOEXEC)) {}
     Device(const Device&) = delete;
@@ -92,6 +93,7 @@ public:
     int call(unsigned long request, void* argument) {
         if (request == VIDIOC_DQBUF || request == VIDIOC_QBUF || request == VIDIOC_STREAMOFF)
             waitWhile(file_, "hang");
+        if (request == VIDIOC_DQBUF && words()["unplug"] != plug_) return ENODEV;
         switch (request) {
         case VIDIOC_QUERYCAP: return describe(*static_cast<v4l2_capability*>(argument));
         case VIDIOC_ENUM_FMT: {
@@ -276,7 +278,8 @@ private:
     }
 
     const std::string file_, name_;
-    const int fd_;  ///< readable as often as there are filled buffers; closed by the program
+    const double plug_;  ///< the word "unplug" when it was opened
+    const int fd_;       ///< readable as often as there are filled buffers; closed by the program
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
