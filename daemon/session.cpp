@@ -261,36 +261,6 @@ void Session::tell(Timestamp time) {
     }
 }
 
-void Session::setLearning(bool wanted) {
-    if (wanted == (learning_ != nullptr)) return;
-    pipeline_.setMatchListener(nullptr);
-    pipeline_.setFilters(nullptr);
-    learning_.reset();
-    if (wanted) {
-        learning_ = std::make_unique<FilterLearning>(FilterLearningOptions{
-            learnedFiltersFile(sensors_),
-            sensors_,
-            rig_.handOver() == HandOver::Lossless,
-            rig_.geometry(),
-            {&stats_.heartbeats(), "filter learning", budget::kLearning, ThreadRole::Helper}});
-        pipeline_.setMatchListener(learning_.get());
-        pipeline_.setFilters(learning_->takeFilters());
-    }
-    tellLearning();
-}
-
-void Session::resetLearning() {
-    if (!learning_) throw std::runtime_error("no filters are learned");
-    learning_->reset();
-}
-
-void Session::tellLearning() {
-    stats_.learning(learning_ ? std::optional(learning_->counts()) : std::nullopt);
-    if (!learning_) return;
-    for (std::string& text : learning_->takeWarnings())
-        stats_.warn(std::move(text), {message::kLearning});
-}
-
 void Session::tellFaultyPasses() {
     for (const gpu::ValidationFault& fault : validation_->takeFaults()) {
         ++validated_.faults;
