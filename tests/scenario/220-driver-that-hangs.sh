@@ -81,6 +81,16 @@ kill -TERM "$pid"
 ends_with 0 1500
 : >cameras/video90
 
+echo "SIGTERM while the devices are being opened, and do not answer"
+echo hang-open >cameras/video90
+echo hang-open >cameras/video91
+LD_PRELOAD=$pretended start --config mfard.toml --display none
+until_true started
+kill -TERM "$pid"
+ends_with 0 1500
+: >cameras/video90
+: >cameras/video91
+
 echo "a run of some seconds ends in time, too, and so does one of some frames"
 LD_PRELOAD=$pretended start --config mfard.toml --display none --seconds 2 --summary summary.json
 until_true started
