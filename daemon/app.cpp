@@ -228,6 +228,7 @@ Health App::health(const Counted& counted) {
     seen.late = stats_.heartbeats().late(seen.patience);
     seen.waiting = stats_.heartbeats().waiting();
     seen.fault = counted.fault;
+    seen.gpu = counted.gpuFault;
     seen.display = counted.displayFault;
     seen.lastPicture = counted.lastPicture;
     seen.lastBanner = counted.lastBanner;

@@ -51,7 +51,7 @@ std::optional<Judged> standingStill(const Observed& seen) {
         return std::nullopt;
     const std::optional<Timestamp> begin = std::max(seen.lastPicture, seen.started);
     if (!begin || isFresh(begin, seen)) return std::nullopt;
-    std::string cause = "no new picture";
+    std::string cause = seen.gpu.value_or("no new picture");
     if (seen.waiting && seen.waiting->role == ThreadRole::Vital)
         cause = fmt::format("waiting for {}", seen.waiting->what);
     return Judged{HealthState::Stalled, std::move(cause), *begin};
@@ -61,6 +61,7 @@ std::optional<Judged> standingStill(const Observed& seen) {
 Judged missing(const Observed& seen) {
     std::vector<Judged> all;
     if (seen.fault) all.push_back({HealthState::Degraded, *seen.fault, std::nullopt, "", true});
+    if (seen.gpu) all.push_back({HealthState::Degraded, *seen.gpu});
     if (seen.waiting && seen.waiting->since > kWorthTelling)
         all.push_back({HealthState::Degraded, fmt::format("waiting for {}", seen.waiting->what),
                        seen.now - seen.waiting->since});

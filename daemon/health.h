@@ -46,6 +46,7 @@ struct Observed {
     std::vector<Heartbeats::Late> late{};
     std::optional<Heartbeats::Waiting> waiting{};
     std::optional<std::string> fault{};    ///< of a device that is being opened again
+    std::optional<std::string> gpu{};      ///< what is wrong with it
     std::optional<std::string> display{};  ///< why not all pictures are shown or written
     std::optional<Timestamp> lastPicture{};
     std::optional<Timestamp> lastBanner{};  ///< the last picture once more, with the fault over it

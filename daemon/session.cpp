@@ -120,6 +120,12 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     bool enough = false;
     while (!enough) {
         heart.beat();
+        const bool isGpuReady = gpu_.isReady();
+        stats_.gpu(gpu_.fault());
+        if (!isGpuReady) {
+            if (mailbox.over()) break;
+            continue;
+        }
         std::optional<CapturedFrame> captured = mailbox.takeWithin(kFaultInterval);
         if (!captured && mailbox.over()) break;
         if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
@@ -352,10 +358,12 @@ void Session::show(Timestamp time, bool unchanged) {
     const std::string fault = rig_.fault().value_or("");
     try {
         if (unchanged && shown_ && fault == faultShown_) {
+            gpu_.drawn();
             display_->showAgain(*shown_, time);
         } else {
             shown_ = fault.empty() ? last_ : banner_.over(last_, fault);
             faultShown_ = fault;
+            gpu_.drawn();
             display_->show(*shown_, time);
         }
         stats_.display(display_->name());

@@ -6,6 +6,7 @@
 #include "daemon/capture.h"
 #include "daemon/config.h"
 #include "daemon/governor.h"
+#include "daemon/gpu_watch.h"
 #include "daemon/mailbox.h"
 #include "daemon/pose_finder.h"
 #include "daemon/rig.h"
@@ -116,6 +117,7 @@ private:
     Rig rig_;
     PoseFinder poses_;
     OpenedGl gl_;
+    GpuWatch gpu_{gl_.context};
     std::unique_ptr<gpu::Validation> validation_;  ///< of all that the pipeline writes
     std::unique_ptr<Display> display_;
     Size output_;

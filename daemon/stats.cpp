@@ -124,6 +124,11 @@ void Stats::displayed(const std::optional<std::string>& fault, std::uint64_t lef
     counted_.drops.display = leftOut;
 }
 
+void Stats::gpu(const std::optional<std::string>& fault) {
+    const std::lock_guard lock(mutex_);
+    counted_.gpuFault = fault;
+}
+
 void Stats::bannerShown(Timestamp shown) {
     const std::lock_guard lock(mutex_);
     counted_.lastBanner = shown;

@@ -87,6 +87,7 @@ struct Counted {
     std::optional<Timestamp>
         lastBanner{};  ///< when a picture that says a fault was, without frames
     std::optional<std::string> displayFault{};  ///< see Display::fault()
+    std::optional<std::string> gpuFault{};      ///< see GpuWatch
     ValidationCounts validation{};              ///< zero where it is not asked for
     std::optional<ProcessUse> atFirstPicture;   ///< when the display had it
     std::optional<LearningCounts> learning{};   ///< where filters are learned
@@ -140,6 +141,8 @@ public:
     void display(const std::string& name);
     /// See Display::fault(), leftOut().
     void displayed(const std::optional<std::string>& fault, std::uint64_t leftOut);
+    /// See GpuWatch::fault().
+    void gpu(const std::optional<std::string>& fault);
     /// A picture was shown that says what is missing, while no frames come.
     void bannerShown(Timestamp shown);
     /// Totals so far.

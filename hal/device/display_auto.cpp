@@ -1,11 +1,10 @@
 #include "hal/device/display_auto.h"
 
+#include "base/gl/fence.h"
 #include "hal/device/display_fbdev.h"
 #include "hal/device/display_kms.h"
 #include "hal/device/display_spec.h"
 #include "hal/device/display_uevents.h"
-
-#include <GLES3/gl31.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -51,7 +50,8 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     if (active_ == nullptr) {
         if (picture.isOnHost()) return;
         if (scaler_) scaler_->warmUp(picture.image());
-        glFinish();  // without a screen nothing else would hold the renderer back
+        // Without a screen nothing else would hold the renderer back.
+        (void)gpu::finishWithin();
         return;
     }
     try {
