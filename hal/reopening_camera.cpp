@@ -29,51 +29,52 @@ void ReopeningCamera::start() {
 // A device can be opened once at a time: first closed, then opened again. Both may take long and
 // are done here, not where others wait for pictures.
 void ReopeningCamera::keepOpen() {
+    Heartbeat heart(options_.opener);
+    heart.rest();
     std::chrono::milliseconds pause = options_.firstPause;
     std::unique_lock lock(mutex_);
     const auto rest = [&] {
         changed_.wait_for(lock, pause, [&] { return stopped_; });
         pause = std::min(2 * pause, options_.longestPause);
     };
-    for (;;) {
-        changed_.wait(lock, [&] { return stopped_ || !camera_; });
-        if (stopped_) return finish(lock);
+    const auto work = [&](const auto& call) {
         busy_ = Timestamp::now();
+        heart.beat();
+        lock.unlock();
+        call();
+        lock.lock();
+        heart.rest();
+        busy_.reset();
+    };
+    while (!stopped_) {
         if (std::shared_ptr<Camera> lost = std::exchange(lost_, nullptr)) {
-            lock.unlock();
-            lost.reset();
-            lock.lock();
-            busy_.reset();
+            work([&] { lost.reset(); });
             if (hasSent_ || Timestamp::now() - opened_ > options_.longestPause)
                 pause = options_.firstPause;
             else
                 rest();
             if (stopped_) return;
-            busy_ = Timestamp::now();
         }
-        lock.unlock();
-        std::shared_ptr<Camera> camera = tryOpen();
-        lock.lock();
-        busy_.reset();
-        if (camera) {
-            for (std::string& text : camera->takeWarnings())
-                warnings_.push_back(std::move(text));
-            camera_ = std::move(camera);
-            opened_ = lastFrame_ = Timestamp::now();
-            hasSent_ = false;
-            changed_.notify_all();
-        } else {
+        std::shared_ptr<Camera> camera;
+        work([&] { camera = tryOpen(); });
+        if (camera)
+            take(std::move(camera));
+        else
             rest();
-        }
+        changed_.wait(lock, [&] { return stopped_ || !camera_; });
     }
+    // Here, as stop() is not to wait for the driver.
+    if (const std::shared_ptr<Camera> camera = camera_) work([&] { camera->stop(); });
 }
 
-/// With the mutex held. Here, as stop() is not to wait for the driver.
-void ReopeningCamera::finish(std::unique_lock<std::mutex>& lock) {
-    const std::shared_ptr<Camera> camera = camera_;
-    lock.unlock();
-    if (camera) camera->stop();
-    lock.lock();
+/// With the mutex held.
+void ReopeningCamera::take(std::shared_ptr<Camera> camera) {
+    for (std::string& text : camera->takeWarnings())
+        warnings_.push_back(std::move(text));
+    camera_ = std::move(camera);
+    opened_ = lastFrame_ = Timestamp::now();
+    hasSent_ = false;
+    changed_.notify_all();
 }
 
 std::shared_ptr<Camera> ReopeningCamera::tryOpen() {

@@ -3,6 +3,9 @@
 // folder MFAR_PRETENDED_V4L2, each "/dev/NAME" a camera that gives YUYV of any size. The file's
 // words say what is wrong with it, and may change at any time, by renaming another file onto it:
 //   hang          the calls that move buffers do not return
+//   hang-open     opening it does not return, and
+//   hang-close    neither does closing it
+//   unplug N      the device is lost that was opened at another N
 //   silent        no further picture
 //   repeat        the same picture again and again
 //   rate HZ       other than was asked for
@@ -48,10 +51,32 @@ using std::chrono::steady_clock;
 /// The words of a device's file, each with its number, 1 where there is none.
 using Words = std::map<std::string, double>;
 
+Words wordsOf(const std::string& file) {
+    std::ifstream in(file);
+    Words out;
+    for (std::string word; in >> word;) {
+        double number = 1;
+        const auto at = in.tellg();
+        if (!(in >> number)) {
+            in.clear();
+            in.seekg(at);
+            number = 1;
+        }
+        out[word] = number;
+    }
+    return out;
+}
+
+/// Waits as long as the device's file has this word.
+void waitWhile(const std::string& file, const char* word) {
+    while (wordsOf(file).contains(word))
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
 class Device {
 public:
     Device(std::string file, std::string name)
-        : file_(std::move(file)), name_(std::move(name)),
+        : file_(std::move(file)), name_(std::move(name)), plug_(words()["unplug"]),
           fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)),
           memory_(memfd_create("pretended", MFD_CLOEXEC)) {}
     Device(const Device&) = delete;
@@ -61,13 +86,14 @@ public:
         close(memory_);
     }
 
+    [[nodiscard]] const std::string& file() const { return file_; }
     [[nodiscard]] int fd() const { return fd_; }
     [[nodiscard]] int memory() const { return memory_; }
 
     int call(unsigned long request, void* argument) {
         if (request == VIDIOC_DQBUF || request == VIDIOC_QBUF || request == VIDIOC_STREAMOFF)
-            while (words().contains("hang"))
-                std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            waitWhile(file_, "hang");
+        if (request == VIDIOC_DQBUF && words()["unplug"] != plug_) return ENODEV;
         switch (request) {
         case VIDIOC_QUERYCAP: return describe(*static_cast<v4l2_capability*>(argument));
         case VIDIOC_ENUM_FMT: {
@@ -95,21 +121,7 @@ public:
     }
 
 private:
-    [[nodiscard]] Words words() const {
-        std::ifstream in(file_);
-        Words out;
-        for (std::string word; in >> word;) {
-            double number = 1;
-            const auto at = in.tellg();
-            if (!(in >> number)) {
-                in.clear();
-                in.seekg(at);
-                number = 1;
-            }
-            out[word] = number;
-        }
-        return out;
-    }
+    [[nodiscard]] Words words() const { return wordsOf(file_); }
 
     int describe(v4l2_capability& about) const {
         about = {};
@@ -266,7 +278,8 @@ private:
     }
 
     const std::string file_, name_;
-    const int fd_;  ///< readable as often as there are filled buffers; closed by the program
+    const double plug_;  ///< the word "unplug" when it was opened
+    const int fd_;       ///< readable as often as there are filled buffers; closed by the program
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
@@ -297,6 +310,7 @@ int openDevice(const char* path) {
     const std::string name = path + 5;
     const std::string file = std::string(folder) + "/" + name;
     if (name.find('/') != std::string::npos || access(file.c_str(), R_OK) != 0) return -1;
+    waitWhile(file, "hang-open");
     auto device = std::make_shared<Device>(file, name);
     const std::lock_guard lock(devicesMutex);
     devices()[device->fd()] = device;
@@ -361,6 +375,7 @@ void* mmap64(void* at, std::size_t length, int protection, int flags, int fd,
 
 // A descriptor that is closed may come back as any other file.
 int close(int fd) {
+    if (const auto device = deviceOf(fd)) waitWhile(device->file(), "hang-close");
     std::shared_ptr<Device> closed;
     {
         const std::lock_guard lock(devicesMutex);
