@@ -13,6 +13,8 @@ std::vector<QualitySetting> qualitySettings() {
         {"off", {.mode = SuperResMode::Off}},
         {"off-linear", {.mode = SuperResMode::Off, .cubic = false}},
         {"detail-2d", {.alongLines = false}},
+        {"no-filters", {.learned = false}},
+        {"lines-half-no-filters", {.learned = false, .epipolar = {.finest = 1}}},
         {"lines-half", {.epipolar = {.finest = 1}}},
         {"predicted-15", {.epipolar = {.mostPredicted = 15}}},
         {"predicted-30", {.epipolar = {.mostPredicted = 30}}},
