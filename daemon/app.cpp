@@ -269,6 +269,8 @@ Health App::health(const Counted& counted) {
     seen.waiting = stats_.heartbeats().waiting();
     seen.fault = counted.fault;
     seen.display = counted.displayFault;
+    const CameraState& video = counted.cameras[static_cast<std::size_t>(CameraRole::Video)];
+    if (video.repeats) seen.repeats = video.lastDistinct;
     seen.lastPicture = counted.lastPicture;
     seen.lastBanner = counted.lastBanner;
     if (running_) {

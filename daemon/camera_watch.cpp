@@ -78,13 +78,13 @@ void CameraWatch::checkRepeats(const ImageView& picture, Timestamp now) {
     const std::uint64_t checksum = sparseChecksum(picture);
     if (std::exchange(checksum_, checksum) != checksum) {
         state_.lastDistinct = now;
+        state_.repeats = false;
         repeats_ = 0;
         return;
     }
     ++state_.repeated;
-    const bool wasTold = repeats_ < 0;
-    if (wasTold || ++repeats_ < kRepeats || now - *state_.lastDistinct < kRepeatTime) return;
-    repeats_ = -1;
+    if (state_.repeats || ++repeats_ < kRepeats || now - *state_.lastDistinct < kRepeatTime) return;
+    state_.repeats = true;
     warnings_.push_back(fmt::format(
         "{}: sends the same picture again and again, for {} s by now", name_,
         std::chrono::duration_cast<std::chrono::seconds>(now - *state_.lastDistinct).count()));

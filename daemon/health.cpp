@@ -61,6 +61,9 @@ Judged judged(const Observed& seen) {
     if (auto found = hanging(seen, ThreadRole::Vital, HealthState::Stalled)) return *found;
     if (auto found = standingStill(seen)) return *found;
     if (seen.fault) return {HealthState::Degraded, *seen.fault, std::nullopt, "", true};
+    if (seen.repeats)
+        return {HealthState::Degraded, "video camera: sends the same picture again and again",
+                *seen.repeats};
     if (auto found = hanging(seen, ThreadRole::Helper, HealthState::Degraded)) return *found;
     if (seen.waiting && seen.waiting->since > kWorthTelling)
         return {HealthState::Degraded, fmt::format("waiting for {}", seen.waiting->what),
