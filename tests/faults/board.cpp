@@ -1,0 +1,146 @@
+#include "tests/faults/board.h"
+
+#include "tests/faults/judge.h"
+#include "tests/faults/real_calls.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <string_view>
+
+namespace mfar::faults {
+namespace {
+
+constexpr std::string_view kConfiguration = R"(source = "cameras"
+[superres]
+mode = "off"
+learn = false
+[record]
+least_free_mb = 0
+[pose]
+source = "none"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/video90"
+width = 64
+height = 48
+rate_hz = 30.0
+[cameras.still]
+driver = "v4l2"
+camera = "/dev/video91"
+width = 128
+height = 96
+rate_hz = 5.0
+)";
+
+constexpr std::array<std::string_view, 6> kBad = {
+    "nonsense",
+    "[status]\ninterval_s = 99999999999999999999\n",
+    "[superres]\nmode = 3\n",
+    "[cameras.video]\nwidth = 9007199254740993\n",
+    "[status]\ninterval_s = nan\n",
+    "[[object]]\nmodel = \"/nowhere.glb\"\n",
+};
+
+constexpr std::array<Ns, 4> kSteps = {3600 * kSecond, -3600 * kSecond, 315'360'000 * kSecond,
+                                      -315'360'000 * kSecond};
+
+// By renaming: who reads finds the one or the other. Past the disk's faults.
+void replace(const std::string& file, std::string_view text) {
+    const std::string part = file + ".new";
+    const int fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    real().syscall(SYS_write, fd, text.data(), text.size());
+    close(fd);
+    std::filesystem::rename(part, file);
+}
+
+int idleClient(bool speaks) {
+    const int fd = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, Board::kSocket, sizeof address.sun_path - 1);
+    static_cast<void>(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address));
+    if (speaks) static_cast<void>(send(fd, "{\"comm", 6, MSG_NOSIGNAL | MSG_DONTWAIT));
+    return fd;
+}
+
+std::string words(const Fault& fault) {
+    std::string out(fault.kind->words);
+    const std::size_t star = out.find('*');
+    if (star != out.npos) out.replace(star, 1, std::to_string(fault.number));
+    return out;
+}
+
+}  // namespace
+
+Board& Board::get() {
+    static auto* board = new Board;  // threads outlive main()
+    return *board;
+}
+
+void Board::setUp() {
+    std::filesystem::create_directory("cameras");
+    writeCamera(Where::Video);
+    writeCamera(Where::Still);
+    replace("mfard.toml", kConfiguration);
+    if (mkfifo(kPipe, 0600) != 0) throw std::runtime_error("no pipe can be made");
+}
+
+void Board::writeCamera(Where which) const {
+    std::string text;
+    for (const Fault* fault : active_)
+        if (fault->kind->where == which) text += words(*fault) + " ";
+    replace(which == Where::Video ? "cameras/video90" : "cameras/video91", text);
+}
+
+void Board::begin(const Fault& fault) {
+    active_.push_back(&fault);
+    disturb(fault, 1);
+}
+
+void Board::end(const Fault& fault) {
+    std::erase(active_, &fault);
+    disturb(fault, -1);
+}
+
+void Board::disturb(const Fault& fault, int by) {
+    switch (fault.kind->where) {
+    case Where::Video:
+    case Where::Still: return writeCamera(fault.kind->where);
+    case Where::Reader: readerStalls_ += by; return;
+    case Where::Clients:
+        for (int i = 0; by > 0 && i < fault.number; ++i)
+            clients_.push_back(idleClient(i % 2 == 0));
+        if (by > 0) return;
+        for (const int fd : clients_)
+            close(fd);
+        return clients_.clear();
+    case Where::Configuration:
+        if (by > 0) changeConfiguration(fault);
+        return;
+    case Where::Wall:
+        return Scheduler::get().stepWall(by * kSteps[static_cast<std::size_t>(fault.number)]);
+    case Where::Disk: (fault.number == 0 ? diskFull_ : diskHangs_) += by; return;
+    case Where::Machine: return Scheduler::get().setCost(by > 0 ? fault.number * 1000 : 500);
+    }
+}
+
+void Board::changeConfiguration(const Fault& fault) {
+    const auto which = static_cast<std::size_t>(fault.number);
+    if (!Judge::get().isReady()) return;  // nobody would take the signal
+    replace("mfard.toml",
+            std::string(kConfiguration) + std::string(which < kBad.size() ? kBad[which] : ""));
+    kill(getpid(), SIGHUP);
+}
+
+}  // namespace mfar::faults

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "tests/faults/plan.h"
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace mfar::faults {
+
+/// What surrounds mfard: two pretended cameras, a pipe whose other end is the screen, a file of
+/// configuration, a disk; in the current folder. Faults act on it.
+class Board {
+public:
+    static Board& get();
+
+    /// Makes the files.
+    void setUp();
+    void begin(const Fault& fault);
+    void end(const Fault& fault);
+
+    [[nodiscard]] bool readerStalls() const { return readerStalls_ > 0; }
+    [[nodiscard]] bool diskIsFull() const { return diskFull_ > 0; }
+    [[nodiscard]] bool diskHangs() const { return diskHangs_ > 0; }
+
+    static constexpr const char* kPipe = "screen.y4m";
+    static constexpr const char* kSocket = "control";
+
+private:
+    void writeCamera(Where which) const;
+    void plug(const Fault& fault, bool broken);
+    void disturb(const Fault& fault, int by);
+    void changeConfiguration(const Fault& fault);
+
+    std::vector<const Fault*> active_;
+    std::vector<int> clients_;
+    int readerStalls_ = 0, diskFull_ = 0, diskHangs_ = 0;
+};
+
+/// Reads the pipe and tells the judge what is shown. Never returns.
+void runScreen();
+
+}  // namespace mfar::faults
