@@ -21,6 +21,7 @@
 // upper half, see pretended_picture.h. One that finds no buffer has no number, so that only `skip`
 // leaves numbers out, however slow the machine is.
 
+#include "tests/device/pretended_counts.h"
 #include "tests/device/pretended_picture.h"
 #include "tests/device/pretended_words.h"
 
@@ -121,8 +122,7 @@ private:
     int describe(v4l2_capability& about) const {
         about = {};
         std::strncpy(reinterpret_cast<char*>(about.card), name_.c_str(), sizeof about.card - 1);
-        std::strncpy(reinterpret_cast<char*>(about.bus_info), name_.c_str(),
-                     sizeof about.bus_info - 1);
+        std::memcpy(about.bus_info, about.card, sizeof about.bus_info - 1);
         about.capabilities = V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
         about.device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
         return 0;
@@ -181,6 +181,7 @@ private:
         filled_.pop_front();
         std::uint64_t one = 0;
         static_cast<void>(!read(fd_, &one, sizeof one));
+        mfar::pretended::RefusableCounts::get().add(name_, to, bytes_, lastGood_);
         return 0;
     }
 
@@ -286,6 +287,7 @@ private:
     std::atomic<int> lostError_{0};
     std::thread maker_;
     std::vector<std::uint8_t> picture_;
+    std::optional<std::int64_t> lastGood_;
     std::mutex mutex_;
     std::vector<v4l2_buffer> buffers_;
     std::deque<std::uint32_t> free_, filled_;

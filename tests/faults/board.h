@@ -26,6 +26,7 @@ public:
 
     static constexpr const char* kPipe = "screen.y4m";
     static constexpr const char* kSocket = "control";
+    static constexpr const char* kRecording = "disk-";  ///< and a number
 
 private:
     void writeCamera(Where which) const;

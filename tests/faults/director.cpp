@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -73,13 +75,49 @@ std::vector<Step> stepsOf(const Episode& episode) {
     return steps;
 }
 
+/// Asks for what may be refused, as another fault may be in the way.
+void request(const nlohmann::json& what) {
+    try {
+        static_cast<void>(ask(Board::kSocket, what));
+    } catch (const std::exception& error) {
+        Judge::get().note(error.what());
+    }
+}
+
+// A disk that fails does so under a recording.
 void apply(const Step& step) {
+    static int recordings = 0;
+    const bool ofDisk = step.fault->kind->where == Where::Disk;
     if (step.begins) {
+        if (ofDisk) {
+            const std::string name = Board::kRecording + std::to_string(++recordings);
+            request({{"command", "record"}, {"name", name}});
+            sleepFor(300 * kMs);
+        }
         Judge::get().begins(*step.fault);
         Board::get().begin(*step.fault);
     } else {
         Board::get().end(*step.fault);
+        if (ofDisk) request({{"command", "record"}, {"stop", true}});
         Judge::get().ends(*step.fault);
+    }
+}
+
+void checkRecordings() {
+    for (const auto& folder : std::filesystem::directory_iterator(".")) {
+        if (!folder.path().filename().string().starts_with(Board::kRecording)) continue;
+        Judge::get().recording(folder.path().string());
+        std::filesystem::remove_all(folder.path());
+    }
+}
+
+void checkInQuiet() {
+    Judge::get().measure();
+    checkRecordings();
+    try {
+        Judge::get().stats(ask(Board::kSocket, {{"command", "stats"}}).body);
+    } catch (const std::exception& error) {
+        Judge::get().fail(std::string("stats: ") + error.what());
     }
 }
 
@@ -108,7 +146,7 @@ void run(const Plan& plan) {
             apply(step);
         }
         sleepFor(kQuiet);
-        if (!isLast) Judge::get().measure();
+        if (!isLast) checkInQuiet();
     }
     killer.join();
 }

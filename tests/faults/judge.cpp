@@ -8,9 +8,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <utility>
 
 namespace mfar::faults {
 namespace {
@@ -91,20 +93,17 @@ void Judge::change(const Fault& fault, int by) {
     touch(kStill, kind.where == Where::Still && stops);
     touch(kScreen, kind.effect == Effect::StopsReader);
     touch(kSlow, kind.effect == Effect::Slows);
+    touch(kVideoDevice, kind.where == Where::Video && stops && kind.effect != Effect::Repeats);
     touch(kVideoHang, kind.where == Where::Video && kind.effect == Effect::HangsDriver);
 }
 
 void Judge::begins(const Fault& fault) {
     change(fault, 1);
-    if (fault.kind->where == Where::Video &&
-        (fault.kind->effect == Effect::StopsDevice || fault.kind->effect == Effect::HangsDriver))
-        deviceSince_ = now();
     note(std::string(fault.kind->name) + " begins");
 }
 
 void Judge::ends(const Fault& fault) {
     change(fault, -1);
-    if (calm_[kVideo].active == 0) deviceSince_.reset();
     note(std::string(fault.kind->name) + " ends");
 }
 
@@ -117,6 +116,12 @@ void Judge::shows(Ns taken) {
 // Before the first picture there is none that could be stale.
 Ns Judge::age(Ns at) const {
     return shown_ ? at - *shown_ : 0;
+}
+
+/// For how long the video camera has sent nothing, because of its fault.
+Ns Judge::missing(Ns at) const {
+    const Calm& device = calm_[kVideoDevice];
+    return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
 void Judge::status(const ordered_json& said, Ns asked) {
@@ -134,9 +139,9 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const bool isFine = state == "ok" && fault.empty();
     if (age(asked) > kStale + kSlack && isFine)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
-    const Ns missing = std::min(age(asked), deviceSince_ ? asked - *deviceSince_ : 0);
-    if (missing > kMarked + kSlack && isFine)
-        fail("the video camera has sent nothing for " + seconds(missing) + ", status says ok");
+    if (missing(asked) > kMarked + kSlack && isFine)
+        fail("the video camera has sent nothing for " + seconds(missing(asked)) +
+             ", status says ok");
     if (!calm_[kAll].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
     if (!isFine)
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
@@ -183,9 +188,8 @@ void Judge::fed() {
     if (frames_ < kProvenFrames || !calm_[kSlow].lasts(kBack, now())) return;
     if (now() - before > kLookTime + kSlack && calm_[kAll].lasts(kBack + kSlack + kLookTime, now()))
         fail("nothing is wrong, and the watchdog was not fed for " + seconds(now() - before));
-    const Ns hangs = deviceSince_ ? std::min(age(now()), now() - *deviceSince_) : 0;
-    if (calm_[kVideoHang].active > 0 && hangs > kVideoBudget + kSlack)
-        fail("the watchdog is fed while the video driver hangs for " + seconds(hangs));
+    if (calm_[kVideoHang].active > 0 && missing(now()) > kVideoBudget + kSlack)
+        fail("the watchdog is fed while the video driver hangs for " + seconds(missing(now())));
     const bool isNamed = !calm_[kVideo].lasts(kBack, now()) || !calm_[kScreen].lasts(kBack, now());
     if (age(now()) > kStale + kSlack && !isNamed)
         fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
@@ -225,6 +229,38 @@ void Judge::ended(int code, bool inTime) {
     count("log bytes", logBytes_);
     count("simulated ms", static_cast<std::uint64_t>(now() / kMs - 1'000'000));
     note(fmt::format("ENDED with {}", code));
+}
+
+void Judge::stats(const ordered_json& said) {
+    using Refusable = void (*)(const char*, std::uint64_t*, std::uint64_t*);
+    const auto refusable =
+        reinterpret_cast<Refusable>(dlsym(RTLD_DEFAULT, "mfar_pretended_refusable"));
+    for (const auto& [camera, device] : {std::pair("video", "video90"), {"still", "video91"}}) {
+        std::uint64_t broken = 0, badTimes = 0;
+        refusable(device, &broken, &badTimes);
+        const ordered_json& counted = said.at("cameras").at(camera);
+        if (counted.at("broken") != broken || counted.at("bad_times") != badTimes)
+            fail(fmt::format("the {} camera has sent {} broken pictures and {} bad times, counted "
+                             "are {} and {}",
+                             camera, broken, badTimes, counted.at("broken").dump(),
+                             counted.at("bad_times").dump()));
+    }
+}
+
+void Judge::recording(const std::string& folder) {
+    const std::filesystem::path camera = std::filesystem::path(folder) / "cam0";
+    std::ifstream list(camera / "data.csv");
+    std::uint64_t pictures = 0;
+    std::string line;
+    while (std::getline(list, line)) {
+        if (line.starts_with("#")) continue;
+        const std::string name = line.substr(line.find(',') + 1);
+        std::error_code error;
+        if (std::filesystem::file_size(camera / "data" / name, error) == 0 || error)
+            fail("a recording names " + name + ", which is not there");
+        ++pictures;
+    }
+    note(fmt::format("{} has {} pictures", folder, pictures));
 }
 
 void Judge::measure() {

@@ -34,6 +34,10 @@ public:
     void answersNot(const std::string& why, Ns asked);
     void terminated();  ///< it has been asked to end
     void ended(int code, bool inTime);
+    /// While nothing is wrong: what cameras have sent that is to be refused, as stats has it.
+    void stats(const nlohmann::ordered_json& said);
+    /// A recording that has ended can be read.
+    void recording(const std::string& folder);
     /// Memory, descriptors and threads while nothing is wrong.
     void measure();
 
@@ -58,10 +62,11 @@ private:
             return active == 0 && now - since > time;
         }
     };
-    enum Calms { kAll, kVideo, kStill, kScreen, kSlow, kVideoHang, kCalms };
+    enum Calms { kAll, kVideo, kVideoDevice, kVideoHang, kStill, kScreen, kSlow, kCalms };
 
     Judge();
     [[nodiscard]] Ns age(Ns now) const;
+    [[nodiscard]] Ns missing(Ns now) const;
     void judgeState(const nlohmann::ordered_json& said, Ns asked);
     void judgeBlame(const std::string& fault, Ns asked);
     void fed();
@@ -69,7 +74,7 @@ private:
 
     int report_ = 2;
     std::array<Calm, kCalms> calm_{};
-    std::optional<Ns> ready_, terminated_, shown_, fed_, deviceSince_;
+    std::optional<Ns> ready_, terminated_, shown_, fed_;
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;

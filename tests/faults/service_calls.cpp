@@ -8,8 +8,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/stat.h>
-#include <sys/statvfs.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -24,9 +22,12 @@ using namespace mfar::faults;
 
 namespace {
 
+/// Only what is recorded: mfard itself may need other files.
 bool isOnDisk(int fd) {
-    struct stat is{};
-    return fd > STDERR_FILENO && fstat(fd, &is) == 0 && S_ISREG(is.st_mode);
+    std::error_code ignored;
+    const auto file =
+        std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(fd), ignored).string();
+    return file.find("/" + std::string(Board::kRecording)) != file.npos;
 }
 
 __attribute__((destructor)) void atExit() {
