@@ -14,6 +14,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <cstring>
 #include <stdexcept>
 #include <string_view>
@@ -21,10 +23,8 @@
 namespace mfar::faults {
 namespace {
 
+/// Without the mode of super-resolution, which is the end of it.
 constexpr std::string_view kConfiguration = R"(source = "cameras"
-[superres]
-mode = "off"
-learn = false
 [record]
 least_free_mb = 0
 [pose]
@@ -41,12 +41,14 @@ camera = "/dev/video91"
 width = 128
 height = 96
 rate_hz = 5.0
+[superres]
+learn = false
 )";
 
 constexpr std::array<std::string_view, 6> kBad = {
     "nonsense",
     "[status]\ninterval_s = 99999999999999999999\n",
-    "[superres]\nmode = 3\n",
+    "skip_unchanged = 3\n",
     "[cameras.video]\nwidth = 9007199254740993\n",
     "[status]\ninterval_s = nan\n",
     "[[object]]\nmodel = \"/nowhere.glb\"\n",
@@ -88,16 +90,19 @@ Board& Board::get() {
     return *board;
 }
 
-void Board::setUp() {
-    std::filesystem::create_directory("cameras");
+void Board::setUp(std::string_view mode) {
+    configuration_ = fmt::format("{}mode = \"{}\"\n", kConfiguration, mode);
+    std::filesystem::create_directories("cameras");
     writeCamera(Where::Video);
     writeCamera(Where::Still);
-    replace("mfard.toml", kConfiguration);
-    if (mkfifo(kPipe, 0600) != 0) throw std::runtime_error("no pipe can be made");
+    replace("mfard.toml", configuration_);
+    if (mkfifo(kPipe, 0600) != 0 && errno != EEXIST)
+        throw std::runtime_error("no pipe can be made");
 }
 
 void Board::writeCamera(Where which) const {
-    std::string text;
+    // What is on the screen has the time of the video picture alone.
+    std::string text = which == Where::Still ? "plain " : "";
     for (const Fault* fault : active_)
         if (fault->kind->where == which) text += words(*fault) + " ";
     replace(which == Where::Video ? "cameras/video90" : "cameras/video91", text);

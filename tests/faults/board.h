@@ -2,9 +2,9 @@
 
 #include "tests/faults/plan.h"
 
-#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace mfar::faults {
@@ -15,8 +15,8 @@ class Board {
 public:
     static Board& get();
 
-    /// Makes the files.
-    void setUp();
+    /// Makes the files. `mode`: of super-resolution.
+    void setUp(std::string_view mode);
     void begin(const Fault& fault);
     void end(const Fault& fault);
 
@@ -34,6 +34,7 @@ private:
     void disturb(const Fault& fault, int by);
     void changeConfiguration(const Fault& fault);
 
+    std::string configuration_;
     std::vector<const Fault*> active_;
     std::vector<int> clients_;
     int readerStalls_ = 0, diskFull_ = 0, diskHangs_ = 0;

@@ -23,7 +23,8 @@
 namespace mfar::faults {
 namespace {
 
-constexpr Ns kEndTime = 3 * kSecond;  ///< from SIGTERM to the end
+constexpr Ns kEndTime = 3 * kSecond;    ///< from SIGTERM to the end
+constexpr Ns kReadyTime = 5 * kSecond;  ///< from the start, whatever devices do
 /// Between episodes: what may be late has come, and mfard is watched while all is well.
 constexpr Ns kQuiet = 4500 * kMs;
 
@@ -76,7 +77,7 @@ std::vector<Step> stepsOf(const Episode& episode) {
 }
 
 /// Asks for what may be refused, as another fault may be in the way.
-void request(const nlohmann::json& what) {
+void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-param): of a thread
     try {
         static_cast<void>(ask(Board::kSocket, what));
     } catch (const std::exception& error) {
@@ -98,7 +99,9 @@ void apply(const Step& step) {
         Board::get().begin(*step.fault);
     } else {
         Board::get().end(*step.fault);
-        if (ofDisk) request({{"command", "record"}, {"stop", true}});
+        // Which waits for the disk, as another fault may hold it.
+        if (ofDisk)
+            std::thread(request, nlohmann::json{{"command", "record"}, {"stop", true}}).detach();
         Judge::get().ends(*step.fault);
     }
 }
@@ -111,8 +114,16 @@ void checkRecordings() {
     }
 }
 
+void checkGrowth(std::uint64_t moreBytes = 8U << 20U) {
+    for (int i = 0; i < 5; ++i) {
+        if (Judge::get().holdsNoMore(moreBytes)) return;
+        sleepFor(70 * kMs);
+    }
+    Judge::get().fail("memory, descriptors or threads have grown");
+}
+
 void checkInQuiet() {
-    Judge::get().measure();
+    checkGrowth();
     checkRecordings();
     try {
         Judge::get().stats(ask(Board::kSocket, {{"command", "stats"}}).body);
@@ -121,66 +132,109 @@ void checkInQuiet() {
     }
 }
 
-void terminate() {
+[[noreturn]] void terminate() {
     Judge::get().terminated();
     kill(getpid(), SIGTERM);
     sleepFor(kEndTime);
     Judge::get().ended(0, false);
     real().exitNow(1);
+    __builtin_unreachable();
+}
+
+void runEpisode(const Episode& episode, Ns begin) {
+    Judge::get().count("episodes", 1);
+    for (const Fault& fault : episode)
+        Judge::get().note("episode: " + fault.text());
+    for (const Step& step : stepsOf(episode)) {
+        sleepUntil(begin + step.at);
+        apply(step);
+    }
+    sleepFor(kQuiet);
+}
+
+/// The end may come in the midst of it.
+void runLast(const Plan& plan) {
+    const Ns begin = Scheduler::get().now();
+    std::thread([at = begin + plan.endAfter, isKilled = plan.isKilled] {
+        sleepUntil(at);
+        if (!isKilled) terminate();
+        Judge::get().note("KILLED");
+        kill(getpid(), SIGKILL);
+    }).detach();
+    runEpisode(plan.episodes.back(), begin);
+    sleepFor(kSecond * 3600);
 }
 
 void run(const Plan& plan) {
-    std::thread killer;
-    for (std::size_t i = 0; i < plan.episodes.size(); ++i) {
-        const bool isLast = i + 1 == plan.episodes.size();
-        const Ns begin = Scheduler::get().now();
-        for (const Fault& fault : plan.episodes[i])
-            Judge::get().note(fmt::format("episode {}: {}", i, fault.text()));
-        if (isLast)
-            killer = std::thread([at = begin + plan.termAfter] {
-                sleepUntil(at);
-                terminate();
-            });
-        for (const Step& step : stepsOf(plan.episodes[i])) {
-            sleepUntil(begin + step.at);
-            apply(step);
-        }
-        sleepFor(kQuiet);
-        if (!isLast) checkInQuiet();
+    for (std::size_t i = plan.beginsBroken ? 1 : 0; i + 1 < plan.episodes.size(); ++i) {
+        runEpisode(plan.episodes[i], Scheduler::get().now());
+        checkInQuiet();
     }
-    killer.join();
+    runLast(plan);
 }
 
-/// Without faults, for as many pictures.
-void soak(std::uint64_t frames) {
+/// Without faults, for as many pictures. Memory may grow in the first minutes.
+[[noreturn]] void soak(std::uint64_t frames) {
+    constexpr std::uint64_t kMoreBytes = 1U << 20U;
+    sleepFor(120 * kSecond);
     while (Judge::get().frames() < frames) {
-        sleepFor(600 * kSecond);
-        Judge::get().measure();
+        checkGrowth(kMoreBytes);
+        sleepFor(60 * kSecond);
     }
+    checkGrowth(kMoreBytes);
+    terminate();
+}
+
+const Plan& plan() {
+    static const Plan drawn =
+        Plan::drawn(static_cast<std::uint64_t>(numberOf("MFAR_FAULTS_SEED", 1)),
+                    static_cast<int>(numberOf("MFAR_FAULTS_EPISODES", 10)));
+    return drawn;
+}
+
+void awaitReady() {
+    const Ns begin = Scheduler::get().now();
+    while (!Judge::get().isReady())
+        sleepFor(10 * kMs);
+    if (Scheduler::get().now() - begin > kReadyTime) Judge::get().fail("it is ready late");
+}
+
+/// After a process that was killed in the same folder.
+[[noreturn]] void runAfterKill() {
+    awaitReady();
+    sleepFor(kQuiet);
+    if (Judge::get().frames() == 0) Judge::get().fail("there is no picture after a kill");
+    checkInQuiet();
     terminate();
 }
 
 void direct() {
-    static const Plan plan =
-        Plan::drawn(static_cast<std::uint64_t>(numberOf("MFAR_FAULTS_SEED", 1)),
-                    static_cast<int>(numberOf("MFAR_FAULTS_EPISODES", 10)));
-    while (!Judge::get().isReady())
-        sleepFor(10 * kMs);
-    sleepFor(kQuiet);
-    Judge::get().measure();
-    if (const long frames = numberOf("MFAR_FAULTS_SOAK", 0); frames > 0)
-        soak(static_cast<std::uint64_t>(frames));
-    run(plan);
+    if (std::getenv("MFAR_FAULTS_AFTER_KILL") != nullptr) runAfterKill();
+    const long frames = numberOf("MFAR_FAULTS_SOAK", 0);
+    const bool endsAtOnce = plan().episodes.size() == 1;
+    if (frames == 0 && plan().beginsBroken && !endsAtOnce) {
+        std::thread(awaitReady).detach();
+        runEpisode(plan().episodes.front(), Scheduler::get().now());
+    } else {
+        awaitReady();
+        if (!endsAtOnce) sleepFor(kQuiet);
+    }
+    if (frames > 0) soak(static_cast<std::uint64_t>(frames));
+    if (!endsAtOnce) checkGrowth();
+    run(plan());
 }
 
 __attribute__((constructor)) void begin() {
     Judge::get();
-    Board::get().setUp();
+    Board::get().setUp(plan().mode);
     // Signals are for mfard's own threads.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    for (void (*work)() : {&runScreen, &askAlways, &direct})
+    std::thread(direct).detach();
+    // It begins first, as its faults may be there before everything else.
+    Scheduler::get().yield();
+    for (void (*work)() : {&runScreen, &askAlways})
         std::thread(work).detach();
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }

@@ -21,7 +21,7 @@ using nlohmann::ordered_json;
 
 // What the product promises, see daemon/budgets.h and the service's unit.
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
-constexpr Ns kVideoBudget = 1500 * kMs, kWatchdog = 10 * kSecond;
+constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kLookTime = kSecond;  ///< how often mfard looks at its threads
 constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
@@ -29,7 +29,6 @@ constexpr std::uint64_t kProvenFrames = 10;
 constexpr Ns kSlack = 100 * kMs;
 constexpr Ns kOnScreen = 500 * kMs;  ///< the age of a picture while all is well
 constexpr Ns kAnswer = kSecond;
-constexpr std::uint64_t kMoreMemory = 8U << 20U;  ///< after the first measurement
 
 std::string seconds(Ns time) {
     return fmt::format("{:.3f} s", static_cast<double>(time) * 1e-9);
@@ -137,7 +136,10 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const std::string state = textOf(said.value("health", ordered_json::object()), "state");
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
-    if (age(asked) > kStale + kSlack && isFine)
+    // A pipe that is not read takes some pictures, and then one for as long as a writer may need.
+    const Ns stalled = asked - std::max(calm_[kScreen].since, calm_[kVideo].since);
+    const bool isKnown = calm_[kScreen].active == 0 || stalled > kWriter;
+    if (age(asked) > kStale + kSlack && isFine && isKnown)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
     if (missing(asked) > kMarked + kSlack && isFine)
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
@@ -263,18 +265,14 @@ void Judge::recording(const std::string& folder) {
     note(fmt::format("{} has {} pictures", folder, pictures));
 }
 
-void Judge::measure() {
+bool Judge::holdsNoMore(std::uint64_t moreBytes) {
     const std::array<std::uint64_t, 3> is{entries("/proc/self/fd"), entries("/proc/self/task"),
                                           residentBytes()};
-    if (!first_) {
-        first_ = is;
-        note(fmt::format("has {} descriptors, {} threads, {} MB", is[0], is[1], is[2] >> 20U));
-        return;
-    }
-    if (is[0] > (*first_)[0]) fail(fmt::format("{} descriptors, at first {}", is[0], (*first_)[0]));
-    if (is[1] > (*first_)[1]) fail(fmt::format("{} threads, at first {}", is[1], (*first_)[1]));
-    if (is[2] > (*first_)[2] + kMoreMemory)
-        fail(fmt::format("{} MB, at first {}", is[2] >> 20U, (*first_)[2] >> 20U));
+    if (!first_) first_ = is;
+    const auto& first = *first_;
+    note(fmt::format("has {} descriptors, {} threads, {} KB; at first {}, {}, {}", is[0], is[1],
+                     is[2] >> 10U, first[0], first[1], first[2] >> 10U));
+    return is[0] <= first[0] && is[1] <= first[1] && is[2] <= first[2] + moreBytes;
 }
 
 }  // namespace mfar::faults

@@ -38,8 +38,9 @@ public:
     void stats(const nlohmann::ordered_json& said);
     /// A recording that has ended can be read.
     void recording(const std::string& folder);
-    /// Memory, descriptors and threads while nothing is wrong.
-    void measure();
+    /// Memory, descriptors and threads while nothing is wrong; the first call says what may be.
+    /// False where there is more: what is still being answered may end soon.
+    [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
 
     void note(const std::string& text);
     void fail(const std::string& text);
@@ -78,7 +79,7 @@ private:
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;
-    std::optional<std::array<std::uint64_t, 3>> first_;
+    std::optional<std::array<std::uint64_t, 3>> first_;  ///< descriptors, threads, bytes
 };
 
 }  // namespace mfar::faults

@@ -69,7 +69,8 @@ Tally drawSeeds(const Options& o, std::uint64_t seed) {
     for (bool more = true; more; ++seed) {
         const TrialResult result = runTrial(o.trial, seed);
         ++sum.seeds;
-        if (o.trial.soakFrames == 0) sum.cases += o.trial.episodes;
+        if (const auto episodes = result.counts.find("episodes"); episodes != result.counts.end())
+            sum.cases += episodes->second;
         for (const auto& [what, number] : result.counts)
             sum.inputs[what] += number;
         bool failed = !result.failure.empty();

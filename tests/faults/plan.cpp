@@ -86,13 +86,22 @@ std::string Fault::text() const {
 Plan Plan::drawn(std::uint64_t seed, int episodes) {
     std::mt19937_64 random(seed);
     Plan out;
+    constexpr std::array<std::string_view, 3> kModes = {"off", "detail", "blend"};
     out.beginsBroken = random() % 4 == 0;
+    out.mode = kModes[random() % kModes.size()];
+    // SIGTERM may come at once, while all is being set up.
+    const bool endsEarly = random() % 8 == 0;
+    if (endsEarly) episodes = 1;
     for (int i = 0; i < episodes; ++i) {
         Episode episode{drawnFault(random)};
         if (random() % 2 == 0) episode.push_back(drawnFault(random));
         out.episodes.push_back(std::move(episode));
     }
-    out.termAfter = static_cast<Ns>(random() % 6000) * kMs;
+    out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;
+    out.isKilled = random() % 6 == 0;
+    if (out.beginsBroken)
+        for (Fault& fault : out.episodes.front())
+            fault.begin = 0;
     return out;
 }
 

@@ -41,9 +41,11 @@ struct Fault {
 using Episode = std::vector<Fault>;
 
 struct Plan {
-    bool beginsBroken = false;  ///< the first episode's faults are there before the program
+    bool beginsBroken = false;  ///< the first episode begins before the program
+    std::string_view mode;      ///< of super-resolution
     std::vector<Episode> episodes;
-    Ns termAfter = 0;  ///< SIGTERM, so long after the begin of the last episode
+    Ns endAfter = 0;        ///< the signal, so long after the begin of the last episode
+    bool isKilled = false;  ///< with SIGKILL instead of SIGTERM; then it is started once more
 
     [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes);
 };

@@ -64,6 +64,8 @@ void takeProcessor(int job) {
     }
 }
 
+constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
+
 [[noreturn]] void become(const TrialOptions& options, std::uint64_t seed, const fs::path& folder) {
     if (chdir(folder.c_str()) != 0) _exit(126);
     takeProcessor(options.job);
@@ -125,18 +127,29 @@ std::string excerpt(const std::vector<std::string>& lines) {
     const auto before = static_cast<std::size_t>(first - lines.begin());
     std::string out;
     for (std::size_t i = before > kContext ? before - kContext : 0; i < lines.size(); ++i)
-        if (i <= before || tellsFailure(lines[i])) out += "  " + lines[i] + "\n";
+        if ((i <= before || tellsFailure(lines[i])) && !lines[i].starts_with("COUNT"))
+            out += "  " + lines[i] + "\n";
     return out;
+}
+
+std::string start(const TrialOptions& options, std::uint64_t seed, const fs::path& folder,
+                  bool afterKill) {
+    const pid_t child = fork();
+    if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
+    if (child == 0) {
+        if (afterKill) setenv(kAfterKill, "1", 1);
+        become(options, seed, folder);
+    }
+    return waitFor(child, options.soakFrames > 0 ? kSoakTime : kTrialTime);
 }
 
 }  // namespace
 
 TrialResult runTrial(const TrialOptions& options, std::uint64_t seed) {
     const Folder folder;
-    const pid_t child = fork();
-    if (child < 0) throw std::system_error(errno, std::generic_category(), "fork");
-    if (child == 0) become(options, seed, folder.path());
-    std::string why = waitFor(child, options.soakFrames > 0 ? kSoakTime : kTrialTime);
+    std::string why = start(options, seed, folder.path(), false);
+    if (textOf(folder.path() / "report").ends_with(" KILLED\n"))
+        why = start(options, seed, folder.path(), true);
     TrialResult out{textOf(folder.path() / "report"), "", {}};
     const std::vector<std::string> lines = linesOf(out.report);
     for (const std::string& line : lines) {
