@@ -92,7 +92,7 @@ Board& Board::get() {
 
 void Board::setUp(std::string_view mode) {
     configuration_ = fmt::format("{}mode = \"{}\"\n", kConfiguration, mode);
-    std::filesystem::create_directories("cameras");
+    static_cast<void>(std::filesystem::create_directories("cameras"));
     writeCamera(Where::Video);
     writeCamera(Where::Still);
     replace("mfard.toml", configuration_);

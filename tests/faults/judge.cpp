@@ -84,16 +84,16 @@ void Judge::change(const Fault& fault, int by) {
     const Kind& kind = *fault.kind;
     const bool stops = kind.effect == Effect::StopsDevice || kind.effect == Effect::HangsDriver ||
                        kind.effect == Effect::Repeats;
-    const auto touch = [&](Calms which, bool does) {
+    const auto touch = [&](Watched which, bool does) {
         if (does) calm_[which].add(by, now());
     };
-    touch(kAll, true);
-    touch(kVideo, kind.where == Where::Video && stops);
-    touch(kStill, kind.where == Where::Still && stops);
-    touch(kScreen, kind.effect == Effect::StopsReader);
-    touch(kSlow, kind.effect == Effect::Slows);
-    touch(kVideoDevice, kind.where == Where::Video && stops && kind.effect != Effect::Repeats);
-    touch(kVideoHang, kind.where == Where::Video && kind.effect == Effect::HangsDriver);
+    touch(All, true);
+    touch(Video, kind.where == Where::Video && stops);
+    touch(Still, kind.where == Where::Still && stops);
+    touch(Screen, kind.effect == Effect::StopsReader);
+    touch(Slow, kind.effect == Effect::Slows);
+    touch(VideoDevice, kind.where == Where::Video && stops && kind.effect != Effect::Repeats);
+    touch(VideoHang, kind.where == Where::Video && kind.effect == Effect::HangsDriver);
 }
 
 void Judge::begins(const Fault& fault) {
@@ -119,13 +119,13 @@ Ns Judge::age(Ns at) const {
 
 /// For how long the video camera has sent nothing, because of its fault.
 Ns Judge::missing(Ns at) const {
-    const Calm& device = calm_[kVideoDevice];
+    const Calm& device = calm_[VideoDevice];
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
 void Judge::status(const ordered_json& said, Ns asked) {
     ++asked_;
-    if (now() - asked > kAnswer && calm_[kSlow].lasts(kBack, now()))
+    if (now() - asked > kAnswer && calm_[Slow].lasts(kBack, now()))
         fail("an answer took " + seconds(now() - asked));
     if (isEnding() || !isReady()) return;
     judgeState(said, asked);
@@ -137,38 +137,38 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
     // A pipe that is not read takes some pictures, and then one for as long as a writer may need.
-    const Ns stalled = asked - std::max(calm_[kScreen].since, calm_[kVideo].since);
-    const bool isKnown = calm_[kScreen].active == 0 || stalled > kWriter;
+    const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
+    const bool isKnown = calm_[Screen].active == 0 || stalled > kWriter;
     if (age(asked) > kStale + kSlack && isFine && isKnown)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
     if (missing(asked) > kMarked + kSlack && isFine)
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
              ", status says ok");
-    if (!calm_[kAll].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
+    if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
     if (!isFine)
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
-                         seconds(asked - calm_[kAll].since), state, fault,
+                         seconds(asked - calm_[All].since), state, fault,
                          said.value("health", ordered_json::object()).dump()));
     if (age(asked) > kOnScreen)
-        fail("nothing has been wrong for " + seconds(asked - calm_[kAll].since) +
+        fail("nothing has been wrong for " + seconds(asked - calm_[All].since) +
              ", the screen's picture is " + seconds(age(asked)) + " old");
 }
 
 // One camera's fault is none of the other.
 void Judge::judgeBlame(const std::string& fault, Ns asked) {
-    if (!calm_[kSlow].lasts(kBack, asked)) return;
-    const bool video = calm_[kVideo].lasts(kBack + kSlack, asked);
-    const bool still = calm_[kStill].lasts(kBack + kSlack, asked);
+    if (!calm_[Slow].lasts(kBack, asked)) return;
+    const bool video = calm_[Video].lasts(kBack + kSlack, asked);
+    const bool still = calm_[Still].lasts(kBack + kSlack, asked);
     if (video && fault.find("video camera") != fault.npos)
         fail("the video camera is blamed: " + fault);
     if (still && fault.find("still camera") != fault.npos)
         fail("the still camera is blamed: " + fault);
-    if (video && calm_[kScreen].lasts(kBack, asked) && shown_ && age(asked) > kOnScreen)
+    if (video && calm_[Screen].lasts(kBack, asked) && shown_ && age(asked) > kOnScreen)
         fail("the video camera is sound, the screen's picture is " + seconds(age(asked)) + " old");
 }
 
 void Judge::answersNot(const std::string& why, Ns asked) {
-    if (isEnding() || !isReady() || !calm_[kSlow].lasts(kBack, now())) return;
+    if (isEnding() || !isReady() || !calm_[Slow].lasts(kBack, now())) return;
     fail(fmt::format("no answer after {}: {}", seconds(now() - asked), why));
 }
 
@@ -187,12 +187,12 @@ void Judge::fed() {
     if (isEnding()) return;
     const Ns before = fed_.value_or(now());
     fed_ = now();
-    if (frames_ < kProvenFrames || !calm_[kSlow].lasts(kBack, now())) return;
-    if (now() - before > kLookTime + kSlack && calm_[kAll].lasts(kBack + kSlack + kLookTime, now()))
+    if (frames_ < kProvenFrames || !calm_[Slow].lasts(kBack, now())) return;
+    if (now() - before > kLookTime + kSlack && calm_[All].lasts(kBack + kSlack + kLookTime, now()))
         fail("nothing is wrong, and the watchdog was not fed for " + seconds(now() - before));
-    if (calm_[kVideoHang].active > 0 && missing(now()) > kVideoBudget + kSlack)
+    if (calm_[VideoHang].active > 0 && missing(now()) > kVideoBudget + kSlack)
         fail("the watchdog is fed while the video driver hangs for " + seconds(missing(now())));
-    const bool isNamed = !calm_[kVideo].lasts(kBack, now()) || !calm_[kScreen].lasts(kBack, now());
+    const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now());
     if (age(now()) > kStale + kSlack && !isNamed)
         fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
 }

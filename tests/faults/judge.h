@@ -63,7 +63,7 @@ private:
             return active == 0 && now - since > time;
         }
     };
-    enum Calms { kAll, kVideo, kVideoDevice, kVideoHang, kStill, kScreen, kSlow, kCalms };
+    enum Watched { All, Video, VideoDevice, VideoHang, Still, Screen, Slow, WatchedCount };
 
     Judge();
     [[nodiscard]] Ns age(Ns now) const;
@@ -74,7 +74,7 @@ private:
     void change(const Fault& fault, int by);
 
     int report_ = 2;
-    std::array<Calm, kCalms> calm_{};
+    std::array<Calm, WatchedCount> calm_{};
     std::optional<Ns> ready_, terminated_, shown_, fed_;
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;

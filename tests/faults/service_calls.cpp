@@ -37,6 +37,7 @@ __attribute__((destructor)) void atExit() {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-identifier-naming)
 MFAR_TAKES_OVER int sd_notify(int, const char* text) {
     Judge::get().serviceHears(text);
     return 1;
