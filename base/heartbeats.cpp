@@ -37,25 +37,31 @@ std::optional<Heartbeats::Waiting> Heartbeats::waiting() const {
 
 Heartbeat::Heartbeat(Heartbeats& all, std::string thread, std::chrono::nanoseconds budget,
                      ThreadRole role)
-    : all_(all) {
-    const std::lock_guard lock(all_.mutex_);
+    : Heartbeat(WatchedThread{&all, std::move(thread), budget, role}) {}
+
+Heartbeat::Heartbeat(const WatchedThread& as) : all_(as.all) {
+    if (all_ == nullptr) return;
+    const std::lock_guard lock(all_->mutex_);
     slot_ =
-        all_.slots_.emplace(all_.slots_.end(), std::move(thread), budget, role, all_.clock_().ns);
+        all_->slots_.emplace(all_->slots_.end(), as.name, as.budget, as.role, all_->clock_().ns);
 }
 
 Heartbeat::~Heartbeat() {
-    const std::lock_guard lock(all_.mutex_);
-    all_.slots_.erase(slot_);
+    if (all_ == nullptr) return;
+    const std::lock_guard lock(all_->mutex_);
+    all_->slots_.erase(slot_);
 }
 
 // The time first: whoever sees that the thread works, or waits, sees since when.
 void Heartbeat::beat() {
-    slot_->at.store(all_.clock_().ns, std::memory_order_relaxed);
+    if (all_ == nullptr) return;
+    slot_->at.store(all_->clock_().ns, std::memory_order_relaxed);
     slot_->waitsFor.store(nullptr, std::memory_order_release);
 }
 
 void Heartbeat::restFor(const char* what) {
-    slot_->at.store(all_.clock_().ns, std::memory_order_relaxed);
+    if (all_ == nullptr) return;
+    slot_->at.store(all_->clock_().ns, std::memory_order_relaxed);
     slot_->waitsFor.store(what, std::memory_order_release);
 }
 

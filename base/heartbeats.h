@@ -62,6 +62,14 @@ private:
     std::list<Slot> slots_;
 };
 
+/// How a class that starts threads has them watched. It uses `all` as long as it lives.
+struct WatchedThread {
+    Heartbeats* all = nullptr;  ///< null: nobody watches
+    std::string name{};
+    std::chrono::nanoseconds budget{0};
+    ThreadRole role = ThreadRole::Vital;
+};
+
 /// One thread says that it is alive: beat() in each round of its loop, before anything that may
 /// hang, and rest() before it waits for work, as waiting is no fault. The thread counts as working
 /// from the construction on and is no longer watched after the destruction. Costs one look at the
@@ -71,6 +79,8 @@ public:
     /// `budget`: the longest time from one beat to the next. `all` must outlive this.
     Heartbeat(Heartbeats& all, std::string thread, std::chrono::nanoseconds budget,
               ThreadRole role = ThreadRole::Vital);
+    /// Does nothing where nobody watches.
+    explicit Heartbeat(const WatchedThread& as);
     Heartbeat(const Heartbeat&) = delete;
     Heartbeat& operator=(const Heartbeat&) = delete;
     ~Heartbeat();
@@ -83,7 +93,7 @@ public:
     void restFor(const char* what);
 
 private:
-    Heartbeats& all_;
+    Heartbeats* all_;  ///< null: nobody watches
     std::list<Heartbeats::Slot>::iterator slot_;
 };
 

@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <iostream>
 #include <thread>
 #include <utility>
 
@@ -20,16 +19,8 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kLeaveTime{0.2};   ///< after a signal: for the picture in work
-constexpr Seconds kFlushTime{0.4};   ///< the same, for what is being written
-constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
-constexpr std::chrono::milliseconds kLastResort{2500};
 constexpr Seconds kLookTime{1};               ///< how often threads are looked at, at least
 constexpr std::uint64_t kFirstPictures = 10;  ///< see kFirstPatience
-
-const char* signalName(int signal) {
-    return signal == SIGINT ? "SIGINT" : "SIGTERM";
-}
 
 std::ofstream openSummary(const Options& options, const Config& config) {
     std::ofstream file;
@@ -89,7 +80,7 @@ ExitCode App::run() {
         cancel_.request_stop();
         if (isReading()) {
             log_.endStatus();
-            log_.error(error.what());
+            log_.error(error.what(), {message::kFailed});
             std::_Exit(static_cast<int>(exitCode(error)));
         }
         throw;
@@ -109,7 +100,14 @@ std::string App::runSession(const Config& config) {
         ready_ = Ready{std::move(description), session.startLine(), Timestamp::now()};
     }
     events_.wake();
-    return session.run(options_.frames);
+    return session.run(options_.frames,
+                       [this](const std::string& reason, const std::exception_ptr& error) {
+                           {
+                               const std::lock_guard lock(mutex_);
+                               over_ = Over{reason, error};
+                           }
+                           events_.wake();
+                       });
 }
 
 void App::handle(const Event& event) {
@@ -120,6 +118,7 @@ void App::handle(const Event& event) {
     case Event::Kind::Wake: break;
     }
     onReady();
+    onOver();
     onRead();
     calls_.runAll(*this);
 }
@@ -130,51 +129,10 @@ void App::onReady() {
         if (!ready_) return;
         running_ = std::exchange(ready_, std::nullopt);
     }
-    log_.notice(running_->startLine);
+    log_.notice(running_->startLine, {message::kStarted});
     service_.ready(running_->startLine);
     service_.watchdogPatience(kFirstPatience);
     if (options_.seconds && !stopReason_) events_.deadlineIn(Seconds(*options_.seconds));
-}
-
-void App::onSignal(int signal) {
-    if (signal == SIGHUP) return onHangUp();
-    if (stopSignal_) {
-        log_.endStatus();
-        log_.warning(fmt::format("second {}, ended at once", signalName(signal)));
-        std::_Exit(128 + signal);
-    }
-    stopSignal_ = signal;
-    // Says nothing: whoever takes the messages may be what hangs.
-    lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
-    stop(signalName(signal));
-    events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
-}
-
-void App::onDeadline() {
-    if (!stopSignal_) return stop("--seconds");
-    if (!writes()) leave("ended in the midst of a picture");
-    if (cancel_.request_stop()) return events_.deadlineIn(kCancelTime);
-    leave("a device or display did not end in time, ended without it");
-}
-
-bool App::writes() {
-    return finishesRecording_ || !stats_.count().recording.empty() ||
-           keepsPictures(config_.display);
-}
-
-void App::leave(const std::string& why) {
-    log_.endStatus();
-    log_.warning(why);
-    (void)writeSummary(*stopReason_, ExitCode::Ok);
-    std::error_code ignored;
-    if (options_.control) std::filesystem::remove(*options_.control, ignored);
-    std::_Exit(static_cast<int>(ExitCode::Ok));
-}
-
-void App::stop(const std::string& reason) {
-    if (!stopReason_) service_.stopping("ending: " + reason);
-    stopReason_ = stopReason_.value_or(reason);
-    if (!stopper_.joinable()) stopper_ = std::jthread([this] { input_.request_stop(); });
 }
 
 void App::onHangUp() {
@@ -217,7 +175,8 @@ void App::onRead() {
     try {
         done.said.set_value(take(done.config.get()));
     } catch (const std::exception& error) {
-        log_.error(fmt::format("{}\nthe old configuration stays", error.what()));
+        log_.error(fmt::format("{}\nthe old configuration stays", error.what()),
+                   {message::kReloadRefused});
         done.said.set_exception(std::current_exception());
     }
     if (running_) service_.ready(running_->startLine);
@@ -238,7 +197,7 @@ std::string App::take(const Config& wanted) {
     if (running_) running_->description.mode = name(config_.superres.mode);
     std::string said = options_.config->string() + ": read again" +
                        (restart.empty() ? "" : "; after a restart only: " + restart);
-    log_.notice(said);
+    log_.notice(said, {message::kReloaded});
     return said;
 }
 
@@ -254,6 +213,7 @@ void App::onTick() {
     logHealth(now);
     feedWatchdog(now);
     log_.sayKept();
+    leaveIfHanging();
     // Ticks may come more often, for the watchdog.
     const Timestamp time = Timestamp::now();
     if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
@@ -268,6 +228,7 @@ Health App::health(const Counted& counted) {
     seen.late = stats_.heartbeats().late(seen.patience);
     seen.waiting = stats_.heartbeats().waiting();
     seen.fault = counted.fault;
+    seen.gpu = counted.gpuFault;
     seen.display = counted.displayFault;
     const CameraState& video = counted.cameras[static_cast<std::size_t>(CameraRole::Video)];
     if (video.repeats) seen.repeats = video.lastDistinct;
@@ -292,11 +253,12 @@ void App::logHealth(const Health& health) {
     // At the end, threads and pictures end as well.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     if (health.state != HealthState::Ok)
-        log_.warning(sentence(health), health.cause);
+        log_.warning(sentence(health), health.cause, subjectOf(health));
     else if (told_.isDevice)
-        log_.change("all devices are there");
+        log_.change("all devices are there", {}, {message::kRecovered});
     else
-        log_.change(fmt::format("ok again after {:.1f} s", told_.sinceS), "ok again");
+        log_.change(fmt::format("ok again after {:.1f} s", told_.sinceS), "ok again",
+                    {message::kRecovered});
     told_ = health;
 }
 
@@ -305,63 +267,15 @@ void App::showStatus(const Counted& counted, const Health& health) {
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
     if (!counted.display.empty() && counted.display != running_->description.display) {
         running_->description.display = counted.display;
-        log_.change("display " + counted.display);
+        log_.change("display " + counted.display, {}, {message::kDisplay});
     }
     if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
         log_.notice(firstPictureLine(*counted.atFirstPicture));
-    for (const std::string& text : stats_.takeWarnings())
-        log_.warning(text);
+    for (const Warning& warning : stats_.takeWarnings())
+        log_.warning(warning.text, {}, warning.subject);
     const std::string line = statusLine(counted, running_->description, elapsed, health);
     log_.status(line);
     if (!stopReason_) service_.status(line);
-}
-
-ExitCode App::finish(std::future<std::string>& end) {
-    calls_.close();
-    sessionCalls_.close();
-    for (std::optional<Reload>* one : {&reload_, &nextReload_})
-        if (*one)
-            (*one)->said.set_exception(
-                std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // it may wait for that
-    onReady();
-    const Counted counted = stats_.count();
-    const Health last = health(counted);
-    logHealth(last);
-    showStatus(counted, last);
-    log_.endStatus();
-    try {
-        const std::string reason = end.get();
-        const ExitCode code = writeSummary(stopReason_.value_or(reason), ExitCode::Ok)
-                                  ? ExitCode::Ok
-                                  : ExitCode::OutputFailed;
-        // Reading cannot be interrupted, and all that counts is done.
-        if (isReading()) std::_Exit(static_cast<int>(code));
-        return code;
-    } catch (const std::exception& error) {
-        if (cancel_.stop_requested()) {
-            log_.warning(fmt::format("not everything was written: {}", error.what()));
-            (void)writeSummary(*stopReason_, ExitCode::Ok);
-            return ExitCode::Ok;
-        }
-        (void)writeSummary(fmt::format("error: {}", error.what()), exitCode(error));
-        throw;
-    }
-}
-
-bool App::writeSummary(const std::string& reason, ExitCode code) {
-    const Counted counted = stats_.count();
-    if (log_.style() == Log::Style::Terminal)
-        log_.notice(fmt::format("{} pictures in {:.1f} s, {:.1f} fps: {}", counted.frames,
-                                counted.seconds, counted.fps, reason));
-    if (!options_.summary) return true;
-    std::ostream& out = summary_.is_open() ? summary_ : std::cout;
-    const RunDescription description = running_ ? running_->description : RunDescription{};
-    out << summary(counted, description, reason, static_cast<int>(code)).dump(2) << "\n"
-        << std::flush;
-    if (!out)
-        log_.error(fmt::format("{}: the summary cannot be written", options_.summary->string()));
-    return static_cast<bool>(out);
 }
 
 }  // namespace mfar

@@ -18,6 +18,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <fstream>
 #include <future>
 #include <mutex>
@@ -35,6 +36,8 @@ namespace mfar {
 ///     0.2 s, with nothing to be written: the process ends as it is, in the midst of a picture
 ///     0.4 s, otherwise: slow readers of the display's pipe are given up, 0.5 s later the process
 ///            ends as it is
+/// A run that ends by itself waits for its output as long as that takes, and then at most 2.5 s for
+/// its devices.
 /// A second signal ends it at once. Where the main thread itself hangs on the way out, as in a
 /// driver or on a disk that does not return, another one ends the process 2.5 s after the signal.
 class App {
@@ -52,6 +55,11 @@ private:
         std::string startLine;
         Timestamp time;
     };
+    /// What the GL thread tells when the output is out.
+    struct Over {
+        std::string reason;
+        std::exception_ptr error;  ///< null: all is well
+    };
     /// The configuration is read again by a thread of its own, as models may take long.
     struct Reload {
         Reload() : answer(said.get_future().share()) {}
@@ -65,11 +73,14 @@ private:
     [[nodiscard]] std::string runSession(const Config& config);
     void handle(const Event& event);
     void onReady();
+    void onOver();
     void onSignal(int signal);
     void onDeadline();
     void stop(const std::string& reason);
     [[nodiscard]] bool writes();
+    void leaveIfHanging();
     [[noreturn]] void leave(const std::string& why);
+    [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
     /// Its answer waits until the configuration is read. Throws std::runtime_error without a file.
     std::shared_future<std::string> reload();
@@ -90,7 +101,8 @@ private:
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
     [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
 
-    LastResort lastResort_;  ///< first: it watches over the destruction of the others, too
+    const Timestamp started_ = Timestamp::now();
+    LastResort lastResort_;  ///< before the others: it watches over their destruction, too
     const Options options_;
     Log& log_;
     Config config_;
@@ -108,6 +120,7 @@ private:
     std::optional<std::string> stopReason_;
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
+    std::optional<Over> ended_;
     bool isProven_ = false;       ///< all shaders are compiled, so limits hold as they are
     bool patienceEnded_ = false;  ///< and the watchdog's, too
     HealthRecord health_;
@@ -118,7 +131,9 @@ private:
     bool firstPictureShown_ = false;  ///< by the log
 
     std::mutex mutex_;
-    std::optional<Ready> ready_;  ///< guarded by the mutex; moves to running_
+    // Guarded by the mutex; they move to running_ and ended_.
+    std::optional<Ready> ready_;
+    std::optional<Over> over_;
 
     std::optional<ControlSocket> control_;  ///< last: its thread uses all of the above
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string_view>
 
 namespace mfar {
 
@@ -24,15 +25,26 @@ constexpr milliseconds kMain{500};
 constexpr milliseconds kWatchdog{10'000};
 static_assert(kCapture + kPicture + kControl + kMain < kWatchdog / 2);
 
+/// Opening, stopping or closing a camera once, while other threads draw the banner and do not wait.
+/// The driver of USB cameras waits 5 s for an answer, several times in a row.
+constexpr milliseconds kOpener{20'000};
+
 // Threads that the picture can do without.
 /// Reads the configuration and models from files.
 constexpr milliseconds kReload{60'000};
 /// Waits for other threads and for the client, each of which is limited by itself.
 constexpr milliseconds kAnswer{20'000};
-/// Writes one picture to a file.
-constexpr milliseconds kWriter{2000};
+/// A display's reader or disk takes one picture, else the display says who takes nothing.
+constexpr milliseconds kTaken{2000};
+/// Writes one picture to a file or pipe; a still of 12 megapixels takes 2 s on a small board.
+constexpr milliseconds kWriter{10'000};
+/// Learns from one still, in time that others leave.
+constexpr milliseconds kLearning{60'000};
 
 }  // namespace budget
+
+/// The thread that makes pictures and shows them.
+constexpr std::string_view kPictureThread = "picture";
 
 /// A picture that has been shown for longer is stale.
 constexpr std::chrono::milliseconds kStalePicture{3000};

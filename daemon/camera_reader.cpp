@@ -37,10 +37,11 @@ std::optional<Frame> CameraReader::next(std::chrono::milliseconds timeout) {
 void CameraReader::tell() {
     watch_.add(camera_.cameraCounters());
     stats_.camera(role_, watch_.state());
+    const Subject subject{message::kCamera, role_ == CameraRole::Video ? "video" : "still"};
     for (std::string& text : camera_.takeWarnings())
-        stats_.warn(std::move(text));
+        stats_.warn(std::move(text), subject);
     for (std::string& text : watch_.takeWarnings())
-        stats_.warn(std::move(text));
+        stats_.warn(std::move(text), subject);
 }
 
 }  // namespace mfar

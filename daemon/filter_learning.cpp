@@ -136,7 +136,9 @@ std::vector<std::string> FilterLearning::takeWarnings() {
 
 void FilterLearning::run(const std::stop_token& stop) {
     lowerThreadPriority();
+    Heartbeat heart(options_.watched);
     for (;;) {
+        heart.rest();
         bool resets = false, learns = false;
         {
             std::unique_lock lock(mutex_);
@@ -144,6 +146,7 @@ void FilterLearning::run(const std::stop_token& stop) {
             resets = resets_;
             learns = isFull_;
         }
+        heart.beat();
         if (resets) {
             forget();
         } else if (learns) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "base/heartbeats.h"
 #include "daemon/learning_counts.h"
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/match_listener.h"
@@ -30,6 +31,7 @@ struct FilterLearningOptions {
     bool waits = false;
     /// Where it is known, guidance is learned, too: see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;
+    WatchedThread watched{};  ///< its budget is for one still
 };
 
 /// Learns the enlarger's filters from matched stills, in a thread of low priority that stores the

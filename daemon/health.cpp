@@ -51,25 +51,40 @@ std::optional<Judged> standingStill(const Observed& seen) {
         return std::nullopt;
     const std::optional<Timestamp> begin = std::max(seen.lastPicture, seen.started);
     if (!begin || isFresh(begin, seen)) return std::nullopt;
-    std::string cause = "no new picture";
+    std::string cause = seen.gpu.value_or("no new picture");
     if (seen.waiting && seen.waiting->role == ThreadRole::Vital)
         cause = fmt::format("waiting for {}", seen.waiting->what);
     return Judged{HealthState::Stalled, std::move(cause), *begin};
 }
 
+// Everything that is missing: no cause hides another.
+Judged missing(const Observed& seen) {
+    std::vector<Judged> all;
+    if (seen.fault) all.push_back({HealthState::Degraded, *seen.fault, std::nullopt, "", true});
+    if (seen.repeats)
+        all.push_back({HealthState::Degraded,
+                       "video camera: sends the same picture again and again", seen.repeats});
+    if (seen.gpu) all.push_back({HealthState::Degraded, *seen.gpu});
+    if (seen.waiting && seen.waiting->since > kWorthTelling)
+        all.push_back({HealthState::Degraded, fmt::format("waiting for {}", seen.waiting->what),
+                       seen.now - seen.waiting->since});
+    if (seen.display) all.push_back({HealthState::Degraded, *seen.display});
+    if (auto found = hanging(seen, ThreadRole::Helper, HealthState::Degraded))
+        all.push_back(*std::move(found));
+    if (all.empty()) return {};
+    Judged out = std::move(all.front());
+    for (auto one = all.begin() + 1; one != all.end(); ++one) {
+        out.cause += "; " + one->cause;
+        out.since.reset();
+        if (out.thread.empty()) out.thread = one->thread;
+    }
+    return out;
+}
+
 Judged judged(const Observed& seen) {
     if (auto found = hanging(seen, ThreadRole::Vital, HealthState::Stalled)) return *found;
     if (auto found = standingStill(seen)) return *found;
-    if (seen.fault) return {HealthState::Degraded, *seen.fault, std::nullopt, "", true};
-    if (seen.repeats)
-        return {HealthState::Degraded, "video camera: sends the same picture again and again",
-                *seen.repeats};
-    if (auto found = hanging(seen, ThreadRole::Helper, HealthState::Degraded)) return *found;
-    if (seen.waiting && seen.waiting->since > kWorthTelling)
-        return {HealthState::Degraded, fmt::format("waiting for {}", seen.waiting->what),
-                seen.now - seen.waiting->since};
-    if (seen.display) return {HealthState::Degraded, *seen.display};
-    return {};
+    return missing(seen);
 }
 
 }  // namespace
@@ -85,6 +100,14 @@ std::string sentence(const Health& health) {
         fmt::format("{} ({} for {:.1f} s", health.cause, name(health.state), health.sinceS);
     if (health.pictureAgeS) out += fmt::format(", last picture {:.1f} s ago", *health.pictureAgeS);
     return out + ")";
+}
+
+Subject subjectOf(const Health& health) {
+    Subject out{health.isAlive() ? message::kDegraded : message::kStalled, "", health.thread};
+    for (const std::string_view camera : {"video", "still"})
+        if (health.cause.find(fmt::format("{} camera", camera)) != std::string::npos)
+            out.camera += (out.camera.empty() ? "" : " ") + std::string(camera);
+    return out;
 }
 
 nlohmann::ordered_json healthJson(const Health& health) {

@@ -2,6 +2,7 @@
 
 #include "base/heartbeats.h"
 #include "base/time.h"
+#include "daemon/message_ids.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -35,6 +36,8 @@ struct Health {
 
 /// "the capture thread hangs (stalled for 5.2 s, last picture 5.3 s ago)", "ok"
 [[nodiscard]] std::string sentence(const Health& health);
+/// Of the message that says so.
+[[nodiscard]] Subject subjectOf(const Health& health);
 [[nodiscard]] nlohmann::ordered_json healthJson(const Health& health);
 
 /// What the health is judged by, all of the same moment.
@@ -43,6 +46,7 @@ struct Observed {
     std::vector<Heartbeats::Late> late{};
     std::optional<Heartbeats::Waiting> waiting{};
     std::optional<std::string> fault{};    ///< of a device that is being opened again
+    std::optional<std::string> gpu{};      ///< what is wrong with it
     std::optional<std::string> display{};  ///< why not all pictures are shown or written
     std::optional<Timestamp> repeats{};    ///< the video camera's picture, since when; else nothing
     std::optional<Timestamp> lastPicture{};

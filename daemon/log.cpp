@@ -21,6 +21,20 @@ int columns(int fd) {
     return ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 1 ? size.ws_col : 80;
 }
 
+std::vector<std::string> fieldsOf(const RepeatLimit::Message& message) {
+    std::vector<std::string> out = {fmt::format("MESSAGE={}{}", message.word, message.text),
+                                    fmt::format("PRIORITY={}", message.priority),
+                                    "SYSLOG_IDENTIFIER=mfard",
+                                    fmt::format("MFAR_COUNT={}", message.count)};
+    const auto add = [&](const char* name, std::string_view value) {
+        if (!value.empty()) out.push_back(fmt::format("{}={}", name, value));
+    };
+    add("MESSAGE_ID", message.subject.id);
+    add("MFAR_CAMERA", message.subject.camera);
+    add("MFAR_THREAD", message.subject.thread);
+    return out;
+}
+
 }  // namespace
 
 Log::Style Log::styleOf(int fd) {
@@ -44,7 +58,7 @@ void Log::status(std::string_view text) {
 void Log::endStatus() {
     const std::lock_guard lock(mutex_);
     for (const RepeatLimit::Message& kept : limit_.rest(clock_()))
-        lineLocked(kept.priority, "", kept.text);
+        say(kept);
     if (status_.empty()) return;
     status_.clear();
     put("\n");
@@ -53,28 +67,29 @@ void Log::endStatus() {
 void Log::sayKept() {
     const std::lock_guard lock(mutex_);
     for (const RepeatLimit::Message& kept : limit_.due(clock_()))
-        lineLocked(kept.priority, "", kept.text);
+        say(kept);
 }
 
 void Log::limited(int priority, std::string_view word, std::string_view text,
-                  std::string_view event) {
+                  std::string_view event, const Subject& subject) {
     const std::lock_guard lock(mutex_);
-    const RepeatLimit::Message message{priority, std::string(word) + std::string(text)};
-    if (limit_.mayPass(event.empty() ? text : event, message, clock_()))
-        lineLocked(priority, word, text);
+    const RepeatLimit::Message message{priority, std::string(text), word, subject};
+    if (limit_.mayPass(event.empty() ? text : event, message, clock_())) say(message);
 }
 
-void Log::line(int priority, std::string_view word, std::string_view text) {
+void Log::line(int priority, std::string_view word, std::string_view text, const Subject& subject) {
     const std::lock_guard lock(mutex_);
-    lineLocked(priority, word, text);
+    say({priority, std::string(text), word, subject});
 }
 
-void Log::lineLocked(int priority, std::string_view word, std::string_view text) {
+/// With the mutex held.
+void Log::say(const RepeatLimit::Message& message) {
+    if (style_ == Style::Journal && send_ && send_(fieldsOf(message))) return;
     std::string out = status_.empty() ? "" : "\r\x1b[K";
-    while (!text.empty()) {
+    for (std::string_view text = message.text; !text.empty();) {
         const std::size_t end = text.find('\n');
-        if (style_ == Style::Journal) out += fmt::format("<{}>", priority);
-        out += fmt::format("mfard: {}{}\n", word, text.substr(0, end));
+        if (style_ == Style::Journal) out += fmt::format("<{}>", message.priority);
+        out += fmt::format("mfard: {}{}\n", message.word, text.substr(0, end));
         text = end == text.npos ? "" : text.substr(end + 1);
     }
     put(out + status_);

@@ -1,5 +1,6 @@
 #include "daemon/app.h"
 #include "daemon/exit_code.h"
+#include "daemon/journal.h"
 #include "daemon/log.h"
 #include "daemon/options.h"
 #include "daemon/restart_pause.h"
@@ -17,7 +18,7 @@
 int main(int argc, char** argv) {
     using namespace mfar;
     const Timestamp started = Timestamp::now();
-    Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO));
+    Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO), &Timestamp::now, sendToJournal);
     // libcamera tells standard error by itself how it is; what is wrong, we say.
     setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
     try {
@@ -41,7 +42,7 @@ int main(int argc, char** argv) {
         return static_cast<int>(app.run());
     } catch (const std::exception& error) {
         log.endStatus();
-        log.error(error.what());
+        log.error(error.what(), {message::kFailed});
         pauseBeforeRestart(exitCode(error), error.what(), started, log);
         return static_cast<int>(exitCode(error));
     }

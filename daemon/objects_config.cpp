@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include <array>
 #include <cmath>
 #include <map>
@@ -45,19 +47,25 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     file.integer(prefix + "squares", out.squares, 1, 256);
 }
 
-/// Reads each model once, however many objects show it.
+/// Reads each model once, however many objects show it and whatever they call its file.
 class ModelReader {
 public:
     explicit ModelReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     /// Throws ModelError.
     std::shared_ptr<const Model> operator()(std::string_view name) {
-        std::shared_ptr<const Model>& known = models_[std::string(name)];
+        std::shared_ptr<const Model>& known = models_[identity(name)];
         if (!known) known = std::make_shared<const Model>(load(name));
         return known;
     }
 
 private:
+    [[nodiscard]] std::filesystem::path identity(std::string_view name) const {
+        std::error_code missing;
+        const std::filesystem::path file = folder_ / name;
+        std::filesystem::path same = std::filesystem::weakly_canonical(file, missing);
+        return missing ? file : same;
+    }
     [[nodiscard]] Model load(std::string_view name) const {
         try {
             return name == "showpiece" ? showpiece() : loadGltf(folder_ / name);
@@ -67,7 +75,7 @@ private:
     }
 
     std::filesystem::path folder_;
-    std::map<std::string, std::shared_ptr<const Model>> models_;
+    std::map<std::filesystem::path, std::shared_ptr<const Model>> models_;
 };
 
 void readModel(TomlReader& file, const std::string& prefix, ModelReader& models,

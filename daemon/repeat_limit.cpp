@@ -55,6 +55,7 @@ std::vector<RepeatLimit::Message> RepeatLimit::take(Timestamp now, bool all) {
         }
         if (isOver) {
             entry.newest.text += times(entry.kept, now - entry.said);
+            entry.newest.count = entry.kept;
             found.emplace_back(entry.last, std::move(entry.newest));
             entry = Entry{now};
         }

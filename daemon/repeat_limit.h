@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/time.h"
+#include "daemon/message_ids.h"
 
 #include <chrono>
 #include <cstdint>
@@ -23,6 +24,9 @@ public:
     struct Message {
         int priority = 0;
         std::string text;
+        std::string_view word{};  ///< before each line: "warning: "; outlives this
+        Subject subject{};
+        std::uint64_t count = 1;  ///< events that it stands for
     };
 
     /// True: to be said now. Else it is kept, in place of an earlier one of its event.

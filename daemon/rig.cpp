@@ -1,5 +1,6 @@
 #include "daemon/rig.h"
 
+#include "daemon/budgets.h"
 #include "daemon/rig_cameras.h"
 #include "daemon/rig_source.h"
 #include "hal/device/display_auto.h"
@@ -146,9 +147,9 @@ std::uint64_t lostBy(const Recorder& recorder) {
     return recorder.videoCounts().dropped + recorder.stillCounts().dropped;
 }
 
-std::unique_ptr<RigSource> openSource(const Config& config) {
+std::unique_ptr<RigSource> openSource(const Config& config, Heartbeats& hearts) {
     if (!config.recording.empty()) return std::make_unique<PlayedSource>(config);
-    if (config.source == kCameras) return std::make_unique<CamerasSource>(config.cameras);
+    if (config.source == kCameras) return std::make_unique<CamerasSource>(config.cameras, hearts);
     if (const std::optional<std::string> fault = sourceFault(config.source))
         throw Failure(ExitCode::BadConfig, *fault);
     try {
@@ -160,11 +161,12 @@ std::unique_ptr<RigSource> openSource(const Config& config) {
 
 }  // namespace
 
-Rig::Rig(const Config& config)
-    : source_(openSource(config)), mustRecord_(!config.recordTo.empty()) {
+Rig::Rig(const Config& config, Heartbeats& hearts)
+    : source_(openSource(config, hearts)), mustRecord_(!config.recordTo.empty()) {
     const auto bytes = [](double mb) { return static_cast<std::uint64_t>(mb * (1 << 20)); };
     recording_.leastFreeBytes = bytes(config.record.leastFreeMb);
     recording_.mostBytes = bytes(config.record.mostMb);
+    recording_.writer = {&hearts, "recorder", budget::kWriter, ThreadRole::Helper};
 }
 
 Rig::Rig(std::unique_ptr<RigSource> source) : source_(std::move(source)) {}

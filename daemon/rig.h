@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "base/heartbeats.h"
 #include "daemon/camera_watch.h"
 #include "daemon/config.h"
 #include "daemon/exit_code.h"
@@ -40,8 +41,9 @@ struct Recorded {
 /// The devices of one run. This is the one place that knows which kinds exist.
 class Rig {
 public:
-    /// Opens the source that the configuration names. Throws Failure.
-    explicit Rig(const Config& config);
+    /// Opens the source that the configuration names. `hearts` watches its threads and must outlive
+    /// this. Throws Failure.
+    Rig(const Config& config, Heartbeats& hearts);
     /// Takes the devices as they are.
     explicit Rig(std::unique_ptr<RigSource> source);
     ~Rig();

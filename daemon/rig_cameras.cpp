@@ -1,6 +1,7 @@
 #include "daemon/rig_cameras.h"
 
 #include "base/calibration/rig_files.h"
+#include "daemon/budgets.h"
 #include "daemon/config.h"
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/camera_v4l2.h"
@@ -147,9 +148,11 @@ std::unique_ptr<Camera> openCamera(const CameraConfig& config, const CameraWish&
 }
 
 std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const CameraWish& wish,
-                                               const char* role, bool onTrigger,
+                                               const std::string& role, WatchedThread opener,
+                                               bool onTrigger,
                                                std::function<bool()> busyElsewhere) {
     ReopeningOptions options;
+    options.opener = std::move(opener);
     if (config.driver == CameraDriver::Libcamera) options.busyElsewhere = std::move(busyElsewhere);
     const double periodMs = config.rateHz > 0 ? 1e3 / config.rateHz : kUnknownPeriodMs;
     const auto periods = [&](double count) {
@@ -217,10 +220,11 @@ StereoRig nominalRig(Size video, Size still) {
     return rig;
 }
 
-CamerasSource::CamerasSource(const CamerasConfig& config)
+CamerasSource::CamerasSource(const CamerasConfig& config, Heartbeats& hearts)
     : config_(config),
       video_(waitingCamera(
-          config.video, wishFor(config.video, config.still, false), "video camera", false,
+          config.video, wishFor(config.video, config.still, false), "video camera",
+          {&hearts, "video camera opener", budget::kOpener, ThreadRole::Vital}, false,
           [this] { return config_.still.driver == CameraDriver::Libcamera && still_->absent(); })) {
     const RigCalibration calibration = calibrationOf(config);
     hasSensors = true;
@@ -228,6 +232,7 @@ CamerasSource::CamerasSource(const CamerasConfig& config)
     stillTimeOffset = nanoseconds(calibration.stillTimeOffset * 1e3);
     auto still = waitingCamera(
         config.still, wishFor(config.still, config.video, true), "still camera",
+        {&hearts, "still camera opener", budget::kOpener, ThreadRole::Helper},
         config.still.rateHz == 0 && !config.trigger.line.empty(),
         [this] { return config_.video.driver == CameraDriver::Libcamera && video_->absent(); });
     still_ = still.get();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/heartbeats.h"
 #include "daemon/cameras_config.h"
 #include "daemon/rig_source.h"
 #include "hal/device/trigger_gpiod.h"
@@ -29,8 +30,9 @@ namespace mfar {
 /// waited for.
 class CamerasSource final : public RigSource {
 public:
-    /// Throws Failure for a calibration that cannot be used and a trigger line that is not there.
-    explicit CamerasSource(const CamerasConfig& config);
+    /// `hearts` watches the threads that open the cameras, and must outlive this. Throws Failure
+    /// for a calibration that cannot be used and a trigger line that is not there.
+    CamerasSource(const CamerasConfig& config, Heartbeats& hearts);
 
     [[nodiscard]] const StereoRig& geometry() const override { return geometry_; }
     [[nodiscard]] Camera& video() override { return *video_; }

@@ -32,8 +32,9 @@ constexpr std::chrono::milliseconds kFaultInterval{30};
 // on this thread at the end.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
-    : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), rig_(config),
-      poses_(config.pose, rig_.poseInputs(), stats), gl_(openGl(config)),
+    : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)),
+      rig_(config, stats.heartbeats()), poses_(config.pose, rig_.poseInputs(), stats),
+      gl_(openGl(config)),
       validation_(config.validate ? std::make_unique<gpu::Validation>() : nullptr),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel, displayPolicy())),
       output_(outputSizeFor(config.size, rig_.geometry(), display_->screenSize())),
@@ -98,15 +99,34 @@ std::string Session::startLine() const {
                        TracedLayer::isAvailable() ? "" : "; this build has no path tracer");
 }
 
-std::string Session::run(std::optional<std::uint64_t> maxFrames) {
+std::string Session::run(std::optional<std::uint64_t> maxFrames, const Over& over) {
     Mailbox<CapturedFrame> mailbox(rig_.handOver());
     CaptureThread capture(rig_, poses_, stats_, mailbox);
     const std::stop_callback onStop(stop_.input, [&] { capture.stop(); });
-    Heartbeat heart(stats_.heartbeats(), "picture", budget::kPicture);
+    try {
+        std::string reason = showFrames(mailbox, capture, maxFrames);
+        over(reason, nullptr);
+        return reason;
+    } catch (...) {
+        over("", std::current_exception());
+        throw;
+    }
+}
+
+std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
+                                std::optional<std::uint64_t> maxFrames) {
+    Heartbeat heart(stats_.heartbeats(), std::string(kPictureThread), budget::kPicture);
     heart_ = &heart;
+    const std::shared_ptr<void> atEnd(nullptr, [this](void*) { heart_ = nullptr; });
     bool enough = false;
     while (!enough) {
         heart.beat();
+        const bool isGpuReady = gpu_.isReady();
+        stats_.gpu(gpu_.fault());
+        if (!isGpuReady) {
+            if (mailbox.over()) break;
+            continue;
+        }
         std::optional<CapturedFrame> captured = mailbox.takeWithin(kFaultInterval);
         if (!captured && mailbox.over()) break;
         if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
@@ -127,7 +147,6 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames) {
     checkRecording();
     stats_.recorderDropped(rig_.notRecorded());
     finishDisplay();
-    heart_ = nullptr;
     return enough ? "all frames asked for are shown" : "end of the source";
 }
 
@@ -143,7 +162,8 @@ void Session::finishDisplay() {
 FileDisplayPolicy Session::displayPolicy() {
     FileDisplayPolicy policy;
     policy.isLive = rig_.handOver() == HandOver::NewestWins;
-    policy.stalled = budget::kWriter;
+    policy.stalled = budget::kTaken;
+    policy.writer = {&stats_.heartbeats(), "display writer", budget::kWriter, ThreadRole::Helper};
     policy.waiting = [this](const char* what) {
         if (heart_ == nullptr) return;
         if (what != nullptr)
@@ -168,7 +188,8 @@ void Session::apply(const Tunables& wanted) {
     try {
         placeObjects();
     } catch (const std::exception& error) {
-        stats_.warn(fmt::format("objects: {}; those before stay", error.what()));
+        stats_.warn(fmt::format("objects: {}; those before stay", error.what()),
+                    {message::kObjects});
         std::tie(objects_, light_) = before;
         placeObjects();
     }
@@ -186,7 +207,8 @@ bool Session::canShowObjects() {
         }
     }
     stats_.warn("previews of virtual objects are drawn with OpenGL ES 3.1 and are not shown: " +
-                gl_.without);
+                    gl_.without,
+                {message::kObjects});
     return false;
 }
 
@@ -195,7 +217,7 @@ void Session::placeObjects() {
     virtual_.set(objects_, light_, tags_);
     if (tags_.empty() && poses_.mayFindTags()) return;
     for (std::string& text : leftOut(objects_, tags_, virtual_.shapesAlone()))
-        stats_.warn(std::move(text));
+        stats_.warn(std::move(text), {message::kObjects});
 }
 
 void Session::process(CapturedFrame captured) {
@@ -237,7 +259,8 @@ void Session::process(CapturedFrame captured) {
 void Session::tell(Timestamp time) {
     if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
     tellLearning();
-    if (auto error = pipeline_.takeSceneError()) stats_.warn("objects: " + *error);
+    if (auto error = pipeline_.takeSceneError())
+        stats_.warn("objects: " + *error, {message::kObjects});
     if (auto error = pipeline_.takeImportFault()) stats_.warn(*error + ": it is copied");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
@@ -245,33 +268,6 @@ void Session::tell(Timestamp time) {
         matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
         stats_.matching(*matching);
     }
-}
-
-void Session::setLearning(bool wanted) {
-    if (wanted == (learning_ != nullptr)) return;
-    pipeline_.setMatchListener(nullptr);
-    pipeline_.setFilters(nullptr);
-    learning_.reset();
-    if (wanted) {
-        learning_ = std::make_unique<FilterLearning>(
-            FilterLearningOptions{learnedFiltersFile(sensors_), sensors_,
-                                  rig_.handOver() == HandOver::Lossless, rig_.geometry()});
-        pipeline_.setMatchListener(learning_.get());
-        pipeline_.setFilters(learning_->takeFilters());
-    }
-    tellLearning();
-}
-
-void Session::resetLearning() {
-    if (!learning_) throw std::runtime_error("no filters are learned");
-    learning_->reset();
-}
-
-void Session::tellLearning() {
-    stats_.learning(learning_ ? std::optional(learning_->counts()) : std::nullopt);
-    if (!learning_) return;
-    for (std::string& text : learning_->takeWarnings())
-        stats_.warn(std::move(text));
 }
 
 void Session::tellFaultyPasses() {
@@ -343,7 +339,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     if (policy_.lost() > lostTold_) {
         lostTold_ = policy_.lost();
         stats_.warn(fmt::format("{}: no still has come for a pulse{}", trigger->name(),
-                                policy_.pending() ? ", it is asked for once more" : ""));
+                                policy_.pending() ? ", it is asked for once more" : ""),
+                    {message::kStill, "still"});
     }
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()),
                     static_cast<std::uint64_t>(policy_.lost()));
@@ -364,10 +361,12 @@ void Session::show(Timestamp time, bool unchanged) {
     const std::string fault = rig_.fault().value_or("");
     try {
         if (unchanged && shown_ && fault == faultShown_) {
+            gpu_.drawn();
             display_->showAgain(*shown_, time);
         } else {
             shown_ = fault.empty() ? last_ : banner_.over(last_, fault);
             faultShown_ = fault;
+            gpu_.drawn();
             display_->show(*shown_, time);
         }
         stats_.display(display_->name());

@@ -6,6 +6,7 @@
 #include "daemon/capture.h"
 #include "daemon/config.h"
 #include "daemon/governor.h"
+#include "daemon/gpu_watch.h"
 #include "daemon/mailbox.h"
 #include "daemon/pose_finder.h"
 #include "daemon/rig.h"
@@ -19,6 +20,7 @@
 #include "pipeline/pipeline.h"
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -63,9 +65,12 @@ public:
     /// One line for the start: renderer, sensors, display, output size.
     [[nodiscard]] std::string startLine() const;
 
+    /// Why the pictures have ended, or what is thrown.
+    using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
     /// Processes frames until the source ends, a stop is requested or `maxFrames` are shown, and
-    /// waits until they are out. Returns why it ended. Throws Failure.
-    [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames);
+    /// waits until they are out. Calls `over` then: what is left is to close the devices, which may
+    /// hang. Returns why it ended. Throws Failure.
+    [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames, const Over& over);
 
     // For the CallQueue, between two pictures. All throw std::runtime_error.
     /// The last picture, as it went to the display or as the display's screen shows it.
@@ -81,6 +86,8 @@ public:
 private:
     void beginRecording(const Config& config);
     void checkRecording();
+    [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
+                                         std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
     [[nodiscard]] PipelineOptions pipelineOptions(const Config& config) const;
     /// Opens GL for the objects where it is not open yet; reports where that fails.
@@ -110,6 +117,7 @@ private:
     Rig rig_;
     PoseFinder poses_;
     OpenedGl gl_;
+    GpuWatch gpu_{gl_.context};
     std::unique_ptr<gpu::Validation> validation_;  ///< of all that the pipeline writes
     std::unique_ptr<Display> display_;
     Size output_;

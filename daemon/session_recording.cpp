@@ -13,14 +13,15 @@ void Session::beginRecording(const Config& config) {
         try {
             startRecording(newRecordingIn(config.record.directory));
         } catch (const Failure& failure) {
-            stats_.warn(fmt::format("nothing is recorded: {}", failure.what()));
+            stats_.warn(fmt::format("nothing is recorded: {}", failure.what()),
+                        {message::kRecording});
         }
     }
 }
 
 void Session::checkRecording() {
     if (const std::optional<std::string> why = rig_.endBrokenRecording())
-        stats_.warn(fmt::format("the recording has ended: {}", *why));
+        stats_.warn(fmt::format("the recording has ended: {}", *why), {message::kRecording});
     stats_.recording(rig_.recordingFolder());
 }
 

@@ -94,12 +94,12 @@ void Stats::fault(const std::optional<std::string>& fault) {
     counted_.fault = fault;
 }
 
-void Stats::warn(std::string text) {
+void Stats::warn(std::string text, Subject subject) {
     const std::lock_guard lock(mutex_);
-    warnings_.push_back(std::move(text));
+    warnings_.push_back({std::move(text), std::move(subject)});
 }
 
-std::vector<std::string> Stats::takeWarnings() {
+std::vector<Warning> Stats::takeWarnings() {
     const std::lock_guard lock(mutex_);
     return std::exchange(warnings_, {});
 }
@@ -123,6 +123,11 @@ void Stats::displayed(const std::optional<std::string>& fault, std::uint64_t lef
     const std::lock_guard lock(mutex_);
     counted_.displayFault = fault;
     counted_.drops.display = leftOut;
+}
+
+void Stats::gpu(const std::optional<std::string>& fault) {
+    const std::lock_guard lock(mutex_);
+    counted_.gpuFault = fault;
 }
 
 void Stats::bannerShown(Timestamp shown) {

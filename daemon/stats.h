@@ -4,6 +4,7 @@
 #include "daemon/camera_watch.h"
 #include "daemon/histogram.h"
 #include "daemon/learning_counts.h"
+#include "daemon/message_ids.h"
 #include "daemon/pose_counts.h"
 #include "daemon/process_use.h"
 #include "daemon/quality_counts.h"
@@ -86,6 +87,7 @@ struct Counted {
     std::optional<Timestamp>
         lastBanner{};  ///< when a picture that says a fault was, without frames
     std::optional<std::string> displayFault{};  ///< see Display::fault()
+    std::optional<std::string> gpuFault{};      ///< see GpuWatch
     ValidationCounts validation{};              ///< zero where it is not asked for
     std::optional<ProcessUse> atFirstPicture;   ///< when the display had it
     std::optional<LearningCounts> learning{};   ///< where filters are learned
@@ -118,6 +120,12 @@ private:
     std::size_t count_ = 0;                    // of all
 };
 
+/// What the log is to say, once.
+struct Warning {
+    std::string text;
+    Subject subject{};
+};
+
 /// Collects what the threads report. Thread-safe.
 class Stats {
 public:
@@ -129,12 +137,14 @@ public:
     /// What is missing, as the picture says it; nothing when all is well.
     void fault(const std::optional<std::string>& fault);
     /// The log is to say this, once.
-    void warn(std::string text);
-    [[nodiscard]] std::vector<std::string> takeWarnings();
+    void warn(std::string text, Subject subject = {});
+    [[nodiscard]] std::vector<Warning> takeWarnings();
     /// What is shown where, as Display::name() says it now.
     void display(const std::string& name);
     /// See Display::fault(), leftOut().
     void displayed(const std::optional<std::string>& fault, std::uint64_t leftOut);
+    /// See GpuWatch::fault().
+    void gpu(const std::optional<std::string>& fault);
     /// A picture was shown that says what is missing, while no frames come.
     void bannerShown(Timestamp shown);
     /// Totals so far.
@@ -177,7 +187,7 @@ private:
     std::optional<Timestamp> firstShown_;
     Timestamp lastShown_;
     PictureRate rate_;
-    std::vector<std::string> warnings_;
+    std::vector<Warning> warnings_;
     Heartbeats heartbeats_;
 };
 

@@ -3,6 +3,7 @@
 #include "hal/plane_importer.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace mfar {
@@ -23,6 +24,9 @@ public:
     /// Nothing where the driver imports no memory of cameras, or reads faster what is uploaded: a
     /// software renderer.
     [[nodiscard]] virtual PlaneImporter* planeImporter() { return nullptr; }
+    /// Why the context is gone, as after a reset of the GPU, for people; nothing as long as it is
+    /// there. Never waits.
+    [[nodiscard]] virtual std::optional<std::string> lost() { return std::nullopt; }
     /// Does the processor draw, not a GPU?
     [[nodiscard]] virtual bool isSoftware() const = 0;
     /// One line for people: "EGL surfaceless: llvmpipe (...), OpenGL ES 3.2 ..., software".

@@ -29,32 +29,42 @@ void ReopeningCamera::start() {
 // A device can be opened once at a time: first closed, then opened again. Both may take long and
 // are done here, not where others wait for pictures.
 void ReopeningCamera::keepOpen() {
+    Heartbeat heart(options_.opener);
     std::chrono::milliseconds pause = options_.firstPause;
     std::unique_lock lock(mutex_);
+    const auto begin = [&] {
+        busy_ = Timestamp::now();
+        heart.beat();
+    };
+    const auto end = [&] {
+        busy_.reset();
+        heart.rest();
+    };
     const auto rest = [&] {
         changed_.wait_for(lock, pause, [&] { return stopped_; });
         pause = std::min(2 * pause, options_.longestPause);
     };
+    heart.rest();
     for (;;) {
         changed_.wait(lock, [&] { return stopped_ || !camera_; });
-        if (stopped_) return finish(lock);
-        busy_ = Timestamp::now();
+        if (stopped_) return finish(lock, heart);
+        begin();
         if (std::shared_ptr<Camera> lost = std::exchange(lost_, nullptr)) {
             lock.unlock();
             lost.reset();
             lock.lock();
-            busy_.reset();
+            end();
             if (hasSent_ || Timestamp::now() - opened_ > options_.longestPause)
                 pause = options_.firstPause;
             else
                 rest();
             if (stopped_) return;
-            busy_ = Timestamp::now();
+            begin();
         }
         lock.unlock();
         std::shared_ptr<Camera> camera = tryOpen();
         lock.lock();
-        busy_.reset();
+        end();
         if (camera) {
             for (std::string& text : camera->takeWarnings())
                 warnings_.push_back(std::move(text));
@@ -69,8 +79,9 @@ void ReopeningCamera::keepOpen() {
 }
 
 /// With the mutex held. Here, as stop() is not to wait for the driver.
-void ReopeningCamera::finish(std::unique_lock<std::mutex>& lock) {
+void ReopeningCamera::finish(std::unique_lock<std::mutex>& lock, Heartbeat& heart) {
     const std::shared_ptr<Camera> camera = camera_;
+    heart.beat();
     lock.unlock();
     if (camera) camera->stop();
     lock.lock();

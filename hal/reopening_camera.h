@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/heartbeats.h"
 #include "hal/camera.h"
 
 #include <chrono>
@@ -30,6 +31,9 @@ struct ReopeningOptions {
     /// `excused` stands for `stalled`. Empty: there is no such reason. Any thread.
     std::function<bool()> busyElsewhere{};
     std::chrono::milliseconds excused{6000};
+    /// The thread that opens, stops and closes the device. Its budget is for one such call: a
+    /// driver that does not return from it can only be left with the process.
+    WatchedThread opener{};
 };
 
 /// A camera that outlives its device: it is opened, stopped and closed by a thread of its own,
@@ -67,7 +71,7 @@ public:
 
 private:
     void keepOpen();
-    void finish(std::unique_lock<std::mutex>& lock);
+    void finish(std::unique_lock<std::mutex>& lock, Heartbeat& heart);
     void sent();
     [[nodiscard]] bool hangs() const;
     [[nodiscard]] bool hasStalled();

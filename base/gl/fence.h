@@ -2,9 +2,13 @@
 
 #include "base/gl/gl.h"
 
+#include <chrono>
 #include <utility>
 
 namespace mfar::gpu {
+
+/// What a GPU that works never takes: the kernel resets it before.
+inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// A point in the stream of GL commands. Move-only.
 class Fence {
@@ -21,14 +25,21 @@ public:
         if (sync_ != nullptr) glDeleteSync(sync_);
     }
 
-    /// Whether the GPU is past it. Does not wait.
-    [[nodiscard]] bool passed() const {
-        const GLenum status = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+    /// Whether the GPU is past it. Does not wait, or for so long at most. Never true once the
+    /// context is lost.
+    [[nodiscard]] bool passed(std::chrono::nanoseconds limit = std::chrono::nanoseconds{0}) const {
+        const GLenum status = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT,
+                                               static_cast<GLuint64>(limit.count()));
         return status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
     }
 
 private:
     GLsync sync_;
 };
+
+/// Waits as glFinish() does, but not for ever: false where the GPU hangs or the context is lost.
+[[nodiscard]] inline bool finishWithin(std::chrono::nanoseconds limit = kLongestGpuWait) {
+    return Fence().passed(limit);
+}
 
 }  // namespace mfar::gpu

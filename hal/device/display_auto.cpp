@@ -1,11 +1,10 @@
 #include "hal/device/display_auto.h"
 
+#include "base/gl/fence.h"
 #include "hal/device/display_fbdev.h"
 #include "hal/device/display_kms.h"
 #include "hal/device/display_spec.h"
 #include "hal/device/display_uevents.h"
-
-#include <GLES3/gl31.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -51,14 +50,15 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     if (active_ == nullptr) {
         if (picture.isOnHost()) return;
         if (scaler_) scaler_->warmUp(picture.image());
-        glFinish();  // without a screen nothing else would hold the renderer back
+        // Without a screen nothing else would hold the renderer back.
+        (void)gpu::finishWithin();
         return;
     }
     try {
         active_->show(picture);
         shown_ = std::min(shown_ + 1, kProven);
         failed_ = nullptr;
-        fault_.clear();
+        if (shown_ == kProven) fault_.clear();
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }
@@ -105,6 +105,12 @@ std::string ScreenDisplay::name() const {
     for (const auto& screen : screens_)
         text += (text.ends_with('(') ? "" : "; ") + screen->status();
     return text + ")";
+}
+
+std::optional<std::string> ScreenDisplay::fault() const {
+    if (active_ == nullptr) return name();
+    if (!fault_.empty()) return fault_;
+    return std::nullopt;
 }
 
 std::optional<ScreenPicture> ScreenDisplay::lastShown() const {

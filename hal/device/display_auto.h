@@ -39,6 +39,9 @@ public:
     [[nodiscard]] std::optional<Size> screenSize() override;
     void showAgain(const Picture& picture, Timestamp time) override;
     [[nodiscard]] std::string name() const override;
+    /// What name() says while there is no screen; of one that was lost, until it has shown pictures
+    /// again.
+    [[nodiscard]] std::optional<std::string> fault() const override;
 
     /// The picture that the last show() sent to the screen, screen-sized, black bars included; on a
     /// screen of 24 or 32 bits a screenshot shows the same to the bit, with 16 bits its upper 5, 6
@@ -58,7 +61,7 @@ private:
     Screen* failed_ = nullptr;  // could not show its first pictures
     int shown_ = 0;             // pictures, by active_
     std::optional<Timestamp> lookedAt_;
-    std::string fault_;
+    std::string fault_;  // of the screen that was lost last, until one is proven
 };
 
 /// Opens a screen: "auto" (KMS, where none can be used a framebuffer), "kms[:cardN][,CONNECTOR]

@@ -1,8 +1,11 @@
 #include "hal/device/display_drm.h"
 
+#include "base/time.h"
+
 #include <fmt/format.h>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -91,6 +94,10 @@ bool dropMasterOfThisProcess(const std::string& path) {
     return dropped;
 }
 
+void onFlip(int, unsigned, unsigned, unsigned, unsigned, void* pending) {
+    *static_cast<bool*>(pending) = false;
+}
+
 OwnedFd openCard(const std::string& path) {
     OwnedFd fd(::open(path.c_str(), O_RDWR | O_CLOEXEC));
     if (!fd) throw std::runtime_error(cardFault(path));
@@ -130,6 +137,22 @@ std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes
         if (usable(mode) && (best == nullptr || rank(mode) > rank(*best))) best = &mode;
     if (best == nullptr) return std::nullopt;
     return *best;
+}
+
+bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit) {
+    drmEventContext events{};
+    events.version = 3;
+    events.page_flip_handler2 = onFlip;
+    const Timestamp end = Timestamp::now() + limit;
+    while (pending) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Timestamp::now());
+        pollfd waiting{fd, POLLIN, 0};
+        const int count = poll(&waiting, 1, std::max(static_cast<int>(left.count()), 0));
+        if (count < 0 && errno == EINTR) continue;
+        const bool told = count > 0 && (waiting.revents & POLLIN) != 0;
+        if (!told || drmHandleEvent(fd, &events) != 0) return false;
+    }
+    return true;
 }
 
 DrmProperties::DrmProperties(int fd, std::uint32_t object, std::uint32_t type) {

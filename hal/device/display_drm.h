@@ -4,6 +4,7 @@
 #include "hal/device/display_handles.h"
 #include "hal/device/display_spec.h"
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -25,6 +26,11 @@ namespace mfar {
 [[nodiscard]] std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes,
                                                         const std::optional<ModeWish>& wish);
 [[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);
+
+/// Waits until the picture of the last commit is on the screen: the event of that commit, which was
+/// given the address of `pending`, makes it false. False when that takes longer than `limit` or
+/// the device is lost.
+[[nodiscard]] bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit);
 
 /// The properties of one KMS object, by name.
 class DrmProperties {

@@ -1,3 +1,4 @@
+#include "base/gl/fence.h"
 #include "hal/device/display_buffers.h"
 #include "hal/device/egl_extensions.h"
 
@@ -177,7 +178,8 @@ public:
         if (fences_) fence_ = fences_->insert();
     }
     Ready complete() override {
-        if (!fences_) glFinish();
+        if (!fences_ && !gpu::finishWithin())
+            throw std::runtime_error("the GPU does not finish the picture");
         return {targets_[current_].scanout(), std::move(fence_)};
     }
     [[nodiscard]] ScreenPicture last() const override {

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <poll.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -17,7 +15,7 @@ namespace {
 
 using Request = std::unique_ptr<drmModeAtomicReq, FreedBy<drmModeAtomicFree>>;
 
-constexpr int kFlipTimeoutMs = 1000;  // 24 Hz is the slowest mode in use
+constexpr std::chrono::milliseconds kFlipTimeout{500};  // 24 Hz is the slowest mode in use
 
 std::vector<std::string> cardPaths() {
     std::vector<std::string> paths;
@@ -45,10 +43,6 @@ private:
     int fd_;
     std::uint32_t id_ = 0;
 };
-
-void onFlip(int, unsigned, unsigned, unsigned, unsigned, void* pending) {
-    *static_cast<bool*>(pending) = false;
-}
 
 // Throws at the end of drmModeAtomicAddProperty's chain of small failures: no memory.
 void add(drmModeAtomicReq& request, std::uint32_t object, std::uint32_t property,
@@ -118,7 +112,7 @@ void KmsScreen::show(const Picture& picture) {
         return;
     }
     buffers_->begin(picture);
-    waitForFlip();
+    waitForLastFlip();
     commit(buffers_->complete(), Commit::Flip);
 }
 
@@ -188,21 +182,11 @@ void KmsScreen::commit(ScanoutBuffers::Ready ready, Commit kind) {
     flipPending_ = kind == Commit::Flip;
 }
 
-void KmsScreen::waitForFlip() {
-    drmEventContext events{};
-    events.version = 3;
-    events.page_flip_handler2 = onFlip;
-    while (flipPending_) {
-        pollfd waiting{card_->fd(), POLLIN, 0};
-        const int count = poll(&waiting, 1, kFlipTimeoutMs);
-        if (count < 0 && errno == EINTR) continue;
-        const bool happened = count > 0 && (waiting.revents & POLLIN) != 0 &&
-                              drmHandleEvent(card_->fd(), &events) == 0;
-        if (happened) continue;
-        flipPending_ = false;  // nobody waits for it once more
-        throw std::runtime_error(
-            fmt::format("{}, {}: shows no new picture", card_->path(), output_->connectorName));
-    }
+void KmsScreen::waitForLastFlip() {
+    if (waitForFlip(card_->fd(), flipPending_, kFlipTimeout)) return;
+    flipPending_ = false;  // nobody waits for it once more
+    throw std::runtime_error(
+        fmt::format("{}, {}: shows no new picture", card_->path(), output_->connectorName));
 }
 
 // The console's picture is set before our buffers go: a buffer that goes while shown turns the
@@ -210,7 +194,7 @@ void KmsScreen::waitForFlip() {
 void KmsScreen::leaveOutput() {
     if (buffers_ && output_) {
         try {
-            waitForFlip();
+            waitForLastFlip();
         } catch (const std::runtime_error&) {
             // Lost: nothing to wait for.
         }

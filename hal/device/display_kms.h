@@ -36,7 +36,7 @@ private:
     void startOutput(const Picture& picture);
     void commit(ScanoutBuffers::Ready ready, Commit kind);
     void addModeSet(drmModeAtomicReq& request, std::uint32_t modeBlob) const;
-    void waitForFlip();
+    void waitForLastFlip();
 
     ScreenSpec spec_;
     ScreenScaler& scaler_;

@@ -34,6 +34,37 @@ struct OpenedDisplay {
     const char* how;
 };
 
+// Of GL_KHR_robustness, which GL_EXT_robustness shares.
+constexpr GLenum kContextLost = 0x0507, kGuiltyReset = 0x8253, kInnocentReset = 0x8254;
+using ResetStatus = GLenum(GL_APIENTRYP)();
+
+ResetStatus resetStatusOf(const char* glExtensions) {
+    if (hasExtension(glExtensions, "GL_KHR_robustness"))
+        return eglProc<ResetStatus>("glGetGraphicsResetStatusKHR");
+    if (hasExtension(glExtensions, "GL_EXT_robustness"))
+        return eglProc<ResetStatus>("glGetGraphicsResetStatusEXT");
+    return nullptr;
+}
+
+// One that is told of resets, where the driver knows such.
+EGLContext createContext(EGLDisplay display, EGLConfig config) {
+    const std::array<EGLint, 7> robust{EGL_CONTEXT_MAJOR_VERSION,
+                                       3,
+                                       EGL_CONTEXT_MINOR_VERSION,
+                                       1,
+                                       EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
+                                       EGL_LOSE_CONTEXT_ON_RESET_EXT,
+                                       EGL_NONE};
+    const std::array<EGLint, 5> plain{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1,
+                                      EGL_NONE};
+    EGLContext context = EGL_NO_CONTEXT;
+    if (hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness"))
+        context = eglCreateContext(display, config, EGL_NO_CONTEXT, robust.data());
+    if (context == EGL_NO_CONTEXT)
+        context = eglCreateContext(display, config, EGL_NO_CONTEXT, plain.data());
+    return context;
+}
+
 // A device without EGL_MESA_device_software is a GPU; the surfaceless platform is the software
 // fall-back (it may still pick a GPU by itself where the device extensions are missing).
 OpenedDisplay openDisplay(bool software) {
@@ -94,12 +125,11 @@ public:
         if (eglChooseConfig(display_, configWanted.data(), &config, 1, &count) != EGL_TRUE ||
             count == 0)
             throw std::runtime_error("EGL: no configuration renders OpenGL ES 3");
-        const std::array<EGLint, 5> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION,
-                                            1, EGL_NONE};
-        context_ = eglCreateContext(display_, config, EGL_NO_CONTEXT, version.data());
+        context_ = createContext(display_, config);
         if (context_ == EGL_NO_CONTEXT)
             throw std::runtime_error("EGL: this driver offers no OpenGL ES 3.1 context");
         makeCurrent();
+        resetStatus_ = resetStatusOf(text(GL_EXTENSIONS).c_str());
         const std::string renderer = text(GL_RENDERER);
         software_ = renderer.find("llvmpipe") != renderer.npos ||
                     renderer.find("softpipe") != renderer.npos;
@@ -127,6 +157,14 @@ public:
     }
     Proc getProcAddress(const char* name) const override { return eglGetProcAddress(name); }
     PlaneImporter* planeImporter() override { return importer_.get(); }
+    std::optional<std::string> lost() override {
+        const GLenum status = resetStatus_ != nullptr ? resetStatus_() : GL_NO_ERROR;
+        if (status == kGuiltyReset) return "the GPU was reset, as work of this program hung";
+        if (status == kInnocentReset) return "the GPU was reset, as work of another program hung";
+        if (status != GL_NO_ERROR) return "the GPU was reset";
+        if (glGetError() == kContextLost) return "the context of OpenGL ES is lost";
+        return std::nullopt;
+    }
     bool isSoftware() const override { return software_; }
     std::string description() const override { return description_; }
 
@@ -135,6 +173,7 @@ private:
     EGLContext context_ = EGL_NO_CONTEXT;
     GLuint vertexArray_ = 0;
     bool software_ = false;
+    ResetStatus resetStatus_ = nullptr;
     std::unique_ptr<PlaneImporter> importer_;
     std::string description_;
 };

@@ -10,8 +10,10 @@
 #include <cctype>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 namespace mfar {
 namespace {
@@ -20,6 +22,14 @@ using Kind = V4l2Control::Kind;
 
 constexpr int kMostControls = 4096;  // a driver whose list goes on and on is not believed
 constexpr std::int64_t kMostEntries = 1024;
+constexpr int kTries = 3;
+constexpr std::chrono::milliseconds kBetweenTries{20};
+
+// A device may accept a moment later what it refuses with these: it is in use, or its bus was.
+bool mayPassLater(int error) {
+    return error == EBUSY || error == EIO || error == EAGAIN || error == ETIMEDOUT ||
+           error == EPROTO || error == EPIPE;
+}
 
 Kind kindOf(std::uint32_t type) {
     switch (type) {
@@ -230,7 +240,11 @@ std::int64_t V4l2Controls::write(const V4l2Control& control, std::int64_t value)
     request.which = V4L2_CTRL_WHICH_CUR_VAL;
     request.count = 1;
     request.controls = &one;
-    const int error = device_->tryCall(VIDIOC_S_EXT_CTRLS, &request);
+    int error = device_->tryCall(VIDIOC_S_EXT_CTRLS, &request);
+    for (int i = 1; i < kTries && mayPassLater(error); ++i) {
+        std::this_thread::sleep_for(kBetweenTries);
+        error = device_->tryCall(VIDIOC_S_EXT_CTRLS, &request);
+    }
     const std::string where = fmt::format("{}: control {}", device_->path(), control.folded);
     if (error == EACCES)
         throw std::runtime_error(

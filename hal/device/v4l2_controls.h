@@ -40,9 +40,10 @@ struct V4l2Control {
 /// The controls of a device, by name. Vendors give their controls colliding ids (0x981901 is one
 /// vendor's trigger mode and another's flash), so names are what settings can rely on.
 ///
-/// Names are compared folded. All calls throw std::runtime_error with one sentence: no such control
-/// (lists those there are), a value out of range (says the range), read-only, busy, refused; and
-/// DeviceLost. The device must outlive this.
+/// Names are compared folded. What is busy or fails on its bus is tried three times. All calls
+/// throw std::runtime_error with one sentence: no such control (lists those there are), a value out
+/// of range (says the range), read-only, busy, refused; and DeviceLost. The device must outlive
+/// this.
 class V4l2Controls {
 public:
     /// Asks the device for all its controls.

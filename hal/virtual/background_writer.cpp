@@ -9,9 +9,9 @@
 
 namespace mfar {
 
-BackgroundWriter::BackgroundWriter(int threads) {
+BackgroundWriter::BackgroundWriter(int threads, const WatchedThread& watched) {
     for (int i = 0; i < threads; ++i)
-        threads_.emplace_back([this] { work(); });
+        threads_.emplace_back([this, watched] { work(watched); });
 }
 
 BackgroundWriter::~BackgroundWriter() {
@@ -51,7 +51,7 @@ std::optional<std::string> BackgroundWriter::error() const {
     return error_;
 }
 
-void BackgroundWriter::work() {
+void BackgroundWriter::work(const WatchedThread& watched) {
     // With SIGPIPE blocked here, a pipe whose reader has gone is an error of write() instead of the
     // end of the process.
     sigset_t brokenPipe;
@@ -59,8 +59,10 @@ void BackgroundWriter::work() {
     sigaddset(&brokenPipe, SIGPIPE);
     pthread_sigmask(SIG_BLOCK, &brokenPipe, nullptr);
 
+    Heartbeat heart(watched);
     std::unique_lock lock(mutex_);
     for (;;) {
+        heart.rest();
         posted_.wait(lock, [this] { return closing_ || !jobs_.empty(); });
         if (jobs_.empty()) return;
         std::function<void()> job = std::move(jobs_.front());
@@ -68,6 +70,7 @@ void BackgroundWriter::work() {
         ++running_;
         const bool skip = error_.has_value();
         lock.unlock();
+        heart.beat();
         std::optional<std::string> failure;
         try {
             if (!skip) job();

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/heartbeats.h"
+
 #include <chrono>
 #include <condition_variable>
 #include <deque>
@@ -18,7 +20,8 @@ namespace mfar {
 /// error, not thousands.
 class BackgroundWriter {
 public:
-    explicit BackgroundWriter(int threads);
+    /// Each thread is watched as `watched`, whose budget is for one job.
+    explicit BackgroundWriter(int threads, const WatchedThread& watched = {});
     BackgroundWriter(const BackgroundWriter&) = delete;
     BackgroundWriter& operator=(const BackgroundWriter&) = delete;
     /// Waits for the posted jobs; their errors are lost, see drain().
@@ -34,7 +37,7 @@ public:
     [[nodiscard]] std::optional<std::string> error() const;
 
 private:
-    void work();
+    void work(const WatchedThread& watched);
 
     mutable std::mutex mutex_;
     std::condition_variable posted_;

@@ -1,10 +1,10 @@
 #include "hal/virtual/display_files.h"
 
+#include "base/gl/fence.h"
 #include "hal/virtual/background_writer.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/y4m.h"
 
-#include <GLES3/gl31.h>
 #include <fmt/format.h>
 
 #include <unistd.h>
@@ -34,7 +34,8 @@ class NoDisplay final : public Display {
 public:
     // Without this a renderer may queue frames without end, and no frame rate would be true.
     void show(const Picture& picture, Timestamp) override {
-        if (!picture.isOnHost()) glFinish();
+        // What hangs is noticed before the next picture.
+        if (!picture.isOnHost()) (void)gpu::finishWithin();
     }
     void finish() override {}
     [[nodiscard]] std::string name() const override { return "none"; }
@@ -45,7 +46,8 @@ class FileDisplay : public Display {
 public:
     FileDisplay(int threads, std::stop_token cancel, FileDisplayPolicy policy)
         : policy_(std::move(policy)),
-          onCancel_(std::move(cancel), [this] { cancel_.request_stop(); }), writer_(threads) {}
+          onCancel_(std::move(cancel), [this] { cancel_.request_stop(); }),
+          writer_(threads, policy_.writer) {}
 
     void show(const Picture& picture, Timestamp time) final {
         if (!pool_ || pool_->size() != picture.size()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/heartbeats.h"
 #include "hal/display.h"
 
 #include <chrono>
@@ -23,6 +24,7 @@ struct FileDisplayPolicy {
     std::chrono::milliseconds stalled{2000};
     /// Of a live source, finish() gives one up that takes longer than this.
     std::chrono::milliseconds finish{5000};
+    WatchedThread writer{};  ///< which writes; its budget is for one picture
 };
 
 /// Opens a display that needs no screen:

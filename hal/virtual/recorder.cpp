@@ -41,7 +41,7 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
     : root_(emptyFolder(root)), options_(options),
       video_(root / "cam0", rig.video.size, options.videoBuffers),
       still_(root / "cam1", rig.still.size, options.stillBuffers),
-      poses_{root / "state_groundtruth_estimate0"} {
+      poses_{root / "state_groundtruth_estimate0"}, writer_(1, options.writer) {
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
     beginCamera(video_.folder, {rig.video, {}, videoRateHz}, "video sensor, body frame");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0}, "still sensor");

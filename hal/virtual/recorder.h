@@ -21,6 +21,7 @@ struct RecorderOptions {
     /// So much stays free on the disk: a recording that would need it ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< the same for a recording that becomes longer; 0: no limit
+    WatchedThread writer{};       ///< which writes; its budget is for one picture
 };
 
 /// Writes a recording while the frames it is made of are in use. video(), still() and pose() copy
@@ -92,7 +93,7 @@ private:
     PictureStream still_;
     Stream poses_;
     std::atomic<int> pendingPoses_{0};
-    BackgroundWriter writer_{1};  // last: its thread uses all of the above
+    BackgroundWriter writer_;  // last: its thread uses all of the above
 };
 
 }  // namespace mfar

@@ -1,5 +1,6 @@
 #include "pipeline/gles/picture_texture.h"
 
+#include "base/gl/fence.h"
 #include "base/image_layout.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 
 // Cameras have fewer buffers; those of one that was opened anew are others.
 constexpr std::size_t kMostImported = 16;
-constexpr GLuint64 kLongestRead = 1'000'000'000;  // [ns]
+constexpr GLuint64 kLongestRead = std::chrono::nanoseconds(kLongestGpuWait).count();
 
 int channelsOf(TexelFormat format) {
     if (format == TexelFormat::R8) return 1;

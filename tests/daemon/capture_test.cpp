@@ -175,7 +175,10 @@ TEST(CaptureThread, MissedFramesAreThoseThatTheCameraCounts) {
         return counted.drops.sensor == 7 && counted.cameras[1].counters.missed == 1;
     }));
     EXPECT_EQ(capture.stats.count().cameras[0].counters.broken, 2U);
-    EXPECT_EQ(capture.stats.takeWarnings(), std::vector<std::string>{"few buffers"});
+    const std::vector<Warning> warnings = capture.stats.takeWarnings();
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_EQ(warnings[0].text, "few buffers");
+    EXPECT_EQ(warnings[0].subject.camera, "video");
 }
 
 TEST(CaptureThread, ACameraThatIsSlowerThanConfiguredDropsNothing) {

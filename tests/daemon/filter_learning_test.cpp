@@ -1,12 +1,15 @@
+#include "base/heartbeats.h"
 #include "daemon/filter_learning.h"
 #include "tests/learn/sensor_pair.h"
 
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <thread>
 
 namespace mfar {
 namespace {
@@ -159,6 +162,28 @@ TEST_F(FilterLearningTest, StillsThatComeTooSoonAreLeftOut) {
         showTo(learning, sharp, sharp, {});
     }
     EXPECT_GE(learning.counts().leftOut, 1U);
+}
+
+TEST_F(FilterLearningTest, LearningThatTakesTooLongIsOverItsBudget) {
+    std::atomic<std::int64_t> passed{0};
+    Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
+    options.watched = {&hearts, "learning", std::chrono::seconds(60), ThreadRole::Helper};
+    FilterLearning learning(options);
+    std::atomic<bool> isLate{false};
+    {
+        const std::jthread clock([&](const std::stop_token& stop) {
+            while (!stop.stop_requested()) {
+                passed = passed.load() + 61;
+                if (!hearts.late().empty()) isLate = true;
+            }
+        });
+        for (unsigned i = 1; i <= 20 && !isLate; ++i)
+            show(learning, i, i);
+    }
+    EXPECT_TRUE(isLate);
+    for (int i = 0; i < 10'000 && !hearts.late().empty(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_TRUE(hearts.late().empty()) << "it waits for a still";
 }
 
 TEST(LearnedFiltersFile, IsOneOfEachPairOfSensorsInTheStateFolder) {

@@ -147,6 +147,20 @@ TEST_F(HealthTest, DisplayThatLeavesPicturesOutIsDegraded) {
     EXPECT_NEAR(look().sinceS, 0, 1e-6) << "counted anew";
 }
 
+TEST_F(HealthTest, NoCauseHidesAnother) {
+    const Heartbeat recorder(hearts, "recorder", budget::kWriter, ThreadRole::Helper);
+    pass(2 * budget::kWriter);
+    picture = banner = now;
+    fault = "video camera: is not there";
+    display = "no screen yet";
+    EXPECT_EQ(look().cause, "video camera: is not there; no screen yet; the recorder thread hangs");
+    EXPECT_EQ(look().state, HealthState::Degraded);
+    EXPECT_EQ(look().thread, "recorder");
+    EXPECT_TRUE(look().isDevice);
+    pass(seconds(1));
+    EXPECT_NEAR(look().sinceS, 1, 1e-6);
+}
+
 TEST_F(HealthTest, SlowCameraIsNoFault) {
     picture = now;
     pass(seconds(10));

@@ -10,10 +10,15 @@
 #include <array>
 #include <cstdlib>
 #include <functional>
+#include <gmock/gmock.h>
 #include <string>
+#include <vector>
 
 namespace mfar {
 namespace {
+
+using testing::IsSupersetOf;
+using testing::UnorderedElementsAre;
 
 /// What a log writes into a pipe.
 std::string written(Log::Style style, const std::function<void(Log&)>& talk) {
@@ -103,6 +108,45 @@ TEST(Log, EventsThatRepeatAreSaidWithTheirCount) {
                               "<4>mfard: warning: camera: gone (7 more times in 10 s)\n"
                               "<5>mfard: all devices are there (7 more times in 10 s)\n"
                               "<4>mfard: warning: hangs for 2 s (once more in 1 s)\n");
+}
+
+TEST(Log, TheJournalGetsFields) {
+    std::vector<std::string> sent;
+    Timestamp now = Timestamp::fromSeconds(100);
+    Log log(
+        -1, Log::Style::Journal, [&] { return now; },
+        [&](const std::vector<std::string>& fields) {
+            sent.insert(sent.end(), fields.begin(), fields.end());
+            return true;
+        });
+    for (int i = 0; i < 3; ++i)
+        log.warning("video camera: gone", {}, {message::kDegraded, "video", "video capture"});
+    EXPECT_THAT(sent, UnorderedElementsAre("MESSAGE=warning: video camera: gone", "PRIORITY=4",
+                                           "SYSLOG_IDENTIFIER=mfard", "MFAR_COUNT=1",
+                                           "MFAR_CAMERA=video", "MFAR_THREAD=video capture",
+                                           "MESSAGE_ID=" + std::string(message::kDegraded)));
+    sent.clear();
+    now = now + RepeatLimit::kInterval;
+    log.sayKept();
+    EXPECT_THAT(sent, IsSupersetOf({"MESSAGE=warning: video camera: gone (2 more times in 10 s)",
+                                    "MFAR_COUNT=2", "MFAR_CAMERA=video"}));
+    sent.clear();
+    log.notice("first\nsecond");
+    EXPECT_THAT(sent, UnorderedElementsAre("MESSAGE=first\nsecond", "PRIORITY=5",
+                                           "SYSLOG_IDENTIFIER=mfard", "MFAR_COUNT=1"));
+}
+
+TEST(Log, WhatTheJournalDoesNotTakeGoesToStandardError) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe(ends.data()), 0);
+    Log log(ends[1], Log::Style::Journal, &Timestamp::now, [](const auto&) { return false; });
+    log.warning("late");
+    close(ends[1]);
+    std::string all(100, ' ');
+    const ssize_t n = read(ends[0], all.data(), all.size());
+    close(ends[0]);
+    ASSERT_GT(n, 0);
+    EXPECT_EQ(all.substr(0, static_cast<std::size_t>(n)), "<4>mfard: warning: late\n");
 }
 
 TEST(Log, MessagesThatNobodyTakesDoNotHangAThread) {

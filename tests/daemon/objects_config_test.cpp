@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <sstream>
@@ -99,6 +100,22 @@ model = "thing.glb"
     ASSERT_TRUE(config.objects[1].model);
     EXPECT_EQ(config.objects[1].tag, (TagKey{TagFamily::Tag25h9, 1}));
     EXPECT_TRUE(placedShapes(config.objects, {}).empty());
+}
+
+TEST(ObjectsConfig, AFileIsReadOnceWhateverItIsCalled) {
+    const test::TempFolder folder;
+    const std::vector<std::uint8_t> glb = test::oneTriangle().glb();
+    test::writeFile(folder / "thing.glb", {reinterpret_cast<const char*>(glb.data()), glb.size()});
+    std::filesystem::create_symlink(folder / "thing.glb", folder / "same.glb");
+    const std::string name = (folder / "test.toml").string();
+    const std::string object = "[[objects]]\nmodel = ";
+    const Config config =
+        parseConfig(object + "\"thing.glb\"\n" + object + "\"./thing.glb\"\n" + object +
+                        "\"same.glb\"\n" + object + "\"" + (folder / "thing.glb").string() + "\"\n",
+                    name);
+    ASSERT_EQ(config.objects.size(), 4U);
+    for (const PlacedObject& one : config.objects)
+        EXPECT_EQ(one.model, config.objects[0].model) << one.modelName;
 }
 
 TEST(ObjectsConfig, ModelsThatCannotBeReadHaveTheirPlace) {

@@ -83,6 +83,7 @@ TEST_F(AutoDisplay, RunsWithoutAScreenAndSaysSo) {
     EXPECT_EQ(run(kSecond * 2), 0);
     EXPECT_THAT(display_->name(), HasSubstr("no screen yet"));
     EXPECT_THAT(display_->name(), HasSubstr("kms missing; fbdev missing"));
+    EXPECT_EQ(display_->fault(), display_->name());
     EXPECT_FALSE(display_->lastShown());
     EXPECT_LE(kms_.looks, 5);  // twice a second
     EXPECT_NO_THROW(display_->finish());
@@ -109,6 +110,7 @@ TEST_F(AutoDisplay, ShowsWithinASecondAfterADeviceAppears) {
     fbdev_.presence = Presence::Ready;
     EXPECT_GE(run(kSecond), 10);
     EXPECT_EQ(display_->name(), "fbdev held");
+    EXPECT_EQ(display_->fault(), std::nullopt);
     EXPECT_TRUE(display_->lastShown());
 }
 
@@ -163,6 +165,23 @@ TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
     changed_ = true;
     run(kSecond);
     EXPECT_EQ(display_->name(), "no screen yet (kms missing; fbdev missing)");
+}
+
+// As one whose flips do not complete, which is noticed with the third picture, again and again.
+TEST_F(AutoDisplay, AScreenThatIsLostAgainAndAgainStaysAFault) {
+    kms_.presence = Presence::Ready;
+    run(kSecond);
+    ASSERT_EQ(display_->fault(), std::nullopt);
+    kms_.refusesAfter = kms_.shown;
+    for (int i = 0; i < 100; ++i) {
+        run(std::chrono::milliseconds(50));
+        ASSERT_THAT(display_->fault().value_or(""), HasSubstr("kms is broken")) << i;
+        if (!kms_.held) kms_.refusesAfter = kms_.shown + 2;
+    }
+    EXPECT_GT(kms_.shown, 30) << "it is tried anew";
+    kms_.refusesAfter = 1000000;
+    EXPECT_GE(run(kSecond), 8);
+    EXPECT_EQ(display_->fault(), std::nullopt);
 }
 
 TEST_F(AutoDisplay, GivesADeviceBackThatWentAway) {

@@ -2,8 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace mfar {
@@ -76,6 +83,55 @@ TEST(ChooseMode, ImpossibleModesAreNoModes) {
     EXPECT_DOUBLE_EQ(refreshHz(stopped), 60);  // the rounded number is better than none
     stopped.vrefresh = 0;
     EXPECT_EQ(chosen({stopped}, {}), "none");
+}
+
+/// A pipe in the place of a card, which tells what the test writes.
+struct TalkingCard {
+    TalkingCard() {
+        std::array<int, 2> ends{};
+        if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
+        told = OwnedFd(ends[0]);
+        tells = OwnedFd(ends[1]);
+    }
+    void tell(std::uint32_t type, bool& pending) const {
+        drm_event_vblank event{};
+        event.base = {type, sizeof event};
+        event.user_data = reinterpret_cast<std::uintptr_t>(&pending);
+        ASSERT_EQ(write(tells.get(), &event, sizeof event), ssize_t{sizeof event});
+    }
+
+    OwnedFd told, tells;
+};
+
+TEST(WaitForFlip, EndsWithTheEventOfTheFlip) {
+    const TalkingCard card;
+    bool pending = true;
+    card.tell(DRM_EVENT_VBLANK, pending);
+    card.tell(DRM_EVENT_FLIP_COMPLETE, pending);
+    EXPECT_TRUE(waitForFlip(card.told.get(), pending, std::chrono::seconds(60)));
+    EXPECT_FALSE(pending);
+    EXPECT_TRUE(waitForFlip(card.told.get(), pending, std::chrono::seconds(60))) << "none pending";
+}
+
+TEST(WaitForFlip, OneThatDoesNotHappenEndsAtTheLimitWhateverElseHappens) {
+    const TalkingCard card;
+    bool pending = true;
+    const std::jthread other([&](const std::stop_token& stop) {
+        bool nobody = true;
+        while (!stop.stop_requested()) {
+            card.tell(DRM_EVENT_VBLANK, nobody);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    });
+    EXPECT_FALSE(waitForFlip(card.told.get(), pending, std::chrono::milliseconds(20)));
+    EXPECT_TRUE(pending);
+}
+
+TEST(WaitForFlip, ACardThatIsGoneEndsIt) {
+    TalkingCard card;
+    card.tells = OwnedFd();
+    bool pending = true;
+    EXPECT_FALSE(waitForFlip(card.told.get(), pending, std::chrono::seconds(60)));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <linux/videodev2.h>
 
+#include <cerrno>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +31,8 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    bool busy = false;
+    int refusals = 0;   ///< so many times it is busy
+    int error = EBUSY;  ///< with this
 };
 
 /// What the driver says of the next picture, where that is not what it is.

@@ -43,7 +43,10 @@ int FakeV4l2::value(unsigned long request, v4l2_ext_control& one) {
         const bool wide = c.type == V4L2_CTRL_TYPE_INTEGER64;
         if (request == VIDIOC_S_EXT_CTRLS) {
             if ((c.flags & V4L2_CTRL_FLAG_READ_ONLY) != 0) return EACCES;
-            if (c.busy) return EBUSY;
+            if (c.refusals > 0) {
+                --c.refusals;
+                return c.error;
+            }
             const std::int64_t asked = wide ? std::int64_t{one.value64} : one.value;
             c.value = c.minimum + (asked - c.minimum) / std::max<std::int64_t>(c.step, 1) * c.step;
         }

@@ -3,9 +3,11 @@
 // folder MFAR_PRETENDED_V4L2, each "/dev/NAME" a camera that gives YUYV of any size. The file's
 // words say what is wrong with it, and may change at any time, by renaming another file onto it:
 //   hang          the calls that move buffers do not return
-//   stick         the camera is not closed: the call does not return
+//   hang-open     opening it does not return, and
+//   hang-close    neither does closing it
 //   slow MS       opening takes so long
 //   gone          it is unplugged: what is open fails, nothing can be opened
+//   unplug N      the device is lost that was opened at another N
 //   eio           taking a picture fails, until the camera is opened anew
 //   silent        no further picture
 //   repeat        the same picture again and again
@@ -62,7 +64,7 @@ void sleepMs(double ms) {
 class Device {
 public:
     Device(std::string file, std::string name)
-        : words_(std::move(file)), name_(std::move(name)),
+        : words_(std::move(file)), name_(std::move(name)), plug_(words_.now()["unplug"]),
           fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)),
           memory_(memfd_create("pretended", MFD_CLOEXEC)) {}
     Device(const Device&) = delete;
@@ -75,22 +77,21 @@ public:
     [[nodiscard]] int fd() const { return fd_; }
     [[nodiscard]] int memory() const { return memory_; }
 
-    /// ENODEV for one that is not there.
-    int open() {
+    int open() const {
+        waitWhile("hang-open");
         const Words wrong = words_.now();
         if (wrong.contains("slow")) sleepMs(wrong.at("slow"));
         return wrong.contains("gone") ? ENODEV : 0;
     }
-    /// What the last close() of the file waits for.
-    void waitUntilClosed() {
-        while (words_.now().contains("stick"))
+    void waitWhile(const char* word) const {
+        while (words_.now().contains(word))
             sleepMs(5);
     }
 
     int call(unsigned long request, void* argument) {
         if (request == VIDIOC_DQBUF || request == VIDIOC_QBUF || request == VIDIOC_STREAMOFF)
-            while (words_.now().contains("hang"))
-                sleepMs(5);
+            waitWhile("hang");
+        if (request == VIDIOC_DQBUF && words_.now()["unplug"] != plug_) return ENODEV;
         if (isLost_ && request != VIDIOC_STREAMOFF) return lostError_;
         switch (request) {
         case VIDIOC_QUERYCAP: return describe(*static_cast<v4l2_capability*>(argument));
@@ -278,7 +279,8 @@ private:
 
     const mfar::pretended::WordFile words_;
     const std::string name_;
-    const int fd_;  ///< readable as often as there are filled buffers; closed by the program
+    const double plug_;  ///< the word "unplug" when it was opened
+    const int fd_;       ///< readable as often as there are filled buffers; closed by the program
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
@@ -390,7 +392,7 @@ int close(int fd) {
             devices().erase(at);
         }
     }
-    if (closed) closed->waitUntilClosed();
+    if (closed) closed->waitWhile("hang-close");
     closed.reset();
     return static_cast<int>(syscall(SYS_close, fd));
 }

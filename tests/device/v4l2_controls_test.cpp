@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,7 @@ namespace mfar {
 namespace {
 
 using test::errorOf;
+using test::FakeControl;
 using test::FakeV4l2;
 
 class V4l2ControlsTest : public testing::Test {
@@ -41,7 +43,7 @@ protected:
              V4L2_CTRL_FLAG_READ_ONLY},
             {0x981904, "Exposure (us)", V4L2_CTRL_TYPE_INTEGER64, 1, 10'000'000'000, 1, 20'000},
             {0x9a0001, "Camera Controls", V4L2_CTRL_TYPE_CTRL_CLASS, 0, 0, 0, 0},
-            {0x9a0903, "Held Gain", V4L2_CTRL_TYPE_INTEGER, 1, 8, 1, 2, {}, 0, true},
+            {0x9a0903, "Held Gain", V4L2_CTRL_TYPE_INTEGER, 1, 8, 1, 2, {}, 0, 1000},
             {0x9a0904, "Gone", V4L2_CTRL_TYPE_INTEGER, 1, 8, 1, 2, {}, V4L2_CTRL_FLAG_DISABLED},
             {0x9a0905, "Region", V4L2_CTRL_TYPE_U32, 0, 8, 1, 2},
         };
@@ -126,6 +128,25 @@ TEST_F(V4l2ControlsTest, EachRefusalSaysWhy) {
     EXPECT_EQ(errorOf([&] { controls.set("region", 1); }),
               "/dev/video0: control region cannot be set here");
     EXPECT_EQ(fake_.control("Brightness"), 100);
+}
+
+TEST_F(V4l2ControlsTest, WhatIsRefusedIsTriedThreeTimes) {
+    FakeControl& gain = fake_.controls[7];
+    ASSERT_EQ(gain.name, "Held Gain");
+    const V4l2Controls controls(device_);
+    for (const int error : {EBUSY, EIO, ETIMEDOUT, EPROTO, EPIPE}) {
+        gain.error = error;
+        gain.refusals = 2;
+        EXPECT_EQ(controls.set("held_gain", 3), 3) << error;
+        gain.refusals = 3;
+        EXPECT_NE(errorOf([&] { controls.set("held_gain", 4); }), "no error") << error;
+        EXPECT_EQ(gain.refusals, 0) << error;
+        EXPECT_EQ(gain.value, 3) << error;
+    }
+    gain.error = EINVAL;
+    gain.refusals = 3;
+    EXPECT_NE(errorOf([&] { controls.set("held_gain", 4); }), "no error");
+    EXPECT_EQ(gain.refusals, 2) << "an answer that will not change";
 }
 
 TEST_F(V4l2ControlsTest, LostDeviceIsSaidAsSuch) {

@@ -93,16 +93,22 @@ void Judge::change(const Fault& fault, int by) {
     touch(Screen, kind.effect == Effect::StopsReader);
     touch(Slow, kind.effect == Effect::Slows);
     touch(VideoDevice, kind.where == Where::Video && stops && kind.effect != Effect::Repeats);
-    touch(VideoHang, kind.where == Where::Video && kind.effect == Effect::HangsDriver);
 }
 
 void Judge::begins(const Fault& fault) {
+    // One that is not open hangs its opener, which may take far longer.
+    const bool wasSound = calm_[VideoDevice].lasts(kBack, now());
+    const int before = calm_[VideoDevice].active;
     change(fault, 1);
+    if (calm_[VideoDevice].active > before) hangs_.reset();
+    if (fault.kind->where == Where::Video && fault.kind->effect == Effect::HangsDriver && wasSound)
+        hangs_ = now();
     note(std::string(fault.kind->name) + " begins");
 }
 
 void Judge::ends(const Fault& fault) {
     change(fault, -1);
+    if (calm_[VideoDevice].active == 0) hangs_.reset();
     note(std::string(fault.kind->name) + " ends");
 }
 
@@ -190,7 +196,7 @@ void Judge::fed() {
     if (frames_ < kProvenFrames || !calm_[Slow].lasts(kBack, now())) return;
     if (now() - before > kLookTime + kSlack && calm_[All].lasts(kBack + kSlack + kLookTime, now()))
         fail("nothing is wrong, and the watchdog was not fed for " + seconds(now() - before));
-    if (calm_[VideoHang].active > 0 && missing(now()) > kVideoBudget + kSlack)
+    if (hangs_ && missing(now()) > kVideoBudget + kSlack)
         fail("the watchdog is fed while the video driver hangs for " + seconds(missing(now())));
     const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now());
     if (age(now()) > kStale + kSlack && !isNamed)

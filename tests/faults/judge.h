@@ -63,7 +63,7 @@ private:
             return active == 0 && now - since > time;
         }
     };
-    enum Watched { All, Video, VideoDevice, VideoHang, Still, Screen, Slow, WatchedCount };
+    enum Watched { All, Video, VideoDevice, Still, Screen, Slow, WatchedCount };
 
     Judge();
     [[nodiscard]] Ns age(Ns now) const;
@@ -76,6 +76,8 @@ private:
     int report_ = 2;
     std::array<Calm, WatchedCount> calm_{};
     std::optional<Ns> ready_, terminated_, shown_, fed_;
+    std::optional<Ns>
+        hangs_;  ///< since when the video driver does, while nothing else is wrong with it
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;

@@ -21,7 +21,8 @@ constexpr std::array kKinds = {
     Kind{"video unplugged", Video, StopsDevice, "gone"},
     Kind{"video loose plug", Video, StopsDevice, "gone"},
     Kind{"video i/o error", Video, StopsDevice, "eio"},
-    Kind{"video closes never", Video, StopsDevice, "gone stick"},
+    Kind{"video closes never", Video, StopsDevice, "gone hang-close"},
+    Kind{"video opens never", Video, StopsDevice, "gone hang-open"},
     Kind{"video opens slowly", Video, StopsDevice, "gone slow *", 100, 1500},
     Kind{"video few buffers", Video, StopsDevice, "gone buffers *", 1, 4},
     Kind{"video broken frames", Video, None, "error *", 2, 9},
@@ -37,7 +38,8 @@ constexpr std::array kKinds = {
     Kind{"still unplugged", Still, StopsDevice, "gone"},
     Kind{"still loose plug", Still, StopsDevice, "gone"},
     Kind{"still i/o error", Still, StopsDevice, "eio"},
-    Kind{"still closes never", Still, StopsDevice, "gone stick"},
+    Kind{"still closes never", Still, StopsDevice, "gone hang-close"},
+    Kind{"still opens never", Still, StopsDevice, "gone hang-open"},
     Kind{"still opens slowly", Still, StopsDevice, "gone slow *", 100, 1500},
     Kind{"still few buffers", Still, StopsDevice, "gone buffers *", 1, 4},
     Kind{"still broken frames", Still, None, "error *", 2, 9},
@@ -55,13 +57,22 @@ constexpr std::array kKinds = {
     Kind{"slow machine", Machine, Slows, "", 10, 200},
 };
 
+/// Those by which a picture can stand still come three times as often.
+const Kind& drawnKind(std::mt19937_64& random) {
+    for (;;) {
+        const Kind& kind = kKinds[random() % kKinds.size()];
+        const bool canStop = kind.where == Video && kind.effect != None;
+        if (canStop || random() % 3 == 0) return kind;
+    }
+}
+
 Fault drawnFault(std::mt19937_64& random) {
     const auto below = [&](std::uint64_t end) { return random() % end; };
     Fault out;
-    out.kind = &kKinds[below(kKinds.size())];
+    out.kind = &drawnKind(random);
     out.begin = static_cast<Ns>(below(1500)) * kMs;
-    // From 30 ms to 10 s, each octave as often.
-    const double octave = static_cast<double>(below(1000)) / 1000;
+    // From 30 ms to 10 s, half of them above 1.8 s.
+    const double octave = static_cast<double>(std::max(below(1000), below(1000))) / 1000;
     out.length = static_cast<Ns>(30e6 * std::pow(333.0, octave));
     out.number =
         out.kind->least +

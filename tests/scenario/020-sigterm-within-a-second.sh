@@ -94,6 +94,15 @@ code=0
 wait "$pid" || code=$?
 [ "$code" = 0 ] || [ "$code" = 143 ] || fail "ended with $code"
 
+echo "while shaders are compiled"
+for wait in 0.05 0.3 0.8; do
+    MESA_SHADER_CACHE_DISABLE=true start --recording gap --engine gles --pace realtime
+    until_true signals_watched
+    sleep $wait
+    kill -TERM "$pid"
+    ends_with 0 $limit
+done
+
 echo "while nobody takes its messages"
 mkfifo words
 exec 4<>words

@@ -138,7 +138,31 @@ for buffers in 1 3; do
     says_of video91 buffers $buffers
     begin
     goes_on
-    says err "/dev/video90: the driver gives $buffers of 6 buffers, pictures are copied"
+    until_true warned "/dev/video90: the driver gives $buffers of 6 buffers, pictures are copied"
     stats
+    stop_now 1500
+done
+
+echo "a camera that is absent at boot: the other one runs and is not blamed"
+for absent in video still; do
+    device=video90
+    [ $absent = video ] || device=video91
+    rm cameras/$device
+    rm -f summary.json
+    export LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$work/cameras
+    begun=$(milliseconds)
+    start --config mfard.toml --display none --control control --summary summary.json
+    unset LD_PRELOAD MFAR_PRETENDED_V4L2
+    until_true started
+    [ $(($(milliseconds) - begun)) -le $((5000 * patience)) ] || fail "not ready within 5 s"
+    other=still
+    [ $absent = video ] || other=video
+    until_true at_least $other delivered 3
+    until_true fault_is "$absent camera: .*$device"
+    status && grep -q "^fault .*$other camera" answer && fail "the $other camera is blamed"
+    [ $absent = video ] || goes_on
+    touch cameras/$device
+    until_true fault_is null
+    goes_on
     stop_now 1500
 done

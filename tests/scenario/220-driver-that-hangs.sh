@@ -81,6 +81,41 @@ kill -TERM "$pid"
 ends_with 0 1500
 : >cameras/video90
 
+echo "SIGTERM while the devices are being opened, and do not answer"
+echo hang-open >cameras/video90
+echo hang-open >cameras/video91
+LD_PRELOAD=$pretended start --config mfard.toml --display none
+until_true started
+kill -TERM "$pid"
+ends_with 0 1500
+: >cameras/video90
+: >cameras/video91
+
+echo "a run of some seconds ends in time, too, and so does one of some frames"
+LD_PRELOAD=$pretended start --config mfard.toml --display none --seconds 2 --summary summary.json
+until_true started
+echo hang >cameras/video90
+ends_with 0 6000
+summary_has exit_reason '"--seconds"'
+: >cameras/video90
+LD_PRELOAD=$pretended start --config mfard.toml --display none --frames 40 --summary summary.json
+until_true started
+echo hang >cameras/video91
+ends_with 0 6000
+summary_has frames 40
+: >cameras/video91
+
+echo "one that fails while it hangs keeps its exit code"
+mkfifo pipe
+mkdir state
+echo hang >cameras/video91
+LD_PRELOAD=$pretended STATE_DIRECTORY=$PWD/state start --config mfard.toml --display y4m:pipe \
+    --summary summary.json
+timeout $((30 * patience)) head -c 5000 <pipe >/dev/null || fail "no picture comes"
+ends_with 74 6000
+: >cameras/video91
+says summary.json '"exit_code": 74'
+
 echo "a camera that is away is waited for, and that is alive"
 sed -i 's/video90/video92/' mfard.toml
 LD_PRELOAD=$pretended start --config mfard.toml --display none --control control

@@ -255,6 +255,21 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAReaderThatTakesNothing) {
     EXPECT_EQ(display->fault(), std::nullopt);
 }
 
+TEST_F(PipeDisplays, WriterWhoseReaderTakesNothingIsOverItsBudget) {
+    std::atomic<std::int64_t> passed{0};
+    Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
+    const FileDisplayPolicy live{.isLive = true,
+                                 .writer = {&hearts, "writer", std::chrono::seconds(10)}};
+    const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
+    show(*display, plain(kSize, 0), {0});
+    EXPECT_TRUE(comesTrue([&] {
+        passed = passed.load() + 11;
+        return hearts.late().size() == 1;
+    }));
+    (void)readPictures(1);
+    EXPECT_TRUE(comesTrue([&] { return hearts.late().empty(); })) << "it waits for a picture";
+}
+
 TEST_F(PipeDisplays, LivePicturesAreGivenUpAtTheEnd) {
     const FileDisplayPolicy live{.isLive = true, .finish = std::chrono::milliseconds(100)};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);

@@ -17,7 +17,8 @@ using std::chrono::milliseconds;
 struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
-    std::atomic<int> open{0}, opened{0};
+    std::atomic<int> asked{0}, open{0}, opened{0};
+    std::atomic<bool> opens{true};    ///< opening it ends
     std::atomic<bool> closes{true};   ///< closing it ends
     std::atomic<bool> answers{true};  ///< asking it for a picture ends, and so does stopping it
     Size size{4, 2};
@@ -27,6 +28,9 @@ class PluggedCamera final : public Camera {
 public:
     explicit PluggedCamera(Socket& socket) : socket_(socket) {
         if (!socket_.plugged) throw std::runtime_error("there is no such device");
+        ++socket_.asked;
+        while (!socket_.opens)
+            std::this_thread::sleep_for(milliseconds(1));
         ++socket_.opened;
         if (++socket_.open > 1) throw std::logic_error("opened twice at a time");
     }
@@ -199,6 +203,73 @@ TEST(ReopeningCamera, OneWhoseDriverHangsIsNamedAndStopDoesNotWaitForIt) {
          !stopped && Timestamp::now() < limit;)
         std::this_thread::sleep_for(milliseconds(1));
     EXPECT_TRUE(stopped);
+    socket.answers = true;
+}
+
+/// What the watch over a camera's opener finds after a time, at which its budget of 10 s ends.
+struct WatchedOpener {
+    [[nodiscard]] std::vector<std::string> lateAfter(std::chrono::seconds time) {
+        passed = passed.load() + time.count();
+        std::vector<std::string> out;
+        for (const Heartbeats::Late& late : hearts.late())
+            out.push_back(late.thread);
+        return out;
+    }
+    [[nodiscard]] ReopeningOptions options() {
+        ReopeningOptions options = quick();
+        options.opener = {&hearts, "opener", std::chrono::seconds(10)};
+        return options;
+    }
+
+    std::atomic<std::int64_t> passed{0};
+    Heartbeats hearts{[this] { return Timestamp::now() + std::chrono::seconds(passed); }};
+};
+
+TEST(ReopeningCamera, AnOpenThatNeverReturnsIsOverItsBudget) {
+    Socket socket;
+    socket.opens = false;
+    WatchedOpener watch;
+    ReopeningCamera camera = cameraOn(socket, watch.options());
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [&](bool) { return socket.asked == 1; }));
+    EXPECT_TRUE(watch.lateAfter(std::chrono::seconds(8)).empty());
+    EXPECT_EQ(watch.lateAfter(std::chrono::seconds(8)), std::vector<std::string>{"opener"});
+    socket.opens = true;
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    EXPECT_TRUE(watch.lateAfter(std::chrono::hours(1)).empty()) << "it waits for its next work";
+}
+
+TEST(ReopeningCamera, ACloseThatNeverReturnsIsOverItsBudget) {
+    Socket socket;
+    WatchedOpener watch;
+    ReopeningCamera camera = cameraOn(socket, watch.options());
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    socket.closes = false;
+    socket.plugged = false;
+    ASSERT_TRUE(drivenUntil(camera, [&](bool) { return camera.absent(); }));
+    ASSERT_TRUE(drivenUntil(
+        camera, [&](bool) { return !watch.lateAfter(std::chrono::seconds(11)).empty(); }));
+    socket.closes = true;
+    ASSERT_TRUE(drivenUntil(
+        camera, [&](bool) { return watch.lateAfter(std::chrono::seconds(11)).empty(); }));
+    socket.plugged = true;
+    EXPECT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+}
+
+TEST(ReopeningCamera, AStopThatNeverReturnsIsOverItsBudget) {
+    Socket socket;
+    WatchedOpener watch;
+    ReopeningCamera camera = cameraOn(socket, watch.options());
+    camera.start();
+    ASSERT_TRUE(drivenUntil(camera, [](bool frame) { return frame; }));
+    socket.answers = false;
+    camera.stop();
+    const auto isLate = [&] { return !watch.lateAfter(std::chrono::seconds(11)).empty(); };
+    for (const Timestamp end = Timestamp::now() + std::chrono::seconds(5);
+         !isLate() && Timestamp::now() < end;)
+        std::this_thread::sleep_for(milliseconds(1));
+    EXPECT_TRUE(isLate());
     socket.answers = true;
 }
 

@@ -1,0 +1,158 @@
+// The ways in which a run ends: by a signal, by itself, by a device that does not let it.
+
+#include "daemon/app.h"
+#include "daemon/budgets.h"
+#include "daemon/restart_pause.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <signal.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+constexpr Seconds kLeaveTime{0.2};   ///< after a signal: for the picture in work
+constexpr Seconds kFlushTime{0.4};   ///< the same, for what is being written
+constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
+constexpr std::chrono::milliseconds kLastResort{2500};
+
+const char* signalName(int signal) {
+    return signal == SIGINT ? "SIGINT" : "SIGTERM";
+}
+
+}  // namespace
+
+void App::onSignal(int signal) {
+    if (signal == SIGHUP) return onHangUp();
+    if (stopSignal_) {
+        log_.endStatus();
+        log_.warning(fmt::format("second {}, ended at once", signalName(signal)), {},
+                     {message::kEnded});
+        std::_Exit(128 + signal);
+    }
+    stopSignal_ = signal;
+    // Says nothing: whoever takes the messages may be what hangs.
+    lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
+    stop(signalName(signal));
+    events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
+}
+
+void App::onDeadline() {
+    if (!stopSignal_ && ended_) leave("a device did not end in time, ended without it");
+    if (!stopSignal_) return stop("--seconds");
+    if (!writes()) leave("ended in the midst of a picture");
+    if (cancel_.request_stop()) return events_.deadlineIn(kCancelTime);
+    leave("a device or display did not end in time, ended without it");
+}
+
+void App::onOver() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!over_) return;
+        ended_ = std::exchange(over_, std::nullopt);
+    }
+    if (!stopSignal_) events_.deadlineIn(kLastResort);
+}
+
+// After --seconds, a GPU that hangs ends no frame. What only waits for its output may take longer.
+void App::leaveIfHanging() {
+    if (!stopReason_ || stopSignal_ || ended_) return;
+    for (const Heartbeats::Late& late : stats_.heartbeats().late(isProven_ ? 1 : kFirstPatience))
+        if (late.thread == kPictureThread) leave("the picture thread hangs, ended without it");
+}
+
+bool App::writes() {
+    return finishesRecording_ || !stats_.count().recording.empty() ||
+           keepsPictures(config_.display);
+}
+
+void App::leave(const std::string& why) {
+    log_.endStatus();
+    log_.warning(why, {}, {message::kEnded});
+    if (ended_ && ended_->error && !stopSignal_) leaveFailed(ended_->error);
+    const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
+    const bool written = writeSummary(reason, ExitCode::Ok);
+    std::error_code ignored;
+    if (options_.control) std::filesystem::remove(*options_.control, ignored);
+    const ExitCode code = written || stopSignal_ ? ExitCode::Ok : ExitCode::OutputFailed;
+    std::_Exit(static_cast<int>(code));
+}
+
+// As main() does it, which cannot be reached.
+void App::leaveFailed(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const std::exception& failure) {
+        const ExitCode code = exitCode(failure);
+        (void)writeSummary(fmt::format("error: {}", failure.what()), code);
+        log_.error(failure.what(), {message::kFailed});
+        std::error_code ignored;
+        if (options_.control) std::filesystem::remove(*options_.control, ignored);
+        pauseBeforeRestart(code, failure.what(), started_, log_);
+        std::_Exit(static_cast<int>(code));
+    }
+}
+
+void App::stop(const std::string& reason) {
+    if (!stopReason_) service_.stopping("ending: " + reason);
+    stopReason_ = stopReason_.value_or(reason);
+    if (!stopper_.joinable()) stopper_ = std::jthread([this] { input_.request_stop(); });
+}
+
+ExitCode App::finish(std::future<std::string>& end) {
+    calls_.close();
+    sessionCalls_.close();
+    for (std::optional<Reload>* one : {&reload_, &nextReload_})
+        if (*one)
+            (*one)->said.set_exception(
+                std::make_exception_ptr(std::runtime_error("mfard is ending")));
+    control_.reset();  // it may wait for that
+    onReady();
+    const Counted counted = stats_.count();
+    const Health last = health(counted);
+    logHealth(last);
+    showStatus(counted, last);
+    log_.endStatus();
+    try {
+        const std::string reason = end.get();
+        const ExitCode code = writeSummary(stopReason_.value_or(reason), ExitCode::Ok)
+                                  ? ExitCode::Ok
+                                  : ExitCode::OutputFailed;
+        // Reading cannot be interrupted, and all that counts is done.
+        if (isReading()) std::_Exit(static_cast<int>(code));
+        return code;
+    } catch (const std::exception& error) {
+        if (cancel_.stop_requested()) {
+            log_.warning(fmt::format("not everything was written: {}", error.what()), {},
+                         {message::kEnded});
+            (void)writeSummary(*stopReason_, ExitCode::Ok);
+            return ExitCode::Ok;
+        }
+        (void)writeSummary(fmt::format("error: {}", error.what()), exitCode(error));
+        throw;
+    }
+}
+
+bool App::writeSummary(const std::string& reason, ExitCode code) {
+    const Counted counted = stats_.count();
+    if (log_.style() == Log::Style::Terminal)
+        log_.notice(fmt::format("{} pictures in {:.1f} s, {:.1f} fps: {}", counted.frames,
+                                counted.seconds, counted.fps, reason));
+    if (!options_.summary) return true;
+    std::ostream& out = summary_.is_open() ? summary_ : std::cout;
+    const RunDescription description = running_ ? running_->description : RunDescription{};
+    out << summary(counted, description, reason, static_cast<int>(code)).dump(2) << "\n"
+        << std::flush;
+    if (!out)
+        log_.error(fmt::format("{}: the summary cannot be written", options_.summary->string()));
+    return static_cast<bool>(out);
+}
+
+}  // namespace mfar

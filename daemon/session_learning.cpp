@@ -1,0 +1,40 @@
+#include "daemon/budgets.h"
+#include "daemon/filter_learning.h"
+#include "daemon/session.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+
+void Session::setLearning(bool wanted) {
+    if (wanted == (learning_ != nullptr)) return;
+    pipeline_.setMatchListener(nullptr);
+    pipeline_.setFilters(nullptr);
+    learning_.reset();
+    if (wanted) {
+        learning_ = std::make_unique<FilterLearning>(FilterLearningOptions{
+            learnedFiltersFile(sensors_),
+            sensors_,
+            rig_.handOver() == HandOver::Lossless,
+            rig_.geometry(),
+            {&stats_.heartbeats(), "filter learning", budget::kLearning, ThreadRole::Helper}});
+        pipeline_.setMatchListener(learning_.get());
+        pipeline_.setFilters(learning_->takeFilters());
+    }
+    tellLearning();
+}
+
+void Session::resetLearning() {
+    if (!learning_) throw std::runtime_error("no filters are learned");
+    learning_->reset();
+}
+
+void Session::tellLearning() {
+    stats_.learning(learning_ ? std::optional(learning_->counts()) : std::nullopt);
+    if (!learning_) return;
+    for (std::string& text : learning_->takeWarnings())
+        stats_.warn(std::move(text), {message::kLearning});
+}
+
+}  // namespace mfar

@@ -1,0 +1,144 @@
+// The cameras of a rig on the calls of a V4L2 driver, which is pretended_v4l2.cpp.
+#include "daemon/budgets.h"
+#include "daemon/rig.h"
+#include "tests/unit/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <malloc.h>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+using namespace std::chrono_literals;
+
+class RigOfCameras : public testing::Test {
+protected:
+    RigOfCameras() {
+        setenv("MFAR_PRETENDED_V4L2", folder_.path().c_str(), 1);
+        config_.source = "cameras";
+        config_.cameras.video = camera("/dev/video90", {64, 48}, 30);
+        config_.cameras.still = camera("/dev/video91", {128, 96}, 5);
+    }
+    ~RigOfCameras() override { unsetenv("MFAR_PRETENDED_V4L2"); }
+
+    static CameraConfig camera(const char* device, Size size, double rateHz) {
+        CameraConfig out;
+        out.driver = CameraDriver::V4l2;
+        out.camera = device;
+        out.size = size;
+        out.rateHz = rateHz;
+        return out;
+    }
+    /// What is wrong with a device from now on.
+    void says(const std::string& device, const std::string& words) const {
+        const std::filesystem::path next = folder_.path() / "next";
+        std::ofstream(next) << words;
+        std::filesystem::rename(next, folder_.path() / device);
+    }
+
+    test::TempFolder folder_;
+    Config config_;
+};
+
+bool becomesTrue(const std::function<bool()>& condition) {
+    for (const auto end = std::chrono::steady_clock::now() + 20s;
+         std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
+        if (condition()) return true;
+    return false;
+}
+
+// A data.csv that is a pipe without a reader is opened for ever.
+TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
+    says("video90", "");
+    std::atomic<std::int64_t> passed{0};
+    Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
+    Rig rig(config_, hearts);
+    const std::filesystem::path recording = folder_ / "recording",
+                                csv = recording / "cam0/data.csv";
+    rig.startRecording(recording);
+    std::filesystem::remove(csv);
+    ASSERT_EQ(mkfifo(csv.c_str(), 0600), 0);
+    rig.video().start();
+    std::optional<Frame> frame;
+    ASSERT_TRUE(becomesTrue([&] { return (frame = rig.video().next(50ms)).has_value(); }));
+    rig.recordVideo(*frame);
+    EXPECT_TRUE(becomesTrue([&] {
+        passed = passed.load() + std::chrono::ceil<std::chrono::seconds>(budget::kWriter).count();
+        const auto late = hearts.late();
+        return late.size() == 1 && late.front().thread == "recorder" &&
+               late.front().role == ThreadRole::Helper;
+    }));
+    std::ifstream reader(csv);
+    rig.finishRecording();
+    EXPECT_TRUE(becomesTrue([&] { return hearts.late().empty(); })) << "it waits for work";
+}
+
+/// Of this process: open files, threads, and bytes that were allocated and not given back.
+struct Used {
+    static long entries(const char* folder) {
+        return std::distance(std::filesystem::directory_iterator(folder), {});
+    }
+    long files = entries("/proc/self/fd"), threads = entries("/proc/self/task");
+    std::size_t bytes = mallinfo2().uordblks;
+};
+
+TEST_F(RigOfCameras, AHundredLossesLeaveNothingBehind) {
+    says("video90", "rate 200");
+    Heartbeats hearts;
+    Rig rig(config_, hearts);
+    rig.video().start();
+    const auto comes = [&] { return rig.video().next(50ms).has_value(); };
+    std::optional<Used> before;
+    for (unsigned i = 1; i <= 100; ++i) {
+        ASSERT_TRUE(becomesTrue(comes)) << i;
+        if (i == 10) before.emplace();
+        says("video90", "rate 200 unplug " + std::to_string(i));
+        ASSERT_TRUE(becomesTrue([&] {
+            (void)comes();
+            return rig.video().cameraCounters().reopened == i;
+        })) << i;
+    }
+    ASSERT_TRUE(becomesTrue(comes));
+    const Used after;
+    EXPECT_EQ(after.files, before->files);
+    EXPECT_EQ(after.threads, before->threads);
+    EXPECT_LT(after.bytes, before->bytes + 32'768);
+}
+
+TEST_F(RigOfCameras, DriverWhoseOpenNeverReturnsIsOverItsBudget) {
+    says("video90", "hang-open");
+    says("video91", "hang-open");
+    std::atomic<std::int64_t> passed{0};
+    Heartbeats hearts([&] { return Timestamp::now() + std::chrono::seconds(passed); });
+    Rig rig(config_, hearts);
+    rig.video().start();
+    rig.still().start();
+    const std::set<std::pair<std::string, ThreadRole>> openers = {
+        {"video camera opener", ThreadRole::Vital}, {"still camera opener", ThreadRole::Helper}};
+    EXPECT_TRUE(becomesTrue([&] {
+        passed = passed.load() + std::chrono::ceil<std::chrono::seconds>(budget::kOpener).count();
+        std::set<std::pair<std::string, ThreadRole>> late;
+        for (const Heartbeats::Late& one : hearts.late())
+            late.emplace(one.thread, one.role);
+        return late == openers;
+    }));
+    says("video90", "");
+    says("video91", "");
+    EXPECT_TRUE(becomesTrue([&] { return rig.video().next(50ms).has_value(); }));
+    EXPECT_TRUE(hearts.late().empty()) << "it is open";
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# As a service, mfard gives the journal messages with fields: which kind, which camera, how many.
+# Without the journal, or when it takes nothing, they go to standard error.
+# Usage: 230-fields-for-the-journal.sh MFARD MFAR-SIM JOURNAL.so NOTIFY-LISTENER
+ids=$(realpath "$(dirname "$0")/../../daemon/message_ids.h")
+. "$(dirname "$0")/lib.sh"
+
+journal=$3
+listener=$4
+id() { sed -n "s/^constexpr std::string_view $1 = \"\(.*\)\";/\1/p" "$ids"; }
+
+"$listener" socket heard &
+pids+=($!)
+until_true test -S socket
+# One message has both. Each ends with an empty line; texts of several lines come with their length.
+heard() {
+    tr '\0' ' ' <heard |
+        awk -v RS= -v a="$1" -v b="$2" '$0 ~ a && $0 ~ b {found = 1} END {exit !found}'
+}
+
+cat >mfard.toml <<'END'
+source = "cameras"
+[superres]
+mode = "off"
+[pose]
+source = "none"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/video92"
+width = 64
+height = 48
+[cameras.still]
+driver = "v4l2"
+camera = "/dev/video93"
+width = 128
+height = 96
+rate_hz = 5.0
+END
+start_service() {
+    : >err
+    MFAR_PRETENDED_JOURNAL=$PWD/$1 LD_PRELOAD=$journal JOURNAL_STREAM=$(stat -c %d:%i err) \
+        "$mfard" --config mfard.toml --display none >out 2>>err &
+    pid=$!
+    pids+=("$pid")
+}
+
+start_service socket
+until_true heard "MESSAGE_ID=$(id kStarted)" 'MESSAGE=engine '
+until_true heard "MESSAGE_ID=$(id kDegraded)" 'MFAR_CAMERA=video'
+heard 'warning: .*video camera: ' 'MFAR_COUNT=1' || fail "the camera is not named"
+heard 'PRIORITY=4' 'SYSLOG_IDENTIFIER=mfard' || fail "no priority"
+kill -HUP "$pid"
+until_true heard "MESSAGE_ID=$(id kReloaded)" 'MESSAGE=mfard.toml: read again'
+kill -TERM "$pid"
+ends_with 0 1500
+[ ! -s err ] || fail "standard error is used, too"
+
+echo "without a journal"
+start_service nowhere
+until_true started
+says err '^<5>mfard: engine '
+kill -TERM "$pid"
+ends_with 0 1500

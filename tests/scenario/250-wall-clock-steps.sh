@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# The wall clock steps by an hour and by ten years, as on a board that learns the time late: no frame
+# is lost, nothing is called stale, and recordings stay whole and apart.
+# Usage: 250-wall-clock-steps.sh MFARD MFAR-SIM PRETENDED.so CLOCK.so
+. "$(dirname "$0")/lib.sh"
+
+libraries=$3:$4
+ctl="$(dirname "$sim")/mfarctl"
+status() { timeout 10 "$ctl" --socket control status; }
+frames() { status | sed -n 's/^frames  *//p'; }
+more() { [ "$(frames)" -gt $((shown + 15)) ] 2>/dev/null; }
+step() {
+    echo "$1" >clock.new
+    mv clock.new clock
+}
+
+mkdir cameras
+touch cameras/video90 cameras/video91
+cat >mfard.toml <<'END'
+source = "cameras"
+[superres]
+mode = "off"
+[pose]
+source = "none"
+[record]
+directory = "films"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/video90"
+width = 64
+height = 48
+[cameras.still]
+driver = "v4l2"
+camera = "/dev/video91"
+width = 128
+height = 96
+rate_hz = 5.0
+END
+begin() {
+    LD_PRELOAD=$libraries MFAR_PRETENDED_V4L2=$PWD/cameras MFAR_CLOCK_IS_OFF=$PWD/clock start \
+        --config mfard.toml --display none --control control --summary summary.json
+    until_true started
+}
+
+step 0
+begin
+for seconds in 3600 -3600 315360000 -315360000 0; do
+    step $seconds
+    shown=$(frames)
+    until_true more
+    says <(status) '"state":"ok"'
+done
+kill -TERM "$pid"
+ends_with 0 1500
+summary_has faults 1 # until they were open
+summary_has bad_times 0
+summary_has broken 0
+if grep -q 'warning' err; then fail "it warns"; fi
+
+echo "what was recorded is in order, and the next recording has a folder of its own"
+film=$(echo films/*)
+grep -v '^#' "$film/cam0/data.csv" | cut -d, -f1 >times
+sort -n -u times | cmp - times || fail "times that do not rise"
+[ "$(wc -l <times)" -ge 60 ] || fail "only $(wc -l <times) pictures are recorded"
+step 315360000
+begin
+kill -TERM "$pid"
+ends_with 0 1500
+[ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = 2 ] || fail "not two folders"
