@@ -17,6 +17,12 @@ struct Refusable {
     std::uint64_t badTimes = 0;  ///< ahead of now, of long ago, or not after the one before
 };
 
+inline std::int64_t microsecondsNow() {
+    timespec t{};
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return t.tv_sec * 1'000'000LL + t.tv_nsec / 1000;
+}
+
 inline std::int64_t microseconds(const timeval& t) {
     return t.tv_sec * 1'000'000LL + t.tv_usec;
 }
@@ -36,9 +42,7 @@ public:
     void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
              std::optional<std::int64_t>& lastGood) {
         constexpr std::int64_t kAhead = 50'000, kOldest = 10'000'000;
-        timespec t{};
-        clock_gettime(CLOCK_MONOTONIC, &t);
-        const std::int64_t now = t.tv_sec * 1'000'000LL + t.tv_nsec / 1000;
+        const std::int64_t now = microsecondsNow();
         const std::int64_t stamp = microseconds(taken.timestamp);
         const bool isBad =
             stamp > now + kAhead || stamp < now - kOldest || (lastGood && stamp <= *lastGood);

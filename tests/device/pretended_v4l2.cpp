@@ -21,7 +21,7 @@
 //   restart       with each word's first sight, numbers begin at 0
 //   plain         nothing wrong, but pictures without their time
 // Pictures are noise over a gray, with their time across the upper half, see pretended_picture.h.
-// One that finds no buffer has no number: only `skip` leaves numbers out, however slow all is.
+// One that finds no buffer has no number.
 
 #include "tests/device/pretended_counts.h"
 #include "tests/device/pretended_picture.h"
@@ -78,6 +78,7 @@ public:
     [[nodiscard]] int memory() const { return memory_; }
 
     int open() const {
+        if (fd_ < 0 || memory_ < 0) return EMFILE;
         waitWhile("hang-open");
         const Words wrong = words_.now();
         if (wrong.contains("slow")) sleepMs(wrong.at("slow"));
@@ -189,7 +190,7 @@ private:
     int start() {
         const std::lock_guard lock(mutex_);
         running_ = true;
-        picture_.assign(bytes_, 0);
+        picture_.clear();
         maker_ = std::thread([this] { make(); });
         return 0;
     }
@@ -237,10 +238,9 @@ private:
 
     /// False without a free buffer.
     bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number) {
-        timespec now{};
-        clock_gettime(CLOCK_MONOTONIC, &now);
-        const std::int64_t us = now.tv_sec * 1'000'000LL + now.tv_nsec / 1000;
-        if (!wrong.contains("repeat") || i == 1) {
+        const std::int64_t us = mfar::pretended::microsecondsNow();
+        if (!wrong.contains("repeat") || picture_.empty()) {
+            picture_.resize(bytes_);
             mfar::pretended::paint(picture_, i);
             if (!wrong.contains("plain")) mfar::pretended::stamp(picture_, width_, us / 1000);
         }

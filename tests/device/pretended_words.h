@@ -25,14 +25,18 @@ public:
         const bool same = there.st_ino == read_.st_ino && there.st_size == read_.st_size &&
                           there.st_ctim.tv_sec == read_.st_ctim.tv_sec &&
                           there.st_ctim.tv_nsec == read_.st_ctim.tv_nsec;
-        if (!same) words_ = parsed();
-        read_ = there;
+        std::ifstream in;
+        if (!same) in.open(file_);
+        // Where no descriptor is left, the next look is as good.
+        if (in.is_open()) {
+            words_ = parsed(in);
+            read_ = there;
+        }
         return words_;
     }
 
 private:
-    [[nodiscard]] Words parsed() const {
-        std::ifstream in(file_);
+    [[nodiscard]] static Words parsed(std::ifstream& in) {
         Words out;
         for (std::string word; in >> word;) {
             double number = 1;

@@ -57,13 +57,18 @@ constexpr std::array<std::string_view, 6> kBad = {
 constexpr std::array<Ns, 4> kSteps = {3600 * kSecond, -3600 * kSecond, 315'360'000 * kSecond,
                                       -315'360'000 * kSecond};
 
-// By renaming: who reads finds the one or the other. Past the disk's faults.
+// By renaming: who reads finds the one or the other. Past the faults of disk and descriptors.
 void replace(const std::string& file, std::string_view text) {
+    rlimit limit{};
+    getrlimit(RLIMIT_NOFILE, &limit);
+    const rlimit more{limit.rlim_max, limit.rlim_max};
+    setrlimit(RLIMIT_NOFILE, &more);
     const std::string part = file + ".new";
     const int fd = open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     real().syscall(SYS_write, fd, text.data(), text.size());
     close(fd);
     std::filesystem::rename(part, file);
+    setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 int idleClient(bool speaks) {
@@ -136,8 +141,25 @@ void Board::disturb(const Fault& fault, int by) {
     case Where::Wall:
         return Scheduler::get().stepWall(by * kSteps[static_cast<std::size_t>(fault.number)]);
     case Where::Disk: (fault.number == 0 ? diskFull_ : diskHangs_) += by; return;
+    case Where::Descriptors:
+        // Two at once end with the first.
+        if (by > 0) return limitDescriptors(fault.number);
+        if (descriptors_) setrlimit(RLIMIT_NOFILE, &*descriptors_);
+        return descriptors_.reset();
     case Where::Machine: return Scheduler::get().setCost(by > 0 ? fault.number * 1000 : 500);
     }
+}
+
+/// So many more than are open.
+void Board::limitDescriptors(int free) {
+    if (descriptors_) return;
+    rlimit limit{};
+    getrlimit(RLIMIT_NOFILE, &limit);
+    descriptors_ = limit;
+    const int next = dup(STDERR_FILENO);  // the lowest that is free
+    close(next);
+    limit.rlim_cur = static_cast<rlim_t>(next + free);
+    setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 void Board::changeConfiguration(const Fault& fault) {

@@ -2,7 +2,10 @@
 
 #include "tests/faults/plan.h"
 
+#include <sys/resource.h>
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,10 +36,12 @@ private:
     void plug(const Fault& fault, bool broken);
     void disturb(const Fault& fault, int by);
     void changeConfiguration(const Fault& fault);
+    void limitDescriptors(int free);
 
     std::string configuration_;
     std::vector<const Fault*> active_;
     std::vector<int> clients_;
+    std::optional<rlimit> descriptors_;  ///< before they were limited
     int readerStalls_ = 0, diskFull_ = 0, diskHangs_ = 0;
 };
 

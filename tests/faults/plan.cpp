@@ -54,6 +54,7 @@ constexpr std::array kKinds = {
     Kind{"wall clock steps", Wall, None, "", 0, 3},
     Kind{"disk full", Disk, None, "", 0, 0},
     Kind{"disk hangs", Disk, None, "", 1, 1},
+    Kind{"no descriptors", Descriptors, Slows, "", 0, 3},
     Kind{"slow machine", Machine, Slows, "", 10, 200},
 };
 

@@ -10,7 +10,7 @@
 
 namespace mfar::faults {
 
-enum class Where { Video, Still, Reader, Clients, Configuration, Wall, Disk, Machine };
+enum class Where { Video, Still, Reader, Clients, Configuration, Wall, Disk, Descriptors, Machine };
 
 /// What a fault does to what is seen, which the judge goes by.
 enum class Effect {

@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Of real time: schedules take a second, a soak some minutes.
-constexpr std::chrono::minutes kTrialTime{3}, kSoakTime{60};
+constexpr std::chrono::minutes kTrialTime{2}, kSoakTime{60};
 constexpr std::size_t kContext = 40;  // lines before the first failure
 
 /// A folder for one trial, removed with everything in it.
