@@ -47,7 +47,7 @@ void CameraWatch::add(const Frame& frame, Timestamp now) {
         state_.rateHz = 1e9 / static_cast<double>(period->count());
     if (kind_ != CameraKind::Sensor) return;
     checkRate(now);
-    checkRepeats(frame.view(), now);
+    checkRepeats(frame, now);
 }
 
 void CameraWatch::add(const CameraCounters& counters) {
@@ -74,10 +74,11 @@ void CameraWatch::checkRate(Timestamp now) {
                                     name_, state_.rateHz, wanted));
 }
 
-void CameraWatch::checkRepeats(const ImageView& picture, Timestamp now) {
-    const std::uint64_t checksum = sparseChecksum(picture);
+void CameraWatch::checkRepeats(const Frame& frame, Timestamp now) {
+    const std::uint64_t checksum = sparseChecksum(frame.view());
     if (std::exchange(checksum_, checksum) != checksum) {
-        state_.lastDistinct = now;
+        // It may have waited in the driver.
+        state_.lastDistinct = std::min(now, frame.time());
         state_.repeats = false;
         repeats_ = 0;
         return;

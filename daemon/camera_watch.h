@@ -56,7 +56,7 @@ public:
 
 private:
     void checkRate(Timestamp now);
-    void checkRepeats(const ImageView& picture, Timestamp now);
+    void checkRepeats(const Frame& frame, Timestamp now);
 
     std::string name_;
     CameraKind kind_;

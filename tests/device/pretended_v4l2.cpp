@@ -239,13 +239,13 @@ private:
     /// False without a free buffer.
     bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number) {
         const std::int64_t us = mfar::pretended::microsecondsNow();
+        const std::lock_guard lock(mutex_);
+        if (free_.empty() || wrong.contains("hang")) return false;
         if (!wrong.contains("repeat") || picture_.empty()) {
             picture_.resize(bytes_);
             mfar::pretended::paint(picture_, i);
             if (!wrong.contains("plain")) mfar::pretended::stamp(picture_, width_, us / 1000);
         }
-        const std::lock_guard lock(mutex_);
-        if (free_.empty() || wrong.contains("hang")) return false;
         const std::uint32_t index = free_.front();
         free_.pop_front();
         void* to = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, memory_,
