@@ -15,27 +15,27 @@
 namespace mfar {
 namespace {
 
-constexpr const char* kSocket = "/run/systemd/journal/socket";
 constexpr int kRoomMs = 500;
+
+}  // namespace
 
 // The library's own socket blocks while the journal takes nothing, and cannot be asked. One that is
 // connected to the same place can be.
-bool hasRoom() {
+bool Journal::hasRoom() const {
     const OwnedFd probe(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
-    std::strncpy(address.sun_path, kSocket, sizeof address.sun_path - 1);
+    std::strncpy(address.sun_path, socket_.c_str(), sizeof address.sun_path - 1);
     if (!probe ||
         connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
         return false;
     pollfd room{probe.get(), POLLOUT, 0};
-    return poll(&room, 1, kRoomMs) == 1 && (room.revents & POLLOUT) != 0;
+    return poll(&room, 1, waits_ ? kRoomMs : 0) == 1 && (room.revents & POLLOUT) != 0;
 }
 
-}  // namespace
-
-bool sendToJournal(const std::vector<std::string>& fields) {
-    if (!hasRoom()) return false;
+bool Journal::operator()(const std::vector<std::string>& fields) {
+    waits_ = hasRoom();
+    if (!waits_) return false;
     std::vector<iovec> parts;
     parts.reserve(fields.size());
     for (const std::string& field : fields)

@@ -18,7 +18,7 @@
 int main(int argc, char** argv) {
     using namespace mfar;
     const Timestamp started = Timestamp::now();
-    Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO), &Timestamp::now, sendToJournal);
+    Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO), &Timestamp::now, Journal());
     // libcamera tells standard error by itself how it is; what is wrong, we say.
     setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
     try {

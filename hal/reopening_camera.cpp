@@ -30,61 +30,51 @@ void ReopeningCamera::start() {
 // are done here, not where others wait for pictures.
 void ReopeningCamera::keepOpen() {
     Heartbeat heart(options_.opener);
+    heart.rest();
     std::chrono::milliseconds pause = options_.firstPause;
     std::unique_lock lock(mutex_);
-    const auto begin = [&] {
-        busy_ = Timestamp::now();
-        heart.beat();
-    };
-    const auto end = [&] {
-        busy_.reset();
-        heart.rest();
-    };
     const auto rest = [&] {
         changed_.wait_for(lock, pause, [&] { return stopped_; });
         pause = std::min(2 * pause, options_.longestPause);
     };
-    heart.rest();
-    for (;;) {
-        changed_.wait(lock, [&] { return stopped_ || !camera_; });
-        if (stopped_) return finish(lock, heart);
-        begin();
+    const auto work = [&](const auto& call) {
+        busy_ = Timestamp::now();
+        heart.beat();
+        lock.unlock();
+        call();
+        lock.lock();
+        heart.rest();
+        busy_.reset();
+    };
+    while (!stopped_) {
         if (std::shared_ptr<Camera> lost = std::exchange(lost_, nullptr)) {
-            lock.unlock();
-            lost.reset();
-            lock.lock();
-            end();
+            work([&] { lost.reset(); });
             if (hasSent_ || Timestamp::now() - opened_ > options_.longestPause)
                 pause = options_.firstPause;
             else
                 rest();
             if (stopped_) return;
-            begin();
         }
-        lock.unlock();
-        std::shared_ptr<Camera> camera = tryOpen();
-        lock.lock();
-        end();
-        if (camera) {
-            for (std::string& text : camera->takeWarnings())
-                warnings_.push_back(std::move(text));
-            camera_ = std::move(camera);
-            opened_ = lastFrame_ = Timestamp::now();
-            hasSent_ = false;
-            changed_.notify_all();
-        } else {
+        std::shared_ptr<Camera> camera;
+        work([&] { camera = tryOpen(); });
+        if (camera)
+            take(std::move(camera));
+        else
             rest();
-        }
+        changed_.wait(lock, [&] { return stopped_ || !camera_; });
     }
+    // Here, as stop() is not to wait for the driver.
+    if (const std::shared_ptr<Camera> camera = camera_) work([&] { camera->stop(); });
 }
 
-/// With the mutex held. Here, as stop() is not to wait for the driver.
-void ReopeningCamera::finish(std::unique_lock<std::mutex>& lock, Heartbeat& heart) {
-    const std::shared_ptr<Camera> camera = camera_;
-    heart.beat();
-    lock.unlock();
-    if (camera) camera->stop();
-    lock.lock();
+/// With the mutex held.
+void ReopeningCamera::take(std::shared_ptr<Camera> camera) {
+    for (std::string& text : camera->takeWarnings())
+        warnings_.push_back(std::move(text));
+    camera_ = std::move(camera);
+    opened_ = lastFrame_ = Timestamp::now();
+    hasSent_ = false;
+    changed_.notify_all();
 }
 
 std::shared_ptr<Camera> ReopeningCamera::tryOpen() {

@@ -71,7 +71,7 @@ public:
 
 private:
     void keepOpen();
-    void finish(std::unique_lock<std::mutex>& lock, Heartbeat& heart);
+    void take(std::shared_ptr<Camera> camera);
     void sent();
     [[nodiscard]] bool hangs() const;
     [[nodiscard]] bool hasStalled();

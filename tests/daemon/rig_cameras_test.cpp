@@ -117,6 +117,23 @@ TEST_F(RigOfCameras, AHundredLossesLeaveNothingBehind) {
     EXPECT_LT(after.bytes, before->bytes + 32'768);
 }
 
+TEST_F(RigOfCameras, DriverWithoutBuffersIsNamedUntilItHasSome) {
+    says("video90", "buffers 0");
+    says("video91", "rate 100");
+    Heartbeats hearts;
+    Rig rig(config_, hearts);
+    rig.video().start();
+    rig.still().start();
+    EXPECT_TRUE(becomesTrue([&] { return rig.still().next(50ms).has_value(); }));
+    EXPECT_TRUE(becomesTrue([&] {
+        (void)rig.still().next(50ms);
+        return rig.fault() == "video camera: /dev/video90: the driver gives 0 buffers";
+    })) << rig.fault().value_or("no fault");
+    says("video90", "");
+    EXPECT_TRUE(becomesTrue([&] { return rig.video().next(50ms).has_value(); }));
+    EXPECT_EQ(rig.fault(), std::nullopt);
+}
+
 TEST_F(RigOfCameras, DriverWhoseOpenNeverReturnsIsOverItsBudget) {
     says("video90", "hang-open");
     says("video91", "hang-open");

@@ -2,6 +2,7 @@
 // libEGL. The words of the file MFAR_FAULTY_GL say what is wrong, from now on:
 //   never   no fence is signalled, and what waits for the GPU does not return
 //   lost    the context is lost
+//   hang    drawing does not return
 
 #include <EGL/egl.h>
 #include <GLES3/gl31.h>
@@ -55,6 +56,13 @@ __attribute__((visibility("default"))) GLenum glClientWaitSync(GLsync sync, GLbi
             std::min<std::chrono::nanoseconds>(left, std::chrono::milliseconds(5)));
     }
     return call(sync, flags, timeout);
+}
+
+__attribute__((visibility("default"))) void glDrawArrays(GLenum mode, GLint first, GLsizei count) {
+    static const auto call = real<decltype(&glDrawArrays)>("glDrawArrays");
+    while (is("hang"))
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    call(mode, first, count);
 }
 
 // Of a renderer that is no software.

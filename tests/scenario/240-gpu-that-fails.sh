@@ -40,7 +40,7 @@ begin() {
     gpu_says ""
     LD_LIBRARY_PATH=$faulty LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras \
         MFAR_FAULTY_GL=$PWD/gl start --config mfard.toml --engine gles --display none \
-        --control control --summary summary.json
+        --control control --summary summary.json "$@"
     until_true frames 12
     status_says '"state":"ok"' || fail "it is not ok"
 }
@@ -58,6 +58,14 @@ gpu_says never
 ends_with 70 10000
 says err 'error: the GPU has not finished a picture for [5-9]'
 summary_has exit_code 70
+
+echo "a driver that does not return from drawing is named, and holds up no run of some seconds"
+begin --seconds 4
+gpu_says hang
+until_true status_says '"state":"stalled","cause":"the picture thread hangs"'
+ends_with 0 6000
+says err 'the picture thread hangs, ended without it'
+summary_has exit_reason '"--seconds"'
 
 echo "its context is lost"
 begin
