@@ -22,7 +22,8 @@ using nlohmann::ordered_json;
 // What the product promises, see daemon/budgets.h and the service's unit.
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
-constexpr Ns kLookTime = kSecond;  ///< how often mfard looks at its threads
+constexpr Ns kRepeats = 200 * kMs;  ///< some pictures
+constexpr Ns kLookTime = kSecond;   ///< how often mfard looks at its threads
 constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
 /// Of measuring: pictures have periods, answers take time.
@@ -144,7 +145,10 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     const bool isFine = state == "ok" && fault.empty();
     // A pipe that is not read takes some pictures, and then one for as long as a writer may need.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
-    const bool isKnown = calm_[Screen].active == 0 || stalled > kWriter;
+    // That a camera repeats itself is known after some pictures.
+    const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
+    const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
+                         (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
     if (age(asked) > kStale + kSlack && isFine && isKnown)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
     if (missing(asked) > kMarked + kSlack && isFine)
