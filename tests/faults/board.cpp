@@ -76,8 +76,9 @@ int idleClient(bool speaks) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     std::strncpy(address.sun_path, Board::kSocket, sizeof address.sun_path - 1);
-    static_cast<void>(connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address));
-    if (speaks) static_cast<void>(send(fd, "{\"comm", 6, MSG_NOSIGNAL | MSG_DONTWAIT));
+    const auto* generic = reinterpret_cast<const sockaddr*>(&address);
+    if (connect(fd, generic, sizeof address) == 0 && speaks)
+        static_cast<void>(send(fd, "{\"comm", 6, MSG_NOSIGNAL | MSG_DONTWAIT));
     return fd;
 }
 
