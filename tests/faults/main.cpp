@@ -75,7 +75,7 @@ Tally drawSeeds(const Options& o, std::uint64_t seed) {
             sum.inputs[what] += number;
         bool failed = !result.failure.empty();
         if (failed) fmt::print("{}", result.failure);
-        if (!failed && o.twice && runTrial(o.trial, seed).report != result.report) {
+        if (!failed && o.twice && runTrial(o.trial, seed).course != result.course) {
             failed = true;
             fmt::print("FAILED seed {}: the second run took another course\n", seed);
         }

@@ -150,15 +150,16 @@ TrialResult runTrial(const TrialOptions& options, std::uint64_t seed) {
     std::string why = start(options, seed, folder.path(), false);
     if (textOf(folder.path() / "report").ends_with(" KILLED\n"))
         why = start(options, seed, folder.path(), true);
-    TrialResult out{textOf(folder.path() / "report"), "", {}};
-    const std::vector<std::string> lines = linesOf(out.report);
+    const std::string report = textOf(folder.path() / "report");
+    const std::vector<std::string> lines = linesOf(report);
+    TrialResult out;
     for (const std::string& line : lines) {
+        if (line.find(" KB") == line.npos) out.course += line + "\n";
         if (!line.starts_with("COUNT ")) continue;
         const std::size_t last = line.rfind(' ');
         out.counts[line.substr(6, last - 6)] += std::stol(line.substr(last));
     }
-    if (why.empty() && out.report.find("ENDED with 0") == out.report.npos)
-        why = "it has not told its end";
+    if (why.empty() && report.find("ENDED with 0") == report.npos) why = "it has not told its end";
     if (why.empty() && std::ranges::none_of(lines, tellsFailure)) return out;
     const std::string repeat = options.soakFrames > 0
                                    ? fmt::format("--soak {}", options.soakFrames)

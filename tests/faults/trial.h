@@ -15,7 +15,7 @@ struct TrialOptions {
 };
 
 struct TrialResult {
-    std::string report;   ///< of the judge, see Judge
+    std::string course;   ///< the judge's report, without what is not the program's: memory
     std::string failure;  ///< for people; empty: mfard has kept its promises
     std::map<std::string, long> counts;
 };
