@@ -111,6 +111,9 @@ Plan Plan::drawn(std::uint64_t seed, int episodes) {
     }
     out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;
     out.isKilled = random() % 6 == 0;
+    // Without descriptors nothing can begin.
+    for (const Fault& fault : out.episodes.front())
+        if (fault.kind->where == Descriptors) out.beginsBroken = false;
     if (out.beginsBroken)
         for (Fault& fault : out.episodes.front())
             fault.begin = 0;
