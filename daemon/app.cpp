@@ -230,6 +230,8 @@ Health App::health(const Counted& counted) {
     seen.fault = counted.fault;
     seen.gpu = counted.gpuFault;
     seen.display = counted.displayFault;
+    const CameraState& video = counted.cameras[static_cast<std::size_t>(CameraRole::Video)];
+    if (video.repeats) seen.repeats = video.lastDistinct;
     seen.lastPicture = counted.lastPicture;
     seen.lastBanner = counted.lastBanner;
     if (running_) {

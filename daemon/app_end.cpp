@@ -129,14 +129,18 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (isReading()) std::_Exit(static_cast<int>(code));
         return code;
     } catch (const std::exception& error) {
-        if (cancel_.stop_requested()) {
+        // A reader that took nothing before the signal is not waited for.
+        if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
             log_.warning(fmt::format("not everything was written: {}", error.what()), {},
                          {message::kEnded});
             (void)writeSummary(*stopReason_, ExitCode::Ok);
             return ExitCode::Ok;
         }
         (void)writeSummary(fmt::format("error: {}", error.what()), exitCode(error));
-        throw;
+        if (!stopSignal_) throw;
+        // Nobody starts it again, so that there is nothing to wait for.
+        log_.error(error.what());
+        return exitCode(error);
     }
 }
 

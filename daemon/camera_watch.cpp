@@ -47,7 +47,7 @@ void CameraWatch::add(const Frame& frame, Timestamp now) {
         state_.rateHz = 1e9 / static_cast<double>(period->count());
     if (kind_ != CameraKind::Sensor) return;
     checkRate(now);
-    checkRepeats(frame.view(), now);
+    checkRepeats(frame, now);
 }
 
 void CameraWatch::add(const CameraCounters& counters) {
@@ -74,17 +74,18 @@ void CameraWatch::checkRate(Timestamp now) {
                                     name_, state_.rateHz, wanted));
 }
 
-void CameraWatch::checkRepeats(const ImageView& picture, Timestamp now) {
-    const std::uint64_t checksum = sparseChecksum(picture);
+void CameraWatch::checkRepeats(const Frame& frame, Timestamp now) {
+    const std::uint64_t checksum = sparseChecksum(frame.view());
     if (std::exchange(checksum_, checksum) != checksum) {
-        state_.lastDistinct = now;
+        // It may have waited in the driver.
+        state_.lastDistinct = std::min(now, frame.time());
+        state_.repeats = false;
         repeats_ = 0;
         return;
     }
     ++state_.repeated;
-    const bool wasTold = repeats_ < 0;
-    if (wasTold || ++repeats_ < kRepeats || now - *state_.lastDistinct < kRepeatTime) return;
-    repeats_ = -1;
+    if (state_.repeats || ++repeats_ < kRepeats || now - *state_.lastDistinct < kRepeatTime) return;
+    state_.repeats = true;
     warnings_.push_back(fmt::format(
         "{}: sends the same picture again and again, for {} s by now", name_,
         std::chrono::duration_cast<std::chrono::seconds>(now - *state_.lastDistinct).count()));

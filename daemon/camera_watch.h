@@ -23,6 +23,7 @@ struct CameraState {
     std::optional<Timestamp>
         lastDistinct{};                    ///< of one unlike the one before; nothing: not watched
     std::optional<double> distinctAgeS{};  ///< of that, when somebody asked
+    bool repeats = false;                  ///< it has sent the same picture for too long
 };
 
 /// A camera's state, as its frames show it.
@@ -55,7 +56,7 @@ public:
 
 private:
     void checkRate(Timestamp now);
-    void checkRepeats(const ImageView& picture, Timestamp now);
+    void checkRepeats(const Frame& frame, Timestamp now);
 
     std::string name_;
     CameraKind kind_;

@@ -28,6 +28,7 @@ constexpr int kAnswerMs = 5000;
 constexpr int kPauseMs = 100;  // where no descriptor is free
 constexpr int kWaitingClients = 8;
 constexpr std::size_t kMostClients = 16;  // at once
+constexpr std::size_t kMostAnswers = 4;   // the same
 constexpr mode_t kOwnerAndGroup = 0660;
 
 Failure cannotListen(const std::filesystem::path& path, const std::string& why) {
@@ -79,7 +80,8 @@ int millisecondsTo(Timestamp end) {
 ControlSocket::ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts)
     : path_(std::move(path)), handler_(std::move(handler)), hearts_(hearts),
       listening_(listenAt(path_), "socket"),
-      stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"), thread_([this] { serve(); }) {}
+      stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"),
+      answered_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"), thread_([this] { serve(); }) {}
 
 ControlSocket::~ControlSocket() {
     const std::uint64_t one = 1;
@@ -112,32 +114,47 @@ void ControlSocket::serve() {
     while (waits()) {
         for (Client& client : clients)
             if (client.isReady) read(client);
-        if (heart) heart->rest();  // others have the answer, and clients take it when they like
-        for (Client& client : clients)
-            if (client.isComplete) answer(client);
-        if (heart) heart->beat();
+        startAnswers(clients);
         std::erase_if(clients, [](const Client& client) {
-            return client.isComplete || client.isGone || Timestamp::now() >= client.end;
+            return client.isGone || (!client.isComplete && Timestamp::now() >= client.end);
         });
+    }
+    if (heart) heart->rest();
+    answers_.clear();
+}
+
+void ControlSocket::startAnswers(std::vector<Client>& clients) {
+    std::uint64_t drained = 0;
+    [[maybe_unused]] const ssize_t n = ::read(answered_.get(), &drained, sizeof drained);
+    answers_.remove_if([](const Answering& one) { return one.isOver.load(); });
+    for (Client& client : clients) {
+        if (!client.isComplete || answers_.size() >= kMostAnswers) continue;
+        Answering& one = answers_.emplace_back(std::move(client));
+        one.thread = std::jthread([this, &one] { answer(one); });
+        client = {};
+        client.isGone = true;
     }
 }
 
 // Until a client has something to say, a new one comes or the time of one is over. False at the end
 // of this object.
 bool ControlSocket::waitFor(std::vector<Client>& clients) {
-    std::vector<pollfd> waiting{{stop_.get(), POLLIN, 0}};
+    std::vector<pollfd> waiting{{stop_.get(), POLLIN, 0}, {answered_.get(), POLLIN, 0}};
     // Others wait in the queue of the socket.
     waiting.push_back({clients.size() < kMostClients ? listening_.get() : -1, POLLIN, 0});
-    int timeout = clients.empty() ? -1 : kRequestMs;
+    int timeout = -1;
     for (const Client& client : clients) {
-        waiting.push_back({client.fd->get(), POLLIN, 0});
-        timeout = std::min(timeout, millisecondsTo(client.end));
+        // One that has said all waits for its turn.
+        waiting.push_back({client.isComplete ? -1 : client.fd->get(), POLLIN, 0});
+        if (client.isComplete) continue;
+        const int left = millisecondsTo(client.end);
+        timeout = timeout < 0 ? left : std::min(timeout, left);
     }
     if (poll(waiting.data(), waiting.size(), timeout) < 0) return true;
     if (waiting[0].revents != 0) return false;
     for (std::size_t i = 0; i < clients.size(); ++i)
-        clients[i].isReady = waiting[i + 2].revents != 0;
-    return waiting[1].revents == 0 || accept(clients);
+        clients[i].isReady = waiting[i + 3].revents != 0;
+    return waiting[2].revents == 0 || accept(clients);
 }
 
 bool ControlSocket::accept(std::vector<Client>& clients) {
@@ -169,14 +186,22 @@ void ControlSocket::read(Client& client) {
     client.isGone = isWhole && request.empty();
 }
 
-void ControlSocket::answer(const Client& client) {
-    std::optional<Heartbeat> heart;
-    if (hearts_ != nullptr)
-        heart.emplace(*hearts_, "control answer", budget::kAnswer, ThreadRole::Helper);
-    ControlAnswer answer = handler_(client.request);
-    answer.line += '\n';
-    send(client.fd->get(), answer.line.data(), answer.line.size());
-    send(client.fd->get(), answer.data.data(), answer.data.size());
+void ControlSocket::answer(Answering& one) {
+    {
+        std::optional<Heartbeat> heart;
+        if (hearts_ != nullptr)
+            heart.emplace(*hearts_, "control answer", budget::kAnswer, ThreadRole::Helper);
+        const int client = one.client.fd->get();
+        ControlAnswer answer = handler_(one.client.request);
+        answer.line += '\n';
+        send(client, answer.line.data(), answer.line.size());
+        send(client, answer.data.data(), answer.data.size());
+        // The end of the answer, and of the connection.
+        one.client.fd.reset();
+    }
+    one.isOver = true;
+    constexpr std::uint64_t kOne = 1;
+    [[maybe_unused]] const ssize_t n = write(answered_.get(), &kOne, sizeof kOne);
 }
 
 void ControlSocket::send(int client, const void* data, std::size_t bytes) const {

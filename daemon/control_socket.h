@@ -4,10 +4,12 @@
 #include "base/time.h"
 #include "daemon/events.h"
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -23,14 +25,14 @@ struct ControlAnswer {
 };
 
 /// A Unix stream socket for requests of one line each. A connection carries one request and its
-/// answer. Requests are read side by side and answered one after the other; a client that is slow
-/// is given up: 2 s for its request, 5 s for taking the answer. The owner and the group of this
-/// process may connect.
+/// answer. Requests are read side by side and answered side by side, four at most, each by a thread
+/// of its own, as one may wait for a disk. A client that is slow is given up: 2 s for its request,
+/// 5 s for taking the answer. The owner and the group of this process may connect.
 class ControlSocket {
 public:
     static constexpr std::size_t kLongestRequest = 4096;  ///< [byte], line end included
 
-    /// Called on the socket's thread with a request without its line end. Must not throw.
+    /// Called with a request without its line end, by several threads at once. Must not throw.
     using Handler = std::function<ControlAnswer(std::string_view request)>;
 
     /// Makes the socket and begins to listen. One that a dead process has left is replaced. Throws
@@ -50,11 +52,19 @@ private:
         bool isReady = false, isComplete = false, isGone = false;
     };
 
+    /// One request that is being answered.
+    struct Answering {
+        Client client;
+        std::atomic<bool> isOver{false};
+        std::jthread thread{};
+    };
+
     void serve();
+    void startAnswers(std::vector<Client>& clients);
     [[nodiscard]] bool waitFor(std::vector<Client>& clients);
     [[nodiscard]] bool accept(std::vector<Client>& clients);
     static void read(Client& client);
-    void answer(const Client& client);
+    void answer(Answering& one);
     [[nodiscard]] bool isReady(int fd, short events, int timeoutMs) const;
     void send(int client, const void* data, std::size_t bytes) const;
 
@@ -63,6 +73,8 @@ private:
     Heartbeats* hearts_;
     Fd listening_;
     Fd stop_;
+    Fd answered_;                   ///< readable when an answer is over
+    std::list<Answering> answers_;  ///< of the thread
     std::thread thread_;
 };
 

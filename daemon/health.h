@@ -48,6 +48,7 @@ struct Observed {
     std::optional<std::string> fault{};    ///< of a device that is being opened again
     std::optional<std::string> gpu{};      ///< what is wrong with it
     std::optional<std::string> display{};  ///< why not all pictures are shown or written
+    std::optional<Timestamp> repeats{};    ///< the video camera's picture, since when; else nothing
     std::optional<Timestamp> lastPicture{};
     std::optional<Timestamp> lastBanner{};  ///< the last picture once more, with the fault over it
     std::optional<Timestamp> started{};     ///< since when there could be pictures

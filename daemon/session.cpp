@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -244,7 +245,9 @@ void Session::process(CapturedFrame captured) {
     const double ms = static_cast<double>((shown - begun).count()) * 1e-6;
     stages_ = pipeline_.stageTimes();
     stages_.push_back({"display", static_cast<double>((shown - drawn).count()) * 1e-6});
-    stats_.picture({result.stats, stages_, captured.arrived, shown, age, ms});
+    std::optional<Timestamp> since;
+    if (rig_.cameraKind() == CameraKind::Sensor) since = std::min(time, shown);
+    stats_.picture({result.stats, stages_, captured.arrived, shown, age, ms, since});
     if (governor_) {
         governor_->add({ms, newStill, result.stats.usedStill, result.stats.changed});
         govern();

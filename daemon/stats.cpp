@@ -40,6 +40,7 @@ void Stats::picture(const FinishedPicture& picture) {
     ++counted_.frames;
     if (!firstShown_) firstShown_ = picture.shown;
     lastShown_ = picture.shown;
+    counted_.lastPicture = picture.since.value_or(picture.shown);
     rate_.add(picture.shown);
     counted_.latencyMs.add(milliseconds(picture.shown - picture.arrived));
     for (const StageTime& stage : picture.stages) {
@@ -226,7 +227,6 @@ void Stats::total(Timestamp now) {
     age(now);
     counted_.recentFps = rate_.at(now);
     if (firstShown_) {
-        counted_.lastPicture = lastShown_;
         counted_.seconds = lastShown_.seconds() - firstShown_->seconds();
         counted_.fps = rate(counted_.frames - 1, *firstShown_, lastShown_);
     }

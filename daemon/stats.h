@@ -83,7 +83,7 @@ struct Counted {
     std::optional<std::string> fault;        ///< of a device, as the picture says it
     std::string display;                     ///< what is shown where
     std::uint64_t faults = 0;                ///< times that there was none before
-    std::optional<Timestamp> lastPicture{};  ///< when it was shown
+    std::optional<Timestamp> lastPicture{};  ///< see FinishedPicture::since
     std::optional<Timestamp>
         lastBanner{};  ///< when a picture that says a fault was, without frames
     std::optional<std::string> displayFault{};  ///< see Display::fault()
@@ -102,6 +102,8 @@ struct FinishedPicture {
     Timestamp shown;    ///< CLOCK_MONOTONIC
     std::optional<double> stillAgeS;
     double ms = 0;  ///< from the frame's begin to `shown`, with the work for a new still
+    /// From when on it grows old, CLOCK_MONOTONIC: a sensor's frame may have waited for a driver.
+    std::optional<Timestamp> since{};  ///< nothing: since it is shown
 };
 
 /// How fast pictures come, from the times of the last ones. It does not depend on who asks when.

@@ -110,6 +110,26 @@ TEST_F(ControlSocketTest, NobodyWaitsForAClientThatSaysNothing) {
         close(fd);
 }
 
+// As a recording that ends waits for the disk.
+TEST_F(ControlSocketTest, NobodyWaitsForAnAnswerThatTakesLong) {
+    std::promise<void> goOn;
+    const std::shared_future<void> gone = goOn.get_future().share();
+    std::promise<void> asked;
+    const ControlSocket socket(path, [&](std::string_view request) {
+        if (request.find("slow") == request.npos) return echo(request);
+        asked.set_value();
+        gone.wait();
+        return echo(request);
+    });
+    const auto slow =
+        std::async(std::launch::async, [&] { return ask(path, {{"command", "slow"}}); });
+    asked.get_future().wait();
+    EXPECT_EQ(ask(path, {{"command", "status"}}).body["length"], 20);
+    EXPECT_EQ(slow.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
+    goOn.set_value();
+    slow.wait();
+}
+
 // A thread that tries again and again would need the whole time of a processor.
 TEST_F(ControlSocketTest, WithoutAFreeDescriptorItWaits) {
     const ControlSocket socket(path, echo);

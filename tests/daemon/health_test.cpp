@@ -18,6 +18,7 @@ struct HealthTest : testing::Test {
         seen.waiting = hearts.waiting();
         seen.fault = fault;
         seen.display = display;
+        seen.repeats = repeats;
         seen.lastPicture = picture;
         seen.lastBanner = banner;
         seen.started = started;
@@ -31,7 +32,7 @@ struct HealthTest : testing::Test {
     HealthRecord record;
     int patience = 1;
     std::optional<std::string> fault, display;
-    std::optional<Timestamp> picture, banner, started = now;
+    std::optional<Timestamp> repeats, picture, banner, started = now;
 };
 
 TEST_F(HealthTest, FreshPicturesAreOk) {
@@ -41,6 +42,18 @@ TEST_F(HealthTest, FreshPicturesAreOk) {
     EXPECT_EQ(health.state, HealthState::Ok);
     EXPECT_EQ(sentence(health), "ok");
     EXPECT_NEAR(health.pictureAgeS.value(), 2, 1e-6);
+    EXPECT_TRUE(health.isAlive());
+}
+
+// Pictures come, and all are the same one.
+TEST_F(HealthTest, OnePictureForEverIsDegraded) {
+    repeats = now;
+    pass(seconds(4));
+    picture = now;
+    const Health health = look();
+    EXPECT_EQ(health.state, HealthState::Degraded);
+    EXPECT_EQ(health.cause, "video camera: sends the same picture again and again");
+    EXPECT_NEAR(health.sinceS, 4, 1e-6);
     EXPECT_TRUE(health.isAlive());
 }
 

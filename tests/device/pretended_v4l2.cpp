@@ -5,7 +5,10 @@
 //   hang          the calls that move buffers do not return
 //   hang-open     opening it does not return, and
 //   hang-close    neither does closing it
+//   slow MS       opening takes so long
+//   gone          it is unplugged: what is open fails, nothing can be opened
 //   unplug N      the device is lost that was opened at another N
+//   eio           taking a picture fails, until the camera is opened anew
 //   silent        no further picture
 //   repeat        the same picture again and again
 //   rate HZ       other than was asked for
@@ -16,8 +19,13 @@
 //   future N      one of N pictures is stamped in an hour
 //   skip N        with each word's first sight, N numbers are left out
 //   restart       with each word's first sight, numbers begin at 0
-// Pictures are noise over a gray that is brighter with each picture. One that finds no buffer has
-// no number, so that only `skip` leaves numbers out, however slow the machine is.
+//   plain         nothing wrong, but pictures without their time
+// Pictures are noise over a gray, with their time across the upper half, see pretended_picture.h.
+// One that finds no buffer has no number.
+
+#include "tests/device/pretended_counts.h"
+#include "tests/device/pretended_picture.h"
+#include "tests/device/pretended_words.h"
 
 #include <fcntl.h>
 #include <linux/videodev2.h>
@@ -35,11 +43,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
-#include <sstream>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,35 +55,16 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// The words of a device's file, each with its number, 1 where there is none.
-using Words = std::map<std::string, double>;
+using mfar::pretended::Words;
 
-Words wordsOf(const std::string& file) {
-    std::ifstream in(file);
-    Words out;
-    for (std::string word; in >> word;) {
-        double number = 1;
-        const auto at = in.tellg();
-        if (!(in >> number)) {
-            in.clear();
-            in.seekg(at);
-            number = 1;
-        }
-        out[word] = number;
-    }
-    return out;
-}
-
-/// Waits as long as the device's file has this word.
-void waitWhile(const std::string& file, const char* word) {
-    while (wordsOf(file).contains(word))
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+void sleepMs(double ms) {
+    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
 }
 
 class Device {
 public:
     Device(std::string file, std::string name)
-        : file_(std::move(file)), name_(std::move(name)), plug_(words()["unplug"]),
+        : words_(std::move(file)), name_(std::move(name)), plug_(words_.now()["unplug"]),
           fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)),
           memory_(memfd_create("pretended", MFD_CLOEXEC)) {}
     Device(const Device&) = delete;
@@ -86,14 +74,26 @@ public:
         close(memory_);
     }
 
-    [[nodiscard]] const std::string& file() const { return file_; }
     [[nodiscard]] int fd() const { return fd_; }
     [[nodiscard]] int memory() const { return memory_; }
 
+    int open() const {
+        if (fd_ < 0 || memory_ < 0) return EMFILE;
+        waitWhile("hang-open");
+        const Words wrong = words_.now();
+        if (wrong.contains("slow")) sleepMs(wrong.at("slow"));
+        return wrong.contains("gone") ? ENODEV : 0;
+    }
+    void waitWhile(const char* word) const {
+        while (words_.now().contains(word))
+            sleepMs(5);
+    }
+
     int call(unsigned long request, void* argument) {
         if (request == VIDIOC_DQBUF || request == VIDIOC_QBUF || request == VIDIOC_STREAMOFF)
-            waitWhile(file_, "hang");
-        if (request == VIDIOC_DQBUF && words()["unplug"] != plug_) return ENODEV;
+            waitWhile("hang");
+        if (request == VIDIOC_DQBUF && words_.now()["unplug"] != plug_) return ENODEV;
+        if (isLost_ && request != VIDIOC_STREAMOFF) return lostError_;
         switch (request) {
         case VIDIOC_QUERYCAP: return describe(*static_cast<v4l2_capability*>(argument));
         case VIDIOC_ENUM_FMT: {
@@ -121,13 +121,10 @@ public:
     }
 
 private:
-    [[nodiscard]] Words words() const { return wordsOf(file_); }
-
     int describe(v4l2_capability& about) const {
         about = {};
         std::strncpy(reinterpret_cast<char*>(about.card), name_.c_str(), sizeof about.card - 1);
-        std::strncpy(reinterpret_cast<char*>(about.bus_info), name_.c_str(),
-                     sizeof about.bus_info - 1);
+        std::memcpy(about.bus_info, about.card, sizeof about.bus_info - 1);
         about.capabilities = V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
         about.device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
         return 0;
@@ -149,12 +146,13 @@ private:
         pix.bytesperline = pix.width * 2;
         pix.sizeimage = pix.bytesperline * pix.height;
         bytes_ = pix.sizeimage;
+        width_ = static_cast<int>(pix.width);
         return 0;
     }
 
     int allocate(v4l2_requestbuffers& request) {
         const std::lock_guard lock(mutex_);
-        const Words wrong = words();
+        const Words wrong = words_.now();
         const auto most = wrong.contains("buffers") ? wrong.at("buffers") : 32;
         request.count = std::min(request.count, static_cast<std::uint32_t>(most));
         room_ = (bytes_ + 4095) / 4096 * 4096;
@@ -185,13 +183,14 @@ private:
         filled_.pop_front();
         std::uint64_t one = 0;
         static_cast<void>(!read(fd_, &one, sizeof one));
+        mfar::pretended::RefusableCounts::get().add(name_, to, bytes_, lastGood_);
         return 0;
     }
 
     int start() {
         const std::lock_guard lock(mutex_);
         running_ = true;
-        picture_.assign(bytes_, 0);
+        picture_.clear();
         maker_ = std::thread([this] { make(); });
         return 0;
     }
@@ -212,12 +211,14 @@ private:
         std::uint32_t number = 0;
         Words before;
         for (std::uint64_t i = 1; running_; ++i) {
-            const Words wrong = words();
+            const Words wrong = words_.now();
             const double hz = wrong.contains("rate") ? wrong.at("rate") : rateHz_.load();
             due += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / hz));
             while (running_ && steady_clock::now() < due)
                 std::this_thread::sleep_for(std::min<steady_clock::duration>(
                     due - steady_clock::now(), std::chrono::milliseconds(20)));
+            if (wrong.contains("gone") || wrong.contains("eio"))
+                return lose(wrong.contains("gone") ? ENODEV : EIO);
             if (wrong.contains("skip") && !before.contains("skip"))
                 number += static_cast<std::uint32_t>(wrong.at("skip"));
             if (wrong.contains("restart") && !before.contains("restart")) number = 0;
@@ -227,11 +228,24 @@ private:
         }
     }
 
+    /// Whoever waits for pictures wakes up and finds the error.
+    void lose(int error) {
+        lostError_ = error;
+        isLost_ = true;
+        const std::uint64_t one = 1;
+        static_cast<void>(!write(fd_, &one, sizeof one));
+    }
+
     /// False without a free buffer.
     bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number) {
-        if (!wrong.contains("repeat")) paint(i);
+        const std::int64_t us = mfar::pretended::microsecondsNow();
         const std::lock_guard lock(mutex_);
         if (free_.empty() || wrong.contains("hang")) return false;
+        if (!wrong.contains("repeat") || picture_.empty()) {
+            picture_.resize(bytes_);
+            mfar::pretended::paint(picture_, i);
+            if (!wrong.contains("plain")) mfar::pretended::stamp(picture_, width_, us / 1000);
+        }
         const std::uint32_t index = free_.front();
         free_.pop_front();
         void* to = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, memory_,
@@ -251,13 +265,11 @@ private:
         said.bytesused = said.length - (isDue("short") ? 4096 : 0);
         said.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
         if (isDue("error")) said.flags |= V4L2_BUF_FLAG_ERROR;
-        timespec now{};
-        clock_gettime(CLOCK_MONOTONIC, &now);
-        std::int64_t us = now.tv_sec * 1'000'000LL + now.tv_nsec / 1000;
-        if (isDue("backward")) us -= 200'000;
-        if (isDue("future")) us += 3'600'000'000LL;
-        said.timestamp.tv_sec = us / 1'000'000;
-        said.timestamp.tv_usec = us % 1'000'000;
+        std::int64_t stamp = us;
+        if (isDue("backward")) stamp -= 200'000;
+        if (isDue("future")) stamp += 3'600'000'000LL;
+        said.timestamp.tv_sec = stamp / 1'000'000;
+        said.timestamp.tv_usec = stamp % 1'000'000;
         buffers_[index] = said;
         filled_.push_back(index);
         const std::uint64_t one = 1;
@@ -265,27 +277,19 @@ private:
         return true;
     }
 
-    void paint(std::uint64_t i) {
-        std::uint64_t random = i * 0x9e3779b97f4a7c15ULL;
-        const auto gray = static_cast<std::uint8_t>(64 + i % 64);
-        for (std::size_t at = 0; at < picture_.size(); at += 2) {
-            random ^= random << 13;
-            random ^= random >> 7;
-            random ^= random << 17;
-            picture_[at] = static_cast<std::uint8_t>(gray + (random & 15));
-            picture_[at + 1] = 128;
-        }
-    }
-
-    const std::string file_, name_;
+    const mfar::pretended::WordFile words_;
+    const std::string name_;
     const double plug_;  ///< the word "unplug" when it was opened
     const int fd_;       ///< readable as often as there are filled buffers; closed by the program
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
-    std::atomic<bool> running_{false};
+    int width_ = 0;
+    std::atomic<bool> running_{false}, isLost_{false};
+    std::atomic<int> lostError_{0};
     std::thread maker_;
     std::vector<std::uint8_t> picture_;
+    std::optional<std::int64_t> lastGood_;
     std::mutex mutex_;
     std::vector<v4l2_buffer> buffers_;
     std::deque<std::uint32_t> free_, filled_;
@@ -304,14 +308,19 @@ std::shared_ptr<Device> deviceOf(int fd) {
     return at == devices().end() ? nullptr : at->second;
 }
 
-int openDevice(const char* path) {
+/// Its descriptor, -1 with errno for one that cannot be opened; nothing for any other file.
+std::optional<int> openDevice(const char* path) {
     const char* folder = std::getenv("MFAR_PRETENDED_V4L2");
-    if (folder == nullptr || std::strncmp(path, "/dev/", 5) != 0) return -1;
+    if (folder == nullptr || std::strncmp(path, "/dev/", 5) != 0) return std::nullopt;
     const std::string name = path + 5;
     const std::string file = std::string(folder) + "/" + name;
-    if (name.find('/') != std::string::npos || access(file.c_str(), R_OK) != 0) return -1;
-    waitWhile(file, "hang-open");
+    if (name.find('/') != std::string::npos || access(file.c_str(), R_OK) != 0) return std::nullopt;
     auto device = std::make_shared<Device>(file, name);
+    if (const int error = device->open()) {
+        syscall(SYS_close, device->fd());
+        errno = error;
+        return -1;
+    }
     const std::lock_guard lock(devicesMutex);
     devices()[device->fd()] = device;
     return device->fd();
@@ -325,8 +334,7 @@ void* mapFile(void* at, std::size_t length, int protection, int flags, int fd, o
 }
 
 int openFile(const char* path, int flags, mode_t mode) {
-    const int pretended = openDevice(path);
-    if (pretended >= 0) return pretended;
+    if (const std::optional<int> pretended = openDevice(path)) return *pretended;
     return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
 }
 
@@ -375,7 +383,6 @@ void* mmap64(void* at, std::size_t length, int protection, int flags, int fd,
 
 // A descriptor that is closed may come back as any other file.
 int close(int fd) {
-    if (const auto device = deviceOf(fd)) waitWhile(device->file(), "hang-close");
     std::shared_ptr<Device> closed;
     {
         const std::lock_guard lock(devicesMutex);
@@ -385,6 +392,7 @@ int close(int fd) {
             devices().erase(at);
         }
     }
+    if (closed) closed->waitWhile("hang-close");
     closed.reset();
     return static_cast<int>(syscall(SYS_close, fd));
 }

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <linux/videodev2.h>
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <time.h>
+
+namespace mfar::pretended {
+
+/// What a program has taken from a camera and has to refuse.
+struct Refusable {
+    std::uint64_t broken = 0;    ///< flagged or short
+    std::uint64_t badTimes = 0;  ///< ahead of now, of long ago, or not after the one before
+};
+
+inline std::int64_t microsecondsNow() {
+    timespec t{};
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return t.tv_sec * 1'000'000LL + t.tv_nsec / 1000;
+}
+
+inline std::int64_t microseconds(const timeval& t) {
+    return t.tv_sec * 1'000'000LL + t.tv_usec;
+}
+
+/// Of all cameras by their names, over all times that they were opened. Thread-safe.
+class RefusableCounts {
+public:
+    static RefusableCounts& get() {
+        static auto* all = new RefusableCounts;  // threads outlive main()
+        return *all;
+    }
+    [[nodiscard]] Refusable of(const std::string& camera) {
+        const std::lock_guard lock(mutex_);
+        return counts_[camera];
+    }
+    /// `lastGood`: the time of the last that need not be refused, since the camera was opened.
+    void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
+             std::optional<std::int64_t>& lastGood) {
+        constexpr std::int64_t kAhead = 50'000, kOldest = 10'000'000;
+        const std::int64_t now = microsecondsNow();
+        const std::int64_t stamp = microseconds(taken.timestamp);
+        const bool isBad =
+            stamp > now + kAhead || stamp < now - kOldest || (lastGood && stamp <= *lastGood);
+        const bool isBroken = (taken.flags & V4L2_BUF_FLAG_ERROR) != 0 || taken.bytesused < whole;
+        if (!isBad && !isBroken) lastGood = stamp;
+        const std::lock_guard lock(mutex_);
+        Refusable& counts = counts_[camera];
+        counts.broken += isBroken ? 1 : 0;
+        counts.badTimes += isBad && !isBroken ? 1 : 0;
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<std::string, Refusable> counts_;
+};
+
+}  // namespace mfar::pretended

@@ -1,0 +1,243 @@
+// Runs a schedule of faults within mfard's process, and asks it all the time how it is. Part of the
+// library that is preloaded: it begins before main() and ends with the process.
+
+#include "daemon/tools/control_client.h"
+#include "tests/faults/board.h"
+#include "tests/faults/judge.h"
+#include "tests/faults/plan.h"
+#include "tests/faults/real_calls.h"
+
+#include <fmt/format.h>
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace mfar::faults {
+namespace {
+
+constexpr Ns kEndTime = 3 * kSecond;    ///< from SIGTERM to the end
+constexpr Ns kReadyTime = 5 * kSecond;  ///< from the start, whatever devices do
+/// Between episodes: what may be late has come, and mfard is watched while all is well.
+constexpr Ns kQuiet = 4500 * kMs;
+
+long numberOf(const char* variable, long otherwise) {
+    const char* text = std::getenv(variable);
+    return text != nullptr ? std::strtol(text, nullptr, 10) : otherwise;
+}
+
+void sleepFor(Ns time) {
+    std::this_thread::sleep_for(std::chrono::nanoseconds(std::max<Ns>(time, 0)));
+}
+
+void sleepUntil(Ns time) {
+    sleepFor(time - Scheduler::get().now());
+}
+
+void askAlways() {
+    for (;;) {
+        sleepFor(static_cast<Ns>(50 + Scheduler::get().random() % 300) * kMs);
+        const Ns asked = Scheduler::get().now();
+        if (!Judge::get().isReady()) continue;
+        try {
+            Judge::get().status(ask(Board::kSocket, {{"command", "status"}}).body, asked);
+        } catch (const std::exception& error) {
+            Judge::get().answersNot(error.what(), asked);
+        }
+    }
+}
+
+struct Step {
+    Ns at;
+    const Fault* fault;
+    bool begins;
+};
+
+std::vector<Step> stepsOf(const Episode& episode) {
+    std::vector<Step> steps;
+    for (const Fault& fault : episode) {
+        // A loose plug is in and out.
+        const int times = fault.kind->name.ends_with("loose plug") ? 5 : 1;
+        for (int i = 0; i < times; ++i) {
+            const Ns part = fault.length / (2 * times - 1);
+            const Ns begin = fault.begin + 2 * i * part;
+            steps.push_back({begin, &fault, true});
+            steps.push_back({begin + part, &fault, false});
+        }
+    }
+    std::ranges::stable_sort(steps, {}, &Step::at);
+    return steps;
+}
+
+/// Asks for what may be refused, as another fault may be in the way.
+void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-param): of a thread
+    try {
+        static_cast<void>(ask(Board::kSocket, what));
+    } catch (const std::exception& error) {
+        Judge::get().note(error.what());
+    }
+}
+
+// A disk that fails does so under a recording.
+void apply(const Step& step) {
+    static int recordings = 0;
+    const bool ofDisk = step.fault->kind->where == Where::Disk;
+    if (step.begins) {
+        if (ofDisk) {
+            const std::string name = Board::kRecording + std::to_string(++recordings);
+            request({{"command", "record"}, {"name", name}});
+            sleepFor(300 * kMs);
+        }
+        Judge::get().begins(*step.fault);
+        Board::get().begin(*step.fault);
+    } else {
+        Board::get().end(*step.fault);
+        // Which waits for the disk, as another fault may hold it.
+        if (ofDisk)
+            std::thread(request, nlohmann::json{{"command", "record"}, {"stop", true}}).detach();
+        Judge::get().ends(*step.fault);
+    }
+}
+
+void checkRecordings() {
+    for (const auto& folder : std::filesystem::directory_iterator(".")) {
+        if (!folder.path().filename().string().starts_with(Board::kRecording)) continue;
+        Judge::get().recording(folder.path().string());
+        std::filesystem::remove_all(folder.path());
+    }
+}
+
+void checkGrowth(std::uint64_t moreBytes = 8U << 20U) {
+    for (int i = 0; i < 5; ++i) {
+        if (Judge::get().holdsNoMore(moreBytes)) return;
+        sleepFor(70 * kMs);
+    }
+    Judge::get().fail("memory, descriptors or threads have grown");
+}
+
+void checkInQuiet() {
+    checkGrowth();
+    checkRecordings();
+    try {
+        Judge::get().stats(ask(Board::kSocket, {{"command", "stats"}}).body);
+    } catch (const std::exception& error) {
+        Judge::get().fail(std::string("stats: ") + error.what());
+    }
+}
+
+[[noreturn]] void terminate() {
+    Judge::get().terminated();
+    kill(getpid(), SIGTERM);
+    sleepFor(kEndTime);
+    Judge::get().ended(0, false);
+    real().exitNow(1);
+    __builtin_unreachable();
+}
+
+void runEpisode(const Episode& episode, Ns begin) {
+    Judge::get().count("episodes", 1);
+    for (const Fault& fault : episode)
+        Judge::get().note("episode: " + fault.text());
+    for (const Step& step : stepsOf(episode)) {
+        sleepUntil(begin + step.at);
+        apply(step);
+    }
+    sleepFor(kQuiet);
+}
+
+/// The end may come in the midst of it.
+void runLast(const Plan& plan) {
+    const Ns begin = Scheduler::get().now();
+    std::thread([at = begin + plan.endAfter, isKilled = plan.isKilled] {
+        sleepUntil(at);
+        if (!isKilled) terminate();
+        Judge::get().note("KILLED");
+        kill(getpid(), SIGKILL);
+    }).detach();
+    runEpisode(plan.episodes.back(), begin);
+    sleepFor(kSecond * 3600);
+}
+
+void run(const Plan& plan) {
+    for (std::size_t i = plan.beginsBroken ? 1 : 0; i + 1 < plan.episodes.size(); ++i) {
+        runEpisode(plan.episodes[i], Scheduler::get().now());
+        checkInQuiet();
+    }
+    runLast(plan);
+}
+
+/// Without faults, for as many pictures. Memory may grow in the first minutes.
+[[noreturn]] void soak(std::uint64_t frames) {
+    constexpr std::uint64_t kMoreBytes = 1U << 20U;
+    sleepFor(120 * kSecond);
+    while (Judge::get().frames() < frames) {
+        checkGrowth(kMoreBytes);
+        sleepFor(60 * kSecond);
+    }
+    checkGrowth(kMoreBytes);
+    terminate();
+}
+
+const Plan& plan() {
+    static const Plan drawn =
+        Plan::drawn(static_cast<std::uint64_t>(numberOf("MFAR_FAULTS_SEED", 1)),
+                    static_cast<int>(numberOf("MFAR_FAULTS_EPISODES", 10)));
+    return drawn;
+}
+
+void awaitReady() {
+    const Ns begin = Scheduler::get().now();
+    while (!Judge::get().isReady())
+        sleepFor(10 * kMs);
+    if (Scheduler::get().now() - begin > kReadyTime) Judge::get().fail("it is ready late");
+}
+
+/// After a process that was killed in the same folder.
+[[noreturn]] void runAfterKill() {
+    awaitReady();
+    sleepFor(kQuiet);
+    if (Judge::get().frames() == 0) Judge::get().fail("there is no picture after a kill");
+    checkInQuiet();
+    terminate();
+}
+
+void direct() {
+    if (std::getenv("MFAR_FAULTS_AFTER_KILL") != nullptr) runAfterKill();
+    const long frames = numberOf("MFAR_FAULTS_SOAK", 0);
+    const bool endsAtOnce = plan().episodes.size() == 1;
+    if (frames == 0 && plan().beginsBroken && !endsAtOnce) {
+        std::thread(awaitReady).detach();
+        runEpisode(plan().episodes.front(), Scheduler::get().now());
+    } else {
+        awaitReady();
+        if (!endsAtOnce) sleepFor(kQuiet);
+    }
+    if (frames > 0) soak(static_cast<std::uint64_t>(frames));
+    if (!endsAtOnce) checkGrowth();
+    run(plan());
+}
+
+__attribute__((constructor)) void begin() {
+    Judge::get();
+    Board::get().setUp(plan().mode);
+    // Signals are for mfard's own threads.
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    std::thread(direct).detach();
+    // It begins first, as its faults may be there before everything else.
+    Scheduler::get().yield();
+    for (void (*work)() : {&runScreen, &askAlways})
+        std::thread(work).detach();
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+}  // namespace
+}  // namespace mfar::faults

@@ -1,0 +1,288 @@
+#include "tests/faults/judge.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <utility>
+
+namespace mfar::faults {
+namespace {
+
+using nlohmann::ordered_json;
+
+// What the product promises, see daemon/budgets.h and the service's unit.
+constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
+constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
+constexpr Ns kRepeats = 200 * kMs;  ///< some pictures
+constexpr Ns kLookTime = kSecond;   ///< how often mfard looks at its threads
+constexpr Ns kSameLine = 10 * kSecond;
+constexpr std::uint64_t kProvenFrames = 10;
+/// Of measuring: pictures have periods, answers take time.
+constexpr Ns kSlack = 100 * kMs;
+constexpr Ns kOnScreen = 500 * kMs;  ///< the age of a picture while all is well
+constexpr Ns kAnswer = kSecond;
+
+std::string seconds(Ns time) {
+    return fmt::format("{:.3f} s", static_cast<double>(time) * 1e-9);
+}
+
+Ns now() {
+    return Scheduler::get().now();
+}
+
+std::uint64_t entries(const char* folder) {
+    return static_cast<std::uint64_t>(
+        std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+std::uint64_t residentBytes() {
+    std::uint64_t all = 0, resident = 0;
+    std::ifstream("/proc/self/statm") >> all >> resident;
+    return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::string textOf(const ordered_json& said, const char* key) {
+    const auto found = said.find(key);
+    return found != said.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+}  // namespace
+
+Judge& Judge::get() {
+    static auto* judge = new Judge;  // threads outlive main()
+    return *judge;
+}
+
+Judge::Judge() {
+    if (const char* file = std::getenv("MFAR_FAULTS_REPORT"))
+        report_ = open(file, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+}
+
+void Judge::note(const std::string& text) {
+    const Ns time = now() - 1000 * kSecond;
+    dprintf(report_, "%s\n",
+            fmt::format("{:12.6f} {}", static_cast<double>(time) * 1e-9, text).c_str());
+}
+
+void Judge::fail(const std::string& text) {
+    if (++failures_ <= 20) note("FAILED: " + text);
+}
+
+void Judge::count(const std::string& what, std::uint64_t number) {
+    dprintf(report_, "COUNT %s %llu\n", what.c_str(), static_cast<unsigned long long>(number));
+}
+
+void Judge::change(const Fault& fault, int by) {
+    const Kind& kind = *fault.kind;
+    const bool stops = kind.effect == Effect::StopsDevice || kind.effect == Effect::HangsDriver ||
+                       kind.effect == Effect::Repeats;
+    const auto touch = [&](Watched which, bool does) {
+        if (does) calm_[which].add(by, now());
+    };
+    touch(All, true);
+    touch(Video, kind.where == Where::Video && stops);
+    touch(Still, kind.where == Where::Still && stops);
+    touch(Screen, kind.effect == Effect::StopsReader);
+    touch(Slow, kind.effect == Effect::Slows);
+    touch(VideoDevice, kind.where == Where::Video && stops && kind.effect != Effect::Repeats);
+}
+
+void Judge::begins(const Fault& fault) {
+    // One that is not open hangs its opener, which may take far longer.
+    const bool wasSound = calm_[VideoDevice].lasts(kBack, now());
+    const int before = calm_[VideoDevice].active;
+    change(fault, 1);
+    if (calm_[VideoDevice].active > before) hangs_.reset();
+    if (fault.kind->where == Where::Video && fault.kind->effect == Effect::HangsDriver && wasSound)
+        hangs_ = now();
+    note(std::string(fault.kind->name) + " begins");
+}
+
+void Judge::ends(const Fault& fault) {
+    change(fault, -1);
+    if (calm_[VideoDevice].active == 0) hangs_.reset();
+    note(std::string(fault.kind->name) + " ends");
+}
+
+void Judge::shows(Ns taken) {
+    ++frames_;
+    if (shown_ && taken < *shown_) fail("an older picture follows a newer one");
+    shown_ = taken;
+}
+
+// Before the first picture there is none that could be stale.
+Ns Judge::age(Ns at) const {
+    return shown_ ? at - *shown_ : 0;
+}
+
+/// For how long the video camera has sent nothing, because of its fault.
+Ns Judge::missing(Ns at) const {
+    const Calm& device = calm_[VideoDevice];
+    return device.active > 0 ? std::min(age(at), at - device.since) : 0;
+}
+
+void Judge::status(const ordered_json& said, Ns asked) {
+    ++asked_;
+    if (now() - asked > kAnswer && calm_[Slow].lasts(kBack, now()))
+        fail("an answer took " + seconds(now() - asked));
+    if (isEnding() || !isReady()) return;
+    judgeState(said, asked);
+    judgeBlame(textOf(said, "fault"), asked);
+}
+
+void Judge::judgeState(const ordered_json& said, Ns asked) {
+    const std::string state = textOf(said.value("health", ordered_json::object()), "state");
+    const std::string fault = textOf(said, "fault");
+    const bool isFine = state == "ok" && fault.empty();
+    // A pipe that is not read takes some pictures, and then one for as long as a writer may need.
+    const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
+    // That a camera repeats itself is known after some pictures.
+    const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
+    const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
+                         (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
+    if (age(asked) > kStale + kSlack && isFine && isKnown)
+        fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
+    if (missing(asked) > kMarked + kSlack && isFine)
+        fail("the video camera has sent nothing for " + seconds(missing(asked)) +
+             ", status says ok");
+    if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
+    if (!isFine)
+        fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
+                         seconds(asked - calm_[All].since), state, fault,
+                         said.value("health", ordered_json::object()).dump()));
+    if (age(asked) > kOnScreen)
+        fail("nothing has been wrong for " + seconds(asked - calm_[All].since) +
+             ", the screen's picture is " + seconds(age(asked)) + " old");
+}
+
+// One camera's fault is none of the other.
+void Judge::judgeBlame(const std::string& fault, Ns asked) {
+    if (!calm_[Slow].lasts(kBack, asked)) return;
+    const bool video = calm_[Video].lasts(kBack + kSlack, asked);
+    const bool still = calm_[Still].lasts(kBack + kSlack, asked);
+    if (video && fault.find("video camera") != fault.npos)
+        fail("the video camera is blamed: " + fault);
+    if (still && fault.find("still camera") != fault.npos)
+        fail("the still camera is blamed: " + fault);
+    if (video && calm_[Screen].lasts(kBack, asked) && shown_ && age(asked) > kOnScreen)
+        fail("the video camera is sound, the screen's picture is " + seconds(age(asked)) + " old");
+}
+
+void Judge::answersNot(const std::string& why, Ns asked) {
+    if (isEnding() || !isReady() || !calm_[Slow].lasts(kBack, now())) return;
+    fail(fmt::format("no answer after {}: {}", seconds(now() - asked), why));
+}
+
+void Judge::serviceHears(std::string_view text) {
+    if (text.starts_with("READY=1") && !ready_) {
+        ready_ = now();
+        for (Calm& calm : calm_)
+            calm.since = now();
+        note("READY");
+    }
+    if (text.starts_with("WATCHDOG=1")) fed();
+}
+
+void Judge::fed() {
+    ++meals_;
+    if (isEnding()) return;
+    const Ns before = fed_.value_or(now());
+    fed_ = now();
+    if (frames_ < kProvenFrames || !calm_[Slow].lasts(kBack, now())) return;
+    if (now() - before > kLookTime + kSlack && calm_[All].lasts(kBack + kSlack + kLookTime, now()))
+        fail("nothing is wrong, and the watchdog was not fed for " + seconds(now() - before));
+    if (hangs_ && missing(now()) > kVideoBudget + kSlack)
+        fail("the watchdog is fed while the video driver hangs for " + seconds(missing(now())));
+    const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now());
+    if (age(now()) > kStale + kSlack && !isNamed)
+        fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
+}
+
+// What is said because somebody asked is said each time.
+void Judge::logSays(std::string_view text) {
+    logBytes_ += text.size();
+    std::string all(text.substr(0, text.find_last_not_of('\n') + 1));
+    note("log: " + std::regex_replace(all, std::regex("\n"), "\n             log: "));
+    // At the end, what was kept back is said.
+    if (isEnding() || all.find("mfard.toml") != all.npos) return;
+    // Without how long it has lasted, and that it has been kept back.
+    const std::string event =
+        std::regex_replace(all, std::regex(R"( \((degraded|stalled|once)[^)]*\))"), "");
+    const auto before = logged_.find(event);
+    if (before != logged_.end() && now() - before->second < kSameLine - kSlack)
+        fail("the log says the same after " + seconds(now() - before->second));
+    logged_[event] = now();
+}
+
+void Judge::terminated() {
+    terminated_ = now();
+    note("SIGTERM");
+}
+
+void Judge::ended(int code, bool inTime) {
+    if (!inTime) fail("it does not end");
+    if (code != 0) fail(fmt::format("it ends with {}", code));
+    if (terminated_)
+        count("ms from SIGTERM to the end",
+              static_cast<std::uint64_t>((now() - *terminated_) / kMs));
+    count("frames", frames_);
+    count("answers", asked_);
+    count("meals", meals_);
+    count("turns", Scheduler::get().turns());
+    count("log bytes", logBytes_);
+    count("simulated ms", static_cast<std::uint64_t>(now() / kMs - 1'000'000));
+    note(fmt::format("ENDED with {}", code));
+}
+
+void Judge::stats(const ordered_json& said) {
+    using Refusable = void (*)(const char*, std::uint64_t*, std::uint64_t*);
+    const auto refusable =
+        reinterpret_cast<Refusable>(dlsym(RTLD_DEFAULT, "mfar_pretended_refusable"));
+    for (const auto& [camera, device] : {std::pair("video", "video90"), {"still", "video91"}}) {
+        std::uint64_t broken = 0, badTimes = 0;
+        refusable(device, &broken, &badTimes);
+        const ordered_json& counted = said.at("cameras").at(camera);
+        if (counted.at("broken") != broken || counted.at("bad_times") != badTimes)
+            fail(fmt::format("the {} camera has sent {} broken pictures and {} bad times, counted "
+                             "are {} and {}",
+                             camera, broken, badTimes, counted.at("broken").dump(),
+                             counted.at("bad_times").dump()));
+    }
+}
+
+void Judge::recording(const std::string& folder) {
+    const std::filesystem::path camera = std::filesystem::path(folder) / "cam0";
+    std::ifstream list(camera / "data.csv");
+    std::uint64_t pictures = 0;
+    std::string line;
+    while (std::getline(list, line)) {
+        if (line.starts_with("#")) continue;
+        const std::string name = line.substr(line.find(',') + 1);
+        std::error_code error;
+        if (std::filesystem::file_size(camera / "data" / name, error) == 0 || error)
+            fail("a recording names " + name + ", which is not there");
+        ++pictures;
+    }
+    note(fmt::format("{} has {} pictures", folder, pictures));
+}
+
+bool Judge::holdsNoMore(std::uint64_t moreBytes) {
+    const std::array<std::uint64_t, 3> is{entries("/proc/self/fd"), entries("/proc/self/task"),
+                                          residentBytes()};
+    if (!first_) first_ = is;
+    const auto& first = *first_;
+    note(fmt::format("has {} descriptors, {} threads, {} KB; at first {}, {}, {}", is[0], is[1],
+                     is[2] >> 10U, first[0], first[1], first[2] >> 10U));
+    return is[0] <= first[0] && is[1] <= first[1] && is[2] <= first[2] + moreBytes;
+}
+
+}  // namespace mfar::faults

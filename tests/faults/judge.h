@@ -1,0 +1,87 @@
+#pragma once
+
+#include "tests/faults/plan.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mfar::faults {
+
+/// Holds what mfard says of itself against what is so. Each rule that is broken is a line of the
+/// report. Its functions are called by one thread at a time, see Scheduler.
+class Judge {
+public:
+    /// The process's own; writes to the file that MFAR_FAULTS_REPORT names.
+    static Judge& get();
+
+    // What is so.
+    void begins(const Fault& fault);
+    void ends(const Fault& fault);
+    /// The screen shows a picture, taken at this time.
+    void shows(Ns taken);
+
+    // What mfard does and says.
+    void serviceHears(std::string_view text);
+    void logSays(std::string_view text);
+    void status(const nlohmann::ordered_json& said, Ns asked);
+    void answersNot(const std::string& why, Ns asked);
+    void terminated();  ///< it has been asked to end
+    void ended(int code, bool inTime);
+    /// While nothing is wrong: what cameras have sent that is to be refused, as stats has it.
+    void stats(const nlohmann::ordered_json& said);
+    /// A recording that has ended can be read.
+    void recording(const std::string& folder);
+    /// Memory, descriptors and threads while nothing is wrong; the first call says what may be.
+    /// False where there is more: what is still being answered may end soon.
+    [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
+
+    void note(const std::string& text);
+    void fail(const std::string& text);
+    void count(const std::string& what, std::uint64_t number);
+
+    [[nodiscard]] bool isReady() const { return ready_.has_value(); }
+    [[nodiscard]] bool isEnding() const { return terminated_.has_value(); }
+    [[nodiscard]] std::uint64_t frames() const { return frames_; }
+
+private:
+    /// Since when there has been no such fault; nothing while there is one.
+    struct Calm {
+        int active = 0;
+        Ns since = 0;
+        void add(int by, Ns now) {
+            active += by;
+            since = now;
+        }
+        [[nodiscard]] bool lasts(Ns time, Ns now) const {
+            return active == 0 && now - since > time;
+        }
+    };
+    enum Watched { All, Video, VideoDevice, Still, Screen, Slow, WatchedCount };
+
+    Judge();
+    [[nodiscard]] Ns age(Ns now) const;
+    [[nodiscard]] Ns missing(Ns now) const;
+    void judgeState(const nlohmann::ordered_json& said, Ns asked);
+    void judgeBlame(const std::string& fault, Ns asked);
+    void fed();
+    void change(const Fault& fault, int by);
+
+    int report_ = 2;
+    std::array<Calm, WatchedCount> calm_{};
+    std::optional<Ns> ready_, terminated_, shown_, fed_;
+    std::optional<Ns>
+        hangs_;  ///< since when the video driver does, while nothing else is wrong with it
+    std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
+    std::map<std::string, Ns> logged_;
+    std::uint64_t logBytes_ = 0;
+    std::optional<std::array<std::uint64_t, 3>> first_;  ///< descriptors, threads, bytes
+};
+
+}  // namespace mfar::faults

@@ -1,0 +1,123 @@
+#include "tests/faults/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+
+namespace mfar::faults {
+namespace {
+
+using enum Where;
+using enum Effect;
+
+// Those of cameras stand twice: of the video and of the still camera.
+constexpr std::array kKinds = {
+    Kind{"video silent", Video, StopsDevice, "silent"},
+    Kind{"video hangs", Video, HangsDriver, "hang"},
+    Kind{"video repeats", Video, Repeats, "repeat"},
+    Kind{"video unplugged", Video, StopsDevice, "gone"},
+    Kind{"video loose plug", Video, StopsDevice, "gone"},
+    Kind{"video i/o error", Video, StopsDevice, "eio"},
+    Kind{"video closes never", Video, StopsDevice, "gone hang-close"},
+    Kind{"video opens never", Video, StopsDevice, "gone hang-open"},
+    Kind{"video opens slowly", Video, StopsDevice, "gone slow *", 100, 1500},
+    Kind{"video few buffers", Video, StopsDevice, "gone buffers *", 1, 4},
+    Kind{"video broken frames", Video, None, "error *", 2, 9},
+    Kind{"video short frames", Video, None, "short *", 2, 9},
+    Kind{"video backward times", Video, None, "backward *", 2, 9},
+    Kind{"video huge times", Video, None, "future *", 2, 9},
+    Kind{"video gap", Video, None, "skip *", 1, 100},
+    Kind{"video numbers anew", Video, None, "restart"},
+    Kind{"video rate", Video, None, "rate *", 10, 60},
+    Kind{"still silent", Still, StopsDevice, "silent"},
+    Kind{"still hangs", Still, HangsDriver, "hang"},
+    Kind{"still repeats", Still, Repeats, "repeat"},
+    Kind{"still unplugged", Still, StopsDevice, "gone"},
+    Kind{"still loose plug", Still, StopsDevice, "gone"},
+    Kind{"still i/o error", Still, StopsDevice, "eio"},
+    Kind{"still closes never", Still, StopsDevice, "gone hang-close"},
+    Kind{"still opens never", Still, StopsDevice, "gone hang-open"},
+    Kind{"still opens slowly", Still, StopsDevice, "gone slow *", 100, 1500},
+    Kind{"still few buffers", Still, StopsDevice, "gone buffers *", 1, 4},
+    Kind{"still broken frames", Still, None, "error *", 2, 9},
+    Kind{"still short frames", Still, None, "short *", 2, 9},
+    Kind{"still backward times", Still, None, "backward *", 2, 9},
+    Kind{"still huge times", Still, None, "future *", 2, 9},
+    Kind{"still gap", Still, None, "skip *", 1, 100},
+    Kind{"reader stalls", Reader, StopsReader, ""},
+    Kind{"idle clients", Clients, None, "", 1, 20},
+    Kind{"bad configuration", Configuration, None, "", 0, 5},
+    Kind{"configuration again", Configuration, None, "", 100, 101},
+    Kind{"wall clock steps", Wall, None, "", 0, 3},
+    Kind{"disk full", Disk, None, "", 0, 0},
+    Kind{"disk hangs", Disk, None, "", 1, 1},
+    Kind{"no descriptors", Descriptors, Slows, "", 0, 3},
+    Kind{"slow machine", Machine, Slows, "", 10, 200},
+};
+
+/// Those by which a picture can stand still come three times as often.
+const Kind& drawnKind(std::mt19937_64& random) {
+    for (;;) {
+        const Kind& kind = kKinds[random() % kKinds.size()];
+        const bool canStop = kind.where == Video && kind.effect != None;
+        if (canStop || random() % 3 == 0) return kind;
+    }
+}
+
+Fault drawnFault(std::mt19937_64& random) {
+    const auto below = [&](std::uint64_t end) { return random() % end; };
+    Fault out;
+    out.kind = &drawnKind(random);
+    out.begin = static_cast<Ns>(below(1500)) * kMs;
+    // From 30 ms to 10 s, half of them above 1.8 s.
+    const double octave = static_cast<double>(std::max(below(1000), below(1000))) / 1000;
+    out.length = static_cast<Ns>(30e6 * std::pow(333.0, octave));
+    out.number =
+        out.kind->least +
+        static_cast<int>(below(static_cast<std::uint64_t>(out.kind->most - out.kind->least) + 1));
+    return out;
+}
+
+}  // namespace
+
+std::span<const Kind> kinds() {
+    return kKinds;
+}
+
+std::string Fault::text() const {
+    std::string out =
+        fmt::format("{} from {:.3f} s for {:.3f} s", kind->name, static_cast<double>(begin) * 1e-9,
+                    static_cast<double>(length) * 1e-9);
+    if (kind->most > 0) out += fmt::format(" ({})", number);
+    return out;
+}
+
+Plan Plan::drawn(std::uint64_t seed, int episodes) {
+    std::mt19937_64 random(seed);
+    Plan out;
+    constexpr std::array<std::string_view, 3> kModes = {"off", "detail", "blend"};
+    out.beginsBroken = random() % 4 == 0;
+    out.mode = kModes[random() % kModes.size()];
+    // SIGTERM may come at once, while all is being set up.
+    const bool endsEarly = random() % 8 == 0;
+    if (endsEarly) episodes = 1;
+    for (int i = 0; i < episodes; ++i) {
+        Episode episode{drawnFault(random)};
+        if (random() % 2 == 0) episode.push_back(drawnFault(random));
+        out.episodes.push_back(std::move(episode));
+    }
+    out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;
+    out.isKilled = random() % 6 == 0;
+    // Without descriptors nothing can begin.
+    for (const Fault& fault : out.episodes.front())
+        if (fault.kind->where == Descriptors) out.beginsBroken = false;
+    if (out.beginsBroken)
+        for (Fault& fault : out.episodes.front())
+            fault.begin = 0;
+    return out;
+}
+
+}  // namespace mfar::faults

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "tests/faults/scheduler.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mfar::faults {
+
+enum class Where { Video, Still, Reader, Clients, Configuration, Wall, Disk, Descriptors, Machine };
+
+/// What a fault does to what is seen, which the judge goes by.
+enum class Effect {
+    None,         ///< pictures go on
+    StopsDevice,  ///< no new picture comes from the camera, and that is to be said
+    HangsDriver,  ///< the same, and a thread of mfard's hangs
+    Repeats,      ///< a camera sends one picture for ever
+    StopsReader,  ///< the screen takes nothing
+    Slows,        ///< nothing can be said of times
+};
+
+struct Kind {
+    std::string_view name;
+    Where where;
+    Effect effect;
+    std::string_view words;   ///< of a camera's file; * is a number
+    int least = 0, most = 0;  ///< that number
+};
+
+struct Fault {
+    const Kind* kind = nullptr;
+    Ns begin = 0, length = 0;  ///< after the begin of its episode
+    int number = 0;
+    [[nodiscard]] std::string text() const;
+};
+
+/// One fault or two that overlap, and time to recover.
+using Episode = std::vector<Fault>;
+
+struct Plan {
+    bool beginsBroken = false;  ///< the first episode begins before the program
+    std::string_view mode;      ///< of super-resolution
+    std::vector<Episode> episodes;
+    Ns endAfter = 0;        ///< the signal, so long after the begin of the last episode
+    bool isKilled = false;  ///< with SIGKILL instead of SIGTERM; then it is started once more
+
+    [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes);
+};
+
+[[nodiscard]] std::span<const Kind> kinds();
+
+}  // namespace mfar::faults
