@@ -48,26 +48,35 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
 /// Reads each model once, however many objects show it.
 class ModelReader {
 public:
-    explicit ModelReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    ModelReader(std::filesystem::path folder, FileMemory& memory)
+        : folder_(std::move(folder)), memory_(memory) {}
 
     /// Throws ModelError.
     std::shared_ptr<const Model> operator()(std::string_view name) {
-        std::shared_ptr<const Model>& known = models_[std::string(name)];
-        if (!known) known = std::make_shared<const Model>(load(name));
+        // One file has many names.
+        std::error_code error;
+        const std::filesystem::path file = std::filesystem::weakly_canonical(folder_ / name, error);
+        std::shared_ptr<const Model>& known = models_[error ? folder_ / name : file];
+        if (!known) {
+            known = std::make_shared<const Model>(load(name));
+            memory_.take(memoryOf(*known));
+        }
         return known;
     }
 
 private:
     [[nodiscard]] Model load(std::string_view name) const {
         try {
-            return name == "showpiece" ? showpiece() : loadGltf(folder_ / name);
+            if (name == "showpiece") return showpiece();
+            return loadGltf(folder_ / name, limitsWithin(memory_.left()));
         } catch (const std::bad_alloc&) {
             throw ModelError((folder_ / name).string() + ": needs more memory than there is");
         }
     }
 
     std::filesystem::path folder_;
-    std::map<std::string, std::shared_ptr<const Model>> models_;
+    FileMemory& memory_;
+    std::map<std::filesystem::path, std::shared_ptr<const Model>> models_;
 };
 
 void readModel(TomlReader& file, const std::string& prefix, ModelReader& models,
@@ -113,9 +122,9 @@ PlacedObject readObject(TomlReader& file, const std::string& prefix, ModelReader
 
 }  // namespace
 
-void readObjects(TomlReader& file, const std::filesystem::path& folder,
+void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects) {
-    ModelReader models(folder);
+    ModelReader models(folder, memory);
     for (const std::string& prefix : file.sections("objects", kMostObjects))
         objects.push_back(readObject(file, prefix, models));
 }

@@ -103,7 +103,7 @@ struct SyntheticSource final : RigSource {
 
 struct PlayedSource final : RigSource {
     explicit PlayedSource(const Config& config)
-        : player(load(config.recording),
+        : player(load(config),
                  {.pace = playerPace(config.pace, SourcePace::Consumer), .asksVideoFirst = true}) {
         handOver = handOverAt(playerPace(config.pace, SourcePace::Consumer));
         failure = ExitCode::BadData;
@@ -113,11 +113,14 @@ struct PlayedSource final : RigSource {
         if (!player.recording().poses.empty())
             recordedPoses = [this](Timestamp t) { return player.recording().poseAt(t); };
     }
-    static Recording load(const std::filesystem::path& folder) {
+    static Recording load(const Config& config) {
+        const std::filesystem::path& folder = config.recording;
         if (!std::filesystem::is_directory(folder))
             throw Failure(ExitCode::NoInput, folder.string() + ": there is no such recording");
         try {
-            return loadRecording(folder);
+            Recording out = loadRecording(folder);
+            requireMemory(config.limits, out.rig.video.size, out.rig.still.size, folder.string());
+            return out;
         } catch (const RecordingError& error) {
             throw Failure(ExitCode::BadData, error.what());
         }
@@ -148,7 +151,11 @@ std::uint64_t lostBy(const Recorder& recorder) {
 
 std::unique_ptr<RigSource> openSource(const Config& config) {
     if (!config.recording.empty()) return std::make_unique<PlayedSource>(config);
-    if (config.source == kCameras) return std::make_unique<CamerasSource>(config.cameras);
+    if (config.source == kCameras) {
+        requireMemory(config.limits, config.cameras.video.size, config.cameras.still.size,
+                      kCameras);
+        return std::make_unique<CamerasSource>(config.cameras);
+    }
     if (const std::optional<std::string> fault = sourceFault(config.source))
         throw Failure(ExitCode::BadConfig, *fault);
     try {
