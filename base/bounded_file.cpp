@@ -20,9 +20,12 @@ namespace {
 }
 
 template <class Bytes>
-Bytes read(const std::filesystem::path& file, std::size_t most) {
+Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust) {
     // Not blocking: to open a pipe that nobody writes would wait.
-    const OwnedFd fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+    const int links = trust == FileTrust::OwnFile ? O_NOFOLLOW : 0;
+    const OwnedFd fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY | links));
+    if (fd.get() < 0 && errno == ELOOP && links != 0)
+        throw std::runtime_error("is a symbolic link");
     if (fd.get() < 0 && (errno == ENOENT || errno == ENOTDIR))
         throw std::runtime_error("is missing");
     // A socket or a device without a driver.
@@ -32,6 +35,8 @@ Bytes read(const std::filesystem::path& file, std::size_t most) {
     struct stat about{};
     if (fstat(fd.get(), &about) != 0) fail("cannot be read");
     if (!S_ISREG(about.st_mode)) throw std::runtime_error("is not a regular file");
+    if (trust == FileTrust::OwnFile && about.st_uid != geteuid())
+        throw std::runtime_error("is another user's");
     const auto size = static_cast<std::uintmax_t>(about.st_size);
     if (size > most)
         throw std::runtime_error(fmt::format("has {} bytes, at most {} are read", size, most));
@@ -51,11 +56,11 @@ Bytes read(const std::filesystem::path& file, std::size_t most) {
 }  // namespace
 
 std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file, std::size_t most) {
-    return read<std::vector<std::uint8_t>>(file, most);
+    return read<std::vector<std::uint8_t>>(file, most, FileTrust::Any);
 }
 
-std::string boundedText(const std::filesystem::path& file, std::size_t most) {
-    return read<std::string>(file, most);
+std::string boundedText(const std::filesystem::path& file, std::size_t most, FileTrust trust) {
+    return read<std::string>(file, most, trust);
 }
 
 }  // namespace mfar

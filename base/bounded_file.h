@@ -15,7 +15,14 @@ namespace mfar {
 [[nodiscard]] std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file,
                                                     std::size_t most);
 
+enum class FileTrust {
+    Any,
+    OwnFile,  ///< this user's, and its name no symbolic link: "is a symbolic link", "is another
+              ///< user's"
+};
+
 /// The same as text.
-[[nodiscard]] std::string boundedText(const std::filesystem::path& file, std::size_t most);
+[[nodiscard]] std::string boundedText(const std::filesystem::path& file, std::size_t most,
+                                      FileTrust trust = FileTrust::Any);
 
 }  // namespace mfar

@@ -2,7 +2,7 @@
 
 #include "base/bounded_file.h"
 #include "daemon/exit_code.h"
-#include "daemon/rig.h"
+#include "daemon/rig_words.h"
 #include "daemon/toml_reader.h"
 
 #include <array>

@@ -78,7 +78,7 @@ int millisecondsTo(Timestamp end) {
 
 ControlSocket::ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts)
     : path_(std::move(path)), handler_(std::move(handler)), hearts_(hearts),
-      listening_(listenAt(path_), "socket"),
+      operators_(operatorsGroup()), listening_(listenAt(path_), "socket"),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"), thread_([this] { serve(); }) {}
 
 ControlSocket::~ControlSocket() {
@@ -86,17 +86,6 @@ ControlSocket::~ControlSocket() {
     [[maybe_unused]] const ssize_t n = write(stop_.get(), &one, sizeof one);
     thread_.join();
     unlink(path_.c_str());
-}
-
-// False at the end of the time or of this object.
-bool ControlSocket::isReady(int fd, short events, int timeoutMs) const {
-    std::array<pollfd, 2> waiting{{{fd, events, 0}, {stop_.get(), POLLIN, 0}}};
-    const Timestamp end = Timestamp::now() + std::chrono::milliseconds(timeoutMs);
-    for (int left = timeoutMs;; left = millisecondsTo(end)) {
-        const int count = poll(waiting.data(), waiting.size(), left);
-        if (count < 0 && errno == EINTR) continue;
-        return count > 0 && waiting[1].revents == 0;
-    }
 }
 
 void ControlSocket::serve() {
@@ -111,13 +100,15 @@ void ControlSocket::serve() {
     };
     while (waits()) {
         for (Client& client : clients)
-            if (client.isReady) read(client);
-        if (heart) heart->rest();  // others have the answer, and clients take it when they like
+            if (client.isReady && !client.answer) read(client);
+        if (heart) heart->rest();  // others have the answer
         for (Client& client : clients)
-            if (client.isComplete) answer(client);
+            if (client.isComplete && !client.answer) answer(client);
         if (heart) heart->beat();
+        for (Client& client : clients)
+            if (client.isReady && client.answer) send(client);
         std::erase_if(clients, [](const Client& client) {
-            return client.isComplete || client.isGone || Timestamp::now() >= client.end;
+            return client.isGone || Timestamp::now() >= client.end;
         });
     }
 }
@@ -130,7 +121,8 @@ bool ControlSocket::waitFor(std::vector<Client>& clients) {
     waiting.push_back({clients.size() < kMostClients ? listening_.get() : -1, POLLIN, 0});
     int timeout = clients.empty() ? -1 : kRequestMs;
     for (const Client& client : clients) {
-        waiting.push_back({client.fd->get(), POLLIN, 0});
+        const short events = client.answer ? POLLOUT : POLLIN;
+        waiting.push_back({client.fd->get(), events, 0});
         timeout = std::min(timeout, millisecondsTo(client.end));
     }
     if (poll(waiting.data(), waiting.size(), timeout) < 0) return true;
@@ -144,10 +136,11 @@ bool ControlSocket::accept(std::vector<Client>& clients) {
     const int fd = accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (fd >= 0)
         clients.push_back({std::make_unique<Fd>(fd, "client"),
-                           Timestamp::now() + std::chrono::milliseconds(kRequestMs)});
+                           Timestamp::now() + std::chrono::milliseconds(kRequestMs),
+                           roleOfPeer(fd, operators_)});
     else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
         // The client stays in the queue, so the socket stays ready: without a pause, this spins.
-        return !isReady(stop_.get(), POLLIN, kPauseMs);
+        return pause();
     return true;
 }
 
@@ -169,27 +162,39 @@ void ControlSocket::read(Client& client) {
     client.isGone = isWhole && request.empty();
 }
 
-void ControlSocket::answer(const Client& client) {
+// Until something may be free. False at the end of this object.
+bool ControlSocket::pause() const {
+    pollfd end{stop_.get(), POLLIN, 0};
+    return poll(&end, 1, kPauseMs) <= 0;
+}
+
+void ControlSocket::answer(Client& client) {
     std::optional<Heartbeat> heart;
     if (hearts_ != nullptr)
         heart.emplace(*hearts_, "control answer", budget::kAnswer, ThreadRole::Helper);
-    ControlAnswer answer = handler_(client.request);
-    answer.line += '\n';
-    send(client.fd->get(), answer.line.data(), answer.line.size());
-    send(client.fd->get(), answer.data.data(), answer.data.size());
+    client.answer = handler_(client.request, client.role);
+    client.answer->line += '\n';
+    client.end = Timestamp::now() + std::chrono::milliseconds(kAnswerMs);
+    client.isReady = true;  // as a rule it takes all at once
 }
 
-void ControlSocket::send(int client, const void* data, std::size_t bytes) const {
-    const Timestamp end = Timestamp::now() + std::chrono::milliseconds(kAnswerMs);
-    const auto* at = static_cast<const std::uint8_t*>(data);
-    while (bytes > 0) {
-        const int left = millisecondsTo(end);
-        if (left <= 0 || !isReady(client, POLLOUT, left)) return;
-        const ssize_t sent = ::send(client, at, bytes, MSG_NOSIGNAL);
-        if (sent < 0) return;
-        at += sent;
-        bytes -= static_cast<std::size_t>(sent);
+// As much as the client takes now.
+void ControlSocket::send(Client& client) {
+    const std::string& line = client.answer->line;
+    const std::vector<std::uint8_t>& data = client.answer->data;
+    while (client.sent < line.size() + data.size()) {
+        const bool isLine = client.sent < line.size();
+        const void* from = isLine ? static_cast<const void*>(line.data() + client.sent)
+                                  : data.data() + (client.sent - line.size());
+        const std::size_t bytes =
+            isLine ? line.size() - client.sent : line.size() + data.size() - client.sent;
+        const ssize_t sent = ::send(client.fd->get(), from, bytes, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR) continue;
+        if (sent < 0 && errno == EAGAIN) return;
+        if (sent < 0) break;
+        client.sent += static_cast<std::size_t>(sent);
     }
+    client.isGone = true;
 }
 
 }  // namespace mfar

@@ -2,6 +2,7 @@
 
 #include "base/heartbeats.h"
 #include "base/time.h"
+#include "daemon/control_role.h"
 #include "daemon/events.h"
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -23,15 +25,15 @@ struct ControlAnswer {
 };
 
 /// A Unix stream socket for requests of one line each. A connection carries one request and its
-/// answer. Requests are read side by side and answered one after the other; a client that is slow
-/// is given up: 2 s for its request, 5 s for taking the answer. The owner and the group of this
-/// process may connect.
+/// answer. Requests are read and answers are sent side by side, each is worked on after the other;
+/// a client that is slow is given up: 2 s for its request, 5 s for taking the answer. The owner and
+/// the group of this process may connect; who is an operator of them, roleOfPeer() says.
 class ControlSocket {
 public:
     static constexpr std::size_t kLongestRequest = 4096;  ///< [byte], line end included
 
     /// Called on the socket's thread with a request without its line end. Must not throw.
-    using Handler = std::function<ControlAnswer(std::string_view request)>;
+    using Handler = std::function<ControlAnswer(std::string_view request, ControlRole role)>;
 
     /// Makes the socket and begins to listen. One that a dead process has left is replaced. Throws
     /// Failure(Unavailable) when somebody listens there, or the path cannot be used. `hearts`,
@@ -45,8 +47,11 @@ public:
 private:
     struct Client {
         std::unique_ptr<Fd> fd;
-        Timestamp end;  ///< of its time for the request
+        Timestamp end;  ///< of its time for the request, then for the answer
+        ControlRole role = ControlRole::Observer;
         std::string request{};
+        std::optional<ControlAnswer> answer{};  ///< once there is one
+        std::size_t sent = 0;                   ///< bytes of its line and data
         bool isReady = false, isComplete = false, isGone = false;
     };
 
@@ -54,13 +59,14 @@ private:
     [[nodiscard]] bool waitFor(std::vector<Client>& clients);
     [[nodiscard]] bool accept(std::vector<Client>& clients);
     static void read(Client& client);
-    void answer(const Client& client);
-    [[nodiscard]] bool isReady(int fd, short events, int timeoutMs) const;
-    void send(int client, const void* data, std::size_t bytes) const;
+    void answer(Client& client);
+    static void send(Client& client);
+    [[nodiscard]] bool pause() const;
 
     std::filesystem::path path_;
     Handler handler_;
     Heartbeats* hearts_;
+    std::optional<gid_t> operators_;
     Fd listening_;
     Fd stop_;
     std::thread thread_;

@@ -17,10 +17,10 @@ namespace {
 constexpr double kMegabyte = 1 << 20;
 constexpr double kLeastMb = 64, kMostMb = 1 << 20;
 /// Of the machine's memory: the rest is for the system, drivers and the program itself.
-constexpr double kShareOfMachine = 0.6;
+constexpr double kShareOfMachine = 0.75;
 constexpr double kShareOfFrames = 2.0 / 3, kShareOfFiles = 1.0 / 6;
 /// Of all buffers and textures, measured as the growth of a run with larger pictures [byte/px].
-constexpr double kBytesPerStillPixel = 48, kBytesPerVideoPixel = 200;
+constexpr double kBytesPerStillPixel = 36, kBytesPerVideoPixel = 150;
 
 std::uint64_t physicalMemory() {
     const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
