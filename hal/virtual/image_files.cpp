@@ -89,7 +89,7 @@ void savePng(const fs::path& file, const ImageView& image) {
     try {
         std::vector<std::uint8_t> bytes;
         encodePng(image, bytes);
-        writeWholeFile(file, bytes);
+        writeWholeFile(file, bytes, Durability::WithSync);
     } catch (const std::runtime_error& e) {
         throw ImageFileError(e.what());
     }

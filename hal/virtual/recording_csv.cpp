@@ -46,8 +46,8 @@ void recordingFault(const std::filesystem::path& file, int line, std::string_vie
     throw RecordingError(fmt::format("{}: {}", file.string(), what));
 }
 
-CsvRow::CsvRow(const std::filesystem::path& file, int line, std::string_view text)
-    : file_(file), line_(line) {
+CsvRow::CsvRow(const std::filesystem::path& file, int line, std::string_view text, bool isTorn)
+    : file_(file), line_(line), isTorn_(isTorn) {
     std::size_t at = 0;
     for (;;) {
         const std::size_t comma = text.find(',', at);
@@ -89,8 +89,9 @@ void forEachCsvRow(const std::filesystem::path& file,
         std::string_view row(text.data(), static_cast<std::size_t>(in.gcount()));
         if (row.ends_with('\0')) row.remove_suffix(1);  // in place of the line end
         if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
-        row = trimmed(row);
-        if (!row.empty() && row.front() != '#') visit(CsvRow(file, line, row));
+        const bool isTorn = in.eof();
+        row = trimmed(row.substr(0, row.find('\0')));
+        if (!row.empty() && row.front() != '#') visit(CsvRow(file, line, row, isTorn));
     }
     if (in.bad()) recordingFault(file, 0, "cannot be read");
     if (!in.eof())
