@@ -109,6 +109,8 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
+            // A driver may give broken pictures as fast as they are taken.
+            if (steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // A lost device would have said so. The kernel also reports this while every buffer is
             // lent since the start.
