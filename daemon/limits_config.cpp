@@ -17,7 +17,7 @@ namespace {
 constexpr double kMegabyte = 1 << 20;
 constexpr double kLeastMb = 64, kMostMb = 1 << 20;
 /// Of the machine's memory: the rest is for the system, drivers and the program itself.
-constexpr double kShareOfMachine = 0.75;
+constexpr double kShareOfMachine = 0.75, kMostByMachine = 4096 * kMegabyte;
 constexpr double kShareOfFrames = 2.0 / 3, kShareOfFiles = 1.0 / 6;
 /// Of all buffers and textures, measured as the growth of a run with larger pictures [byte/px].
 constexpr double kBytesPerStillPixel = 36, kBytesPerVideoPixel = 150;
@@ -52,9 +52,9 @@ std::uint64_t machineMemory() {
 }
 
 std::uint64_t LimitsConfig::memoryBytes() const {
-    const double bytes = memoryMb > 0 ? memoryMb * kMegabyte
-                                      : kShareOfMachine * static_cast<double>(machineMemory());
-    return static_cast<std::uint64_t>(bytes);
+    const double byMachine =
+        std::min(kShareOfMachine * static_cast<double>(machineMemory()), kMostByMachine);
+    return static_cast<std::uint64_t>(memoryMb > 0 ? memoryMb * kMegabyte : byMachine);
 }
 
 void readLimits(TomlReader& file, LimitsConfig& limits) {

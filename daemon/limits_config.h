@@ -12,7 +12,7 @@ class TomlReader;
 
 /// Section [limits]: what the daemon may take for what it reads.
 struct LimitsConfig {
-    double memoryMb = 0;  ///< 0: by the machine, see machineMemory()
+    double memoryMb = 0;  ///< 0: three quarters of machineMemory(), at most 4096
 
     bool operator==(const LimitsConfig&) const = default;
     /// The budget.
