@@ -1,5 +1,7 @@
 #include "base/whole_file.h"
 
+#include "base/owned_fd.h"
+
 #include <fmt/format.h>
 
 #include <fcntl.h>
@@ -30,9 +32,17 @@ void check(const std::filesystem::path& file, int error) {
             fmt::format("{}: {}", file.string(), std::generic_category().message(error)));
 }
 
+/// Its names. A file system that cannot do that keeps them in order anyway.
+void syncFolder(const std::filesystem::path& folder) {
+    const OwnedFd fd(
+        open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (fd) fsync(fd.get());
+}
+
 }  // namespace
 
-void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes) {
+void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint8_t> bytes,
+                    Durability durability) {
     // The thread id keeps two writers of the same file apart.
     const std::string part = fmt::format("{}.{}.part", file.string(), gettid());
     int error = 0;
@@ -41,11 +51,19 @@ void writeWholeFile(const std::filesystem::path& file, std::span<const std::uint
         error = errno;
     } else {
         error = writeAll(fd, bytes);
+        // A name that is on the disk before its bytes is an empty file.
+        if (error == 0 && durability == Durability::OnReturn && fsync(fd) != 0) error = errno;
         if (close(fd) != 0 && error == 0) error = errno;
         if (error == 0 && std::rename(part.c_str(), file.c_str()) != 0) error = errno;
         if (error != 0) unlink(part.c_str());
     }
     check(file, error);
+    if (durability == Durability::OnReturn) syncFolder(file.parent_path());
+}
+
+void syncFileSystem(const std::filesystem::path& folder) {
+    const OwnedFd fd(open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    check(folder, fd && syncfs(fd.get()) == 0 ? 0 : errno);
 }
 
 void appendToFile(const std::filesystem::path& file, std::string_view text) {

@@ -1,6 +1,7 @@
 #include "daemon/app.h"
 
 #include "daemon/budgets.h"
+#include "daemon/rig_words.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,8 +49,8 @@ App::App(const Options& options, Log& log)
     if (options_.control)
         control_.emplace(
             *options_.control,
-            [actions = controlActions()](std::string_view request) {
-                return answerControl(actions, request);
+            [actions = controlActions()](std::string_view request, ControlRole role) {
+                return answerControl(actions, request, role);
             },
             &stats_.heartbeats());
 }

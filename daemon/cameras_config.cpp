@@ -2,6 +2,8 @@
 
 #include "daemon/toml_reader.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <optional>
 #include <string_view>
@@ -12,14 +14,20 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, CameraDriver>, 2> kDrivers = {
     {{"libcamera", CameraDriver::Libcamera}, {"v4l2", CameraDriver::V4l2}}};
+constexpr double kLeastRate = 0.01;               // [Hz]
 constexpr int kLeastSide = 16, kMostSide = 8192;  // [px]
+
+std::optional<std::string> rateFault(double value) {
+    if (value == 0 || value >= kLeastRate) return std::nullopt;
+    return fmt::format("must be 0 or at least {} Hz", kLeastRate);
+}
 
 void readCamera(TomlReader& file, const std::string& section, CameraConfig& camera) {
     file.choice<CameraDriver>(section + "driver", camera.driver, kDrivers);
     file.text(section + "camera", camera.camera);
     file.integer(section + "width", camera.size.width, kLeastSide, kMostSide);
     file.integer(section + "height", camera.size.height, kLeastSide, kMostSide);
-    file.number(section + "rate_hz", camera.rateHz, 0, 1000);
+    file.number(section + "rate_hz", camera.rateHz, 0, 1000, rateFault);
     file.text(section + "format", camera.format,
               [&](std::string_view word) -> std::optional<std::string> {
                   if (word == "auto" || camera.driver == CameraDriver::V4l2) return std::nullopt;

@@ -1,18 +1,19 @@
 #include "daemon/config.h"
 
+#include "base/bounded_file.h"
 #include "daemon/exit_code.h"
-#include "daemon/rig.h"
+#include "daemon/rig_words.h"
 #include "daemon/toml_reader.h"
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 namespace mfar {
 namespace {
+
+constexpr std::size_t kMostConfigBytes = 1 << 20;
 
 template <class E>
 using Word = std::pair<std::string_view, E>;
@@ -81,24 +82,22 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     file.number("status.interval_s", config.status.intervalS, 0.1, 3600);
     file.boolean("status.measure", config.status.measure);
     const std::filesystem::path folder = std::filesystem::path(fileName).parent_path();
+    readLimits(file, config.limits);
+    FileMemory memory(config.limits);
     readEngine(file, config.engine);
     readVirtual(file, config.virtualLayer);
-    readLight(file, folder, config.light);
-    readObjects(file, folder, config.objects);
+    readLight(file, folder, memory, config.light);
+    readObjects(file, folder, memory, config.objects);
     file.finish();
     return config;
 }
 
 std::string readConfigText(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text;
-    std::array<char, 4096> part{};
-    while (in.read(part.data(), part.size()) || in.gcount() > 0)
-        text.append(part.data(), static_cast<std::size_t>(in.gcount()));
-    if (!in.is_open() || in.bad())
-        throw Failure(ExitCode::NoInput,
-                      file.string() + ": cannot be read: " + std::strerror(errno));
-    return text;
+    try {
+        return boundedText(file, kMostConfigBytes);
+    } catch (const std::runtime_error& error) {
+        throw Failure(ExitCode::NoInput, file.string() + ": cannot be read: it " + error.what());
+    }
 }
 
 Config loadConfig(const std::filesystem::path& file) {
@@ -118,6 +117,7 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.pace == wanted.pace, "pace");
     compare(running.seed == wanted.seed, "seed");
     compare(running.record == wanted.record, "record");
+    compare(running.limits == wanted.limits, "limits");
     // Another tag map is another world, and a tracker that starts anew has no pose for a while.
     compare(running.pose == wanted.pose, "pose");
     compare(running.engine == wanted.engine, "engine");

@@ -4,6 +4,7 @@
 #include "daemon/engine_config.h"
 #include "daemon/exit_code.h"
 #include "daemon/governor_config.h"
+#include "daemon/limits_config.h"
 #include "daemon/objects_config.h"
 #include "daemon/picture_size.h"
 #include "daemon/pose_config.h"
@@ -59,6 +60,7 @@ struct Config {
     std::uint64_t seed = 1;          ///< of the synthetic board
     std::filesystem::path recordTo;  ///< a new folder; empty: none
     RecordConfig record;
+    LimitsConfig limits;
     CamerasConfig cameras;  ///< used when source is "cameras"
     SuperResConfig superres;
     TriggerConfig trigger;
@@ -87,7 +89,8 @@ public:
 /// Reads a file. Throws ConfigError, or Failure(NoInput) when it cannot be read.
 [[nodiscard]] Config loadConfig(const std::filesystem::path& file);
 
-/// The text of such a file. Throws Failure(NoInput) when it cannot be read.
+/// The text of such a file, which is a regular one of at most 1 MiB. Throws Failure(NoInput) when
+/// it cannot be read.
 [[nodiscard]] std::string readConfigText(const std::filesystem::path& file);
 
 /// Names of what differs between two configurations and cannot be changed while running,

@@ -1,6 +1,7 @@
 #include "daemon/control.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -16,7 +17,8 @@ using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr std::size_t kLongestName = 100;
-constexpr const char* kCommands = "status, stats, snapshot, reload, record, trigger, learn";
+constexpr std::array<std::string_view, 7> kCommands{"status", "stats",   "snapshot", "reload",
+                                                    "record", "trigger", "learn"};
 
 class BadRequest : public std::runtime_error {
 public:
@@ -91,8 +93,18 @@ ControlAnswer learn(const ControlActions& actions, const json& request) {
     return line(with());
 }
 
-ControlAnswer done(const ControlActions& actions, const json& request) {
+void requireRole(const std::string& command, ControlRole role) {
+    if (role == ControlRole::Operator || command == "status" || command == "stats") return;
+    throw BadRequest(fmt::format("only root and members of group {} may {}", kOperatorsGroup,
+                                 command == "snapshot" ? "take a snapshot" : command));
+}
+
+ControlAnswer done(const ControlActions& actions, const json& request, ControlRole role) {
     const auto command = request["command"].get<std::string>();
+    if (std::ranges::find(kCommands, command) == std::end(kCommands))
+        throw BadRequest(
+            fmt::format("no command \"{}\"; there are {}", command, fmt::join(kCommands, ", ")));
+    requireRole(command, role);
     if (command == "snapshot") return snapshot(actions, request);
     if (command == "record") return record(actions, request);
     if (command == "learn") return learn(actions, request);
@@ -100,17 +112,16 @@ ControlAnswer done(const ControlActions& actions, const json& request) {
     if (command == "status") return line(with(actions.status()));
     if (command == "stats") return line(with(actions.stats()));
     if (command == "reload") return line(with({{"message", actions.reload()}}));
-    if (command != "trigger")
-        throw BadRequest(fmt::format("no command \"{}\"; there are {}", command, kCommands));
     actions.trigger();
     return line(with());
 }
 
 }  // namespace
 
-ControlAnswer answerControl(const ControlActions& actions, std::string_view request) {
+ControlAnswer answerControl(const ControlActions& actions, std::string_view request,
+                            ControlRole role) {
     try {
-        return done(actions, parsed(request));
+        return done(actions, parsed(request), role);
     } catch (const std::exception& error) {
         return line({{"ok", false}, {"error", error.what()}});
     }

@@ -38,9 +38,10 @@ struct ControlActions {
 ///   {"command": "learn", "reset": true}
 ///   {"command": "record", "name": "walk-1"}, {"command": "record", "stop": true}
 /// An answer is {"ok": true, ...} or {"ok": false, "error": "one sentence"}. That of snapshot says
-/// "width", "height" and "bytes", and so many bytes R G B A follow its line, row 0 first. Never
-/// throws.
-[[nodiscard]] ControlAnswer answerControl(const ControlActions& actions, std::string_view request);
+/// "width", "height" and "bytes", and so many bytes R G B A follow its line, row 0 first. An
+/// observer may ask for status and stats alone. Never throws.
+[[nodiscard]] ControlAnswer answerControl(const ControlActions& actions, std::string_view request,
+                                          ControlRole role = ControlRole::Operator);
 
 /// A name of one folder: letters, digits, dot, hyphen and underscore, at most 100, and no dot at
 /// its beginning.

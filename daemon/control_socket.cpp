@@ -79,7 +79,7 @@ int millisecondsTo(Timestamp end) {
 
 ControlSocket::ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts)
     : path_(std::move(path)), handler_(std::move(handler)), hearts_(hearts),
-      listening_(listenAt(path_), "socket"),
+      operators_(operatorsGroup()), listening_(listenAt(path_), "socket"),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"),
       answered_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"), thread_([this] { serve(); }) {}
 
@@ -161,7 +161,8 @@ bool ControlSocket::accept(std::vector<Client>& clients) {
     const int fd = accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (fd >= 0)
         clients.push_back({std::make_unique<Fd>(fd, "client"),
-                           Timestamp::now() + std::chrono::milliseconds(kRequestMs)});
+                           Timestamp::now() + std::chrono::milliseconds(kRequestMs),
+                           roleOfPeer(fd, operators_)});
     else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
         // The client stays in the queue, so the socket stays ready: without a pause, this spins.
         return !isReady(stop_.get(), POLLIN, kPauseMs);
@@ -192,7 +193,7 @@ void ControlSocket::answer(Answering& one) {
         if (hearts_ != nullptr)
             heart.emplace(*hearts_, "control answer", budget::kAnswer, ThreadRole::Helper);
         const int client = one.client.fd->get();
-        ControlAnswer answer = handler_(one.client.request);
+        ControlAnswer answer = handler_(one.client.request, one.client.role);
         answer.line += '\n';
         send(client, answer.line.data(), answer.line.size());
         send(client, answer.data.data(), answer.data.size());

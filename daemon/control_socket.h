@@ -2,6 +2,7 @@
 
 #include "base/heartbeats.h"
 #include "base/time.h"
+#include "daemon/control_role.h"
 #include "daemon/events.h"
 
 #include <atomic>
@@ -11,6 +12,7 @@
 #include <functional>
 #include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -27,13 +29,14 @@ struct ControlAnswer {
 /// A Unix stream socket for requests of one line each. A connection carries one request and its
 /// answer. Requests are read side by side and answered side by side, four at most, each by a thread
 /// of its own, as one may wait for a disk. A client that is slow is given up: 2 s for its request,
-/// 5 s for taking the answer. The owner and the group of this process may connect.
+/// 5 s for taking the answer. The owner and the group of this process may connect; who of them is
+/// an operator, roleOfPeer() says.
 class ControlSocket {
 public:
     static constexpr std::size_t kLongestRequest = 4096;  ///< [byte], line end included
 
     /// Called with a request without its line end, by several threads at once. Must not throw.
-    using Handler = std::function<ControlAnswer(std::string_view request)>;
+    using Handler = std::function<ControlAnswer(std::string_view request, ControlRole role)>;
 
     /// Makes the socket and begins to listen. One that a dead process has left is replaced. Throws
     /// Failure(Unavailable) when somebody listens there, or the path cannot be used. `hearts`,
@@ -48,6 +51,7 @@ private:
     struct Client {
         std::unique_ptr<Fd> fd;
         Timestamp end;  ///< of its time for the request
+        ControlRole role = ControlRole::Observer;
         std::string request{};
         bool isReady = false, isComplete = false, isGone = false;
     };
@@ -71,6 +75,7 @@ private:
     std::filesystem::path path_;
     Handler handler_;
     Heartbeats* hearts_;
+    std::optional<gid_t> operators_;
     Fd listening_;
     Fd stop_;
     Fd answered_;                   ///< readable when an answer is over

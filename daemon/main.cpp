@@ -5,7 +5,7 @@
 #include "daemon/options.h"
 #include "daemon/restart_pause.h"
 #include "daemon/rig.h"
-#include "daemon/rig_cameras.h"
+#include "daemon/taken_line.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,20 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+
+namespace mfar {
+namespace {
+
+/// After a service, the line that it had taken, whatever the configuration says by now; by hand,
+/// the configured one.
+TriggerLineConfig lineToRelease(const Options& options) {
+    const std::filesystem::path note = takenLineFile();
+    if (note.empty()) return effectiveConfig(options).cameras.trigger;
+    return takenLine(note).value_or(TriggerLineConfig{});
+}
+
+}  // namespace
+}  // namespace mfar
 
 int main(int argc, char** argv) {
     using namespace mfar;
@@ -33,9 +47,7 @@ int main(int argc, char** argv) {
             return static_cast<int>(ExitCode::Ok);
         }
         if (line.options.releaseTrigger) {
-            // The file may have been changed since the service took its line.
-            const std::optional<TriggerLineConfig> taken = takenLine();
-            releaseTrigger(taken ? *taken : effectiveConfig(line.options).cameras.trigger);
+            releaseTrigger(lineToRelease(line.options));
             return static_cast<int>(ExitCode::Ok);
         }
         App app(line.options, log);

@@ -50,12 +50,16 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
 /// Reads each model once, however many objects show it and whatever they call its file.
 class ModelReader {
 public:
-    explicit ModelReader(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    ModelReader(std::filesystem::path folder, FileMemory& memory)
+        : folder_(std::move(folder)), memory_(memory) {}
 
     /// Throws ModelError.
     std::shared_ptr<const Model> operator()(std::string_view name) {
         std::shared_ptr<const Model>& known = models_[identity(name)];
-        if (!known) known = std::make_shared<const Model>(load(name));
+        if (!known) {
+            known = std::make_shared<const Model>(load(name));
+            memory_.take(memoryOf(*known));
+        }
         return known;
     }
 
@@ -68,13 +72,15 @@ private:
     }
     [[nodiscard]] Model load(std::string_view name) const {
         try {
-            return name == "showpiece" ? showpiece() : loadGltf(folder_ / name);
+            if (name == "showpiece") return showpiece();
+            return loadGltf(folder_ / name, limitsWithin(memory_.left()));
         } catch (const std::bad_alloc&) {
             throw ModelError((folder_ / name).string() + ": needs more memory than there is");
         }
     }
 
     std::filesystem::path folder_;
+    FileMemory& memory_;
     std::map<std::filesystem::path, std::shared_ptr<const Model>> models_;
 };
 
@@ -121,9 +127,9 @@ PlacedObject readObject(TomlReader& file, const std::string& prefix, ModelReader
 
 }  // namespace
 
-void readObjects(TomlReader& file, const std::filesystem::path& folder,
+void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects) {
-    ModelReader models(folder);
+    ModelReader models(folder, memory);
     for (const std::string& prefix : file.sections("objects", kMostObjects))
         objects.push_back(readObject(file, prefix, models));
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/limits_config.h"
 #include "pipeline/scene/virtual_options.h"
 #include "pipeline/track/tag_map.h"
 
@@ -15,8 +16,9 @@ class TomlReader;
 inline constexpr std::size_t kMostObjects = 64;
 
 /// Reads the sections [[objects]]: what is shown, and where. Models are read here, so that one that
-/// is missing or broken is a fault with its place; their names are relative to `folder`.
-void readObjects(TomlReader& file, const std::filesystem::path& folder,
+/// is missing or broken, or for which `memory` is too small, is a fault with its place; their names
+/// are relative to `folder`.
+void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
 /// Where an object is. Nothing when it stands on a tag that the map does not have.

@@ -1,7 +1,7 @@
 #include "daemon/options.h"
 
 #include "daemon/exit_code.h"
-#include "daemon/rig.h"
+#include "daemon/rig_words.h"
 
 #include <CLI/CLI.hpp>
 

@@ -1,5 +1,6 @@
 #include "daemon/pose_config.h"
 
+#include "base/calibration/plausible_ranges.h"
 #include "daemon/exit_code.h"
 #include "daemon/toml_reader.h"
 
@@ -43,7 +44,7 @@ void readPose(TomlReader& file, PoseConfig& pose) {
         if (std::find(pose.families.begin(), pose.families.end(), family) == pose.families.end())
             pose.families.push_back(family);
     }
-    file.number("pose.tag_size", pose.tagSize, 0.001, 100);
+    file.number("pose.tag_size", pose.tagSize, plausible::kTagSize.least, plausible::kTagSize.most);
     file.number("pose.decimation", pose.decimation, 1, 8, decimationFault);
     file.integer("pose.threads", pose.threads, 1, 64);
     file.integer("pose.full_search_interval", pose.fullSearchInterval, 1, 1000000);

@@ -8,12 +8,13 @@
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <sstream>
 
 namespace mfar {
 namespace {
 
 constexpr std::size_t kMostLevels = 64;
-constexpr double kLongest = 60000;  // [ms]
+constexpr double kShort = 1, kLongest = 60000;  // [ms]
 constexpr double kLeastShare = 0.001;
 constexpr std::pair<std::string_view, SuperResMode> kModes[] = {
     {"detail", SuperResMode::Detail}, {"blend", SuperResMode::Blend}, {"off", SuperResMode::Off}};
@@ -183,9 +184,12 @@ std::string toToml(std::span<const QualityLevel> levels) {
     const Quality byDefault;
     for (const QualityLevel& level : levels) {
         Quality quality = level.quality, usual = byDefault;
-        out += fmt::format("[[level]]\nname = \"{}\"\nms = {:.1f}\npsnr_db = {:.2f}\nmode = "
-                           "\"{}\"\n",
-                           level.name, level.ms, level.psnrDb, name(quality.mode));
+        std::ostringstream quoted;
+        quoted << toml::value<std::string>(level.name);
+        // A time that is rounded to 0 could not be read.
+        const int digits = level.ms < kShort ? 3 : 1;
+        out += fmt::format("[[level]]\nname = {}\nms = {:.{}f}\npsnr_db = {:.2f}\nmode = \"{}\"\n",
+                           quoted.str(), level.ms, digits, level.psnrDb, name(quality.mode));
         if (!quality.cubic) out += "cubic = false\n";
         if (!quality.learned) out += "learned = false\n";
         if (!quality.alongLines) out += "along_lines = false\n";

@@ -3,6 +3,7 @@
 #include "daemon/budgets.h"
 #include "daemon/rig_cameras.h"
 #include "daemon/rig_source.h"
+#include "daemon/rig_words.h"
 #include "hal/device/display_auto.h"
 #include "hal/device/trigger_safe_level.h"
 #include "hal/virtual/display_files.h"
@@ -13,7 +14,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <array>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -22,51 +22,9 @@
 namespace mfar {
 namespace {
 
-using synthetic::Path;
-
-constexpr std::string_view kCameras = "cameras";
-constexpr std::array kScenes = {synthetic::Scene::Office,     synthetic::Scene::Shelf,
-                                synthetic::Scene::Outdoor,    synthetic::Scene::Flat,
-                                synthetic::Scene::Moving,     synthetic::Scene::Still,
-                                synthetic::Scene::Calibration};
-constexpr std::array kPaths = {Path::Handheld, Path::Pan,  Path::Orbit, Path::Forward,
-                               Path::Rotate,   Path::Rest, Path::Survey};
-
-struct SourceWords {
-    std::string_view kind;
-    std::optional<std::string_view> scene;
-    std::optional<std::string_view> path;
-};
-
-// "kind[:scene[,path]]"
-SourceWords split(std::string_view source) {
-    SourceWords words;
-    const std::size_t colon = source.find(':');
-    words.kind = source.substr(0, colon);
-    if (colon == source.npos) return words;
-    const std::string_view rest = source.substr(colon + 1);
-    const std::size_t comma = rest.find(',');
-    words.scene = rest.substr(0, comma);
-    if (comma != rest.npos) words.path = rest.substr(comma + 1);
-    return words;
-}
-
-template <class Kinds>
-std::string names(const Kinds& kinds) {
-    std::string all;
-    for (const auto kind : kinds)
-        all.append(all.empty() ? "" : " ").append(synthetic::name(kind));
-    return all;
-}
-
 Pace playerPace(SourcePace wanted, SourcePace automatic) {
     const SourcePace pace = wanted == SourcePace::Auto ? automatic : wanted;
     return pace == SourcePace::Realtime ? Pace::Realtime : Pace::Consumer;
-}
-
-bool isScreen(std::string_view display) {
-    const std::string_view kind = display.substr(0, display.find_first_of(":,"));
-    return kind == "auto" || kind == "kms" || kind == "fbdev";
 }
 
 HandOver handOverAt(Pace pace) {
@@ -85,7 +43,7 @@ struct SyntheticSource final : RigSource {
     }
     static SyntheticOptions options(const Config& config) {
         SyntheticOptions options;
-        const SourceWords words = split(config.source);
+        const SourceWords words = sourceWords(config.source);
         if (words.scene) options.scene = synthetic::sceneNamed(*words.scene).value();
         if (words.path) options.path = synthetic::pathNamed(*words.path);
         options.seed = config.seed;
@@ -104,7 +62,7 @@ struct SyntheticSource final : RigSource {
 
 struct PlayedSource final : RigSource {
     explicit PlayedSource(const Config& config)
-        : player(load(config.recording),
+        : player(load(config),
                  {.pace = playerPace(config.pace, SourcePace::Consumer), .asksVideoFirst = true}) {
         handOver = handOverAt(playerPace(config.pace, SourcePace::Consumer));
         failure = ExitCode::BadData;
@@ -114,11 +72,14 @@ struct PlayedSource final : RigSource {
         if (!player.recording().poses.empty())
             recordedPoses = [this](Timestamp t) { return player.recording().poseAt(t); };
     }
-    static Recording load(const std::filesystem::path& folder) {
+    static Recording load(const Config& config) {
+        const std::filesystem::path& folder = config.recording;
         if (!std::filesystem::is_directory(folder))
             throw Failure(ExitCode::NoInput, folder.string() + ": there is no such recording");
         try {
-            return loadRecording(folder);
+            Recording out = loadRecording(folder);
+            requireMemory(config.limits, out.rig.video.size, out.rig.still.size, folder.string());
+            return out;
         } catch (const RecordingError& error) {
             throw Failure(ExitCode::BadData, error.what());
         }
@@ -149,7 +110,11 @@ std::uint64_t lostBy(const Recorder& recorder) {
 
 std::unique_ptr<RigSource> openSource(const Config& config, Heartbeats& hearts) {
     if (!config.recording.empty()) return std::make_unique<PlayedSource>(config);
-    if (config.source == kCameras) return std::make_unique<CamerasSource>(config.cameras, hearts);
+    if (config.source == kCameras) {
+        requireMemory(config.limits, config.cameras.video.size, config.cameras.still.size,
+                      kCameras);
+        return std::make_unique<CamerasSource>(config.cameras, hearts);
+    }
     if (const std::optional<std::string> fault = sourceFault(config.source))
         throw Failure(ExitCode::BadConfig, *fault);
     try {
@@ -347,20 +312,6 @@ std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::s
     }
 }
 
-std::optional<std::string> sourceFault(std::string_view source) {
-    if (source == kCameras) return std::nullopt;
-    const SourceWords words = split(source);
-    if (words.kind != "synthetic")
-        return fmt::format("no source \"{}\"; there are cameras and synthetic[:scene[,path]], and "
-                           "--recording for recordings",
-                           words.kind);
-    if (words.scene && !synthetic::sceneNamed(*words.scene))
-        return fmt::format("no scene \"{}\"; there are {}", *words.scene, names(kScenes));
-    if (words.path && !synthetic::pathNamed(*words.path))
-        return fmt::format("no path \"{}\"; there are {}", *words.path, names(kPaths));
-    return std::nullopt;
-}
-
 ScreenPicture copyOf(const Picture& picture) {
     const Size size = picture.size();
     ScreenPicture copy{size, PixelFormat::Rgba8, {}};
@@ -368,24 +319,6 @@ ScreenPicture copyOf(const Picture& picture) {
     copy.pixels.resize(stride * size.height);
     copyPicture(picture, copy.pixels.data(), stride);
     return copy;
-}
-
-bool keepsPictures(std::string_view display) {
-    return display.starts_with("png:") || display.starts_with("y4m:");
-}
-
-std::optional<std::string> displayFault(std::string_view display) {
-    if (display == "none") return std::nullopt;
-    if (isScreen(display)) return screenFault(display);
-    for (const std::string_view kind : {"png:", "y4m:"})
-        if (display.starts_with(kind) && display.size() > kind.size()) return std::nullopt;
-    return fmt::format("no display \"{}\"; there are auto, kms, fbdev, none, png:FOLDER and "
-                       "y4m:FILE",
-                       display);
-}
-
-std::string sourceHelp() {
-    return fmt::format("scenes: {}\npaths: {}", names(kScenes), names(kPaths));
 }
 
 }  // namespace mfar

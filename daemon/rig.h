@@ -123,14 +123,4 @@ void releaseTrigger(const TriggerLineConfig& line);
 /// A copy of a picture, see copyPicture().
 [[nodiscard]] ScreenPicture copyOf(const Picture& picture);
 
-/// This display writes every picture that show() took, so its finish() is worth waiting for.
-[[nodiscard]] bool keepsPictures(std::string_view display);
-
-/// What is wrong with the name of a source or display, nothing when there is such a one. Says which
-/// exist. Does not try to open it.
-[[nodiscard]] std::optional<std::string> sourceFault(std::string_view source);
-[[nodiscard]] std::optional<std::string> displayFault(std::string_view display);
-/// Scenes and paths that follow "synthetic:", for the help text.
-[[nodiscard]] std::string sourceHelp();
-
 }  // namespace mfar

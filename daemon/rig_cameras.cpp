@@ -3,19 +3,17 @@
 #include "base/calibration/rig_files.h"
 #include "daemon/budgets.h"
 #include "daemon/config.h"
+#include "daemon/taken_line.h"
 #include "hal/device/camera_libcamera.h"
 #include "hal/device/camera_v4l2.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <numbers>
 #include <stdexcept>
@@ -33,24 +31,6 @@ constexpr double kUnknownPeriodMs = 500;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
-}
-
-/// Where the service keeps what it has taken, until it ends or, after a crash, its hook has
-/// released it; empty where no service manager has made the folder.
-std::filesystem::path takenLineFile() {
-    const char* folder = std::getenv("RUNTIME_DIRECTORY");
-    return folder != nullptr && *folder == '/' ? std::filesystem::path(folder) / "trigger.toml"
-                                               : std::filesystem::path();
-}
-
-// Without the note the hook still has the configuration.
-void noteTakenLine(const TriggerLineConfig& line) {
-    const std::filesystem::path file = takenLineFile();
-    if (file.empty()) return;
-    std::ofstream(file) << toml::table{
-        {"cameras", toml::table{{"trigger", toml::table{{"chip", line.chip},
-                                                        {"line", line.line},
-                                                        {"active_low", line.activeLow}}}}}};
 }
 
 /// A trigger whose line may not be there yet: it is tried anew with each pulse, and once a second
@@ -108,7 +88,8 @@ private:
     void open() {
         if (open_) return;
         tried_ = Timestamp::now();
-        noteTakenLine(line_);  // first: whoever comes after a crash has to find it
+        // First: whoever comes after a crash has to find it.
+        if (const auto file = takenLineFile(); !file.empty()) noteTakenLine(file, line_);
         open_ = openGpioTrigger(options_);
     }
 
@@ -205,13 +186,6 @@ TriggerOptions triggerOptions(const TriggerLineConfig& line) {
     out.loopbackChip = line.loopbackChip;
     out.loopback = line.loopback;
     return out;
-}
-
-std::optional<TriggerLineConfig> takenLine() {
-    const std::filesystem::path file = takenLineFile();
-    std::error_code ignored;
-    if (file.empty() || !std::filesystem::exists(file, ignored)) return std::nullopt;
-    return loadConfig(file).cameras.trigger;
 }
 
 StereoRig nominalRig(Size video, Size still) {

@@ -21,11 +21,6 @@ namespace mfar {
 
 [[nodiscard]] TriggerOptions triggerOptions(const TriggerLineConfig& line);
 
-/// The line that the service which ended last had taken, where the service manager still keeps its
-/// folder
-/// ($RUNTIME_DIRECTORY). Throws ConfigError.
-[[nodiscard]] std::optional<TriggerLineConfig> takenLine();
-
 /// Two cameras of this board and the line that triggers the second. Devices that are not there are
 /// waited for.
 class CamerasSource final : public RigSource {

@@ -1,5 +1,6 @@
 #include "daemon/toml_reader.h"
 
+#include "base/toml_bounds.h"
 #include "daemon/config.h"
 
 #include <fmt/format.h>
@@ -10,6 +11,9 @@
 
 namespace mfar {
 namespace {
+
+constexpr std::size_t kMostFaults = 50;
+constexpr std::size_t kLongestKey = 200;
 
 std::string_view kind(const toml::node& node) {
     switch (node.type()) {
@@ -71,6 +75,9 @@ double numberOf(const toml::node& node) {
 }  // namespace
 
 TomlReader::TomlReader(std::string_view text, std::string file) : file_(std::move(file)) {
+    if (const auto excess = tomlExcess(text))
+        throw ConfigError(
+            fmt::format("{}:{}:{}: {}", file_, excess->line, excess->column, excess->what));
     try {
         root_ = toml::parse(text, file_);
     } catch (const toml::parse_error& error) {
@@ -210,6 +217,7 @@ std::vector<std::string> TomlReader::sections(std::string_view key, std::size_t 
 void TomlReader::finish() {
     refuseUnknown(root_, "");
     if (faults_.empty()) return;
+    if (faults_.size() == kMostFaults) faults_.push_back({faults_.back().at, "and perhaps more"});
     std::string all;
     for (const Fault& one : faults_)
         all += (all.empty() ? "" : "\n") + place(file_, one.at) + one.message;
@@ -230,6 +238,7 @@ const toml::node* TomlReader::find(std::string_view key, std::string_view wanted
 }
 
 void TomlReader::fault(const toml::source_region& at, std::string message) {
+    if (faults_.size() == kMostFaults) return;
     const auto later = std::upper_bound(
         faults_.begin(), faults_.end(), at.begin,
         [](const toml::source_position& x, const Fault& other) { return x < other.at; });
@@ -258,6 +267,9 @@ void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
     if (isSection)
         return fault(key.source(),
                      fmt::format("{} must be a section [{}], not {}", name, name, kind(value)));
+    if (name.size() > kLongestKey)
+        return fault(key.source(), fmt::format("unknown key of {} characters", name.size()));
+    if (faults_.size() == kMostFaults) return;
     const auto nearest = std::min_element(known_.begin(), known_.end(),
                                           [&](const std::string& x, const std::string& y) {
                                               return distance(name, x) < distance(name, y);

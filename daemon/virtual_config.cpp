@@ -48,8 +48,9 @@ void readSun(TomlReader& file, std::optional<Sun>& sun) {
 }
 
 /// A word, or else a file.
-std::optional<std::string>
-takeEnvironment(std::string_view name, const std::filesystem::path& folder, LightOptions& light) {
+std::optional<std::string> takeEnvironment(std::string_view name,
+                                           const std::filesystem::path& folder, FileMemory& memory,
+                                           LightOptions& light) {
     constexpr std::array<Meaning<LightSource>, 3> kSources = {{{"studio", LightSource::Studio},
                                                                {"sky", LightSource::Sky},
                                                                {"camera", LightSource::Camera}}};
@@ -59,7 +60,9 @@ takeEnvironment(std::string_view name, const std::filesystem::path& folder, Ligh
             return std::nullopt;
         }
     try {
-        light.environment = std::make_shared<const Environment>(loadEnvironment(folder / name));
+        light.environment =
+            std::make_shared<const Environment>(loadEnvironment(folder / name, memory.left()));
+        memory.take(light.environment->radiance.size() * sizeof(Eigen::Vector3f));
         light.source = LightSource::File;
         return std::nullopt;
     } catch (const ModelError& error) {
@@ -81,10 +84,12 @@ void readVirtual(TomlReader& file, VirtualOptions& options) {
     file.number("virtual.turn_deg", options.turnDeg, 0.1, 90);
 }
 
-void readLight(TomlReader& file, const std::filesystem::path& folder, LightOptions& light) {
+void readLight(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
+               LightOptions& light) {
     std::string name;
-    file.text("light.environment", name,
-              [&](std::string_view given) { return takeEnvironment(given, folder, light); });
+    file.text("light.environment", name, [&](std::string_view given) {
+        return takeEnvironment(given, folder, memory, light);
+    });
     if (light.source == LightSource::File) light.file = name;
     readSun(file, light.sun);
     double exposure = light.exposure;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "daemon/limits_config.h"
 #include "pipeline/scene/virtual_options.h"
 
 #include <filesystem>
@@ -12,7 +13,9 @@ class TomlReader;
 void readVirtual(TomlReader& file, VirtualOptions& options);
 
 /// Reads section [light]: what lights them. An environment picture is read here, so that one that
-/// is missing or broken is a fault with its place; its name is relative to `folder`.
-void readLight(TomlReader& file, const std::filesystem::path& folder, LightOptions& light);
+/// is missing or broken, or for which `memory` is too small, is a fault with its place; its name is
+/// relative to `folder`.
+void readLight(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
+               LightOptions& light);
 
 }  // namespace mfar

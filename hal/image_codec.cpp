@@ -13,7 +13,8 @@
 namespace mfar {
 namespace {
 
-constexpr std::size_t kMostHeader = 4096;  // of a PNG file, generously [bytes]
+constexpr std::int64_t kMostProgressive = 1 << 24;  // [px]
+constexpr std::size_t kMostHeader = 4096;           // of a PNG file, generously [bytes]
 
 // libpng reports errors through a function that must not return. It jumps back into a function
 // without objects to destroy, which then returns false.
@@ -110,6 +111,18 @@ void decodePng(std::span<const std::uint8_t> file, const TargetOf& targetOf, Ima
     if (!readRows(reader, rows.data())) throw std::runtime_error(reader.error.text);
 }
 
+/// Its coefficients are in memory as a whole, six bytes a pixel (ITU T.81, frames SOF2 and others).
+bool isProgressive(std::span<const std::uint8_t> file) {
+    constexpr std::uint8_t kStartOfScan = 0xda;
+    for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;) {
+        const std::uint8_t marker = file[at + 1];
+        if (marker == 0xc2 || marker == 0xc6 || marker == 0xca || marker == 0xce) return true;
+        if (marker == kStartOfScan) return false;
+        at += 2 + (std::size_t{file[at + 2]} << 8U | file[at + 3]);
+    }
+    return false;
+}
+
 void decodeJpeg(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
     const std::unique_ptr<void, decltype(&tjDestroy)> decoder(tjInitDecompress(), tjDestroy);
     if (!decoder) throw std::runtime_error(tjGetErrorStr2(nullptr));
@@ -118,10 +131,13 @@ void decodeJpeg(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
     if (tjDecompressHeader3(decoder.get(), file.data(), file.size(), &size.width, &size.height,
                             &sampling, &space) != 0)
         throw std::runtime_error(tjGetErrorStr2(decoder.get()));
+    if (std::int64_t{size.width} * size.height > kMostProgressive && isProgressive(file))
+        throw std::runtime_error("a progressive JPEG of more than 16 million pixels");
     const PixelTarget target = targetOf(size);
     // A warning stands for data that are damaged or missing.
     if (tjDecompress2(decoder.get(), file.data(), file.size(), target.rgba, size.width,
-                      static_cast<int>(target.stride), size.height, TJPF_RGBA, 0) != 0)
+                      static_cast<int>(target.stride), size.height, TJPF_RGBA,
+                      TJFLAG_LIMITSCANS) != 0)
         throw std::runtime_error(tjGetErrorStr2(decoder.get()));
 }
 

@@ -24,7 +24,8 @@ enum class ImageAlpha : std::uint8_t {
 };
 
 /// Decodes a PNG (any colour type and depth, the upper 8 of 16 bits) or a JPEG (grey or colour) as
-/// RGBA. Throws std::runtime_error that says what is wrong, also for a file that ends too early.
+/// RGBA. Throws std::runtime_error that says what is wrong, also for a file that ends too early and
+/// for a progressive JPEG of more than 2^24 pixels, which takes more memory than its picture.
 void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf,
                  ImageAlpha alpha = ImageAlpha::Opaque);
 

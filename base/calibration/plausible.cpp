@@ -1,20 +1,27 @@
 #include "base/calibration/plausible.h"
 
+#include "base/calibration/plausible_ranges.h"
+
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
+#include <string>
+#include <string_view>
 
 namespace mfar::plausible {
 namespace {
 
-constexpr int kMaxSide = 16384;              // larger than any texture the shaders can use
-constexpr double kMaxFocal = 100;            // [widths]; a field of view of half a degree
 constexpr double kRotationTolerance = 1e-3;  // files print as few as four digits
-constexpr double kMaxBaseline = 2;           // [m]
-constexpr double kMaxTimeOffset = 10;        // [s]
 constexpr double kMaxFoldError = 0.5;        // [px]
+
+/// Of a range, for messages.
+std::string text(const Range& range) {
+    const bool hasUnit = std::string_view(range.unit) != "1";
+    return fmt::format("{} to {}{}{}", range.least, range.most, hasUnit ? " " : "",
+                       hasUnit ? range.unit : "");
+}
 
 /// A lens model that folds over before the picture's edge maps several rays to one pixel.
 bool foldsInside(const CameraModel& c) {
@@ -26,14 +33,31 @@ bool foldsInside(const CameraModel& c) {
     return false;
 }
 
+/// With distortion to without, of the corner at which this is farthest from 1.
+double mostUnlikelyCorner(const CameraModel& c) {
+    const double right = c.size.width - 1, bottom = c.size.height - 1;
+    const Eigen::Vector2d centre(c.cx, c.cy);
+    double out = 1;
+    const std::array<Eigen::Vector2d, 4> corners{
+        {{0, 0}, {right, 0}, {0, bottom}, {right, bottom}}};
+    for (const Eigen::Vector2d& p : corners) {
+        const Eigen::Vector2d ray = c.unproject(p);
+        const double with = (p - centre).norm(),
+                     without = std::hypot(c.fx * ray.x(), c.fy * ray.y());
+        const double ratio = with > 1 ? with / without : 1;
+        if (!(std::abs(std::log(ratio)) <= std::abs(std::log(out)))) out = ratio;
+    }
+    return out;
+}
+
 }  // namespace
 
 Size size(const YamlReader& in, const YAML::Node& node, double width, double height,
           std::optional<Size> wanted) {
     for (const double side : {width, height})
-        if (!(side >= 1 && side <= kMaxSide) || side != std::floor(side))
-            in.fail(node, fmt::format("resolution {} is not a whole number from 1 to {}", side,
-                                      kMaxSide));
+        if (!kSide.holds(side) || side != std::floor(side))
+            in.fail(node,
+                    fmt::format("resolution {} is not a whole number from {}", side, text(kSide)));
     const Size out{static_cast<int>(width), static_cast<int>(height)};
     if (wanted && out != *wanted)
         in.fail(node, fmt::format("is the calibration of {}x{}, the sensor gives {}x{}", out.width,
@@ -44,12 +68,16 @@ Size size(const YamlReader& in, const YAML::Node& node, double width, double hei
 void setIntrinsics(const YamlReader& in, const YAML::Node& node, const Eigen::Vector4d& values,
                    CameraModel& camera) {
     for (int i = 0; i < 2; ++i)
-        if (!(values[i] > 0 && values[i] <= kMaxFocal * camera.size.width))
-            in.fail(node, fmt::format("focal length {} px is impossible", values[i]));
-    const auto near = [](double c, int side) { return c > -side && c < 2.0 * side; };
-    if (!near(values[2], camera.size.width) || !near(values[3], camera.size.height))
-        in.fail(node, fmt::format("principal point ({}, {}) lies far outside the picture of {}x{}",
-                                  values[2], values[3], camera.size.width, camera.size.height));
+        if (!kFocal.holds(values[i] / camera.size.width))
+            in.fail(node, fmt::format("focal length {} px is impossible for a width of {} px, {} "
+                                      "is plausible",
+                                      values[i], camera.size.width, text(kFocal)));
+    if (!kPrincipal.holds(values[2] / camera.size.width) ||
+        !kPrincipal.holds(values[3] / camera.size.height))
+        in.fail(node, fmt::format("principal point ({}, {}) lies far outside the picture of {}x{}, "
+                                  "{} is plausible",
+                                  values[2], values[3], camera.size.width, camera.size.height,
+                                  text(kPrincipal)));
     camera.fx = values[0];
     camera.fy = values[1];
     camera.cx = values[2];
@@ -72,8 +100,9 @@ void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vect
         in.fail(node, fmt::format("{} distortion coefficients, 4 or 5 (k1 k2 p1 p2 k3) are needed",
                                   values.size()));
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (std::abs(values[i]) > 1000)
-            in.fail(node, fmt::format("distortion coefficient {} is impossible", values[i]));
+        if (!kCoefficient.holds(values[i]))
+            in.fail(node, fmt::format("distortion coefficient {} is impossible, {} is plausible",
+                                      values[i], text(kCoefficient)));
         if (i < camera.distortion.size())
             camera.distortion[i] = values[i];
         else if (values[i] != 0)
@@ -83,6 +112,11 @@ void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vect
     }
     if (foldsInside(camera))
         in.fail(node, "the distortion folds the picture over inside its own edges");
+    const double corner = mostUnlikelyCorner(camera);
+    if (!kCorner.holds(corner))
+        in.fail(node, fmt::format("the distortion moves a corner of the picture to {} of its "
+                                  "distance from the principal point, {} is plausible",
+                                  corner, text(kCorner)));
 }
 
 Eigen::Quaterniond rotation(const YamlReader& in, const YAML::Node& node,
@@ -105,17 +139,26 @@ RigidTransform transform(const YamlReader& in, const YAML::Node& node,
 
 void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T) {
     const double baseline = T.translation.norm();
-    if (!(baseline <= kMaxBaseline))
-        in.fail(node, fmt::format("the sensors stand {} m apart, at most {} m are plausible: is "
-                                  "the unit metres?",
-                                  baseline, kMaxBaseline));
+    if (!kBaseline.holds(baseline))
+        in.fail(node, fmt::format("the sensors stand {} m apart, {} is plausible: is the unit "
+                                  "metres?",
+                                  baseline, text(kBaseline)));
 }
 
 double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what) {
     const double offset = in.number(node, what);
-    if (!(std::abs(offset) <= kMaxTimeOffset))
-        in.fail(node, fmt::format("{} of {} s is impossible", what, offset));
+    if (!kTimeOffset.holds(offset))
+        in.fail(node, fmt::format("{} of {} s is impossible, {} is plausible", what, offset,
+                                  text(kTimeOffset)));
     return offset;
+}
+
+double rate(const YamlReader& in, const YAML::Node& node, const char* what) {
+    const double value = in.number(node, what);
+    if (value != 0 && !kRate.holds(value))
+        in.fail(node, fmt::format("{} of {} Hz is impossible, 0 or {} is plausible", what, value,
+                                  text(kRate)));
+    return value;
 }
 
 }  // namespace mfar::plausible

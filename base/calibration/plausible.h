@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-/// The parts of a calibration as any file may give them, refused unless they are plausible. All
-/// throw CalibrationError at the line of the value.
+/// The parts of a calibration as any file may give them, refused unless they are plausible, see
+/// plausible_ranges.h. All throw CalibrationError at the line of the value.
 namespace mfar::plausible {
 
 /// Width and height; `wanted`: the only size that is of use.
@@ -31,6 +31,8 @@ void setDistortion(const YamlReader& in, const YAML::Node& node, const std::vect
                                           const Eigen::Matrix3d& matrix, const char* what);
 /// Between the two sensors of one board: no more than metres apart.
 void checkBaseline(const YamlReader& in, const YAML::Node& node, const RigidTransform& T);
+/// [Hz]; 0: on trigger only.
+[[nodiscard]] double rate(const YamlReader& in, const YAML::Node& node, const char* what);
 /// Of the still's clock [s].
 [[nodiscard]] double timeOffset(const YamlReader& in, const YAML::Node& node, const char* what);
 

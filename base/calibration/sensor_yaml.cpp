@@ -29,10 +29,7 @@ void readSensorLens(const YamlReader& in, CameraModel& camera) {
 
 double readRate(const YamlReader& in) {
     if (!in.has("rate_hz")) return 0;
-    const YAML::Node node = in.at("rate_hz");
-    const double rate = in.number(node, "rate_hz");
-    if (!(rate >= 0 && rate <= 10000)) in.fail(node, fmt::format("rate_hz {} is impossible", rate));
-    return rate;
+    return plausible::rate(in, in.at("rate_hz"), "rate_hz");
 }
 
 SensorYaml readSensor(const YamlReader& in, std::optional<Size> wanted) {

@@ -1,5 +1,8 @@
 #include "base/calibration/yaml_reader.h"
 
+#include "base/bounded_file.h"
+#include "base/calibration/yaml_bounds.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,7 +10,7 @@
 namespace mfar {
 namespace {
 
-constexpr std::uintmax_t kMaxBytes = 1 << 20;  // a calibration takes a few kilobytes
+constexpr std::size_t kMaxBytes = 1 << 20;  // a calibration takes a few kilobytes
 
 int lineOf(const YAML::Mark& mark) {
     return mark.is_null() ? 0 : mark.line + 1;
@@ -21,12 +24,13 @@ void calibrationFault(const std::filesystem::path& file, int line, std::string_v
 }
 
 YamlReader::YamlReader(const std::filesystem::path& file) : file_(file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        fail("is missing, so this camera has no calibration");
-    if (std::filesystem::file_size(file, error) > kMaxBytes)
-        fail("is too large to be a calibration");
-    root_ = YAML::LoadFile(file.string());
+    std::string text;
+    try {
+        text = boundedText(file, kMaxBytes);
+    } catch (const std::runtime_error& error) {
+        fail(fmt::format("{}, so this camera has no calibration", error.what()));
+    }
+    root_ = boundedYaml(text);
     if (!root_.IsMap()) calibrationFault(file_, 1, "holds no calibration");
 }
 
@@ -99,8 +103,6 @@ void readYaml(const std::filesystem::path& file,
               const std::function<void(const YamlReader&)>& read) {
     try {
         read(YamlReader(file));
-    } catch (const YAML::BadFile&) {
-        calibrationFault(file, 0, "cannot be read");
     } catch (const YAML::Exception& e) {
         calibrationFault(file, lineOf(e.mark), e.msg);
     }

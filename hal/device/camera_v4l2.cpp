@@ -101,6 +101,7 @@ void CameraV4l2::stop() {
 
 std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
     const auto until = steady_clock::now() + timeout;
+    int broken = 0;
     while (running_) {
         stream_->takeBack();
         const Wait waited = wait(until);
@@ -109,6 +110,9 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
+            // What waits is looked through, but a driver may give broken pictures as fast as they
+            // are taken.
+            if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
             // A lost device would have said so. The kernel also reports this while every buffer is
             // lent since the start.

@@ -132,13 +132,4 @@ std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec) {
         [events = std::make_shared<DisplayEvents>()] { return events->changed(); });
 }
 
-std::optional<std::string> screenFault(std::string_view spec) {
-    try {
-        (void)parseScreenSpec(spec);
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return std::nullopt;
-}
-
 }  // namespace mfar

@@ -69,7 +69,4 @@ private:
 /// its whole life. Throws std::runtime_error for malformed words alone, never for a missing device.
 [[nodiscard]] std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec);
 
-/// What is wrong with the words of a screen; nothing when openScreen() takes them.
-[[nodiscard]] std::optional<std::string> screenFault(std::string_view spec);
-
 }  // namespace mfar

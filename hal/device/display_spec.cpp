@@ -103,6 +103,15 @@ ScreenSpec parseScreenSpec(std::string_view spec) {
                                          spec));
 }
 
+std::optional<std::string> screenFault(std::string_view spec) {
+    try {
+        (void)parseScreenSpec(spec);
+    } catch (const std::runtime_error& error) {
+        return error.what();
+    }
+    return std::nullopt;
+}
+
 ScreenRect letterbox(Size picture, Size screen) {
     const double scale = std::min(static_cast<double>(screen.width) / picture.width,
                                   static_cast<double>(screen.height) / picture.height);

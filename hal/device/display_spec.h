@@ -31,6 +31,8 @@ struct ScreenSpec {
 /// "auto", "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or "fbdev[:/dev/fbN]".
 /// Throws std::runtime_error that names the word it does not understand.
 [[nodiscard]] ScreenSpec parseScreenSpec(std::string_view spec);
+/// What is wrong with such words; nothing when parseScreenSpec() takes them.
+[[nodiscard]] std::optional<std::string> screenFault(std::string_view spec);
 
 /// Where a picture goes on a screen.
 struct ScreenRect {

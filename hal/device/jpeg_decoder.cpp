@@ -65,7 +65,8 @@ bool JpegDecoder::decodeInto(std::span<const std::uint8_t> jpeg,
     const Size size = pool_.size();
     std::array<int, 3> strides{size.width, size.width / 2, size.width / 2};
     if (tjDecompressToYUVPlanes(handle_.get(), jpeg.data(), jpeg.size(), planes.data(), size.width,
-                                strides.data(), size.height, TJFLAG_FASTDCT) == 0 ||
+                                strides.data(), size.height,
+                                TJFLAG_FASTDCT | TJFLAG_LIMITSCANS) == 0 ||
         harmless(handle_.get()))
         return true;
     renew();

@@ -151,8 +151,10 @@ V4l2Controls::V4l2Controls(const V4l2Device& device) : device_(&device) {
 std::vector<V4l2Control::Entry> V4l2Controls::entriesOf(const V4l2Control& control,
                                                         bool numbers) const {
     std::vector<V4l2Control::Entry> out;
-    const std::int64_t last = std::min(control.maximum, control.minimum + kMostEntries);
-    for (std::int64_t i = std::max<std::int64_t>(control.minimum, 0); i <= last; ++i) {
+    const std::int64_t first = std::max<std::int64_t>(control.minimum, 0);
+    if (first > UINT32_MAX) return out;
+    const std::int64_t last = std::min(control.maximum, first + kMostEntries);
+    for (std::int64_t i = first; i <= last; ++i) {
         v4l2_querymenu query{};
         query.id = control.id;
         query.index = static_cast<std::uint32_t>(i);

@@ -10,7 +10,8 @@
 namespace mfar {
 namespace {
 
-constexpr int kMostOffers = 512;  // a driver whose list goes on and on is not believed
+constexpr std::uint32_t kMostSide = 65535;  // [px]; more is taken for that
+constexpr int kMostOffers = 512;            // a driver whose list goes on and on is not believed
 
 constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_NV12, PixelFormat::Nv12},
@@ -166,7 +167,8 @@ std::int64_t largestPicture(const V4l2Device& device) {
             const std::uint32_t width = discrete ? query.discrete.width : query.stepwise.max_width;
             const std::uint32_t height =
                 discrete ? query.discrete.height : query.stepwise.max_height;
-            most = std::max(most, std::int64_t{width} * height);
+            most = std::max(most,
+                            std::int64_t{std::min(width, kMostSide)} * std::min(height, kMostSide));
             if (!discrete) break;
         }
     return most;

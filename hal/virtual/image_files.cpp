@@ -1,5 +1,6 @@
 #include "hal/virtual/image_files.h"
 
+#include "base/bounded_file.h"
 #include "base/image_layout.h"
 #include "base/whole_file.h"
 #include "hal/image_codec.h"
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 #include <opencv2/core.hpp>
 
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -17,18 +17,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::uint8_t> bytesOf(const fs::path& file) {
-    std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) throw ImageFileError(file, "is missing");
-    std::ifstream in(file, std::ios::binary);
-    std::vector<std::uint8_t> bytes(fs::file_size(file, ignored));
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!in) throw ImageFileError(file, "cannot be read");
-    return bytes;
+/// More than the pixels themselves take is no picture of that size.
+std::size_t mostBytes(Size size) {
+    constexpr std::size_t kBytesPerPixel = 8, kHeader = 1 << 20;
+    return kBytesPerPixel * size.width * size.height + kHeader;
 }
 
-void decode(const fs::path& file, const TargetOf& targetOf) {
-    const std::vector<std::uint8_t> bytes = bytesOf(file);
+std::vector<std::uint8_t> bytesOf(const fs::path& file, std::size_t most) {
+    try {
+        return boundedFile(file, most);
+    } catch (const std::runtime_error& e) {
+        throw ImageFileError(file, e.what());
+    }
+}
+
+void decode(const fs::path& file, std::size_t most, const TargetOf& targetOf) {
+    const std::vector<std::uint8_t> bytes = bytesOf(file, most);
     try {
         decodeImage(bytes, [&](Size size) {
             if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide ||
@@ -47,7 +51,7 @@ void decode(const fs::path& file, const TargetOf& targetOf) {
 
 StoredImage loadImage(const fs::path& file) {
     StoredImage out;
-    decode(file, [&](Size size) -> PixelTarget {
+    decode(file, mostBytes({kMaxImageSide, kMaxImageSide}), [&](Size size) -> PixelTarget {
         const std::size_t stride = std::size_t{4} * size.width;
         out = {size, PixelFormat::Rgba8, std::vector<std::uint8_t>(stride * size.height)};
         return {out.pixels.data(), stride};
@@ -56,7 +60,7 @@ StoredImage loadImage(const fs::path& file) {
 }
 
 void loadImageInto(const fs::path& file, Size expected, std::uint8_t* rgba, std::size_t stride) {
-    decode(file, [&](Size size) -> PixelTarget {
+    decode(file, mostBytes(expected), [&](Size size) -> PixelTarget {
         if (size != expected)
             throw ImageFileError(file, fmt::format("is {}x{}, not {}x{}", size.width, size.height,
                                                    expected.width, expected.height));
@@ -85,7 +89,7 @@ void savePng(const fs::path& file, const ImageView& image) {
     try {
         std::vector<std::uint8_t> bytes;
         encodePng(image, bytes);
-        writeWholeFile(file, bytes);
+        writeWholeFile(file, bytes, Durability::WithSync);
     } catch (const std::runtime_error& e) {
         throw ImageFileError(e.what());
     }

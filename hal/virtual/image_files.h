@@ -44,7 +44,8 @@ void loadImageInto(const std::filesystem::path& file, Size expected, std::uint8_
 /// Encodes a picture of any format as PNG, quickly rather than small: RGB without alpha, or grey.
 /// `out` is reused. Throws std::invalid_argument for a view that is not sound (requireSound()).
 void encodePng(const ImageView& image, std::vector<std::uint8_t>& out);
-/// Writes a PNG file, complete or not at all. Throws ImageFileError, and as encodePng() does.
+/// Writes a PNG file, complete or not at all (Durability::WithSync). Throws ImageFileError, and as
+/// encodePng() does.
 void savePng(const std::filesystem::path& file, const ImageView& image);
 
 /// One number per pixel, row 0 on top, rows without padding. NaN = unknown.

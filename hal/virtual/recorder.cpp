@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace mfar {
@@ -45,12 +46,15 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
     beginCamera(video_.folder, {rig.video, {}, videoRateHz}, "video sensor, body frame");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0}, "still sensor");
+    syncFileSystem(root_);
 }
 
-Recorder::~Recorder() = default;
+Recorder::~Recorder() {
+    writer_.post([this] { sync(); });
+}
 
 bool Recorder::accepts(const Stream& stream, Timestamp time) const {
-    return time.ns >= 0 && (!stream.last || *stream.last < time) && !writer_.error();
+    return time.ns >= 0 && (!stream.last || *stream.last < time) && !error();
 }
 
 bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp time) {
@@ -66,16 +70,50 @@ bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp 
     // An RGBA buffer is large enough for every format; the writer's thread makes RGB of it.
     const ImageView copy = packInto(slot->data, image);
     const auto loan = std::make_shared<Frame>(stream.pool.lend(*slot, time));
-    writer_.post([this, &stream, loan, copy] {
-        const std::string name = fmt::format("{}.png", loan->time().ns);
-        const fs::path file = stream.folder / "data" / name;
-        checkSpace(copy.stride * copy.size.height);
-        savePng(file, copy);
-        bytes_ += fs::file_size(file);
-        appendToFile(stream.folder / "data.csv", fmt::format("{},{}\n", loan->time().ns, name));
-        ++stream.written;
-    });
+    writer_.post([this, &stream, loan, copy] { writePicture(stream, copy, loan->time()); });
     return true;
+}
+
+void Recorder::writePicture(PictureStream& stream, const ImageView& picture, Timestamp time) {
+    const std::string name = fmt::format("{}.png", time.ns);
+    const fs::path file = stream.folder / "data" / name;
+    try {
+        checkSpace(picture.stride * picture.size.height);
+        savePng(file, picture);
+    } catch (const std::runtime_error&) {
+        sync();  // nothing more is written, and what there is must have its name
+        throw;
+    }
+    std::error_code ignored;
+    if (const std::uintmax_t size = fs::file_size(file, ignored); !ignored) bytes_ += size;
+    stream.rows += fmt::format("{},{}\n", time.ns, name);
+    ++stream.written;
+    syncWhenDue();
+}
+
+void Recorder::syncWhenDue() {
+    if (!isSyncing_ && std::chrono::steady_clock::now() - synced_ >= options_.syncEvery) sync();
+}
+
+// In a thread of its own: a slow disk takes longer than there are buffers for pictures.
+void Recorder::sync() {
+    synced_ = std::chrono::steady_clock::now();
+    isSyncing_ = true;
+    std::vector<std::pair<fs::path, std::string>> rows;
+    for (Stream* stream : {static_cast<Stream*>(&video_), static_cast<Stream*>(&still_), &poses_})
+        if (!stream->rows.empty())
+            rows.emplace_back(stream->folder / "data.csv", std::exchange(stream->rows, {}));
+    syncer_.post([this, rows = std::move(rows)] {
+        const std::shared_ptr<void> atEnd(nullptr, [this](void*) { isSyncing_ = false; });
+        syncFileSystem(root_);
+        for (const auto& [file, text] : rows)
+            appendToFile(file, text);
+    });
+}
+
+std::optional<std::string> Recorder::error() const {
+    std::optional<std::string> error = writer_.error();
+    return error ? error : syncer_.error();
 }
 
 bool Recorder::pose(const Pose& pose) {
@@ -111,19 +149,22 @@ void Recorder::checkSpace(std::uintmax_t bytes) {
 }
 
 void Recorder::writePose(const Pose& pose) {
-    const fs::path file = poses_.folder / "data.csv";
     if (poses_.written == 0) {
         fs::create_directories(poses_.folder);
-        appendToFile(file, kPoseHeader);
+        poses_.rows = kPoseHeader;
     }
     const Eigen::Vector3d& t = pose.T_world_video.translation;
     const Eigen::Quaterniond& q = pose.T_world_video.rotation;
-    appendToFile(file, fmt::format("{},{},{},{},{},{},{},{}\n", pose.time.ns, t.x(), t.y(), t.z(),
-                                   q.w(), q.x(), q.y(), q.z()));
+    poses_.rows += fmt::format("{},{},{},{},{},{},{},{}\n", pose.time.ns, t.x(), t.y(), t.z(),
+                               q.w(), q.x(), q.y(), q.z());
+    syncWhenDue();
 }
 
 void Recorder::finish() {
+    writer_.post([this] { sync(); });
     writer_.drain();
+    syncer_.post([this] { syncFileSystem(root_); });  // the rows themselves
+    syncer_.drain();
 }
 
 }  // namespace mfar

@@ -5,6 +5,7 @@
 #include "hal/virtual/background_writer.h"
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -22,12 +23,18 @@ struct RecorderOptions {
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< the same for a recording that becomes longer; 0: no limit
     WatchedThread writer{};       ///< which writes; its budget is for one picture
+    /// What was written is made safe from a cut of power when so much time has passed since the
+    /// last time, with the next picture or pose.
+    std::chrono::milliseconds syncEvery{1000};
 };
 
 /// Writes a recording while the frames it is made of are in use. video(), still() and pose() copy
 /// and return at once, whatever the disk does: when their buffers are full the picture is dropped
-/// and counted. A data.csv names a picture only after its file is complete, so a recording that was
-/// cut off at any moment can be loaded. The body frame B of the recording is the video camera.
+/// and counted. A data.csv names a picture only after its file is on the disk: at finish() and
+/// every `syncEvery` the file system is synchronised, and what was written since is named then. So
+/// a recording that was cut off at any moment, also by a cut of power, can be loaded, and lacks at
+/// most what came after the last of these points. The body frame B of the recording is the video
+/// camera.
 ///
 /// video() is called from one thread, and so are still() and pose(); the three may be different
 /// ones. Returned false = not recorded: buffers full, time not after that of the previous picture,
@@ -58,7 +65,7 @@ public:
     /// error of the recording (disk full, folder gone). May be called more than once.
     void finish();
     /// The first write error so far. Thread-safe, never waits.
-    [[nodiscard]] std::optional<std::string> error() const { return writer_.error(); }
+    [[nodiscard]] std::optional<std::string> error() const;
 
     [[nodiscard]] Counts videoCounts() const { return video_.counts(); }
     [[nodiscard]] Counts stillCounts() const { return still_.counts(); }
@@ -71,6 +78,7 @@ private:
         std::optional<Timestamp> last{};
         std::atomic<std::uint64_t> written{0};
         std::atomic<std::uint64_t> dropped{0};
+        std::string rows{};  ///< not yet in its data.csv; of the writer's thread
 
         [[nodiscard]] Counts counts() const { return {written.load(), dropped.load()}; }
     };
@@ -82,18 +90,25 @@ private:
 
     [[nodiscard]] bool accepts(const Stream& stream, Timestamp time) const;
     bool picture(PictureStream& stream, const ImageView& image, Timestamp time);
+    void writePicture(PictureStream& stream, const ImageView& picture, Timestamp time);
     void writePose(const Pose& pose);
+    void syncWhenDue();
+    /// Makes all files safe, then names them.
+    void sync();
     /// Throws std::runtime_error where no further picture may be written.
     void checkSpace(std::uintmax_t bytes);
 
     std::filesystem::path root_;
     RecorderOptions options_;
-    std::uintmax_t bytes_ = 0;  // of all pictures; of the writer's thread
+    std::uintmax_t bytes_ = 0;  // of all pictures; of the writer's thread, as the next
+    std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
     PictureStream video_;
     PictureStream still_;
     Stream poses_;
     std::atomic<int> pendingPoses_{0};
-    BackgroundWriter writer_;  // last: its thread uses all of the above
+    std::atomic<bool> isSyncing_{false};
+    BackgroundWriter syncer_{1};  // before the other, whose thread posts to it
+    BackgroundWriter writer_;     // last: its thread uses all of the above
 };
 
 }  // namespace mfar

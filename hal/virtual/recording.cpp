@@ -50,9 +50,20 @@ RecordedImage readImageRow(const CsvRow& row, const fs::path& folder, Size expec
     return image;
 }
 
+/// A last row that is torn and makes no sense ends the list: power was cut as it was written.
+void forEachWholeRow(const fs::path& file, const std::function<void(const CsvRow&)>& visit) {
+    forEachCsvRow(file, [&](const CsvRow& row) {
+        try {
+            visit(row);
+        } catch (const RecordingError&) {
+            if (!row.isTorn()) throw;
+        }
+    });
+}
+
 std::vector<RecordedImage> readImages(const fs::path& camera, Size expected) {
     std::vector<RecordedImage> images;
-    forEachCsvRow(camera / "data.csv", [&](const CsvRow& row) {
+    forEachWholeRow(camera / "data.csv", [&](const CsvRow& row) {
         RecordedImage image = readImageRow(row, camera / "data", expected);
         if (!images.empty()) checkIncreasing(row, images.back().time, image.time);
         images.push_back(std::move(image));
@@ -76,7 +87,8 @@ Pose readPoseRow(const CsvRow& row, const RigidTransform& T_body_video) {
 std::vector<Pose> readPoses(const fs::path& folder, const RigidTransform& T_body_video) {
     std::vector<Pose> poses;
     if (!fs::exists(folder)) return poses;
-    forEachCsvRow(folder / "data.csv", [&](const CsvRow& row) {
+    forEachWholeRow(folder / "data.csv", [&](const CsvRow& row) {
+        if (row.isTorn()) return;  // a part of a number is a number
         const Pose pose = readPoseRow(row, T_body_video);
         if (!poses.empty()) checkIncreasing(row, poses.back().time, pose.time);
         poses.push_back(pose);

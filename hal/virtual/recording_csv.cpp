@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -11,6 +12,8 @@
 namespace mfar {
 namespace {
 
+constexpr std::size_t kLongestLine = 4096;
+constexpr int kMostLines = 1'000'000;  // nine hours of video
 constexpr std::int64_t kTimeLimit = std::int64_t{1} << 62;
 
 std::string_view trimmed(std::string_view s) {
@@ -43,8 +46,8 @@ void recordingFault(const std::filesystem::path& file, int line, std::string_vie
     throw RecordingError(fmt::format("{}: {}", file.string(), what));
 }
 
-CsvRow::CsvRow(const std::filesystem::path& file, int line, std::string_view text)
-    : file_(file), line_(line) {
+CsvRow::CsvRow(const std::filesystem::path& file, int line, std::string_view text, bool isTorn)
+    : file_(file), line_(line), isTorn_(isTorn) {
     std::size_t at = 0;
     for (;;) {
         const std::size_t comma = text.find(',', at);
@@ -75,16 +78,24 @@ void CsvRow::fail(std::string_view what) const {
 
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit) {
+    // To open a pipe would wait.
+    if (!std::filesystem::is_regular_file(file)) recordingFault(file, 0, "is missing");
     std::ifstream in(file);
-    if (!std::filesystem::is_regular_file(file) || !in) recordingFault(file, 0, "is missing");
-    std::string text;
-    for (int line = 1; std::getline(in, text); ++line) {
-        std::string_view row = text;
+    if (!in) recordingFault(file, 0, "cannot be read");
+    std::array<char, kLongestLine + 1> text{};
+    for (int line = 1; in.getline(text.data(), text.size()); ++line) {
+        if (line > kMostLines)
+            recordingFault(file, line, fmt::format("more than {} lines", kMostLines));
+        std::string_view row(text.data(), static_cast<std::size_t>(in.gcount()));
+        if (row.ends_with('\0')) row.remove_suffix(1);  // in place of the line end
         if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
-        row = trimmed(row);
-        if (!row.empty() && row.front() != '#') visit(CsvRow(file, line, row));
+        const bool isTorn = in.eof();
+        row = trimmed(row.substr(0, row.find('\0')));
+        if (!row.empty() && row.front() != '#') visit(CsvRow(file, line, row, isTorn));
     }
     if (in.bad()) recordingFault(file, 0, "cannot be read");
+    if (!in.eof())
+        recordingFault(file, 0, fmt::format("has a line of more than {} characters", kLongestLine));
 }
 
 }  // namespace mfar

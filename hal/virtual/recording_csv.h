@@ -18,8 +18,11 @@ namespace mfar {
 /// One data row of a CSV file. The fields are trimmed and live only while the row is visited.
 class CsvRow {
 public:
-    CsvRow(const std::filesystem::path& file, int line, std::string_view text);
+    CsvRow(const std::filesystem::path& file, int line, std::string_view text, bool isTorn);
 
+    /// The last row of a file, without a line end or with zeros in it: a cut of power may have left
+    /// a part of it.
+    [[nodiscard]] bool isTorn() const { return isTorn_; }
     [[nodiscard]] std::size_t size() const { return fields_.size(); }
     [[nodiscard]] std::string_view text(std::size_t i) const { return fields_.at(i); }
     /// Field i as a timestamp in nanoseconds, 0 <= t < 2^62 so that differences and repeated
@@ -33,6 +36,7 @@ public:
 private:
     const std::filesystem::path& file_;
     int line_;
+    bool isTorn_;
     std::vector<std::string_view> fields_;
 };
 

@@ -1,7 +1,7 @@
 #include "pipeline/models/environment_map.h"
 
+#include "base/bounded_file.h"
 #include "hal/image_codec.h"
-#include "pipeline/models/bounded_file.h"
 #include "pipeline/models/gltf_model.h"
 #include "pipeline/models/radiance_hdr.h"
 #include "pipeline/models/srgb_bytes.h"
@@ -18,16 +18,27 @@ namespace {
 
 constexpr Size kMostKept{2048, 1024};
 constexpr int kMostHdrWidth = 16384, kMostLdrWidth = 8192;
-constexpr std::size_t kMostBytes = std::size_t{512} << 20U;
 
 void requireLatLong(Size size, int mostWidth) {
-    if (size.width < 2 || size.height < 1 || size.width > mostWidth)
-        throw std::runtime_error(fmt::format("{}x{} pixels, at most {} across are read", size.width,
+    if (size.width < 2 || size.height < 1 || size.width > mostWidth || size.height > mostWidth)
+        throw std::runtime_error(fmt::format("{}x{} pixels, at most {} a side are read", size.width,
                                              size.height, mostWidth));
     if (std::abs(size.width - 2 * size.height) > std::max(size.width / 100, 1))
         throw std::runtime_error(fmt::format("{}x{} pixels are no latitude-longitude picture, "
                                              "which is twice as wide as high",
                                              size.width, size.height));
+}
+
+/// Of the picture as it is decoded, and of the environment it becomes.
+void requireMemory(Size size, std::size_t memory) {
+    const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
+    const std::size_t kept =
+        std::min<std::size_t>(pixels, static_cast<std::size_t>(kMostKept.width) * kMostKept.height);
+    const std::size_t needed = 4 * pixels + sizeof(Eigen::Vector3f) * kept;
+    if (needed > memory)
+        throw std::runtime_error(fmt::format("{}x{} pixels need {} MB of memory, {} MB are left",
+                                             size.width, size.height, needed >> 20U,
+                                             memory >> 20U));
 }
 
 /// Averages rows as they come, so that a large picture is never in memory as a whole.
@@ -71,23 +82,27 @@ private:
     Environment out_;
 };
 
-Environment readHdr(std::span<const std::uint8_t> bytes) {
+Environment readHdr(std::span<const std::uint8_t> bytes, std::size_t memory) {
     std::optional<RowAverage> average;
     readRadianceHdr(
         bytes,
         [&](Size size) {
             requireLatLong(size, kMostHdrWidth);
+            requireMemory(
+                {std::min(size.width, kMostKept.width), std::min(size.height, kMostKept.height)},
+                memory);
             average.emplace(size);
         },
         [&](int y, std::span<const Eigen::Vector3f> row) { average->add(y, row); });
     return average->take();
 }
 
-Environment readLdr(std::span<const std::uint8_t> bytes) {
+Environment readLdr(std::span<const std::uint8_t> bytes, std::size_t memory) {
     Size size;
     std::vector<std::uint8_t> rgba;
     decodeImage(bytes, [&](Size found) -> PixelTarget {
         requireLatLong(found, kMostLdrWidth);
+        requireMemory(found, memory);
         size = found;
         rgba.resize(std::size_t{4} * size.width * size.height);
         return {rgba.data(), std::size_t{4} * size.width};
@@ -108,22 +123,23 @@ Environment readLdr(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-Environment parseEnvironment(std::span<const std::uint8_t> bytes, const std::string& name) {
+Environment parseEnvironment(std::span<const std::uint8_t> bytes, const std::string& name,
+                             std::size_t memory) {
     try {
-        return isRadianceHdr(bytes) ? readHdr(bytes) : readLdr(bytes);
+        return isRadianceHdr(bytes) ? readHdr(bytes, memory) : readLdr(bytes, memory);
     } catch (const std::runtime_error& error) {
         throw ModelError(fmt::format("{}: {}", name, error.what()));
     }
 }
 
-Environment loadEnvironment(const std::filesystem::path& file) {
+Environment loadEnvironment(const std::filesystem::path& file, std::size_t memory) {
     std::vector<std::uint8_t> bytes;
     try {
-        bytes = boundedFile(file, kMostBytes);
+        bytes = boundedFile(file, memory / 2);
     } catch (const std::runtime_error& error) {
         throw ModelError(fmt::format("{}: {}", file.string(), error.what()));
     }
-    return parseEnvironment(bytes, file.string());
+    return parseEnvironment(bytes, file.string(), memory - bytes.size());
 }
 
 Eigen::Vector3f environmentDirection(float u, float v) {

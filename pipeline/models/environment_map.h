@@ -2,6 +2,7 @@
 
 #include "pipeline/scene/scene.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -10,13 +11,18 @@
 
 namespace mfar {
 
+/// What reading an environment may take [byte]; of that, its file half.
+inline constexpr std::size_t kEnvironmentMemory = std::size_t{1} << 30U;
+
 /// Reads a latitude-longitude picture: Radiance RGBE (.hdr), PNG or JPEG (sRGB, white is radiance
 /// 1). Its width is twice its height, to one in a hundred, and at most 16384 (PNG, JPEG: 8192);
 /// more than 2048x1024 is averaged down to that. Throws ModelError "file: what is wrong".
-[[nodiscard]] Environment loadEnvironment(const std::filesystem::path& file);
+[[nodiscard]] Environment loadEnvironment(const std::filesystem::path& file,
+                                          std::size_t memory = kEnvironmentMemory);
 /// The same for a file's bytes. `name` is for messages.
 [[nodiscard]] Environment parseEnvironment(std::span<const std::uint8_t> bytes,
-                                           const std::string& name);
+                                           const std::string& name,
+                                           std::size_t memory = kEnvironmentMemory);
 
 /// A photographer's studio: a large soft box to the upper left in front (-x, -y), a strip to the
 /// right, a cold one behind, in a dim room. A white surface that faces up has radiance near 1.

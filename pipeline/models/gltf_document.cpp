@@ -1,7 +1,8 @@
 #define TINYGLTF_IMPLEMENTATION
 #include "pipeline/models/gltf_document.h"
 
-#include "pipeline/models/bounded_file.h"
+#include "base/bounded_file.h"
+#include "pipeline/models/named_file.h"
 
 #include <fmt/format.h>
 

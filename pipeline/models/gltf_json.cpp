@@ -13,19 +13,18 @@ namespace {
 using nlohmann::json;
 
 constexpr int kDeepestJson = 64;
-constexpr std::size_t kMostJsonValues = 2'000'000;  ///< each costs some hundred bytes as it is read
 
 [[noreturn]] void wrong(std::string_view place, std::string_view what) {
     throw std::runtime_error(fmt::format("{}: {}", place, what));
 }
 
-json parseBounded(std::string_view text) {
+json parseBounded(std::string_view text, std::size_t most) {
     std::size_t values = 0;
     const auto count = [&](int depth, json::parse_event_t /*event*/, json& /*parsed*/) {
         if (depth > kDeepestJson)
             throw std::runtime_error(fmt::format("JSON is nested deeper than {}", kDeepestJson));
-        if (++values > kMostJsonValues)
-            throw std::runtime_error(fmt::format("JSON has more than {} values", kMostJsonValues));
+        if (++values > most)
+            throw std::runtime_error(fmt::format("JSON has more than {} values", most));
         return true;
     };
     try {
@@ -121,7 +120,7 @@ void checkImages(const json& images, const json& views) {
 }  // namespace
 
 void requireSoundJson(std::string_view text, const ModelLimits& limits) {
-    const json root = parseBounded(text);
+    const json root = parseBounded(text, limits.jsonValues);
     if (!root.is_object()) throw std::runtime_error("JSON is no object");
     checkLists(root, limits);
     checkBuffers(listOf(root, "buffers"), limits);

@@ -1,7 +1,8 @@
 #include "pipeline/models/gltf_material.h"
 
+#include "base/bounded_file.h"
 #include "hal/image_codec.h"
-#include "pipeline/models/bounded_file.h"
+#include "pipeline/models/named_file.h"
 
 #include <fmt/format.h>
 

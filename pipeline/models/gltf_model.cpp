@@ -1,6 +1,6 @@
 #include "pipeline/models/gltf_model.h"
 
-#include "pipeline/models/bounded_file.h"
+#include "base/bounded_file.h"
 #include "pipeline/models/gltf_document.h"
 #include "pipeline/models/gltf_material.h"
 #include "pipeline/models/gltf_mesh.h"

@@ -26,8 +26,16 @@ struct ModelLimits {
     std::size_t textures = 128;
     int textureSide = 8192;                       ///< [px]
     std::size_t texels = std::size_t{64} << 20U;  ///< of all textures together
+    std::size_t jsonValues = 2'000'000;           ///< of the document
     float farthest = 10'000;                      ///< coordinates after all transforms [m]
 };
+
+/// Limits with which a model takes no more than about so many bytes while it is read, and less
+/// afterwards. Never above the default ones.
+[[nodiscard]] ModelLimits limitsWithin(std::size_t bytes);
+
+/// What a model takes [byte].
+[[nodiscard]] std::size_t memoryOf(const Model& model);
 
 /// Reads glTF 2.0, .glb or .gltf, whose buffers and pictures are inside it, or files in its folder
 /// or below. What it shows is turned from glTF's y up to z up: (x, y, z) -> (x, -z, y), so that a

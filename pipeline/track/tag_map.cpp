@@ -1,29 +1,22 @@
 #include "pipeline/track/tag_map.h"
 
+#include "base/bounded_file.h"
 #include "base/se3.h"
 #include "pipeline/track/tag_map_faults.h"
 
-#include <system_error>
-
-#include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <cmath>
 
 namespace mfar {
 namespace {
 
-constexpr std::uintmax_t kLargestFile = 4U << 20U;  // all 2115 tags of a family take 0.4 MB
+constexpr std::size_t kLargestFile = 4U << 20U;  // all 2115 tags of a family take 0.4 MB
 
 std::string readAll(const std::filesystem::path& file) {
-    std::error_code error;
-    const bool regular = std::filesystem::is_regular_file(file, error);
-    if (error || !regular) tagMapFault(file.string(), 0, "no such file");
-    if (std::filesystem::file_size(file, error) > kLargestFile || error)
-        tagMapFault(file.string(), 0, "too large for a tag map");
-    std::ifstream in(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (!in) tagMapFault(file.string(), 0, "cannot be read");
-    return text;
+    try {
+        return boundedText(file, kLargestFile);
+    } catch (const std::runtime_error& error) {
+        tagMapFault(file.string(), 0, error.what());
+    }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/calibration/plausible_ranges.h"
 #include "pipeline/track/tag_map.h"
 
 #include <fmt/format.h>
@@ -33,7 +34,14 @@ inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>&
                            raw.id);
     if (!(raw.size > 0) || !std::isfinite(raw.size))
         return fmt::format("size must be positive [m], not {}", raw.size);
-    if (!raw.position.allFinite()) return "the position must be finite";
+    if (!plausible::kTagSize.holds(raw.size))
+        return fmt::format("size must be from {} to {} m, not {}", plausible::kTagSize.least,
+                           plausible::kTagSize.most, raw.size);
+    for (const double coordinate : raw.position)
+        if (!plausible::kTagPosition.holds(coordinate))
+            return fmt::format("the position must be from {} to {} m, not {}",
+                               plausible::kTagPosition.least, plausible::kTagPosition.most,
+                               coordinate);
     // Nine digits are written; what is off by more was no rotation.
     if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
         return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());

@@ -1,3 +1,4 @@
+#include "base/toml_bounds.h"
 #include "pipeline/track/tag_map.h"
 #include "pipeline/track/tag_map_faults.h"
 
@@ -14,6 +15,8 @@ namespace {
 class Reader {
 public:
     Reader(std::string_view text, const std::string& file) : file_(file) {
+        if (const auto excess = tomlExcess(text))
+            tagMapFault(file, static_cast<int>(excess->line), excess->what);
         try {
             root_ = toml::parse(text, file);
         } catch (const toml::parse_error& error) {
@@ -58,7 +61,9 @@ private:
     }
 
     [[nodiscard]] double number(const toml::node& node, std::string_view key) const {
-        const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+        // TOML++ gives no double for a whole number above 2^53.
+        const auto whole = node.value_exact<std::int64_t>();
+        const auto value = whole ? static_cast<double>(*whole) : node.value_exact<double>();
         if (!value || !std::isfinite(*value))
             fail(node, fmt::format("{} must be a finite number", key));
         return *value;

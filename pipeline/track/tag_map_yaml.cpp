@@ -1,3 +1,4 @@
+#include "base/calibration/yaml_bounds.h"
 #include "pipeline/track/tag_map.h"
 #include "pipeline/track/tag_map_faults.h"
 
@@ -17,7 +18,7 @@ public:
     BundleReader(std::string_view text, const std::string& file, TagFamily family)
         : file_(file), family_(family) {
         try {
-            root_ = YAML::Load(std::string(text));
+            root_ = boundedYaml(std::string(text));
         } catch (const YAML::Exception& error) {
             tagMapFault(file, error.mark.line + 1, error.msg);
         }

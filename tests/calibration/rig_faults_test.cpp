@@ -1,9 +1,13 @@
+#include "base/calibration/plausible_ranges.h"
 #include "base/calibration/rig_files.h"
 #include "tests/calibration/rig_texts.h"
 #include "tests/unit/damage.h"
 #include "tests/unit/temp_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <sys/stat.h>
 
 #include <random>
 #include <string>
@@ -56,6 +60,12 @@ constexpr Fault kFaults[] = {
     {"own", kRig, "T_still_video:", "T:", "own/rig.yaml: ", "no calibration of a known format"},
     {"own", kVideo, "560.4", "0", "own/video.yaml:7: ", "is singular"},
     {"own", kVideo, "560.4", "-560.4", "own/video.yaml:7: ", "focal length -560.4 px"},
+    {"own", kVideo, "560.4", "1e-300", "own/video.yaml:7: ", "singular"},
+    {"own", kVideo, "560.4", "1.5", "own/video.yaml:7: ", "0.05 to 100 picture widths"},
+    {"own", kVideo, "-0.115", "900", "own/video.yaml:12: ", "moves a corner"},
+    {"own", kVideo, "-0.115", "-1e4", "own/video.yaml:12: ", "-1000 to 1000 is plausible"},
+    {"own", kVideo, "0.0006", "900", "own/video.yaml:12: ", ""},
+    {kChain, kChain, "560.4", "1e-300", "camchain.yaml:5: ", "focal length 1e-300 px"},
     {"own", kVideo, "560.4", "64001", "own/video.yaml:7: ", "focal length 64001 px"},
     {"own", kVideo, "321.7", "9000", "own/video.yaml:7: ", "far outside"},
     {"own", kVideo, "560.4, 0", "560.4, 3", "own/video.yaml:7: ", "skew"},
@@ -113,6 +123,42 @@ TEST(RigFiles, EveryFaultIsRefusedWithFileAndLine) {
         EXPECT_NE(message.find(fault.what), std::string::npos) << message;
         EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     }
+}
+
+TEST(RigFiles, WhatIsNestedOrGoesOnWithoutEndIsRefusedBeforeATreeIsBuilt) {
+    const TempFolder folder;
+    std::string many = "a: [0";
+    for (int i = 0; i < 150'000; ++i)
+        many += ",0";
+    const std::pair<std::string, const char*> texts[] = {
+        {"a: " + std::string(100'000, '['), "nested deeper than 16"},
+        {"a: " + std::string(100'000, '{'), "nested deeper than 16"},
+        {many + "]", "more than 100000 values"},
+        {"a: &x [1, 2]\nb: [*x, *x]\n", "aliases are not read"},
+    };
+    for (const auto& [text, what] : texts) {
+        writeFile(folder / "rig.yaml", text);
+        EXPECT_NE(faultOf(folder / "rig.yaml").find(what), std::string::npos)
+            << faultOf(folder / "rig.yaml");
+    }
+}
+
+TEST(RigFiles, ADeviceOrAPipeIsNoCalibration) {
+    const TempFolder folder;
+    ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+    for (const fs::path& file : {folder / "pipe", fs::path("/dev/zero")})
+        EXPECT_EQ(faultOf(file),
+                  file.string() + ": is not a regular file, so this camera has no calibration");
+}
+
+// The table of the README is that of the code.
+TEST(RigFiles, TheReadmeShowsWhatIsPlausible) {
+    const std::string readme = readFile(MFAR_README);
+    for (const plausible::Range& range : plausible::kRanges)
+        EXPECT_NE(readme.find(fmt::format("| {} | {} | {} | {} |\n", range.what, range.unit,
+                                          range.least, range.most)),
+                  std::string::npos)
+            << range.what;
 }
 
 TEST(RigFiles, AnOpenCvFileWithoutSizeMustFitTheOneThatIsWanted) {

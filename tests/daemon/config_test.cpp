@@ -1,9 +1,13 @@
 #include "daemon/config.h"
 #include "daemon/exit_code.h"
 #include "tests/daemon/config_faults.h"
+#include "tests/unit/temp_folder.h"
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <gmock/gmock.h>
 
 namespace mfar {
@@ -162,6 +166,65 @@ TEST(Config, AFileThatCannotBeReadIsAMissingInput) {
         } catch (const Failure& failure) {
             EXPECT_EQ(failure.code, ExitCode::NoInput);
             EXPECT_THAT(failure.what(), StartsWith(file));
+        }
+    }
+}
+
+TEST(Config, ATextWithoutEndIsRefusedBeforeItIsParsed) {
+    std::string dots = "seed";
+    for (int i = 0; i < 50'000; ++i)
+        dots += ".a";
+    EXPECT_EQ(configFaults(dots + " = 1\n"), "test.toml:1:69: a key has more than 32 parts");
+    EXPECT_EQ(configFaults("pace = \"auto\"\n[" + dots + "]\n"),
+              "test.toml:2:70: a key has more than 32 parts");
+    // Quotes do not hide it, and what is in them does not count.
+    EXPECT_THAT(configFaults("a = [\"\"\"x\"\"\"\", {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
+    EXPECT_THAT(configFaults("a = ['''x'''', {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
+    EXPECT_EQ(configFaults("# " + dots + "\nrecording = \"" + dots + "\"\n"), "");
+    EXPECT_EQ(configFaults("a = " + std::string(50'000, '[')),
+              "test.toml:1:37: brackets are nested deeper than 32");
+    EXPECT_THAT(configFaults("a = " + std::string(50'000, '{')), HasSubstr("deeper than 32"));
+    std::string list = "a = [0";
+    for (int i = 0; i < 100'000; ++i)
+        list += ",0";
+    EXPECT_THAT(configFaults(list + "]"), HasSubstr("more than 100000 values"));
+}
+
+TEST(Config, ManyFaultsAreNotAllSaid) {
+    std::string text;
+    for (int i = 0; i < 5'000; ++i)
+        text += "x" + std::to_string(i) + " = 1\n";
+    const std::string said = configFaults(text + std::string(100'000, 'y') + " = 1\n");
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 50);
+    EXPECT_THAT(said, HasSubstr("and perhaps more"));
+    EXPECT_THAT(configFaults(std::string(100'000, 'y') + " = 1\n"),
+                HasSubstr("unknown key of 100000 characters"));
+}
+
+TEST(Config, WholeNumbersThatNoDoubleHoldsHaveTheirPlace) {
+    EXPECT_THAT(configFaults("[trigger]\nrate_hz = 9007199254740993\n"),
+                StartsWith("test.toml:2:11: trigger.rate_hz must be from 0.01 to 60, not "));
+    EXPECT_THAT(configFaults("[[objects]]\norientation = [9223372036854775807, 0, 0, 0]\n"),
+                StartsWith("test.toml:2:16: objects[0].orientation must hold numbers"));
+}
+
+TEST(Config, ADeviceOrAPipeIsNoConfiguration) {
+    const test::TempFolder folder;
+    const std::filesystem::path pipe = folder / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    test::writeFile(folder / "long", std::string(2 << 20, '#'));
+    const std::pair<std::filesystem::path, const char*> files[] = {
+        {pipe, "it is not a regular file"},
+        {"/dev/zero", "it is not a regular file"},
+        {"/dev/full", "it is not a regular file"},
+        {folder / "long", "it has 2097152 bytes, at most 1048576 are read"},
+    };
+    for (const auto& [file, what] : files) {
+        try {
+            (void)loadConfig(file);
+            FAIL() << file;
+        } catch (const Failure& failure) {
+            EXPECT_EQ(failure.what(), file.string() + ": cannot be read: " + what);
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -14,6 +15,7 @@
 #include <fstream>
 #include <future>
 #include <gmock/gmock.h>
+#include <grp.h>
 #include <thread>
 #include <vector>
 
@@ -47,7 +49,7 @@ struct ControlSocketTest : testing::Test {
         clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
         return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
     }
-    static ControlAnswer echo(std::string_view request) {
+    static ControlAnswer echo(std::string_view request, ControlRole /*role*/) {
         return {json{{"ok", true}, {"length", request.size()}}.dump()};
     }
 
@@ -59,7 +61,7 @@ TEST_F(ControlSocketTest, AnswersWithALineAndItsData) {
     for (std::size_t i = 0; i < data.size(); ++i)
         data[i] = static_cast<std::uint8_t>(i * 7);
     std::string heard;
-    const ControlSocket socket(path, [&](std::string_view request) -> ControlAnswer {
+    const ControlSocket socket(path, [&](std::string_view request, ControlRole) -> ControlAnswer {
         heard = request;
         return {json{{"ok", true}, {"bytes", data.size()}}.dump(), data};
     });
@@ -115,11 +117,11 @@ TEST_F(ControlSocketTest, NobodyWaitsForAnAnswerThatTakesLong) {
     std::promise<void> goOn;
     const std::shared_future<void> gone = goOn.get_future().share();
     std::promise<void> asked;
-    const ControlSocket socket(path, [&](std::string_view request) {
-        if (request.find("slow") == request.npos) return echo(request);
+    const ControlSocket socket(path, [&](std::string_view request, ControlRole role) {
+        if (request.find("slow") == request.npos) return echo(request, role);
         asked.set_value();
         gone.wait();
-        return echo(request);
+        return echo(request, role);
     });
     const auto slow =
         std::async(std::launch::async, [&] { return ask(path, {{"command", "slow"}}); });
@@ -128,6 +130,65 @@ TEST_F(ControlSocketTest, NobodyWaitsForAnAnswerThatTakesLong) {
     EXPECT_EQ(slow.wait_for(std::chrono::seconds(0)), std::future_status::timeout);
     goOn.set_value();
     slow.wait();
+}
+
+TEST_F(ControlSocketTest, NobodyWaitsForAClientThatDoesNotTakeItsAnswer) {
+    const ControlSocket socket(path, [&](std::string_view request, ControlRole) -> ControlAnswer {
+        if (request != "large") return echo(request, ControlRole::Operator);
+        return {json{{"ok", true}}.dump(), std::vector<std::uint8_t>(10'000'000)};
+    });
+    const int greedy = connected();
+    EXPECT_EQ(send(greedy, "large\n", 6, MSG_NOSIGNAL), 6);
+    char first = 0;
+    EXPECT_EQ(recv(greedy, &first, 1, 0), 1);  // it is being sent
+    const Timestamp begun = Timestamp::now();
+    EXPECT_EQ(ask(path, {{"command", "status"}}).body["length"], 20);
+    EXPECT_LT(Timestamp::now() - begun, std::chrono::milliseconds(1000));
+    close(greedy);
+}
+
+TEST_F(ControlSocketTest, TheUserOfThisProcessIsAnOperator) {
+    std::optional<ControlRole> seen;
+    const ControlSocket socket(path, [&](std::string_view request, ControlRole role) {
+        seen = role;
+        return echo(request, role);
+    });
+    std::ignore = ask(path, {{"command", "status"}});
+    EXPECT_EQ(seen, ControlRole::Operator);
+}
+
+// Another user of the group is an observer: seen from a process that has given its rights up.
+TEST_F(ControlSocketTest, AnotherUserIsAnObserver) {
+    if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
+    const ControlSocket socket(path, [&](std::string_view, ControlRole role) -> ControlAnswer {
+        return {json{{"ok", true}, {"operator", role == ControlRole::Operator}}.dump()};
+    });
+    ASSERT_EQ(chmod(path.c_str(), 0666), 0);
+    ASSERT_EQ(chmod(folder.c_str(), 0755), 0);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        // Nothing that takes a lock that a thread of the parent held.
+        if (setgroups(0, nullptr) != 0 || setgid(1234) != 0 || setuid(1234) != 0) _exit(2);
+        const int fd = connected();
+        char answer[64] = {};
+        if (send(fd, "x\n", 2, MSG_NOSIGNAL) != 2) _exit(3);
+        if (recv(fd, answer, sizeof answer - 1, 0) <= 0) _exit(4);
+        _exit(std::string_view(answer).find("false") != std::string_view::npos ? 0 : 5);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+
+TEST(ControlRole, MembersOfTheGroupAreOperators) {
+    const gid_t groups[] = {100, 200};
+    EXPECT_EQ(roleOf(0, {}, std::nullopt), ControlRole::Operator);
+    EXPECT_EQ(roleOf(geteuid(), {}, std::nullopt), ControlRole::Operator);
+    EXPECT_EQ(roleOf(4321, groups, 200), ControlRole::Operator);
+    EXPECT_EQ(roleOf(4321, groups, 300), ControlRole::Observer);
+    EXPECT_EQ(roleOf(4321, groups, std::nullopt), ControlRole::Observer);
 }
 
 // A thread that tries again and again would need the whole time of a processor.
@@ -188,16 +249,16 @@ TEST_F(ControlSocketTest, PathsThatCannotBeUsedAreNamed) {
 TEST_F(ControlSocketTest, ClientSaysWhatIsWrong) {
     EXPECT_THAT([&] { std::ignore = ask(path, {{"command", "status"}}); },
                 ThrowsMessage<NotReachable>(HasSubstr("no mfard listens there")));
-    const ControlSocket refusing(path, [](std::string_view) {
+    const ControlSocket refusing(path, [](std::string_view, ControlRole) {
         return ControlAnswer{R"({"ok": false, "error": "not today"})"};
     });
     EXPECT_THAT([&] { std::ignore = ask(path, {{"command", "status"}}); },
                 ThrowsMessage<Refused>(HasSubstr("not today")));
-    const ControlSocket babbling(folder / "other",
-                                 [](std::string_view) { return ControlAnswer{"hello"}; });
+    const ControlSocket babbling(
+        folder / "other", [](std::string_view, ControlRole) { return ControlAnswer{"hello"}; });
     EXPECT_THAT([&] { std::ignore = ask(folder / "other", {{"command", "status"}}); },
                 ThrowsMessage<NotReachable>(HasSubstr("is no mfard")));
-    const ControlSocket lying(folder / "lying", [](std::string_view) {
+    const ControlSocket lying(folder / "lying", [](std::string_view, ControlRole) {
         return ControlAnswer{R"({"ok": true, "bytes": 1000})", {1, 2, 3}};
     });
     EXPECT_THAT([&] { std::ignore = ask(folder / "lying", {{"command", "snapshot"}}); },

@@ -101,5 +101,23 @@ TEST_F(Control, WhatGoesWrongIsSaid) {
     EXPECT_EQ(ask(R"({"command": "status"})")["ok"], true) << "a name that is no text";
 }
 
+TEST_F(Control, AnObserverMayOnlyAskHowItIs) {
+    const auto asObserver = [&](std::string_view request) {
+        return json::parse(answerControl(actions, request, ControlRole::Observer).line);
+    };
+    EXPECT_EQ(asObserver(R"({"command": "status"})")["ok"], true);
+    EXPECT_EQ(asObserver(R"({"command": "stats"})")["ok"], true);
+    for (const char* request :
+         {R"({"command": "snapshot"})", R"({"command": "reload"})", R"({"command": "trigger"})",
+          R"({"command": "learn", "reset": true})", R"({"command": "record", "name": "a"})",
+          R"({"command": "record", "stop": true})"}) {
+        const json out = asObserver(request);
+        EXPECT_EQ(out["ok"], false) << request;
+        EXPECT_THAT(out.value("error", ""), HasSubstr("members of group mfar-operators may"));
+    }
+    EXPECT_EQ(recorded, "");
+    EXPECT_EQ(triggered + resets, 0);
+}
+
 }  // namespace
 }  // namespace mfar

@@ -33,7 +33,7 @@ TEST(PoseConfig, TheTagMapIsCheckedWithTheConfiguration) {
     const std::string map = (folder.path() / "tags.toml").string();
     test::writeFile(folder.path() / "mfard.toml", "[pose]\ntags = \"tags.toml\"\n");
     EXPECT_EQ(fault(folder).code, ExitCode::NoInput);
-    EXPECT_THAT(fault(folder).what(), StartsWith(map + ": no such file"));
+    EXPECT_THAT(fault(folder).what(), StartsWith(map + ": is missing"));
 
     test::writeFile(map, "[[tags]]\nid = 3\nsize = -1\n");
     EXPECT_EQ(fault(folder).code, ExitCode::BadData);

@@ -81,5 +81,15 @@ TEST(QualityTable, NoLevelGoesBeyondTheModeAskedFor) {
     EXPECT_EQ(off[1].name, "off");
 }
 
+TEST(QualityTable, ANameWithQuotesAndAShortTimeAreReadBack) {
+    std::vector<QualityLevel> levels(1);
+    levels[0].name = "a\"b\\c\n\t'";
+    levels[0].ms = 0.002;
+    const auto read = parseQualityLevels(toToml(levels), "file");
+    ASSERT_EQ(read.size(), 1U);
+    EXPECT_EQ(read[0].name, levels[0].name);
+    EXPECT_EQ(read[0].ms, levels[0].ms);
+}
+
 }  // namespace
 }  // namespace mfar

@@ -1,4 +1,5 @@
 #include "hal/device/display_auto.h"
+#include "hal/device/display_spec.h"
 #include "tests/engine/gl_test.h"
 
 #include <filesystem>

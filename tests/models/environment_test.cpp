@@ -108,6 +108,8 @@ TEST(EnvironmentMap, FaultsAreOneClearLine) {
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 1 +X 2\n", pixel)), HasSubstr("too early"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 20000 +X 40000\n", pixel)),
                 HasSubstr("at most 16384"));
+    EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 2147483647 +X 2\n", pixel)),
+                HasSubstr("at most 16384"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 10 +X 10\n", pixel)),
                 HasSubstr("twice as wide as high"));
     EXPECT_THAT(environmentFault(hdr(kHeader + "-Y 1 +X 2\n", {1, 1, 1, 2})),

@@ -23,7 +23,7 @@ echo "a tag map that is wrong or missing is refused with its place, also by --ch
 printf '[pose]\ntags = "map.toml"\n' >mfard.toml
 for check in "" --check-config; do
     run 66 --config mfard.toml $check
-    says err 'map.toml: no such file$'
+    says err 'map.toml: is missing$'
 done
 printf 'family = "tag36h11"\n[[tags]]\nid = 3\nsize = -0.1\n' >map.toml
 for check in "" --check-config; do

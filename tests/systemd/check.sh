@@ -5,7 +5,7 @@ set -euo pipefail
 unit=$1
 mfard=$2
 sources=$3
-maxExposure=2.0
+maxExposure=1.2
 failures=0
 
 fault() {
@@ -53,5 +53,31 @@ limit=$(sed -n "s/^constexpr milliseconds kWatchdog{\([0-9]*\)'000};$/\1/p" \
 grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s of budgets.h"
 # Every code that is started again is one that mfard waits out.
 grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" || fault "isRestarted() knows other codes"
+
+# What the service may take is bounded, and its hook has no rights that it has not.
+for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
+    grep -q "^$key=" "$unit" || fault "no $key="
+done
+grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" || fault "the hook of the service runs outside its sandbox"
+grep -q '^ExecStopPost=.*--config' "$unit" && fault "the hook reads the configuration"
+
+# The chip of the configured line, by each of its names, and no other.
+isChip() {
+    printf '%s\n' "$2" >"$work/trigger.toml"
+    "$sources/is-trigger-chip" "$1" "$work/sys/chip/$1" "$work/trigger.toml"
+}
+mkdir -p "$work/sys/chip/gpiochip1" "$work/sys/chip/gpio/gpiochip512"
+echo pinctrl-test >"$work/sys/chip/gpio/gpiochip512/label"
+section=$'[cameras.trigger]\nline = "17"'
+isChip gpiochip1 "$section"$'\nchip = "gpiochip1" # header' || fault "a chip by its name"
+isChip gpiochip1 "$section"$'\nchip = "/dev/gpiochip1"' || fault "a chip by its path"
+isChip gpiochip1 "$section"$'\nchip = "pinctrl-test"' || fault "a chip by its label"
+isChip gpiochip1 "$section" || fault "a line that is found by its name"
+isChip gpiochip1 "$section"$'\nchip = "gpiochip10"' && fault "another chip"
+isChip gpiochip1 "$section"$'\nchip = ""\n[other]\nline = ""' || fault "another section's line"
+isChip gpiochip1 $'[cameras.trigger]\nline = ""\nchip = "gpiochip1"' && fault "no line"
+isChip gpiochip1 $'line = "17"\nchip = "gpiochip1"' && fault "keys of no section"
+isChip '../gpiochip1' "$section" && fault "a name that is none"
+isChip gpiochip1 "$(cat "$sources/mfard.toml")" && fault "a chip although no line is configured"
 
 [[ $failures == 0 ]]

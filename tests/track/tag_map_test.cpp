@@ -142,15 +142,39 @@ TEST(TagMap, BrokenBundlesAreRefusedWithFileAndLine) {
             << text;
 }
 
+TEST(TagMap, ATextWithoutEndIsRefusedBeforeItIsParsed) {
+    std::string dots = "a";
+    for (int i = 0; i < 50'000; ++i)
+        dots += ".a";
+    EXPECT_EQ(refusal([&] { (void)tagMapFromToml(dots + " = 1\n", "t.toml"); }),
+              "t.toml:1: a key has more than 32 parts");
+    const std::string open(50'000, '[');
+    EXPECT_EQ(refusal([&] { (void)tagMapFromToml("a = " + open, "t.toml"); }),
+              "t.toml:1: brackets are nested deeper than 32");
+    EXPECT_EQ(refusal([&] { (void)tagMapFromRosYaml("a: " + open, "t.yaml"); }),
+              "t.yaml:1: nested deeper than 16");
+}
+
+TEST(TagMap, AWholeNumberThatNoDoubleHoldsHasItsPlace) {
+    for (const char* key : {"size", "position", "orientation"}) {
+        std::string text = "[[tags]]\nfamily = \"tag36h11\"\nid = 1\nsize = 1\n"
+                           "position = [0, 0, 0]\norientation = [1, 0, 0, 0]\n";
+        const std::size_t at = text.find_first_of("01", text.find(std::string(key) + " = "));
+        text.replace(at, 1, "9007199254740993");
+        const std::string said = refusal([&] { (void)tagMapFromToml(text, "t.toml"); });
+        EXPECT_TRUE(said.starts_with("t.toml:1: ")) << key << ": " << said;
+    }
+}
+
 TEST(TagMap, FilesAreReadByTheirEnding) {
     const test::TempFolder folder;
     test::writeFile(folder / "tags.toml", kGood);
     test::writeFile(folder / "tags.yaml", kBundle);
     EXPECT_EQ(loadTagMap(folder / "tags.toml").tags().size(), 2U);
     EXPECT_NE(loadTagMap(folder / "tags.yaml").find({TagFamily::Tag36h11, 1}), nullptr);
-    EXPECT_NE(refusal([&] { (void)loadTagMap(folder / "absent.toml"); }).find("no such file"),
+    EXPECT_NE(refusal([&] { (void)loadTagMap(folder / "absent.toml"); }).find("is missing"),
               std::string::npos);
-    EXPECT_NE(refusal([&] { (void)loadTagMap(folder.path()); }).find("no such file"),
+    EXPECT_NE(refusal([&] { (void)loadTagMap(folder.path()); }).find("is not a regular file"),
               std::string::npos);
 }
 

@@ -41,6 +41,18 @@ struct Padded {
     ImageView view;
 };
 
+TEST(ImageFiles, ALargeProgressiveJpegIsRefusedAtItsHeader) {
+    const TempFolder folder;
+    std::string bytes = test::readFile(MFAR_PROGRESSIVE_JPEG);
+    const std::size_t frame = bytes.find("\xff\xc2");
+    ASSERT_NE(frame, bytes.npos);
+    bytes.replace(frame + 5, 4, std::string("\x20\x00\x20\x00", 4));  // 8192x8192
+    test::writeFile(folder / "a.jpg", bytes);
+    const std::string error = errorOf([&] { static_cast<void>(loadImage(folder / "a.jpg")); });
+    EXPECT_NE(error.find("a progressive JPEG of more than"), error.npos) << error;
+    EXPECT_EQ(loadImage(MFAR_PROGRESSIVE_JPEG).size, (Size{16, 8}));
+}
+
 TEST(ImageFiles, PngKeepsEveryColourButAlpha) {
     const TempFolder folder;
     const Padded source({5, 3}, PixelFormat::Rgba8);

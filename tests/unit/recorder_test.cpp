@@ -1,3 +1,4 @@
+#include "base/owned_fd.h"
 #include "hal/virtual/recorder.h"
 #include "hal/virtual/recording.h"
 #include "hal/virtual/recording_player.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -129,13 +131,26 @@ TEST(Recorder, PaddedRowsAreRecordedWithoutThePadding) {
             ASSERT_EQ(read.pixels[(y * width + x) * 4], y);
 }
 
+/// Numbers of this process's threads.
+std::set<fs::path> threads() {
+    std::set<fs::path> out;
+    for (const auto& entry : fs::directory_iterator("/proc/self/task"))
+        out.insert(entry.path().filename());
+    return out;
+}
+
 TEST(Recorder, ALockedDiskDropsAndCountsPicturesButNeverHoldsTheCaller) {
     const TempFolder folder;
+    const std::set<fs::path> before = threads();
     Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 4, .poses = 3});
-    // A pipe without a reader holds the writer in open(), as a dead disk would.
-    const fs::path list = folder / "cam0/data.csv";
-    fs::remove(list);
-    ASSERT_EQ(mkfifo(list.c_str(), 0600), 0);
+    // A pipe without a reader in place of a thread's first file holds it in open(), as a dead disk
+    // would.
+    std::vector<fs::path> pipes;
+    for (const fs::path& thread : threads())
+        if (!before.contains(thread)) {
+            pipes.push_back(folder / fmt::format("cam0/data/0.png.{}.part", thread.string()));
+            ASSERT_EQ(mkfifo(pipes.back().c_str(), 0600), 0);
+        }
     int taken = 0;
     for (int i = 0; i < 20; ++i)
         taken += recorder.video(plain(test::kSmallVideo, 1).view(), {i}) ? 1 : 0;
@@ -148,12 +163,12 @@ TEST(Recorder, ALockedDiskDropsAndCountsPicturesButNeverHoldsTheCaller) {
     EXPECT_EQ(poses, 3);
     EXPECT_EQ(recorder.poseCounts().dropped, 2U);
 
-    const int reader = open(list.c_str(), O_RDWR);
-    ASSERT_GE(reader, 0);
+    std::vector<OwnedFd> readers;
+    for (const fs::path& pipe : pipes)
+        readers.emplace_back(open(pipe.c_str(), O_RDWR));
     recorder.finish();
     EXPECT_EQ(recorder.videoCounts().written, 4U);
     EXPECT_EQ(recorder.poseCounts().written, 3U);
-    close(reader);
 }
 
 TEST(Recorder, FullDiskIsReportedAndEndsTheRecording) {

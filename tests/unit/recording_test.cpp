@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 #include <functional>
 #include <random>
 #include <string>
@@ -164,7 +166,20 @@ const Fault kFaults[] = {
     {"VideoRateZero", edit(kVideoYaml, "rate_hz: 30", "rate_hz: 0"),
      "cam0/sensor.yaml: ", "rate_hz above 0"},
     {"RateNegative", edit(kVideoYaml, "rate_hz: 30", "rate_hz: -30"),
-     "cam0/sensor.yaml:9: ", "rate_hz -30 is impossible"},
+     "cam0/sensor.yaml:9: ", "rate_hz of -30 Hz is impossible"},
+    {"RateTiny", edit(kVideoYaml, "rate_hz: 30", "rate_hz: 1e-300"),
+     "cam0/sensor.yaml:9: ", "0 or 0.01 to 10000 Hz is plausible"},
+    {"FocalLengthTiny", edit(kVideoYaml, "20.5", "1e-300"),
+     "cam0/sensor.yaml:12: ", "focal length 1e-300 px"},
+    {"ListIsAPipe",
+     [](const fs::path& root) {
+         fs::remove(root / kVideoCsv);
+         ASSERT_EQ(mkfifo((root / kVideoCsv).c_str(), 0600), 0);
+     },
+     "cam0/data.csv: ", "is missing"},
+    {"ALineWithoutEnd",
+     [](const fs::path& root) { writeFile(root / kVideoCsv, std::string(5000, ',')); },
+     "cam0/data.csv: ", "has a line of more than 4096 characters"},
 };
 
 // One test for all: a process for each fault would take a minute.

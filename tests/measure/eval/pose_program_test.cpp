@@ -132,7 +132,7 @@ TEST(MfarEvalPose, WrongRequestsEndWithOneLineAndStatus2) {
     fs::create_directories(folder / "empty");
     const std::pair<std::string, std::string> cases[] = {
         {"absent", "absent"},
-        {"bare", "tags.toml: no such file"},
+        {"bare", "tags.toml: is missing"},
         {"broken", "tags.toml:2: size must be positive"},
         {"empty", "neither a recording nor"},
         {"bare --methods wonder", "unknown method 'wonder' (valid: filtered, raw, still)"},

@@ -211,7 +211,7 @@ TEST(MfarEval, WrongRequestsEndWithOneLineAndStatus2) {
         {"flow " + dir + "/tiny --pose-noise-deg 181", "--pose-noise-deg"},
         {"superres " + dir + "/tiny --pose-noise-deg nan", "--pose-noise-deg"},
         {"superres " + dir + "/tiny --poses guessed", "--poses"},
-        {"superres " + dir + "/truth --poses tags", "tags.toml: no such file"},
+        {"superres " + dir + "/truth --poses tags", "tags.toml: is missing"},
         {"flow " + dir + "/pair --poses tags", "no recording, so no tags"},
         {"depth " + dir + "/absent", "no such folder"},
         {"depth " + dir + "/tiny", "no truth"},

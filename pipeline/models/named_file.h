@@ -1,18 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace mfar {
-
-/// All bytes of a regular file. Throws std::runtime_error that says what is wrong without naming
-/// it, also when it has more than `most` bytes.
-[[nodiscard]] std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file,
-                                                    std::size_t most);
 
 /// A relative URI as a name: %20 is a space. Throws std::runtime_error.
 [[nodiscard]] std::string percentDecoded(std::string_view uri);

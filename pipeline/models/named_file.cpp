@@ -1,10 +1,7 @@
-#include "pipeline/models/bounded_file.h"
-
-#include <fmt/format.h>
+#include "pipeline/models/named_file.h"
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
@@ -28,22 +25,6 @@ std::string percentDecoded(std::string_view uri) {
         i += 2;
     }
     return out;
-}
-
-std::vector<std::uint8_t> boundedFile(const fs::path& file, std::size_t most) {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status)) throw std::runtime_error("is missing");
-    if (!fs::is_regular_file(status)) throw std::runtime_error("is not a regular file");
-    const std::uintmax_t size = fs::file_size(file, error);
-    if (error) throw std::runtime_error("cannot be read");
-    if (size > most)
-        throw std::runtime_error(fmt::format("has {} bytes, at most {} are read", size, most));
-    std::vector<std::uint8_t> bytes(size);
-    std::ifstream in(file, std::ios::binary);
-    in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!in) throw std::runtime_error("cannot be read");
-    return bytes;
 }
 
 fs::path fileInFolder(const fs::path& folder, const std::string& name) {

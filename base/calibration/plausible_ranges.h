@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+
+namespace mfar::plausible {
+
+/// What a number of a calibration or a tag map may be. The README shows this table, a test compares
+/// them.
+struct Range {
+    const char *what, *unit;
+    double least, most;
+
+    /// False for NaN.
+    [[nodiscard]] constexpr bool holds(double value) const {
+        return value >= least && value <= most;
+    }
+};
+
+/// No texture is larger.
+inline constexpr Range kSide{"width and height", "px", 1, 16384};
+/// From a field of view of 169 degrees to one of half a degree.
+inline constexpr Range kFocal{"focal length", "picture widths", 0.05, 100};
+inline constexpr Range kPrincipal{"principal point", "picture widths and heights", -1, 2};
+inline constexpr Range kCoefficient{"distortion coefficient", "1", -1000, 1000};
+/// Barrel distortion of 150 degrees has 0.35.
+inline constexpr Range kCorner{"radius of a corner with distortion to that without", "1", 0.25,
+                               1.5};
+inline constexpr Range kBaseline{"distance of the sensors", "m", 0, 2};
+inline constexpr Range kTimeOffset{"time offset of the stills", "s", -10, 10};
+/// Of a sensor on trigger only: 0.
+inline constexpr Range kRate{"rate", "Hz", 0.01, 10000};
+
+inline constexpr Range kTagSize{"edge of a tag", "m", 0.001, 100};
+inline constexpr Range kTagPosition{"coordinate of a tag", "m", -1000, 1000};
+
+inline constexpr std::array kRanges{kSide,     kFocal,      kPrincipal, kCoefficient, kCorner,
+                                    kBaseline, kTimeOffset, kRate,      kTagSize,     kTagPosition};
+
+}  // namespace mfar::plausible

@@ -1,0 +1,61 @@
+#include "base/calibration/yaml_bounds.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+
+#include <sstream>
+
+namespace mfar {
+namespace {
+
+/// Sees a text go by and stops the parser where it goes beyond the bounds.
+class Bounds final : public YAML::EventHandler {
+public:
+    void OnDocumentStart(const YAML::Mark& /*mark*/) override {}
+    void OnDocumentEnd() override {}
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override { count(mark); }
+    void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override {
+        throw YAML::ParserException(mark, "aliases are not read");
+    }
+    void OnScalar(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                  const std::string& /*value*/) override {
+        count(mark);
+    }
+    void OnSequenceStart(const YAML::Mark& mark, const std::string& /*tag*/,
+                         YAML::anchor_t /*anchor*/, YAML::EmitterStyle::value /*style*/) override {
+        begin(mark);
+    }
+    void OnSequenceEnd() override { --depth_; }
+    void OnMapStart(const YAML::Mark& mark, const std::string& /*tag*/, YAML::anchor_t /*anchor*/,
+                    YAML::EmitterStyle::value /*style*/) override {
+        begin(mark);
+    }
+    void OnMapEnd() override { --depth_; }
+
+private:
+    static constexpr int kDeepest = 16, kMostValues = 100'000;
+
+    void count(const YAML::Mark& mark) {
+        if (++values_ > kMostValues)
+            throw YAML::ParserException(mark, fmt::format("more than {} values", kMostValues));
+    }
+    void begin(const YAML::Mark& mark) {
+        count(mark);
+        if (++depth_ > kDeepest)
+            throw YAML::ParserException(mark, fmt::format("nested deeper than {}", kDeepest));
+    }
+
+    int depth_ = 0, values_ = 0;
+};
+
+}  // namespace
+
+YAML::Node boundedYaml(const std::string& text) {
+    std::istringstream in(text);
+    YAML::Parser parser(in);
+    Bounds bounds;
+    static_cast<void>(parser.HandleNextDocument(bounds));
+    return YAML::Load(text);
+}
+
+}  // namespace mfar

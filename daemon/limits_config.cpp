@@ -1,0 +1,84 @@
+#include "daemon/limits_config.h"
+
+#include "daemon/exit_code.h"
+#include "daemon/toml_reader.h"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace mfar {
+namespace {
+
+constexpr double kMegabyte = 1 << 20;
+constexpr double kLeastMb = 64, kMostMb = 1 << 20;
+/// Of the machine's memory: the rest is for the system, drivers and the program itself.
+constexpr double kShareOfMachine = 0.75, kMostByMachine = 4096 * kMegabyte;
+constexpr double kShareOfFrames = 2.0 / 3, kShareOfFiles = 1.0 / 6;
+/// Of all buffers and textures, measured as the growth of a run with larger pictures [byte/px].
+constexpr double kBytesPerStillPixel = 36, kBytesPerVideoPixel = 150;
+
+std::uint64_t physicalMemory() {
+    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+    return pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * bytes : 0;
+}
+
+/// The smallest limit of this process's control group and those around it; 0: none.
+std::uint64_t controlGroupMemory() {
+    std::ifstream groups("/proc/self/cgroup");
+    std::uint64_t least = 0;
+    for (std::string line; std::getline(groups, line);) {
+        if (!line.starts_with("0::/")) continue;
+        const std::filesystem::path top = "/sys/fs/cgroup";
+        for (auto group = std::filesystem::path(line.substr(4)); !group.empty();
+             group = group.parent_path()) {
+            std::uint64_t bytes = 0;  // "max" is no number
+            std::ifstream limit(top / group / "memory.max");
+            if (limit >> bytes && bytes > 0) least = least == 0 ? bytes : std::min(least, bytes);
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+std::uint64_t machineMemory() {
+    const std::uint64_t physical = physicalMemory(), group = controlGroupMemory();
+    return group == 0 ? physical : std::min(physical, group);
+}
+
+std::uint64_t LimitsConfig::memoryBytes() const {
+    const double byMachine =
+        std::min(kShareOfMachine * static_cast<double>(machineMemory()), kMostByMachine);
+    return static_cast<std::uint64_t>(memoryMb > 0 ? memoryMb * kMegabyte : byMachine);
+}
+
+void readLimits(TomlReader& file, LimitsConfig& limits) {
+    file.number("limits.memory_mb", limits.memoryMb, 0, kMostMb,
+                [](double mb) -> std::optional<std::string> {
+                    if (mb == 0 || mb >= kLeastMb) return std::nullopt;
+                    return fmt::format("must be 0 or at least {}", kLeastMb);
+                });
+}
+
+void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place) {
+    const auto pixels = [](Size size) { return 1.0 * size.width * size.height; };
+    const double needed = kBytesPerStillPixel * pixels(still) + kBytesPerVideoPixel * pixels(video);
+    const double most = kShareOfFrames * static_cast<double>(limits.memoryBytes());
+    if (needed <= most) return;
+    throw Failure(
+        ExitCode::BadData,
+        fmt::format("{}: video of {}x{} and stills of {}x{} need about {:.0f} MB, the "
+                    "{:.0f} MB of [limits] memory_mb leave {:.0f} MB for pictures",
+                    place, video.width, video.height, still.width, still.height, needed / kMegabyte,
+                    static_cast<double>(limits.memoryBytes()) / kMegabyte, most / kMegabyte));
+}
+
+FileMemory::FileMemory(const LimitsConfig& limits)
+    : left_(static_cast<std::size_t>(kShareOfFiles * static_cast<double>(limits.memoryBytes()))) {}
+
+}  // namespace mfar

@@ -1,0 +1,44 @@
+#include "pipeline/models/gltf_model.h"
+
+#include <algorithm>
+
+namespace mfar {
+namespace {
+
+// Each part of a model may take a quarter while it is read.
+constexpr std::size_t kParts = 4;
+constexpr std::size_t kBytesPerJsonValue = 500;  // in nlohmann's tree, then in tinygltf's
+constexpr std::size_t kBytesPerTexel = 4;
+constexpr std::size_t kBytesPerVertex =
+    2 * (2 * sizeof(Eigen::Vector3f) + sizeof(Eigen::Vector2f) + sizeof(Eigen::Vector4f));
+constexpr std::size_t kBytesPerTriangle = 2 * sizeof(std::array<std::uint32_t, 3>);
+
+template <class T>
+std::size_t bytesOf(const std::vector<T>& list) {
+    return list.size() * sizeof(T);
+}
+
+}  // namespace
+
+ModelLimits limitsWithin(std::size_t bytes) {
+    const std::size_t part = bytes / kParts;
+    ModelLimits out;
+    out.bytes = std::min(out.bytes, part / 2);  // tinygltf copies the buffers
+    out.jsonValues = std::min(out.jsonValues, part / kBytesPerJsonValue);
+    out.texels = std::min(out.texels, part / kBytesPerTexel);
+    out.vertices = std::min(out.vertices, part / 2 / kBytesPerVertex);
+    out.triangles = std::min(out.triangles, part / 2 / kBytesPerTriangle);
+    return out;
+}
+
+std::size_t memoryOf(const Model& model) {
+    std::size_t out = bytesOf(model.materials);
+    for (const Mesh& mesh : model.meshes)
+        out += bytesOf(mesh.positions) + bytesOf(mesh.normals) + bytesOf(mesh.uvs) +
+               bytesOf(mesh.tangents) + bytesOf(mesh.triangles);
+    for (const SurfaceTexture& texture : model.textures)
+        out += bytesOf(texture.texels);
+    return out;
+}
+
+}  // namespace mfar

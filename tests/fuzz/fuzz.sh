@@ -1,0 +1,99 @@
+# Of `./run`: fuzz(). Needs its functions.
+
+fuzzPackages() {
+    cat <<'EOF'
+clang-19                compiler with libFuzzer
+libclang-rt-19-dev      libFuzzer and its sanitizers
+llvm-19                 names of places, coverage
+EOF
+}
+
+fuzzTargets() { sed -n 's/^ *mfar_fuzz_target(\([a-z0-9]*\).*/\1/p' tests/fuzz/CMakeLists.txt | sort -u; }
+
+# The room of a target: sources whose coverage is counted, as a regular expression.
+fuzzRoom() {
+    case $1 in
+    calibration) echo 'base/calibration/' ;;
+    config) echo 'daemon/(.*_config|config|toml_reader|rig_words|picture_size)\.|base/toml_bounds' ;;
+    control) echo 'daemon/control\.' ;;
+    environment) echo 'pipeline/models/(environment_map|radiance_hdr)' ;;
+    filters) echo 'pipeline/enlarge/(learner_state|stored_numbers)' ;;
+    gltf) echo 'pipeline/models/gltf_' ;;
+    image) echo 'hal/image_codec' ;;
+    line) echo 'daemon/taken_line' ;;
+    mjpeg) echo 'hal/device/jpeg_decoder' ;;
+    quality) echo 'daemon/(quality_table|toml_reader)' ;;
+    recording) echo 'hal/virtual/(recording\.|recording_csv|png_header|image_files|float_files)' ;;
+    tags) echo 'pipeline/track/tag_map' ;;
+    v4l2) echo 'hal/device/(camera_v4l2|v4l2_)' ;;
+    *) die "no room is known for the fuzz target $1" ;;
+    esac
+}
+
+# Inputs that were found before: kept beside what else takes long to make.
+fuzzFolder() {
+    local folder
+    folder=$(cacheFolder)/fuzz/$1
+    mkdir -p "$folder"
+    echo "$folder"
+}
+
+# One target for so many seconds. An input that fails is kept, and its path printed.
+fuzzOne() {
+    local target=$1 seconds=$2 seeds=tests/fuzz/corpus/$1 found dictionary=tests/fuzz/$1.dict
+    found=$(fuzzFolder "$target")
+    local options=(-max_total_time="$seconds" -timeout=25 -rss_limit_mb=1024 -print_final_stats=1
+        -artifact_prefix="$found-failed-")
+    [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
+    say "fuzz $target: $seconds s, from $(find "$seeds" "$found" -type f | wc -l) inputs"
+    ASAN_SYMBOLIZER_PATH=$(command -v llvm-symbolizer-19) UBSAN_OPTIONS=print_stacktrace=1 \
+        ".build/fuzz/tests/fuzz/mfar-fuzz-$target" "${options[@]}" "$found" "$seeds" \
+        >".build/fuzz/$target.log" 2>&1 || {
+        tail -n 60 ".build/fuzz/$target.log" >&2
+        return 1
+    }
+    awk '
+        /^stat::number_of_executed_units:/ { runs = $2 }
+        /^stat::average_exec_per_sec:/     { rate = $2 }
+        /^stat::peak_rss_mb:/              { peak = $2 }
+        / cov: [0-9]+ /                    { for (i = 1; i < NF; ++i) if ($i == "cov:") cov = $(i + 1) }
+        END { printf "%d runs, %d a second, %d edges, %d MB at most\n", runs, rate, cov, peak }
+    ' ".build/fuzz/$target.log"
+}
+
+# Share of the lines of its room that a target's inputs reach.
+fuzzCoverage() {
+    local target=$1 program=.build/fuzz-coverage/tests/fuzz/mfar-fuzz-$1 data=.build/fuzz-coverage/$1
+    LLVM_PROFILE_FILE=$data.profraw "$program" "tests/fuzz/corpus/$target" "$(fuzzFolder "$target")" >/dev/null
+    llvm-profdata-19 merge -o "$data.profdata" "$data.profraw"
+    local room
+    mapfile -t room < <(find base daemon hal pipeline \( -name '*.cpp' -o -name '*.h' \) |
+        grep -E "^($(fuzzRoom "$target"))")
+    printf '%-12s' "$target"
+    llvm-cov-19 report "$program" -instr-profile="$data.profdata" "${room[@]/#/$PWD/}" |
+        awk '/^TOTAL/ { print $10 " of " $8 " lines, " $7 " of " $5 " functions" }'
+}
+
+# Arguments: targets (none: all), --minutes N (1), --coverage.
+fuzz() {
+    local seconds=60 coverage='' targets=() status=0 target
+    while [[ $# -gt 0 ]]; do
+        case $1 in
+        --minutes) [[ $# -ge 2 ]] || die "--minutes needs a number"
+            seconds=$(awk -v m="$2" 'BEGIN { print int(m * 60) }'); shift 2 ;;
+        --coverage) coverage=1; shift ;;
+        *) fuzzTargets | grep -qx -- "$1" || die "no fuzz target '$1'; there are $(fuzzTargets | xargs)"
+            targets+=("$1"); shift ;;
+        esac
+    done
+    [[ ${#targets[@]} -gt 0 ]] || mapfile -t targets < <(fuzzTargets)
+    ensurePackages buildPackages fuzzPackages
+    if [[ -n $coverage ]]; then
+        build fuzz-coverage "${targets[@]/#/mfar-fuzz-}" >&2
+        for target in "${targets[@]}"; do fuzzCoverage "$target"; done
+        return
+    fi
+    build fuzz "${targets[@]/#/mfar-fuzz-}" >&2
+    for target in "${targets[@]}"; do fuzzOne "$target" "$seconds" || status=1; done
+    return "$status"
+}

@@ -1,0 +1,19 @@
+// Tables of quality levels, as mfar-bench writes them.
+#include "daemon/config.h"
+#include "daemon/quality_table.h"
+#include "tests/fuzz/target.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace mfar;
+    std::vector<QualityLevel> levels;
+    try {
+        levels = parseQualityLevels(test::textOf(data, size), "fuzz.toml");
+    } catch (const ConfigError&) {
+        return 0;
+    }
+    for (const SuperResMode best : {SuperResMode::Off, SuperResMode::Blend, SuperResMode::Detail})
+        test::requireThat(!limitedTo(levels, best).empty(), "a table without a level");
+    test::requireThat(parseQualityLevels(toToml(levels), "again").size() == levels.size(),
+                      "what is written is not what was read");
+    return 0;
+}

@@ -1,0 +1,279 @@
+// A recording, cut off at any moment: what a disk may hold after a cut of power reads back. The
+// recorder's calls into the kernel are noted (the linker's --wrap); what came before the last
+// synchronisation is on the disk, of what came after it any part may be.
+#include "base/whole_file.h"
+#include "hal/virtual/image_files.h"
+#include "hal/virtual/recorder.h"
+#include "hal/virtual/recording.h"
+#include "tests/unit/small_recording.h"
+
+#include <gtest/gtest.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdarg>
+#include <map>
+#include <mutex>
+#include <random>
+#include <set>
+#include <thread>
+#include <variant>
+
+namespace mfar {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Written {
+    std::string file, bytes;
+};
+struct Renamed {
+    std::string from, to;
+};
+struct Synced {};  ///< the whole file system
+struct SyncedFile {
+    std::string file;
+};
+using Operation = std::variant<Written, Renamed, Synced, SyncedFile>;
+
+/// What was done to files below a folder, in order.
+class Journal {
+public:
+    void begin(const fs::path& folder) {
+        const std::lock_guard lock(mutex_);
+        folder_ = folder.string();
+        operations_.clear();
+    }
+    std::vector<Operation> end() {
+        const std::lock_guard lock(mutex_);
+        folder_.clear();
+        return std::exchange(operations_, {});
+    }
+    void opened(int fd, const char* file) {
+        const std::lock_guard lock(mutex_);
+        files_.erase(fd);
+        if (fd >= 0 && isOurs(file)) files_[fd] = file;
+    }
+    /// Called with the operation's own lock held, so that notes have its order.
+    template <class Call>
+    auto note(const Call& call) {
+        const std::lock_guard lock(mutex_);
+        return call(*this);
+    }
+    void add(Operation operation) { operations_.push_back(std::move(operation)); }
+    [[nodiscard]] const std::string* fileOf(int fd) const {
+        const auto at = files_.find(fd);
+        return at == files_.end() || folder_.empty() ? nullptr : &at->second;
+    }
+    [[nodiscard]] bool isOurs(const char* file) const {
+        return !folder_.empty() && std::string_view(file).starts_with(folder_);
+    }
+
+private:
+    std::mutex mutex_;
+    std::string folder_;
+    std::map<int, std::string> files_;
+    std::vector<Operation> operations_;
+};
+
+Journal& journal() {
+    static Journal instance;
+    return instance;
+}
+
+}  // namespace
+}  // namespace mfar
+
+// NOLINTBEGIN(readability-identifier-naming): the linker's names
+extern "C" {
+int __real_open(const char* file, int flags, ...);
+ssize_t __real_write(int fd, const void* bytes, size_t count);
+int __real_rename(const char* from, const char* to);
+int __real_syncfs(int fd);
+int __real_fsync(int fd);
+
+int __wrap_open(const char* file, int flags, ...) {
+    va_list more;
+    va_start(more, flags);
+    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(more, mode_t) : 0;
+    va_end(more);
+    const int fd = __real_open(file, flags, mode);
+    mfar::journal().opened(fd, file);
+    return fd;
+}
+ssize_t __wrap_write(int fd, const void* bytes, size_t count) {
+    return mfar::journal().note([&](mfar::Journal& j) {
+        const ssize_t done = __real_write(fd, bytes, count);
+        if (const std::string* file = j.fileOf(fd); file != nullptr && done > 0)
+            j.add(
+                mfar::Written{*file, {static_cast<const char*>(bytes), static_cast<size_t>(done)}});
+        return done;
+    });
+}
+int __wrap_rename(const char* from, const char* to) {
+    return mfar::journal().note([&](mfar::Journal& j) {
+        const int error = __real_rename(from, to);
+        if (error == 0 && j.isOurs(to)) j.add(mfar::Renamed{from, to});
+        return error;
+    });
+}
+int __wrap_syncfs(int fd) {
+    return mfar::journal().note([&](mfar::Journal& j) {
+        const int error = __real_syncfs(fd);
+        if (error == 0 && j.fileOf(fd) != nullptr) j.add(mfar::Synced{});
+        return error;
+    });
+}
+int __wrap_fsync(int fd) {
+    return mfar::journal().note([&](mfar::Journal& j) {
+        const int error = __real_fsync(fd);
+        if (const std::string* file = j.fileOf(fd); file != nullptr && error == 0)
+            j.add(mfar::SyncedFile{*file});
+        return error;
+    });
+}
+}
+// NOLINTEND(readability-identifier-naming)
+
+namespace mfar {
+namespace {
+
+using Files = std::map<std::string, std::string>;
+
+StereoRig smallRig() {
+    StereoRig rig;
+    rig.video = {test::kSmallVideo, 20.5, 21.5, 7.5, 5.5, {}};
+    rig.still = {test::kSmallStill, 40, 41, 15.5, 11.5, {}};
+    rig.T_still_video.translation = {-0.014, 0, 0};
+    return rig;
+}
+
+/// 12 pictures, 4 stills and 12 poses, synchronised as often as the writer gets to it.
+std::vector<Operation> record(const fs::path& folder) {
+    journal().begin(folder);
+    Recorder recorder(folder, smallRig(), 30, {.syncEvery = {}});
+    for (int i = 1; i <= 12; ++i) {
+        const auto level = static_cast<std::uint8_t>(10 * i);
+        EXPECT_TRUE(recorder.video(test::plain(test::kSmallVideo, level).view(), {1000 * i}));
+        if (i % 3 == 0) {
+            EXPECT_TRUE(recorder.still(test::plain(test::kSmallStill, level).view(), {1000 * i}));
+        }
+        EXPECT_TRUE(recorder.pose({{1000 * i}, smallRig().T_still_video}));
+        if (i == 6) recorder.addFile("tags.toml", "family = \"tag36h11\"\n");
+        // So that there are some of these points on a slow machine, too.
+        if (i % 4 == 1) recorder.finish();
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    recorder.finish();
+    return journal().end();
+}
+
+/// What a disk may have of a file that was to grow from `safe` to `now`: a part of what is new, or
+/// its length without its bytes.
+std::string part(const std::string& safe, const std::string& now, std::mt19937& random) {
+    if (!now.starts_with(safe)) return random() % 2 == 0 ? safe : now;
+    const std::size_t more = random() % (now.size() - safe.size() + 1);
+    std::string out = now.substr(0, safe.size() + more);
+    if (random() % 4 == 0) out.replace(safe.size(), more, std::string(more, '\0'));
+    return out;
+}
+
+/// A disk after so many operations and a cut of power.
+Files afterCut(const std::vector<Operation>& operations, std::size_t count, std::mt19937& random) {
+    Files safe, now;
+    std::set<std::string> safeBytes;  // whose bytes are on the disk, under whatever name
+    for (std::size_t i = 0; i < count; ++i) {
+        const Operation& operation = operations[i];
+        if (const auto* written = std::get_if<Written>(&operation)) {
+            now[written->file] += written->bytes;
+            safeBytes.erase(written->file);
+        } else if (const auto* renamed = std::get_if<Renamed>(&operation)) {
+            now[renamed->to] = std::move(now[renamed->from]);
+            now.erase(renamed->from);
+            if (safeBytes.erase(renamed->from) > 0) safeBytes.insert(renamed->to);
+        } else if (const auto* file = std::get_if<SyncedFile>(&operation)) {
+            safeBytes.insert(file->file);
+        } else {
+            safe = now;
+        }
+    }
+    Files disk = safe;
+    for (const auto& [file, bytes] : now) {
+        const auto before = safe.find(file);
+        if (before != safe.end() && before->second == bytes) continue;
+        if (before == safe.end() && random() % 2 == 0) continue;  // not even its name
+        disk[file] = safeBytes.contains(file)
+                         ? bytes
+                         : part(before == safe.end() ? "" : before->second, bytes, random);
+    }
+    return disk;
+}
+
+/// Rows of a list that a synchronisation has made safe before so many operations.
+std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count,
+                     const std::string& list) {
+    std::size_t rows = 0, safe = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto* written = std::get_if<Written>(&operations[i]);
+        if (written != nullptr && written->file == list)
+            rows += static_cast<std::size_t>(std::ranges::count(written->bytes, '\n'));
+        if (std::holds_alternative<Synced>(operations[i])) safe = rows;
+    }
+    return safe > 0 ? safe - 1 : 0;  // without the heading
+}
+
+void expectWhole(const std::vector<RecordedImage>& images, Size size) {
+    std::vector<std::uint8_t> rgba(std::size_t{4} * size.width * size.height);
+    for (const RecordedImage& image : images) {
+        loadImageInto(image.file, size, rgba.data(), std::size_t{4} * size.width);
+        const auto level = static_cast<std::uint8_t>(image.time.ns / 100);
+        EXPECT_EQ(rgba[0], level);
+        EXPECT_EQ(rgba[rgba.size() - 2], level);
+    }
+}
+
+class PowerCut : public testing::Test {
+protected:
+    /// Reads what is left; nothing where not even a picture was safe.
+    std::optional<Recording> leftAfter(std::size_t count) {
+        fs::remove_all(cut_.path() / "run");
+        for (const char* folder : {"cam0/data", "cam1/data"})
+            fs::create_directories(cut_.path() / "run" / folder);
+        for (const auto& [file, bytes] : afterCut(operations_, count, random_))
+            test::writeFile(cut_.path() / "run" / fs::relative(file, whole_.path()), bytes);
+        if (safeRows(operations_, count, (whole_ / "cam0/data.csv").string()) == 0)
+            return std::nullopt;
+        return loadRecording(cut_.path() / "run");
+    }
+
+    // Folders in memory, where there is such a file system: they are made a thousand times.
+    const int inMemory_ = fs::is_directory("/dev/shm") ? setenv("TMPDIR", "/dev/shm", 1) : 0;
+    test::TempFolder whole_, cut_;
+    const std::vector<Operation> operations_ = record(whole_.path());
+    std::mt19937 random_{7};
+};
+
+TEST_F(PowerCut, WhatWasSafeReadsBackAfterACutAtAnyMoment) {
+    ASSERT_EQ(loadRecording(whole_.path()).video.size(), 12U);
+    const std::string video = (whole_ / "cam0/data.csv").string(),
+                      stills = (whole_ / "cam1/data.csv").string();
+    int read = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const std::size_t count = random_() % (operations_.size() + 1);
+        SCOPED_TRACE(count);
+        const std::optional<Recording> left = leftAfter(count);
+        if (!left) continue;
+        ++read;
+        EXPECT_GE(left->video.size(), safeRows(operations_, count, video));
+        EXPECT_GE(left->stills.size(), safeRows(operations_, count, stills));
+        expectWhole(left->video, test::kSmallVideo);
+        expectWhole(left->stills, test::kSmallStill);
+        if (HasFailure()) return;
+    }
+    EXPECT_GT(read, 300);  // most cuts come late enough
+}
+
+}  // namespace
+}  // namespace mfar
