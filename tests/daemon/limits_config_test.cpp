@@ -29,8 +29,9 @@ std::string pngThatClaims(std::uint16_t width, std::uint16_t height) {
 }
 
 std::string refusalOf(const Config& config) {
+    Heartbeats hearts;
     try {
-        const Rig rig(config);
+        const Rig rig(config, hearts);
         return "none";
     } catch (const Failure& failure) {
         EXPECT_EQ(failure.code, ExitCode::BadData);
