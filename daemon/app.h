@@ -91,6 +91,7 @@ private:
     [[nodiscard]] ControlActions controlActions();
     [[nodiscard]] nlohmann::ordered_json statusNow();
     [[nodiscard]] nlohmann::ordered_json statsNow();
+    void startRecording(const std::string& name);
     [[nodiscard]] nlohmann::ordered_json stopRecording();
     void onTick();
     void setTicks();

@@ -33,9 +33,7 @@ ControlActions App::controlActions() {
     actions.snapshot = [session](bool screen) {
         return session([screen](Session& s) { return s.snapshot(screen); });
     };
-    actions.record = [session](const std::string& name) {
-        session([name](Session& s) { s.startRecording(name); });
-    };
+    actions.record = [this](const std::string& name) { startRecording(name); };
     actions.stopRecording = [this] { return stopRecording(); };
     actions.trigger = [session] { session([](Session& s) { s.askForStill(); }); };
     actions.resetLearning = [session] { session([](Session& s) { s.resetLearning(); }); };
@@ -77,6 +75,14 @@ ordered_json App::statsNow() {
     out.erase("exit_code");
     out["health"] = healthJson(health(counted));
     return out;
+}
+
+// The session goes on while the disk makes the recording's folder.
+void App::startRecording(const std::string& name) {
+    const auto make =
+        sessionCalls_.call([name](Session& s) { return s.makeRecording(name); }, kAnswerTime);
+    sessionCalls_.call([recorder = make()](Session& s) { s.startRecording(recorder); },
+                       kAnswerTime);
 }
 
 // The session goes on while the recording is being finished.

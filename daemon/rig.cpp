@@ -201,15 +201,29 @@ std::shared_ptr<Recorder> Rig::recorder() const {
     return recorder_;
 }
 
-void Rig::startRecording(const std::filesystem::path& folder) {
-    const std::lock_guard lock(mutex_);
+// Of a thread that holds the lock.
+void Rig::requireNoRecorder() const {
     if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is under way already");
-    try {
-        recorder_ =
-            std::make_shared<Recorder>(folder, geometry(), video().info().rateHz, recording_);
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::OutputFailed, error.what());
-    }
+}
+
+std::function<std::shared_ptr<Recorder>()>
+Rig::makeRecording(const std::filesystem::path& folder) const {
+    const std::lock_guard lock(mutex_);
+    requireNoRecorder();
+    return
+        [folder, rig = geometry(), rateHz = source_->video().info().rateHz, options = recording_] {
+            try {
+                return std::make_shared<Recorder>(folder, rig, rateHz, options);
+            } catch (const std::runtime_error& error) {
+                throw Failure(ExitCode::OutputFailed, error.what());
+            }
+        };
+}
+
+void Rig::startRecording(std::shared_ptr<Recorder> recorder) {
+    const std::lock_guard lock(mutex_);
+    requireNoRecorder();
+    recorder_ = std::move(recorder);
     broke_.reset();
 }
 

@@ -88,15 +88,20 @@ public:
     /// Waits until everything is written. Throws Failure where --record asked for a recording that
     /// cannot be written; endBrokenRecording() tells it of others.
     void finishRecording();
-    /// Begins to record into this new folder. Throws Failure, also when something is recorded
-    /// already. Any thread, as stopRecording().
-    void startRecording(const std::filesystem::path& folder);
+    /// What is returned makes a recording in this new folder, which may wait for the disk, and
+    /// throws Failure when it cannot; it may outlive this. Throws Failure when something is
+    /// recorded already. Any thread, as the next two.
+    [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
+    makeRecording(const std::filesystem::path& folder) const;
+    /// Records into it from now on. Throws Failure as makeRecording().
+    void startRecording(std::shared_ptr<Recorder> recorder);
     /// Ends the recording. What is returned waits until it is whole, and throws Failure when it
     /// cannot be; it may outlive this. Throws Failure when nothing is recorded.
     [[nodiscard]] std::function<Recorded()> stopRecording();
 
 private:
     [[nodiscard]] std::shared_ptr<Recorder> recorder() const;
+    void requireNoRecorder() const;
 
     std::unique_ptr<RigSource> source_;
     RecorderOptions recording_;

@@ -80,7 +80,11 @@ public:
     /// Forgets the filters that were learned.
     void resetLearning();
     /// See Rig.
-    void startRecording(const std::filesystem::path& folder);
+    [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
+    makeRecording(const std::filesystem::path& folder) const {
+        return rig_.makeRecording(folder);
+    }
+    void startRecording(std::shared_ptr<Recorder> recorder);
     [[nodiscard]] std::function<Recorded()> stopRecording() { return rig_.stopRecording(); }
 
 private:

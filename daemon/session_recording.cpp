@@ -3,15 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace mfar {
 
 // Who names a folder on the command line is told at once; a service goes on without its recording.
 void Session::beginRecording(const Config& config) {
     if (!config.recordTo.empty()) {
-        startRecording(config.recordTo);
+        startRecording(makeRecording(config.recordTo)());
     } else if (!config.record.directory.empty()) {
         try {
-            startRecording(newRecordingIn(config.record.directory));
+            startRecording(makeRecording(newRecordingIn(config.record.directory))());
         } catch (const Failure& failure) {
             stats_.warn(fmt::format("nothing is recorded: {}", failure.what()),
                         {message::kRecording});
@@ -25,8 +27,8 @@ void Session::checkRecording() {
     stats_.recording(rig_.recordingFolder());
 }
 
-void Session::startRecording(const std::filesystem::path& folder) {
-    rig_.startRecording(folder);
+void Session::startRecording(std::shared_ptr<Recorder> recorder) {
+    rig_.startRecording(std::move(recorder));
     rig_.recordTags(tags_);
 }
 

@@ -42,7 +42,8 @@ Recorder::Recorder(const fs::path& root, const StereoRig& rig, double videoRateH
     : root_(emptyFolder(root)), options_(options),
       video_(root / "cam0", rig.video.size, options.videoBuffers),
       still_(root / "cam1", rig.still.size, options.stillBuffers),
-      poses_{root / "state_groundtruth_estimate0"}, writer_(1, options.writer) {
+      poses_{root / "state_groundtruth_estimate0"}, syncer_(1, options.writer),
+      writer_(1, options.writer) {
     if (!(videoRateHz > 0)) throw std::runtime_error("a recording needs a video rate above 0 Hz");
     beginCamera(video_.folder, {rig.video, {}, videoRateHz}, "video sensor, body frame");
     beginCamera(still_.folder, {rig.still, rig.T_still_video.inverse(), 0}, "still sensor");
@@ -92,7 +93,10 @@ void Recorder::writePicture(PictureStream& stream, const ImageView& picture, Tim
 }
 
 void Recorder::syncWhenDue() {
-    if (!isSyncing_ && std::chrono::steady_clock::now() - synced_ >= options_.syncEvery) sync();
+    const auto isDue = [&] {
+        return !synced_ || std::chrono::steady_clock::now() - *synced_ >= options_.syncEvery;
+    };
+    if (!isSyncing_ && isDue()) sync();
 }
 
 // In a thread of its own: a slow disk takes longer than there are buffers for pictures.

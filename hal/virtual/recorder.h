@@ -23,8 +23,8 @@ struct RecorderOptions {
     std::uint64_t leastFreeBytes = 64U << 20;
     std::uint64_t mostBytes = 0;  ///< the same for a recording that becomes longer; 0: no limit
     WatchedThread writer{};       ///< which writes; its budget is for one picture
-    /// What was written is made safe from a cut of power when so much time has passed since the
-    /// last time, with the next picture or pose.
+    /// What was written is made safe from a cut of power with the first picture, and then when so
+    /// much time has passed since the last time, with the next picture or pose.
     std::chrono::milliseconds syncEvery{1000};
 };
 
@@ -101,14 +101,14 @@ private:
     std::filesystem::path root_;
     RecorderOptions options_;
     std::uintmax_t bytes_ = 0;  // of all pictures; of the writer's thread, as the next
-    std::chrono::steady_clock::time_point synced_ = std::chrono::steady_clock::now();
+    std::optional<std::chrono::steady_clock::time_point> synced_;  // nothing: not yet
     PictureStream video_;
     PictureStream still_;
     Stream poses_;
     std::atomic<int> pendingPoses_{0};
     std::atomic<bool> isSyncing_{false};
-    BackgroundWriter syncer_{1};  // before the other, whose thread posts to it
-    BackgroundWriter writer_;     // last: its thread uses all of the above
+    BackgroundWriter syncer_;  // before the other, whose thread posts to it
+    BackgroundWriter writer_;  // last: its thread uses all of the above
 };
 
 }  // namespace mfar
