@@ -1,6 +1,7 @@
 #include "base/heartbeats.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace mfar {
@@ -16,8 +17,7 @@ std::vector<Heartbeats::Late> Heartbeats::late(int patience) const {
             if (since > patience * slot.budget) out.push_back({slot.thread, slot.role, since});
         }
     }
-    std::stable_sort(out.begin(), out.end(),
-                     [](const Late& a, const Late& b) { return a.since > b.since; });
+    std::ranges::sort(out, std::greater(), &Late::since);
     return out;
 }
 

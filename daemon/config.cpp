@@ -47,6 +47,14 @@ void readTrigger(TomlReader& file, TriggerConfig& trigger) {
     file.number("trigger.timeout_s", trigger.timeoutS, 0.05, 60);
 }
 
+void readRecord(TomlReader& file, RecordConfig& record) {
+    std::string directory;
+    file.text("record.directory", directory);
+    record.directory = directory;
+    file.number("record.least_free_mb", record.leastFreeMb, 0, 1e9);
+    file.number("record.most_mb", record.mostMb, 0, 1e9);
+}
+
 }  // namespace
 
 Config parseConfig(std::string_view toml, const std::string& fileName) {
@@ -74,11 +82,7 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     readGovernor(file, config.governor);
     if (!config.governor.table.empty())
         config.governor.table = besides(fileName, config.governor.table);
-    std::string directory;
-    file.text("record.directory", directory);
-    config.record.directory = directory;
-    file.number("record.least_free_mb", config.record.leastFreeMb, 0, 1e9);
-    file.number("record.most_mb", config.record.mostMb, 0, 1e9);
+    readRecord(file, config.record);
     file.number("status.interval_s", config.status.intervalS, 0.1, 3600);
     file.boolean("status.measure", config.status.measure);
     const std::filesystem::path folder = std::filesystem::path(fileName).parent_path();

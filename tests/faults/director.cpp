@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace mfar::faults {
@@ -72,7 +73,7 @@ std::vector<Step> stepsOf(const Episode& episode) {
             steps.push_back({begin + part, &fault, false});
         }
     }
-    std::ranges::stable_sort(steps, {}, &Step::at);
+    std::ranges::sort(steps, {}, [](const Step& step) { return std::pair(step.at, !step.begins); });
     return steps;
 }
 

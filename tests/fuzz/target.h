@@ -8,6 +8,7 @@
 
 /// What a fuzz target is: it reads one input and returns 0. A fault ends the process: what the
 /// sanitizers see, or an exception other than those that the room's header names.
+// NOLINTNEXTLINE(readability-identifier-naming): its name for libFuzzer
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace mfar::test {

@@ -11,8 +11,11 @@ goes_on() {
     more() { [ "$(frames)" -gt $((shown + 5)) ]; }
     until_true more
 }
+# A still would fill a short recording before there is a frame to replay.
 quiet='source = "synthetic:flat,rest"
 [superres]
+mode = "off"
+[trigger]
 mode = "off"
 [record]
 directory = "films"'
