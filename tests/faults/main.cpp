@@ -12,6 +12,8 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <thread>
 
 namespace {
@@ -55,6 +57,17 @@ Options parse(int argc, char** argv) {
     return o;
 }
 
+/// The first line in which two reports differ.
+std::string difference(const std::string& one, const std::string& other) {
+    std::istringstream first(one), second(other);
+    std::string a, b;
+    while (a == b && (first || second)) {
+        if (!std::getline(first, a)) a.clear();
+        if (!std::getline(second, b)) b.clear();
+    }
+    return fmt::format("  first:  {}\n  second: {}\n", a, b);
+}
+
 void print(const Tally& tally, double seconds) {
     for (const auto& [what, number] : tally.inputs)
         fmt::print("{:<28} {:>12}\n", what, number);
@@ -75,9 +88,12 @@ Tally drawSeeds(const Options& o, std::uint64_t seed) {
             sum.inputs[what] += number;
         bool failed = !result.failure.empty();
         if (failed) fmt::print("{}", result.failure);
-        if (!failed && o.twice && runTrial(o.trial, seed).course != result.course) {
-            failed = true;
-            fmt::print("FAILED seed {}: the second run took another course\n", seed);
+        if (!failed && o.twice) {
+            const std::string again = runTrial(o.trial, seed).course;
+            failed = again != result.course;
+            if (failed)
+                fmt::print("FAILED seed {}: the second run took another course\n{}", seed,
+                           difference(result.course, again));
         }
         sum.failures += failed ? 1 : 0;
         std::fflush(stdout);

@@ -154,7 +154,8 @@ TrialResult runTrial(const TrialOptions& options, std::uint64_t seed) {
     const std::vector<std::string> lines = linesOf(report);
     TrialResult out;
     for (const std::string& line : lines) {
-        if (line.find(" KB") == line.npos) out.course += line + "\n";
+        if (line.find(" KB") == line.npos && line.find(" MB resident") == line.npos)
+            out.course += line + "\n";
         if (!line.starts_with("COUNT ")) continue;
         const std::size_t last = line.rfind(' ');
         out.counts[line.substr(6, last - 6)] += std::stol(line.substr(last));
