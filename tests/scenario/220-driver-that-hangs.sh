@@ -31,26 +31,7 @@ is_hungry() {
     true
 }
 
-mkdir cameras
-touch cameras/video90 cameras/video91
-cat >mfard.toml <<'END'
-source = "cameras"
-[superres]
-mode = "off"
-[pose]
-source = "none"
-[cameras.video]
-driver = "v4l2"
-camera = "/dev/video90"
-width = 64
-height = 48
-[cameras.still]
-driver = "v4l2"
-camera = "/dev/video91"
-width = 128
-height = 96
-rate_hz = 5.0
-END
+two_cameras
 start_hangable() {
     LD_PRELOAD=$pretended start --config mfard.toml --display none --control control
     until_true started

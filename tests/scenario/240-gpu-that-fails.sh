@@ -16,26 +16,7 @@ gpu_says() {
     mv gl.new gl
 }
 
-mkdir cameras
-touch cameras/video90 cameras/video91
-cat >mfard.toml <<'END'
-source = "cameras"
-[superres]
-mode = "off"
-[pose]
-source = "none"
-[cameras.video]
-driver = "v4l2"
-camera = "/dev/video90"
-width = 64
-height = 48
-[cameras.still]
-driver = "v4l2"
-camera = "/dev/video91"
-width = 128
-height = 96
-rate_hz = 5.0
-END
+two_cameras
 begin() {
     gpu_says ""
     LD_LIBRARY_PATH=$faulty LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras \

@@ -14,28 +14,8 @@ step() {
     mv clock.new clock
 }
 
-mkdir cameras
-touch cameras/video90 cameras/video91
-cat >mfard.toml <<'END'
-source = "cameras"
-[superres]
-mode = "off"
-[pose]
-source = "none"
-[record]
-directory = "films"
-[cameras.video]
-driver = "v4l2"
-camera = "/dev/video90"
-width = 64
-height = 48
-[cameras.still]
-driver = "v4l2"
-camera = "/dev/video91"
-width = 128
-height = 96
-rate_hz = 5.0
-END
+two_cameras '[record]
+directory = "films"'
 begin() {
     LD_PRELOAD=$libraries MFAR_PRETENDED_V4L2=$PWD/cameras MFAR_CLOCK_IS_OFF=$PWD/clock start \
         --config mfard.toml --display none --control control --summary summary.json

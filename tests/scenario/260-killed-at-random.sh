@@ -7,28 +7,9 @@
 pretended=$3
 ctl="$(dirname "$sim")/mfarctl"
 RANDOM=${MFAR_SEED:-7}
-mkdir cameras state
-touch cameras/video90 cameras/video91
-cat >mfard.toml <<'END'
-source = "cameras"
-[superres]
-mode = "off"
-[pose]
-source = "none"
-[record]
-directory = "films"
-[cameras.video]
-driver = "v4l2"
-camera = "/dev/video90"
-width = 64
-height = 48
-[cameras.still]
-driver = "v4l2"
-camera = "/dev/video91"
-width = 128
-height = 96
-rate_hz = 5.0
-END
+mkdir state
+two_cameras '[record]
+directory = "films"'
 shows_pictures() {
     [ "$(timeout 10 "$ctl" --socket control status 2>/dev/null | sed -n 's/^frames  *//p')" -gt 0 ] 2>/dev/null
 }

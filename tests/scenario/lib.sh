@@ -83,6 +83,32 @@ ends_with() {
     [ "$took" -le $(($2 * patience)) ] || fail "took $took ms, limit $2 ms times $patience"
 }
 
+# two_cameras [TOML]: a configuration with two pretended V4L2 cameras, whose faults cameras/video90
+# and cameras/video91 name, and with these lines.
+two_cameras() {
+    mkdir cameras
+    touch cameras/video90 cameras/video91
+    cat >mfard.toml <<END
+source = "cameras"
+[superres]
+mode = "off"
+[pose]
+source = "none"
+[cameras.video]
+driver = "v4l2"
+camera = "/dev/video90"
+width = 64
+height = 48
+[cameras.still]
+driver = "v4l2"
+camera = "/dev/video91"
+width = 128
+height = 96
+rate_hz = 5.0
+${1:-}
+END
+}
+
 # says FILE PATTERN
 says() { grep -Eq -- "$2" "$1" || fail "$1 does not say: $2"; }
 
