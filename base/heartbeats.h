@@ -62,7 +62,7 @@ private:
     std::list<Slot> slots_;
 };
 
-/// How a class that starts threads has them watched. It uses `all` as long as it lives.
+/// Tells a class how to watch the threads that it starts. The class uses `all` as long as it lives.
 struct WatchedThread {
     Heartbeats* all = nullptr;  ///< null: nobody watches
     std::string name{};

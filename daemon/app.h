@@ -55,7 +55,7 @@ private:
         std::string startLine;
         Timestamp time;
     };
-    /// What the GL thread tells when the output is out.
+    /// What the GL thread reports when all output is written.
     struct Over {
         std::string reason;
         std::exception_ptr error;  ///< null: all is well
@@ -80,6 +80,7 @@ private:
     [[nodiscard]] bool writes();
     void leaveIfHanging();
     [[noreturn]] void leave(const std::string& why);
+    void removeControl() const;
     [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
     /// Its answer waits until the configuration is read. Throws std::runtime_error without a file.

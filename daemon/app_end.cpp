@@ -79,13 +79,18 @@ void App::leave(const std::string& why) {
     if (ended_ && ended_->error && !stopSignal_) leaveFailed(ended_->error);
     const std::string reason = stopReason_.value_or(ended_ ? ended_->reason : "");
     const bool written = writeSummary(reason, ExitCode::Ok);
-    std::error_code ignored;
-    if (options_.control) std::filesystem::remove(*options_.control, ignored);
+    removeControl();
     const ExitCode code = written || stopSignal_ ? ExitCode::Ok : ExitCode::OutputFailed;
     std::_Exit(static_cast<int>(code));
 }
 
-// As main() does it, which cannot be reached.
+// What the socket's destructor does, which does not run here.
+void App::removeControl() const {
+    std::error_code ignored;
+    if (options_.control) std::filesystem::remove(*options_.control, ignored);
+}
+
+// main() handles failures the same way, but a thread that hangs keeps run() from returning to it.
 void App::leaveFailed(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
@@ -93,8 +98,7 @@ void App::leaveFailed(const std::exception_ptr& error) {
         const ExitCode code = exitCode(failure);
         (void)writeSummary(fmt::format("error: {}", failure.what()), code);
         log_.error(failure.what(), {message::kFailed});
-        std::error_code ignored;
-        if (options_.control) std::filesystem::remove(*options_.control, ignored);
+        removeControl();
         pauseBeforeRestart(code, failure.what(), started_, log_);
         std::_Exit(static_cast<int>(code));
     }

@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// What a client of the control socket may do.
+/// The requests that a client of the control socket may make.
 enum class ControlRole {
     Observer,  ///< ask how mfard is
     Operator,  ///< everything
@@ -19,12 +19,13 @@ inline constexpr const char* kOperatorsGroup = "mfar-operators";
 /// Its number; nothing where the system has no such group.
 [[nodiscard]] std::optional<gid_t> operatorsGroup();
 
-/// The role of a process with this user and these groups, which the kernel tells of a socket's
-/// other end.
+/// The role of a process with this user and these groups, as the kernel reports
+/// them for the other end of a socket.
 [[nodiscard]] ControlRole roleOf(uid_t user, std::span<const gid_t> groups,
                                  std::optional<gid_t> operators);
 
-/// Of the process that connected this Unix socket. Observer where the kernel does not say.
+/// The role of the process that connected this Unix socket; Observer where the kernel does not
+/// report it.
 [[nodiscard]] ControlRole roleOfPeer(int socket, std::optional<gid_t> operators);
 
 }  // namespace mfar

@@ -36,7 +36,7 @@ struct Health {
 
 /// "the capture thread hangs (stalled for 5.2 s, last picture 5.3 s ago)", "ok"
 [[nodiscard]] std::string sentence(const Health& health);
-/// Of the message that says so.
+/// Kind and camera of the log message about this health.
 [[nodiscard]] Subject subjectOf(const Health& health);
 [[nodiscard]] nlohmann::ordered_json healthJson(const Health& health);
 

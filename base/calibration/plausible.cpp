@@ -16,7 +16,7 @@ namespace {
 constexpr double kRotationTolerance = 1e-3;  // files print as few as four digits
 constexpr double kMaxFoldError = 0.5;        // [px]
 
-/// Of a range, for messages.
+/// A range as messages give it.
 std::string text(const Range& range) {
     const bool hasUnit = std::string_view(range.unit) != "1";
     return fmt::format("{} to {}{}{}", range.least, range.most, hasUnit ? " " : "",
@@ -33,7 +33,7 @@ bool foldsInside(const CameraModel& c) {
     return false;
 }
 
-/// With distortion to without, of the corner at which this is farthest from 1.
+/// Radius with distortion over radius without, at the corner where this ratio is farthest from 1.
 double mostUnlikelyCorner(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const Eigen::Vector2d centre(c.cx, c.cy);

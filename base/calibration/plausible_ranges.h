@@ -4,8 +4,8 @@
 
 namespace mfar::plausible {
 
-/// What a number of a calibration or a tag map may be. The README shows this table, a test compares
-/// them.
+/// The range of a number in a calibration or tag map. The README shows the same table; a test
+/// compares both.
 struct Range {
     const char *what, *unit;
     double least, most;
@@ -27,7 +27,7 @@ inline constexpr Range kCorner{"radius of a corner with distortion to that witho
                                1.5};
 inline constexpr Range kBaseline{"distance of the sensors", "m", 0, 2};
 inline constexpr Range kTimeOffset{"time offset of the stills", "s", -10, 10};
-/// Of a sensor on trigger only: 0.
+/// A sensor that takes pictures on trigger only has rate 0 instead.
 inline constexpr Range kRate{"rate", "Hz", 0.01, 10000};
 
 inline constexpr Range kTagSize{"edge of a tag", "m", 0.001, 100};

@@ -7,7 +7,7 @@
 
 namespace mfar::gpu {
 
-/// What a GPU that works never takes: the kernel resets it before.
+/// A working GPU never takes this long: the kernel resets it before.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// A point in the stream of GL commands. Move-only.
@@ -25,7 +25,7 @@ public:
         if (sync_ != nullptr) glDeleteSync(sync_);
     }
 
-    /// Whether the GPU is past it. Does not wait, or for so long at most. Never true once the
+    /// True when the GPU has passed the fence. Waits for `limit` at most. Never true once the
     /// context is lost.
     [[nodiscard]] bool passed(std::chrono::nanoseconds limit = std::chrono::nanoseconds{0}) const {
         const GLenum status = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT,

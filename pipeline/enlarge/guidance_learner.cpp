@@ -131,6 +131,12 @@ private:
     AlignedRows<std::int16_t> range_, residual_;
 };
 
+/// In the order in which they are stored.
+constexpr std::array kSums{&FactorSums::still2,       &FactorSums::video2,
+                           &FactorSums::missing2,     &FactorSums::stillVideo,
+                           &FactorSums::stillMissing, &FactorSums::videoMissing,
+                           &FactorSums::pixels};
+
 bool isSaturated(const MatchedPictures& pictures, int x, int y) {
     const int luma = pictures.row(y)[x];
     return luma < kDarkest || luma > kBrightest;
@@ -139,19 +145,13 @@ bool isSaturated(const MatchedPictures& pictures, int x, int y) {
 }  // namespace
 
 void FactorSums::add(const FactorSums& other) {
-    still2 += other.still2;
-    video2 += other.video2;
-    missing2 += other.missing2;
-    stillVideo += other.stillVideo;
-    stillMissing += other.stillMissing;
-    videoMissing += other.videoMissing;
-    pixels += other.pixels;
+    for (const auto sum : kSums)
+        this->*sum += other.*sum;
 }
 
 void FactorSums::fade(double share) {
-    for (double* sum :
-         {&still2, &video2, &missing2, &stillVideo, &stillMissing, &videoMissing, &pixels})
-        *sum *= share;
+    for (const auto sum : kSums)
+        this->*sum *= share;
 }
 
 double FactorSums::gainOf(const Guidance& of) const {
@@ -228,16 +228,17 @@ std::array<double, GuidanceLearner::kNumbers> GuidanceLearner::stored() const {
     std::array<double, kNumbers> out{static_cast<double>(pairs_), guidance_.still, guidance_.video};
     std::size_t next = 3;
     for (const FactorSums* of : {&learned_, &held_})
-        for (const double value : {of->still2, of->video2, of->missing2, of->stillVideo,
-                                   of->stillMissing, of->videoMissing, of->pixels})
-            out[next++] = value;
+        for (const auto sum : kSums)
+            out[next++] = of->*sum;
     return out;
 }
 
 bool GuidanceLearner::restore(const std::array<double, kNumbers>& numbers) {
-    const auto sums = [&](std::size_t i) {
-        return FactorSums{numbers[i],     numbers[i + 1], numbers[i + 2], numbers[i + 3],
-                          numbers[i + 4], numbers[i + 5], numbers[i + 6]};
+    const auto sums = [&](std::size_t first) {
+        FactorSums out;
+        for (const auto sum : kSums)
+            out.*sum = numbers[first++];
+        return out;
     };
     const auto sound = [](const FactorSums& of) {
         return of.still2 >= 0 && of.video2 >= 0 && of.missing2 >= 0 && of.pixels >= 0;

@@ -157,7 +157,7 @@ void WarpedStill::compare(int row) {
     comparedRows_[slot] = row;
 }
 
-const float* WarpedStill::guided(int row) {
+void WarpedStill::makeGuided(int row, float* to) {
     GuideRows rows{};
     for (int k = 0; k < GuideRows::kRows; ++k) {
         const int at = std::clamp(row + k - kReach, 0, video_.height - 1),
@@ -167,17 +167,18 @@ const float* WarpedStill::guided(int row) {
         rows.trusted[k] = trusted_[slot] + kMargin;
     }
     for (const auto& [begin, end] : means_)
-        guideRow(rows, begin, end, seen_[row % GuideRows::kRows] + kMargin, mean_[0]);
-    return mean_[0];
+        guideRow(rows, begin, end, seen_[row % GuideRows::kRows] + kMargin, to);
 }
 
 // The same at the output's width.
 void WarpedStill::makeLow(int row) {
-    if (guide_ == nullptr) makeMean(row, mean_[0]);
-    const float* mean = guide_ != nullptr ? guided(row) : mean_[0];
+    if (guide_ != nullptr)
+        makeGuided(row, mean_[0]);
+    else
+        makeMean(row, mean_[0]);
     const int slot = row % 4;
     for (const PixelSpan& span : covered_)
-        resampleRow(mean, taps_->cubicRows.table(), span.begin, span.end, 2, low_[slot]);
+        resampleRow(mean_[0], taps_->cubicRows.table(), span.begin, span.end, 2, low_[slot]);
     lowRows_[slot] = row;
 }
 

@@ -54,7 +54,7 @@ private:
     void makeLow(int row);
     void makeMean(int row, float* to);
     void compare(int row);
-    [[nodiscard]] const float* guided(int row);
+    void makeGuided(int row, float* to);
 
     Size video_, output_;
     StillPairs still_{};

@@ -5,7 +5,7 @@
 
 ctl="$(dirname "$sim")/mfarctl"
 pretended=$3
-two_cameras
+pretended_cameras
 
 # says_of CAMERA WORD...: what is wrong with it from now on.
 says_of() {

@@ -31,7 +31,7 @@ is_hungry() {
     true
 }
 
-two_cameras
+pretended_cameras
 start_hangable() {
     LD_PRELOAD=$pretended start --config mfard.toml --display none --control control
     until_true started

@@ -18,24 +18,7 @@ heard() {
         awk -v RS= -v a="$1" -v b="$2" '$0 ~ a && $0 ~ b {found = 1} END {exit !found}'
 }
 
-cat >mfard.toml <<'END'
-source = "cameras"
-[superres]
-mode = "off"
-[pose]
-source = "none"
-[cameras.video]
-driver = "v4l2"
-camera = "/dev/video92"
-width = 64
-height = 48
-[cameras.still]
-driver = "v4l2"
-camera = "/dev/video93"
-width = 128
-height = 96
-rate_hz = 5.0
-END
+two_cameras
 start_service() {
     : >err
     MFAR_PRETENDED_JOURNAL=$PWD/$1 LD_PRELOAD=$journal JOURNAL_STREAM=$(stat -c %d:%i err) \

@@ -16,7 +16,7 @@ gpu_says() {
     mv gl.new gl
 }
 
-two_cameras
+pretended_cameras
 begin() {
     gpu_says ""
     LD_LIBRARY_PATH=$faulty LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras \

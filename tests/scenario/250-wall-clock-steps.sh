@@ -14,7 +14,7 @@ step() {
     mv clock.new clock
 }
 
-two_cameras '[record]
+pretended_cameras '[record]
 directory = "films"'
 begin() {
     LD_PRELOAD=$libraries MFAR_PRETENDED_V4L2=$PWD/cameras MFAR_CLOCK_IS_OFF=$PWD/clock start \

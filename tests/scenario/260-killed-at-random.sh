@@ -8,7 +8,7 @@ pretended=$3
 ctl="$(dirname "$sim")/mfarctl"
 RANDOM=${MFAR_SEED:-7}
 mkdir state
-two_cameras '[record]
+pretended_cameras '[record]
 directory = "films"'
 shows_pictures() {
     [ "$(timeout 10 "$ctl" --socket control status 2>/dev/null | sed -n 's/^frames  *//p')" -gt 0 ] 2>/dev/null

@@ -83,11 +83,8 @@ ends_with() {
     [ "$took" -le $(($2 * patience)) ] || fail "took $took ms, limit $2 ms times $patience"
 }
 
-# two_cameras [TOML]: a configuration with two pretended V4L2 cameras, whose faults cameras/video90
-# and cameras/video91 name, and with these lines.
+# two_cameras [TOML]: a configuration with two V4L2 cameras and these lines.
 two_cameras() {
-    mkdir cameras
-    touch cameras/video90 cameras/video91
     cat >mfard.toml <<END
 source = "cameras"
 [superres]
@@ -107,6 +104,14 @@ height = 96
 rate_hz = 5.0
 ${1:-}
 END
+}
+
+# pretended_cameras [TOML]: the same, where cameras/video90 and cameras/video91 name the faults of
+# each camera.
+pretended_cameras() {
+    mkdir cameras
+    touch cameras/video90 cameras/video91
+    two_cameras "$@"
 }
 
 # says FILE PATTERN
