@@ -41,6 +41,22 @@ Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& ligh
     return scene;
 }
 
+TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure) {
+    TracedLayerOptions out;
+    out.reference.slices.slicing = options.slicing;
+    out.reference.slices.samples = options.samples;
+    out.reference.slices.samplesPerTurn = 1;  // something is to be seen soon
+    out.reference.tracer.shadowReach = kShadowReach;
+    out.reference.tracer.fireflyClamp = kBrightestCaustic / exposure;
+    out.reference.budgetMs = options.budgetMs;
+    out.reference.threads = options.threads;
+    out.reference.exposure.scale = exposure;
+    out.reference.policy.limits.turnDegrees = options.turnDeg;
+    out.reference.policy.filter = options.filter;
+    out.warp.filling = options.holes;
+    return out;
+}
+
 VirtualWorld::VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline)
     : options_(options), fullSize_(Pipeline::fullSize(rig)), pipeline_(pipeline),
       traced_(!drawsPreviews(options)) {}
@@ -54,19 +70,8 @@ TracedLayerOptions VirtualWorld::layerOptions() const {
     const auto scaled = [&](int full, int shown) {
         return std::clamp(static_cast<int>(std::lround(full * options_.resolution)), 1, shown);
     };
-    TracedLayerOptions out;
+    TracedLayerOptions out = tracedLayerOptions(options_, exposure_);
     out.size = {scaled(fullSize_.width, output.width), scaled(fullSize_.height, output.height)};
-    out.reference.slices.slicing = options_.slicing;
-    out.reference.slices.samples = options_.samples;
-    out.reference.slices.samplesPerTurn = 1;  // something is to be seen soon
-    out.reference.tracer.shadowReach = kShadowReach;
-    out.reference.tracer.fireflyClamp = kBrightestCaustic / static_cast<float>(exposure_);
-    out.reference.budgetMs = options_.budgetMs;
-    out.reference.threads = options_.threads;
-    out.reference.exposure.scale = exposure_;
-    out.reference.policy.limits.turnDegrees = options_.turnDeg;
-    out.reference.policy.filter = options_.filter;
-    out.warp.filling = options_.holes;
     return out;
 }
 

@@ -34,6 +34,9 @@ private:
     float exposure_ = 1;
 };
 
+/// How the layer of these options is traced and warped; its size is the caller's.
+[[nodiscard]] TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure);
+
 /// A scene of these objects, placed by the tag map, in this light. Light that the camera is to
 /// tell is a dim studio's until it does.
 [[nodiscard]] Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& light,

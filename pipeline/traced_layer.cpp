@@ -70,6 +70,10 @@ LayerPicture& TracedLayer::render(const RigidTransform& T_world_video) {
     return state_->warp.run(T_world_video);
 }
 
+bool TracedLayer::rests() const {
+    return state_->renderer.rests();
+}
+
 TracedLayerCounters TracedLayer::counters() const {
     const WarpCounters& warp = state_->warp.counters();
     return {state_->renderer.counters(),

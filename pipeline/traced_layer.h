@@ -58,6 +58,9 @@ public:
     /// Empty before the first picture. Valid until the next call of any member.
     LayerPicture& render(const RigidTransform& T_world_video);
 
+    /// Whether the threads have done what the last update() allows; for measurements.
+    [[nodiscard]] bool rests() const;
+
     [[nodiscard]] TracedLayerCounters counters() const;
     /// What was wrong with a scene that could not be used, once.
     [[nodiscard]] std::optional<std::string> takeError();

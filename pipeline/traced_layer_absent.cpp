@@ -27,6 +27,9 @@ LayerPicture& TracedLayer::render(const RigidTransform&) {
     static LayerPicture nothing;
     return nothing;
 }
+bool TracedLayer::rests() const {
+    return true;
+}
 TracedLayerCounters TracedLayer::counters() const {
     return {};
 }

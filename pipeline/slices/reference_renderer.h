@@ -42,6 +42,12 @@ public:
     /// The newest answer since the last call, null without one. It stays until the next call.
     [[nodiscard]] const HoleAnswer* takeHoles();
 
+    /// Whether the threads have done what the last update() allows. For measurements, as it takes a
+    /// lock.
+    [[nodiscard]] bool rests() const {
+        return workers_.rest(updates_, static_cast<int>(threads_.size()));
+    }
+
     /// As of the last frame or picture.
     [[nodiscard]] const RenderCounters& counters();
     /// What was wrong with a scene that could not be used, once.

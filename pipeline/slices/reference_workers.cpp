@@ -68,6 +68,11 @@ void ReferenceWorkers::work() {
     }
 }
 
+bool ReferenceWorkers::rest(std::uint64_t number, int threads) const {
+    const std::scoped_lock lock(mutex_);
+    return tick_.number == number && asleep_ == threads && !toBuild_ && !building_;
+}
+
 void ReferenceWorkers::readMail() {
     if (mail_.scenes.fetch()) toBuild_ = std::exchange(mail_.scenes.front(), nullptr);
     if (!holesExclusive_ && holes_.idle() && scene_ && mail_.holeRequests.fetch())

@@ -44,6 +44,10 @@ public:
     /// A thread's life, until mail.stop.
     void work();
 
+    /// Whether frame `number` has begun and `threads` threads sleep: its budget is used up, or
+    /// there is nothing to do. Waits for a lock.
+    [[nodiscard]] bool rest(std::uint64_t number, int threads) const;
+
 private:
     struct Job {
         enum class Kind : unsigned char {
@@ -92,7 +96,7 @@ private:
     const ReferenceOptions options_;
     RenderMail& mail_;
 
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     BudgetController budget_;
     ViewPredictor predictor_;
     ReferencePictures pictures_;

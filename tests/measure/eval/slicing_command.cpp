@@ -1,5 +1,7 @@
 #include "tests/measure/eval/slicing_command.h"
 
+#include "tests/measure/eval/budget_option.h"
+
 #include <cmath>
 #include <string>
 
@@ -19,13 +21,6 @@ constexpr const char* kSlicingHelp =
     "Row `budget`: the renderer's threads under the budget while the view turns by 3 degrees a\n"
     "second: budget_mean: used by budget over all frames; budget_p95_off: 95th percentile of the\n"
     "frames' deviation from 1.";
-
-/// CLI::Range lets NaN pass.
-std::string isBudget(const std::string& text) {
-    double ms = -1;
-    const bool number = CLI::detail::lexical_cast(text, ms);
-    return number && ms >= 0.1 && ms <= 1000 ? "" : text + " is not in [0.1, 1000]";
-}
 
 }  // namespace
 

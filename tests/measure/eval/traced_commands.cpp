@@ -1,6 +1,7 @@
 #include "tests/measure/eval/traced_commands.h"
 
 #include "tests/measure/eval/slicing_command.h"
+#include "tests/measure/eval/traced_command.h"
 #include "tests/measure/eval/warp_command.h"
 
 #include <memory>
@@ -11,11 +12,13 @@ std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv) {
     const auto slicing = std::make_shared<SlicingRequest>();
     const auto warp = std::make_shared<WarpRequest>();
     const auto files = std::make_shared<WarpFiles>();
+    const auto traced = std::make_shared<TracedRequest>();
     std::vector<EvalCommand> out{
         {addSlicingCommand(app, *slicing), [slicing] { return evaluateSlicing(*slicing); }},
-        {addWarpCommand(app, *warp, *files), [=] { return runWarpCommand(*warp, *files); }}};
-    for (const EvalCommand& traced : out)
-        traced.command->add_option("--csv", csv, "file for the table");
+        {addWarpCommand(app, *warp, *files), [=] { return runWarpCommand(*warp, *files); }},
+        {addTracedCommand(app, *traced), [=] { return runTracedCommand(*traced); }}};
+    for (const EvalCommand& each : out)
+        each.command->add_option("--csv", csv, "file for the table");
     return out;
 }
 

@@ -1,0 +1,320 @@
+#include "tests/measure/eval/traced.h"
+
+#include "daemon/virtual_world.h"
+#include "hal/virtual/image_files.h"
+#include "hal/virtual/y4m.h"
+#include "pipeline/composite/lens_projection.h"
+#include "pipeline/composite/shadow_catcher.h"
+#include "pipeline/slices/view_change.h"
+#include "pipeline/traced_layer.h"
+#include "tests/measure/eval/stopwatch.h"
+#include "tests/measure/eval/traced_truth.h"
+#include "tests/measure/eval/warp_scenes.h"
+#include "tests/warp/warp_engine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+namespace mfar::eval {
+namespace {
+
+using Rgb = std::array<float, 3>;
+using Picture = std::vector<Rgb>;
+
+constexpr double kRate = 30;      // frames a second
+constexpr int kFirstFrames = 15;  // in which there may be no picture yet
+constexpr float kPaper = 200;     // grey level under the layer
+constexpr double kFill = 0.5;     // of the picture's height, by the objects' ball
+constexpr auto kPatience = std::chrono::seconds(20);
+constexpr std::uint64_t kWorldSeed = 1;
+
+/// The objects' scene, and how the board's camera moves about it: the point that the board looks at
+/// lies in the middle of the objects, and distances are scaled so that they fill the picture.
+class Course {
+public:
+    Course(const std::string& scene, synthetic::Path path, Size size)
+        : scene_(warpScene(scene)), path_(path),
+          world_(synthetic::makeWorld(synthetic::Scene::Office, kWorldSeed)),
+          camera_(synthetic::boardRig().video.scaledTo(size)) {
+        Eigen::AlignedBox3d box;
+        for (const ObjectBall& ball : objectBalls(*scene_)) {
+            box.extend(ball.centre + Eigen::Vector3d::Constant(ball.radius));
+            box.extend(ball.centre - Eigen::Vector3d::Constant(ball.radius));
+        }
+        centre_ = box.center();
+        const double distance =
+            camera_.fy * box.sizes().maxCoeff() / (kFill * static_cast<double>(size.height));
+        scale_ = distance / (world_.eye - world_.target).norm();
+    }
+
+    [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
+    [[nodiscard]] const CameraModel& camera() const { return camera_; }
+    [[nodiscard]] RenderView at(int frame) const {
+        RigidTransform pose = synthetic::cameraPose(world_, path_, kWorldSeed, frame / kRate);
+        pose.translation = centre_ + scale_ * (pose.translation - world_.target);
+        return {camera_, pose};
+    }
+
+private:
+    std::shared_ptr<const Scene> scene_;
+    synthetic::Path path_;
+    synthetic::World world_;
+    CameraModel camera_;
+    Eigen::Vector3d centre_;
+    double scale_ = 1;
+};
+
+Picture overPaper(const std::uint8_t* rgba, std::size_t pixels) {
+    Picture out(pixels);
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            out[i][c] = static_cast<float>(rgba[4 * i + c]) +
+                        kPaper * static_cast<float>(255 - rgba[4 * i + 3]) / 255;
+    return out;
+}
+
+Picture overPaper(const RenderedPicture& picture) {
+    return overPaper(picture.colour.front().data(), picture.colour.size());
+}
+
+Picture differenceOf(const Picture& a, const Picture& b) {
+    Picture out(a.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            out[i][c] = a[i][c] - b[i][c];
+    return out;
+}
+
+/// A mean of squares, of three channels a pixel.
+struct MeanSquare {
+    double sum = 0;
+    double values = 0;
+
+    void add(const Rgb& rgb) {
+        for (const float v : rgb)
+            sum += static_cast<double>(v) * static_cast<double>(v);
+        values += 3;
+    }
+    [[nodiscard]] std::optional<double> psnr() const {
+        if (!(values > 0)) return {};
+        return 10 * std::log10(255.0 * 255 * values / std::max(sum, 1e-9));
+    }
+    [[nodiscard]] std::optional<double> root() const {
+        if (!(values > 0)) return {};
+        return std::sqrt(sum / values);
+    }
+};
+
+bool showsObject(const RenderedPicture& picture, std::size_t pixel) {
+    return picture.id[pixel] != 0 && picture.id[pixel] != kCatcherId;
+}
+
+/// How the errors of objects' pixels change from a frame to the next.
+std::optional<double> flicker(const Picture& before, const RenderedPicture& truthBefore,
+                              const Picture& now, const RenderedPicture& truth) {
+    const Size size = truth.camera.size;
+    const LensProjection lens(truth.camera);
+    const RigidTransform T = truthBefore.T_world_camera.inverse() * truth.T_world_camera;
+    MeanSquare out;
+    for (int y = 0; y < size.height; ++y)
+        for (int x = 0; x < size.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
+            if (!showsObject(truth, i)) continue;
+            const Eigen::Vector3d point =
+                static_cast<double>(truth.depth[i]) * truth.camera.unproject({x, y}).homogeneous();
+            const Eigen::Vector3d h = lens(T * point);
+            if (!(h.z() > LensProjection::kNear)) continue;
+            const auto u = std::lround(h.x() / h.z()), v = std::lround(h.y() / h.z());
+            if (u < 0 || v < 0 || u >= size.width || v >= size.height) continue;
+            const std::size_t j = static_cast<std::size_t>(v) * size.width + u;
+            if (truthBefore.id[j] != truth.id[i]) continue;
+            Rgb change{};
+            for (std::size_t c = 0; c < 3; ++c)
+                change[c] = now[i][c] - before[j][c];
+            out.add(change);
+        }
+    return out.root();
+}
+
+TracedLayerOptions optionsOf(const TracedRequest& request, const std::string& method) {
+    VirtualOptions options;
+    options.budgetMs = request.budgetMs;
+    TracedLayerOptions out = tracedLayerOptions(options, 1);
+    out.size = request.size;
+    out.reference.tracer.independentSamples = method == "independent";
+    return out;
+}
+
+/// The product's layer along a course, frame by frame.
+class ShownFrames {
+public:
+    ShownFrames(const Course& course, const TracedLayerOptions& options)
+        : course_(course), layer_(course.camera(), *engine_, options) {
+        layer_.setScene(course.scene());
+    }
+
+    /// Its threads use up the budget before the next frame begins, as they do on a board whose
+    /// processors are free.
+    Picture next() {
+        const RenderView view = course_.at(frame_);
+        const Timestamp time =
+            Timestamp{} + std::chrono::nanoseconds(std::llround(1e9 * frame_ / kRate));
+        ++frame_;
+        layer_.update(view.T_world_camera, time);
+        LayerPicture* shown = nullptr;
+        warpMs_ = wallMs([&] {
+            shown = &layer_.render(view.T_world_camera);
+            engine_->finish();
+        });
+        const Size size = course_.camera().size;
+        Picture out(static_cast<std::size_t>(size.width) * size.height, {kPaper, kPaper, kPaper});
+        if (!shown->bounds.empty()) {
+            const std::vector<std::uint8_t> rgba = test::bytesOf(shown->colour);
+            out = overPaper(rgba.data(), rgba.size() / 4);
+        }
+        waitForThreads();
+        return out;
+    }
+    [[nodiscard]] double warpMs() const { return warpMs_; }
+    [[nodiscard]] TracedLayerCounters counters() const { return layer_.counters(); }
+
+private:
+    void waitForThreads() {
+        const auto end = std::chrono::steady_clock::now() + kPatience;
+        while (!layer_.rests()) {
+            if (std::chrono::steady_clock::now() > end)
+                throw EvalError("the path tracer does not come to rest");
+            std::this_thread::sleep_for(std::chrono::microseconds(200));
+        }
+        if (const auto error = layer_.takeError()) throw EvalError(*error);
+    }
+
+    const Course& course_;
+    std::unique_ptr<Engine> engine_ = test::warpEngine();
+    TracedLayer layer_;
+    int frame_ = 0;
+    double warpMs_ = 0;
+};
+
+void savePicture(const std::filesystem::path& folder, const std::string& name, Size size,
+                 const Picture& picture) {
+    if (folder.empty()) return;
+    std::filesystem::create_directories(folder);
+    savePng(folder / (name + ".png"), rgbaOf({&picture}, size).view());
+}
+
+class TracedRun {
+public:
+    TracedRun(const TracedRequest& request, const std::string& scene, synthetic::Path path,
+              Report& report)
+        : request_(request), course_(scene, path, request.size), report_(report),
+          label_(fmt::format("{}/{}", std::filesystem::path(scene).stem().string(),
+                             synthetic::name(path))),
+          truth_(course_.scene(), request.truthSamples, request.truth, label_) {}
+
+    void run() {
+        std::vector<std::vector<Picture>> shown;  // of each method, for the video
+        for (const std::string& method : request_.methods)
+            shown.push_back(run(method));
+        if (!request_.video.empty()) writeVideo(shown);
+    }
+
+private:
+    [[nodiscard]] bool isCompared(int frame) const { return frame % request_.every == 0; }
+
+    std::vector<Picture> run(const std::string& method) {
+        ShownFrames frames(course_, optionsOf(request_, method));
+        std::vector<Picture> all;
+        std::optional<Picture> errorBefore;
+        const RenderedPicture* truthBefore = nullptr;
+        for (int i = 0; i < request_.frames; ++i) {
+            const Picture shown = frames.next();
+            if (!request_.video.empty()) all.push_back(shown);
+            const bool follows = i > 0 && isCompared(i - 1);
+            if (!isCompared(i) && !follows) continue;
+            const RenderedPicture& truth = truth_.at(i, course_.at(i));
+            const Picture exact = overPaper(truth);
+            Picture error = differenceOf(shown, exact);
+            if (isCompared(i) && i >= kFirstFrames) {
+                compare(method, i, error, truth, frames);
+            } else if (follows && errorBefore && i > kFirstFrames) {
+                report_.add(label_, std::to_string(i), method,
+                            {{}, {}, flicker(*errorBefore, *truthBefore, error, truth), {}, {}});
+            }
+            if (isCompared(i)) {
+                const std::string name = fmt::format("{}-{:03}", fileStem(), i);
+                savePicture(request_.save, name + "-" + method, request_.size, shown);
+                savePicture(request_.save, name + "-truth", request_.size, exact);
+            }
+            errorBefore = std::move(error);
+            truthBefore = &truth;
+        }
+        return all;
+    }
+
+    void compare(const std::string& method, int frame, const Picture& error,
+                 const RenderedPicture& truth, const ShownFrames& frames) {
+        MeanSquare object, shadow;
+        for (std::size_t i = 0; i < error.size(); ++i) {
+            if (showsObject(truth, i))
+                object.add(error[i]);
+            else if (truth.id[i] == kCatcherId)
+                shadow.add(error[i]);
+        }
+        const RenderCounters render = frames.counters().render;
+        report_.add(
+            label_, std::to_string(frame), method,
+            {object.psnr(), shadow.psnr(), {}, static_cast<double>(render.shown), frames.warpMs()});
+    }
+
+    [[nodiscard]] std::string fileStem() const {
+        std::string out = label_;
+        std::ranges::replace(out, '/', '-');
+        return out;
+    }
+
+    void writeVideo(const std::vector<std::vector<Picture>>& shown) const {
+        std::filesystem::create_directories(request_.video);
+        const Size size{request_.size.width * static_cast<int>(shown.size()), request_.size.height};
+        ByteSink sink((request_.video / (fileStem() + ".y4m")).string(), {});
+        const std::string header = y4mHeader(size, kRate);
+        std::vector<std::uint8_t> bytes(header.begin(), header.end());
+        for (std::size_t i = 0; i < shown.front().size(); ++i) {
+            std::vector<const Picture*> beside;
+            for (const auto& frames : shown)
+                beside.push_back(&frames[i]);
+            appendY4mFrame(rgbaOf(beside, request_.size).view(), bytes);
+            sink.write(bytes);
+            bytes.clear();
+        }
+    }
+
+    const TracedRequest& request_;
+    Course course_;
+    Report& report_;
+    std::string label_;
+    TracedTruth truth_;
+};
+
+}  // namespace
+
+std::vector<std::string> tracedMethodNames() {
+    return {"product", "independent"};
+}
+
+Report evaluateTraced(const TracedRequest& request) {
+    Report report(
+        {{"psnr_db", 2}, {"shadow_psnr_db", 2}, {"flicker", 3}, {"pictures", 0}, {"warp_ms", 2}});
+    for (const std::string& scene : request.scenes)
+        for (const synthetic::Path path : request.paths)
+            TracedRun(request, scene, path, report).run();
+    report.addMeans();
+    return report;
+}
+
+}  // namespace mfar::eval

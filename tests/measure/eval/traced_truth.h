@@ -1,0 +1,39 @@
+#pragma once
+
+#include "hal/virtual/image_files.h"
+#include "pipeline/render/path_tracer.h"
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mfar::eval {
+
+/// Pictures path traced in the very views of frames, kept in a folder from run to run if there is
+/// one.
+class TracedTruth {
+public:
+    /// `name`: of the course, for the files; the scene must outlive this.
+    TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
+                std::filesystem::path folder, const std::string& name);
+
+    /// Stays as long as this does. Throws EvalError for a file that cannot be written.
+    const RenderedPicture& at(int frame, const RenderView& view);
+
+private:
+    [[nodiscard]] std::filesystem::path fileOf(int frame, Size size) const;
+
+    PathTracer tracer_;
+    int samples_;
+    std::filesystem::path folder_;
+    std::string stem_;
+    std::map<int, RenderedPicture> pictures_;
+};
+
+/// Pictures of `size` beside each other, of values in [0, 255].
+[[nodiscard]] StoredImage
+rgbaOf(const std::vector<const std::vector<std::array<float, 3>>*>& pictures, Size size);
+
+}  // namespace mfar::eval
