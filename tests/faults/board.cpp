@@ -96,8 +96,12 @@ Board& Board::get() {
     return *board;
 }
 
-void Board::setUp(std::string_view mode) {
+void Board::setUp(std::string_view mode, bool records) {
+    constexpr std::string_view kRecord = "[record]\n";
     configuration_ = fmt::format("{}mode = \"{}\"\n", kConfiguration, mode);
+    if (records)
+        configuration_.insert(configuration_.find(kRecord) + kRecord.size(),
+                              fmt::format("directory = \"{}start\"\n", kRecording));
     static_cast<void>(std::filesystem::create_directories("cameras"));
     writeCamera(Where::Video);
     writeCamera(Where::Still);

@@ -18,8 +18,8 @@ class Board {
 public:
     static Board& get();
 
-    /// Makes the files. `mode`: of super-resolution.
-    void setUp(std::string_view mode);
+    /// Makes the files. `mode`: of super-resolution. `records`: from the start on.
+    void setUp(std::string_view mode, bool records);
     void begin(const Fault& fault);
     void end(const Fault& fault);
 
@@ -29,7 +29,7 @@ public:
 
     static constexpr const char* kPipe = "screen.y4m";
     static constexpr const char* kSocket = "control";
-    static constexpr const char* kRecording = "disk-";  ///< and a number
+    static constexpr const char* kRecording = "disk-";  ///< and what follows
 
 private:
     void writeCamera(Where which) const;

@@ -91,7 +91,7 @@ void apply(const Step& step) {
     static int recordings = 0;
     const bool ofDisk = step.fault->kind->where == Where::Disk;
     if (step.begins) {
-        if (ofDisk) {
+        if (ofDisk && Judge::get().isReady()) {
             const std::string name = Board::kRecording + std::to_string(++recordings);
             request({{"command", "record"}, {"name", name}});
             sleepFor(300 * kMs);
@@ -102,16 +102,22 @@ void apply(const Step& step) {
         Board::get().end(*step.fault);
         // Which waits for the disk, as another fault may hold it.
         if (ofDisk)
-            std::thread(request, nlohmann::json{{"command", "record"}, {"stop", true}}).detach();
+            std::thread([] {
+                sleepFor(300 * kMs);  // one that it has held up begins now
+                request({{"command", "record"}, {"stop", true}});
+            }).detach();
         Judge::get().ends(*step.fault);
     }
 }
 
 void checkRecordings() {
-    for (const auto& folder : std::filesystem::directory_iterator(".")) {
+    namespace fs = std::filesystem;
+    for (const auto& folder : fs::directory_iterator(".")) {
         if (!folder.path().filename().string().starts_with(Board::kRecording)) continue;
-        Judge::get().recording(folder.path().string());
-        std::filesystem::remove_all(folder.path());
+        for (const auto& inner : fs::recursive_directory_iterator(folder))
+            if (inner.path().filename() == "cam0")
+                Judge::get().recording(inner.path().parent_path().string());
+        fs::remove_all(folder.path());
     }
 }
 
@@ -227,7 +233,7 @@ void direct() {
 
 __attribute__((constructor)) void begin() {
     Judge::get();
-    Board::get().setUp(plan().mode);
+    Board::get().setUp(plan().mode, plan().recordsAtStart());
     // Signals are for mfard's own threads.
     sigset_t all, before;
     sigfillset(&all);

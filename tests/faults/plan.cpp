@@ -95,6 +95,11 @@ std::string Fault::text() const {
     return out;
 }
 
+bool Plan::recordsAtStart() const {
+    const auto isOfDisk = [](const Fault& fault) { return fault.kind->where == Disk; };
+    return beginsBroken && std::ranges::any_of(episodes.front(), isOfDisk);
+}
+
 Plan Plan::drawn(std::uint64_t seed, int episodes) {
     std::mt19937_64 random(seed);
     Plan out;

@@ -41,8 +41,9 @@ struct Fault {
 using Episode = std::vector<Fault>;
 
 struct Plan {
-    bool beginsBroken = false;  ///< the first episode begins before the program
-    std::string_view mode;      ///< of super-resolution
+    bool beginsBroken = false;                  ///< the first episode begins before the program
+    std::string_view mode;                      ///< of super-resolution
+    [[nodiscard]] bool recordsAtStart() const;  ///< into a disk that is broken then
     std::vector<Episode> episodes;
     Ns endAfter = 0;        ///< the signal, so long after the begin of the last episode
     bool isKilled = false;  ///< with SIGKILL instead of SIGTERM; then it is started once more
