@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/device/pretended_counts.h"
+#include "tests/device/pretended_gpio.h"
 #include "tests/device/pretended_picture.h"
 #include "tests/device/pretended_words.h"
 
@@ -55,6 +56,7 @@ public:
         waitWhile("hang-open");
         const Words wrong = words_.now();
         if (wrong.contains("slow")) sleepMs(wrong.at("slow"));
+        setGain(0);
         return wrong.contains("gone") ? ENODEV : 0;
     }
     void waitWhile(const char* word) const {
@@ -89,7 +91,11 @@ public:
         case VIDIOC_DQBUF: return dequeue(*static_cast<v4l2_buffer*>(argument));
         case VIDIOC_STREAMON: return start();
         case VIDIOC_STREAMOFF: stop(); return 0;
-        default: return request == VIDIOC_QUERY_EXT_CTRL ? EINVAL : ENOTTY;
+        case VIDIOC_QUERY_EXT_CTRL: return describe(*static_cast<v4l2_query_ext_ctrl*>(argument));
+        case VIDIOC_G_EXT_CTRLS:
+        case VIDIOC_S_EXT_CTRLS:
+            return gain(request, *static_cast<v4l2_ext_controls*>(argument)->controls);
+        default: return ENOTTY;
         }
     }
 
@@ -102,6 +108,30 @@ private:
         about.device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
         return 0;
     }
+
+    /// Its only control.
+    static int describe(v4l2_query_ext_ctrl& control) {
+        constexpr std::uint32_t kNext = V4L2_CTRL_FLAG_NEXT_CTRL | V4L2_CTRL_FLAG_NEXT_COMPOUND;
+        if ((control.id & ~kNext) >= V4L2_CID_GAIN) return EINVAL;
+        control = {};
+        control.id = V4L2_CID_GAIN;
+        control.type = V4L2_CTRL_TYPE_INTEGER;
+        std::strncpy(control.name, "Gain", sizeof control.name - 1);
+        control.maximum = 255;
+        control.step = 1;
+        return 0;
+    }
+    int gain(unsigned long request, v4l2_ext_control& value) {
+        if (value.id != V4L2_CID_GAIN) return EINVAL;
+        const Words wrong = words_.now();
+        if (request == VIDIOC_S_EXT_CTRLS) {
+            if (wrong.contains("refuse") && refused_++ < wrong.at("refuse")) return EBUSY;
+            setGain(value.value);
+        }
+        value.value = static_cast<std::int32_t>(Known::get().of(name_).gain);
+        return 0;
+    }
+    void setGain(std::int64_t value) const { Known::get().setGain(name_, value); }
 
     int rate(unsigned long request, v4l2_streamparm& parameters) {
         auto& capture = parameters.parm.capture;
@@ -130,7 +160,11 @@ private:
         request.count = std::min(request.count, static_cast<std::uint32_t>(most));
         room_ = (bytes_ + 4095) / 4096 * 4096;
         buffers_.assign(request.count, {});
-        return ftruncate(memory_, static_cast<off_t>(room_ * buffers_.size())) == 0 ? 0 : ENOMEM;
+        // What is mapped stays, as a driver's does, until the program has unmapped it.
+        const auto bytes = static_cast<off_t>(room_ * buffers_.size());
+        if (bytes <= mapped_) return 0;
+        mapped_ = bytes;
+        return ftruncate(memory_, bytes) == 0 ? 0 : ENOMEM;
     }
 
     int query(v4l2_buffer& to) {
@@ -156,13 +190,14 @@ private:
         filled_.pop_front();
         std::uint64_t one = 0;
         static_cast<void>(!read(fd_, &one, sizeof one));
-        RefusableCounts::get().add(name_, to, bytes_, lastGood_);
+        Known::get().add(name_, to, bytes_, lastGood_);
         return 0;
     }
 
     int start() {
         const std::lock_guard lock(mutex_);
         running_ = true;
+        pulse_ = lastPulse();
         picture_.clear();
         maker_ = std::thread([this] { make(); });
         return 0;
@@ -179,6 +214,23 @@ private:
         }
     }
 
+    void awaitUntil(steady_clock::time_point due) const {
+        while (running_ && steady_clock::now() < due)
+            std::this_thread::sleep_for(std::min<steady_clock::duration>(
+                due - steady_clock::now(), std::chrono::milliseconds(20)));
+    }
+
+    /// False after some time without one: what is wrong with the camera may have changed.
+    bool awaitPulse() {
+        constexpr int kLooks = 20;
+        for (int i = 0; i < kLooks && running_; ++i) {
+            const std::int64_t before = std::exchange(pulse_, lastPulse().load());
+            if (pulse_ != before) return true;
+            sleepMs(5);
+        }
+        return false;
+    }
+
     void make() {
         auto due = steady_clock::now();
         std::uint32_t number = 0;
@@ -186,17 +238,21 @@ private:
         for (std::uint64_t i = 1; running_; ++i) {
             const Words wrong = words_.now();
             const double hz = wrong.contains("rate") ? wrong.at("rate") : rateHz_.load();
-            due += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / hz));
-            while (running_ && steady_clock::now() < due)
-                std::this_thread::sleep_for(std::min<steady_clock::duration>(
-                    due - steady_clock::now(), std::chrono::milliseconds(20)));
+            const bool isTriggered = wrong.contains("triggered");
+            if (!isTriggered) {
+                due += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / hz));
+                awaitUntil(due);
+            }
+            const bool isDue = !isTriggered || awaitPulse();
             if (wrong.contains("gone") || wrong.contains("eio"))
                 return lose(wrong.contains("gone") ? ENODEV : EIO);
+            if (!isDue) continue;
             if (wrong.contains("skip") && !before.contains("skip"))
                 number += static_cast<std::uint32_t>(wrong.at("skip"));
             if (wrong.contains("restart") && !before.contains("restart")) number = 0;
             const bool silent = wrong.contains("silent");
-            if (!running_ || silent || fill(wrong, i, number)) ++number;
+            const std::int64_t us = isTriggered ? pulse_ : microsecondsNow();
+            if (!running_ || silent || fill(wrong, i, number, us)) ++number;
             before = wrong;
         }
     }
@@ -209,9 +265,8 @@ private:
         static_cast<void>(!write(fd_, &one, sizeof one));
     }
 
-    /// False without a free buffer.
-    bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number) {
-        const std::int64_t us = microsecondsNow();
+    /// `us`: its time. False without a free buffer.
+    bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number, std::int64_t us) {
         const std::lock_guard lock(mutex_);
         if (free_.empty() || wrong.contains("hang")) return false;
         if (!wrong.contains("repeat") || picture_.empty()) {
@@ -257,7 +312,10 @@ private:
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
+    std::int64_t pulse_ = 0;  ///< the last one that it has seen [us]
+    off_t mapped_ = 0;        ///< the length of the memory
     int width_ = 0;
+    int refused_ = 0;  ///< settings of the control
     std::atomic<bool> running_{false}, isLost_{false};
     std::atomic<int> lostError_{0};
     std::thread maker_;

@@ -35,12 +35,14 @@ camera = "/dev/video90"
 width = 64
 height = 48
 rate_hz = 30.0
+controls = { gain = 100 }
 [cameras.still]
 driver = "v4l2"
 camera = "/dev/video91"
 width = 128
 height = 96
 rate_hz = 5.0
+controls = { gain = 100 }
 [superres]
 learn = false
 )";

@@ -29,6 +29,7 @@ public:
 
     static constexpr const char* kPipe = "screen.y4m";
     static constexpr const char* kSocket = "control";
+    static constexpr int kGain = 100;                   ///< of both cameras, as configured
     static constexpr const char* kRecording = "disk-";  ///< and what follows
 
 private:

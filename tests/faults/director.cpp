@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -24,6 +25,7 @@
 namespace mfar::faults {
 namespace {
 
+constexpr Ns kUs = 1000;
 constexpr Ns kEndTime = 3 * kSecond;    ///< from SIGTERM to the end
 constexpr Ns kReadyTime = 5 * kSecond;  ///< from the start, whatever devices do
 /// Between episodes: what may be late has come, and mfard is watched while all is well.
@@ -139,7 +141,21 @@ void checkInQuiet() {
     }
 }
 
+/// Of the first thread: until it has done that, SIGTERM ends the process as any other.
+bool blocksSigterm() {
+    std::ifstream status("/proc/self/status");
+    for (std::string key; status >> key;) {
+        std::uint64_t mask = 0;
+        if (key == "SigBlk:" && status >> std::hex >> mask)
+            return (mask >> (SIGTERM - 1) & 1U) != 0;
+    }
+    return false;
+}
+
 [[noreturn]] void terminate() {
+    while (!blocksSigterm())
+        sleepFor(kUs);
+    if (!Judge::get().isReady()) Judge::get().count("SIGTERM before READY", 1);
     Judge::get().terminated();
     kill(getpid(), SIGTERM);
     sleepFor(kEndTime);
@@ -222,7 +238,7 @@ void direct() {
     if (frames == 0 && plan().beginsBroken && !endsAtOnce) {
         std::thread(awaitReady).detach();
         runEpisode(plan().episodes.front(), Scheduler::get().now());
-    } else {
+    } else if (!plan().endsBeforeReady) {
         awaitReady();
         if (!endsAtOnce) sleepFor(kQuiet);
     }

@@ -25,6 +25,7 @@ constexpr std::array kKinds = {
     Kind{"video opens never", Video, StopsDevice, "gone hang-open"},
     Kind{"video opens slowly", Video, StopsDevice, "gone slow *", 100, 1500},
     Kind{"video few buffers", Video, StopsDevice, "gone buffers *", 1, 4},
+    Kind{"video control refused", Video, StopsDevice, "unplug refuse *", 3, 6},
     Kind{"video broken frames", Video, None, "error *", 2, 9},
     Kind{"video short frames", Video, None, "short *", 2, 9},
     Kind{"video backward times", Video, None, "backward *", 2, 9},
@@ -42,6 +43,7 @@ constexpr std::array kKinds = {
     Kind{"still opens never", Still, StopsDevice, "gone hang-open"},
     Kind{"still opens slowly", Still, StopsDevice, "gone slow *", 100, 1500},
     Kind{"still few buffers", Still, StopsDevice, "gone buffers *", 1, 4},
+    Kind{"still control refused", Still, StopsDevice, "unplug refuse *", 3, 6},
     Kind{"still broken frames", Still, None, "error *", 2, 9},
     Kind{"still short frames", Still, None, "short *", 2, 9},
     Kind{"still backward times", Still, None, "backward *", 2, 9},
@@ -57,6 +59,9 @@ constexpr std::array kKinds = {
     Kind{"no descriptors", Descriptors, Slows, "", 0, 3},
     Kind{"slow machine", Machine, Slows, "", 10, 200},
 };
+
+/// From the start to READY, where nothing waits: each look at the clock costs half a microsecond.
+constexpr std::uint64_t kStartTime = 40'000;
 
 /// Those by which a picture can stand still come three times as often.
 const Kind& drawnKind(std::mt19937_64& random) {
@@ -108,6 +113,7 @@ Plan Plan::drawn(std::uint64_t seed, int episodes) {
     out.mode = kModes[random() % kModes.size()];
     // SIGTERM may come at once, while all is being set up.
     const bool endsEarly = random() % 8 == 0;
+    out.endsBeforeReady = endsEarly && random() % 2 == 0;
     if (endsEarly) episodes = 1;
     for (int i = 0; i < episodes; ++i) {
         Episode episode{drawnFault(random)};
@@ -115,6 +121,7 @@ Plan Plan::drawn(std::uint64_t seed, int episodes) {
         out.episodes.push_back(std::move(episode));
     }
     out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;
+    if (out.endsBeforeReady) out.endAfter = static_cast<Ns>(random() % kStartTime);
     out.isKilled = random() % 6 == 0;
     // Without descriptors nothing can begin.
     for (const Fault& fault : out.episodes.front())

@@ -45,7 +45,8 @@ struct Plan {
     std::string_view mode;                      ///< of super-resolution
     [[nodiscard]] bool recordsAtStart() const;  ///< into a disk that is broken then
     std::vector<Episode> episodes;
-    Ns endAfter = 0;        ///< the signal, so long after the begin of the last episode
+    Ns endAfter = 0;               ///< the signal, so long after the begin of the last episode
+    bool endsBeforeReady = false;  ///< or soon after: nobody waits for that
     bool isKilled = false;  ///< with SIGKILL instead of SIGTERM; then it is started once more
 
     [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes);
