@@ -131,9 +131,18 @@ void checkGrowth(std::uint64_t moreBytes = 8U << 20U) {
     Judge::get().fail("memory, descriptors or threads have grown");
 }
 
+void checkLine() {
+    for (int i = 0; i < 5; ++i) {
+        if (Board::get().lineRests()) return;
+        sleepFor(70 * kMs);  // there may have been a pulse
+    }
+    Judge::get().fail("the trigger's line does not rest");
+}
+
 void checkInQuiet() {
     checkGrowth();
     checkRecordings();
+    checkLine();
     try {
         Judge::get().stats(ask(Board::kSocket, {{"command", "stats"}}).body);
     } catch (const std::exception& error) {
@@ -249,7 +258,7 @@ void direct() {
 
 __attribute__((constructor)) void begin() {
     Judge::get();
-    Board::get().setUp(plan().mode, plan().recordsAtStart());
+    Board::get().setUp(plan());
     // Signals are for mfard's own threads.
     sigset_t all, before;
     sigfillset(&all);

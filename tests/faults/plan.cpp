@@ -49,6 +49,9 @@ constexpr std::array kKinds = {
     Kind{"still backward times", Still, None, "backward *", 2, 9},
     Kind{"still huge times", Still, None, "future *", 2, 9},
     Kind{"still gap", Still, None, "skip *", 1, 100},
+    Kind{"line unplugged", Line, None, "gone"},
+    Kind{"line i/o error", Line, None, "eio"},
+    Kind{"line busy", Line, None, "eio busy"},
     Kind{"reader stalls", Reader, StopsReader, ""},
     Kind{"idle clients", Clients, None, "", 1, 20},
     Kind{"bad configuration", Configuration, None, "", 0, 5},
@@ -110,6 +113,7 @@ Plan Plan::drawn(std::uint64_t seed, int episodes) {
     Plan out;
     constexpr std::array<std::string_view, 3> kModes = {"off", "detail", "blend"};
     out.beginsBroken = random() % 4 == 0;
+    out.hasTrigger = random() % 2 == 0;
     out.mode = kModes[random() % kModes.size()];
     // SIGTERM may come at once, while all is being set up.
     const bool endsEarly = random() % 8 == 0;

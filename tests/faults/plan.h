@@ -10,7 +10,18 @@
 
 namespace mfar::faults {
 
-enum class Where { Video, Still, Reader, Clients, Configuration, Wall, Disk, Descriptors, Machine };
+enum class Where {
+    Video,
+    Still,
+    Line,
+    Reader,
+    Clients,
+    Configuration,
+    Wall,
+    Disk,
+    Descriptors,
+    Machine
+};
 
 /// What a fault does to what is seen, which the judge goes by.
 enum class Effect {
@@ -46,6 +57,7 @@ struct Plan {
     [[nodiscard]] bool recordsAtStart() const;  ///< into a disk that is broken then
     std::vector<Episode> episodes;
     Ns endAfter = 0;               ///< the signal, so long after the begin of the last episode
+    bool hasTrigger = false;       ///< which the still camera waits for
     bool endsBeforeReady = false;  ///< or soon after: nobody waits for that
     bool isKilled = false;  ///< with SIGKILL instead of SIGTERM; then it is started once more
 
