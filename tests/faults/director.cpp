@@ -218,9 +218,10 @@ void run(const Plan& plan) {
 }
 
 const Plan& plan() {
-    static const Plan drawn =
-        Plan::drawn(static_cast<std::uint64_t>(numberOf("MFAR_FAULTS_SEED", 1)),
-                    static_cast<int>(numberOf("MFAR_FAULTS_EPISODES", 10)));
+    static const Plan drawn = Plan::drawn(
+        static_cast<std::uint64_t>(numberOf("MFAR_FAULTS_SEED", 1)),
+        static_cast<int>(numberOf("MFAR_FAULTS_EPISODES", 10)),
+        std::getenv("MFAR_FAULTS_ONLY") != nullptr ? std::getenv("MFAR_FAULTS_ONLY") : "");
     return drawn;
 }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 namespace mfar::faults {
 namespace {
@@ -67,18 +68,22 @@ constexpr std::array kKinds = {
 constexpr std::uint64_t kStartTime = 40'000;
 
 /// Those by which a picture can stand still come three times as often.
-const Kind& drawnKind(std::mt19937_64& random) {
+const Kind& drawnKind(std::mt19937_64& random, std::string_view only) {
+    const auto isMeant = [&](const Kind& kind) { return kind.name.find(only) != only.npos; };
+    if (std::ranges::none_of(kKinds, isMeant))
+        throw std::runtime_error(fmt::format("no fault is called '{}'", only));
     for (;;) {
         const Kind& kind = kKinds[random() % kKinds.size()];
+        if (!isMeant(kind)) continue;
         const bool canStop = kind.where == Video && kind.effect != None;
         if (canStop || random() % 3 == 0) return kind;
     }
 }
 
-Fault drawnFault(std::mt19937_64& random) {
+Fault drawnFault(std::mt19937_64& random, std::string_view only) {
     const auto below = [&](std::uint64_t end) { return random() % end; };
     Fault out;
-    out.kind = &drawnKind(random);
+    out.kind = &drawnKind(random, only);
     out.begin = static_cast<Ns>(below(1500)) * kMs;
     // From 30 ms to 10 s, half of them above 1.8 s.
     const double octave = static_cast<double>(std::max(below(1000), below(1000))) / 1000;
@@ -108,7 +113,7 @@ bool Plan::recordsAtStart() const {
     return beginsBroken && std::ranges::any_of(episodes.front(), isOfDisk);
 }
 
-Plan Plan::drawn(std::uint64_t seed, int episodes) {
+Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only) {
     std::mt19937_64 random(seed);
     Plan out;
     constexpr std::array<std::string_view, 3> kModes = {"off", "detail", "blend"};
@@ -120,8 +125,8 @@ Plan Plan::drawn(std::uint64_t seed, int episodes) {
     out.endsBeforeReady = endsEarly && random() % 2 == 0;
     if (endsEarly) episodes = 1;
     for (int i = 0; i < episodes; ++i) {
-        Episode episode{drawnFault(random)};
-        if (random() % 2 == 0) episode.push_back(drawnFault(random));
+        Episode episode{drawnFault(random, only)};
+        if (random() % 2 == 0) episode.push_back(drawnFault(random, only));
         out.episodes.push_back(std::move(episode));
     }
     out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;

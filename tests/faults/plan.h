@@ -61,7 +61,8 @@ struct Plan {
     bool endsBeforeReady = false;  ///< or soon after: nobody waits for that
     bool isKilled = false;  ///< with SIGKILL instead of SIGTERM; then it is started once more
 
-    [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes);
+    /// Of the kinds whose names contain `only`. Throws std::runtime_error where there is none.
+    [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes, std::string_view only);
 };
 
 [[nodiscard]] std::span<const Kind> kinds();
