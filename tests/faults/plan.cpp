@@ -118,7 +118,7 @@ Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only) {
     Plan out;
     constexpr std::array<std::string_view, 3> kModes = {"off", "detail", "blend"};
     out.beginsBroken = random() % 4 == 0;
-    out.hasTrigger = random() % 2 == 0;
+    out.hasTrigger = random() % 2 == 0 && MFAR_FAULTS_HAS_LINE;
     out.mode = kModes[random() % kModes.size()];
     // SIGTERM may come at once, while all is being set up.
     const bool endsEarly = random() % 8 == 0;
