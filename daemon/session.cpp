@@ -106,6 +106,7 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames, const Over& ove
     try {
         std::string reason = showFrames(mailbox, capture, maxFrames);
         over(reason, nullptr);
+        endLearning();
         return reason;
     } catch (...) {
         over("", std::current_exception());

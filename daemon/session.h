@@ -111,6 +111,7 @@ private:
     void finishDisplay();
     [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
+    void endLearning();
     void tell(Timestamp time);
     void tellLearning();
     void tellFaultyPasses();
