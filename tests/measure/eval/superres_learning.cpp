@@ -1,8 +1,9 @@
 #include "tests/measure/eval/superres_learning.h"
 
 #include "hal/virtual/recording.h"
-#include "pipeline/pipeline.h"
 #include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/still_choice.h"
 
 #include <fmt/format.h>
@@ -86,18 +87,20 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
             const Timestamp at = recording.video[frame].time,
                             stillAt = recording.stills[still].time;
             const PosePair pose = poses.of(at, stillAt);
-            const cv::Mat picture =
-                toRgba(degrade(loadPicture(recording.stills[still].file), request.degradation,
-                               static_cast<std::uint64_t>(stillAt.ns)));
+            const Shot reference{degrade(loadPicture(recording.stills[still].file),
+                                         request.degradation,
+                                         static_cast<std::uint64_t>(stillAt.ns)),
+                                 stillAt, pose.still};
             // Noise of its own: not that of the frame that is measured.
-            const cv::Mat video =
-                toRgba(degrade(loadPicture(recording.video[frame].file), request.videoDegradation,
-                               ~static_cast<std::uint64_t>(at.ns) - 1));
+            const Shot video{degrade(loadPicture(recording.video[frame].file),
+                                     request.videoDegradation,
+                                     ~static_cast<std::uint64_t>(at.ns) - 1),
+                             at, pose.frame};
             // A still that shows the very view of a frame is that frame's truth.
             learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
             last = at;
-            pipeline.setStill(viewOf(picture), stillAt, pose.still);
-            pipeline.run(viewOf(video), at, pose.frame);
+            PipelineShot(reference).giveAsStill(pipeline);
+            PipelineShot(video).run(pipeline);
         }
         if (request.learn == kEachOnce) return;
     }
