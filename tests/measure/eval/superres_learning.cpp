@@ -2,7 +2,6 @@
 
 #include "hal/virtual/recording.h"
 #include "tests/measure/eval/picture.h"
-#include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/still_choice.h"
 
@@ -41,13 +40,15 @@ void StillLearning::replaced(const RgbPlanes& video, Rows<const std::uint8_t> st
 
 void StillLearning::report() const {
     const EnlargerLearner::Counts& counts = learner_.counts();
-    fmt::print(stderr,
-               "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
-               "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
-               "of the still for {:.2f} of the video from {} pairs of stills, held out {:.2f} dB\n",
-               counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
-               counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video,
-               counts.pairs, counts.guidanceGainDb);
+    fmt::print(
+        stderr,
+        "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
+        "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
+        "of the still for {:.2f} of the video from {} pairs of stills, held out {:.2f} dB; the "
+        "finest detail differs by {:.2f} + {:.3f} of its variance\n",
+        counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
+        counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video, counts.pairs,
+        counts.guidanceGainDb, counts.fineMatch.noise, counts.fineMatch.share);
 }
 
 namespace {
