@@ -22,7 +22,7 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 2 * 7 + 7) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
-                             "psnr_rgb_db,tiles_below"));
+                             "psnr_rgb_db,tiles_below,flicker"));
     for (std::size_t i = 1; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].size(), rows[0].size());
         EXPECT_EQ(rows[i][0], "tiny");
@@ -133,7 +133,7 @@ TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
     EXPECT_EQ(rows.at(0), split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
                                 "msssim,lpc_si_p10,lpc_si_median,lpc_si_p90,lpc_ratio,hdrvdp_qmos,"
                                 "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma,"
-                                "psnr_rgb_db,tiles_below"));
+                                "psnr_rgb_db,tiles_below,flicker"));
     ASSERT_EQ(rows.at(1).size(), rows[0].size());
     EXPECT_TRUE(rows[1][5].empty());  // ssim was not asked for
     EXPECT_GT(std::stod(rows[1][6]), 0);
