@@ -68,16 +68,16 @@ TEST(MfarEval, SuperResTellsClassesOfPixelsApart) {
     EXPECT_EQ(outcome.text.find("classes by the match"), 0U) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2);
-    ASSERT_EQ(rows[0].size(), 17U);
-    EXPECT_EQ(rows[0][11], "outside_share");
-    EXPECT_EQ(rows[0][16], "matched_gain_db");
+    ASSERT_EQ(rows[0].size(), 18U);
+    EXPECT_EQ(rows[0][12], "outside_share");
+    EXPECT_EQ(rows[0][17], "matched_gain_db");
     for (std::size_t i = 1; i < rows.size(); ++i) {
         double shares = 0;
-        for (const std::size_t c : {11U, 13U, 15U})
+        for (const std::size_t c : {12U, 14U, 16U})
             shares += std::stod(rows[i].at(c));
         EXPECT_NEAR(shares, 1, 1e-5);
         if (rows[i][2] != "bicubic") continue;
-        for (const std::size_t c : {12U, 14U, 16U})
+        for (const std::size_t c : {13U, 15U, 17U})
             EXPECT_TRUE(rows[i][c].empty() || std::abs(std::stod(rows[i][c])) < 1e-6);
     }
 }
