@@ -96,9 +96,12 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-}  // namespace
+/// Of cells all of whose neighbours may teach.
+struct Unexplained {
+    std::vector<double> video, rest;
+};
 
-bool FineMatchLearner::add(const MatchedPictures& pictures, const std::stop_token& stop) {
+Unexplained unexplainedOf(const MatchedPictures& pictures, const std::stop_token& stop) {
     const Size cells{pictures.video.width / kCell, pictures.video.height / kCell};
     const Sampler sampler(pictures);
     std::vector<Sums> sums(static_cast<std::size_t>(cells.width) * cells.height);
@@ -108,7 +111,7 @@ bool FineMatchLearner::add(const MatchedPictures& pictures, const std::stop_toke
     for (int y = 0; y < cells.height && !stop.stop_requested(); ++y)
         for (int x = 0; x < cells.width; ++x)
             if (mayTeach(pictures.lookUps[y][x])) at(x, y) = sumsOf(pictures, sampler, x, y);
-    std::vector<double> video, unexplained;
+    Unexplained out;
     for (int y = 1; y < cells.height - 1; ++y)
         for (int x = 1; x < cells.width - 1; ++x) {
             Sums mean;
@@ -123,16 +126,23 @@ bool FineMatchLearner::add(const MatchedPictures& pictures, const std::stop_toke
             }
             if (!all) continue;
             const double both = std::max(mean.both, 0.0);
-            video.push_back(mean.video);
-            unexplained.push_back(mean.video - both * both / (mean.still + params::kFineLeast));
+            out.video.push_back(mean.video);
+            out.rest.push_back(mean.video - both * both / (mean.still + params::kFineLeast));
         }
-    if (stop.stop_requested() || video.size() < kLeastCells) return false;
-    std::vector<double> values = unexplained;
+    return out;
+}
+
+}  // namespace
+
+bool FineMatchLearner::add(const MatchedPictures& pictures, const std::stop_token& stop) {
+    const Unexplained cells = unexplainedOf(pictures, stop);
+    if (stop.stop_requested() || cells.video.size() < kLeastCells) return false;
+    std::vector<double> values = cells.rest;
     const double noise = std::max(quantile(values, 0.1), double(params::kFineLeast));
     values.clear();
-    for (std::size_t i = 0; i < video.size(); ++i)
-        if (video[i] > kStructureOverNoise * noise)
-            values.push_back(std::max(unexplained[i] - noise, 0.0) / video[i]);
+    for (std::size_t i = 0; i < cells.video.size(); ++i)
+        if (cells.video[i] > kStructureOverNoise * noise)
+            values.push_back(std::max(cells.rest[i] - noise, 0.0) / cells.video[i]);
     if (values.size() < kLeastCells) return false;
     const FineMatch found{static_cast<float>(std::min(noise, double(FineMatch::kMostNoise))),
                           static_cast<float>(std::min(quantile(values, 0.5), 1.0))};

@@ -247,9 +247,11 @@ private:
                             {{}, {}, flicker(*errorBefore, *truthBefore, error, truth), {}, {}});
             }
             if (isCompared(i)) {
-                const std::string name = fmt::format("{}-{:03}", fileStem(), i);
-                savePicture(request_.save, name + "-" + method, request_.size, shown);
-                savePicture(request_.save, name + "-truth", request_.size, exact);
+                const auto nameOf = [&](const std::string& what) {
+                    return fmt::format("{}-{:03}-{}", fileStem(), i, what);
+                };
+                savePicture(request_.save, nameOf(method), request_.size, shown);
+                savePicture(request_.save, nameOf("truth"), request_.size, exact);
             }
             errorBefore = std::move(error);
             truthBefore = &truth;
