@@ -7,8 +7,8 @@
 
 namespace mfar::range {
 
-/// What a number of the configuration may be. systemd/mfard.toml shows the same; a test compares
-/// both, and tries what the parser takes.
+/// The range of a number in the configuration. systemd/mfard.toml shows the same ranges; a test
+/// compares both with what the parser accepts.
 struct ConfigRange {
     std::string_view section, name;
     std::string_view unit;  ///< empty: none, or the text beside it says it
@@ -17,7 +17,7 @@ struct ConfigRange {
     int count = 1;  ///< numbers in the list; 1: it is no list
 };
 
-// Of both cameras.
+// Both cameras have these.
 inline constexpr ConfigRange kWidth{"cameras.video", "width", "px", 16, 8192, true};
 inline constexpr ConfigRange kHeight{"cameras.video", "height", "px", 16, 8192, true};
 inline constexpr ConfigRange kCameraRate{"cameras.video", "rate_hz", "Hz", 0, 1000};

@@ -40,7 +40,8 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     file.numbers(range::kColour, {first.data(), 3}, prefix);
     if (first.x() >= 0) out.colours.fill(first.cast<float>());
     Eigen::Vector3d second = out.colours[1].cast<double>();
-    file.numbers(prefix + "second_colour", {second.data(), 3}, 0, 1);
+    file.numbers(prefix + "second_colour", {second.data(), 3}, range::kColour.least,
+                 range::kColour.most);
     out.colours[1] = second.cast<float>();
     file.integer(range::kSquares, out.squares, prefix);
 }

@@ -9,8 +9,9 @@
 
 namespace mfar {
 
-// Who names a folder on the command line is told at once; a service goes on without its recording,
-// and does not wait for a disk that hangs. Where nothing is live all pictures are to be recorded.
+// A folder on the command line that cannot be written ends the start. A service goes on without its
+// recording and does not wait for a disk that hangs. Without live cameras all pictures are
+// recorded.
 void Session::beginRecording(const Config& config) {
     if (!config.recordTo.empty()) return startRecording(makeRecording(config.recordTo)());
     if (config.record.directory.empty()) return;

@@ -15,8 +15,8 @@
 
 namespace mfar {
 
-/// What runs behind a LibcameraCamera: its requests and their memory, and the look at what its
-/// driver makes of them. Frames hold it weakly, and their memory strongly.
+/// The stream of a LibcameraCamera: owns the requests and their memory, and checks the pictures
+/// that the driver completes. Frames hold it weakly, and their memory strongly.
 class LibcameraCamera::Stream : public std::enable_shared_from_this<Stream>, private RequestDriver {
 public:
     explicit Stream(const LibcameraOptions& options);

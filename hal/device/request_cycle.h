@@ -23,7 +23,7 @@ struct RestartLimits {
     std::chrono::milliseconds early{500};
     /// Before the start after the second early end in a row; doubles with each further one.
     std::chrono::milliseconds firstPause{50};
-    /// So many early ends in a row, and the device counts as lost.
+    /// After this many early ends in a row the device counts as lost.
     int most = 5;
 };
 

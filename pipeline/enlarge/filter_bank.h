@@ -32,8 +32,8 @@ struct Guidance {
     bool operator==(const Guidance&) const = default;
 };
 
-/// What a still that is matched rightly usually leaves unexplained of the variance of the video's
-/// finest detail, see params::kFineRoom: noise + share * that variance. Noise 0: not known.
+/// The variance of the video's finest detail that a correctly matched still usually does not
+/// explain, see params::kFineRoom: noise + share * that detail's variance. Noise 0: not known.
 struct FineMatch {
     float noise = 0;  ///< [grey levels^2], [0, kMostNoise]
     float share = 0;  ///< [0, 1]

@@ -30,7 +30,8 @@ double colourPsnr(const cv::Mat& picture, const cv::Mat& truth) {
     return cv::PSNR(picture, withoutBorder(truth), 255);
 }
 
-std::optional<double> knownOr(double value) {
+/// NaN says that there was nothing to measure.
+std::optional<double> measured(double value) {
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
@@ -71,11 +72,11 @@ public:
                                       scores.hdrVdpQ, harmRate(picture, bicubic, truth)},
                                      furtherValues(scores, request_.metrics));
             values.emplace_back(colourPsnr(withoutBorder(result.picture), truthPicture));
-            values.push_back(knownOr(tilesBelow(picture, bicubic, truth)));
+            values.push_back(measured(tilesBelow(picture, bicubic, truth)));
             cv::Mat error = picture - truth;
             values.push_back(flow.empty()
                                  ? std::nullopt
-                                 : knownOr(flicker(method.error, error, flow, kSuperResBorder)));
+                                 : measured(flicker(method.error, error, flow, kSuperResBorder)));
             method.error = std::move(error);
             if (matcher_)
                 values = followedBy(
