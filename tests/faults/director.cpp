@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -150,8 +151,12 @@ void checkInQuiet() {
     }
 }
 
-/// Of the first thread: until it has done that, SIGTERM ends the process as any other.
+/// The first thread has its own signal mask, not the one of begin().
+std::atomic<bool> hasItsMask = false;
+
+/// Whether the first thread blocks SIGTERM: until it does, SIGTERM ends the process as any other.
 bool blocksSigterm() {
+    if (!hasItsMask) return false;
     std::ifstream status("/proc/self/status");
     for (std::string key; status >> key;) {
         std::uint64_t mask = 0;
@@ -270,6 +275,7 @@ __attribute__((constructor)) void begin() {
     for (void (*work)() : {&runScreen, &askAlways})
         std::thread(work).detach();
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    hasItsMask = true;
 }
 
 }  // namespace

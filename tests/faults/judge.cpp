@@ -3,6 +3,7 @@
 #include "tests/faults/board.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 #include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <utility>
 
@@ -44,6 +46,16 @@ Ns now() {
 std::uint64_t entries(const char* folder) {
     return static_cast<std::uint64_t>(
         std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+/// What each descriptor is open on.
+std::multiset<std::string> openFiles() {
+    std::multiset<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code error;  // the folder's own is closed by now
+        out.insert(std::filesystem::read_symlink(entry.path(), error).string());
+    }
+    return out;
 }
 
 std::uint64_t residentBytes() {
@@ -282,13 +294,19 @@ void Judge::recording(const std::string& folder) {
 }
 
 bool Judge::holdsNoMore(std::uint64_t moreBytes) {
-    const std::array<std::uint64_t, 3> is{entries("/proc/self/fd"), entries("/proc/self/task"),
-                                          residentBytes()};
+    const Held is{openFiles(), entries("/proc/self/task"), residentBytes()};
     if (!first_) first_ = is;
-    const auto& first = *first_;
-    note(fmt::format("has {} descriptors, {} threads, {} KB; at first {}, {}, {}", is[0], is[1],
-                     is[2] >> 10U, first[0], first[1], first[2] >> 10U));
-    return is[0] <= first[0] && is[1] <= first[1] && is[2] <= first[2] + moreBytes;
+    const Held& first = *first_;
+    note(fmt::format("has {} descriptors, {} threads, {} KB; at first {}, {}, {}", is.files.size(),
+                     is.threads, is.bytes >> 10U, first.files.size(), first.threads,
+                     first.bytes >> 10U));
+    const bool moreFiles = is.files.size() > first.files.size();
+    if (moreFiles) {
+        std::vector<std::string> added;
+        std::ranges::set_difference(is.files, first.files, std::back_inserter(added));
+        note(fmt::format("new descriptors: {}", fmt::join(added, ", ")));
+    }
+    return !moreFiles && is.threads <= first.threads && is.bytes <= first.bytes + moreBytes;
 }
 
 }  // namespace mfar::faults

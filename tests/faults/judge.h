@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -81,7 +82,11 @@ private:
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;
-    std::optional<std::array<std::uint64_t, 3>> first_;  ///< descriptors, threads, bytes
+    struct Held {
+        std::multiset<std::string> files;  ///< what descriptors are open on
+        std::uint64_t threads = 0, bytes = 0;
+    };
+    std::optional<Held> first_;
 };
 
 }  // namespace mfar::faults
