@@ -4,10 +4,10 @@
 //   V3D_DEBUG=shaderdb mfar-compile-shaders 2>&1
 // BIFROST_MESA_DEBUG=shaderdb does the same on Mali. Usage:
 //   mfar-compile-shaders [--link-only] [FILE...]
-// --link-only: nothing is drawn or dispatched. Panfrost has compiled a shader when it is linked, and
-// without a GPU (Mesa's drm-shim) it crashes at a dispatch and where a shader spills. With files:
-// these instead, texts as gles_shaders/ has them with every #include resolved. Exit status 1 when
-// one of them does not compile.
+// --link-only: nothing is drawn or dispatched. Panfrost has compiled a shader when it is linked,
+// and without a GPU (Mesa's drm-shim) it crashes at a dispatch and where a shader spills. With
+// files: these instead, texts as gles_shaders/ has them with every #include resolved. Exit status 1
+// when one of them does not compile.
 
 #include "base/gl/buffer.h"
 #include "base/gl/pass.h"
