@@ -84,7 +84,7 @@ class NirReader:
         if text.startswith('} else'):
             return
         if text.endswith('{'):
-            self._braces.append(text.startswith('loop'))
+            self._braces.append(re.match(r'(con |div )?loop\b', text) is not None)
             if self._braces[-1]:
                 self.loops.append(Loop(len(self._inside), self._inside[-1]))
                 self._inside.append(len(self.loops) - 1)
