@@ -15,7 +15,7 @@ layout(std430, binding = 1) buffer Patches {
     vec4 patches[];
 };
 
-#include "patch_template.glsl"
+#include "patch_refine.glsl"
 
 const int kNeighbours = 4;
 
@@ -49,5 +49,5 @@ void main() {
         }
     }
     if (moved) refine(known, lb, cell, params.steps, best, found);
-    patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, known.y);
+    patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
 }

@@ -61,13 +61,13 @@ buildMesa() {
 collect() {
     local root=$1 out=$2 library
     mkdir -p "$out"
-    find "$root/mesa/build/src" -name '*.so*' ! -path '*.p/*' ! -name '*.symbols' -exec cp -a -t "$out" {} +
+    find "$root/mesa/build/src" -name '*.so*' ! -type d ! -path '*.p/*' ! -name '*.symbols' -exec cp -a -t "$out" {} +
     {
         for library in "$out"/*.so*; do
             cp "$library" "$root/tmp/one.so"
             chroot "$root" ldd /tmp/one.so || true
         done
-        chroot "$root" ldd /usr/bin/cmake /usr/bin/ninja 2>/dev/null || true
+        chroot "$root" ldd /usr/bin/ninja  # as in C++
     } | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p; s/^\s*\(\/lib64\/ld-[^ ]*\) .*/\1/p' | sort -u |
         while IFS= read -r library; do
             if [[ ! -e $out/${library##*/} ]]; then cp -L "$root$library" "$out/"; fi
@@ -88,12 +88,14 @@ if [[ ! -d $drivers ]]; then
     printf 'Making %s, 10 to 20 minutes\n' "$drivers" >&2
     rm -rf "$drivers.part"
     mkdir -p "$drivers.part"
+    # In the background, as "||" would let each of these go on after a fault.
     {
         makeRoot "$suite" "$drivers.part/root"
         amend "$drivers.part/root"
         buildMesa "$drivers.part/root"
         collect "$drivers.part/root" "$drivers.part/lib"
-    } >"$drivers.log" 2>&1 || {
+    } >"$drivers.log" 2>&1 &
+    wait $! || {
         tail -n 20 "$drivers.log" >&2
         die "Mesa of $suite cannot be built, see $drivers.log"
     }
