@@ -221,6 +221,16 @@ class Outputs(unittest.TestCase):
             boards[key] = {case: {w: one for w in MODEL['frame']['outputs']} for case in ('moving', 'rest')}
         return {'boards': boards, 'host': None, 'instructions': {'moving 1920': {'flow': 3.0}}}
 
+    def test_what_is_measured_is_marked(self):
+        results = self.results()
+        widths = MODEL['frame']['outputs']
+        results['host'] = {'name': 'CPU', 'mca': 'cpu', 'clock': 4000, 'errors': [('flow', 2.0, 3.0, 1.5)],
+                           'frame': {'least': 9.0, 'median': 10.0, 'most': 12.0}, 'frames': 20, 'threads': 2,
+                           'own': {'moving': {w: 10.0 for w in widths}, 'rest': {w: 0.2 for w in widths}}}
+        text = tables.markdown(MODEL, {}, results)
+        self.assertIn('| this machine, measured | - | 2 x CPU | SIMD | 100 | 100 | 100 | > 500 |', text)
+        self.assertIn('| flow | 2.0 | 3.0 | 1.50 |', text)
+
     def test_tables_have_every_board(self):
         text = tables.markdown(MODEL, {}, self.results())
         for board in MODEL['boards'].values():

@@ -45,9 +45,10 @@ def frame_counts(emulator, plugin, program, case, width):
     return counts[1].less(counts[0], 1 / (FRAMES[1] - FRAMES[0]))
 
 
-def host_times(program, threads):
-    """Milliseconds of each stage on this machine, and its clock."""
-    return json.loads(run([program, '--time', '--avx2', '--frames', str(TIMED + 3), '--threads', str(threads)]))
+def host_times(program, threads, width, *more):
+    """Milliseconds of each stage of a frame on this machine, and its clock."""
+    return json.loads(run([program, '--time', '--frames', str(TIMED + 3), '--threads', str(threads), '--width',
+                           str(width), *more]))
 
 
 def host_processor():

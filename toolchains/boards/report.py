@@ -91,16 +91,19 @@ def check_host(args, model, plugin):
     counts = collect.frame_counts(['qemu-x86_64', '-cpu', 'max'], plugin, args.frame_work, 'moving', width)
     entry = {'name': name, 'mca': mca, 'in_order': False}
     cycles = cpu_model.frame_cycles(args.frame_work, counts, {'host': entry}, model['steps'], arm=False)
-    measured = {n: collect.host_times(args.frame_work, n) for n in (1, 2)}
-    clock = measured[1]['clockGhz'] * 1e3
+    measured = collect.host_times(args.frame_work, 1, width, '--avx2')
+    clock = measured['clockGhz'] * 1e3
     predicted = {step: million * 1e3 / clock for step, million in cycles['cycles']['host'].items()}
     # The fine check is timed as part of weigh; rows that it shares with detail are found in detail.
-    times = {step: one['least'] for step, one in measured[1].items() if isinstance(one, dict)}
+    times = {step: one['least'] for step, one in measured.items() if isinstance(one, dict)}
     for table in (predicted, times):
         table['weigh and detail'] = table.pop('weigh', 0) + table.pop('detail', 0)
     times.pop('frame')
+    threads = min(os.cpu_count() or 1, 4)
+    own = {case: {w: collect.host_times(args.frame_work, threads, w, '--case', case)['frame']['median']
+                  for w in model['frame']['outputs']} for case in collect.CASES}
     return {'name': name, 'mca': mca, 'clock': clock, 'errors': predict.error_table(predicted, times),
-            'measured': measured, 'frames': collect.TIMED}
+            'frame': measured['frame'], 'frames': collect.TIMED, 'threads': threads, 'own': own}
 
 
 def report(args, model, compiled):

@@ -49,6 +49,11 @@ def frames_table(model, results):
         rows.append(begin + [placement(moving[model['frame']['readme_output']])]
                     + [frames_a_second(moving[w]['fps']) for w in widths]
                     + [frames_a_second(rest[max(widths)]['fps'])])
+    host = results['host']
+    if host:
+        rows.append(['this machine, measured', '-', f'{host["threads"]} x {host["name"]}', 'SIMD']
+                    + [frames_a_second(1000 / host['own']['moving'][w]) for w in widths]
+                    + [frames_a_second(1000 / host['own']['rest'][max(widths)])])
     return table(head, rows)
 
 
@@ -102,11 +107,10 @@ def spills_table(model, compiled):
 def host_table(host):
     rows = [[step, ms(predicted), ms(measured), f'{ratio:.2f}'] for step, predicted, measured, ratio in host['errors']]
     text = table(['step', 'predicted [ms]', 'measured [ms]', 'measured / predicted'], rows)
-    spread = host['measured'][1]['frame']
+    spread = host['frame']
     text += (f'\nOne thread, AVX2, moving, 640x480 to 2304x1728, {host["name"]} at {host["clock"] / 1e3:.2f} GHz, '
              f'llvm-mca for {host["mca"]}. Measured: the shortest of {host["frames"]} frames, by step; whole frames took '
-             f'{ms(spread["least"])} to {ms(spread["most"])} ms, with two threads '
-             f'{ms(host["measured"][2]["frame"]["least"])} to {ms(host["measured"][2]["frame"]["most"])} ms.\n')
+             f'{ms(spread["least"])} to {ms(spread["most"])} ms, median {ms(spread["median"])} ms.\n')
     return text
 
 
@@ -114,7 +118,7 @@ def markdown(model, compiled, results):
     width = model['frame']['readme_output']
     parts = ['# Predicted: mfar on boards\n',
              'Frames a second of 640x480 to outputs of so many columns, 4:3. Predicted from what compilers made of '
-             'shaders and loops (toolchains/boards/README.md); nothing here was measured on these boards.\n',
+             'shaders and loops (toolchains/boards/README.md); nothing here was measured on a board.\n',
              frames_table(model, results), f'## Steps of a moving frame to {width} columns [ms]\n',
              steps_table(model, results, width), '## Dearest shaders\n', dearest_passes(model, results, width),
              '## Instructions\n', instructions_table(results), '## Spills\n', spills_table(model, compiled)]
