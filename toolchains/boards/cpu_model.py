@@ -44,17 +44,6 @@ class Counts:
     def instructions(self):
         return sum(size * count for size, count in self.blocks.values())
 
-    def hottest(self, share):
-        """The fewest blocks that hold this share of the executed instructions."""
-        ordered = sorted(self.blocks, key=lambda key: -self.blocks[key][0] * self.blocks[key][1])
-        rest = self.instructions() * share
-        out = []
-        for key in ordered:
-            if rest <= 0:
-                break
-            out.append(key)
-            rest -= self.blocks[key][0] * self.blocks[key][1]
-        return out
 
 
 def code_address(readelf):
@@ -91,12 +80,49 @@ def disassemble(program):
     return out
 
 
+ENDS = re.compile(r'(j\w+|call\w*|ret\w*|b|bl|br|blr|cbn?z|tbn?z|b\.\w+)( |$)')
+
+
+def basic_blocks(counts, base, texts):
+    """[(addresses of its instructions, how often it ran)]. QEMU's own blocks end at pages and may begin within
+    another, so that they change with every place that the linker gives to code."""
+    ran = {}
+    for (offset, size), (_, count) in counts.blocks.items():
+        for address in range(base + offset, base + offset + size):
+            if address in texts:
+                ran[address] = ran.get(address, 0) + count
+    leaders = {target for _, target in texts.values()}
+    out, last = [], None  # the instruction before, where it ran and does not end a block
+    for address, (text, _) in texts.items():
+        if address not in ran:
+            last = None
+            continue
+        if last is None or address in leaders or ran[address] != ran[last]:
+            out.append(([], ran[address]))
+        out[-1][0].append(address)
+        last = None if ENDS.match(text) else address
+    return out
+
+
+def hottest(blocks, share):
+    """The fewest blocks that hold this share of the executed instructions."""
+    ordered = sorted(blocks, key=lambda block: -len(block[0]) * block[1])
+    rest = sum(len(addresses) * count for addresses, count in blocks) * share
+    out = []
+    for addresses, count in ordered:
+        if rest <= 0:
+            break
+        out.append((addresses, count))
+        rest -= len(addresses) * count
+    return out
+
+
 def mca_source(blocks, texts):
-    """`blocks`: (address, bytes)."""
+    """`blocks`: addresses of each one's instructions."""
     lines = []
-    for at, (address, size) in enumerate(blocks):
+    for at, addresses in enumerate(blocks):
         lines.append(f'# LLVM-MCA-BEGIN b{at}')
-        lines += [texts[a][0] for a in range(address, address + size) if a in texts]
+        lines += [texts[address][0] for address in addresses]
         lines.append('# LLVM-MCA-END')
     return '\n'.join(lines) + '\n'
 
@@ -111,10 +137,8 @@ def mca_cycles(answer):
     return out
 
 
-def is_loop(block, texts):
-    address, size = block
-    last = max((a for a in range(address, address + size) if a in texts), default=None)
-    return last is not None and texts[last][1] == address
+def is_loop(addresses, texts):
+    return texts[addresses[-1]][1] == addresses[0]
 
 
 def block_cycles(blocks, texts, cpu, arm):
@@ -163,23 +187,24 @@ def frame_cycles(program, counts, cpus, steps, arm, coverage=0.99):
     the others do.
     """
     base = code_address(subprocess.run(['readelf', '-lW', program], capture_output=True, text=True, check=True).stdout)
-    keys = counts.hottest(coverage)
-    blocks = [(base + offset, size) for offset, size in keys]
     texts = disassemble(program)
-    which = [step_of(file, steps) for file in source_files(program, [address for address, _ in blocks])]
+    everything = basic_blocks(counts, base, texts)
+    hot = hottest(everything, coverage)
+    blocks = [addresses for addresses, _ in hot]
+    sizes = [len(addresses) * count for addresses, count in hot]
+    which = [step_of(file, steps) for file in source_files(program, [addresses[0] for addresses in blocks])]
     instructions = collections.Counter()
-    for key, step in zip(keys, which):
-        instructions[step] += counts.blocks[key][0] * counts.blocks[key][1]
-    more = counts.instructions() / sum(instructions.values())
+    for step, size in zip(which, sizes):
+        instructions[step] += size
+    more = sum(len(addresses) * count for addresses, count in everything) / sum(sizes)
     out = {'instructions': {step: n * more / 1e6 for step, n in instructions.items()},
            'library': counts.other / 1e6, 'cycles': {}}
     for cpu, entry in cpus.items():
         cycles, known = collections.Counter(), collections.Counter()
-        for key, step, one in zip(keys, which, block_cycles(blocks, texts, entry, arm)):
+        for (_, count), size, step, one in zip(hot, sizes, which, block_cycles(blocks, texts, entry, arm)):
             if one is not None:
-                size, count = counts.blocks[key]
                 cycles[step] += one * count
-                known[step] += size * count
+                known[step] += size
         out['cycles'][cpu] = {step: cycles[step] * instructions[step] / known[step] * more / 1e6
                               for step in known}
     return out
