@@ -48,6 +48,7 @@ void main() {
             moved = true;
         }
     }
-    if (moved) refine(known, lb, cell, params.steps, best, found);
+    // A branch around all of it takes one register more, which a V3D does not have.
+    refine(known, lb, cell, moved ? params.steps : -1, best, found);
     patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
 }

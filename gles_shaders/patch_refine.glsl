@@ -1,13 +1,17 @@
 // A displacement made better in steps, as far as it gets, from a good one on.
 #include "patch_template.glsl"
 
-// Takes Gauss-Newton steps from `best` on as long as they lower the cost. The comparison takes all registers of
-// a V3D: what waits for its end waits in memory, behind the template, and what is needed last is read last.
-// Places that compilers do not know (`none` and `later` are 0) keep them from holding or reading it early.
+// Takes Gauss-Newton steps from `best` on as long as they lower the cost; none if `steps` is -1. The comparison
+// takes all registers of a V3D: what waits for its end waits in memory, behind the template, and what is needed
+// last is read last. Places that compilers do not know (`none` and `later` are 0) keep them from holding it or
+// reading it early.
 void refine(vec2 known, LumaLevel l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
     prepareSteps(known, cell);
     vec2 u = best;
     int none = 0;
+    setMoment(11, best.x);
+    setMoment(12, best.y);
+    setMoment(13, cost);
     for (int k = 0; k <= steps; ++k) {
         setMoment(9, u.x);
         setMoment(10, u.y);
