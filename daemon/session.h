@@ -1,12 +1,10 @@
 #pragma once
 
-#include "base/gl/validation.h"
-#include "daemon/banner.h"
 #include "daemon/call_queue.h"
 #include "daemon/capture.h"
 #include "daemon/config.h"
+#include "daemon/drawing.h"
 #include "daemon/governor.h"
-#include "daemon/gpu_watch.h"
 #include "daemon/mailbox.h"
 #include "daemon/pose_finder.h"
 #include "daemon/rig.h"
@@ -14,10 +12,8 @@
 #include "daemon/stats.h"
 #include "daemon/status.h"
 #include "daemon/still_policy.h"
-#include "daemon/virtual_world.h"
 #include "hal/display.h"
 #include "hal/gl_context.h"
-#include "pipeline/pipeline.h"
 
 #include <cstdint>
 #include <exception>
@@ -96,7 +92,8 @@ private:
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
-    [[nodiscard]] PipelineOptions pipelineOptions(const Config& config) const;
+    /// Of a picture [ms]; 0: none.
+    [[nodiscard]] double deadlineMs() const;
     /// Opens GL for the objects where it is not open yet; reports where that fails.
     bool canShowObjects();
     void placeObjects();
@@ -122,36 +119,24 @@ private:
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
+    Config config_;  ///< with the changes so far
     Rig rig_;
     std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid: its folder is being made
     PoseFinder poses_;
     OpenedGl gl_;
-    GpuWatch gpu_{gl_.context};
-    std::unique_ptr<gpu::Validation> validation_;  ///< of all that the pipeline writes
     std::unique_ptr<Display> display_;
     Size output_;
-    EngineChoice engines_;
-    Pipeline pipeline_;
     std::unique_ptr<FilterLearning> learning_;  ///< null: the shipped filters
-    VirtualWorld virtual_;
-    bool previews_;  // of virtual objects
+    std::unique_ptr<Drawing> drawing_;          ///< tells the learning
     StillPolicy policy_;
-    SuperResMode mode_;
     std::optional<CapturedStill> newestStill_;  ///< not used yet
-    int lostTold_ = 0;  ///< of the policy's lost stills, those that the log has
-    Banner banner_;
-    double deadlineMs_;                 ///< 0: none
+    int lostTold_ = 0;                  ///< of the policy's lost stills, those that the log has
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
     std::optional<Governor> governor_;
     Governor::Choice choice_{};          ///< the pipeline's
-    Picture last_;                       ///< the pipeline's, without banner; empty before the first
-    std::optional<Picture> shown_;       ///< what the display got last
-    std::string faultShown_;             ///< over it
     std::vector<StageTime> stages_;      ///< of the last picture
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;
-    std::vector<PlacedObject> objects_;
-    LightOptions light_;
     TagMap tags_;
     std::string sensors_;  ///< that filters are learned for
     std::uint64_t pictures_ = 0;
