@@ -14,7 +14,7 @@ constexpr std::size_t kMostInWork = 3;
 
 bool GpuWatch::isReady() {
     if (!context_) return true;
-    if (const auto lost = context_->lost()) throw Failure(ExitCode::Internal, *lost);
+    if (const auto fault = context_->takeFault()) throw Failure(ExitCode::Internal, *fault);
     while (!inWork_.empty() && inWork_.front().fence.passed())
         inWork_.pop_front();
     isLate_ = isOldestDue() && !inWork_.front().fence.passed(gpu::kLongestGpuWait);

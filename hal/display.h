@@ -36,6 +36,9 @@ public:
     /// The same where the picture is the last one, to the bit: a screen that shows it needs
     /// nothing.
     virtual void showAgain(const Picture& picture, Timestamp time) { show(picture, time); }
+    /// Lets go of all that it has on the GL context, which ends after this: the next picture comes
+    /// with another one, or lies on the host.
+    virtual void releaseGl() {}
     /// Blocks until everything shown is out (files written). Throws like show().
     virtual void finish() = 0;
     /// What the last show() sent to a screen, screen-sized. Nothing where there is no screen. Waits

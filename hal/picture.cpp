@@ -27,7 +27,9 @@ void readBack(const GlImage& image, std::uint8_t* rgba, std::size_t stride) {
     }
     glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(framebufferBefore));
     glDeleteFramebuffers(1, &framebuffer);
-    if (!complete) throw std::runtime_error("the finished picture cannot be read back from GL");
+    // A lost context leaves the pixels as they were.
+    if (!complete || glGetError() != GL_NO_ERROR)
+        throw std::runtime_error("the finished picture cannot be read back from GL");
 }
 
 }  // namespace

@@ -70,6 +70,13 @@ void ScreenDisplay::showAgain(const Picture& picture, Timestamp time) {
     if (active_ == nullptr || shown_ < kProven) show(picture, time);
 }
 
+void ScreenDisplay::releaseGl() {
+    for (const auto& screen : screens_)
+        screen->releaseGl();
+    if (scaler_) scaler_->releaseGl();
+    shown_ = 0;
+}
+
 void ScreenDisplay::lose(const std::string& why) {
     fault_ = why;
     failed_ = shown_ == kProven ? nullptr : active_;

@@ -94,7 +94,15 @@ KeptTarget::~KeptTarget() {
 }
 
 ScreenScaler::~ScreenScaler() {
+    releaseGl();
+}
+
+void ScreenScaler::releaseGl() {
+    copy_.reset();
+    scale_.reset();
     if (sampler_ != 0) glDeleteSamplers(1, &sampler_);
+    sampler_ = 0;
+    upload_ = {};
 }
 
 gpu::Program& ScreenScaler::programFor(int pairs) {
