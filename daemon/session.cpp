@@ -34,30 +34,27 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), config_(config),
       rig_(config, stats.heartbeats()), poses_(config.pose, rig_.poseInputs(), stats),
-      gl_(openGl(config)),
+      gl_(openGl(config, device_)),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel, displayPolicy())),
       output_(outputSizeFor(config.size, rig_.geometry(), display_->screenSize())),
-      drawing_(std::make_unique<Drawing>(config_, rig_.geometry(), output_, gl_.context)),
       policy_(config.trigger), levels_(governedLevels(config.governor)), tags_(poses_.tags()),
       sensors_(sensorsOf(config, rig_)) {
     if (!gl_.without.empty())
         stats_.warn("without OpenGL ES the processor's vector units compute the pictures: " +
                     gl_.without);
-    placeObjects();
+    makeDrawing();
     setUpQuality(config.superres.mode);
     setLearning(config.superres.learn);
-    description_ = {gl_.context ? gl_.context->description() : "without OpenGL ES",
-                    rig_.description(),
+    const Rendering how = rendering();
+    description_ = {how.renderer,
+                    how.source,
                     display_->name(),
                     std::string(name(config.superres.mode)),
                     rig_.videoFrames(),
                     std::nullopt,
                     poses_.description(),
-                    describe(drawing_->engines),
+                    how.engine,
                     rig_.video().info().rateHz};
-    if (description_.source.starts_with("cameras"))
-        description_.source +=
-            gl_.context && gl_.context->planeImporter() ? ", read in place by the GPU" : ", copied";
     beginRecording(config);  // last: a failure of the others must not wait for the disk
 }
 
@@ -67,11 +64,16 @@ void Session::setUpQuality(SuperResMode best) {
     if (levels_.empty()) return;
     std::vector<QualityLevel> levels = limitedTo(levels_, best);
     choice_ = {};
-    drawing_->pipeline.setQuality(levels.front().quality);
-    stats_.quality(levels.front().name, deadlineMs());
+    setQuality(levels.front());
     if (!(deadlineMs() > 0)) return;
     governor_.emplace(std::move(levels), deadlineMs());
     govern();
+}
+
+void Session::setQuality(const QualityLevel& level) {
+    quality_ = level.quality;
+    drawing_->pipeline.setQuality(level.quality);
+    stats_.quality(level.name, deadlineMs());
 }
 
 std::string Session::startLine() const {
@@ -102,28 +104,21 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     Heartbeat heart(stats_.heartbeats(), std::string(kPictureThread), budget::kPicture);
     heart_ = &heart;
     const std::shared_ptr<void> atEnd(nullptr, [this](void*) { heart_ = nullptr; });
+    std::optional<CapturedFrame> captured;  // that is not shown yet
     bool enough = false;
     while (!enough) {
         heart.beat();
-        const bool isGpuReady = drawing_->gpu.isReady();
-        stats_.gpu(drawing_->gpu.fault());
-        if (!isGpuReady) {
-            if (mailbox.over()) break;
-            continue;
+        try {
+            const bool may = mayDraw();
+            if (may && !captured) captured = mailbox.takeWithin(kFaultInterval);
+            if ((!may || !captured) && mailbox.over()) break;
+            if (may) showNext(captured);
+            enough = maxFrames && pictures_ >= *maxFrames;
+        } catch (const std::exception& error) {
+            const std::optional<std::string> why = drawing_->gpu.lossBehind(error);
+            if (!why) throw;
+            makeDrawingAnew(*why);
         }
-        std::optional<CapturedFrame> captured = mailbox.takeWithin(kFaultInterval);
-        if (!captured && mailbox.over()) break;
-        if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
-        calls_.runAll(*this);
-        checkRecording();
-        if (!captured) {
-            showFault();
-            continue;
-        }
-        // Without a clock of its own a source waits for us: only our own time is latency then.
-        if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
-        process(std::move(*captured));
-        enough = maxFrames && pictures_ >= *maxFrames;
     }
     heart.rest();
     capture.stop();
@@ -132,6 +127,23 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     stats_.recorderDropped(rig_.notRecorded());
     finishDisplay();
     return enough ? "all frames asked for are shown" : "end of the source";
+}
+
+bool Session::mayDraw() {
+    const bool isReady = drawing_->gpu.isReady();
+    stats_.gpu(gpuFault());
+    return isReady;
+}
+
+void Session::showNext(std::optional<CapturedFrame>& captured) {
+    if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
+    calls_.runAll(*this);
+    checkRecording();
+    if (!captured) return showFault();
+    // Without a clock of its own a source waits for us: only our own time is latency then.
+    if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
+    process(*captured);
+    captured.reset();
 }
 
 void Session::finishDisplay() {
@@ -174,6 +186,7 @@ void Session::apply(const Tunables& wanted) {
     try {
         placeObjects();
     } catch (const std::exception& error) {
+        drawing_->gpu.requireSound();
         stats_.warn(fmt::format("objects: {}; those before stay", error.what()),
                     {message::kObjects});
         std::tie(config_.objects, config_.light) = before;
@@ -192,7 +205,7 @@ bool Session::canShowObjects() {
         return true;
     if (gl_.without.empty()) {
         try {
-            gl_.context = createGlContext();
+            gl_.context = createGlContext(device_);
             return true;
         } catch (const std::runtime_error& error) {
             gl_.without = error.what();
@@ -212,10 +225,10 @@ void Session::placeObjects() {
         stats_.warn(std::move(text), {message::kObjects});
 }
 
-void Session::process(CapturedFrame captured) {
+void Session::process(CapturedFrame& captured) {
     const Timestamp begun = Timestamp::now();
     const bool newStill = captured.still.has_value();
-    stats_.stillsSuperseded(captured.stillsSuperseded);
+    stats_.stillsSuperseded(std::exchange(captured.stillsSuperseded, 0));
     if (captured.still) takeStill(*std::exchange(captured.still, std::nullopt));
     if (std::optional<TagMap> found = poses_.takeFoundTags()) {
         tags_ = *std::move(found);
@@ -224,6 +237,7 @@ void Session::process(CapturedFrame captured) {
     }
     const Timestamp time = captured.video.time();
     const FrameResult& result = drawing_->pipeline.run(captured.video.view(), time, captured.pose);
+    drawing_->gpu.requireSound();
     // Before the display, which may wait: the exposure runs meanwhile.
     fireIfNeeded(time, result.stats);
     previous_ = time;
@@ -277,9 +291,8 @@ void Session::tellFaultyPasses() {
 void Session::govern() {
     if (governor_->next() == choice_) return;
     choice_ = governor_->next();
-    drawing_->pipeline.setQuality(governor_->level().quality);
+    setQuality(governor_->level());
     if (choice_.redraw) drawing_->pipeline.redraw();
-    stats_.quality(governor_->level().name, deadlineMs());
 }
 
 void Session::takeStill(CapturedStill still) {
@@ -294,9 +307,9 @@ void Session::useStill() {
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
     if (learning_) {
         learning_->finish();
-        if (auto filters = learning_->takeFilters())
-            drawing_->pipeline.setFilters(std::move(filters));
+        takeFilters();
     }
+    keepUsedStill(still);
     drawing_->pipeline.setStill(still.frame.view(), still.frame.time(), still.pose);
     stillTime_ = still.frame.time();
     stats_.stillUsed();
@@ -351,7 +364,7 @@ void Session::showFault() {
 
 // The last picture of the pipeline, with what is wrong over it.
 void Session::show(Timestamp time, bool unchanged) {
-    const std::string fault = rig_.fault().value_or("");
+    const std::string fault = bannerText();
     try {
         if (unchanged && drawing_->shown && fault == drawing_->faultShown) {
             drawing_->gpu.drawn();
@@ -365,6 +378,10 @@ void Session::show(Timestamp time, bool unchanged) {
         }
         stats_.display(display_->name());
         stats_.displayed(display_->fault(), display_->leftOut());
+    } catch (const gpu::GlError&) {
+        throw;
+    } catch (const GpuLost&) {
+        throw;
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
     }

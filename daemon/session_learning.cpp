@@ -10,7 +10,7 @@ namespace mfar {
 void Session::setLearning(bool wanted) {
     if (wanted == (learning_ != nullptr)) return;
     drawing_->pipeline.setMatchListener(nullptr);
-    drawing_->pipeline.setFilters(nullptr);
+    drawing_->pipeline.setFilters(filters_ = nullptr);
     learning_.reset();
     if (wanted) {
         learning_ = std::make_unique<FilterLearning>(FilterLearningOptions{
@@ -20,9 +20,14 @@ void Session::setLearning(bool wanted) {
             rig_.geometry(),
             {&stats_.heartbeats(), "filter learning", budget::kLearning, ThreadRole::Helper}});
         drawing_->pipeline.setMatchListener(learning_.get());
-        drawing_->pipeline.setFilters(learning_->takeFilters());
+        takeFilters();
     }
     tellLearning();
+}
+
+void Session::takeFilters() {
+    auto others = learning_->takeFilters();
+    if (others) drawing_->pipeline.setFilters(filters_ = std::move(others));
 }
 
 void Session::endLearning() {

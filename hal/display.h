@@ -31,7 +31,8 @@ public:
     virtual ~Display() = default;
 
     /// Shows the picture (or queues it for that). May wait for the device's pace; must not keep a
-    /// texture after returning. Throws std::runtime_error when the device is lost.
+    /// texture after returning. Throws std::runtime_error when the device is lost, GlError where
+    /// the GPU is.
     virtual void show(const Picture& picture, Timestamp time) = 0;
     /// The same where the picture is the last one, to the bit: a screen that shows it needs
     /// nothing.

@@ -1,9 +1,8 @@
 #include "hal/picture.h"
 
-#include <GLES3/gl31.h>
+#include "base/gl/gl.h"
 
 #include <cstring>
-#include <stdexcept>
 
 namespace mfar {
 namespace {
@@ -29,7 +28,7 @@ void readBack(const GlImage& image, std::uint8_t* rgba, std::size_t stride) {
     glDeleteFramebuffers(1, &framebuffer);
     // A lost context leaves the pixels as they were.
     if (!complete || glGetError() != GL_NO_ERROR)
-        throw std::runtime_error("the finished picture cannot be read back from GL");
+        throw gpu::GlError("the finished picture cannot be read back from GL");
 }
 
 }  // namespace

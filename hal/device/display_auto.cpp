@@ -59,6 +59,8 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
         shown_ = std::min(shown_ + 1, kProven);
         failed_ = nullptr;
         if (shown_ == kProven) fault_.clear();
+    } catch (const gpu::GlError&) {
+        throw;  // not of the screen
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }

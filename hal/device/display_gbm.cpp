@@ -180,7 +180,7 @@ public:
     }
     Ready complete() override {
         if (!fences_ && !gpu::finishWithin())
-            throw std::runtime_error("the GPU does not finish the picture");
+            throw gpu::GlError("the GPU does not finish the picture");
         return {targets_[current_].scanout(), std::move(fence_)};
     }
     void releaseGl() override {
