@@ -2,6 +2,7 @@
 
 #include "gles_shaders/shaders.h"
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace mfar::faulty {
 namespace {
 
-int loseAt = -1;
+std::string loseAt;  // empty: at none
 std::vector<std::string> moments;
 std::map<unsigned, std::string> shaders, programs;  // names
 std::string current;
@@ -18,7 +19,9 @@ std::string current;
 
 bool isLostAt(const char* function) {
     moments.push_back(std::string(function) + " " + current);
-    return static_cast<int>(moments.size()) - 1 == loseAt;
+    if (moments.back() != loseAt) return false;
+    loseAt.clear();
+    return true;
 }
 
 void sourceOf(unsigned shader, const char* text) {
@@ -39,15 +42,13 @@ void used(unsigned program) {
 
 using namespace mfar::faulty;
 
-void mfarFaultyGlLoseAt(int moment) {
+void mfarFaultyGlLoseAt(const char* name) {
     moments.clear();
-    loseAt = moment;
+    current.clear();
+    loseAt = name != nullptr ? name : "";
 }
 
-int mfarFaultyGlMoments() {
-    return static_cast<int>(moments.size());
-}
-
-const char* mfarFaultyGlMoment(int moment) {
-    return moments.at(static_cast<std::size_t>(moment)).c_str();
+const char* mfarFaultyGlMoment(int i) {
+    const auto index = static_cast<std::size_t>(i);
+    return index < moments.size() ? moments[index].c_str() : nullptr;
 }

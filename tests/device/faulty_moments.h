@@ -1,17 +1,14 @@
 #pragma once
 
-#include <cstddef>
-
 // What tests in the same process find with dlsym() in the library of faulty_gl.cpp. GL thread.
 extern "C" {
 
-/// Begins to count the moments at which the context may be lost, calls of GL that move or compute
-/// something, and loses it at this one; none for a negative number.
-__attribute__((visibility("default"))) void mfarFaultyGlLoseAt(int moment);
-/// How many there were.
-__attribute__((visibility("default"))) int mfarFaultyGlMoments();
-/// "glUseProgram flow_search.comp"; the shader is the last one that was used.
-__attribute__((visibility("default"))) const char* mfarFaultyGlMoment(int moment);
+/// Forgets the moments so far, calls of GL that move or compute something, and loses the context at
+/// the first that has this name; null: at none.
+__attribute__((visibility("default"))) void mfarFaultyGlLoseAt(const char* name);
+/// The name of the i-th moment, "glUseProgram flow_search.comp"; the shader is the last one that
+/// was used. Null: there were fewer.
+__attribute__((visibility("default"))) const char* mfarFaultyGlMoment(int i);
 }
 
 namespace mfar::faulty {
