@@ -50,6 +50,16 @@ ResetStatus resetStatusOf(std::string_view version, const char* glExtensions) {
     return nullptr;
 }
 
+// As of boards whose GPU is older than OpenGL ES 3.1: lima, vc4, etnaviv.
+std::string tooOld(EGLDisplay display) {
+    const char* name = nullptr;
+    if (hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_MESA_query_driver"))
+        if (const auto ask = eglProc<const char* (*)(EGLDisplay)>("eglGetDisplayDriverName"))
+            name = ask(display);
+    return "EGL: the GPU's driver" + (name != nullptr ? " " + std::string(name) : "") +
+           " has no OpenGL ES 3.1; use the SIMD engine (engine.use = \"simd\")";
+}
+
 // One that is told of resets, where the driver knows such. For OpenGL ES the extension's attribute
 // is older than that of EGL 1.5, and some drivers know one of them alone.
 EGLContext createContext(EGLDisplay display, EGLConfig config) {
@@ -128,10 +138,9 @@ public:
         EGLint count = 0;
         if (eglChooseConfig(display_, configWanted.data(), &config, 1, &count) != EGL_TRUE ||
             count == 0)
-            throw std::runtime_error("EGL: no configuration renders OpenGL ES 3");
+            throw std::runtime_error(tooOld(display_));
         context_ = createContext(display_, config);
-        if (context_ == EGL_NO_CONTEXT)
-            throw std::runtime_error("EGL: this driver offers no OpenGL ES 3.1 context");
+        if (context_ == EGL_NO_CONTEXT) throw std::runtime_error(tooOld(display_));
         makeCurrent();
         resetStatus_ = resetStatusOf(text(GL_VERSION), text(GL_EXTENSIONS).c_str());
         const std::string renderer = text(GL_RENDERER);
