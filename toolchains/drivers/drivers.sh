@@ -40,7 +40,7 @@ testDriver() {
     *) die "--driver needs zink or softpipe" ;;
     esac
     ctest --test-dir .build/host --parallel "$((jobs + 1))" --output-on-failure \
-        --label-regex "^$label\$" "$@"
+        --timeout 300 --label-regex "^$label\$" "$@"
     [[ $driver == zink ]] || return 0
     said=$(complaints "$log") || return 0
     say "Vulkan's validation layer complains:"
