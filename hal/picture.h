@@ -56,7 +56,7 @@ private:
 
 /// Copies a picture that is not empty into `rgba`, row 0 first, `stride` bytes from one row to the
 /// next, a multiple of four. Reads a texture back: waits for the GPU and leaves the context's
-/// bindings as they were. Calls no GL for a picture on the host. Throws GlError when GL
+/// bindings as they were. Calls no GL for a picture on the host. Throws std::runtime_error when GL
 /// refuses.
 void copyPicture(const Picture& picture, std::uint8_t* rgba, std::size_t stride);
 
