@@ -213,6 +213,6 @@ Function lostOr(const char* name) {
     return erased(&nothing);
 }
 
-const bool isConnected = mfar::gl_libraries::connectGles(workingOr).empty();
+const bool kIsConnected = mfar::gl_libraries::connectGles(workingOr).empty();
 
 }  // namespace
