@@ -54,8 +54,7 @@ void RequestCycle::begin() {
     running_ = true;
     restartAt_.reset();
     begun_ = clock_();
-    for (std::size_t i = 0; i < requests_.size(); ++i)
-        if (requests_[i] == State::Idle) queue(i);
+    queueIdle();
 }
 
 /// With the life cycle held.
@@ -87,6 +86,12 @@ void RequestCycle::queue(std::size_t request) {
     loseLocked(fmt::format("{} takes no more requests (error {})", name_, -error));
 }
 
+/// With the mutex held.
+void RequestCycle::queueIdle() {
+    for (std::size_t i = 0; i < requests_.size() && lost_.empty(); ++i)
+        if (requests_[i] == State::Idle) queue(i);
+}
+
 void RequestCycle::loseLocked(const std::string& why) {
     if (lost_.empty()) lost_ = why;
     changed_.notify_all();
@@ -110,11 +115,13 @@ void RequestCycle::completed(std::size_t request, const Judge& judge) {
     requests_[request] = State::Idle;
     changed_.notify_all();
     if (!running_) return;
-    const std::optional<Done> done = judge();
-    if (!done) return queue(request);
-    requests_[request] = State::Ready;
-    ready_.push_back(*done);
-    ++delivered_;
+    if (const std::optional<Done> done = judge()) {
+        requests_[request] = State::Ready;
+        ready_.push_back(*done);
+        ++delivered_;
+    }
+    // The stream runs: it can have those back that were cancelled singly.
+    queueIdle();
 }
 
 void RequestCycle::cancelled(std::size_t request) {

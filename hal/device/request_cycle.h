@@ -95,6 +95,7 @@ private:
 
     [[nodiscard]] bool anyQueued() const;
     void queue(std::size_t request);
+    void queueIdle();
     void loseLocked(const std::string& why);
     void planRestart();
     void begin();
