@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -23,8 +24,8 @@ constexpr GLenum kContextLost = 0x0507;
 bool is(std::string_view fault) {
     const char* file = std::getenv("MFAR_FAULTY_GL");
     std::ifstream in(file != nullptr ? file : "");
-    std::string word;
-    return in >> word && word == fault;
+    return std::find(std::istream_iterator<std::string>(in), {}, fault) !=
+           std::istream_iterator<std::string>();
 }
 
 template <class Function>

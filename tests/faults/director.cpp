@@ -226,7 +226,8 @@ const Plan& plan() {
     static const Plan drawn = Plan::drawn(
         static_cast<std::uint64_t>(numberOf("MFAR_FAULTS_SEED", 1)),
         static_cast<int>(numberOf("MFAR_FAULTS_EPISODES", 10)),
-        std::getenv("MFAR_FAULTS_ONLY") != nullptr ? std::getenv("MFAR_FAULTS_ONLY") : "");
+        std::getenv("MFAR_FAULTS_ONLY") != nullptr ? std::getenv("MFAR_FAULTS_ONLY") : "",
+        std::getenv("MFAR_FAULTY_GL") != nullptr);
     return drawn;
 }
 

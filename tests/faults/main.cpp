@@ -36,6 +36,7 @@ Options parse(int argc, char** argv) {
                    "of one start of mfard, each with one or two faults (default 10)")
         ->check(CLI::PositiveNumber);
     app.add_option("--only", o.trial.only, "of faults whose names contain this");
+    app.add_flag("--gpu", o.trial.hasGpu, "with OpenGL ES, which may fail, instead of SIMD");
     app.add_option("--soak", o.trial.soakFrames, "no faults; ends after so many pictures");
     app.add_flag("--twice", o.twice, "runs each seed twice, and compares");
     app.add_option("--mfard", o.trial.program, "the program")->check(CLI::ExistingFile);
@@ -95,7 +96,7 @@ Tally drawSeeds(const Options& o, std::uint64_t seed) {
 int main(int argc, char** argv) {
     const Options o = parse(argc, argv);
     try {
-        static_cast<void>(Plan::drawn(1, 1, o.trial.only));
+        static_cast<void>(Plan::drawn(1, 1, o.trial.only, o.trial.hasGpu));
         const auto begin = Clock::now();
         const Tally tally = o.run.run([&o](std::uint64_t first, int job) {
             Options own = o;
