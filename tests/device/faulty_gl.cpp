@@ -19,7 +19,9 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -40,7 +42,9 @@ std::string words() {
 }
 
 bool is(std::string_view fault) {
-    return words() == fault;
+    std::istringstream in(words());
+    using Words = std::istream_iterator<std::string>;
+    return std::find(Words(in), Words(), fault) != Words();
 }
 
 template <class F>

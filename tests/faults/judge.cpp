@@ -26,6 +26,7 @@ using nlohmann::ordered_json;
 // What the product promises, see daemon/budgets.h and the service's unit.
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
+constexpr Ns kPicture = 2000 * kMs;
 constexpr Ns kRepeats = 200 * kMs;  ///< some pictures
 constexpr Ns kLookTime = kSecond;   ///< how often mfard looks at its threads
 constexpr Ns kSameLine = 10 * kSecond;
@@ -107,6 +108,8 @@ void Judge::change(const Fault& fault, int by) {
     touch(Still, kind.where == Where::Still && stops);
     touch(Screen, kind.effect == Effect::StopsReader);
     touch(Slow, kind.effect == Effect::Slows);
+    touch(Gpu, kind.where == Where::Gpu);
+    touch(Drawing, kind.effect == Effect::HangsGpu);
     touch(VideoDevice, kind.where == Where::Video && stops && kind.effect != Effect::Repeats);
 }
 
@@ -144,6 +147,13 @@ Ns Judge::missing(Ns at) const {
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
+/// For how long the GPU has finished no picture, because of its fault. Those that come first have
+/// more time.
+Ns Judge::unfinished(Watched gpu, Ns at) const {
+    if (calm_[gpu].active == 0 || frames_ < kProvenFrames) return 0;
+    return std::min(age(at), at - calm_[gpu].since);
+}
+
 void Judge::status(const ordered_json& said, Ns asked) {
     ++asked_;
     if (now() - asked > kAnswer && calm_[Slow].lasts(kBack, now()))
@@ -168,6 +178,9 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     if (missing(asked) > kMarked + kSlack && isFine)
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
              ", status says ok");
+    if (unfinished(Gpu, asked) > kPicture + kSlack && isFine)
+        fail("the GPU has finished no picture for " + seconds(unfinished(Gpu, asked)) +
+             ", status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
     if (!isFine)
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
@@ -187,7 +200,8 @@ void Judge::judgeBlame(const std::string& fault, Ns asked) {
         fail("the video camera is blamed: " + fault);
     if (still && fault.find("still camera") != fault.npos)
         fail("the still camera is blamed: " + fault);
-    if (video && calm_[Screen].lasts(kBack, asked) && shown_ && age(asked) > kOnScreen)
+    if (video && calm_[Screen].lasts(kBack, asked) && calm_[Gpu].lasts(kBack, asked) && shown_ &&
+        age(asked) > kOnScreen)
         fail("the video camera is sound, the screen's picture is " + seconds(age(asked)) + " old");
 }
 
@@ -216,7 +230,10 @@ void Judge::fed() {
         fail("nothing is wrong, and the watchdog was not fed for " + seconds(now() - before));
     if (hangs_ && missing(now()) > kVideoBudget + kSlack)
         fail("the watchdog is fed while the video driver hangs for " + seconds(missing(now())));
-    const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now());
+    if (unfinished(Drawing, now()) > kPicture + kSlack)
+        fail("the watchdog is fed while drawing hangs for " + seconds(unfinished(Drawing, now())));
+    const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now()) ||
+                         !calm_[Gpu].lasts(kBack, now());
     if (age(now()) > kStale + kSlack && !isNamed)
         fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
 }

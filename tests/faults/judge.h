@@ -64,11 +64,12 @@ private:
             return active == 0 && now - since > time;
         }
     };
-    enum Watched { All, Video, VideoDevice, Still, Screen, Slow, WatchedCount };
+    enum Watched { All, Video, VideoDevice, Still, Screen, Slow, Gpu, Drawing, WatchedCount };
 
     Judge();
     [[nodiscard]] Ns age(Ns now) const;
     [[nodiscard]] Ns missing(Ns now) const;
+    [[nodiscard]] Ns unfinished(Watched gpu, Ns now) const;
     void judgeState(const nlohmann::ordered_json& said, Ns asked);
     void judgeBlame(const std::string& fault, Ns asked);
     void fed();
