@@ -175,7 +175,8 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
     if (age(asked) > kStale + kSlack && isFine && isKnown)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
-    if (missing(asked) > kMarked + kSlack && isFine)
+    // Cameras are looked at between pictures.
+    if (missing(asked) > kMarked + kSlack && isFine && calm_[Drawing].lasts(kMarked, asked))
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
              ", status says ok");
     if (unfinished(Gpu, asked) > kPicture + kSlack && isFine)
