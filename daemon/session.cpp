@@ -42,7 +42,13 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
     if (!gl_.without.empty())
         stats_.warn("without OpenGL ES the processor's vector units compute the pictures: " +
                     gl_.without);
-    makeDrawing();
+    try {
+        makeDrawing();
+    } catch (const std::runtime_error& error) {
+        const std::optional<std::string> why = GpuWatch(gl_.context).lossBehind(error);
+        if (!why) throw;
+        makeDrawingAnew(*why);
+    }
     setUpQuality(config.superres.mode);
     setLearning(config.superres.learn);
     const Rendering how = rendering();

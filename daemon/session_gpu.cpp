@@ -29,7 +29,7 @@ void Session::makeDrawingAnew(std::string why) {
         const bool isLast = failures_.add(begun, why);
         if (isLast && (config_.validate || device_ == GlDevice::Software))
             throw Failure(ExitCode::Internal, why);
-        heart_->beat();
+        if (heart_ != nullptr) heart_->beat();
         drawing_.reset();
         display_->releaseGl();
         gl_ = {};

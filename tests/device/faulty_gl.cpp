@@ -88,7 +88,7 @@ bool isLost() {
 bool loseNow(const char* function) {
     static std::string last;
     const std::string now = words();
-    const bool isNew = now != last && now.starts_with("lost");
+    const bool isNew = now != last && is("lost");
     last = now;
     if (mfar::faulty::isLostAt(function) || isNew || now == "broken") lose();
     return mark != 0;

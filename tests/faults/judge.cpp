@@ -109,6 +109,7 @@ void Judge::change(const Fault& fault, int by) {
     touch(Screen, kind.effect == Effect::StopsReader);
     touch(Slow, kind.effect == Effect::Slows);
     touch(Gpu, kind.where == Where::Gpu);
+    hadGpuFaults_ = hadGpuFaults_ || kind.where == Where::Gpu;
     touch(Drawing, kind.effect == Effect::HangsGpu);
     touch(VideoDevice, kind.where == Where::Video && stops && kind.effect != Effect::Repeats);
 }
@@ -183,7 +184,9 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
         fail("the GPU has finished no picture for " + seconds(unfinished(Gpu, asked)) +
              ", status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
-    if (!isFine)
+    // A GPU that has failed is named for a minute, or for ever.
+    if (!isFine && !(hadGpuFaults_ && said.at("health").value("cause", "").find("the GPU failed") !=
+                                          std::string::npos))
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
                          seconds(asked - calm_[All].since), state, fault,
                          said.value("health", ordered_json::object()).dump()));

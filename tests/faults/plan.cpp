@@ -65,11 +65,12 @@ constexpr std::array kKinds = {
     Kind{"slow machine", Machine, Slows, "", 10, 200},
     // With a GPU alone.
     Kind{"GPU late", Gpu, StopsGpu, "never"},
+    Kind{"GPU lost", Gpu, None, "lost"},
     Kind{"GPU hangs", Gpu, HangsGpu, "hang"},
 };
-constexpr std::size_t kOfGpu = 2;
+constexpr std::size_t kOfGpu = 3;
 
-/// Two that overlap end before the GPU is given up, which ends mfard.
+/// Two that overlap end before the watchdog ends mfard.
 constexpr Ns kLongestOfGpu = 3300 * kMs;
 
 /// From the start to READY, where nothing waits: each look at the clock costs half a microsecond.
