@@ -149,10 +149,11 @@ Ns Judge::missing(Ns at) const {
 }
 
 /// For how long the GPU has finished no picture, because of its fault. Those that come first have
-/// more time.
+/// more time, nothing is drawn without a camera, and a GPU that was given up draws nothing.
 Ns Judge::unfinished(Watched gpu, Ns at) const {
-    if (calm_[gpu].active == 0 || frames_ < kProvenFrames) return 0;
-    return std::min(age(at), at - calm_[gpu].since);
+    if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
+    if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
+    return std::min(age(at), at - std::max(calm_[gpu].since, calm_[Video].since));
 }
 
 void Judge::status(const ordered_json& said, Ns asked) {
@@ -165,7 +166,9 @@ void Judge::status(const ordered_json& said, Ns asked) {
 }
 
 void Judge::judgeState(const ordered_json& said, Ns asked) {
-    const std::string state = textOf(said.value("health", ordered_json::object()), "state");
+    const ordered_json health = said.value("health", ordered_json::object());
+    const std::string state = textOf(health, "state"), cause = textOf(health, "cause");
+    isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the processor draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
     // A pipe that is not read takes some pictures, and then one for as long as a writer may need.
@@ -185,8 +188,8 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
              ", status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
     // A GPU that has failed is named for a minute, or for ever.
-    if (!isFine && !(hadGpuFaults_ && said.at("health").value("cause", "").find("the GPU failed") !=
-                                          std::string::npos))
+    const bool namesGpu = hadGpuFaults_ && cause.find("the GPU failed") != cause.npos;
+    if (!isFine && !namesGpu)
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
                          seconds(asked - calm_[All].since), state, fault,
                          said.value("health", ordered_json::object()).dump()));

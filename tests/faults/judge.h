@@ -83,7 +83,7 @@ private:
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;
-    bool hadGpuFaults_ = false;
+    bool hadGpuFaults_ = false, isGpuGivenUp_ = false;
     struct Held {
         std::multiset<std::string> files;  ///< what descriptors are open on
         std::uint64_t threads = 0, bytes = 0;
