@@ -263,7 +263,7 @@ void App::logHealth(const Health& health) {
     told_ = health;
 }
 
-// Of what is described at the start.
+// Updates what was described at the start.
 void App::takeChanges(const Counted& counted) {
     RunDescription& run = running_->description;
     if (counted.rendering) {

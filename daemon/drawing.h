@@ -15,8 +15,8 @@
 
 namespace mfar {
 
-/// What makes pictures on one GL context, or without any: all that goes when the context does, but
-/// for the display's. Made, used and destroyed with that context current.
+/// Everything that draws on one GL context, or without one, except for the display's own objects.
+/// It is lost with the context. Made, used and destroyed with that context current.
 struct Drawing {
     /// `gl`: null, now or later, where nothing is drawn with GL; it must outlive this. Throws
     /// GlError.

@@ -14,7 +14,7 @@ class GpuLost : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// How often the GPU was lost, by which is decided whether it is used on. Used by one thread.
+/// Counts losses of the GPU and decides when it is no longer used. Used by one thread.
 class GpuFailures {
 public:
     static constexpr std::chrono::seconds kWindow{60};
@@ -22,10 +22,10 @@ public:
 
     /// True: it was the last time that the GPU is used.
     [[nodiscard]] bool add(Timestamp now, std::string why);
-    /// What is wrong for people, nothing when all is well: a loss for as long as kWindow, a GPU
-    /// that is no longer used for ever.
+    /// The fault in words; nothing when all is well. A loss is reported for kWindow, a GPU that is
+    /// no longer used is reported for ever.
     [[nodiscard]] std::optional<std::string> fault(Timestamp now);
-    /// What the picture is to say: fault() of a GPU that is no longer used, for as long as kWindow.
+    /// Text over the picture: fault() of a GPU that is no longer used, for kWindow.
     [[nodiscard]] std::optional<std::string> banner(Timestamp now);
 
 private:

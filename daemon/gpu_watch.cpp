@@ -36,7 +36,7 @@ void GpuWatch::drawn() {
     if (context_) inWork_.push_back({gpu::Fence(), Timestamp::now()});
 }
 
-// What is thrown because of a loss need not say so.
+// A loss may cause an exception of any type.
 std::optional<std::string> GpuWatch::lossBehind(const std::exception& error) const {
     if (!context_) return std::nullopt;
     if (const auto* lost = dynamic_cast<const GpuLost*>(&error)) return lost->what();

@@ -100,9 +100,9 @@ private:
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
-    /// What is to be done before a frame, and the frame; nothing where there is none yet.
+    /// Applies pending changes and calls, then shows the frame; without one, the fault.
     void showNext(std::optional<CapturedFrame>& captured);
-    /// Of a picture [ms]; 0: none.
+    /// Deadline of a picture [ms]; 0: none.
     [[nodiscard]] double deadlineMs() const;
     /// Opens GL for the objects where it is not open yet; reports where that fails.
     bool canShowObjects();

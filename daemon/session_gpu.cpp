@@ -1,4 +1,4 @@
-// What a session does about the GL context: makes what draws on it, and makes it anew.
+// Builds everything that draws on the GL context of a session, and rebuilds it after a loss.
 
 #include "base/image_layout.h"
 #include "daemon/exit_code.h"

@@ -25,7 +25,7 @@ mesaPackages() {
 makeRoot() {
     local suite=$1 root=$2 mirror
     mirror=$(debianMirror)
-    mirror=${mirror:-http://deb.debian.org/debian}
+    [[ -n $mirror ]] || die "no source of Debian packages is configured"
     # shellcheck disable=SC2046 # a list of words
     mmdebstrap --quiet --mode=root --variant=apt --aptopt='APT::Install-Recommends "false"' \
         --include="$(mesaPackages "$suite" | xargs | tr ' ' ,)" "$suite" "$root" \
