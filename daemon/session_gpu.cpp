@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <malloc.h>
 #include <stdexcept>
 #include <utility>
 
@@ -33,6 +34,8 @@ void Session::makeDrawingAnew(std::string why) {
         drawing_.reset();
         display_->releaseGl();
         gl_ = {};
+        // Almost nothing is left on the heap, but glibc keeps its pages: 45 MB of 157 measured.
+        malloc_trim(0);
         if (isLast) {
             config_.engine = {.use = EngineWish::Simd};
             device_ = GlDevice::Software;
