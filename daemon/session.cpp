@@ -317,6 +317,7 @@ void Session::useStill() {
     }
     keepUsedStill(still);
     drawing_->pipeline.setStill(still.frame.view(), still.frame.time(), still.pose);
+    keepSecondStill();
     stillTime_ = still.frame.time();
     stats_.stillUsed();
 }
