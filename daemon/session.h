@@ -13,6 +13,7 @@
 #include "daemon/stats.h"
 #include "daemon/status.h"
 #include "daemon/still_policy.h"
+#include "daemon/trigger_reports.h"
 #include "hal/display.h"
 #include "hal/gl_context.h"
 
@@ -163,7 +164,7 @@ private:
     // Where steps run on GLES: the newest used, the one that the pipeline keeps beside it, and the
     // one before, whose memory is used again.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
-    int lostTold_ = 0;                  ///< of the policy's lost stills, those that the log has
+    TriggerReports triggerReports_;
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
     std::optional<Governor> governor_;
     Governor::Choice choice_{};          ///< the pipeline's
