@@ -117,13 +117,9 @@ Workload handheldWorkload(Size video, Size still, int frames, int lessons) {
 
 Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames, int lessons) {
     const StereoRig& rig = board.rig();
-    Workload out{"synthetic board",
-                 {rig.video.scaledTo(video), rig.still.scaledTo(still), rig.T_still_video},
-                 {},
-                 {},
-                 {},
-                 {},
-                 {}};
+    Workload out{};
+    out.name = "synthetic board";
+    out.rig = {rig.video.scaledTo(video), rig.still.scaledTo(still), rig.T_still_video};
     board.video().start();
     board.stills().start();
     const auto nextFrame = [&] {
