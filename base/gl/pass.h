@@ -40,7 +40,7 @@ class Program;
 class ProgramCache;
 class Validation;
 namespace detail {
-/// Of the ProgramCache::Use of this thread.
+/// The cache that this thread uses; null: programs are not shared.
 inline constinit thread_local ProgramCache* programs = nullptr;
 /// The Validation of this thread.
 inline constinit thread_local Validation* validation = nullptr;

@@ -29,7 +29,7 @@ protected:
 
     [[nodiscard]] std::string card() const { return (folder_ / "card").string(); }
     void show() { screen_.show(Picture(rows_.rows())); }
-    /// What show() throws, and how long it took.
+    /// The message that show() throws; `took` receives its duration.
     std::string faultOfShow(milliseconds& took) {
         const Timestamp begin = Timestamp::now();
         std::string out;

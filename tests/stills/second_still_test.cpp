@@ -71,7 +71,7 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-/// What both engines do, and an engine that draws what the other has matched.
+/// Each engine alone, and each drawing what the other has matched.
 struct Engines {
     const char* name;
     EngineChoice choice;
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, SecondStillOfEngines,
                                          Engines{"drawn_by_simd", drawnBy(EngineKind::Simd)}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-/// What does not depend on the engine.
+/// Tests that do not depend on the engine.
 class SecondStill : public SecondStillTest {
 protected:
     static Pipeline made(double share) {

@@ -16,8 +16,8 @@ class StillLearning final : public MatchListener {
 public:
     /// Before the first still of a pipeline with this rig.
     void begin(const StereoRig& rig);
-    /// Whether the next still may tell what the last frame should look like (default: yes). It may
-    /// not where it shows the frame's very own view.
+    /// Whether the next still may serve as the truth of the last frame (default: yes). It may not
+    /// where it shows the frame's very own view.
     void setMayUseOlder(bool may) { mayUseOlder_ = may; }
     [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return learner_.filters(); }
     /// Prints one line on what was learned to stderr, in the name of this program.
