@@ -19,12 +19,14 @@ layout(rgba16f, binding = 2) uniform writeonly highp image2D newLookUps;
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy), last = ivec2(params.columns, params.rows) - 1;
     if (any(greaterThan(cell, last))) return;
+    int above = cell.y / kFineStep, below = min((cell.y + kFineStep - 1) / kFineStep, last.y / kFineStep);
     vec3 sum = vec3(0.0);
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x)
-            sum += float((2 - abs(x)) * (2 - abs(y))) *
-                   texelFetch(fineField, clamp(cell + ivec2(x, y), ivec2(0), last), 0).xyz;
-    sum /= 16.0;
+    for (int x = -1; x <= 1; ++x) {
+        int column = clamp(cell.x + x, 0, last.x);
+        sum += float(2 - abs(x)) * (texelFetch(fineField, ivec2(column, above), 0).xyz +
+                                    texelFetch(fineField, ivec2(column, below), 0).xyz);
+    }
+    sum /= 8.0;
     float both = max(sum.y, 0.0);
     float unexplained = sum.x - both * both / (sum.z + kFineLeast);
     float allowed = kFineRoom * (params.noise + params.share * sum.x);

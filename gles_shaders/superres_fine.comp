@@ -2,13 +2,13 @@
 // In: tiles, look-ups, raised luma of the still, video. Out: mean products of what pixels of the middle two rows
 // differ from the mean of their block of 2x2: video, both, still [grey levels^2]. Nothing in tiles that are not
 // matched and in cells that are not whole.
-// A workgroup each tile.
+// A workgroup each tile, an invocation each cell of a sampled row.
 // Range: fineField 0..65025, -65025..65025, 0..65025, 0
 #include "luma.glsl"
 #include "still_linear.glsl"
 #include "pipeline/engine/params/weigh.h"
 
-layout(local_size_x = 4, local_size_y = 4) in;
+layout(local_size_x = 4, local_size_y = 2) in;
 layout(std140, binding = 0) uniform Params {
     SumFine params;
 };
@@ -46,7 +46,7 @@ vec3 sumsOfBlock(ivec2 first) {
 }
 
 void main() {
-    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 sampled = ivec2(gl_GlobalInvocationID.xy), cell = sampled * ivec2(1, kFineStep);
     if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
     bool matched = tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u;
     bool isWhole = all(lessThanEqual(4 * cell + 4, ivec2(params.videoWidth, params.videoHeight)));
@@ -54,5 +54,5 @@ void main() {
     if (matched && isWhole)
         for (int i = 0; i < 2; ++i)
             sums += sumsOfBlock(4 * cell + ivec2(2 * i, 1));
-    imageStore(fineField, cell, vec4(sums, 0.0));
+    imageStore(fineField, sampled, vec4(sums, 0.0));
 }

@@ -12,9 +12,14 @@ namespace mfar {
 inline constexpr int kCell = 4;
 inline constexpr int kCellsPerTile = 4;  ///< each way; tiles are those of plan/tiles.h
 
+/// Quotient of positive numbers, rounded up.
+[[nodiscard]] constexpr int divideUp(int a, int b) {
+    return (a + b - 1) / b;
+}
+
 /// Cells that cover a picture.
 [[nodiscard]] constexpr Size cellsOf(Size picture) {
-    return {(picture.width + kCell - 1) / kCell, (picture.height + kCell - 1) / kCell};
+    return {divideUp(picture.width, kCell), divideUp(picture.height, kCell)};
 }
 
 /// Bilinear look-up in a read-back field of 4x4-pixel cells with four channels, at pixel (x, y).

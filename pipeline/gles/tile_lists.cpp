@@ -9,9 +9,6 @@ namespace mfar {
 namespace {
 
 constexpr int kTileGroup = 8;  // tiles a workgroup and axis, as in the shaders
-int divideUp(int a, int b) {
-    return (a + b - 1) / b;
-}
 
 gpu::Groups groupsOf(Size size) {
     return {gpu::groupsFor(size.width, kTileGroup), gpu::groupsFor(size.height, kTileGroup), 1};

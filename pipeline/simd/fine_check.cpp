@@ -1,5 +1,6 @@
 #include "pipeline/simd/fine_check.h"
 
+#include "pipeline/engine/params/weigh.h"
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/simd/enlarge_rows.h"
 
@@ -10,6 +11,8 @@
 namespace mfar::simd {
 namespace {
 
+using params::kFineStep;
+static_assert(kCellsPerTile % kFineStep == 0);
 constexpr int kBlock = 2;                // rows of a block
 constexpr int kFirst = (kCell - 2) / 2;  // of a cell's rows that are compared
 constexpr int kRoom = 64;                // pixels behind a row that vectors reach
@@ -24,9 +27,10 @@ FineCheck::Scratch::Scratch(const FineCheck& check)
 }
 
 FineCheck::FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers)
-    : video_(stillRig.video.size), cells_(cellsOf(video_)), workers_(std::move(workers)),
-      taps_(stillRig, {kSamples * video_.width, kSamples * video_.height}), ofVideo_(cells_),
-      ofBoth_(cells_), ofStill_(cells_), shares_(wholeVectors(cells_)),
+    : video_(stillRig.video.size), cells_(cellsOf(video_)),
+      sampled_{cells_.width, divideUp(cells_.height, kFineStep)}, workers_(std::move(workers)),
+      taps_(stillRig, {kSamples * video_.width, kSamples * video_.height}), ofVideo_(sampled_),
+      ofBoth_(sampled_), ofStill_(sampled_), shares_(wholeVectors(cells_)),
       scratch_(workers_->count(), [this] { return Scratch(*this); }) {}
 
 Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still,
@@ -42,10 +46,14 @@ Rows<const float> FineCheck::run(const RgbPlanes& video, const StillPairs& still
     });
     workers_->forRange(cells_.height, kCellsPerTile, [this, &match](int first, int last) {
         for (int row = first; row < last; ++row)
-            fineShareRow({ofVideo_.around(row), ofBoth_.around(row), ofStill_.around(row)}, match,
+            fineShareRow({near(ofVideo_, row), near(ofBoth_, row), near(ofStill_, row)}, match,
                          cells_.width, shares_[row]);
     });
     return {shares_[0], shares_.pitch(), cells_};
+}
+
+FineSumsNear::Pair FineCheck::near(CellPlane& sums, int row) const {
+    return {sums[row / kFineStep], sums[std::min(divideUp(row, kFineStep), sampled_.height - 1)]};
 }
 
 void FineCheck::sumTiles(const Frame& frame, Scratch& scratch, int tileRow) {
@@ -59,11 +67,12 @@ void FineCheck::sumTiles(const Frame& frame, Scratch& scratch, int tileRow) {
                               kSamples * kCell * scratch.cells.front().begin,
                               kSamples * kCell * scratch.cells.back().end);
     const int last = std::min(kCellsPerTile * (tileRow + 1), cells_.height);
-    for (int row = kCellsPerTile * tileRow; row < last; ++row)
+    for (int row = kCellsPerTile * tileRow; row < last; row += kFineStep)
         sum(frame, scratch, row);
 }
 
 void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
+    const int sampled = row / kFineStep;
     const bool isWhole = kCell * (row + 1) <= video_.height;
     if (isWhole) {
         const int y = kCell * row + kFirst;
@@ -82,7 +91,7 @@ void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
                                 frame.video.row(2, y + k)},
                                kCell * begin, kCell * end, scratch.video[k]);
             fineSumsRow({scratch.video[0], scratch.video[1]}, still, begin, end,
-                        {ofVideo_[row], ofBoth_[row], ofStill_[row]});
+                        {ofVideo_[sampled], ofBoth_[sampled], ofStill_[sampled]});
         }
     }
     for (CellPlane* plane : {&ofVideo_, &ofBoth_, &ofStill_}) {
@@ -90,11 +99,11 @@ void FineCheck::sum(const Frame& frame, Scratch& scratch, int row) {
         int done = 0;
         for (const auto& [begin, end] : scratch.cells) {
             if (!isWhole) break;
-            std::fill((*plane)[row] + done, (*plane)[row] + begin, 0.0F);
+            std::fill((*plane)[sampled] + done, (*plane)[sampled] + begin, 0.0F);
             done = end;
         }
-        std::fill((*plane)[row] + done, (*plane)[row] + cells_.width, 0.0F);
-        plane->repeatBorder(row);
+        std::fill((*plane)[sampled] + done, (*plane)[sampled] + cells_.width, 0.0F);
+        plane->repeatBorder(sampled);
     }
 }
 

@@ -47,11 +47,12 @@ private:
 
     void sumTiles(const Frame& frame, Scratch& scratch, int tileRow);
     void sum(const Frame& frame, Scratch& scratch, int row);
+    [[nodiscard]] FineSumsNear::Pair near(CellPlane& sums, int row) const;
 
-    Size video_, cells_;
+    Size video_, cells_, sampled_;  // cells whose row is sampled
     std::shared_ptr<Workers> workers_;
     LookUpTaps taps_;
-    CellPlane ofVideo_, ofBoth_, ofStill_;
+    CellPlane ofVideo_, ofBoth_, ofStill_;  // of sampled rows
     AlignedRows<float> shares_;
     ScratchSlots<Scratch> scratch_;
 };

@@ -81,19 +81,17 @@ void FineSumsRow(const std::array<const std::int16_t*, 2>& video,
     }
 }
 
-/// Mean of 3x3 cells, weighed 1 2 1 each way.
-HWY_INLINE hn::Vec<F> Smoothed(const RowsAround& rows, int x) {
+/// Mean of three columns, weighed 1 2 1.
+HWY_INLINE hn::Vec<F> Smoothed(const FineSumsNear::Pair& rows, int x) {
     const F d;
-    const auto two = hn::Set(d, 2.0F);
     const auto column = [&](int at) HWY_ATTR {
-        return hn::MulAdd(two, hn::LoadU(d, rows.here + at),
-                          hn::Add(hn::LoadU(d, rows.above + at), hn::LoadU(d, rows.below + at)));
+        return hn::Add(hn::LoadU(d, rows.above + at), hn::LoadU(d, rows.below + at));
     };
-    return hn::Mul(hn::MulAdd(two, column(x), hn::Add(column(x - 1), column(x + 1))),
-                   hn::Set(d, 1.0F / 16));
+    return hn::Mul(hn::MulAdd(hn::Set(d, 2.0F), column(x), hn::Add(column(x - 1), column(x + 1))),
+                   hn::Set(d, 1.0F / 8));
 }
 
-void FineShareRow(const FineSumsAround& sums, const FineMatch& match, int count, float* to) {
+void FineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const auto one = hn::Set(d, 1.0F);
@@ -126,7 +124,7 @@ void fineSumsRow(const std::array<const std::int16_t*, 2>& video,
     HWY_DYNAMIC_DISPATCH(FineSumsRow)(video, still, begin, end, to);
 }
 
-void fineShareRow(const FineSumsAround& sums, const FineMatch& match, int count, float* to) {
+void fineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to) {
     HWY_DYNAMIC_DISPATCH(FineShareRow)(sums, match, count, to);
 }
 

@@ -21,11 +21,17 @@ struct FineSums {
 void fineSumsRow(const std::array<const std::int16_t*, 2>& video,
                  const std::array<std::int16_t*, 4>& still, int begin, int end, const FineSums& to);
 
-struct FineSumsAround {
-    RowsAround video, both, still;
+/// Sums of the sampled rows next to a row of cells; twice the same where the row itself is sampled.
+/// Each repeats its border 1 cell to the left and to the right.
+struct FineSumsNear {
+    struct Pair {
+        const float *above, *below;
+    };
+    Pair video, both, still;
 };
 
-/// Share of their weight that cells keep, from the sums of 3x3 cells: see params::kFineRoom.
-void fineShareRow(const FineSumsAround& sums, const FineMatch& match, int count, float* to);
+/// Share of their weight that cells keep, from the mean sums of three columns: see
+/// params::kFineRoom.
+void fineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, float* to);
 
 }  // namespace mfar::simd

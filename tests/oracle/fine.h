@@ -53,12 +53,12 @@ inline std::vector<double> fineShares(const FineCase& in, Size cells, const Fine
     for (int y = 0; y < cells.height; ++y)
         for (int x = 0; x < cells.width; ++x) {
             Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-            for (int k = 0; k < 9; ++k) {
-                const int i = x + k % 3 - 1, j = y + k / 3 - 1;
-                mean += (i == x ? 2 : 1) * (j == y ? 2 : 1) / 16.0 *
-                        sums[std::clamp(j, 0, cells.height - 1) * cells.width +
-                             std::clamp(i, 0, cells.width - 1)];
-            }
+            // Even rows are sampled; an odd one is between two.
+            const int above = y - y % 2, below = std::min(y + y % 2, (cells.height - 1) / 2 * 2);
+            for (int i = x - 1; i <= x + 1; ++i)
+                for (const int j : {above, below})
+                    mean += (i == x ? 2 : 1) / 8.0 *
+                            sums[j * cells.width + std::clamp(i, 0, cells.width - 1)];
             const double both = std::max(mean[1], 0.0);
             const double unexplained = mean[0] - both * both / (mean[2] + params::kFineLeast);
             const double allowed =

@@ -43,8 +43,10 @@ inline constexpr float kUnexplainedMatch = 0.25F;
 /// is compared with the still's at the same places. A cell keeps its weight as long as the still
 /// leaves no more of that detail's variance unexplained than so many times what is usual
 /// (FineMatch), which is twice the usual deviation, and beyond that a part of it. Look-ups that are
-/// off by a part of a pixel show there alone.
+/// off by a part of a pixel show there alone. Rows of cells are sampled in steps of kFineStep;
+/// cells between two of them take the mean of both.
 inline constexpr float kFineRoom = 4.0F;
+inline constexpr int kFineStep = 2;
 /// Variance below all that counts [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
 
