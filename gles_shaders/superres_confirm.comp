@@ -29,7 +29,7 @@ void main() {
     sum /= 8.0;
     float both = max(sum.y, 0.0);
     float unexplained = sum.x - both * both / (sum.z + kFineLeast);
-    float allowed = kFineRoom * (params.noise + params.share * sum.x);
+    float allowed = kFineRoom * params.noise + kFineShareRoom * params.share * sum.x;
     float kept = allowed / max(unexplained, kFineLeast);
     if (!(kept < 1.0)) kept = 1.0;
     vec3 keptWeight = vec3(1.0, 1.0, kept);

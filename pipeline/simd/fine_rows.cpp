@@ -96,7 +96,7 @@ void FineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, f
     const int lanes = static_cast<int>(hn::Lanes(d));
     const auto one = hn::Set(d, 1.0F);
     const auto noise = hn::Set(d, params::kFineRoom * match.noise),
-               share = hn::Set(d, params::kFineRoom * match.share);
+               share = hn::Set(d, params::kFineShareRoom * match.share);
     for (int x = 0; x < count; x += lanes) {
         const auto video = Smoothed(sums.video, x);
         const auto both = hn::Max(Smoothed(sums.both, x), hn::Zero(d));

@@ -61,8 +61,8 @@ inline std::vector<double> fineShares(const FineCase& in, Size cells, const Fine
                             sums[j * cells.width + std::clamp(i, 0, cells.width - 1)];
             const double both = std::max(mean[1], 0.0);
             const double unexplained = mean[0] - both * both / (mean[2] + params::kFineLeast);
-            const double allowed =
-                params::kFineRoom * (double(match.noise) + double(match.share) * mean[0]);
+            const double allowed = params::kFineRoom * double(match.noise) +
+                                   params::kFineShareRoom * double(match.share) * mean[0];
             out.push_back(
                 std::min(allowed / std::max(unexplained, double(params::kFineLeast)), 1.0));
         }

@@ -39,13 +39,16 @@ inline constexpr float kTexturedContrast = 8.0F;
 /// Squared correlation times confidence of a textured cell that the still does not explain.
 inline constexpr float kUnexplainedMatch = 0.25F;
 
-/// The finest detail that the video shows, what pixels differ from the mean of their block of 2x2,
-/// is compared with the still's at the same places. A cell keeps its weight as long as the still
-/// leaves no more of that detail's variance unexplained than so many times what is usual
-/// (FineMatch), which is twice the usual deviation, and beyond that a part of it. Look-ups that are
-/// off by a part of a pixel show there alone. Rows of cells are sampled in steps of kFineStep;
-/// cells between two of them take the mean of both.
+/// The finest detail is what pixels differ from the mean of their block of 2x2. That of the video
+/// is compared with the still's at the same place: only there look-ups that are off by a part of a
+/// pixel can be told. A cell keeps its weight as long as the variance that the still leaves
+/// unexplained is at most kFineRoom times the usual noise and kFineShareRoom times the usual share
+/// of the detail's variance (FineMatch); beyond that it keeps allowed / unexplained of it. 4 is
+/// twice the usual deviation; the share gets less, because edges that the still alone shows would
+/// pass with it.
 inline constexpr float kFineRoom = 4.0F;
+inline constexpr float kFineShareRoom = 3.0F;
+/// Rows of cells are sampled in these steps; cells between two of them take the mean of both.
 inline constexpr int kFineStep = 2;
 /// Variance below all that counts [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
