@@ -2,12 +2,14 @@
 
 #include "daemon/engine_memory.h"
 #include "daemon/virtual_world.h"
+#include "pipeline/engine_guess.h"
 #include "pipeline/engine_trial.h"
 
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 namespace mfar {
 
@@ -43,8 +45,12 @@ EngineChoice chooseEngines(const Config& config, const GlContext* gl, const Ster
     const bool isOpen = withWishes(engine, EngineChoice::all(EngineKind::Gles)) !=
                         withWishes(engine, EngineChoice::all(EngineKind::Simd));
     if (!decided && isOpen) {
-        decided = tryEngines(rig, output, EngineKind::Gles).front().engines;
-        rememberEngines(file, key, *decided);
+        const std::vector<EngineChoice> placements = promisingEngines(gl->description());
+        decided = placements.front();
+        if (placements.size() > 1) {
+            decided = tryEngines(placements, rig, output, EngineKind::Gles).front().engines;
+            rememberEngines(file, key, *decided);
+        }
     }
     return withWishes(engine, decided.value_or(EngineChoice::all(EngineKind::Gles)));
 }

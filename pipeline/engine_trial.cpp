@@ -1,8 +1,11 @@
 #include "pipeline/engine_trial.h"
 
+#include "pipeline/engine_guess.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 
 namespace mfar {
 namespace {
@@ -39,14 +42,9 @@ ImageView viewOf(const std::vector<std::uint8_t>& rgba, Size size) {
     return {rgba.data(), size, 4UL * size.width, PixelFormat::Rgba8};
 }
 
-EngineChoice placed(EngineKind matching, EngineKind drawing) {
-    EngineChoice choice = EngineChoice::all(drawing);
-    choice.pyramid = choice.flow = choice.weigh = matching;
-    return choice;
-}
-
+/// The first frame's time instead where that exceeds `most` [ms].
 double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size output,
-                   EngineKind shownFrom) {
+                   EngineKind shownFrom, double most) {
     using Clock = std::chrono::steady_clock;
     PipelineOptions options;
     options.output = output;
@@ -60,8 +58,9 @@ double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size outpu
         const auto begun = Clock::now();
         pipeline.run(viewOf(rgba, rig.video.size), Timestamp::fromSeconds(i / 30.0));
         pipeline.finish(shownFrom);
-        if (i >= kWarmUp)
-            ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begun).count());
+        if (i < kWarmUp) continue;
+        ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begun).count());
+        if (ms.front() > most) return ms.front();
     }
     std::ranges::nth_element(ms, ms.begin() + kFrames / 2);
     return ms[kFrames / 2];
@@ -69,13 +68,14 @@ double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size outpu
 
 }  // namespace
 
-std::vector<EngineTrial> tryEngines(const StereoRig& rig, Size output, EngineKind shownFrom) {
+std::vector<EngineTrial> tryEngines(const std::vector<EngineChoice>& placements,
+                                    const StereoRig& rig, Size output, EngineKind shownFrom) {
     std::vector<EngineTrial> trials;
-    for (const EngineKind matching : {EngineKind::Gles, EngineKind::Simd})
-        for (const EngineKind drawing : {EngineKind::Gles, EngineKind::Simd}) {
-            const EngineChoice engines = placed(matching, drawing);
-            trials.push_back({engines, medianFrame(engines, rig, output, shownFrom)});
-        }
+    double most = std::numeric_limits<double>::infinity();
+    for (const EngineChoice& engines : placements) {
+        trials.push_back({engines, medianFrame(engines, rig, output, shownFrom, most)});
+        most = std::min(most, kHopelessFrame * trials.back().frameMs);
+    }
     std::ranges::sort(trials, {}, &EngineTrial::frameMs);
     return trials;
 }

@@ -12,11 +12,12 @@ struct EngineTrial {
     double frameMs = 0;  ///< median; transfers between host and GPU included
 };
 
-/// Measures the placements that can pay on moving pictures made in code: all steps on one engine,
-/// and matching (pyramid, flow, weigh) on the other than drawing (still, detail, occlusion).
-/// `shownFrom`: where the display takes the picture from. Fastest first. Needs a current GL
-/// context; takes about a second, most of it for compiling shaders. Throws as Pipeline does.
-[[nodiscard]] std::vector<EngineTrial> tryEngines(const StereoRig& rig, Size output,
+/// Measures placements on moving pictures made in code; one that proves to be over twice as slow as
+/// the fastest so far is measured no further. `shownFrom`: where the display takes the picture
+/// from. Fastest first. Needs a current GL context; takes about a second for four, most of it for
+/// compiling shaders. Throws as Pipeline does.
+[[nodiscard]] std::vector<EngineTrial> tryEngines(const std::vector<EngineChoice>& placements,
+                                                  const StereoRig& rig, Size output,
                                                   EngineKind shownFrom);
 
 }  // namespace mfar

@@ -30,6 +30,17 @@ def shader(**values):
     return shader_stats.Shader('flow_filter.comp', '', **values)
 
 
+class Predictions(unittest.TestCase):
+    def test_every_board_with_shaders_has_its_row(self):
+        path = os.path.join(HERE, '..', '..', 'pipeline', 'predicted_frames.inc')
+        with open(path, encoding='utf-8') as file:
+            rows = [line.strip('{},\n').split(', ') for line in file if line.startswith('{')]
+        gpus = [MODEL['gpus'][board['gpu']['kind']]['renderer'] for board in MODEL['boards'].values() if 'gpu' in board]
+        self.assertEqual([row[0].strip('"') for row in rows], gpus)
+        self.assertTrue(all(float(value) > 0 for row in rows for value in row[1:]))
+        self.assertEqual({len(row) for row in rows}, {5})
+
+
 class RecordedStatistics(unittest.TestCase):
     def test_v3d(self):
         one = recorded('v3d-4')

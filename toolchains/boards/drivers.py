@@ -29,4 +29,6 @@ def compile_shaders(libraries, gpu, program, files=()):
         named = [line for line in lines if line.startswith('shader: ') and 'MESA_' not in line]
         raise RuntimeError(f'{gpu["name"]}: mfar-compile-shaders ended with {run.returncode} after '
                            f'{named[-1] if named else "no shader"}: {" | ".join(lines[-3:])[:500]}')
+    if gpu['renderer'] not in run.stdout:
+        raise RuntimeError(f'{gpu["name"]}: its driver does not call it "{gpu["renderer"]}"')
     return shader_stats.parse(lines)

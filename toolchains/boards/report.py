@@ -126,9 +126,10 @@ def report(args, model, compiled):
     write(args.out, 'boards.md', text)
     write(args.out, 'passes.csv', tables.passes_csv(model, compiled, results))
     write(args.out, 'boards.json', json.dumps(results, indent=1) + '\n')
+    write(args.out, 'predicted_frames.inc', tables.predicted_frames(model, results))
     write(args.out, 'boards.svg', plot.frames(model, results))
     print(text)
-    print(f'{args.out}/boards.md, boards.svg, passes.csv, boards.json')
+    print(f'{args.out}/boards.md, boards.svg, passes.csv, boards.json, predicted_frames.inc')
 
 
 def write(folder, name, text):

@@ -57,6 +57,18 @@ def frames_table(model, results):
     return table(head, rows)
 
 
+def predicted_frames(model, results):
+    """Rows of pipeline/engine_guess.cpp: GPU, moving frame by placement [ms]."""
+    order = ('simd', 'match simd, draw gles', 'match gles, draw simd', 'gles')
+    lines = ['// Written by ./run board-report.']
+    for key, board in model['boards'].items():
+        frames = results['boards'][key]['moving'][model['frame']['readme_output']]['frames']
+        if len(frames) == len(order):
+            gpu = model['gpus'][board['gpu']['kind']]['renderer']
+            lines.append(f'{{"{gpu}", ' + ', '.join(f'{frames[name]:.1f}' for name in order) + '},')
+    return '\n'.join(lines) + '\n'
+
+
 def steps_table(model, results, width):
     steps = predict.STEPS
     head = ['board', 'engine', *steps, 'frame']
