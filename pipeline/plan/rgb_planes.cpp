@@ -42,7 +42,7 @@ std::array<Samples, 3> samplesOf(const ImageView& p) {
     return {luma, {u.data, u.stride, 1}, {v.data, v.stride, 1}};
 }
 
-/// Y U V to R G B in whole numbers of 16 bits, which every processor multiplies eight at a time.
+/// Y U V to R G B in 16-bit integers: every processor multiplies eight of them at once.
 class YuvRows {
 public:
     explicit YuvRows(const ImageView& picture)
@@ -74,8 +74,8 @@ public:
 private:
     static constexpr float kOne = 8192;
 
-    /// In 1/128 around the middle. It lies between the pixels that share it: 3/4 of the nearer and
-    /// 1/4 of the other, either way.
+    /// Chroma in 1/128 around the middle. A sample lies between the pixels that share it: 3/4 of
+    /// the nearer and 1/4 of the farther sample in each direction.
     void readChroma(const Samples& plane, int y, std::int16_t* to) {
         const int width = size_.width / 2;
         const int row = sharedRows_ ? y / 2 : y;

@@ -9,17 +9,17 @@
 
 namespace mfar {
 
-/// Red, green and blue of a picture on the host, a plane of bytes each, made larger to whole tiles
-/// by its border pixels. Picture coordinates. Owns its pixels.
+/// Red, green and blue of a picture in main memory, one plane of bytes each, padded to whole tiles
+/// by repeating the border pixels. Picture coordinates. Owns its pixels.
 class RgbPlanes {
 public:
     /// Black.
     explicit RgbPlanes(Size size);
 
-    /// Takes over a sound picture of this size, in any format; colours as picture_from_yuv.frag
-    /// makes them, to a grey level.
+    /// Copies a valid picture of this size, in any format; colours equal those of
+    /// picture_from_yuv.frag to a grey level.
     void take(const ImageView& picture);
-    /// Takes over one tile of planes of the same size.
+    /// Copies one tile of planes of the same size.
     void takeTile(const RgbPlanes& from, int column, int row);
 
     [[nodiscard]] Size size() const { return size_; }

@@ -18,8 +18,8 @@ void forCells(Size tiles, int tile, Size cells, const Body& body) {
             body(x, y);
 }
 
-/// Mean over a tile's cells of what their weight lacks to one, as far as the video has structure
-/// there. What is not a number lacks nothing.
+/// Mean over a tile's cells of 1 - weight, times the share of structure in the video's signal. NaN
+/// counts as 0.
 float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     float sum = 0;
     forCells(tiles, tile, newest.weighed.size, [&](int x, int y) {
@@ -29,7 +29,7 @@ float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     return sum / (kCells * kCells);
 }
 
-/// The same of what the second still's weight is above the newest's.
+/// The same mean of how much the second still's weight exceeds the newest's.
 float gainOf(Size tiles, int tile, const SecondTiles::Match& newest,
              const Rows<const WeighedCell>& second) {
     float sum = 0;
@@ -48,7 +48,7 @@ SecondTiles::SecondTiles(Size tiles) : work_(TileWork::everything(tiles)) {
     candidates_.reserve(count);
     showed_.resize(count);
     rest_.resize(count);
-    // No tile is kept from a frame before: others are matched in each.
+    // Nothing is kept from the last frame, because each matches other tiles.
     work_.draw = TileWork::Draw::WholeEnlarged;
 }
 

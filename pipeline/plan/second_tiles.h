@@ -11,17 +11,17 @@
 
 namespace mfar {
 
-/// Chooses the tiles of a frame that are matched with a second still, too: those that the newest
-/// does not show, as it lies outside of its view or is hidden there.
+/// Chooses the tiles of a frame that are also matched with a second still: those that lie outside
+/// the newest still's view or are occluded in it.
 class SecondTiles {
 public:
-    /// A still does not show a tile whose cells lack so much weight in the mean. On the synthetic
-    /// office 0.2, 0.1 and 0.05 gained 0.14, 0.18 and 0.19 dB in the mean of its frames; from 0.1
-    /// to 0.05 half as many tiles more are matched for that.
+    /// A still does not show a tile whose cells' mean weight is below 1 by this much. On the
+    /// synthetic office, 0.2, 0.1 and 0.05 gained 0.14, 0.18 and 0.19 dB; 0.05 matches half as many
+    /// tiles again as 0.1.
     static constexpr float kLack = 0.1F;
-    /// What a second still must add to their weight to be worth its time.
+    /// Mean weight that a second still has to add to be worth its time.
     static constexpr float kGain = 0.05F;
-    /// Frames that a tile is left alone in when the second still did not show it either.
+    /// For this many frames a tile is not tried again that the second still does not show either.
     static constexpr int kRest = 8;
 
     /// How the newest still matches, cell by cell.
@@ -32,9 +32,9 @@ public:
 
     explicit SecondTiles(Size tiles);
 
-    /// Of the tiles that a frame draws and matches, those that the newest still does not show: at
-    /// most `most` of them, first those that miss the most structure, rather those that the second
-    /// still showed before. `measured`: of the same frame. Valid until the next call.
+    /// The tiles that the frame draws and matches and that the newest still does not show, at most
+    /// `most`: those that lack the most structure first, and those that the second still showed
+    /// before preferred. `measured`: of the same frame. Valid until the next call.
     const TileWork& choose(const TileWork& work, std::span<const TileMeasure> measured,
                            const Match& newest, int most);
     /// Remembers which of the chosen tiles the second still shows.

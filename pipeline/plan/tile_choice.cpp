@@ -8,11 +8,11 @@ namespace mfar {
 namespace {
 
 constexpr int kTileBlock = 8;  // tiles
-// Standard deviation of a tile's sum of squares over its mean, and how many of them are no
-// accident.
+// Standard deviation of a tile's sum of squares over its mean, and the number of them that counts
+// as significant.
 constexpr double kSpread = 0.27;
 constexpr double kSignificant = 5;
-// Share of the noise that a change may always hide in: what 8-bit steps are off from white noise.
+// Share of the noise within which a change is not detected: 8-bit rounding is not white noise.
 constexpr double kLeast = 0.03;
 
 constexpr int kStructureBins = 84;  // a quarter of an octave

@@ -10,31 +10,32 @@
 
 namespace mfar {
 
-/// What tiles that did not surely change show together.
+/// Sums over the tiles for which a change is not certain.
 struct TileEnergy {
     int tiles = 0;
     double pixels = 0, means = 0, bends = 0;  ///< sums, see TileMeasure
 
     void add(const TileMeasure& tile);
-    /// 2x2 means vary by more than `grain` times the noise of the pixels explains: something
-    /// changed that is too weak for one tile, as a smooth slope that moves.
+    /// 2x2 means vary by more than `grain` times the pixels' noise explains: a change that is too
+    /// weak to show in one tile, such as a smooth slope that moves.
     [[nodiscard]] bool drifted(double grain) const;
 };
 
-/// Marks tiles as changed where they drifted, over each block of 8x8 or over all, or where all are
-/// to be. Row-major, `columns` a row. The energy of all before that.
+/// Marks tiles as changed where a block of 8x8 tiles or the whole picture drifted; with `all`,
+/// everywhere. Row-major, `columns` a row. Returns the sums over all tiles before that.
 TileEnergy markDrifted(std::span<TileMeasure> tiles, int columns, double grain, bool all);
 
-/// Marks tiles as changed beside whose border cells surely changed: enlarging looks two pixels
-/// beyond a tile.
+/// Marks tiles next to border cells that certainly changed: enlarging reads two pixels beyond a
+/// tile.
 void markBeside(std::span<TileMeasure> tiles, int columns);
 
-/// Chooses tiles with structure beyond noise, and those beside them, as the weight of a cell looks
-/// beyond its tile; where there are too many, those with the most, and rather those that were
-/// chosen before: noise must not make detail come and go.
+/// Chooses tiles with structure above the noise and their neighbours (a cell's weight reads beyond
+/// its tile). If there are too many, those with the most structure, with tiles of the last choice
+/// preferred, so that noise does not make detail come and go.
 class StructuredTiles {
 public:
-    /// Structure up to `none` is noise; below 0 nothing is. `most`: at most so many tiles.
+    /// Structure up to `none` is noise; a negative `none` takes every tile. `most`: limit on the
+    /// number of tiles.
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
     [[nodiscard]] int count() const;

@@ -31,7 +31,7 @@ public:
         return out;
     }
 
-    /// The last tile, of which the picture ends within. Valid as long as this row.
+    /// The last tile, which the picture covers only in part. Valid as long as this row.
     [[nodiscard]] simd::TilePixels cut(int column) {
         simd::TilePixels out = whole(column, 1);
         const auto inside = static_cast<std::size_t>(now_.size().width - kTileSize * column);

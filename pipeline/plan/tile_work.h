@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// What a frame computes, tile by tile: plain host data, made by WorkPlan, read by every step.
+/// The work of a frame, tile by tile: plain host data, made by WorkPlan, read by every step.
 struct TileWork {
     enum class Draw : std::uint8_t {
         Tiles,         ///< changed tiles alone; the others keep their pixels of earlier frames
@@ -44,7 +44,7 @@ struct TileWork {
     [[nodiscard]] const Tile& at(int column, int row) const {
         return flags[static_cast<std::size_t>(row) * tiles.width + column];
     }
-    /// Is this tile drawn, as it changed or everything is?
+    /// Is this tile drawn: because it changed, or because the whole frame is?
     [[nodiscard]] bool draws(std::size_t tile) const {
         return drawsWhole() || flags[tile].changed != 0;
     }

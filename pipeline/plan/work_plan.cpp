@@ -10,23 +10,23 @@ namespace mfar {
 namespace {
 
 constexpr double kInitialNoise = 0.29;
-// A picture without any smooth tile looks noisy: the most that is believed.
+// Upper limit of the estimate: a picture without any smooth tile looks noisy.
 constexpr double kMaxNoise = 4.0;
 // Drawing by tiles costs 2.2 times as much an area as one full-screen draw (llvmpipe).
 constexpr double kWholeShare = 0.45;
-// Detail likewise, where all else is enlarged at once, which costs 0.4 times as much: of the tiles
-// in the rectangle that would get it at once.
+// The same for detail where the rest is enlarged at once, at 0.4 of the cost: share of the tiles
+// in the detail rectangle.
 constexpr double kListedShare = 0.27;
-// What structure adds up to, in the variance of a mean: 13 by noise alone (16 means less the
-// plane's three), the rest by what gives detail a tenth of its weight in superres_weigh.comp (a
-// signal of 0.44 of the noise; 16 / 4 as much in the variance of a mean).
+// Least structure to match, in variances of a mean: 13 come from noise alone (16 means less three
+// of the plane); the rest is the signal that gives detail a tenth of its weight in
+// superres_weigh.comp (0.44 of the noise; 16 / 4 as much in the variance of a mean).
 constexpr double kStructure = 13 + 16 * 4 * 0.44;
 constexpr double kRoundingVariance = 1.0 / 12;  // of a pixel [grey levels^2]
-// How fast the grain of the noise follows what a frame shows, by frame.
+// How fast the estimate of the grain follows, per frame.
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
 constexpr double kRestingShare = 0.75;  // of the tiles: the others may be misjudged
 constexpr double kMaxGrain = 8;
-// Of 2x2 means against pixels in one frame: what divides by hardly any noise.
+// Limit of one frame's grain: without noise it would divide by almost 0.
 constexpr double kMostRatio = 64;
 constexpr int kNoiseBins = 64;  // of 1/16 grey level
 
@@ -127,7 +127,7 @@ void WorkPlan::followNoise(const TileEnergy& unchanged) {
     noise_ = std::min(0.8 * noise_ + 0.2 * quietestDecile(), kMaxNoise);
     if (unchanged.tiles == 0) return;
     const double now = std::min(unchanged.bends / std::max(unchanged.pixels, 1e-3), kMostRatio);
-    // What moves has structure, too: more is believed slowly, but where all is at rest.
+    // Moving structure looks like noise: a higher estimate is adopted slowly unless all is at rest.
     const bool atRest = unchanged.tiles > kRestingShare * static_cast<double>(measured_.size());
     const double risen = atRest ? kGrainAtRest : kGrainMoving;
     grain_ += (now - grain_) * (now < grain_ ? kGrainFalls : risen);
