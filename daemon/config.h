@@ -50,7 +50,7 @@ struct RecordConfig {
 };
 
 /// Everything the daemon can be told, from the configuration file and the command line. The
-/// defaults here are the product's; systemd/mfard.toml shows them.
+/// defaults here are those of option_table.h; a test compares both.
 struct Config {
     std::string source = "cameras";   ///< not used when `recording` is set
     std::filesystem::path recording;  ///< empty: none
