@@ -19,6 +19,10 @@ while IFS= read -r file; do
     diff -u "$sources/$file" "$work/$file" || fault "$file differs from the tables"
 done < <(cd "$work" && find . -type f -printf '%P\n')
 
+# The example of the page is the one that is compiled.
+diff -u <(sed -n '/^```cpp$/,/^```$/{//!p}' "$sources/docs/flow-method.md") \
+    "$sources/tests/measure/eval/shift_flow.cpp" || fault "the example of docs/flow-method.md"
+
 # completes PREVIOUS BEGINNING: what bash offers.
 completes() {
     # shellcheck source=/dev/null
