@@ -10,7 +10,7 @@
 #include "daemon/pose_config.h"
 #include "daemon/still_policy.h"
 #include "daemon/virtual_config.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/quality.h"
 
 #include <cstdint>
 #include <filesystem>
