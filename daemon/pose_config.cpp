@@ -60,11 +60,8 @@ std::optional<PoseOrigin> poseOrigin(std::string_view word) {
 TagMap readTagMap(const std::filesystem::path& file) {
     std::error_code ignored;
     const bool there = std::filesystem::exists(file, ignored);
-    try {
-        return loadTagMap(file);
-    } catch (const TagMapError& error) {
-        throw Failure(there ? ExitCode::BadData : ExitCode::NoInput, error.what());
-    }
+    return orFail<TagMapError>(there ? ExitCode::BadData : ExitCode::NoInput,
+                               [&] { return loadTagMap(file); });
 }
 
 TagMap configuredTags(const PoseConfig& pose) {
