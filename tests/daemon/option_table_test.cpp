@@ -71,8 +71,8 @@ std::string faults(const Key& key, std::string_view value) {
 
 std::string numberText(const Key& key, double value) {
     const Option& option = *key.option;
-    const std::string one = option.type == OptionType::Whole ? fmt::format("{:.0f}", value)
-                                                             : fmt::format("{:.6f}", value);
+    std::string one = option.type == OptionType::Whole ? fmt::format("{:.0f}", value)
+                                                       : fmt::format("{:.6f}", value);
     if (option.type != OptionType::Numbers) return one;
     std::vector<std::string> all(static_cast<std::size_t>(option.count), one);
     // Of a quaternion, the one number that may be as large as all.

@@ -10,8 +10,24 @@
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace {
+
+constexpr std::string_view kValues = R"("\"\"\""
+"'''"
+"true"
+"false"
+"nan"
+"inf"
+"9007199254740993"
+"1979-05-27"
+)";
+constexpr std::string_view kLevelValues = R"("\"detail\""
+"\"blend\""
+"\"off\""
+"\"\"\""
+)";
 
 void write(const std::filesystem::path& file, const std::string& text) {
     std::filesystem::create_directories(file.parent_path());
@@ -32,6 +48,10 @@ int main(int argc, char** argv) {
         write(folder / "systemd/mfard.toml", mfar::defaultConfigText());
         write(folder / "systemd/mfard.bash-completion", mfar::test::bashCompletion());
         write(folder / "docs/configuration.md", mfar::test::configurationPage());
+        write(folder / "tests/fuzz/config.dict",
+              mfar::test::fuzzDictionary(mfar::configOptions(), kValues));
+        write(folder / "tests/fuzz/quality.dict",
+              mfar::test::fuzzDictionary(mfar::levelOptions(), kLevelValues));
         write(folder / "docs/man/mfard.1", mfar::test::programManPage());
         write(folder / "docs/man/mfard.toml.5", mfar::test::configManPage());
     } catch (const std::exception& error) {

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "daemon/option_table.h"
+
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace mfar::test {
 
@@ -13,5 +17,9 @@ namespace mfar::test {
 
 /// Completion of mfard's command line in bash.
 [[nodiscard]] std::string bashCompletion();
+
+/// Keys and sections as a dictionary of libFuzzer, then these entries.
+[[nodiscard]] std::string fuzzDictionary(std::span<const OptionSection> table,
+                                         std::string_view entries);
 
 }  // namespace mfar::test
