@@ -1,9 +1,9 @@
 #pragma once
 
+#include <system_error>
 #include <unistd.h>
 
 #include <cerrno>
-#include <system_error>
 #include <utility>
 
 namespace mfar {
