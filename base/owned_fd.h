@@ -1,7 +1,9 @@
 #pragma once
 
+#include <system_error>
 #include <unistd.h>
 
+#include <cerrno>
 #include <utility>
 
 namespace mfar {
@@ -28,5 +30,12 @@ public:
 private:
     int fd_ = -1;
 };
+
+/// The owner of what a system call has opened. Throws std::system_error with `what` when `fd` is
+/// negative; errno is the cause.
+[[nodiscard]] inline OwnedFd opened(int fd, const char* what) {
+    if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
+    return OwnedFd(fd);
+}
 
 }  // namespace mfar

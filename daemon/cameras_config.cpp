@@ -24,9 +24,9 @@ std::optional<std::string> rateFault(double value) {
 void readCamera(TomlReader& file, const std::string& section, CameraConfig& camera) {
     file.choice<CameraDriver>(section + "driver", camera.driver, kDrivers);
     file.text(section + "camera", camera.camera);
-    file.integer(range::kWidth, camera.size.width, section);
-    file.integer(range::kHeight, camera.size.height, section);
-    file.number(range::kCameraRate, camera.rateHz, rateFault, section);
+    file.integer(section + "width", camera.size.width);
+    file.integer(section + "height", camera.size.height);
+    file.number(section + "rate_hz", camera.rateHz, rateFault);
     file.text(section + "format", camera.format,
               [&](std::string_view word) -> std::optional<std::string> {
                   if (word == "auto" || camera.driver == CameraDriver::V4l2) return std::nullopt;
@@ -40,13 +40,13 @@ void readLine(TomlReader& file, TriggerLineConfig& line) {
     file.text("cameras.trigger.chip", line.chip);
     file.text("cameras.trigger.line", line.line);
     file.boolean("cameras.trigger.active_low", line.activeLow);
-    file.number(range::kPulse, line.pulseMs);
+    file.number("cameras.trigger.pulse_ms", line.pulseMs);
     file.boolean("cameras.trigger.pulse_is_exposure", line.pulseIsExposure);
     file.text("cameras.trigger.loopback_chip", line.loopbackChip);
     file.text("cameras.trigger.loopback", line.loopback);
-    file.number(range::kDelay, line.delayMs);
-    file.number(range::kJitter, line.jitterMs);
-    file.number(range::kArrival, line.arrivalMs);
+    file.number("cameras.trigger.delay_ms", line.delayMs);
+    file.number("cameras.trigger.jitter_ms", line.jitterMs);
+    file.number("cameras.trigger.arrival_ms", line.arrivalMs);
 }
 
 }  // namespace

@@ -40,26 +40,26 @@ std::filesystem::path besides(const std::string& file, const std::filesystem::pa
 
 void readTrigger(TomlReader& file, TriggerConfig& trigger) {
     file.choice<TriggerMode>("trigger.mode", trigger.mode, kTriggerModes);
-    file.number(range::kStillRate, trigger.rateHz);
-    file.number(range::kExplained, trigger.explainedBelow);
-    file.number(range::kMaxAge, trigger.maxAgeS);
-    file.number(range::kMinInterval, trigger.minIntervalS);
-    file.number(range::kTimeout, trigger.timeoutS);
+    file.number("trigger.rate_hz", trigger.rateHz);
+    file.number("trigger.explained_below", trigger.explainedBelow);
+    file.number("trigger.max_age_s", trigger.maxAgeS);
+    file.number("trigger.min_interval_s", trigger.minIntervalS);
+    file.number("trigger.timeout_s", trigger.timeoutS);
 }
 
 void readRecord(TomlReader& file, RecordConfig& record) {
     std::string directory;
     file.text("record.directory", directory);
     record.directory = directory;
-    file.number(range::kLeastFree, record.leastFreeMb);
-    file.number(range::kMostRecorded, record.mostMb);
+    file.number("record.least_free_mb", record.leastFreeMb);
+    file.number("record.most_mb", record.mostMb);
 }
 
 }  // namespace
 
 Config parseConfig(std::string_view toml, const std::string& fileName) {
     Config config;
-    TomlReader file(toml, fileName);
+    TomlReader file(toml, fileName, configOptions());
     file.text("source", config.source, sourceFault);
     std::string recording;
     file.text("recording", recording);
@@ -83,7 +83,7 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     if (!config.governor.table.empty())
         config.governor.table = besides(fileName, config.governor.table);
     readRecord(file, config.record);
-    file.number(range::kStatusInterval, config.status.intervalS);
+    file.number("status.interval_s", config.status.intervalS);
     file.boolean("status.measure", config.status.measure);
     const std::filesystem::path folder = std::filesystem::path(fileName).parent_path();
     readLimits(file, config.limits);

@@ -10,7 +10,7 @@
 #include "daemon/pose_config.h"
 #include "daemon/still_policy.h"
 #include "daemon/virtual_config.h"
-#include "pipeline/pipeline.h"
+#include "pipeline/quality.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -50,7 +50,7 @@ struct RecordConfig {
 };
 
 /// Everything the daemon can be told, from the configuration file and the command line. The
-/// defaults here are the product's; systemd/mfard.toml shows them.
+/// defaults here are those of option_table.h; a test compares both.
 struct Config {
     std::string source = "cameras";   ///< not used when `recording` is set
     std::filesystem::path recording;  ///< empty: none

@@ -44,14 +44,14 @@ void removeDead(const std::filesystem::path& path, const sockaddr_un& address) {
     struct stat there{};
     if (lstat(path.c_str(), &there) != 0) return;
     if (!S_ISSOCK(there.st_mode)) throw cannotListen(path, "is a file that is no socket");
-    const Fd probe(streamSocket(), "socket");
+    const OwnedFd probe = opened(streamSocket(), "socket");
     const auto* generic = reinterpret_cast<const sockaddr*>(&address);
     if (connect(probe.get(), generic, sizeof address) == 0 || errno != ECONNREFUSED)
         throw cannotListen(path, "another process listens there");
     unlink(path.c_str());
 }
 
-int listenAt(const std::filesystem::path& path) {
+OwnedFd listenAt(const std::filesystem::path& path) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     if (path.native().size() >= sizeof address.sun_path)
@@ -59,14 +59,10 @@ int listenAt(const std::filesystem::path& path) {
                                              sizeof address.sun_path - 1));
     path.native().copy(address.sun_path, path.native().size());
     removeDead(path, address);
-    const int fd = streamSocket();
-    if (fd < 0) throw cannotListen(path, std::strerror(errno));
-    if (bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-        chmod(path.c_str(), kOwnerAndGroup) != 0 || listen(fd, kWaitingClients) != 0) {
-        const int error = errno;
-        close(fd);
-        throw cannotListen(path, std::strerror(error));
-    }
+    OwnedFd fd(streamSocket());
+    if (!fd || bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+        chmod(path.c_str(), kOwnerAndGroup) != 0 || listen(fd.get(), kWaitingClients) != 0)
+        throw cannotListen(path, std::strerror(errno));
     return fd;
 }
 
@@ -79,9 +75,10 @@ int millisecondsTo(Timestamp end) {
 
 ControlSocket::ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts)
     : path_(std::move(path)), handler_(std::move(handler)), hearts_(hearts),
-      operators_(operatorsGroup()), listening_(listenAt(path_), "socket"),
-      stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"),
-      answered_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd"), thread_([this] { serve(); }) {}
+      operators_(operatorsGroup()), listening_(listenAt(path_)),
+      stop_(opened(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd")),
+      answered_(opened(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd")),
+      thread_([this] { serve(); }) {}
 
 ControlSocket::~ControlSocket() {
     const std::uint64_t one = 1;
@@ -145,7 +142,7 @@ bool ControlSocket::waitFor(std::vector<Client>& clients) {
     int timeout = -1;
     for (const Client& client : clients) {
         // One that has said all waits for its turn.
-        waiting.push_back({client.isComplete ? -1 : client.fd->get(), POLLIN, 0});
+        waiting.push_back({client.isComplete ? -1 : client.fd.get(), POLLIN, 0});
         if (client.isComplete) continue;
         const int left = millisecondsTo(client.end);
         timeout = timeout < 0 ? left : std::min(timeout, left);
@@ -160,8 +157,7 @@ bool ControlSocket::waitFor(std::vector<Client>& clients) {
 bool ControlSocket::accept(std::vector<Client>& clients) {
     const int fd = accept4(listening_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (fd >= 0)
-        clients.push_back({std::make_unique<Fd>(fd, "client"),
-                           Timestamp::now() + std::chrono::milliseconds(kRequestMs),
+        clients.push_back({OwnedFd(fd), Timestamp::now() + std::chrono::milliseconds(kRequestMs),
                            roleOfPeer(fd, operators_)});
     else if (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)
         // The client stays in the queue, so the socket stays ready: without a pause, this spins.
@@ -173,7 +169,7 @@ bool ControlSocket::accept(std::vector<Client>& clients) {
 // cut off, which the handler sees at its length.
 void ControlSocket::read(Client& client) {
     std::array<char, 1024> part{};
-    const ssize_t bytes = recv(client.fd->get(), part.data(), part.size(), 0);
+    const ssize_t bytes = recv(client.fd.get(), part.data(), part.size(), 0);
     if (bytes < 0) {
         client.isGone = errno != EAGAIN && errno != EINTR;
         return;
@@ -192,13 +188,13 @@ void ControlSocket::answer(Answering& one) {
         std::optional<Heartbeat> heart;
         if (hearts_ != nullptr)
             heart.emplace(*hearts_, "control answer", budget::kAnswer, ThreadRole::Helper);
-        const int client = one.client.fd->get();
+        const int client = one.client.fd.get();
         ControlAnswer answer = handler_(one.client.request, one.client.role);
         answer.line += '\n';
         send(client, answer.line.data(), answer.line.size());
         send(client, answer.data.data(), answer.data.size());
         // The end of the answer, and of the connection.
-        one.client.fd.reset();
+        one.client.fd = OwnedFd();
     }
     one.isOver = true;
     constexpr std::uint64_t kOne = 1;

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "base/heartbeats.h"
+#include "base/owned_fd.h"
 #include "base/time.h"
 #include "daemon/control_role.h"
-#include "daemon/events.h"
 
 #include <atomic>
 #include <cstddef>
@@ -49,7 +49,7 @@ public:
 
 private:
     struct Client {
-        std::unique_ptr<Fd> fd;
+        OwnedFd fd;
         Timestamp end;  ///< of its time for the request
         ControlRole role = ControlRole::Observer;
         std::string request{};
@@ -76,9 +76,9 @@ private:
     Handler handler_;
     Heartbeats* hearts_;
     std::optional<gid_t> operators_;
-    Fd listening_;
-    Fd stop_;
-    Fd answered_;                   ///< readable when an answer is over
+    OwnedFd listening_;
+    OwnedFd stop_;
+    OwnedFd answered_;              ///< readable when an answer is over
     std::list<Answering> answers_;  ///< of the thread
     std::thread thread_;
 };

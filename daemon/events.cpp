@@ -32,7 +32,7 @@ int openSignals() {
     return signalfd(-1, &set, SFD_CLOEXEC | SFD_NONBLOCK);
 }
 
-void arm(const Fd& timer, std::chrono::duration<double> time, bool repeat) {
+void arm(const OwnedFd& timer, std::chrono::duration<double> time, bool repeat) {
     const double s = std::max(time.count(), 1e-6);
     timespec at{};
     at.tv_sec = static_cast<time_t>(s);
@@ -43,27 +43,20 @@ void arm(const Fd& timer, std::chrono::duration<double> time, bool repeat) {
 }
 
 /// Takes the count out of a timer or event descriptor; false when it was not set.
-bool drained(const Fd& fd) {
+bool drained(const OwnedFd& fd) {
     std::uint64_t count = 0;
     return read(fd.get(), &count, sizeof count) == sizeof count;
 }
 
 }  // namespace
 
-Fd::Fd(int fd, const char* what) : fd_(fd) {
-    if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
-}
-
-Fd::~Fd() {
-    close(fd_);
-}
-
 Events::Events()
-    : epoll_(epoll_create1(EPOLL_CLOEXEC), "epoll"), signals_(openSignals(), "signalfd"),
-      tick_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK), "timerfd"),
-      deadline_(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK), "timerfd"),
-      wake_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd") {
-    for (const Fd* fd : {&signals_, &tick_, &deadline_, &wake_}) {
+    : epoll_(opened(epoll_create1(EPOLL_CLOEXEC), "epoll")),
+      signals_(opened(openSignals(), "signalfd")),
+      tick_(opened(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK), "timerfd")),
+      deadline_(opened(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK), "timerfd")),
+      wake_(opened(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK), "eventfd")) {
+    for (const OwnedFd* fd : {&signals_, &tick_, &deadline_, &wake_}) {
         epoll_event interest{};
         interest.events = EPOLLIN;
         if (epoll_ctl(epoll_.get(), EPOLL_CTL_ADD, fd->get(), &interest) != 0)

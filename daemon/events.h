@@ -1,23 +1,10 @@
 #pragma once
 
+#include "base/owned_fd.h"
+
 #include <chrono>
 
 namespace mfar {
-
-/// An open file descriptor, closed at the end.
-class Fd {
-public:
-    /// Throws std::system_error with `what` when `fd` is negative (errno tells why).
-    Fd(int fd, const char* what);
-    Fd(const Fd&) = delete;
-    Fd& operator=(const Fd&) = delete;
-    ~Fd();
-
-    [[nodiscard]] int get() const { return fd_; }
-
-private:
-    int fd_;
-};
 
 struct Event {
     enum class Kind {
@@ -46,11 +33,11 @@ public:
     void wake();
 
 private:
-    Fd epoll_;
-    Fd signals_;
-    Fd tick_;
-    Fd deadline_;
-    Fd wake_;
+    OwnedFd epoll_;
+    OwnedFd signals_;
+    OwnedFd tick_;
+    OwnedFd deadline_;
+    OwnedFd wake_;
 };
 
 }  // namespace mfar

@@ -3,6 +3,7 @@
 #include <exception>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace mfar {
 
@@ -26,6 +27,16 @@ public:
 
     const ExitCode code;
 };
+
+/// What `action` returns. An Error becomes a Failure with this code and the same message.
+template <class Error = std::runtime_error, class Action>
+decltype(auto) orFail(ExitCode code, Action&& action) {
+    try {
+        return std::forward<Action>(action)();
+    } catch (const Error& error) {
+        throw Failure(code, error.what());
+    }
+}
 
 /// What to exit with after this error; Internal when it says nothing about that.
 [[nodiscard]] inline ExitCode exitCode(const std::exception& error) {

@@ -20,7 +20,7 @@ std::string namesOf(const std::vector<QualityLevel>& levels) {
 }  // namespace
 
 void readGovernor(TomlReader& file, GovernorConfig& governor) {
-    file.number(range::kDeadline, governor.deadlineMs);
+    file.number("governor.deadline_ms", governor.deadlineMs);
     file.text("governor.pin", governor.pin);
     std::string table;
     file.text("governor.table", table);

@@ -58,7 +58,7 @@ std::uint64_t LimitsConfig::memoryBytes() const {
 }
 
 void readLimits(TomlReader& file, LimitsConfig& limits) {
-    file.number(range::kMemory, limits.memoryMb, [](double mb) -> std::optional<std::string> {
+    file.number("limits.memory_mb", limits.memoryMb, [](double mb) -> std::optional<std::string> {
         if (mb == 0 || mb >= kLeastMb) return std::nullopt;
         return fmt::format("must be 0 or at least {}", kLeastMb);
     });

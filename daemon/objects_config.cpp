@@ -34,15 +34,15 @@ std::optional<std::string> lengthFault(std::span<const double> wxyz) {
 void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) {
     out.size.setConstant(0.1);
     file.choice<VirtualShape>(prefix + "shape", out.shape, kShapes);
-    file.numbers(range::kObjectSize, {out.size.data(), 3}, prefix);
+    file.numbers(prefix + "size", {out.size.data(), 3});
     // One colour alone is that of the whole.
     Eigen::Vector3d first = Eigen::Vector3d::Constant(-1);
-    file.numbers(range::kColour, {first.data(), 3}, prefix);
+    file.numbers(prefix + "colour", {first.data(), 3});
     if (first.x() >= 0) out.colours.fill(first.cast<float>());
     Eigen::Vector3d second = out.colours[1].cast<double>();
-    file.numbers(range::kSecondColour, {second.data(), 3}, prefix);
+    file.numbers(prefix + "second_colour", {second.data(), 3});
     out.colours[1] = second.cast<float>();
-    file.integer(range::kSquares, out.squares, prefix);
+    file.integer(prefix + "squares", out.squares);
 }
 
 /// Reads each model once, however many objects show it and whatever they call its file.
@@ -94,7 +94,7 @@ void readModel(TomlReader& file, const std::string& prefix, ModelReader& models,
                   }
               });
     double scale = 1;
-    file.number(range::kScale, scale, nullptr, prefix);
+    file.number(prefix + "scale", scale);
     out.scale = static_cast<float>(scale);
 }
 
@@ -106,7 +106,7 @@ void readTag(TomlReader& file, const std::string& prefix, std::optional<TagKey>&
          {kTagFamilies[2].name, kTagFamilies[2].family},
          {kTagFamilies[3].name, kTagFamilies[3].family}}};
     file.choice<TagFamily>(prefix + "family", key.family, kFamilies);
-    file.integer(prefix + "tag", key.id, 0, info(key.family).count - 1);
+    file.integer(prefix + "tag", key.id, info(key.family).count - 1);
     if (key.id >= 0) tag = key;
 }
 
@@ -116,9 +116,9 @@ PlacedObject readObject(TomlReader& file, const std::string& prefix, ModelReader
     readShape(file, prefix, out.shape);
     readTag(file, prefix, out.tag);
     RigidTransform& T = out.T_anchor_object;
-    file.numbers(range::kPosition, {T.translation.data(), 3}, prefix);
+    file.numbers(prefix + "position", {T.translation.data(), 3});
     std::array<double, 4> wxyz{1, 0, 0, 0};
-    file.numbers(range::kOrientation, wxyz, prefix, lengthFault);
+    file.numbers(prefix + "orientation", wxyz, lengthFault);
     T.rotation = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
     return out;
 }

@@ -1,6 +1,7 @@
 #include "daemon/options.h"
 
 #include "daemon/exit_code.h"
+#include "daemon/option_text.h"
 #include "daemon/rig_words.h"
 
 #include <CLI/CLI.hpp>
@@ -15,9 +16,9 @@ CLI::Validator accepts(std::optional<std::string> (*fault)(std::string_view), co
 }
 
 template <class E>
-CLI::Validator oneOf(std::optional<E> (*meaning)(std::string_view), const char* words) {
+CLI::Validator oneOf(std::optional<E> (*meaning)(std::string_view), const std::string& words) {
     return {[meaning, words](std::string& given) {
-                return meaning(given) ? std::string() : "\"" + given + "\" is none of " + words;
+                return meaning(given) ? std::string() : "\"" + given + "\" is not one of " + words;
             },
             "", words};
 }
@@ -30,59 +31,43 @@ struct Words {
     std::string size;
 };
 
-void addInputs(CLI::App& app, Options& options, Words& words) {
+/// An option that overrides a key of the configuration.
+template <class T>
+CLI::Option* addKey(CLI::App& app, const char* name, T& out, const char* value) {
+    return app.add_option(name, out, helpFor(name))->type_name(value);
+}
+
+/// The same of a key that is one of some words.
+template <class E>
+void addWord(CLI::App& app, const char* name, std::string& out, const char* value,
+             std::optional<E> (*meaning)(std::string_view)) {
+    addKey(app, name, out, value)->check(oneOf(meaning, wordsFor(name)));
+}
+
+void addKeys(CLI::App& app, Options& options, Words& words) {
+    CLI::Option* source =
+        addKey(app, "--source", options.source, "SOURCE")->check(accepts(sourceFault, "source"));
+    addKey(app, "--recording", options.recording, "DIR")->excludes(source);
+    addWord(app, "--pace", words.pace, "PACE", sourcePace);
+    addWord(app, "--pose", words.pose, "POSE", poseOrigin);
+    addKey(app, "--seed", options.seed, "N");
+    addKey(app, "--display", options.display, "DISPLAY")->check(accepts(displayFault, "display"));
+    addKey(app, "--size", words.size, "SIZE")->check(accepts(pictureSizeFault, "size"));
+    addWord(app, "--mode", words.mode, "MODE", superResMode);
+    addWord(app, "--engine", words.engine, "ENGINE", engineWish);
+    app.add_flag("--measure", options.measure, helpFor("--measure"));
+}
+
+void addOthers(CLI::App& app, Options& options, bool& printConfig) {
+    app.set_help_flag("-h,--help", "Print this text");
+    app.set_version_flag("--version", "mfard " MFAR_VERSION, "Print the version");
     app.add_option("--config", options.config, "Configuration file (TOML)")->type_name("FILE");
     app.add_flag("--check-config", options.checkConfig,
                  "Only check the configuration: prints ok, or every fault with its line");
+    app.add_flag("--print-config", printConfig,
+                 "Only print a configuration file with every key, its meaning and default");
     app.add_flag("--release-trigger", options.releaseTrigger,
                  "Only bring the trigger's line to its safe level, after a crash");
-    CLI::Option* source = app.add_option("--source", options.source,
-                                         "Where pictures come from: cameras (default), as\n"
-                                         "configured, or synthetic[:SCENE[,PATH]]\n"
-                                         "(" +
-                                             sourceHelp() + ")")
-                              ->check(accepts(sourceFault, "source"))
-                              ->type_name("SOURCE");
-    app.add_option("--recording", options.recording,
-                   "Play this recording (folder in EuRoC layout) instead of a source")
-        ->type_name("DIR")
-        ->excludes(source);
-    app.add_option("--pace", words.pace,
-                   "realtime: the source's own speed, late frames are dropped;\n"
-                   "consumer: as fast as frames are processed, none is dropped;\n"
-                   "auto (default): consumer for recordings, realtime for the rest")
-        ->check(oneOf(sourcePace, "auto, realtime, consumer"))
-        ->type_name("PACE");
-    app.add_option("--pose", words.pose,
-                   "Where the camera's pose comes from: tags (default), recorded or none")
-        ->check(oneOf(poseOrigin, "tags, recorded, none"))
-        ->type_name("POSE");
-    app.add_option("--seed", options.seed, "Random numbers of the synthetic source")
-        ->type_name("N");
-}
-
-void addOutputs(CLI::App& app, Options& options, Words& words) {
-    app.add_option("--display", options.display,
-                   "Where pictures go: auto (default; the first screen there is),\n"
-                   "kms[:cardN][,CONNECTOR][,WxH[@HZ]], fbdev[:/dev/fbN], none,\n"
-                   "png:DIR (one file per frame) or y4m:FILE (one video file or named pipe)")
-        ->check(accepts(displayFault, "display"))
-        ->type_name("DISPLAY");
-    app.add_option("--size", words.size,
-                   "Of the pictures: screen (default; as large as the screen that is there at\n"
-                   "the start shows them), still (the still's resolution), or WxH to fit into")
-        ->check(accepts(pictureSizeFault, "size"))
-        ->type_name("SIZE");
-    app.add_option("--mode", words.mode,
-                   "Super-resolution: detail (default; the still's detail as far as the\n"
-                   "video confirms it), blend (fades the still over), off (enlarges)")
-        ->check(oneOf(superResMode, "detail, blend, off"))
-        ->type_name("MODE");
-    app.add_option("--engine", words.engine,
-                   "What computes pictures: gles (shaders), simd (the processor's vector\n"
-                   "units; needs no graphics processor), auto (default; the faster one)")
-        ->check(oneOf(engineWish, "auto, gles, simd"))
-        ->type_name("ENGINE");
     app.add_option("--record", options.recordTo, "Record video and stills into this new folder")
         ->type_name("DIR");
     app.add_option("--frames", options.frames, "End after N pictures")
@@ -95,34 +80,57 @@ void addOutputs(CLI::App& app, Options& options, Words& words) {
     app.add_option("--control", options.control,
                    "Listen for mfarctl at this socket; the group may use it, too")
         ->type_name("SOCKET");
-    app.add_flag("--measure", options.measure,
-                 "Wait for the graphics processor after each stage, for exact stage times");
     app.add_flag("--validate", options.validate,
-                 "Check all that is written on the graphics processor for NaN, infinity and\n"
-                 "range, about ten times as slow; what is wrong is told in the log");
+                 "Check everything that the engine writes for NaN, infinity and range; faults are\n"
+                 "logged. About ten times slower");
 }
+
+/// The command line, with what it fills.
+struct Parser {
+    CLI::App app{"mfard: lifts a fast video sensor to the resolution of a slow still sensor.\n"
+                 "Signals: TERM and INT end it, HUP reads the configuration file again.\n",
+                 "mfard"};
+    Options options;
+    Words words;
+    bool printConfig = false;
+
+    Parser() {
+        app.get_formatter()->column_width(26);
+        addOthers(app, options, printConfig);
+        addKeys(app, options, words);
+    }
+};
 
 }  // namespace
 
+std::vector<ArgumentText> argumentTexts() {
+    const Parser parser;
+    std::vector<ArgumentText> out;
+    for (const CLI::Option* option : parser.app.get_options()) {
+        const bool isFlag = option->get_items_expected_max() == 0;
+        // Behind a colon stand the checks.
+        const std::string value = option->get_type_name();
+        out.push_back({option->get_name(false, true),
+                       isFlag ? "" : value.substr(0, value.find(':')), option->get_description()});
+    }
+    return out;
+}
+
 CommandLine parseCommandLine(int argc, const char* const* argv) {
     CommandLine line;
-    Words words;
-    CLI::App app("mfard: lifts a fast video sensor to the resolution of a slow still sensor.\n"
-                 "Signals: TERM and INT end it, HUP reads the configuration file again.\n",
-                 "mfard");
-    app.get_formatter()->column_width(26);
-    addInputs(app, line.options, words);
-    addOutputs(app, line.options, words);
-    app.set_version_flag("--version", "mfard " MFAR_VERSION);
+    Parser parser;
     try {
-        app.parse(argc, argv);
+        parser.app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        line.print = app.help();
+        line.print = parser.app.help();
     } catch (const CLI::CallForVersion& version) {
         line.print = std::string(version.what()) + "\n";
     } catch (const CLI::ParseError& error) {
         throw Failure(ExitCode::Usage, std::string(error.what()) + " (mfard --help explains)");
     }
+    if (parser.printConfig) line.print = defaultConfigText();
+    line.options = parser.options;
+    const Words& words = parser.words;
     // Positive test, so that "nan" is refused.
     const double seconds = line.options.seconds.value_or(1);
     if (!(seconds > 0 && seconds <= 1e7))

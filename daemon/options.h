@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mfar {
 
@@ -35,8 +36,16 @@ struct Options {
 /// What the command line asks for: a run, or only a text to be printed.
 struct CommandLine {
     Options options;
-    std::optional<std::string> print;  ///< --help, --version
+    std::optional<std::string> print;  ///< --help, --version, --print-config
 };
+
+/// One option, for the manual page and completion.
+struct ArgumentText {
+    std::string names;  ///< "-h,--help"
+    std::string value;  ///< "FILE"; empty: a flag
+    std::string meaning;
+};
+[[nodiscard]] std::vector<ArgumentText> argumentTexts();
 
 /// Throws Failure(Usage).
 [[nodiscard]] CommandLine parseCommandLine(int argc, const char* const* argv);

@@ -44,11 +44,11 @@ void readPose(TomlReader& file, PoseConfig& pose) {
         if (std::find(pose.families.begin(), pose.families.end(), family) == pose.families.end())
             pose.families.push_back(family);
     }
-    file.number(range::kTagSize, pose.tagSize);
-    file.number(range::kDecimation, pose.decimation, decimationFault);
-    file.integer(range::kDetectors, pose.threads);
-    file.integer(range::kFullSearch, pose.fullSearchInterval);
-    file.integer(range::kBridge, pose.bridgeFrames);
+    file.number("pose.tag_size", pose.tagSize);
+    file.number("pose.decimation", pose.decimation, decimationFault);
+    file.integer("pose.threads", pose.threads);
+    file.integer("pose.full_search_interval", pose.fullSearchInterval);
+    file.integer("pose.bridge_frames", pose.bridgeFrames);
 }
 
 std::optional<PoseOrigin> poseOrigin(std::string_view word) {
@@ -60,11 +60,8 @@ std::optional<PoseOrigin> poseOrigin(std::string_view word) {
 TagMap readTagMap(const std::filesystem::path& file) {
     std::error_code ignored;
     const bool there = std::filesystem::exists(file, ignored);
-    try {
-        return loadTagMap(file);
-    } catch (const TagMapError& error) {
-        throw Failure(there ? ExitCode::BadData : ExitCode::NoInput, error.what());
-    }
+    return orFail<TagMapError>(there ? ExitCode::BadData : ExitCode::NoInput,
+                               [&] { return loadTagMap(file); });
 }
 
 TagMap configuredTags(const PoseConfig& pose) {

@@ -14,47 +14,44 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kMostLevels = 64;
-constexpr double kShort = 1, kLongest = 60000;  // [ms]
-constexpr double kLeastShare = 0.001;
+constexpr double kShort = 1;  // [ms]
 constexpr std::pair<std::string_view, SuperResMode> kModes[] = {
     {"detail", SuperResMode::Detail}, {"blend", SuperResMode::Blend}, {"off", SuperResMode::Off}};
 
-/// A whole number of a level: where it stands in a file and in a Quality. The ranges are those of
-/// flow_options.h.
+/// A whole number of a level: where it stands in a file and in a Quality.
 struct LevelKey {
     const char* name;
     int& (*in)(Quality&);
-    int least, most;
 };
 constexpr LevelKey kLevelKeys[] = {
-    {"depth_every", [](Quality& q) -> int& { return q.depthEvery; }, 1, 60},
-    {"flow2d.search_radius", [](Quality& q) -> int& { return q.flow2d.searchRadius; }, 0, 40},
-    {"flow2d.candidates", [](Quality& q) -> int& { return q.flow2d.candidates; }, 1, 4},
-    {"flow2d.steps", [](Quality& q) -> int& { return q.flow2d.steps; }, 0, 16},
-    {"flow2d.propagations", [](Quality& q) -> int& { return q.flow2d.propagations; }, 0, 8},
+    {"depth_every", [](Quality& q) -> int& { return q.depthEvery; }},
+    {"flow2d.search_radius", [](Quality& q) -> int& { return q.flow2d.searchRadius; }},
+    {"flow2d.candidates", [](Quality& q) -> int& { return q.flow2d.candidates; }},
+    {"flow2d.steps", [](Quality& q) -> int& { return q.flow2d.steps; }},
+    {"flow2d.propagations", [](Quality& q) -> int& { return q.flow2d.propagations; }},
     {"flow2d.coarsest_propagations",
-     [](Quality& q) -> int& { return q.flow2d.coarsestPropagations; }, 0, 8},
-    {"flow2d.plane_fits", [](Quality& q) -> int& { return q.flow2d.planeFits; }, 0, 2},
-    {"epipolar.window_radius", [](Quality& q) -> int& { return q.epipolar.windowRadius; }, 0, 8},
-    {"epipolar.step_penalty", [](Quality& q) -> int& { return q.epipolar.stepPenalty; }, 1, 30},
-    {"epipolar.jump_penalty", [](Quality& q) -> int& { return q.epipolar.jumpPenalty; }, 1, 60},
-    {"epipolar.finest", [](Quality& q) -> int& { return q.epipolar.finest; }, 0, 2},
-    {"epipolar.most_predicted", [](Quality& q) -> int& { return q.epipolar.mostPredicted; }, 0, 60},
+     [](Quality& q) -> int& { return q.flow2d.coarsestPropagations; }},
+    {"flow2d.plane_fits", [](Quality& q) -> int& { return q.flow2d.planeFits; }},
+    {"epipolar.window_radius", [](Quality& q) -> int& { return q.epipolar.windowRadius; }},
+    {"epipolar.step_penalty", [](Quality& q) -> int& { return q.epipolar.stepPenalty; }},
+    {"epipolar.jump_penalty", [](Quality& q) -> int& { return q.epipolar.jumpPenalty; }},
+    {"epipolar.finest", [](Quality& q) -> int& { return q.epipolar.finest; }},
+    {"epipolar.most_predicted", [](Quality& q) -> int& { return q.epipolar.mostPredicted; }},
 };
 
 QualityLevel readLevel(TomlReader& file, const std::string& prefix) {
     QualityLevel out;
     file.text(prefix + "name", out.name);
-    file.number(prefix + "ms", out.ms, 0.001, kLongest);
-    file.number(prefix + "psnr_db", out.psnrDb, 0, 200);
+    file.number(prefix + "ms", out.ms);
+    file.number(prefix + "psnr_db", out.psnrDb);
     file.choice<SuperResMode>(prefix + "mode", out.quality.mode, kModes);
     file.boolean(prefix + "cubic", out.quality.cubic);
     file.boolean(prefix + "learned", out.quality.learned);
     file.boolean(prefix + "along_lines", out.quality.alongLines);
-    file.number(prefix + "detail_share", out.quality.detailShare, kLeastShare, 1);
-    file.number(prefix + "second_share", out.quality.secondShare, 0, 1);
+    file.number(prefix + "detail_share", out.quality.detailShare);
+    file.number(prefix + "second_share", out.quality.secondShare);
     for (const LevelKey& key : kLevelKeys)
-        file.integer(prefix + key.name, key.in(out.quality), key.least, key.most);
+        file.integer(prefix + key.name, key.in(out.quality));
     return out;
 }
 
@@ -133,7 +130,7 @@ mode = "detail"
 }  // namespace
 
 std::vector<QualityLevel> parseQualityLevels(std::string_view toml, const std::string& fileName) {
-    TomlReader file(toml, fileName);
+    TomlReader file(toml, fileName, levelOptions());
     std::vector<QualityLevel> out;
     for (const std::string& prefix : file.sections("level", kMostLevels))
         out.push_back(readLevel(file, prefix));

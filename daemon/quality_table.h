@@ -21,10 +21,8 @@ struct QualityLevel {
 /// fast to accurate; it writes that of another machine.
 [[nodiscard]] const std::vector<QualityLevel>& builtInQualityLevels();
 
-/// Levels from the text of such a file, sorted by their times: sections [[level]] with the keys
-/// name, ms, psnr_db, mode, cubic, learned, along_lines, detail_share, second_share, depth_every
-/// and, of the flow, flow2d.KEY and epipolar.KEY. What is absent is as by default. Throws
-/// ConfigError with every fault; `file` is for messages.
+/// Levels from the text of such a file with sections [[level]], whose keys levelOptions() lists,
+/// sorted by their times. Throws ConfigError with every fault; `file` is for messages.
 [[nodiscard]] std::vector<QualityLevel> parseQualityLevels(std::string_view toml,
                                                            const std::string& file);
 

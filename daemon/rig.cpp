@@ -76,13 +76,10 @@ struct PlayedSource final : RigSource {
         const std::filesystem::path& folder = config.recording;
         if (!std::filesystem::is_directory(folder))
             throw Failure(ExitCode::NoInput, folder.string() + ": there is no such recording");
-        try {
-            Recording out = loadRecording(folder);
-            requireMemory(config.limits, out.rig.video.size, out.rig.still.size, folder.string());
-            return out;
-        } catch (const RecordingError& error) {
-            throw Failure(ExitCode::BadData, error.what());
-        }
+        Recording out =
+            orFail<RecordingError>(ExitCode::BadData, [&] { return loadRecording(folder); });
+        requireMemory(config.limits, out.rig.video.size, out.rig.still.size, folder.string());
+        return out;
     }
     [[nodiscard]] const StereoRig& geometry() const override { return player.recording().rig; }
     [[nodiscard]] Camera& video() override { return player.video(); }
@@ -97,11 +94,7 @@ struct PlayedSource final : RigSource {
 };
 
 void finish(Recorder& recorder) {
-    try {
-        recorder.finish();
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::OutputFailed, error.what());
-    }
+    orFail(ExitCode::OutputFailed, [&] { recorder.finish(); });
 }
 
 std::uint64_t lostBy(const Recorder& recorder) {
@@ -212,11 +205,8 @@ Rig::makeRecording(const std::filesystem::path& folder) const {
     requireNoRecorder();
     return
         [folder, rig = geometry(), rateHz = source_->video().info().rateHz, options = recording_] {
-            try {
-                return std::make_shared<Recorder>(folder, rig, rateHz, options);
-            } catch (const std::runtime_error& error) {
-                throw Failure(ExitCode::OutputFailed, error.what());
-            }
+            return orFail(ExitCode::OutputFailed,
+                          [&] { return std::make_shared<Recorder>(folder, rig, rateHz, options); });
         };
 }
 
@@ -309,21 +299,15 @@ std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {
 
 void releaseTrigger(const TriggerLineConfig& line) {
     if (line.line.empty()) return;
-    try {
-        driveSafe(triggerOptions(line));
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::Unavailable, error.what());
-    }
+    orFail(ExitCode::Unavailable, [&] { driveSafe(triggerOptions(line)); });
 }
 
 std::unique_ptr<Display> openDisplay(const Config& config, double rateHz, std::stop_token cancel,
                                      const FileDisplayPolicy& policy) {
-    try {
+    return orFail(ExitCode::OutputFailed, [&]() -> std::unique_ptr<Display> {
         if (isScreen(config.display)) return openScreen(config.display);
         return openFileDisplay(config.display, rateHz, std::move(cancel), policy);
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::OutputFailed, error.what());
-    }
+    });
 }
 
 ScreenPicture copyOf(const Picture& picture) {

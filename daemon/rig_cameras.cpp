@@ -163,11 +163,9 @@ RigCalibration calibrationOf(const CamerasConfig& config) {
     if (config.calibration.empty()) return {nominalRig(config.video.size, config.still.size), 0};
     std::error_code ignored;
     const bool there = std::filesystem::exists(config.calibration, ignored);
-    try {
+    return orFail<CalibrationError>(there ? ExitCode::BadData : ExitCode::NoInput, [&] {
         return loadRig(config.calibration, {config.video.size, config.still.size});
-    } catch (const CalibrationError& error) {
-        throw Failure(there ? ExitCode::BadData : ExitCode::NoInput, error.what());
-    }
+    });
 }
 
 CameraModel nominalCamera(Size size) {

@@ -74,8 +74,4 @@ std::optional<std::string> displayFault(std::string_view display) {
                        display);
 }
 
-std::string sourceHelp() {
-    return fmt::format("scenes: {}\npaths: {}", names(kScenes), names(kPaths));
-}
-
 }  // namespace mfar

@@ -21,8 +21,6 @@ struct SourceWords {
 /// exist. Does not try to open it.
 [[nodiscard]] std::optional<std::string> sourceFault(std::string_view source);
 [[nodiscard]] std::optional<std::string> displayFault(std::string_view display);
-/// Scenes and paths that follow "synthetic:", for the help text.
-[[nodiscard]] std::string sourceHelp();
 
 /// A screen of this machine, see openScreen().
 [[nodiscard]] bool isScreen(std::string_view display);

@@ -153,11 +153,7 @@ void Session::showNext(std::optional<CapturedFrame>& captured) {
 }
 
 void Session::finishDisplay() {
-    try {
-        display_->finish();
-    } catch (const std::runtime_error& error) {
-        throw Failure(ExitCode::OutputFailed, error.what());
-    }
+    orFail(ExitCode::OutputFailed, [&] { display_->finish(); });
 }
 
 // Recordings keep every picture, and who waits for that says so.

@@ -9,8 +9,9 @@
 #include "daemon/process_use.h"
 #include "daemon/quality_counts.h"
 #include "hal/still_matcher.h"
-#include "pipeline/pipeline.h"
 #include "pipeline/results.h"
+#include "pipeline/stage_clock.h"
+#include "pipeline/traced_layer.h"
 
 #include <array>
 #include <cstdint>

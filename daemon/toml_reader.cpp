@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 namespace mfar {
 namespace {
@@ -15,10 +16,16 @@ namespace {
 constexpr std::size_t kMostFaults = 50;
 constexpr std::size_t kLongestKey = 200;
 
-std::string keyOf(const range::ConfigRange& range, std::string_view prefix) {
-    std::string out(prefix.empty() ? range.section : prefix);
-    if (!out.ends_with('.')) out += '.';
-    return out.append(range.name);
+/// Takes "section." or "section[0]." off the key; false when the key is not in the section.
+bool takeSection(const OptionSection& section, std::string_view& key) {
+    if (section.name.empty()) return true;
+    if (!key.starts_with(section.name)) return false;
+    std::string_view rest = key.substr(section.name.size());
+    if (section.kind == OptionSection::Kind::List && rest.starts_with('['))
+        rest = rest.substr(std::min(rest.find(']'), rest.size() - 1) + 1);
+    if (!rest.starts_with('.')) return false;
+    key = rest.substr(1);
+    return true;
 }
 
 std::string_view kind(const toml::node& node) {
@@ -80,7 +87,9 @@ double numberOf(const toml::node& node) {
 
 }  // namespace
 
-TomlReader::TomlReader(std::string_view text, std::string file) : file_(std::move(file)) {
+TomlReader::TomlReader(std::string_view text, std::string file,
+                       std::span<const OptionSection> table)
+    : file_(std::move(file)), table_(table) {
     if (const auto excess = tomlExcess(text))
         throw ConfigError(
             fmt::format("{}:{}:{}: {}", file_, excess->line, excess->column, excess->what));
@@ -91,8 +100,18 @@ TomlReader::TomlReader(std::string_view text, std::string file) : file_(std::mov
     }
 }
 
-void TomlReader::number(std::string_view key, double& out, double least, double most,
-                        const NumberCheck& check) {
+const Option& TomlReader::option(std::string_view key, OptionType type) const {
+    for (const OptionSection& section : table_) {
+        std::string_view name = key;
+        if (!takeSection(section, name)) continue;
+        const auto found = std::ranges::find(section.options, name, &Option::name);
+        if (found != section.options.end() && found->type == type) return *found;
+    }
+    throw std::logic_error(fmt::format("no option {} of this type", key));
+}
+
+void TomlReader::number(std::string_view key, double& out, const NumberCheck& check) {
+    const auto [least, most, unit] = option(key, OptionType::Number).range;
     const toml::node* node = find(key, "a number", &toml::node::is_number);
     if (node == nullptr) return;
     const double value = numberOf(*node);
@@ -104,21 +123,8 @@ void TomlReader::number(std::string_view key, double& out, double least, double 
     out = value;
 }
 
-void TomlReader::number(const range::ConfigRange& range, double& out, const NumberCheck& check,
-                        std::string_view prefix) {
-    number(keyOf(range, prefix), out, range.least, range.most, check);
-}
-
-void TomlReader::integer(const range::ConfigRange& range, int& out, std::string_view prefix) {
-    integer(keyOf(range, prefix), out, static_cast<int>(range.least), static_cast<int>(range.most));
-}
-
-void TomlReader::numbers(const range::ConfigRange& range, std::span<double> out,
-                         std::string_view prefix, const NumbersCheck& check) {
-    numbers(keyOf(range, prefix), out, range.least, range.most, check);
-}
-
 void TomlReader::integer(std::string_view key, std::uint64_t& out) {
+    (void)option(key, OptionType::Whole);
     const toml::node* node = find(key, "a whole number", &toml::node::is_integer);
     if (node == nullptr) return;
     const std::int64_t value = node->value<std::int64_t>().value();
@@ -127,7 +133,12 @@ void TomlReader::integer(std::string_view key, std::uint64_t& out) {
     out = static_cast<std::uint64_t>(value);
 }
 
-void TomlReader::integer(std::string_view key, int& out, int least, int most) {
+void TomlReader::integer(std::string_view key, int& out) {
+    integer(key, out, static_cast<int>(option(key, OptionType::Whole).range.most));
+}
+
+void TomlReader::integer(std::string_view key, int& out, int most) {
+    const int least = static_cast<int>(option(key, OptionType::Whole).range.least);
     const toml::node* node = find(key, "a whole number", &toml::node::is_integer);
     if (node == nullptr) return;
     const std::int64_t value = node->value<std::int64_t>().value();
@@ -138,12 +149,18 @@ void TomlReader::integer(std::string_view key, int& out, int least, int most) {
 }
 
 void TomlReader::boolean(std::string_view key, bool& out) {
+    (void)option(key, OptionType::Flag);
     const toml::node* node = find(key, "true or false", &toml::node::is_boolean);
     if (node == nullptr) return;
     out = node->value<bool>().value();
 }
 
 void TomlReader::text(std::string_view key, std::string& out, const Check& check) {
+    word(key, OptionType::Text, out, check);
+}
+
+void TomlReader::word(std::string_view key, OptionType type, std::string& out, const Check& check) {
+    (void)option(key, type);
     const toml::node* node = find(key, "a text in quotes", &toml::node::is_string);
     if (node == nullptr) return;
     std::string value = node->value<std::string>().value();
@@ -153,6 +170,7 @@ void TomlReader::text(std::string_view key, std::string& out, const Check& check
 }
 
 void TomlReader::texts(std::string_view key, std::vector<std::string>& out, const Check& check) {
+    (void)option(key, OptionType::Texts);
     const toml::node* node = find(key);
     if (node == nullptr) return;
     const toml::array* list = node->as_array();
@@ -173,8 +191,8 @@ void TomlReader::texts(std::string_view key, std::vector<std::string>& out, cons
     out = std::move(values);
 }
 
-void TomlReader::numbers(std::string_view key, std::span<double> out, double least, double most,
-                         const NumbersCheck& check) {
+void TomlReader::numbers(std::string_view key, std::span<double> out, const NumbersCheck& check) {
+    const auto [least, most, unit] = option(key, OptionType::Numbers).range;
     const toml::node* node = find(key);
     if (node == nullptr) return;
     const toml::array* list = node->as_array();
@@ -196,6 +214,7 @@ void TomlReader::numbers(std::string_view key, std::span<double> out, double lea
 
 void TomlReader::values(std::string_view key,
                         std::vector<std::pair<std::string, std::string>>& out) {
+    (void)option(key, OptionType::Values);
     const toml::node* node = find(key, "a section", &toml::node::is_table);
     if (node == nullptr) return;
     for (const auto& [name, entry] : asWritten(*node->as_table())) {

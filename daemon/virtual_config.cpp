@@ -35,9 +35,9 @@ void readSun(TomlReader& file, std::optional<Sun>& sun) {
     // Any of its keys makes a sun.
     Eigen::Vector3d towards = Eigen::Vector3d::Zero(), irradiance = Eigen::Vector3d::Constant(-1);
     double radiusDeg = 0;
-    file.numbers(range::kSunDirection, {towards.data(), 3}, {}, directionFault);
-    file.numbers(range::kSunIrradiance, {irradiance.data(), 3});
-    file.number(range::kSunRadius, radiusDeg);
+    file.numbers("light.sun.direction", {towards.data(), 3}, directionFault);
+    file.numbers("light.sun.irradiance", {irradiance.data(), 3});
+    file.number("light.sun.radius_deg", radiusDeg);
     if (towards.isZero() && irradiance.x() < 0 && radiusDeg == 0) return;
     sun.emplace();
     sun->towards.normalize();
@@ -73,14 +73,14 @@ std::optional<std::string> takeEnvironment(std::string_view name,
 
 void readVirtual(TomlReader& file, VirtualOptions& options) {
     file.choice<VirtualRendering>("virtual.rendering", options.rendering, kRenderings);
-    file.number(range::kTracing, options.budgetMs);
+    file.number("virtual.budget_ms", options.budgetMs);
     file.choice<Slicing>("virtual.slicing", options.slicing, kSlicings);
-    file.integer(range::kSamples, options.samples);
-    file.number(range::kResolution, options.resolution);
+    file.integer("virtual.samples", options.samples);
+    file.number("virtual.resolution", options.resolution);
     file.choice<HoleFilling>("virtual.holes", options.holes, kHoleFillings);
-    file.integer(range::kTracers, options.threads);
+    file.integer("virtual.threads", options.threads);
     file.boolean("virtual.filter", options.filter);
-    file.number(range::kTurn, options.turnDeg);
+    file.number("virtual.turn_deg", options.turnDeg);
 }
 
 void readLight(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
@@ -92,7 +92,7 @@ void readLight(TomlReader& file, const std::filesystem::path& folder, FileMemory
     if (light.source == LightSource::File) light.file = name;
     readSun(file, light.sun);
     double exposure = light.exposure;
-    file.number(range::kExposure, exposure);
+    file.number("light.exposure", exposure);
     light.exposure = static_cast<float>(exposure);
 }
 

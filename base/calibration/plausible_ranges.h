@@ -4,8 +4,8 @@
 
 namespace mfar::plausible {
 
-/// The range of a number in a calibration or tag map. The README shows the same table; a test
-/// compares both.
+/// The range of a number in a calibration or tag map. docs/calibration.md shows the same
+/// table; a test compares both.
 struct Range {
     const char *what, *unit;
     double least, most;

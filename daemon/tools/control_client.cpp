@@ -1,5 +1,7 @@
 #include "daemon/tools/control_client.h"
 
+#include "base/owned_fd.h"
+
 #include <fmt/format.h>
 
 #include <sys/socket.h>
@@ -30,17 +32,14 @@ public:
         address.sun_family = AF_UNIX;
         if (path_.native().size() >= sizeof address.sun_path) fail("the path is too long");
         path_.native().copy(address.sun_path, path_.native().size());
-        setsockopt(fd_, SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
-        setsockopt(fd_, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
-        if (connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+        setsockopt(fd_.get(), SOL_SOCKET, SO_RCVTIMEO, &kPatience, sizeof kPatience);
+        setsockopt(fd_.get(), SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
+        if (connect(fd_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
             fail(reason());
     }
-    Connection(const Connection&) = delete;
-    Connection& operator=(const Connection&) = delete;
-    ~Connection() { close(fd_); }
 
     void send(const std::string& text) const {
-        if (::send(fd_, text.data(), text.size(), MSG_NOSIGNAL) !=
+        if (::send(fd_.get(), text.data(), text.size(), MSG_NOSIGNAL) !=
             static_cast<ssize_t>(text.size()))
             fail(std::strerror(errno));
     }
@@ -66,7 +65,7 @@ public:
 private:
     void more() {
         std::array<char, 65536> part{};
-        const ssize_t got = recv(fd_, part.data(), part.size(), 0);
+        const ssize_t got = recv(fd_.get(), part.data(), part.size(), 0);
         if (got < 0) fail(errno == EAGAIN ? "no answer within 15 s" : std::strerror(errno));
         if (got == 0) fail("the answer ends too early");
         read_.append(part.data(), static_cast<std::size_t>(got));
@@ -81,7 +80,7 @@ private:
     }
 
     std::filesystem::path path_;
-    int fd_;
+    OwnedFd fd_;
     std::string read_;
 };
 

@@ -60,19 +60,12 @@ ByteSink::ByteSink(std::string_view target, std::stop_token cancel)
     : name_(target == "-" ? "standard output" : target), cancel_(std::move(cancel)) {
     if (target.empty())
         throw std::runtime_error("y4m: needs a file name, or - for standard output");
-    fd_ = target == "-" ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3) : open(name_.c_str());
-    if (fd_ < 0) fail(reason(errno));
+    fd_ = OwnedFd(target == "-" ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3) : open(name_.c_str()));
+    if (!fd_) fail(reason(errno));
     struct stat info{};
-    const bool known = fstat(fd_, &info) == 0;
+    const bool known = fstat(fd_.get(), &info) == 0;
     isPipe_ = known && (S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode));
-    if (isatty(fd_) != 0) {
-        close(fd_);
-        fail("is a terminal, a video stream needs a pipe or a file");
-    }
-}
-
-ByteSink::~ByteSink() {
-    close(fd_);
+    if (isatty(fd_.get()) != 0) fail("is a terminal, a video stream needs a pipe or a file");
 }
 
 int ByteSink::open(const char* path) const {
@@ -94,7 +87,7 @@ void ByteSink::write(std::span<const std::uint8_t> bytes) {
         // shared and must not be made non-blocking (standard output).
         const std::size_t chunk =
             isPipe_ ? std::min<std::size_t>(bytes.size(), PIPE_BUF) : bytes.size();
-        const ssize_t n = ::write(fd_, bytes.data(), chunk);
+        const ssize_t n = ::write(fd_.get(), bytes.data(), chunk);
         if (n < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (n < 0) fail(errno == EPIPE ? "the reading program has closed the pipe" : reason(errno));
         bytes = bytes.subspan(static_cast<std::size_t>(n));
@@ -102,7 +95,7 @@ void ByteSink::write(std::span<const std::uint8_t> bytes) {
 }
 
 void ByteSink::waitForReader() const {
-    pollfd writable{fd_, POLLOUT, 0};
+    pollfd writable{fd_.get(), POLLOUT, 0};
     while (poll(&writable, 1, kCancelPollMs) <= 0)
         if (cancel_.stop_requested()) fail("stopped while the reading program took nothing");
 }

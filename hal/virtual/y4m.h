@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/image_view.h"
+#include "base/owned_fd.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -28,7 +29,6 @@ public:
     ByteSink(std::string_view target, std::stop_token cancel);
     ByteSink(const ByteSink&) = delete;
     ByteSink& operator=(const ByteSink&) = delete;
-    ~ByteSink();
 
     /// Writes all of it, waiting for a pipe's reader as long as `cancel` is not requested. Throws
     /// std::runtime_error "target: reason".
@@ -43,7 +43,7 @@ private:
 
     std::string name_;
     std::stop_token cancel_;
-    int fd_ = -1;
+    OwnedFd fd_;
     bool isPipe_ = false;
 };
 

@@ -151,12 +151,12 @@ TEST(RigFiles, ADeviceOrAPipeIsNoCalibration) {
                   file.string() + ": is not a regular file, so this camera has no calibration");
 }
 
-// The table of the README is that of the code.
-TEST(RigFiles, TheReadmeShowsWhatIsPlausible) {
-    const std::string readme = readFile(MFAR_README);
+// The table in docs/calibration.md is that of the code.
+TEST(RigFiles, TheDocumentationShowsWhatIsPlausible) {
+    const std::string page = readFile(MFAR_CALIBRATION_PAGE);
     for (const plausible::Range& range : plausible::kRanges)
-        EXPECT_NE(readme.find(fmt::format("| {} | {} | {} | {} |\n", range.what, range.unit,
-                                          range.least, range.most)),
+        EXPECT_NE(page.find(fmt::format("| {} | {} | {} | {} |\n", range.what, range.unit,
+                                        range.least, range.most)),
                   std::string::npos)
             << range.what;
 }

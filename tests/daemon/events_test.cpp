@@ -1,3 +1,4 @@
+#include "base/owned_fd.h"
 #include "daemon/events.h"
 
 #include <gtest/gtest.h>
@@ -44,8 +45,8 @@ TEST(Events, ANewDeadlineReplacesTheOldOne) {
     EXPECT_EQ(events.wait().kind, Event::Kind::Deadline);
 }
 
-TEST(Fd, RefusesWhatCouldNotBeOpened) {
-    EXPECT_THROW(Fd(-1, "thing"), std::system_error);
+TEST(OwnedFd, RefusesWhatCouldNotBeOpened) {
+    EXPECT_THROW((void)opened(-1, "thing"), std::system_error);
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <sstream>
 #include <string>
@@ -152,26 +151,6 @@ TEST(ObjectsConfig, ATagCarriesWhatStandsOnIt) {
 }
 
 // The default file shows an object in comments: as it stands there it must be right.
-TEST(ObjectsConfig, TheDefaultFilesExampleIsValid) {
-    std::ifstream in(MFAR_DEFAULT_CONFIG);
-    std::string text, line;
-    bool inExample = false;
-    while (std::getline(in, line)) {
-        inExample = inExample || line == "# [[objects]]";
-        if (inExample && line.starts_with("# ")) text += line.substr(2) + "\n";
-    }
-    ASSERT_TRUE(inExample);
-    const Config config = parseConfig(text, "example");
-    ASSERT_EQ(config.objects.size(), 1U);
-    const PlacedObject& object = config.objects[0];
-    const PlacedObject plain;
-    EXPECT_TRUE(object.model);
-    EXPECT_TRUE(object.tag);
-    EXPECT_EQ(object.scale, plain.scale);
-    EXPECT_EQ(object.shape.colours, plain.shape.colours);
-    EXPECT_EQ(object.shape.squares, plain.shape.squares);
-}
-
 TEST(ObjectsConfig, WhatIsLeftOutIsTold) {
     const TagMap map({{{TagFamily::Tag36h11, 5}, 0.1, {}}});
     PlacedObject shape, onTag, model;

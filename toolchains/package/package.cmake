@@ -42,4 +42,5 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
 
 install(FILES ${CMAKE_CURRENT_LIST_DIR}/copyright ${CMAKE_SOURCE_DIR}/README.md
         DESTINATION share/doc/mfar)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/mfar PATTERN man EXCLUDE)
 include(CPack)

@@ -1,7 +1,4 @@
-#include "daemon/exit_code.h"
 #include "hal/gl_context.h"
-#include "hal/virtual/image_files.h"
-#include "hal/virtual/recording.h"
 #include "tests/measure/bench/bench.h"
 #include "tests/measure/bench/bench_report.h"
 #include "tests/measure/bench/curve_report.h"
@@ -9,6 +6,7 @@
 #include "tests/measure/bench/pareto_command.h"
 #include "tests/measure/bench/skip_command.h"
 #include "tests/measure/bench/workload.h"
+#include "tests/measure/eval/program_end.h"
 #include "tests/measure/eval/report.h"
 
 #include <CLI/CLI.hpp>
@@ -26,8 +24,6 @@ namespace {
 
 using namespace mfar;
 using namespace mfar::bench;
-
-constexpr int kUsage = 2;
 
 constexpr const char* kHelp =
     "mfar-bench: run time of every stage and of the whole super-resolution frame.\n"
@@ -129,7 +125,7 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : kUsage;
+        return app.exit(e) == 0 ? 0 : eval::kWrongInput;
     }
     if (pareto.asked()) return pareto.run(), 0;
     if (skip.asked()) return skip.run(), 0;
@@ -154,25 +150,12 @@ int run(int argc, char** argv) {
     return 0;
 }
 
-int fail(int status, const std::exception& e) {
-    fmt::print(stderr, "mfar-bench: {}\n", e.what());
-    return status;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
         return run(argc, argv);
-    } catch (const eval::EvalError& e) {
-        return fail(kUsage, e);
-    } catch (const RecordingError& e) {
-        return fail(kUsage, e);
-    } catch (const ImageFileError& e) {
-        return fail(kUsage, e);
-    } catch (const Failure& e) {
-        return fail(kUsage, e);
-    } catch (const std::exception& e) {
-        return fail(1, e);
+    } catch (const std::exception& error) {
+        return eval::endedBy(error, "mfar-bench");
     }
 }

@@ -3,6 +3,7 @@
 #include "tests/measure/eval/paper_pipeline.h"
 #include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/rig_resample.h"
+#include "tests/measure/eval/shift_flow.h"
 #include "tests/measure/eval/stereo_peer.h"
 #include "tests/measure/eval/stopwatch.h"
 
@@ -157,7 +158,7 @@ private:
 const std::vector<std::string>& flowMethodNames() {
     static const std::vector<std::string> names{
         "epipolar",        "flow2d",    "dis-fast", "dis-medium", "dis-medium-both",
-        "dis-medium-full", "farneback", "sgbm",     "stereobm"};
+        "dis-medium-full", "farneback", "sgbm",     "stereobm",   "shift"};
     return names;
 }
 
@@ -169,6 +170,7 @@ GlContext& FlowFactory::context() {
 std::unique_ptr<FlowMethod> FlowFactory::create(const std::string& name, const StereoRig& rig) {
     if (PlainFlow plain = plainFlow(name))
         return std::make_unique<PlainMethod>(rig, std::move(plain));
+    if (name == "shift") return shiftFlow(rig);
     if (name == "sgbm") return std::make_unique<StereoMethod>(rig, StereoPeer::Matcher::SemiGlobal);
     if (name == "stereobm") return std::make_unique<StereoMethod>(rig, StereoPeer::Matcher::Block);
     if (name != "epipolar" && name != "flow2d")

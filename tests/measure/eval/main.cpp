@@ -1,6 +1,3 @@
-#include "daemon/exit_code.h"
-#include "hal/virtual/image_files.h"
-#include "hal/virtual/recording.h"
 #include "tests/measure/eval/depth.h"
 #include "tests/measure/eval/depth_methods.h"
 #include "tests/measure/eval/figure7_command.h"
@@ -11,6 +8,7 @@
 #include "tests/measure/eval/picture_metrics_option.h"
 #include "tests/measure/eval/pose_command.h"
 #include "tests/measure/eval/pose_source_option.h"
+#include "tests/measure/eval/program_end.h"
 #include "tests/measure/eval/superres.h"
 #include "tests/measure/eval/superres_learning.h"
 #include "tests/measure/eval/superres_methods.h"
@@ -27,8 +25,6 @@ namespace {
 
 using namespace mfar;
 using namespace mfar::eval;
-
-constexpr int kUsage = 2;
 
 constexpr const char* kSuperResHelp =
     "Brings every video frame with truth/highres to the still's resolution and compares it "
@@ -224,7 +220,7 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : kUsage;
+        return app.exit(e) == 0 ? 0 : kWrongInput;
     }
     const auto used = std::ranges::find_if(
         commands, [](const EvalCommand& command) { return command.command->parsed(); });
@@ -234,29 +230,12 @@ int run(int argc, char** argv) {
     return 0;
 }
 
-int fail(int status, const std::exception& e) {
-    fmt::print(stderr, "mfar-eval: {}\n", e.what());
-    return status;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     try {
         return run(argc, argv);
-    } catch (const EvalError& e) {
-        return fail(kUsage, e);
-    } catch (const RecordingError& e) {
-        return fail(kUsage, e);
-    } catch (const TagMapError& e) {
-        return fail(kUsage, e);
-    } catch (const ImageFileError& e) {
-        return fail(kUsage, e);
-    } catch (const Failure& e) {
-        return fail(kUsage, e);
-    } catch (const std::invalid_argument& e) {
-        return fail(kUsage, e);
-    } catch (const std::exception& e) {
-        return fail(1, e);
+    } catch (const std::exception& error) {
+        return endedBy(error, "mfar-eval");
     }
 }

@@ -74,7 +74,7 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
                                                         MFAR_EVAL, folder.path().string()));
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
-    ASSERT_EQ(rows.size(), 1U + 9 + 9) << outcome.text;
+    ASSERT_EQ(rows.size(), 1U + 10 + 10) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage,angular_deg,"
                              "ause,ause_rel"));
     EXPECT_LT(std::stod(rows[4].at(8)), 5);  // of a method without confidence
@@ -86,6 +86,8 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     EXPECT_EQ(rows[4][2], "dis-medium");
     EXPECT_LT(std::stod(rows[4][4]), 0.5);
     EXPECT_EQ(std::stod(rows[4][7]), 1);
+    EXPECT_EQ(rows[10][2], "shift");
+    EXPECT_LT(std::stod(rows[10][4]), 0.5);
 }
 
 /// A flat wall at 2 m, taken by both sensors at one time: 1/m and a baseline, no flow.

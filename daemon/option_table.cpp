@@ -1,0 +1,375 @@
+#include "daemon/option_table.h"
+
+#include "base/calibration/plausible_ranges.h"
+
+namespace mfar {
+namespace {
+
+constexpr Option text(std::string_view name, std::string_view byDefault, std::string_view meaning) {
+    return {name, OptionType::Text, byDefault, meaning};
+}
+
+constexpr Option flag(std::string_view name, std::string_view byDefault, std::string_view meaning) {
+    return {name, OptionType::Flag, byDefault, meaning};
+}
+
+constexpr Option word(std::string_view name, std::string_view words, std::string_view byDefault,
+                      std::string_view meaning) {
+    return {name, OptionType::Word, byDefault, meaning, words};
+}
+
+constexpr Option number(std::string_view name, OptionRange range, std::string_view byDefault,
+                        std::string_view meaning) {
+    return {name, OptionType::Number, byDefault, meaning, {}, range};
+}
+
+constexpr Option whole(std::string_view name, OptionRange range, std::string_view byDefault,
+                       std::string_view meaning) {
+    return {name, OptionType::Whole, byDefault, meaning, {}, range};
+}
+
+constexpr Option numbers(std::string_view name, int count, OptionRange range,
+                         std::string_view byDefault, std::string_view meaning) {
+    return {name, OptionType::Numbers, byDefault, meaning, {}, range, count};
+}
+
+constexpr Option absent(Option option) {
+    option.isAbsent = true;
+    return option;
+}
+
+constexpr Option argument(std::string_view name, Option option) {
+    option.argument = name;
+    return option;
+}
+
+constexpr OptionRange kSide{16, 8192, "px"}, kCameraRate{0, 1000, "Hz"}, kThreads{1, 64, ""};
+constexpr OptionRange kShare{0, 1, ""}, kMegabytes{0, 1e9, "MB"};
+
+constexpr Option kTop[] = {
+    argument(
+        "--source",
+        text("source", R"("cameras")",
+             "Where pictures come from: \"cameras\" (section [cameras]), or a simulated board: "
+             "\"synthetic\", \"synthetic:SCENE\" or \"synthetic:SCENE,PATH\". Scenes: office "
+             "shelf outdoor flat moving still calibration. Paths: handheld pan orbit forward "
+             "rotate rest survey.")),
+    argument("--recording", text("recording", R"("")",
+                                 "Recording (folder in EuRoC layout) to play instead of the "
+                                 "source. Empty: none.")),
+    argument("--display",
+             text("display", R"("auto")",
+                  "Where finished pictures go: \"auto\", the first screen that is found; \"kms\", "
+                  "\"kms:card1\" or \"kms:card0,HDMI-A-1,1920x1080@60\" for a card, connector and "
+                  "mode; \"fbdev\" or \"fbdev:/dev/fb1\" for a framebuffer; \"png:FOLDER\", one "
+                  "file for each frame; \"y4m:FILE\", one video file or named pipe; \"none\". "
+                  "mfard waits for a screen that is missing.")),
+    argument("--size",
+             text("size", R"("screen")",
+                  "Size of the pictures: \"screen\", as large as the screen at the start shows "
+                  "them (without a screen: as \"still\"); \"still\", the still's resolution; or a "
+                  "size to fit into, like \"1280x720\". Never below the video's size or above the "
+                  "still's. Smaller pictures take less time.")),
+    argument("--pace", word("pace", "auto realtime consumer", R"("auto")",
+                            "Speed of the source: \"realtime\", as its time stamps say, late "
+                            "frames are dropped; \"consumer\", as fast as frames are processed, "
+                            "none is dropped; \"auto\", consumer for recordings, otherwise "
+                            "realtime.")),
+    argument("--seed", whole("seed", {}, "1",
+                             "Seed of the synthetic source's random numbers, at least 0: the same "
+                             "seed gives the same pictures.")),
+};
+
+constexpr Option kCameras[] = {
+    text("calibration", R"("")",
+         "Calibration of both sensors: a folder with rig.yaml as mfar-calibrate writes it, a "
+         "Kalibr camchain or an OpenCV file; relative to this file. Empty: nominal lenses of 60 "
+         "degrees, 14 mm apart, good enough to enlarge the video, too inexact for poses and "
+         "depth."),
+};
+
+constexpr Option kVideo[] = {
+    word("driver", "libcamera v4l2", R"("libcamera")",
+         "\"libcamera\", or \"v4l2\" for USB cameras and boards without libcamera."),
+    text("camera", R"("")",
+         "Which camera: libcamera's id, model or location (\"cam --list\" prints them); for v4l2 "
+         "\"/dev/videoN\" or the card's name. Empty: any other than the still camera; of several, "
+         "the one with the smallest pictures. mfard waits for a camera that is missing."),
+    whole("width", kSide, "640", "Width of its pictures."),
+    whole("height", kSide, "480", "Height of its pictures."),
+    number("rate_hz", kCameraRate, "30.0",
+           "Frame rate, at least 0.01; 0: the camera sends a picture for each trigger pulse."),
+    text("format", R"("auto")",
+         "Pixel format: \"auto\"; for v4l2 also the four characters of a format, like \"YUYV\"."),
+    flag("allow_crop", "false",
+         "libcamera only: accept a sensor mode that shows a part of the field of view."),
+    {"controls", OptionType::Values, "{}",
+     "Controls by the camera's own names, set in this order before the first picture, like "
+     "{ ExposureTime = 8000, AnalogueGain = 2.0 }."},
+};
+
+constexpr Option kStill[] = {
+    word("driver", "libcamera v4l2", R"("libcamera")", ""),
+    text("camera", R"("")",
+         "As for the video camera. Empty: any other than the video camera; of several, the one "
+         "with the largest pictures."),
+    whole("width", kSide, "2304", ""),
+    whole("height", kSide, "1728", ""),
+    number("rate_hz", kCameraRate, "0.0", ""),
+    text("format", R"("auto")", ""),
+    flag("allow_crop", "false", ""),
+    {"controls", OptionType::Values, "{}", ""},
+};
+
+constexpr Option kLine[] = {
+    text("line", R"("")",
+         "The GPIO line that triggers the still sensor: its number or name. Empty: no trigger "
+         "line, every still that the camera sends is used."),
+    text("chip", R"("")", "The line's chip: label, name or path. Empty: found by the line's name."),
+    flag("active_low", "false", "The line is active when low."),
+    number("pulse_ms", {0.001, 10000, "ms"}, "1.0", "Length of a pulse."),
+    flag("pulse_is_exposure", "false", "The sensor exposes as long as the pulse lasts."),
+    text("loopback", R"("")",
+         "An input that is wired to the line, to measure the time of pulses. Empty: none."),
+    text("loopback_chip", R"("")", "Its chip. Empty: the line's chip."),
+    number("delay_ms", {-1000, 10000, "ms"}, "0.0",
+           "Time from the pulse to the exposure by the camera's time stamps. A first guess; mfard "
+           "learns the value."),
+    number("jitter_ms", {0.001, 1000, "ms"}, "1.0",
+           "Error of the camera's time stamps: 1 for a sensor's clock, more for a camera whose "
+           "pictures are stamped on arrival, like USB cameras."),
+    number("arrival_ms", {1, 60000, "ms"}, "500.0",
+           "A still that has not arrived after this time is lost."),
+};
+
+constexpr std::string_view kEngines = "auto gles simd", kAuto = R"("auto")";
+constexpr Option kEngine[] = {
+    argument("--engine",
+             word("use", kEngines, kAuto,
+                  "What computes the pictures: \"gles\", shaders on the GPU; \"simd\", the CPU's "
+                  "vector units, without OpenGL ES; \"auto\", simd without OpenGL ES 3.1 or with a "
+                  "software renderer, on a GPU the faster of both, measured once.")),
+    word("still", kEngines, kAuto,
+         "Engine of the step that prepares a new still; \"auto\": as `use`."),
+    word("pyramid", kEngines, kAuto, "Engine of the image pyramids."),
+    word("flow", kEngines, kAuto, "Engine of the matching of video and still."),
+    word("weigh", kEngines, kAuto, "Engine of the confidence."),
+    word("detail", kEngines, kAuto, "Engine that draws the picture."),
+    word("occlusion", kEngines, kAuto, "Engine of depth and occlusion."),
+};
+
+constexpr std::string_view kModes = "detail blend off";
+constexpr std::string_view kModeMeaning =
+    "\"detail\" adds the still's detail as far as the video confirms it, \"blend\" blends the "
+    "still "
+    "in by confidence (the method of the paper), \"off\" only enlarges the video.";
+constexpr Option kSuperres[] = {
+    argument("--mode", word("mode", kModes, R"("detail")", kModeMeaning)),
+    flag("skip_unchanged", "true", "Parts of the picture that did not change are not recomputed."),
+    flag("learn", "true",
+         "Learn in the background, from matched stills, how to enlarge the video of these two "
+         "sensors; kept in the service's state folder."),
+};
+
+constexpr Option kTrigger[] = {
+    word("mode", "demand rate off", R"("demand")",
+         "When the still sensor takes a picture: \"demand\", when the current still no longer "
+         "explains the video; \"rate\", at a fixed rate; \"off\", never."),
+    number("rate_hz", {0.01, 60, "Hz"}, "2.0", "Mode rate: stills per second."),
+    number("explained_below", kShare, "0.6",
+           "Mode demand: take a new still when the current one explains less than this share of "
+           "the picture."),
+    number("max_age_s", {0.1, 86400, "s"}, "10.0",
+           "Mode demand: take a new still when the current one is older than this and the picture "
+           "has changed."),
+    number("min_interval_s", {0, 3600, "s"}, "0.3",
+           "Mode demand: shortest time between two stills."),
+    number("timeout_s", {0.05, 60, "s"}, "3.0",
+           "A still that has not arrived after this time is lost and requested once more."),
+};
+
+constexpr std::string_view kFamilies = "tag36h11 tag25h9 tag16h5 tagStandard41h12";
+constexpr OptionRange kTagSize{plausible::kTagSize.least, plausible::kTagSize.most, "m"};
+constexpr Option kPose[] = {
+    argument("--pose", word("source", "tags recorded none", R"("tags")",
+                            "Where the camera's pose comes from: \"tags\", AprilTags in the video "
+                            "and in each still; \"recorded\", the recording, which must have "
+                            "poses; \"none\". With a pose, detail is searched along epipolar "
+                            "lines, otherwise in both dimensions.")),
+    text("tags", R"("")",
+         "Map of the tags: a tags.toml, or the tags.yaml of apriltag_ros; relative to this file. "
+         "Empty: the tags.toml of the recording or the tags of the synthetic board; without a map, "
+         "the largest tag of the first picture with one defines the world."),
+    {"families", OptionType::Texts, R"(["tag36h11"])", "Families that are searched without a map.",
+     kFamilies},
+    number("tag_size", kTagSize, "0.1", "Without a map: edge of the tag that defines the world."),
+    number("decimation", {1, 8, ""}, "2.0",
+           "The video is searched for tags at this reduction, 1.5 or a whole number. A higher one "
+           "is faster and misses small tags."),
+    whole("threads", kThreads, "1", "Threads of the tag detector."),
+    whole("full_search_interval", {1, 1'000'000, "frames"}, "15",
+          "Interval at which the whole picture is searched, not only the expected places."),
+    whole("bridge_frames", {0, 300, "frames"}, "12",
+          "The pose is predicted for this many frames without a tag."),
+};
+
+constexpr Option kGovernor[] = {
+    number("deadline_ms", {0, 10000, "ms"}, "0.0",
+           "Time limit of a frame. mfard uses the most accurate level of the table that meets it "
+           "in 95 % of the frames. 0: no limit, the highest accuracy."),
+    text("pin", R"("")", "Name of a level that is always used. Empty: none."),
+    text("table", R"("")",
+         "File with the levels, as \"mfar-bench pareto --table FILE\" writes it; relative to this "
+         "file. Empty: levels that were measured on two x86-64 cores without a GPU."),
+};
+
+constexpr Option kRecord[] = {
+    text("directory", R"("")",
+         "Folder in which each start makes a new one, named by the time (UTC). Empty: nothing is "
+         "recorded."),
+    number("least_free_mb", kMegabytes, "512",
+           "A recording ends, and mfard goes on without it, before less than this is free on the "
+           "disk. 0: no limit."),
+    number("most_mb", kMegabytes, "0", "Largest size of a recording. 0: no limit."),
+};
+
+constexpr Option kLimits[] = {
+    number("memory_mb", {0, 1048576, "MB"}, "0",
+           "Memory for pictures, models and all other files; at least 64. A recording, camera, "
+           "model or picture that needs more is refused. 0: three quarters of the machine's "
+           "memory, or of the service's MemoryMax= if that is less, and at most 4096."),
+};
+
+constexpr Option kStatus[] = {
+    number("interval_s", {0.1, 3600, "s"}, "1.0", "Time between two status lines on a terminal."),
+    argument("--measure", flag("measure", "false",
+                               "Wait for the GPU after each stage, so that stage times are exact. "
+                               "Costs some speed.")),
+};
+
+constexpr Option kVirtual[] = {
+    word("rendering", "path-traced preview", R"("path-traced")",
+         "\"path-traced\", with soft shadows on the real surface, or \"preview\", which costs "
+         "little."),
+    number("budget_ms", {0.1, 1000, "ms"}, "8.0",
+           "Time of the path tracer in each frame. A picture is made over many frames."),
+    word(
+        "slicing", "time space", R"("time")",
+        "What a frame's share of the work is: \"time\", some samples of all pixels; \"space\", all "
+        "samples of some tiles."),
+    whole("samples", {1, 65536, ""}, "64",
+          "Samples per pixel of a finished picture. More are smoother and take longer."),
+    number("resolution", {0.05, 1, ""}, "0.28",
+           "Side of the path-traced picture as a share of the still's; at most what is shown."),
+    word("holes", "push-pull re-render both none", R"("both")",
+         "What fills places that come into view between two pictures: \"push-pull\", their "
+         "surroundings; \"re-render\", the path tracer with few samples; \"both\"; or \"none\"."),
+    whole("threads", kThreads, "1", "Threads of the path tracer."),
+    flag("filter", "true", "Smooth the noise of pictures with few samples, but not their edges."),
+    number("turn_deg", {0.1, 90, "degrees"}, "4.0",
+           "A new picture is made at the latest when the view has turned by this angle."),
+};
+
+constexpr Option kLight[] = {
+    text("environment", R"("studio")",
+         "Light on virtual objects: \"studio\", \"sky\", \"camera\" (the light that the video "
+         "shows), or a latitude-longitude picture, relative to this file: .hdr, or PNG and JPEG, "
+         "whose white is 1."),
+    number("exposure", {0.001, 1000, ""}, "1.0", "Brightness of virtual objects."),
+};
+
+constexpr Option kSun[] = {
+    numbers("direction", 3, {-1000, 1000, ""}, "[0.406, -0.304, 0.862]",
+            "Direction to the sun: x, y, z, of any length but 0."),
+    numbers("irradiance", 3, {0, 10000, ""}, "[1.0, 1.0, 1.0]",
+            "Irradiance of a surface that faces the sun: red, green, blue."),
+    number("radius_deg", {0.05, 45, "degrees"}, "1.146", "Angular radius."),
+};
+
+constexpr Option kObjects[] = {
+    absent(text("model", R"("showpiece")",
+                "\"showpiece\" or a glTF file (.glb, .gltf), relative to this file. Absent: a "
+                "simple shape.")),
+    number("scale", {0.0001, 10000, ""}, "1.0", "Scale of a model."),
+    absent(whole("tag", {0, 2114, ""}, "0",
+                 "The tag that the object stands on: x right and y up in its print, z out of it. "
+                 "Absent: the object is in the world of the tag map. The most depends on the "
+                 "family.")),
+    word("family", kFamilies, R"("tag36h11")", "Family of that tag."),
+    numbers("position", 3, {-1000, 1000, "m"}, "[0.0, 0.0, 0.0]",
+            "Position in the world or on the tag."),
+    numbers("orientation", 4, {-1, 1, ""}, "[1.0, 0.0, 0.0, 0.0]",
+            "Quaternion w, x, y, z of length 1."),
+    word("shape", "box sphere quad", R"("box")", "Simple shape, about its centre."),
+    numbers("size", 3, {0.001, 100, "m"}, "[0.1, 0.1, 0.1]", "Size of a shape along its axes."),
+    absent(numbers("colour", 3, kShare, "[0.9, 0.9, 0.9]",
+                   "Red, green, blue. Absent: the two colours of a checkerboard.")),
+    absent(numbers("second_colour", 3, kShare, "[0.8, 0.2, 0.1]",
+                   "Colour of every other square of a checkerboard. Absent: as `colour`.")),
+    whole("squares", {1, 256, ""}, "4", "Squares of the checkerboard along each side."),
+};
+
+constexpr OptionSection kConfig[] = {
+    {"", kTop, ""},
+    {"cameras", kCameras, ""},
+    {"cameras.video", kVideo, "The video sensor."},
+    {"cameras.still", kStill, "The still sensor: the same keys."},
+    {"cameras.trigger", kLine, "The line that triggers the still sensor."},
+    {"engine", kEngine, ""},
+    {"superres", kSuperres, "", true},
+    {"trigger", kTrigger, "When stills are taken.", true},
+    {"pose", kPose, ""},
+    {"governor", kGovernor, ""},
+    {"record", kRecord,
+     "Recording while mfard runs (EuRoC layout): pictures, tags and the poses from them."},
+    {"limits", kLimits, ""},
+    {"status", kStatus, "", true},
+    {"virtual", kVirtual, "How virtual objects are drawn."},
+    {"light", kLight, "", true},
+    {"light.sun", kSun, "A sun beside the environment.", true, OptionSection::Kind::Absent},
+    {"objects", kObjects, "Virtual objects, a section each, at most 64.", true,
+     OptionSection::Kind::List},
+};
+
+constexpr OptionRange kFew{0, 8, ""}, kSmall{0, 2, ""};
+constexpr Option kLevel[] = {
+    absent(text("name", R"("fast")", "Name, for `pin`; required.")),
+    absent(number("ms", {0.001, 60000, "ms"}, "10.0",
+                  "Time of a frame in which everything moves; required.")),
+    number("psnr_db", {0, 200, "dB"}, "0.0", "PSNR of its pictures."),
+    word("mode", kModes, R"("detail")", kModeMeaning),
+    flag("cubic", "true", "Enlarge by bicubic instead of linear interpolation."),
+    flag("learned", "true", "Enlarge by learned filters; mode detail."),
+    flag("along_lines", "true", "Search along epipolar lines where poses are known."),
+    number("detail_share", {0.001, 1, ""}, "1.0", "Most tiles that are matched, as a share."),
+    number("second_share", kShare, "0.25",
+           "Most tiles that are matched with the second still, as a share; 0: no second still."),
+    whole("depth_every", {1, 60, "frames"}, "1", "Interval at which real depth is measured."),
+    whole("flow2d.search_radius", {0, 40, "px"}, "10", "Search radius at the coarsest level."),
+    whole("flow2d.candidates", {1, 4, ""}, "4", "Vectors of the coarser level that a cell tries."),
+    whole("flow2d.steps", {0, 16, ""}, "4", "Gauss-Newton steps after the best candidate."),
+    whole("flow2d.propagations", kFew, "0", "Propagation rounds at the finest level."),
+    whole("flow2d.coarsest_propagations", kFew, "4", "Propagation rounds at the coarsest level."),
+    whole("flow2d.plane_fits", kSmall, "2", "Rounds of plane fits after the median."),
+    whole("epipolar.window_radius", {0, 8, "px"}, "2",
+          "Radius of the window around a coarser label."),
+    whole("epipolar.step_penalty", {1, 30, ""}, "12", "Smoothness: penalty of one label."),
+    whole("epipolar.jump_penalty", {1, 60, ""}, "60", "Smoothness: penalty of more labels."),
+    whole("epipolar.finest", kSmall, "0", "Finest level: all, half or a quarter of the pixels."),
+    whole("epipolar.most_predicted", {0, 60, "frames"}, "7",
+          "Frames in a row that are searched around the last field alone."),
+};
+
+constexpr OptionSection kLevels[] = {{"level", kLevel, "", false, OptionSection::Kind::List}};
+
+}  // namespace
+
+std::span<const OptionSection> configOptions() {
+    return kConfig;
+}
+
+std::span<const OptionSection> levelOptions() {
+    return kLevels;
+}
+
+}  // namespace mfar

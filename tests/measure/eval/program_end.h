@@ -1,0 +1,15 @@
+#pragma once
+
+#include <exception>
+#include <string_view>
+
+namespace mfar::eval {
+
+/// Exit code after a wrong command line or input.
+inline constexpr int kWrongInput = 2;
+
+/// Prints the error that ended a program to standard error. Returns its exit code: kWrongInput or,
+/// when the input is not the cause, 1.
+[[nodiscard]] int endedBy(const std::exception& error, std::string_view program);
+
+}  // namespace mfar::eval

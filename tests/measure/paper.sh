@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Measures what the paper claims and writes one page with numbers and figures: paper.md.
+# Usage: paper.sh BUILD-FOLDER OUTPUT-FOLDER [--quick]. --quick: tiny pictures, which show that it runs.
+set -euo pipefail
+build=$1
+out=$2
+bench=$build/tests/measure/bench/mfar-bench
+eval=$build/tests/measure/eval/mfar-eval
+times=() slicing=() warp=() figure7=() occlusion=() traced=() note=''
+if [[ ${3:-} == --quick ]]; then
+    note=$'\n**A quick run on tiny pictures: no number here is a measurement.**'
+    times=(--quick)
+    slicing=(--width 32 --height 24 --samples 4 --truth-samples 8 --frames 4)
+    warp=(--width 48 --height 36 --samples 2 --truth-samples 2 --degrees 2)
+    figure7=(none)
+    occlusion=(none)
+    traced=(none)
+fi
+rm -rf "$out"
+mkdir -p "$out"
+
+# measured FILE COMMAND...: runs it; its table goes into FILE, its messages to the terminal.
+measured() {
+    local file=$out/$1
+    shift
+    printf '%s\n' "${*/#"$build"\//}" | tee "$file.command" >&2
+    if [[ ${*: -1} == none ]]; then
+        echo "not measured by --quick" >"$file"
+    else
+        "$@" >"$file"
+    fi
+}
+
+# median LINE: of this line of mfar-bench's table [ms].
+median() { awk -v line="$1" 'index($0, line " ") == 1 { sub(line, ""); print $1; exit }' "$out/times.txt"; }
+perSecond() { awk -v ms="$1" 'BEGIN { if (ms == "") print "not measured"; else printf "%.1f frames/s", 1000 / ms }'; }
+
+# section TITLE NAME [FIGURE]
+section() {
+    printf '\n## %s\n\n' "$1"
+    [[ ! -s $out/${3:-none} ]] || printf '![%s](%s)\n\n' "$1" "$3"
+    printf '```\n$ %s\n' "$(cat "$out/$2.txt.command")"
+    cat "$out/$2.txt"
+    printf '```\n'
+}
+
+measured times.txt "$bench" "${times[@]}"
+measured slicing.txt "$eval" slicing --plot "$out/slicing.svg" "${slicing[@]}"
+measured warp.txt "$eval" warp --svg "$out/warp.svg" "${warp[@]}"
+measured occlusion.txt "$eval" occlusion "${occlusion[@]}"
+measured traced.txt "$eval" traced "${traced[@]}"
+measured figure7.txt "$eval" figure7 --svg "$out/figure7.svg" "${figure7[@]}"
+
+moving=$(perSecond "$(median moving)")
+handheld=$(perSecond "$(median handheld)")
+paper=$(perSecond "$(median 'peer paper')")
+depth=$(perSecond "$(median 'depth, whole picture')")
+{
+    cat <<END
+# The paper's claims on this machine
+
+Theirs: GTX 680. Here: $(grep -m1 '^model name' /proc/cpuinfo | sed 's/.*: //' || uname -m), $(nproc) processors; $(sed -n 1p "$out/times.txt").
+Times vary by some percent from run to run; qualities repeat on the same engine.
+$note
+
+| claim | theirs | here | their method on OpenCV, here |
+|---|---|---|---|
+| super-resolution, 640x480 to 2304x1728, camera moves, no poses | 7 frames/s | $moving | $paper |
+| the same, hand-held with poses | - | $handheld | - |
+| depth of the whole picture | 12 frames/s | $depth | - |
+| quality and sharpness (Figure 7) | close to ground truth | [below](#figure-7) | below |
+| slicing, warp and holes (Figure 5) | pictures | [below](#figure-5-slicing) | - |
+| virtual objects while the camera moves | good in any case | [below](#virtual-objects-in-motion) | - |
+END
+    section "Times" times
+    section "Figure 7" figure7 figure7.svg
+    section "Figure 5: slicing" slicing slicing.svg
+    section "Figure 5: warp and holes" warp warp.svg
+    section "Occlusion" occlusion
+    section "Virtual objects in motion" traced
+} >"$out/paper.md"
+rm "$out"/*.command
+echo "$out/paper.md"

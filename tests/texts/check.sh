@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# Texts that are printed from tables are as the tables say, and are understood by who reads them.
+# Usage: check.sh MFAR-TEXTS SOURCE-FOLDER. To write them anew: cmake --build .build/host --target texts
+set -euo pipefail
+texts=$1
+sources=$2
+failures=0
+
+fault() {
+    printf 'FAILED: %s\n' "$*"
+    failures=$((failures + 1))
+}
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+"$texts" "$work/tree"
+while IFS= read -r file; do
+    diff -u "$sources/$file" "$work/tree/$file" || fault "$file differs from the tables"
+done < <(cd "$work/tree" && find . -type f -printf '%P\n')
+
+# The example of the page is the one that is compiled.
+diff -u <(sed -n '/^```cpp$/,/^```$/{//!p}' "$sources/docs/flow-method.md") \
+    "$sources/tests/measure/eval/shift_flow.cpp" || fault "the example of docs/flow-method.md"
+
+# Links of the pages lead to files.
+while IFS=: read -r page link; do
+    target=${link#*](}
+    target=${target%)}
+    [[ -e $(dirname "$page")/${target%%#*} ]] || fault "$page: no $target"
+done < <(grep -Eo '\]\([^):]+\)' "$sources"/*.md "$sources"/docs/*.md)
+
+# Messages for which the README has a remedy are those of the programs; "..." stands for what varies.
+find "$sources/hal" "$sources/daemon" -name '*.cpp' -exec cat {} + |
+    perl -0pe 's/(?<!\\)"\s*\n\s*"//g; s/\\"/"/g' >"$work/messages"
+while IFS= read -r message; do
+    while IFS= read -r words; do
+        [[ -z ${words//[ ;:\'()]/} ]] || grep -qF -- "$words" "$work/messages" ||
+            fault "README.md: no program says \"$words\""
+    done <<<"${message//.../$'\n'}"
+done < <(sed -n '/^## Troubleshooting/,/^## /p' "$sources/README.md" | sed -n 's/^| \(`.*`\) | .*/\1/p' |
+    grep -Eo '`[^`]+`' | tr -d '`')
+
+# completes PREVIOUS BEGINNING: what bash offers.
+completes() {
+    # shellcheck source=/dev/null
+    (. "$work/tree/systemd/mfard.bash-completion" && COMP_WORDS=(mfard "$1" "$2") COMP_CWORD=2 &&
+        _mfard mfard "$2" "$1" && printf '%s ' "${COMPREPLY[@]}")
+}
+[[ $(completes --mode b) == 'blend ' ]] || fault "completion of --mode b: $(completes --mode b)"
+[[ $(completes mfard --print) == '--print-config ' ]] || fault "completion of --print"
+[[ $(completes --config "$work/tree/do") == "$work/tree/docs " ]] || fault "completion of a file"
+
+if command -v groff >/dev/null; then
+    for page in "$work"/tree/docs/man/*; do
+        said=$(groff -man -Tascii -wall "$page" 2>&1 >"$work/page") || fault "groff: $said"
+        [[ -z $said ]] || fault "groff: $said"
+        [[ -s $work/page ]] || fault "$page is empty"
+    done
+fi
+
+[[ $failures == 0 ]]

@@ -1,0 +1,123 @@
+#include "daemon/option_text.h"
+#include "daemon/options.h"
+#include "tests/texts/pages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mfar::test {
+namespace {
+
+/// A paragraph, so that no character of it is a command of groff.
+std::string troff(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '\\')
+            out += "\\e";
+        else if (c == '-')
+            out += "\\-";
+        else if (c == '\n')
+            out += ' ';
+        else
+            out += c;
+    }
+    return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
+}
+
+std::string head(std::string_view name, int number, std::string_view about) {
+    return fmt::format(".\\\" Printed by mfar-texts from daemon/option_table.cpp and options.cpp.\n"
+                       ".TH {0} {1} \"\" mfar\n.SH NAME\n{0} \\- {2}\n",
+                       name, number, troff(about));
+}
+
+std::string entry(std::string_view key, std::string_view text) {
+    return fmt::format(".TP\n.B {}\n{}\n", troff(key), troff(text));
+}
+
+/// "--help" of "-h,--help".
+std::string longName(const ArgumentText& argument) {
+    return argument.names.substr(argument.names.rfind(',') + 1);
+}
+
+std::string valuesOf(const ArgumentText& argument) {
+    for (const OptionSection& section : configOptions())
+        for (const Option& option : section.options)
+            if (option.argument == longName(argument)) return std::string(option.words);
+    return "";
+}
+
+}  // namespace
+
+std::string programManPage() {
+    std::string out =
+        head("mfard", 1, "lifts a fast video sensor to the resolution of a still sensor");
+    out += ".SH SYNOPSIS\n.B mfard\n[OPTIONS]\n.SH OPTIONS\n";
+    for (const ArgumentText& argument : argumentTexts())
+        out += entry(argument.names + (argument.value.empty() ? "" : " " + argument.value),
+                     argument.meaning);
+    out += ".SH SIGNALS\nTERM and INT end it, HUP reads the configuration file again.\n"
+           ".SH \"EXIT STATUS\"\n" +
+           entry("0", "success") + entry("64", "wrong command line") +
+           entry("65", "wrong data in a file") + entry("66", "a file cannot be read") +
+           entry("69", "a device or OpenGL ES is not available") +
+           entry("70", "any other failure") +
+           entry("74", "a display or recording cannot be written") +
+           entry("78", "wrong configuration") + ".SH \"SEE ALSO\"\n.BR mfard.toml (5)\n";
+    return out;
+}
+
+std::string configManPage() {
+    std::string out = head("mfard.toml", 5, "configuration of mfard");
+    out += ".SH DESCRIPTION\n" +
+           troff("A TOML file. Every key is optional. Changes take effect with a restart, in "
+                 "sections marked (reload) also with a reload. Names of files are relative to "
+                 "this file.") +
+           "\n";
+    for (const OptionSection& section : configOptions()) {
+        const bool isList = section.kind == OptionSection::Kind::List;
+        out += section.name.empty()
+                   ? std::string(".SH \"BEFORE ALL SECTIONS\"\n")
+                   : fmt::format(".SH \"{}{}{}{}\"\n", isList ? "[[" : "[", section.name,
+                                 isList ? "]]" : "]", section.isReloadable ? " (reload)" : "");
+        if (!section.meaning.empty()) out += troff(section.meaning) + "\n";
+        for (const Option& option : section.options) {
+            const std::string about = describe(option);
+            out += entry(fmt::format("{} = {}", option.name, option.byDefault),
+                         about.empty() ? "As above." : about);
+        }
+    }
+    return out + ".SH \"SEE ALSO\"\n.BR mfard (1)\n";
+}
+
+std::string bashCompletion() {
+    std::string words, cases, files, others;
+    const auto add = [](std::string& list, std::string_view separator, const std::string& one) {
+        list += list.empty() ? one : std::string(separator) + one;
+    };
+    for (const ArgumentText& argument : argumentTexts()) {
+        const std::string name = longName(argument);
+        add(words, " ", name);
+        if (const std::string values = valuesOf(argument); !values.empty())
+            cases += fmt::format("    {}) words='{}' ;;\n", name, values);
+        else if (argument.value == "FILE" || argument.value == "DIR" || argument.value == "SOCKET")
+            add(files, " | ", name);
+        else if (!argument.value.empty())
+            add(others, " | ", name);
+    }
+    return fmt::format(R"(# Completion of mfard's options in bash. Printed by mfar-texts.
+_mfard() {{
+    local words
+    case $3 in
+{}    {}) mapfile -t COMPREPLY < <(compgen -f -- "$2"); return ;;
+    {}) COMPREPLY=(); return ;;
+    *) words='{}' ;;
+    esac
+    mapfile -t COMPREPLY < <(compgen -W "$words" -- "$2")
+}}
+complete -o filenames -F _mfard mfard
+)",
+                       cases, files, others, words);
+}
+
+}  // namespace mfar::test
