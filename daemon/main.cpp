@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
     using namespace mfar;
     const Timestamp started = Timestamp::now();
     Log log(STDERR_FILENO, Log::styleOf(STDERR_FILENO), &Timestamp::now, Journal());
-    // libcamera tells standard error by itself how it is; what is wrong, we say.
+    // libcamera logs to standard error by itself; keep its errors only.
     setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
     try {
         const CommandLine line = parseCommandLine(argc, argv);

@@ -251,7 +251,7 @@ std::string statusLine(const Counted& counted, const RunDescription& run, double
     }
     line += tracking(counted.poses);
     if (counted.last.posePatches > 0)
-        fmt::format_to(out, ", lines {:.2f} px", counted.last.epipolarError);
+        fmt::format_to(out, ", epipolar error {:.2f} px", counted.last.epipolarError);
     line += tracing(counted);
     line += " |";
     for (const StageTime& stage : counted.lastStages)

@@ -2,8 +2,8 @@
 
 namespace mfar {
 
-/// Work that a frame leaves out where it does not show. Each is on but to measure what it saves and
-/// what error it adds; off, the work is done all the same. Others are settings of their own:
+/// Work that a frame skips because it would not be visible. All are on; benchmarks turn one off to
+/// measure the time that it saves and the error that it adds. Others are settings of their own:
 /// PipelineOptions::skipUnchanged and depthEverywhere, EpipolarOptions::mostPredicted,
 /// KeyframeOptions and DepthOptions.
 struct SkipOptions {

@@ -198,7 +198,7 @@ TEST(Governor, FramesWithoutAStillSayNothingAboutALevelThatUsesOne) {
     EXPECT_EQ(fast.level().name, "c") << "enlarging needs none";
 }
 
-TEST(Governor, IgnoresTimesThatAreNone) {
+TEST(Governor, IgnoresInvalidTimes) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 100; ++i)
         for (const double ms : {std::numeric_limits<double>::quiet_NaN(), -1.0,

@@ -268,7 +268,7 @@ TEST(Status, TellsHowWellTheLinesFit) {
     EXPECT_EQ(pose["refined_frames"], 1);
     EXPECT_EQ(pose["predicted_frames"], 1);
     EXPECT_NEAR(pose["epipolar_px"].get<double>(), 0.15, 1e-9);
-    EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr(", lines 0.20 px |"));
+    EXPECT_THAT(statusLine(stats.count(), {}, 1), HasSubstr(", epipolar error 0.20 px |"));
     stats.picture({{.usedStill = true, .usedPose = true}, kStages, {}, {}, 1.5});
     EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("lines")));
 }

@@ -32,7 +32,7 @@ InverseDepthField fieldOf(Size size, float rho, float variance) {
     return out;
 }
 
-TEST(Mended, MeasurementsThatAreNoneSayNothing) {
+TEST(Mended, InvalidMeasurementsAreIgnored) {
     const PixelRect whole{0, 0, 8, 6};
     for (const auto& [rho, variance] : {std::pair(kNan, 0.01F),
                                         {kInf, 0.01F},
@@ -50,7 +50,7 @@ TEST(Mended, MeasurementsThatAreNoneSayNothing) {
     }
 }
 
-TEST(Mended, APoseThatIsNoneForgetsTheDepth) {
+TEST(Mended, AnInvalidPoseForgetsTheDepth) {
     for (const double bad : {double(kNan), double(kInf), 0.0}) {
         DepthFilter filter(smallCamera(), oneWorker());
         filter.predict({}, 0.03);
@@ -65,7 +65,7 @@ TEST(Mended, APoseThatIsNoneForgetsTheDepth) {
     }
 }
 
-TEST(Mended, ATimeThatIsNoneAddsNoDoubt) {
+TEST(Mended, AnInvalidTimeAddsNoVariance) {
     DepthFilter filter(smallCamera(), oneWorker());
     filter.predict({}, 0.03);
     filter.fuse(fieldOf({8, 6}, 0.5F, 0.01F), {0, 0, 8, 6});
@@ -78,7 +78,7 @@ TEST(Mended, ATimeThatIsNoneAddsNoDoubt) {
         }
 }
 
-TEST(Mended, DepthThatIsNoneStaysUnknownAtEdges) {
+TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
     EdgeSnap snap({8, 6}, oneWorker());
     const TestPicture picture({8, 6});
     for (const auto& [rho, variance] : {std::pair(kNan, 0.01F), {kInf, 0.01F}, {0.5F, -1.0F}}) {
@@ -127,7 +127,7 @@ TEST(Mended, APredictionThatIsNoNumberIsSearchedFromInfinity) {
     EXPECT_EQ(searched(kInf), searched(1e30F));
 }
 
-TEST(Mended, ACovarianceThatIsNoneLeavesTheSearchSound) {
+TEST(Mended, SearchSurvivesAnInvalidCovariance) {
     const CameraModel camera = smallCamera({64, 48});
     const TestPicture picture = randomPicture({64, 48}, 1);
     LumaImage luma;
@@ -141,7 +141,7 @@ TEST(Mended, ACovarianceThatIsNoneLeavesTheSearchSound) {
     }
 }
 
-TEST(Mended, CovariancesThatAreNoneAreNoPose) {
+TEST(Mended, PosesWithAnInvalidCovarianceAreRejected) {
     PoseFilter filter;
     Pose pose{Timestamp::fromSeconds(1), {}};
     pose.covariance(2, 2) = -1;

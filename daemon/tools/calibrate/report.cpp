@@ -78,7 +78,7 @@ std::string resultText(const Calibration& calibration) {
                        1000 * d[5], d.head<3>().maxCoeff() / kDegree);
     if (calibration.offsetKnown)
         return out +
-               fmt::format("clocks: time of a still {:+.3f} ms is the video's, +- {:.3f} ms\n",
+               fmt::format("clocks: add {:.3f} ms to still times to get video times, +- {:.3f} ms\n",
                            1000 * calibration.rig.stillTimeOffset,
                            1000 * calibration.offsetDeviation);
     return out + "clocks: the offset of the still's clock was not measured and is taken as 0: the "

@@ -32,7 +32,7 @@ int checked(const std::vector<TriangulatedPoint>& points) {
     return known;
 }
 
-TEST(TriangulationOdd, FlowThatIsNoneOrLeadsOutOfTheViewIsUnknown) {
+TEST(TriangulationOdd, InvalidFlowAndFlowOutOfViewAreUnknown) {
     const twin::TwoViews views = plainViews(moved(1, {1, 2, 3}, {-0.2, 0, 0}));
     const float values[] = {kNan, kInf, -kInf, 3e38F, -3e38F, 1e9F, -1e9F, 100, -100};
     for (const TriangulationMethod method : kBothMethods)
@@ -64,7 +64,7 @@ TEST(TriangulationOdd, WithoutABaselineAllFlowIsResidual) {
     EXPECT_NEAR(points[64 * 20 + 30].residual, 3, 1e-4);
 }
 
-TEST(TriangulationOdd, PosesThatAreNoneGiveNothing) {
+TEST(TriangulationOdd, InvalidPosesGiveNoPoint) {
     const std::vector<float> flow(2UL * 64 * 48, -1.0F);
     for (const TriangulationMethod method : kBothMethods)
         for (const double value : {double(kNan), double(kInf), 1e300}) {
