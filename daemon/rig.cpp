@@ -77,8 +77,9 @@ struct PlayedSource final : RigSource {
         if (!std::filesystem::is_directory(folder))
             throw Failure(ExitCode::NoInput, folder.string() + ": there is no such recording");
         try {
-            Recording out = loadRecording(folder);
-            requireMemory(config.limits, out.rig.video.size, out.rig.still.size, folder.string());
+            Recording out = loadRecording(folder, config.limits.pictureBytes());
+            requireMemory(config.limits, out.rig.video.size, out.rig.still.size, folder.string(),
+                          memoryOf(out));
             return out;
         } catch (const RecordingError& error) {
             throw Failure(ExitCode::BadData, error.what());
