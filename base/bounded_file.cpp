@@ -50,6 +50,11 @@ Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust)
         if (got == 0) throw std::runtime_error("has become shorter while it was read");
         at += static_cast<std::size_t>(got);
     }
+    // Files of the kernel say that they are empty.
+    char more = 0;
+    const ssize_t got = ::read(fd.get(), &more, 1);
+    if (got < 0) fail("cannot be read");
+    if (got > 0) throw std::runtime_error("has become longer while it was read");
     return bytes;
 }
 

@@ -11,7 +11,7 @@ namespace mfar {
 /// All bytes of a regular file. A device or a named pipe is refused without being waited for, and a
 /// file that is too large before memory is taken for it. Throws std::runtime_error whose message
 /// says what is wrong without naming the file: "is missing", "is not a regular file", "cannot be
-/// opened: reason", "has 9 bytes, at most 8 are read".
+/// opened: reason", "has 9 bytes, at most 8 are read", "has become longer while it was read".
 [[nodiscard]] std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file,
                                                     std::size_t most);
 

@@ -35,7 +35,7 @@ private:
     void take(char c) {
         if (c == '[' || c == '{') ++depth_;
         if ((c == ']' || c == '}') && depth_ > 0) --depth_;
-        if (c == ',' || c == '=' || c == '[' || c == '{') ++values_;
+        if (c == ',' || c == '=' || c == '[' || c == '{' || c == '.') ++values_;  // a dot: a table
         if (c == '.')
             ++dots_;
         else if (c == ',' || c == '=' || c == '\n' || c == '[' || c == '{')

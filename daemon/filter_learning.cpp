@@ -1,5 +1,6 @@
 #include "daemon/filter_learning.h"
 
+#include "base/bounded_file.h"
 #include "base/thread_priority.h"
 #include "base/whole_file.h"
 #include "pipeline/enlarge/stored_numbers.h"
@@ -9,8 +10,6 @@
 #include <system_error>
 
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -21,7 +20,16 @@ namespace {
 constexpr double kShare = 0.1;
 constexpr std::chrono::minutes kStoreEvery{1};
 // A state has 1.2 MB; a longer file is none of ours.
-constexpr std::uintmax_t kMostFilterBytes = 4 << 20;
+constexpr std::size_t kMostFilterBytes = 4 << 20;
+
+/// Throws FilterBankError.
+std::vector<std::uint8_t> bytesOf(const std::filesystem::path& file) {
+    try {
+        return boundedFile(file, kMostFilterBytes);
+    } catch (const std::runtime_error& error) {
+        throw FilterBankError(fmt::format("{}: {}", file.string(), error.what()));
+    }
+}
 
 }  // namespace
 
@@ -68,13 +76,7 @@ void FilterLearning::restore() {
     if (options_.file.empty() || !std::filesystem::exists(options_.file, error)) return;
     const std::string name = options_.file.string();
     try {
-        const std::uintmax_t size = std::filesystem::file_size(options_.file, error);
-        if (error || size > kMostFilterBytes)
-            throw FilterBankError(name + ": not a file of filters");
-        std::ifstream in(options_.file, std::ios::binary);
-        const std::vector<char> text{std::istreambuf_iterator<char>(in), {}};
-        const std::vector<std::uint8_t> bytes(text.begin(), text.end());
-        learner_ = EnlargerLearner::restored(bytes, options_.sensors, name);
+        learner_ = EnlargerLearner::restored(bytesOf(options_.file), options_.sensors, name);
     } catch (const FilterBankError& fault) {
         warnings_.push_back(std::string(fault.what()) + "; learning begins anew");
     }

@@ -57,6 +57,10 @@ std::uint64_t LimitsConfig::memoryBytes() const {
     return static_cast<std::uint64_t>(memoryMb > 0 ? memoryMb * kMegabyte : byMachine);
 }
 
+std::uint64_t LimitsConfig::pictureBytes() const {
+    return static_cast<std::uint64_t>(kShareOfFrames * static_cast<double>(memoryBytes()));
+}
+
 void readLimits(TomlReader& file, LimitsConfig& limits) {
     file.number("limits.memory_mb", limits.memoryMb, [](double mb) -> std::optional<std::string> {
         if (mb == 0 || mb >= kLeastMb) return std::nullopt;
@@ -64,10 +68,12 @@ void readLimits(TomlReader& file, LimitsConfig& limits) {
     });
 }
 
-void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place) {
+void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place,
+                   std::size_t lists) {
     const auto pixels = [](Size size) { return 1.0 * size.width * size.height; };
-    const double needed = kBytesPerStillPixel * pixels(still) + kBytesPerVideoPixel * pixels(video);
-    const double most = kShareOfFrames * static_cast<double>(limits.memoryBytes());
+    const double needed = kBytesPerStillPixel * pixels(still) +
+                          kBytesPerVideoPixel * pixels(video) + static_cast<double>(lists);
+    const auto most = static_cast<double>(limits.pictureBytes());
     if (needed <= most) return;
     throw Failure(
         ExitCode::BadData,

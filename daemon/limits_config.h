@@ -17,6 +17,8 @@ struct LimitsConfig {
     bool operator==(const LimitsConfig&) const = default;
     /// The budget.
     [[nodiscard]] std::uint64_t memoryBytes() const;
+    /// The frame path's and a recording's share of it: two thirds.
+    [[nodiscard]] std::uint64_t pictureBytes() const;
 };
 
 void readLimits(TomlReader& file, LimitsConfig& limits);
@@ -24,9 +26,10 @@ void readLimits(TomlReader& file, LimitsConfig& limits);
 /// What the machine has, or this process's control group where that is less [byte].
 [[nodiscard]] std::uint64_t machineMemory();
 
-/// Refuses pictures for which the budget is too small, before memory is taken for them. The frame
-/// path may have two thirds of it. `place` is for the message. Throws Failure(BadData).
-void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place);
+/// Refuses pictures for which pictureBytes() is too small, before memory is taken for them; `lists`
+/// is what a recording's take of it. `place` is for the message. Throws Failure(BadData).
+void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place,
+                   std::size_t lists = 0);
 
 /// The share of models and environments, which are read before the ones in use are given up: a
 /// sixth of the budget each time. Taken from as files are read.

@@ -1,5 +1,6 @@
 #include "daemon/restart_pause.h"
 
+#include "base/bounded_file.h"
 #include "daemon/log.h"
 #include "daemon/service.h"
 
@@ -12,6 +13,8 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <sstream>
+#include <stdexcept>
 #include <string_view>
 
 namespace mfar {
@@ -23,6 +26,16 @@ constexpr std::chrono::seconds kRan{60};
 // From the end of one process to the start of the next: RestartSec= and what a busy system takes.
 constexpr std::chrono::seconds kInARow{60};
 constexpr int kMostCounted = 1000;
+constexpr std::size_t kMostBytes = 64;  // of the file
+
+/// Empty without a file that can be read.
+std::string textOf(const std::filesystem::path& file) {
+    try {
+        return boundedText(file, kMostBytes);
+    } catch (const std::runtime_error&) {
+        return {};
+    }
+}
 
 std::string_view hint(ExitCode code) {
     if (code == ExitCode::Unavailable)
@@ -44,7 +57,7 @@ std::filesystem::path RestartPause::defaultFile() {
 
 // The file has the count and when the last process ended, on the clock that begins with the system.
 int RestartPause::failuresBefore(Timestamp started) const {
-    std::ifstream in(file_);
+    std::istringstream in(textOf(file_));
     int count = 0;
     Timestamp ended;
     if (!(in >> count >> ended.ns) || count < 0 || count > kMostCounted) return 0;

@@ -75,6 +75,8 @@ void flushNothing(png_structp /*png*/) {}
 
 bool readHeader(PngReader& reader, std::span<const std::uint8_t>& left, ImageAlpha alpha) {
     if (setjmp(reader.error.back) != 0) return false;
+    // Skips chunks that do not change the pixels: a text of 8 kB is decompressed to 8 MB.
+    png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_set_read_fn(reader.png, &left, readBytes);
     png_read_info(reader.png, reader.info);
     png_set_expand(reader.png);

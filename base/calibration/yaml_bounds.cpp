@@ -33,7 +33,7 @@ public:
     void OnMapEnd() override { --depth_; }
 
 private:
-    static constexpr int kDeepest = 16, kMostValues = 100'000;
+    static constexpr int kDeepest = 16, kMostValues = 50'000;
 
     void count(const YAML::Mark& mark) {
         if (++values_ > kMostValues)

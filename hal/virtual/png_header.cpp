@@ -1,11 +1,17 @@
 #include "hal/virtual/png_header.h"
 
+#include "base/owned_fd.h"
 #include "hal/virtual/image_files.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdint>
-#include <fstream>
+#include <span>
 #include <stdexcept>
 
 namespace mfar {
@@ -21,15 +27,29 @@ std::uint32_t bigEndian(const std::uint8_t* p) {
     return std::uint32_t{p[0]} << 24 | std::uint32_t{p[1]} << 16 | std::uint32_t{p[2]} << 8 | p[3];
 }
 
+/// How many bytes were read.
+std::size_t readAt(int fd, off_t at, std::span<std::uint8_t> to) {
+    ssize_t got = -1;
+    do
+        got = pread(fd, to.data(), to.size(), at);
+    while (got < 0 && errno == EINTR);
+    if (got < 0) throw std::runtime_error("cannot be read");
+    return static_cast<std::size_t>(got);
+}
+
 }  // namespace
 
 Size pngSize(const std::filesystem::path& file) {
-    if (!std::filesystem::is_regular_file(file)) throw std::runtime_error("is missing");
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw std::runtime_error("cannot be read");
+    // Not blocking: to open a pipe that nobody writes would wait. No stream, whose buffer would
+    // leave holes between what a long list keeps.
+    const OwnedFd fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+    struct stat about{};
+    if (!fd && errno != ENOENT && errno != ENOTDIR && errno != ENXIO)
+        throw std::runtime_error("cannot be read");
+    if (!fd || fstat(fd.get(), &about) != 0 || !S_ISREG(about.st_mode))
+        throw std::runtime_error("is missing");
     std::array<std::uint8_t, 24> start{};
-    in.read(reinterpret_cast<char*>(start.data()), start.size());
-    const auto got = static_cast<std::size_t>(in.gcount());
+    const std::size_t got = readAt(fd.get(), 0, start);
     if (!std::equal(kStart.begin(), kStart.begin() + std::min(got, kStart.size()), start.begin()))
         throw std::runtime_error("is not a PNG file");
     if (got < start.size()) throw std::runtime_error("is a truncated PNG file");
@@ -37,9 +57,9 @@ Size pngSize(const std::filesystem::path& file) {
     if (width == 0 || height == 0 || width > kMaxImageSide || height > kMaxImageSide)
         throw std::runtime_error("is a PNG file of impossible size");
     std::array<std::uint8_t, 12> end{};
-    in.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
-    in.read(reinterpret_cast<char*>(end.data()), end.size());
-    if (!in || end != kEnd) throw std::runtime_error("is a truncated PNG file");
+    const off_t last = about.st_size - static_cast<off_t>(end.size());
+    if (readAt(fd.get(), last, end) != end.size() || end != kEnd)
+        throw std::runtime_error("is a truncated PNG file");
     return {static_cast<int>(width), static_cast<int>(height)};
 }
 

@@ -19,6 +19,25 @@ constexpr std::int64_t kLongestPoseGap =
     250'000'000;                         // [ns]: a hand-held camera has turned by then
 constexpr double kUnitTolerance = 1e-3;  // ground truth is printed with as few as four digits
 
+/// Of a vector that has just grown, and of a file's name and its parts.
+constexpr std::size_t kBytesPerPicture = 2 * sizeof(RecordedImage) + 400,
+                      kBytesPerPose = 2 * sizeof(Pose);
+
+/// What lists may still take.
+class ListMemory {
+public:
+    explicit ListMemory(std::size_t most) : most_(most), left_(most) {}
+
+    void take(std::size_t bytes, const CsvRow& row) {
+        if (bytes > left_)
+            row.fail(fmt::format("the lists take more than {} MB of memory", most_ >> 20U));
+        left_ -= bytes;
+    }
+
+private:
+    std::size_t most_, left_;
+};
+
 void checkIncreasing(const CsvRow& row, Timestamp previous, Timestamp t) {
     if (t == previous) row.fail(fmt::format("timestamp {} occurs twice", t.ns));
     if (t < previous)
@@ -61,11 +80,12 @@ void forEachWholeRow(const fs::path& file, const std::function<void(const CsvRow
     });
 }
 
-std::vector<RecordedImage> readImages(const fs::path& camera, Size expected) {
+std::vector<RecordedImage> readImages(const fs::path& camera, Size expected, ListMemory& memory) {
     std::vector<RecordedImage> images;
     forEachWholeRow(camera / "data.csv", [&](const CsvRow& row) {
         RecordedImage image = readImageRow(row, camera / "data", expected);
         if (!images.empty()) checkIncreasing(row, images.back().time, image.time);
+        memory.take(kBytesPerPicture, row);
         images.push_back(std::move(image));
     });
     return images;
@@ -84,13 +104,15 @@ Pose readPoseRow(const CsvRow& row, const RigidTransform& T_body_video) {
     return {row.time(0), T_world_body * T_body_video};
 }
 
-std::vector<Pose> readPoses(const fs::path& folder, const RigidTransform& T_body_video) {
+std::vector<Pose> readPoses(const fs::path& folder, const RigidTransform& T_body_video,
+                            ListMemory& memory) {
     std::vector<Pose> poses;
     if (!fs::exists(folder)) return poses;
     forEachWholeRow(folder / "data.csv", [&](const CsvRow& row) {
         if (row.isTorn()) return;  // a part of a number is a number
         const Pose pose = readPoseRow(row, T_body_video);
         if (!poses.empty()) checkIncreasing(row, poses.back().time, pose.time);
+        memory.take(kBytesPerPose, row);
         poses.push_back(pose);
     });
     return poses;
@@ -106,7 +128,7 @@ std::optional<fs::path> existing(fs::path file) {
     return file;
 }
 
-Recording load(const fs::path& root) {
+Recording load(const fs::path& root, std::size_t most) {
     const fs::path videoFolder = root / "cam0", stillFolder = root / "cam1";
     for (const fs::path& folder : {root, videoFolder, stillFolder})
         requireFolder(folder);
@@ -119,10 +141,11 @@ Recording load(const fs::path& root) {
     out.root = root;
     out.videoRateHz = video.rateHz;
     out.rig = {video.camera, still.camera, still.T_body_sensor.inverse() * video.T_body_sensor};
-    out.video = readImages(videoFolder, video.camera.size);
+    ListMemory memory(most);
+    out.video = readImages(videoFolder, video.camera.size, memory);
     if (out.video.empty()) recordingFault(videoFolder / "data.csv", 0, "lists no picture");
-    out.stills = readImages(stillFolder, still.camera.size);
-    out.poses = readPoses(root / "state_groundtruth_estimate0", video.T_body_sensor);
+    out.stills = readImages(stillFolder, still.camera.size, memory);
+    out.poses = readPoses(root / "state_groundtruth_estimate0", video.T_body_sensor, memory);
     return out;
 }
 
@@ -157,9 +180,14 @@ std::optional<fs::path> Recording::truthFlow(Timestamp from, Timestamp to) const
     return existing(root / "truth" / "flow" / fmt::format("{}_{}.flo", from.ns, to.ns));
 }
 
-Recording loadRecording(const fs::path& root) {
+std::size_t memoryOf(const Recording& recording) {
+    return kBytesPerPicture * (recording.video.size() + recording.stills.size()) +
+           kBytesPerPose * recording.poses.size();
+}
+
+Recording loadRecording(const fs::path& root, std::size_t most) {
     try {
-        return load(root);
+        return load(root, most);
     } catch (const CalibrationError& e) {
         throw RecordingError(e.what());
     } catch (const fs::filesystem_error& e) {

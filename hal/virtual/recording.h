@@ -4,7 +4,9 @@
 #include "base/time.h"
 #include "hal/frame.h"
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -43,7 +45,12 @@ struct Recording {
 };
 
 /// Reads and validates a recording: files exist, sizes agree with sensor.yaml (from the image
-/// headers), times are sorted and unique, poses are finite. Throws RecordingError.
-[[nodiscard]] Recording loadRecording(const std::filesystem::path& root);
+/// headers), times are sorted and unique, poses are finite. Throws RecordingError, also when the
+/// lists take more than so many bytes of memory.
+[[nodiscard]] Recording loadRecording(const std::filesystem::path& root,
+                                      std::size_t most = std::numeric_limits<std::size_t>::max());
+
+/// What the lists of a recording take, while they are read as well [byte].
+[[nodiscard]] std::size_t memoryOf(const Recording& recording);
 
 }  // namespace mfar

@@ -3,6 +3,7 @@
 #include "tests/daemon/config_faults.h"
 #include "tests/unit/temp_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <sys/stat.h>
@@ -188,6 +189,11 @@ TEST(Config, ATextWithoutEndIsRefusedBeforeItIsParsed) {
     for (int i = 0; i < 100'000; ++i)
         list += ",0";
     EXPECT_THAT(configFaults(list + "]"), HasSubstr("more than 100000 values"));
+    // Each part of a key is a table.
+    std::string tables;
+    for (int i = 0; i < 4'000; ++i)
+        tables += fmt::format("a{}.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b.b = 1\n", i);
+    EXPECT_THAT(configFaults(tables), HasSubstr("more than 100000 values"));
 }
 
 TEST(Config, ManyFaultsAreNotAllSaid) {
@@ -217,6 +223,8 @@ TEST(Config, ADeviceOrAPipeIsNoConfiguration) {
         {pipe, "it is not a regular file"},
         {"/dev/zero", "it is not a regular file"},
         {"/dev/full", "it is not a regular file"},
+        // Its size is 0.
+        {"/proc/version", "it has become longer while it was read"},
         {folder / "long", "it has 2097152 bytes, at most 1048576 are read"},
     };
     for (const auto& [file, what] : files) {

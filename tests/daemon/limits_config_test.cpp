@@ -6,6 +6,7 @@
 #include "tests/unit/small_recording.h"
 #include "tests/unit/temp_folder.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
@@ -65,6 +66,23 @@ TEST(Limits, ARecordingOfLargePicturesIsRefusedBeforeMemoryIsTaken) {
                 AllOf(StartsWith(folder.path().string() + ": video of 16x12 and stills of "
                                                           "16384x16384 need about 9"),
                       HasSubstr("4096 MB of [limits] memory_mb")));
+}
+
+TEST(Limits, ARecordingWithLongListsIsRefusedBeforeMemoryIsTaken) {
+    const test::TempFolder folder;
+    test::writeSmallRecording(folder.path());
+    std::string poses;
+    for (int i = 0; i < 100'000; ++i)
+        poses += fmt::format("{},0,0,0,1,0,0,0\n", 1'000'000'000 + i);
+    const std::filesystem::path list = folder / "state_groundtruth_estimate0/data.csv";
+    test::writeFile(list, poses);
+    Config config;
+    config.recording = folder.path();
+    config.limits.memoryMb = 512;
+    EXPECT_EQ(refusalOf(config), "none");
+    config.limits.memoryMb = 64;
+    EXPECT_THAT(refusalOf(config), AllOf(StartsWith(list.string() + ":5"),
+                                         HasSubstr("the lists take more than 42 MB")));
 }
 
 TEST(Limits, CamerasWithLargePicturesAreRefused) {

@@ -8,6 +8,12 @@ llvm-19                 names of places, coverage
 EOF
 }
 
+fuzzLibraryPackages() {
+    cat <<'EOF'
+dpkg-dev                sources of the libraries that fuzzing instruments
+EOF
+}
+
 fuzzTargets() { sed -n 's/^ *mfar_fuzz_target(\([a-z0-9]*\).*/\1/p' tests/fuzz/CMakeLists.txt | sort -u; }
 
 # The room of a target: sources whose coverage is counted, as a regular expression.
@@ -38,27 +44,28 @@ fuzzFolder() {
     echo "$folder"
 }
 
-# One target for so many seconds. An input that fails is kept, and its path printed.
+# Arguments: preset, target, seconds. An input that fails is kept, and its path printed.
 fuzzOne() {
-    local target=$1 seconds=$2 seeds=tests/fuzz/corpus/$1 found dictionary=tests/fuzz/$1.dict
+    local build=.build/$1 target=$2 seconds=$3 seeds=tests/fuzz/corpus/$2 found
+    local dictionary=tests/fuzz/$2.dict
     found=$(fuzzFolder "$target")
     local options=(-max_total_time="$seconds" -timeout=25 -rss_limit_mb=1024 -print_final_stats=1
         -artifact_prefix="$found-failed-")
     [[ ! -f $dictionary ]] || options+=(-dict="$dictionary")
     say "fuzz $target: $seconds s, from $(find "$seeds" "$found" -type f | wc -l) inputs"
     ASAN_SYMBOLIZER_PATH=$(command -v llvm-symbolizer-19) UBSAN_OPTIONS=print_stacktrace=1 \
-        ".build/fuzz/tests/fuzz/mfar-fuzz-$target" "${options[@]}" "$found" "$seeds" \
-        >".build/fuzz/$target.log" 2>&1 || {
-        tail -n 60 ".build/fuzz/$target.log" >&2
+        "$build/tests/fuzz/mfar-fuzz-$target" "${options[@]}" "$found" "$seeds" \
+        >"$build/$target.log" 2>&1 || {
+        tail -n 60 "$build/$target.log" >&2
         return 1
     }
-    awk '
+    awk -v target="$target" '
         /^stat::number_of_executed_units:/ { runs = $2 }
         /^stat::average_exec_per_sec:/     { rate = $2 }
         /^stat::peak_rss_mb:/              { peak = $2 }
         / cov: [0-9]+ /                    { for (i = 1; i < NF; ++i) if ($i == "cov:") cov = $(i + 1) }
-        END { printf "%d runs, %d a second, %d edges, %d MB at most\n", runs, rate, cov, peak }
-    ' ".build/fuzz/$target.log"
+        END { printf "%s: %d runs, %d a second, %d edges, %d MB at most\n", target, runs, rate, cov, peak }
+    ' "$build/$target.log"
 }
 
 # Share of the lines of its room that a target's inputs reach.
@@ -74,14 +81,27 @@ fuzzCoverage() {
         awk '/^TOTAL/ { print $10 " of " $8 " lines, " $7 " of " $5 " functions" }'
 }
 
-# Arguments: targets (none: all), --minutes N (1), --coverage.
+# Makes the libraries that decode pictures and read YAML with coverage and sanitizers, and the link
+# by which the preset finds them. CMake remembers where the link led to.
+instrumentLibraries() {
+    local made link=.build/instrumented
+    ensurePackages fuzzLibraryPackages
+    made=$(tests/fuzz/libraries.sh "$(cacheFolder)")
+    [[ $(readlink "$link") != "$made" ]] || return 0
+    rm -f .build/fuzz-libraries/CMakeCache.txt .build/fuzz-libraries/.configured
+    mkdir -p .build
+    ln -sfn "$made" "$link"
+}
+
+# Arguments: targets (none: all), --minutes N (1), --coverage, --instrument-libraries.
 fuzz() {
-    local seconds=60 coverage='' targets=() status=0 target
+    local preset=fuzz seconds=60 coverage='' targets=() running=0 status=0 target
     while [[ $# -gt 0 ]]; do
         case $1 in
         --minutes) [[ $# -ge 2 ]] || die "--minutes needs a number"
             seconds=$(awk -v m="$2" 'BEGIN { print int(m * 60) }'); shift 2 ;;
         --coverage) coverage=1; shift ;;
+        --instrument-libraries) preset=fuzz-libraries; shift ;;
         *) fuzzTargets | grep -qx -- "$1" || die "no fuzz target '$1'; there are $(fuzzTargets | xargs)"
             targets+=("$1"); shift ;;
         esac
@@ -93,7 +113,16 @@ fuzz() {
         for target in "${targets[@]}"; do fuzzCoverage "$target"; done
         return
     fi
-    build fuzz "${targets[@]/#/mfar-fuzz-}" >&2
-    for target in "${targets[@]}"; do fuzzOne "$target" "$seconds" || status=1; done
+    if [[ $preset == fuzz-libraries ]]; then instrumentLibraries; fi
+    build "$preset" "${targets[@]/#/mfar-fuzz-}" >&2
+    for target in "${targets[@]}"; do
+        if ((running == jobs)); then
+            wait -n || status=1
+            running=$((running - 1))
+        fi
+        fuzzOne "$preset" "$target" "$seconds" &
+        running=$((running + 1))
+    done
+    for (( ; running > 0; --running)); do wait -n || status=1; done
     return "$status"
 }

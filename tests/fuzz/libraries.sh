@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# Builds the libraries that decode pictures and read YAML, as Debian has them, for fuzzing: with
+# coverage and both sanitizers. Prints the folder that they are installed in. What was built is
+# kept; it takes about three minutes. Usage: libraries.sh CACHE
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+# shellcheck source=toolchains/debian.sh
+. "$here/../../toolchains/debian.sh"
+
+[[ $# -eq 1 ]] || die "usage: libraries.sh CACHE"
+cache=$1
+
+sources=(zlib libpng1.6 libjpeg-turbo yaml-cpp)
+# What is installed changes with these. The sources may be newer: an archive keeps one version.
+# shellcheck disable=SC2016 # dpkg-query expands
+versions=$(dpkg-query -W -f '${Version} ' zlib1g-dev libpng-dev libturbojpeg0-dev libyaml-cpp-dev)
+
+# As the preset "fuzz" has them. Functions of C libraries are called through pointers of other types.
+sanitizers=-fsanitize=fuzzer-no-link,address,undefined
+flags="-O1 -g1 -fno-omit-frame-pointer -fno-sanitize-recover=all $sanitizers -fno-sanitize=function"
+
+# Arguments: a new folder, files of package sources. Unpacks the sources with Debian's patches there.
+tryFetching() {
+    local folder=$1 file options
+    shift
+    mkdir -p "$folder/lists/partial" "$folder/sources"
+    for file; do
+        sed 's/^Types:.*/Types: deb-src/; s/^deb /deb-src /' "$file" >"$folder/sources/${file##*/}"
+    done
+    options=(-o "Dir::State::Lists=$folder/lists" -o "Dir::Etc::SourceParts=$folder/sources"
+        -o Dir::Etc::SourceList=/dev/null -o APT::Sandbox::User=root)
+    apt-get -qq "${options[@]}" update &&
+        (cd "$folder" && apt-get -qq "${options[@]}" source "${sources[@]}")
+}
+
+# Argument: a new folder. Security updates are not on every mirror as source.
+fetch() {
+    local folder=$1 files
+    mapfile -t files < <(debianSources)
+    [[ ${#files[@]} -gt 0 ]] || die "no source of Debian packages is configured"
+    if ! tryFetching "$folder" "${files[@]}"; then
+        rm -rf "$folder"
+        mkdir -p "$folder/main"
+        mapfile -t files < <(sourcesWithoutSecurity "$folder/main")
+        tryFetching "$folder" "${files[@]}"
+    fi
+}
+
+# Arguments: source folder, folder to install in, options of CMake.
+buildOne() {
+    local source=$1 prefix=$2
+    shift 2
+    cmake -S "$source" -B "$source/build" -G Ninja -DCMAKE_BUILD_TYPE=None \
+        -DCMAKE_C_COMPILER=clang-19 -DCMAKE_CXX_COMPILER=clang++-19 \
+        -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_PREFIX_PATH="$prefix" \
+        -DCMAKE_INSTALL_PREFIX="$prefix" -DCMAKE_INSTALL_LIBDIR="$prefix/lib" \
+        -DBUILD_SHARED_LIBS=OFF "$@"
+    cmake --build "$source/build"
+    cmake --install "$source/build"
+}
+
+buildAll() {
+    local folder=$1 prefix=$2
+    fetch "$folder"
+    # Debian leaves out files that its CMake asks for.
+    (cd "$folder"/zlib-*/ && CC=clang-19 CFLAGS=$flags ./configure --static --prefix="$prefix" &&
+        make install)
+    buildOne "$folder"/libpng1.6-*/ "$prefix" -DPNG_SHARED=OFF -DPNG_TESTS=OFF -DPNG_EXECUTABLES=OFF
+    # Its lanes are assembly, which no sanitizer sees.
+    buildOne "$folder"/libjpeg-turbo-*/ "$prefix" -DENABLE_SHARED=OFF -DWITH_SIMD=OFF
+    buildOne "$folder"/yaml-cpp-*/ "$prefix" -DYAML_CPP_BUILD_TESTS=OFF -DYAML_CPP_BUILD_TOOLS=OFF
+}
+
+built=$cache/instrumented-$(inputHash "$versions" "$(cat "$here/libraries.sh")")
+if [[ ! -d $built ]]; then
+    printf 'Making %s, about three minutes\n' "$built" >&2
+    rm -rf "$built.part"
+    mkdir -p "$built.part"
+    # In the background, as "||" would let it go on after a fault.
+    buildAll "$built.part/source" "$built.part/prefix" >"$built.log" 2>&1 &
+    wait $! || {
+        tail -n 20 "$built.log" >&2
+        die "the libraries cannot be built, see $built.log"
+    }
+    # Its own path is in files of pkg-config and CMake.
+    grep -rlIZ "$built.part/prefix" "$built.part/prefix/lib" | xargs -0 sed -i "s|$built.part/prefix|$built|g"
+    rm -rf "$built.part/source" "$built.log"
+    mv "$built.part/prefix" "$built"
+    rmdir "$built.part"
+fi
+touch "$built"
+# Those of earlier versions.
+find "$cache" -maxdepth 1 -name 'instrumented-*' ! -name "${built##*/}" -mtime +14 -exec rm -rf {} +
+echo "$built"
