@@ -76,9 +76,8 @@ struct PlayedSource final : RigSource {
         const std::filesystem::path& folder = config.recording;
         if (!std::filesystem::is_directory(folder))
             throw Failure(ExitCode::NoInput, folder.string() + ": there is no such recording");
-        Recording out = orFail<RecordingError>(ExitCode::BadData, [&] {
-            return loadRecording(folder, config.limits.pictureBytes());
-        });
+        Recording out = orFail<RecordingError>(
+            ExitCode::BadData, [&] { return loadRecording(folder, config.limits.pictureBytes()); });
         requireMemory(config.limits, out.rig.video.size, out.rig.still.size, folder.string(),
                       memoryOf(out));
         return out;
