@@ -9,6 +9,7 @@ namespace {
 
 constexpr float kDisplayGamma = 2.2F;
 constexpr float kGreyLevels = 255;
+constexpr float kEnough = 16;  // samples, to know that there is no change
 // Of an unknown background to an object's value: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 
@@ -29,6 +30,17 @@ void keepNearest(FirstHit& kept, const FirstHit& hit) {
 double varianceOfMean(double sum, double squares, double n) {
     if (n < 2) return 0;
     return std::max(0.0, squares - sum * sum / n) / (n * (n - 1));
+}
+
+template <typename Number>
+Number squared(Number value) {
+    return value * value;
+}
+
+/// Of the mean of `count` samples, from their mean and the mean of their squared luminances.
+float deviationOf(const Eigen::Vector3f& mean, float square, float count) {
+    if (count < 2) return 0;
+    return std::sqrt(std::max(0.0F, square - squared(luminanceOf(mean))) / (count - 1));
 }
 
 float slopeAt(const Eigen::Vector3f& radiance, const Exposure& exposure) {
@@ -63,67 +75,143 @@ std::uint64_t Film::dropped() const {
     return sum;
 }
 
+void Film::setCentre(std::size_t pixel, const SeenSurface& surface) {
+    Pixel& p = begun(pixel);
+    p.seen = surface;
+    p.isSeen = true;
+}
+
+bool Film::isUntouched(std::size_t pixel) const {
+    const Pixel& p = at(pixel);
+    return p.seen.hit.id == kCatcherId && isWhole(p) && !(p.catcher.firstSquares > 0) &&
+           !(p.carried.firstSquare > 0);
+}
+
 void Film::add(std::size_t pixel, const FilmSample& sample) {
     Pixel& p = begun(pixel);
     ++p.taken;
+    const bool isCatcher = sample.hit.id == kCatcherId;
     if (!isLight(sample.radiance) || !isLight(sample.without)) {
         ++p.lost;
-    } else if (sample.hit.id == kCatcherId) {
-        ++p.catcherHits;
-        p.with += sample.radiance.cast<double>();
-        p.without += sample.without.cast<double>();
-        const double change =
-            luminanceOf<double>((sample.radiance - sample.without).cast<double>());
-        p.changeSquares += change * change;
-        keepNearest(p.catcher, sample.hit);
-    } else if (sample.hit.id != 0) {
-        ++p.objectHits;
-        p.object += sample.radiance.cast<double>();
-        p.baseColour += sample.baseColour;
-        const double y = luminanceOf<double>(sample.radiance.cast<double>());
-        p.objectSquares += y * y;
-        keepNearest(p.nearest, sample.hit);
+        return;
     }
+    if (sample.hit.id == 0) return;
+    keepNearest(isCatcher ? p.nearestCatcher : p.nearest, sample.hit);
+    LightSums& sums = isCatcher ? p.catcher : p.object;
+    const auto first = isCatcher ? (sample.radiance - sample.without).cast<double>().eval()
+                                 : sample.light.diffuse.cast<double>().eval();
+    const auto second = (isCatcher ? sample.without : sample.light.specular).cast<double>().eval();
+    ++sums.hits;
+    sums.first += first;
+    sums.second += second;
+    sums.firstSquares += squared(luminanceOf<double>(first));
+    sums.secondSquares += squared(luminanceOf<double>(second));
+    if (isCatcher) return;
+    p.radiance += sample.radiance.cast<double>();
+    p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
+    p.baseColour += sample.paint.baseColour;
+    p.metallic += sample.paint.metallic;
 }
 
-void Film::setCentre(std::size_t pixel, const FirstHit& hit) {
-    begun(pixel).centre = hit;
+// Only one surface is in it, as far as is known.
+bool Film::isWhole(const Pixel& p) {
+    const std::uint32_t n = p.taken - p.lost;
+    if (p.seen.hit.id == 0) return n > 0 && (p.object.hits == n || p.catcher.hits == n);
+    return (p.seen.hit.id == kCatcherId ? p.catcher : p.object).hits == n;
+}
+
+KnownLight Film::knownOf(const LightSums& sums, const KnownLight& carried) {
+    const auto n = static_cast<float>(sums.hits);
+    KnownLight out;
+    out.firstCount = n + carried.firstCount;
+    out.secondCount = n + carried.secondCount;
+    if (out.firstCount > 0) {
+        out.first =
+            (sums.first.cast<float>() + carried.firstCount * carried.first) / out.firstCount;
+        out.firstSquare =
+            (static_cast<float>(sums.firstSquares) + carried.firstCount * carried.firstSquare) /
+            out.firstCount;
+    }
+    if (out.secondCount > 0) {
+        out.second =
+            (sums.second.cast<float>() + carried.secondCount * carried.second) / out.secondCount;
+        out.secondSquare =
+            (static_cast<float>(sums.secondSquares) + carried.secondCount * carried.secondSquare) /
+            out.secondCount;
+    }
+    return out;
+}
+
+KnownLight Film::known(std::size_t pixel) const {
+    const Pixel& p = at(pixel);
+    if (p.seen.hit.id == 0 || !isWhole(p)) return {};
+    return knownOf(p.seen.hit.id == kCatcherId ? p.catcher : p.object, p.carried);
+}
+
+Paint Film::paintOf(const Pixel& p) {
+    if (p.object.hits == 0) return p.seen.paint;
+    const auto hits = static_cast<float>(p.object.hits);
+    return {p.baseColour / hits, p.metallic / hits};
 }
 
 float Film::error(std::size_t pixel, const Exposure& exposure) const {
     const Pixel& p = at(pixel);
     const auto n = static_cast<double>(p.taken - p.lost);
+    const bool carries = p.carried.firstCount > 0 && isWhole(p);
+    if (carries) return errorOfKnown(p, exposure);
     if (n < 2) return std::numeric_limits<float>::infinity();
-    const auto objects = static_cast<double>(p.objectHits);
-    const auto catchers = static_cast<double>(p.catcherHits);
+    const auto objects = static_cast<double>(p.object.hits);
+    const auto catchers = static_cast<double>(p.catcher.hits);
     double variance = 0;
     if (objects > 0) {
-        const double slope = slopeAt((p.object / objects).cast<float>(), exposure) * objects / n;
-        variance += slope * slope * varianceOfMean(luminanceOf(p.object), p.objectSquares, objects);
+        const double slope = slopeAt((p.radiance / objects).cast<float>(), exposure) * objects / n;
+        variance +=
+            slope * slope * varianceOfMean(luminanceOf(p.radiance), p.radianceSquares, objects);
     }
     if (catchers > 0) {
-        const double slope = slopeAt((p.without / catchers).cast<float>(), exposure) * catchers / n;
-        const double change = luminanceOf<double>(p.with - p.without);
-        variance += slope * slope * varianceOfMean(change, p.changeSquares, catchers);
+        const double slope =
+            slopeAt((p.catcher.second / catchers).cast<float>(), exposure) * catchers / n;
+        variance += slope * slope *
+                    varianceOfMean(luminanceOf(p.catcher.first), p.catcher.firstSquares, catchers);
     }
     const double covered = objects / n;
     const double edge = kEdgeContrast * kEdgeContrast * covered * (1 - covered);
     return static_cast<float>(std::sqrt(variance + edge / (n * std::sqrt(n))));
 }
 
+// Both parts of an object's light are of the same paths: their errors add up.
+float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
+    if (p.seen.hit.id == kCatcherId) {
+        const KnownLight known = knownOf(p.catcher, p.carried);
+        if (known.firstCount < 2) return std::numeric_limits<float>::infinity();
+        return slopeAt(known.second, exposure) *
+               deviationOf(known.first, known.firstSquare, known.firstCount);
+    }
+    const KnownLight known = knownOf(p.object, p.carried);
+    if (known.firstCount < 2 || known.secondCount < 2)
+        return std::numeric_limits<float>::infinity();
+    const Paint paint = paintOf(p);
+    const float diffuse = luminanceOf(paint.diffuse()) *
+                          deviationOf(known.first, known.firstSquare, known.firstCount);
+    const float specular = luminanceOf(paint.specular()) *
+                           deviationOf(known.second, known.secondSquare, known.secondCount);
+    return slopeAt(SurfaceLight{known.first, known.second}.on(paint), exposure) *
+           (diffuse + specular);
+}
+
 Film::Means Film::meansOf(const Pixel& p) {
     Means out;
     const auto n = static_cast<float>(p.taken - p.lost);
-    if (p.objectHits > 0) {
-        const auto hits = static_cast<float>(p.objectHits);
-        out.object = (p.object / double(p.objectHits)).cast<float>();
-        out.objectShare = hits / n;
+    if (p.object.hits > 0) {
+        const double hits = p.object.hits;
+        out.object = (p.radiance / hits).cast<float>();
+        out.objectShare = static_cast<float>(hits) / n;
     }
-    if (p.catcherHits > 0) {
-        const auto hits = static_cast<float>(p.catcherHits);
-        out.with = (p.with / double(p.catcherHits)).cast<float>();
-        out.without = (p.without / double(p.catcherHits)).cast<float>();
-        out.catcherShare = hits / n;
+    if (p.catcher.hits > 0) {
+        const double hits = p.catcher.hits;
+        out.with = ((p.catcher.first + p.catcher.second) / hits).cast<float>();
+        out.without = (p.catcher.second / hits).cast<float>();
+        out.catcherShare = static_cast<float>(hits) / n;
     }
     return out;
 }
@@ -151,26 +239,50 @@ Film::Shown Film::shown(const Means& m, const Exposure& exposure) {
 
 FirstHit Film::firstHit(const Pixel& p, bool changed) {
     if (!changed) return {};
-    const bool objects = p.objectHits > 0;
-    if (p.centre.id != 0 && p.centre.id != kCatcherId) return p.centre;
+    const bool objects = p.object.hits > 0;
+    if (p.seen.hit.id != 0 && p.seen.hit.id != kCatcherId) return p.seen.hit;
     // The catcher is nothing where objects change nothing of it.
-    if (p.catcherHits > 0 && !(p.with == p.without) && (p.centre.id == kCatcherId || !objects))
-        return p.centre.id == kCatcherId ? p.centre : p.catcher;
+    const bool catches = p.catcher.firstSquares > 0 || p.carried.firstSquare > 0;
+    if (p.seen.hit.id == kCatcherId && (catches || !objects)) return p.seen.hit;
+    if (catches && !objects) return p.nearestCatcher;
     return objects ? p.nearest : FirstHit{};
 }
 
 Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
-    if (p.objectHits == 0 && p.with == p.without) return {};
+    if (p.object.hits == 0 && p.catcher.first.isZero(0)) return {};
     return shown(meansOf(p), exposure);
 }
 
 Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const {
     const Pixel& p = at(pixel);
-    return resolved(p, shown(p, exposure));
+    Resolved out = resolved(p, shown(p, exposure));
+    if (out.hit.id != 0 && out.hit.id != kCatcherId && p.object.hits > 0) {
+        const double hits = p.object.hits;
+        out.light = SurfaceLight{(p.object.first / hits).cast<float>(),
+                                 (p.object.second / hits).cast<float>()};
+    }
+    return out;
 }
 
-Film::Resolved Film::resolvedFrom(const NoisyPixel& filtered, std::size_t pixel) const {
-    return resolved(at(pixel), Shown{filtered.value.head<3>().matrix(), filtered.value[3]});
+Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
+                                  const Exposure& exposure) const {
+    const Pixel& p = at(pixel);
+    if (light.id == 0) return resolved(pixel, exposure);
+    Means m;
+    SurfaceLight onObject;
+    if (light.id == kCatcherId) {
+        if (light.first.isZero(0)) return {};
+        m.without = light.second.matrix();
+        m.with = (light.first + light.second).matrix();
+        m.catcherShare = 1;
+    } else {
+        onObject = {light.first.matrix(), light.second.matrix()};
+        m.object = onObject.on(paintOf(p));
+        m.objectShare = 1;
+    }
+    Resolved out = resolved(p, shown(m, exposure));
+    out.light = onObject;
+    return out;
 }
 
 Film::Resolved Film::resolved(const Pixel& p, const Shown& s) {
@@ -181,24 +293,51 @@ Film::Resolved Film::resolved(const Pixel& p, const Shown& s) {
     return out;
 }
 
-// A pixel that only one surface is in; what others see of two is an edge.
-NoisyPixel Film::noisy(std::size_t pixel, const Exposure& exposure) const {
+void Film::remember(std::size_t pixel, const LightPixel& light) {
+    Pixel& p = pixels_[pixel];
+    if (p.picture != picture_ || light.id == 0 || p.taken > 0 || p.carried.firstCount > 0) return;
+    if (!(light.firstCount > 0 && light.secondCount > 0)) return;
+    const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
+    // A neighbourhood without change is one without change.
+    const bool untouched = light.id == kCatcherId && first.isZero(0);
+    p.carried = {first,
+                 second,
+                 squared(luminanceOf(first)) + light.firstVariance,
+                 squared(luminanceOf(second)) + light.secondVariance,
+                 untouched ? kEnough : 1,
+                 1};
+    if (untouched) p.carried.firstSquare = 0;
+}
+
+LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
     // Fewer samples say nothing of their spread.
-    constexpr std::uint32_t kFew = 4;
+    constexpr float kFew = 4;
+    // Noise of so few grey levels is not seen.
+    constexpr float kUnseen = 0.3F;
     const Pixel& p = at(pixel);
-    const Shown s = shown(p, exposure);
-    NoisyPixel out;
-    out.value << s.colour.array(), s.coverage;
-    const std::uint32_t n = p.taken - p.lost;
-    if (n == 0 || (p.objectHits != n && p.catcherHits != n)) return out;
-    const FirstHit hit = p.objectHits == n ? firstHit(p, true) : p.catcher;
-    const float error = this->error(pixel, exposure) / kGreyLevels;
-    out.variance = n < kFew ? -1 : error * error;
+    LightPixel out;
+    if (!isWhole(p)) return out;
+    const FirstHit hit = p.seen.hit.id != 0  ? p.seen.hit
+                         : p.object.hits > 0 ? p.nearest
+                                             : p.nearestCatcher;
+    if (hit.id == 0) return out;
+    const bool isCatcher = hit.id == kCatcherId;
+    const KnownLight known = knownOf(isCatcher ? p.catcher : p.object, p.carried);
+    const auto varianceOf = [](const Eigen::Vector3f& mean, float square, float count) {
+        return count < kFew ? -1 : squared(deviationOf(mean, square, count));
+    };
+    out.first = known.first.array();
+    out.second = known.second.array();
+    out.firstVariance = varianceOf(known.first, known.firstSquare, known.firstCount);
+    out.secondVariance = varianceOf(known.second, known.secondSquare, known.secondCount);
+    out.firstCount = known.firstCount;
+    out.secondCount = known.secondCount;
+    out.normal = p.seen.normal.array();
     out.depth = hit.depth;
     out.id = hit.id;
-    if (p.objectHits == n) out.baseColour = p.baseColour.array() / static_cast<float>(n);
     // A real surface without change stays without.
-    out.kept = p.catcherHits == n && p.with == p.without;
+    out.kept = std::min(known.firstCount, known.secondCount) >= kEnough &&
+               error(pixel, exposure) < kUnseen;
     return out;
 }
 

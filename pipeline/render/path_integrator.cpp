@@ -75,24 +75,28 @@ PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions
     : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
       environment_(scene.scene().lighting.environment) {}
 
-Eigen::Vector3f PathIntegrator::lit(const Vertex& vertex, const LightSample& light, Weight weight,
-                                    World& world) {
-    if (!(light.density > 0) || !vertex.faces(light.direction)) return {0, 0, 0};
+PathIntegrator::Sent PathIntegrator::lit(const Vertex& vertex, const LightSample& light,
+                                         Weight weight, World& world) {
+    if (!(light.density > 0) || !vertex.faces(light.direction)) return {};
     const ScatterValue f = vertex.scatter.evaluate(vertex.frame.transpose() * light.direction);
-    if (!(f.density > 0)) return {0, 0, 0};
-    if (world.blocked(vertex.point.leaving(light.direction))) return {0, 0, 0};
-    return f.value.cwiseProduct(light.radiance) *
-           (weight(light.density, f.density) / light.density);
+    if (!(f.density > 0)) return {};
+    if (world.blocked(vertex.point.leaving(light.direction))) return {};
+    const float share = weight(light.density, f.density) / light.density;
+    return {f.value.cwiseProduct(light.radiance) * share, light.radiance * (f.white * share)};
 }
 
-Eigen::Vector3f PathIntegrator::direct(const Vertex& vertex, const PixelSampler& sampler,
-                                       std::uint32_t pair, World& world) const {
-    Eigen::Vector3f sum{0, 0, 0};
+PathIntegrator::Sent PathIntegrator::direct(const Vertex& vertex, const PixelSampler& sampler,
+                                            std::uint32_t pair, World& world) const {
+    Sent sum;
+    const auto add = [&](const Sent& sent) {
+        sum.radiance += sent.radiance;
+        sum.white += sent.white;
+    };
     if (!sun_.dark())
-        sum += lit(vertex, sun_.sample(sampler.pair(pair + kSunPair)), powerWeight, world);
+        add(lit(vertex, sun_.sample(sampler.pair(pair + kSunPair)), powerWeight, world));
     if (environment_.sampled())
-        sum += lit(vertex, environment_.sample(sampler.pair(pair + kEnvironmentPair)),
-                   balanceWeight, world);
+        add(lit(vertex, environment_.sample(sampler.pair(pair + kEnvironmentPair)), balanceWeight,
+                world));
     return sum;
 }
 
@@ -106,43 +110,58 @@ Eigen::Vector3f PathIntegrator::escaped(const Eigen::Vector3f& direction, float 
     return sum;
 }
 
-Eigen::Vector3f PathIntegrator::limited(const Eigen::Vector3f& light, int depth) const {
+float PathIntegrator::kept(const Eigen::Vector3f& light, int depth) const {
     const float most = light.maxCoeff();
-    if (depth < 2 || !(options_.fireflyClamp > 0) || !(most > options_.fireflyClamp)) return light;
-    return light * (options_.fireflyClamp / most);
+    if (depth < 2 || !(options_.fireflyClamp > 0) || !(most > options_.fireflyClamp)) return 1;
+    return options_.fireflyClamp / most;
 }
 
-Eigen::Vector3f PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo,
-                                     const PixelSampler& sampler, World& world) const {
-    Eigen::Vector3f sum{0, 0, 0}, throughput{1, 1, 1};
+PathIntegrator::Sent PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo,
+                                          const PixelSampler& sampler, World& world) const {
+    Sent sum;
+    Eigen::Vector3f throughput{1, 1, 1}, whiteThroughput{0, 0, 0};  // white: none before a bounce
+    const auto add = [&](const Eigen::Vector3f& light, int depth) {
+        const Eigen::Vector3f sent = throughput.cwiseProduct(light);
+        const float share = kept(sent, depth);
+        sum.radiance += sent * share;
+        sum.white += whiteThroughput.cwiseProduct(light) * share;
+    };
     for (int depth = 1;; ++depth) {
         const std::uint32_t pair =
             kCameraPairs + static_cast<std::uint32_t>(depth - 1) * kPairsOfVertex;
         // What shines at the second surface is direct light of the first.
-        sum += limited(throughput.cwiseProduct(point.emission), depth - 1);
+        add(point.emission, depth - 1);
         const Vertex vertex(point, wo);
-        sum += limited(throughput.cwiseProduct(direct(vertex, sampler, pair, world)), depth);
+        const Sent lit = direct(vertex, sampler, pair, world);
+        add(lit.radiance, depth);
+        if (depth == 1) sum.white += lit.white;
 
         const ScatterSample out = vertex.scatter.sample(sampler.pair(pair + kScatterPair));
         if (!(out.density > 0)) return sum;
         const Eigen::Vector3f direction = vertex.frame * out.wi;
         if (!vertex.faces(direction)) return sum;
         throughput = throughput.cwiseProduct(out.weight);
+        if (depth == 1)
+            whiteThroughput.setConstant(out.white);
+        else
+            whiteThroughput = whiteThroughput.cwiseProduct(out.weight);
         if (depth >= options_.rouletteDepth) {
             const float chance = std::min(1.0F, throughput.maxCoeff() / kSurvives);
             if (!(sampler.pair(pair + kRoulettePair).x() < chance)) return sum;
             throughput /= chance;
+            whiteThroughput /= chance;
         }
         const Ray ray = point.leaving(direction);
         if (depth == options_.maxDepth) {
             // The lights' other half of the last vertex.
-            if (!world.blocked(ray))
-                sum += limited(throughput.cwiseProduct(escaped(direction, out.density)), depth);
+            if (!world.blocked(ray)) add(escaped(direction, out.density), depth);
             return sum;
         }
         const std::optional<SurfacePoint> next = world.next(ray);
-        if (!next)
-            return sum + limited(throughput.cwiseProduct(escaped(direction, out.density)), depth);
+        if (!next) {
+            add(escaped(direction, out.density), depth);
+            return sum;
+        }
         point = *next;
         wo = -direction;
     }
@@ -153,7 +172,9 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
                                                   const PixelSampler& sampler) const {
     const SurfacePoint point = scene_.objectPoint(hit, direction);
     World all{scene_, true};
-    return {walk(point, -direction.normalized(), sampler, all), point.look.baseColour};
+    const Sent sent = walk(point, -direction.normalized(), sampler, all);
+    const Paint paint{point.look.baseColour, point.look.metallic};
+    return {sent.radiance, lightOf(sent.radiance, sent.white, paint), paint};
 }
 
 PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,
@@ -163,8 +184,8 @@ PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,
     const Eigen::Vector3f wo = -direction.normalized();
     World all{scene_, true}, real{scene_, false};
     OfCatcher out;
-    out.with = walk(point, wo, sampler, all);
-    out.without = all.touched ? walk(point, wo, sampler, real) : out.with;
+    out.with = walk(point, wo, sampler, all).radiance;
+    out.without = all.touched ? walk(point, wo, sampler, real).radiance : out.with;
     return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/render/environment_light.h"
+#include "pipeline/render/paint.h"
 #include "pipeline/render/path_tracer_options.h"
 #include "pipeline/render/sobol.h"
 #include "pipeline/render/sun_light.h"
@@ -18,9 +19,11 @@ public:
     PathIntegrator(const TracedScene& scene, const PathTracerOptions& options);
 
     /// Radiance that leaves an object's point against `direction`, which is that of the ray that
-    /// found it, of any length; and the point's base colour.
+    /// found it, of any length; and the point's paint, with the light on it.
     struct OfObject {
-        Eigen::Vector3f radiance, baseColour;
+        Eigen::Vector3f radiance;
+        SurfaceLight light;
+        Paint paint;
     };
     [[nodiscard]] OfObject ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
                                     const PixelSampler& sampler) const;
@@ -36,16 +39,21 @@ public:
 private:
     struct World;
     struct Vertex;
-    [[nodiscard]] Eigen::Vector3f walk(SurfacePoint point, Eigen::Vector3f wo,
-                                       const PixelSampler& sampler, World& world) const;
-    [[nodiscard]] Eigen::Vector3f direct(const Vertex& vertex, const PixelSampler& sampler,
-                                         std::uint32_t pair, World& world) const;
+    /// What leaves the first point of a path, and its diffuse part before the point's paint.
+    struct Sent {
+        Eigen::Vector3f radiance{0, 0, 0}, white{0, 0, 0};
+    };
+    [[nodiscard]] Sent walk(SurfacePoint point, Eigen::Vector3f wo, const PixelSampler& sampler,
+                            World& world) const;
+    [[nodiscard]] Sent direct(const Vertex& vertex, const PixelSampler& sampler, std::uint32_t pair,
+                              World& world) const;
     /// Of one strategy's sample from its density and the other's.
     using Weight = float (*)(float taken, float other);
-    [[nodiscard]] static Eigen::Vector3f lit(const Vertex& vertex, const LightSample& light,
-                                             Weight weight, World& world);
+    [[nodiscard]] static Sent lit(const Vertex& vertex, const LightSample& light, Weight weight,
+                                  World& world);
     [[nodiscard]] Eigen::Vector3f escaped(const Eigen::Vector3f& direction, float density) const;
-    [[nodiscard]] Eigen::Vector3f limited(const Eigen::Vector3f& light, int depth) const;
+    /// The share of light that is kept of what came from surface number `depth` of a path.
+    [[nodiscard]] float kept(const Eigen::Vector3f& light, int depth) const;
 
     const TracedScene& scene_;
     const PathTracerOptions& options_;

@@ -6,9 +6,11 @@
 namespace mfar {
 
 void PictureResolver::begin(const Film& film, const RenderView& view, const PixelRect& traced,
-                            const Exposure& exposure, bool filter, RenderedPicture& out) {
+                            const Exposure& exposure, bool filter, RenderedPicture& out,
+                            Film* memory) {
     const Size size = film.size();
     film_ = &film;
+    memory_ = filter ? memory : nullptr;
     traced_ = common(traced, {0, 0, size.width, size.height});
     if (traced_.empty()) traced_ = {};
     exposure_ = exposure;
@@ -73,7 +75,7 @@ void PictureResolver::done(const Portion& portion) {
 void PictureResolver::prepare(int row) {
     const auto begin = static_cast<std::size_t>(row) * film_->size().width;
     for (int x = traced_.x0; x < traced_.x1; ++x)
-        filter_.pixels()[begin + x] = film_->noisy(begin + x, exposure_);
+        filter_.pixels()[begin + x] = film_->light(begin + x, exposure_);
 }
 
 void PictureResolver::write(int row) {
@@ -86,8 +88,9 @@ void PictureResolver::write(int row) {
     if (row < traced_.y0 || row >= traced_.y1) return;
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
-        const auto [colour, hit] = filters_ ? film_->resolvedFrom(filter_.filtered()[i], i)
-                                            : film_->resolved(i, exposure_);
+        const auto [colour, hit, light] = film_->resolvedFrom(
+            filters_ ? filter_.filtered()[i] : film_->light(i, exposure_), i, exposure_);
+        if (memory_ != nullptr) memory_->remember(i, filter_.filtered()[i]);
         out_->colour[i] = colour;
         out_->depth[i] = hit.depth;
         out_->id[i] = hit.id;

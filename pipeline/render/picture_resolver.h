@@ -19,9 +19,10 @@ public:
     static constexpr int kStages = NoiseFilter::kStages + 2;
 
     /// There is something in `traced` alone. Film and picture must stay until it is complete; the
-    /// picture keeps its memory.
+    /// picture keeps its memory. Pixels of `memory`, if it is given, carry what the filter finds
+    /// for them where nothing else is known; it is the film.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
-               const Exposure& exposure, bool filter, RenderedPicture& out);
+               const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr);
 
     struct Portion {
         int stage = 0, firstRow = 0, lastRow = 0;
@@ -46,6 +47,7 @@ private:
     void write(int row);
 
     const Film* film_ = nullptr;
+    Film* memory_ = nullptr;
     PixelRect traced_;
     Exposure exposure_;
     bool filters_ = false;

@@ -30,7 +30,7 @@ float manyfoldShare(float f0, const SpecularAlbedo& mean) {
 SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& wo)
     : wo_(wo), matt_(look.matt), roughness_(look.roughness), ggx_(alphaOf(look.roughness)) {
     wo_.z() = std::max(wo_.z(), kLeastCosine);
-    diffuseFactor_ = look.baseColour * kInversePi;
+    diffuseColour_ = look.baseColour;
     if (matt_) return;
     const SpecularAlbedo mean = meanSpecularAlbedo(roughness_);
     const float lost = std::max(1 - mean.full(), 0.0F);
@@ -44,7 +44,8 @@ SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& w
     if (lost > kLeastPassed) manyfoldFactor_ = manyfold * (kInversePi / lost);
     const float passedMean =
         1 - kDielectricF0 * mean.scale - mean.offset - dielectricManyfold_ * lost;
-    diffuseFactor_ *= (1 - metallic) / std::max(passedMean, kLeastPassed);
+    diffuseColour_ *= 1 - metallic;
+    whiteFactor_ = kInversePi / std::max(passedMean, kLeastPassed);
     passedOut_ = passed(wo_.z());
     const SpecularAlbedo albedo = specularAlbedo(roughness_, wo_.z());
     const float specular = f0_.mean() * albedo.scale + albedo.offset;
@@ -69,17 +70,17 @@ SurfaceScatter::Passed SurfaceScatter::passed(float mu) const {
     return {std::max(1 - back, 0.0F), lost};
 }
 
-Eigen::Vector3f SurfaceScatter::broad(float mu) const {
-    if (matt_) return diffuseFactor_ * mu;
-    const Passed in = passed(mu);
-    return diffuseFactor_ * (mu * in.diffuse * passedOut_.diffuse) +
-           manyfoldFactor_ * (mu * in.manyfold * passedOut_.manyfold);
-}
-
 ScatterValue SurfaceScatter::evaluate(const Eigen::Vector3f& wi) const {
     if (!(wi.z() > kLeastCosine)) return {};
-    ScatterValue out{broad(wi.z()), wi.z() * kInversePi};
-    if (matt_) return out;
+    const float mu = wi.z();
+    const float white = kInversePi * mu;
+    if (matt_) return {diffuseColour_ * white, white, white};
+    const Passed in = passed(mu);
+    ScatterValue out;
+    out.white = whiteFactor_ * (mu * in.diffuse * passedOut_.diffuse);
+    out.value =
+        diffuseColour_ * out.white + manyfoldFactor_ * (mu * in.manyfold * passedOut_.manyfold);
+    out.density = white;
     const Eigen::Vector3f h = (wo_ + wi).normalized();
     const float density = ggx_.density(h);
     out.value += fresnel(wo_.dot(h)) * (density * ggx_.visibility(wo_.z(), wi.z()) * wi.z());
@@ -101,6 +102,7 @@ ScatterSample SurfaceScatter::sample(const Eigen::Vector2f& u) const {
     if (!(f.density > 0)) return out;
     out.density = f.density;
     out.weight = f.value / f.density;
+    out.white = f.white / f.density;
     return out;
 }
 

@@ -15,12 +15,14 @@ struct SurfaceLook {
 
 struct ScatterValue {
     Eigen::Vector3f value{0, 0, 0};  ///< reflectance distribution times cosine of wi [1/sr]
+    float white = 0;                 ///< its diffuse part, divided by Paint::diffuse() [1/sr]
     float density = 0;               ///< of SurfaceScatter::sample() [1/sr]
 };
 
 struct ScatterSample {
     Eigen::Vector3f wi{0, 0, 1};
     Eigen::Vector3f weight{0, 0, 0};  ///< value / density
+    float white = 0;                  ///< the value's / density
     float density = 0;                ///< 0: nothing goes anywhere
 };
 
@@ -44,14 +46,14 @@ private:
     };
     [[nodiscard]] Passed passed(float mu) const;
     [[nodiscard]] Eigen::Vector3f fresnel(float cosH) const;
-    [[nodiscard]] Eigen::Vector3f broad(float mu) const;
 
     Eigen::Vector3f wo_;
     bool matt_;
     float roughness_;
     Ggx ggx_;
     Eigen::Vector3f f0_{0, 0, 0};
-    Eigen::Vector3f manyfoldFactor_{0, 0, 0}, diffuseFactor_{0, 0, 0};
+    Eigen::Vector3f manyfoldFactor_{0, 0, 0}, diffuseColour_{0, 0, 0};
+    float whiteFactor_ = 0;
     float dielectricManyfold_ = 0;  // share that a dielectric sends back of what hits it again
     Passed passedOut_;
     float specularShare_ = 0;  // of the samples

@@ -52,7 +52,7 @@ void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
     out.depth.clear();
     out.id.clear();
     for (const std::uint32_t pixel : out.pixels) {
-        const auto [colour, hit] = film_->resolved(pixel, exposure);
+        const auto [colour, hit, light] = film_->resolved(pixel, exposure);
         out.colour.push_back(colour);
         out.depth.push_back(hit.depth);
         out.id.push_back(hit.id);

@@ -6,8 +6,10 @@
 namespace mfar {
 namespace {
 
+// A camera that goes on gets a new picture at this share of the limit: it inherits the light.
+constexpr double kRenewed = 0.25;
 // A next picture is given up when the camera has come back half of the way.
-constexpr double kBack = 0.5;
+constexpr double kBack = 0.5 * kRenewed;
 // So many limits away from its view the picture shown is worse than a noisy one.
 constexpr double kHopeless = 3;
 // A finer picture is worth a conversion when its error has halved.
@@ -16,12 +18,16 @@ constexpr int kSamplesRatio = 4;
 // nothing.
 constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
 constexpr int kRestLooks = 10;
+// Light of an earlier picture counts like so many samples at most; of one in other light, so few
+// that the new samples soon outweigh it.
+constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
+constexpr int kLookTurn = 1;
 
 }  // namespace
 
 ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext) {
     if (!sinceNext)
-        return sinceShown && *sinceShown < 1 ? ReferenceStep::Refine : ReferenceStep::Start;
+        return sinceShown && *sinceShown < kRenewed ? ReferenceStep::Refine : ReferenceStep::Start;
     // The very first picture is finished wherever the camera goes: it is better than none.
     if (!sinceShown) return ReferenceStep::Continue;
     if (*sinceShown < kBack) return ReferenceStep::Drop;
@@ -81,8 +87,22 @@ void ReferencePictures::look(const RenderView& now, const RenderView& predicted,
     }
 }
 
+// Where no object is, and the picture shown knows that none changes the light there.
+bool ReferencePictures::showsNothing(const PixelRect& tile, const RenderView& view,
+                                     const PixelRect& objects) const {
+    if (!common(tile, objects).empty()) return false;
+    const Eigen::Vector2f middle(0.5F * static_cast<float>(tile.x0 + tile.x1 - 1),
+                                 0.5F * static_cast<float>(tile.y0 + tile.y1 - 1));
+    const auto point = scene_->tracer->catcherAt(view, middle);
+    if (!point) return false;
+    const RenderView& before = pictures_[shown_].view;
+    const Eigen::Vector3d there = before.T_world_camera.inverse() * point->cast<double>();
+    return there.z() > 0 &&
+           pictures_[shown_].touched.isFarFrom(before.camera.project(there.hnormalized()));
+}
+
 bool ReferencePictures::toBegin() const {
-    return toBegin_ && pictures_[1 - shown_].portions == 0;
+    return toBegin_ && pictures_[0].portions == 0 && pictures_[1].portions == 0;
 }
 
 void ReferencePictures::begin() {
@@ -90,14 +110,26 @@ void ReferencePictures::begin() {
     picture.scene = scene_;
     picture.view = wanted_;
     picture.chosen = chosen_;
-    picture.shownSamples = 0;
+    picture.rests = nextRests_;
+    picture.shownSamples = picture.shownTurns = 0;
     picture.wasShown = picture.counted = false;
+    picture.history.reset();
+    const Picture& shown = pictures_[shown_];
+    if (policy_.history && shown.scene && shown.scene->objects == scene_->objects)
+        picture.history.emplace(scene_->tracer->historyOf(
+            *shown.film, shown.view,
+            shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere));
     if (picture.film && picture.film->size() == wanted_.camera.size)
         picture.film->clear();
     else
         picture.film = std::make_unique<Film>(wanted_.camera.size);
     picture.traced = scene_->tracer->bounds(wanted_);
-    picture.slices.begin(picture.traced, wanted_.camera.size);
+    const PixelRect objects = scene_->tracer->objectBounds(wanted_);
+    picture.slices.begin(picture.traced, wanted_.camera.size, [&](const PixelRect& tile) {
+        return picture.history && shown.scene->light == scene_->light &&
+               showsNothing(tile, wanted_, objects);
+    });
+    picture.touched.clear();
     toBegin_ = false;
 }
 
@@ -112,18 +144,27 @@ ReferencePictures::Portion ReferencePictures::next(std::int64_t mostSamples) {
 void ReferencePictures::trace(const Portion& portion) {
     Picture& picture = pictures_[portion.picture];
     picture.scene->tracer->trace(picture.view, portion.slice.pixels, portion.slice.samples,
-                                 *picture.film);
+                                 *picture.film, picture.history ? &*picture.history : nullptr);
+}
+
+// At rest a pixel's own samples count alone: what is carried over knows no edges and no texture.
+PixelState ReferencePictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
+    const KnownLight known = rests ? KnownLight{} : film->known(pixel);
+    return {film->error(pixel, exposure),
+            std::max(std::min(known.firstCount, known.secondCount),
+                     static_cast<float>(film->samples(pixel))),
+            film->isUntouched(pixel)};
 }
 
 void ReferencePictures::done(const Portion& portion, const Exposure& exposure) {
     Picture& picture = pictures_[portion.picture];
     --picture.portions;
     picture.slices.done(portion.slice,
-                        [&](std::uint32_t pixel) { return picture.film->error(pixel, exposure); });
+                        [&](std::uint32_t pixel) { return picture.state(pixel, exposure); });
 }
 
 int ReferencePictures::leastSamples(const Picture& picture) const {
-    if (picture.wasShown) return kSamplesRatio * picture.shownSamples;
+    if (picture.wasShown) return std::max(kSamplesRatio * picture.shownSamples, 1);
     const Picture& shown = pictures_[shown_];
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
         viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
@@ -139,18 +180,30 @@ bool ReferencePictures::toShow() const {
     // Of the one whose place it takes.
     if (pictures_[1 - working()].portions > 0) return false;
     if (picture.slices.finished()) return !picture.counted;
+    if (isSparse(picture)) return picture.slices.turns() > std::max(picture.shownTurns, kLookTurn);
     return picture.slices.samples() >= leastSamples(picture);
+}
+
+// While the camera moves, a picture that knows little is better than one of another view, or none:
+// its light is filtered.
+bool ReferencePictures::isSparse(const Picture& picture) const {
+    if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
+    const Picture& shown = pictures_[shown_];
+    return &picture == &shown || !shown.scene || picture.history;
 }
 
 void ReferencePictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
     const Picture& picture = pictures_[working()];
-    resolver_.begin(*picture.film, picture.view, picture.traced, exposure, policy_.filter, out);
+    resolver_.begin(*picture.film, picture.view, picture.traced, exposure, policy_.filter, out,
+                    picture.film.get());
 }
 
 void ReferencePictures::endShow(RenderedPicture& out) {
     Picture& picture = pictures_[working()];
     out.scene = picture.scene->source;
+    picture.touched.set(out);
     picture.shownSamples = picture.slices.samples();
+    picture.shownTurns = picture.slices.turns();
     picture.wasShown = true;
     if (picture.slices.finished()) {
         picture.counted = true;

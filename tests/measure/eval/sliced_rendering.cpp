@@ -33,7 +33,9 @@ public:
         const Slice slice = slices.next(most);
         if (slice.pixels.empty()) return 0;
         scene_.tracer->trace(scene_.view, slice.pixels, slice.samples, film);
-        slices.done(slice, [&](std::uint32_t pixel) { return film.error(pixel); });
+        slices.done(slice, [&](std::uint32_t pixel) {
+            return PixelState{film.error(pixel), static_cast<float>(film.samples(pixel)), false};
+        });
         ms += threadCpuMs() - begin;
         return static_cast<std::int64_t>(slice.pixels.size()) * slice.samples;
     }
