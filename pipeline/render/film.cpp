@@ -53,14 +53,19 @@ std::uint8_t quantised(float value) {
 
 }  // namespace
 
-Film::Film(Size size)
-    : size_(size),
-      pixels_(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height)) {}
+void Film::begin(const PixelRect& where) {
+    ++picture_;
+    where_ = common(where, {0, 0, size_.width, size_.height});
+    if (where_.empty()) where_ = {};
+    const std::size_t count = static_cast<std::size_t>(where_.x1 - where_.x0) *
+                              static_cast<std::size_t>(where_.y1 - where_.y0);
+    if (count > pixels_.size()) pixels_.resize(count);
+}
 
 const Film::Pixel Film::kNothing{};
 
 Film::Pixel& Film::begun(std::size_t pixel) {
-    Pixel& p = pixels_[pixel];
+    Pixel& p = memory(pixel);
     if (p.picture != picture_) {
         p = {};
         p.picture = picture_;
@@ -70,8 +75,8 @@ Film::Pixel& Film::begun(std::size_t pixel) {
 
 std::uint64_t Film::dropped() const {
     std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < pixels_.size(); ++i)
-        sum += at(i).lost;
+    for (const Pixel& p : pixels_)
+        sum += p.picture == picture_ ? p.lost : 0;
     return sum;
 }
 
@@ -294,7 +299,8 @@ Film::Resolved Film::resolved(const Pixel& p, const Shown& s) {
 }
 
 void Film::remember(std::size_t pixel, const LightPixel& light) {
-    Pixel& p = pixels_[pixel];
+    if (!placeOf(pixel)) return;
+    Pixel& p = memory(pixel);
     if (p.picture != picture_ || light.id == 0 || p.taken > 0 || p.carried.firstCount > 0) return;
     if (!(light.firstCount > 0 && light.secondCount > 0)) return;
     const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();

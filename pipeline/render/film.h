@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace mfar {
@@ -46,16 +47,18 @@ struct KnownLight {
     float firstCount = 0, secondCount = 0;    ///< samples; 0: nothing is known
 };
 
-/// Sums of the samples of one view, a pixel each, row-major. Calls for different pixels may run at
-/// the same time.
+/// Sums of the samples of one view, a pixel each, row-major. Has memory for a part of the picture
+/// alone; elsewhere there is nothing. Calls for different pixels may run at the same time.
 class Film {
 public:
-    explicit Film(Size size);
+    /// Of the whole picture, or of a part of it.
+    explicit Film(Size size) : Film(size, {0, 0, size.width, size.height}) {}
+    Film(Size size, const PixelRect& where) : size_(size) { begin(where); }
 
     [[nodiscard]] Size size() const { return size_; }
-    /// All pixels, at no cost.
-    void clear() { ++picture_; }
-    void clear(std::size_t pixel) { pixels_[pixel] = Pixel{}; }
+    /// Forgets all pixels, and has memory for those in `where`. Keeps the memory that it has.
+    void begin(const PixelRect& where);
+    void clear(std::size_t pixel) { memory(pixel) = Pixel{}; }
 
     /// Taken so far, those that were dropped too: the next one's number.
     [[nodiscard]] std::uint32_t samples(std::size_t pixel) const { return at(pixel).taken; }
@@ -146,14 +149,27 @@ private:
     [[nodiscard]] static FirstHit firstHit(const Pixel& p, bool changed);
     /// Nothing where what is there is of an earlier picture.
     [[nodiscard]] const Pixel& at(std::size_t pixel) const {
-        const Pixel& p = pixels_[pixel];
+        const std::optional<std::size_t> place = placeOf(pixel);
+        if (!place) return kNothing;
+        const Pixel& p = pixels_[*place];
         return p.picture == picture_ ? p : kNothing;
     }
+    [[nodiscard]] std::optional<std::size_t> placeOf(std::size_t pixel) const {
+        const auto width = static_cast<std::uint32_t>(size_.width);
+        const int x = static_cast<int>(static_cast<std::uint32_t>(pixel) % width);
+        const int y = static_cast<int>(static_cast<std::uint32_t>(pixel) / width);
+        if (x < where_.x0 || x >= where_.x1 || y < where_.y0 || y >= where_.y1) return {};
+        return static_cast<std::size_t>(y - where_.y0) *
+                   static_cast<std::size_t>(where_.x1 - where_.x0) +
+               static_cast<std::size_t>(x - where_.x0);
+    }
+    [[nodiscard]] Pixel& memory(std::size_t pixel) { return pixels_[placeOf(pixel).value()]; }
     [[nodiscard]] Pixel& begun(std::size_t pixel);
 
     static const Pixel kNothing;
 
     Size size_;
+    PixelRect where_;
     std::uint32_t picture_ = 0;
     std::vector<Pixel> pixels_;
 };

@@ -147,8 +147,7 @@ void NoiseFilter::spreadVariance(int x, int y) {
     const auto found = [](const Spread& spread, const Eigen::Array3f& light, float count) {
         return count > 0 ? spread.varianceOf(light) : 0;
     };
-    if (pixel.firstVariance < 0)
-        variances_[i].first = found(first, pixel.first, pixel.firstCount);
+    if (pixel.firstVariance < 0) variances_[i].first = found(first, pixel.first, pixel.firstCount);
     if (pixel.secondVariance < 0)
         variances_[i].second = found(second, pixel.second, pixel.secondCount);
 }

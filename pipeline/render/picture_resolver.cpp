@@ -88,9 +88,9 @@ void PictureResolver::write(int row) {
     if (row < traced_.y0 || row >= traced_.y1) return;
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
-        const auto [colour, hit, light] = film_->resolvedFrom(
-            filters_ ? filter_.filtered()[i] : film_->light(i, exposure_), i, exposure_);
-        if (memory_ != nullptr) memory_->remember(i, filter_.filtered()[i]);
+        const LightPixel light = lightOf(x, row);
+        if (memory_ != nullptr) memory_->remember(i, light);
+        const auto [colour, hit, onObject] = film_->resolvedFrom(light, i, exposure_);
         out_->colour[i] = colour;
         out_->depth[i] = hit.depth;
         out_->id[i] = hit.id;
@@ -98,6 +98,47 @@ void PictureResolver::write(int row) {
         taken_[static_cast<std::size_t>(row)] += film_->samples(i);
         seen_[static_cast<std::size_t>(row)] += 1;
     }
+}
+
+LightPixel PictureResolver::lightOf(int x, int y) {
+    const std::size_t i = static_cast<std::size_t>(y) * film_->size().width + x;
+    if (memory_ == nullptr || film_->isSeen(i))
+        return filters_ ? filter_.filtered()[i] : film_->light(i, exposure_);
+    const LightPixel out = between(x, y);
+    if (out.id != 0) memory_->setCentre(i, {{out.depth, out.id}, out.normal.matrix(), {}, 1});
+    return out;
+}
+
+// Of the real surface; nothing where none of the pixels around was looked at.
+LightPixel PictureResolver::between(int x, int y) const {
+    LightPixel out;
+    float count = 0, perDepth = 0;
+    for (const int v : {y - y % 2, y + y % 2})
+        for (const int u : {x - x % 2, x + x % 2}) {
+            if (u < traced_.x0 || u >= traced_.x1 || v < traced_.y0 || v >= traced_.y1) continue;
+            const LightPixel& p =
+                filter_.filtered()[static_cast<std::size_t>(v) * film_->size().width + u];
+            if (p.id != kCatcherId) continue;
+            out.first += p.first;
+            out.second += p.second;
+            out.firstVariance += p.firstVariance;
+            out.secondVariance += p.secondVariance;
+            out.firstCount += p.firstCount;
+            out.secondCount += p.secondCount;
+            out.normal = p.normal;
+            perDepth += 1 / p.depth;
+            ++count;
+        }
+    if (!(count > 0)) return out;
+    out.first /= count;
+    out.second /= count;
+    out.firstVariance /= count;
+    out.secondVariance /= count;
+    out.firstCount /= count;
+    out.secondCount /= count;
+    out.depth = count / perDepth;
+    out.id = kCatcherId;
+    return out;
 }
 
 void resolve(const Film& film, const RenderView& view, const Exposure& exposure,

@@ -64,9 +64,16 @@ ReferenceStep ReferencePictures::chosenStep() const {
     if (hasBegun && nextRests_ && rests) return ReferenceStep::Continue;
     const bool isElsewhere =
         sinceShown && pixelChange(pictures_[shown_].view, now_, scene_->balls) > kElsewherePixels;
-    if (!hasBegun && rests && isElsewhere) return ReferenceStep::Start;
-    return nextStep(sinceShown,
-                    hasNext_ && !toBegin_ ? changeSince(pictures_[1 - shown_]) : std::nullopt);
+    const Picture& shown = pictures_[shown_];
+    if (!hasBegun && rests && (isElsewhere || (shown.wasShown && !shown.rests)))
+        return ReferenceStep::Start;
+    const ReferenceStep step =
+        nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt);
+    // One that knows little yet would be inherited for nothing, as long as it serves.
+    const bool serves = sinceShown && *sinceShown < 1;
+    if (step == ReferenceStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
+        return ReferenceStep::Refine;
+    return step;
 }
 
 void ReferencePictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
@@ -87,10 +94,19 @@ void ReferencePictures::look(const RenderView& now, const RenderView& predicted,
     }
 }
 
-// Where no object is, and the picture shown knows that none changes the light there.
-bool ReferencePictures::showsNothing(const PixelRect& tile, const RenderView& view,
-                                     const PixelRect& objects) const {
-    if (!common(tile, objects).empty()) return false;
+// Where no object is, the real surface's light is smooth enough for a quarter of the pixels while
+// the camera moves.
+Slices::Density ReferencePictures::densityOf(const PixelRect& tile, const Picture& picture,
+                                             const PixelRect& objects) const {
+    if (!common(tile, objects).empty()) return Slices::Density::Full;
+    if (picture.history && pictures_[shown_].scene->light == picture.scene->light &&
+        showsNothing(tile, picture.view))
+        return Slices::Density::None;
+    return picture.rests || !policy_.filter ? Slices::Density::Full : Slices::Density::Quarter;
+}
+
+// As the picture shown knows.
+bool ReferencePictures::showsNothing(const PixelRect& tile, const RenderView& view) const {
     const Eigen::Vector2f middle(0.5F * static_cast<float>(tile.x0 + tile.x1 - 1),
                                  0.5F * static_cast<float>(tile.y0 + tile.y1 - 1));
     const auto point = scene_->tracer->catcherAt(view, middle);
@@ -119,16 +135,13 @@ void ReferencePictures::begin() {
         picture.history.emplace(scene_->tracer->historyOf(
             *shown.film, shown.view,
             shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere));
-    if (picture.film && picture.film->size() == wanted_.camera.size)
-        picture.film->clear();
-    else
-        picture.film = std::make_unique<Film>(wanted_.camera.size);
+    if (!picture.film || !(picture.film->size() == wanted_.camera.size))
+        picture.film = std::make_unique<Film>(wanted_.camera.size, PixelRect{});
     picture.traced = scene_->tracer->bounds(wanted_);
+    picture.film->begin(picture.traced);
     const PixelRect objects = scene_->tracer->objectBounds(wanted_);
-    picture.slices.begin(picture.traced, wanted_.camera.size, [&](const PixelRect& tile) {
-        return picture.history && shown.scene->light == scene_->light &&
-               showsNothing(tile, wanted_, objects);
-    });
+    picture.slices.begin(picture.traced, wanted_.camera.size,
+                         [&](const PixelRect& tile) { return densityOf(tile, picture, objects); });
     picture.touched.clear();
     toBegin_ = false;
 }

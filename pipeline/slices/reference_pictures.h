@@ -123,8 +123,9 @@ private:
     [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
     [[nodiscard]] ReferenceStep chosenStep() const;
     void watchRest();
-    [[nodiscard]] bool showsNothing(const PixelRect& tile, const RenderView& view,
-                                    const PixelRect& objects) const;
+    [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,
+                                            const PixelRect& objects) const;
+    [[nodiscard]] bool showsNothing(const PixelRect& tile, const RenderView& view) const;
     [[nodiscard]] int leastSamples(const Picture& picture) const;
     [[nodiscard]] bool isSparse(const Picture& picture) const;
 

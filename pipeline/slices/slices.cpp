@@ -54,7 +54,7 @@ Slices::Slices(const SliceOptions& options) : options_(options) {
 }
 
 void Slices::begin(const PixelRect& bounds, Size picture,
-                   const std::function<bool(const PixelRect&)>& isNothing) {
+                   const std::function<Density(const PixelRect&)>& densityOf) {
     const PixelRect r = common(bounds, {0, 0, picture.width, picture.height});
     width_ = picture.width;
     pixels_.clear();
@@ -73,24 +73,27 @@ void Slices::begin(const PixelRect& bounds, Size picture,
     for (const std::uint32_t code : order_) {
         const int x = kTileEdge * gathered(code), y = kTileEdge * gathered(code >> 1);
         const PixelRect tile = common({x, y, x + kTileEdge, y + kTileEdge}, r);
-        if (!isNothing || !isNothing(tile)) addTile(gathered(code), gathered(code >> 1), r);
+        const Density density = densityOf ? densityOf(tile) : Density::Full;
+        if (density != Density::None) addTile(tile, density);
     }
     unfinished_ = tiles_.size();
 }
 
-void Slices::addTile(int column, int row, const PixelRect& bounds) {
+void Slices::addTile(const PixelRect& pixels, Density density) {
     Tile tile;
     tile.first = static_cast<std::uint32_t>(pixels_.size());
-    for (std::uint32_t rank = 0; rank < kTilePixels; ++rank) {
+    const int left = pixels.x0 - pixels.x0 % kTileEdge, top = pixels.y0 - pixels.y0 % kTileEdge;
+    // Those of even column and row come first.
+    const std::uint32_t ranks = density == Density::Full ? kTilePixels : kTilePixels / 4;
+    for (std::uint32_t rank = 0; rank < ranks; ++rank) {
         const std::uint32_t code = evenlySpread(rank);
-        const int x = column * kTileEdge + gathered(code),
-                  y = row * kTileEdge + gathered(code >> 1);
-        if (x >= bounds.x0 && x < bounds.x1 && y >= bounds.y0 && y < bounds.y1)
+        const int x = left + gathered(code), y = top + gathered(code >> 1);
+        if (x >= pixels.x0 && x < pixels.x1 && y >= pixels.y0 && y < pixels.y1)
             pixels_.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
                               static_cast<std::uint32_t>(x));
     }
     tile.count = tile.active = static_cast<std::uint32_t>(pixels_.size()) - tile.first;
-    tiles_.push_back(tile);
+    if (tile.count > 0) tiles_.push_back(tile);
 }
 
 Slice Slices::next(std::int64_t mostSamples) {

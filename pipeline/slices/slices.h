@@ -61,10 +61,16 @@ public:
     /// Throws std::invalid_argument for numbers out of range.
     explicit Slices(const SliceOptions& options);
 
-    /// A new picture, all of which inside `bounds` is to be traced but the tiles that `isNothing`
-    /// knows to show nothing. What was handed out before must be done.
+    /// How much of a tile is traced.
+    enum class Density : unsigned char {
+        None,
+        Quarter,  ///< pixels of even column and row
+        Full,
+    };
+    /// A new picture; `densityOf` tells of each tile in `bounds`, Full without it. What was handed
+    /// out before must be done.
     void begin(const PixelRect& bounds, Size picture,
-               const std::function<bool(const PixelRect& tile)>& isNothing = {});
+               const std::function<Density(const PixelRect& tile)>& densityOf = {});
 
     /// The next portion, at most about `mostSamples` (pixels times samples, at least one pixel). No
     /// pixels: everything is done or what is left waits for portions that are not.
@@ -99,7 +105,7 @@ private:
         int samples = 0;                     ///< of the active ones
     };
 
-    void addTile(int column, int row, const PixelRect& bounds);
+    void addTile(const PixelRect& tile, Density density);
     void beginTurn();
     [[nodiscard]] int samplesOfTurn() const;
     [[nodiscard]] std::uint32_t mostOfTurn(const Tile& tile) const;

@@ -183,7 +183,7 @@ TEST(Film, ClearForgets) {
     EXPECT_EQ(film.samples(1), 1U);
     EXPECT_EQ(pictureOf(film).id[0], 0);
     film.add(0, objectSample(0.5F));
-    film.clear();
+    film.begin({0, 0, 2, 1});
     EXPECT_EQ(film.samples(0), 0U);
     EXPECT_EQ(film.samples(1), 0U);
     EXPECT_EQ(pictureOf(film).id[1], 0);
