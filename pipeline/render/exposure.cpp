@@ -8,12 +8,6 @@ namespace {
 
 constexpr float kSrgbKnee = 0.0031308F;
 
-float filmicCurve(float x) {
-    if (!(x > 0)) return 0;
-    const float y = std::min(x, 1e4F);  // the squares of more overflow
-    return y * (2.51F * y + 0.03F) / (y * (2.43F * y + 0.59F) + 0.14F);
-}
-
 }  // namespace
 
 float srgbEncoded(float linear) {
@@ -34,10 +28,8 @@ float srgbDecoded(float encoded) {
 
 Eigen::Vector3f displayed(const Eigen::Vector3f& radiance, const Exposure& exposure) {
     Eigen::Vector3f out;
-    for (int c = 0; c < 3; ++c) {
-        const float scaled = radiance[c] * exposure.scale;
-        out[c] = srgbEncoded(exposure.filmic ? filmicCurve(scaled) : scaled);
-    }
+    for (int c = 0; c < 3; ++c)
+        out[c] = srgbEncoded(radiance[c] * exposure.scale);
     return out;
 }
 

@@ -6,8 +6,7 @@ namespace mfar {
 
 /// From radiance to what a display is given.
 struct Exposure {
-    float scale = 1;      ///< radiance that becomes white is its inverse; finite, above 0
-    bool filmic = false;  ///< bright parts are compressed instead of cut (Narkowicz, ACES fit 2015)
+    float scale = 1;  ///< radiance that becomes white is its inverse; finite, above 0
     bool operator==(const Exposure&) const = default;
 };
 

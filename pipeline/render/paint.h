@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/light_word.h"
+
 #include <Eigen/Core>
 
 namespace mfar {
@@ -29,6 +31,13 @@ struct SurfaceLight {
         return paint.diffuse().cwiseProduct(diffuse) + paint.specular().cwiseProduct(specular);
     }
 };
+
+[[nodiscard]] inline LightWords packed(const SurfaceLight& light, float exposure) {
+    const auto word = [&](const Eigen::Vector3f& rgb) {
+        return packedLight({exposure * rgb.x(), exposure * rgb.y(), exposure * rgb.z()});
+    };
+    return {word(light.diffuse), word(light.specular)};
+}
 
 /// The light of a radiance of which `white` is the diffuse part before its paint.
 [[nodiscard]] inline SurfaceLight lightOf(const Eigen::Vector3f& radiance,

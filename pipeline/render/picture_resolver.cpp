@@ -23,6 +23,7 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     out.colour.resize(pixels);
     out.depth.resize(pixels);
     out.id.resize(pixels);
+    out.light.resize(pixels);
     taken_.assign(static_cast<std::size_t>(size.height), 0);
     seen_ = taken_;
     if (filters_) filter_.begin(size, traced_);
@@ -85,6 +86,7 @@ void PictureResolver::write(int row) {
                 std::array<std::uint8_t, 4>{});
     std::fill_n(out_->depth.begin() + static_cast<std::ptrdiff_t>(begin), width, 0.0F);
     std::fill_n(out_->id.begin() + static_cast<std::ptrdiff_t>(begin), width, std::uint8_t{0});
+    std::fill_n(out_->light.begin() + static_cast<std::ptrdiff_t>(begin), width, LightWords{});
     if (row < traced_.y0 || row >= traced_.y1) return;
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
@@ -93,6 +95,7 @@ void PictureResolver::write(int row) {
         const auto [colour, hit, onObject] = film_->resolvedFrom(light, i, exposure_);
         out_->colour[i] = colour;
         out_->depth[i] = hit.depth;
+        out_->light[i] = packed(onObject, exposure_.scale);
         out_->id[i] = hit.id;
         if (hit.id == 0) continue;
         taken_[static_cast<std::size_t>(row)] += film_->samples(i);

@@ -29,6 +29,7 @@ struct HoleAnswer {
     std::vector<std::array<std::uint8_t, 4>> colour;
     std::vector<float> depth;
     std::vector<std::uint8_t> id;
+    std::vector<LightWords> light;
     int samples = 0;          ///< of each
     std::uint64_t scene = 0;  ///< the request's
     bool edges = false;       ///< the request's

@@ -67,11 +67,13 @@ void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
     out.colour.clear();
     out.depth.clear();
     out.id.clear();
+    out.light.clear();
     for (const std::uint32_t pixel : out.pixels) {
         const auto [colour, hit, light] = film_->resolved(pixel, exposure);
         out.colour.push_back(colour);
         out.depth.push_back(hit.depth);
         out.id.push_back(hit.id);
+        out.light.push_back(packed(light, exposure.scale));
     }
     answered_ += out.pixels.size();
     stage_ = Stage::Idle;

@@ -150,7 +150,7 @@ TEST(Film, ErrorIsThatOfTheMeanInGreyLevels) {
     Film dim({1, 1});
     for (int i = 0; i < 64; ++i)
         dim.add(0, objectSample(i % 2 == 0 ? 0.2F : 0.3F));
-    EXPECT_NEAR(dim.error(0, {2, false}), film.error(0), 0.01F);
+    EXPECT_NEAR(dim.error(0, {2}), film.error(0), 0.01F);
 }
 
 TEST(Film, ErrorOfWhatIsEvenIsNone) {
@@ -201,17 +201,6 @@ TEST(Exposure, SrgbIsTheStandards) {
     for (const float x : {0.0F, 0.002F, 0.04F, 0.3F, 0.99F})
         EXPECT_NEAR(srgbDecoded(srgbEncoded(x)), x, 1e-5F);
     EXPECT_NEAR(srgbSlope(0.3F), (srgbEncoded(0.301F) - srgbEncoded(0.299F)) / 0.002F, 1e-3F);
-}
-
-TEST(Exposure, FilmicKeepsOrderAndNeverReachesBeyondWhite) {
-    float before = -1;
-    for (float x = 0; x < 100; x = 1.3F * x + 0.01F) {
-        const float y = displayed(Eigen::Vector3f::Constant(x), {1, true}).x();
-        EXPECT_GE(y, before);
-        EXPECT_LE(y, 1);
-        before = y;
-    }
-    EXPECT_TRUE(displayed(Eigen::Vector3f::Constant(1e38F), {1e6F, true}).allFinite());
 }
 
 }  // namespace

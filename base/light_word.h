@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace mfar {
+
+// Three linear values that are not negative in a word with one exponent, as OpenGL's RGB9_E5:
+// 9 bits each from bit 0 on, and the exponent in the upper 5.
+
+inline constexpr int kLightBits = 9, kLightBias = 15;
+inline constexpr float kMostLight = 65408;  ///< what is more, is this; NaN is 0
+
+[[nodiscard]] inline std::uint32_t packedLight(const std::array<float, 3>& rgb) {
+    std::array<float, 3> held{};
+    for (std::size_t c = 0; c < 3; ++c)
+        held[c] = rgb[c] > 0 ? std::min(rgb[c], kMostLight) : 0;
+    const float most = std::max({held[0], held[1], held[2]});
+    const int above = most > 0 ? std::ilogb(most) + 1 : -kLightBias;
+    int exponent = std::max(above, -kLightBias) + kLightBias;
+    const auto steps = [&](float value) {
+        return static_cast<std::uint32_t>(
+            std::lround(std::ldexp(value, kLightBits + kLightBias - exponent)));
+    };
+    if (steps(most) >> kLightBits != 0) ++exponent;
+    return steps(held[0]) | steps(held[1]) << kLightBits | steps(held[2]) << 2 * kLightBits |
+           static_cast<std::uint32_t>(exponent) << 3 * kLightBits;
+}
+
+[[nodiscard]] inline std::array<float, 3> unpackedLight(std::uint32_t word) {
+    // 2^(exponent - bias - bits) as a float's own exponent.
+    const std::uint32_t exponent = (word >> 3 * kLightBits) + 127 - kLightBias - kLightBits;
+    const float scale = std::bit_cast<float>(exponent << 23);
+    const auto value = [&](int channel) {
+        return scale * static_cast<float>(word >> channel * kLightBits & 0x1FF);
+    };
+    return {value(0), value(1), value(2)};
+}
+
+/// Light on a surface without its paint, times the exposure.
+struct LightWords {
+    std::uint32_t diffuse = 0, specular = 0;
+    bool operator==(const LightWords&) const = default;
+};
+
+}  // namespace mfar
