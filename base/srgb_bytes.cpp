@@ -1,4 +1,4 @@
-#include "pipeline/models/srgb_bytes.h"
+#include "base/srgb_bytes.h"
 
 #include <cmath>
 
