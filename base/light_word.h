@@ -40,6 +40,9 @@ inline constexpr float kMostLight = 65408;  ///< what is more, is this; NaN is 0
     return {value(0), value(1), value(2)};
 }
 
+/// Of what is no metal, along its normal, as of glTF's metallic-roughness material.
+inline constexpr float kDielectricReflectance = 0.04F;
+
 /// Light on a surface without its paint, times the exposure.
 struct LightWords {
     std::uint32_t diffuse = 0, specular = 0;

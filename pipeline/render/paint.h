@@ -17,8 +17,8 @@ struct Paint {
     /// Of specular light: reflectance along the normal. Grazing, a surface reflects more, which is
     /// left in the light.
     [[nodiscard]] Eigen::Vector3f specular() const {
-        constexpr float kDielectric = 0.04F;
-        return Eigen::Vector3f::Constant((1 - metallic) * kDielectric) + metallic * baseColour;
+        return Eigen::Vector3f::Constant((1 - metallic) * kDielectricReflectance) +
+               metallic * baseColour;
     }
 };
 

@@ -1,5 +1,7 @@
 #include "pipeline/render/surface_scatter.h"
 
+#include "base/light_word.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +10,6 @@ namespace mfar {
 namespace {
 
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
-constexpr float kDielectricF0 = 0.04F;
 constexpr float kMostSpecular = 0.98F;  // of the samples
 constexpr float kLeastPassed = 1e-4F;   // below it nothing is left to divide by
 constexpr float kLeastCosine = 1e-5F;
@@ -35,15 +36,16 @@ SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& w
     const SpecularAlbedo mean = meanSpecularAlbedo(roughness_);
     const float lost = std::max(1 - mean.full(), 0.0F);
     const float metallic = look.metallic;
-    f0_ = Eigen::Vector3f::Constant(kDielectricF0 * (1 - metallic)) + metallic * look.baseColour;
-    dielectricManyfold_ = manyfoldShare(kDielectricF0, mean);
+    f0_ = Eigen::Vector3f::Constant(kDielectricReflectance * (1 - metallic)) +
+          metallic * look.baseColour;
+    dielectricManyfold_ = manyfoldShare(kDielectricReflectance, mean);
     Eigen::Vector3f manyfold;
     for (int c = 0; c < 3; ++c)
         manyfold[c] = (1 - metallic) * dielectricManyfold_ +
                       metallic * manyfoldShare(look.baseColour[c], mean);
     if (lost > kLeastPassed) manyfoldFactor_ = manyfold * (kInversePi / lost);
     const float passedMean =
-        1 - kDielectricF0 * mean.scale - mean.offset - dielectricManyfold_ * lost;
+        1 - kDielectricReflectance * mean.scale - mean.offset - dielectricManyfold_ * lost;
     diffuseColour_ *= 1 - metallic;
     whiteFactor_ = kInversePi / std::max(passedMean, kLeastPassed);
     passedOut_ = passed(wo_.z());
@@ -66,7 +68,8 @@ Eigen::Vector3f SurfaceScatter::fresnel(float cosH) const {
 SurfaceScatter::Passed SurfaceScatter::passed(float mu) const {
     const SpecularAlbedo albedo = specularAlbedo(roughness_, mu);
     const float lost = std::max(1 - albedo.full(), 0.0F);
-    const float back = kDielectricF0 * albedo.scale + albedo.offset + dielectricManyfold_ * lost;
+    const float back =
+        kDielectricReflectance * albedo.scale + albedo.offset + dielectricManyfold_ * lost;
     return {std::max(1 - back, 0.0F), lost};
 }
 

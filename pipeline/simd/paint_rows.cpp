@@ -6,7 +6,8 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/paint_rows.cpp"
 
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+// Once for each instruction set, like this file.
+#include "pipeline/simd/display_values-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
@@ -203,16 +204,7 @@ HWY_INLINE VU Byte(V level) {
 
 /// Linear light, 1 = 255^2, to an sRGB byte.
 HWY_INLINE VU SrgbByte(V linear) {
-    linear = hn::Min(linear, F(65025));
-    const V s = hn::Mul(hn::Sqrt(linear), F(1.0F / 255));
-    // 255 (1.055 s^(2 / 2.4) - 0.055) within 0.09 (Remez).
-    V high = hn::MulAdd(s, F(132.00984F), F(-414.30241F));
-    high = hn::MulAdd(s, high, F(518.32418F));
-    high = hn::MulAdd(s, high, F(-357.82060F));
-    high = hn::MulAdd(s, high, F(387.10107F));
-    high = hn::MulAdd(s, high, F(-10.229407F));
-    const V low = hn::Mul(linear, F(12.92F / 255));
-    return Byte(hn::IfThenElse(hn::Lt(linear, F(0.0031308F * 65025)), low, high));
+    return Byte(SrgbLevel(D(), hn::Mul(linear, F(1.0F / 65025))));
 }
 
 /// What is painted in each pixel.

@@ -1,6 +1,6 @@
 #include "pipeline/simd/paint_textures.h"
 
-#include "base/srgb_bytes.h"
+#include "base/srgb.h"
 
 #include <algorithm>
 #include <array>

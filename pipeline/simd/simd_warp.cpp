@@ -61,8 +61,7 @@ public:
         if (!(around(drawn_, where) == where)) lookUp_.clear(drawn_);
         drawn_ = where;
         raster_.draw(frame.T_world_camera, where);
-        const ViewLookUp::Input input{raster_.surface(), patches_, store_,
-                                      raster_.models().plane()};
+        const ViewLookUp::Input input{raster_, patches_, store_, raster_.models().plane()};
         lookUp_.run(input, frame.T_world_camera, where);
         pyramid_.fill({lookUp_.colour(), lookUp_.state(), where}, lookUp_.holes(),
                       pushPulls(options_.filling));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/light_word.h"
 #include "pipeline/render/render_view.h"
 #include "pipeline/scene/scene.h"
 
