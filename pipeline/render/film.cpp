@@ -116,6 +116,8 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
     p.baseColour += sample.paint.baseColour;
     p.metallic += sample.paint.metallic;
+    p.albedoScale += sample.paint.albedo.scale;
+    p.albedoOffset += sample.paint.albedo.offset;
 }
 
 // Only one surface is in it, as far as is known.
@@ -156,7 +158,7 @@ KnownLight Film::known(std::size_t pixel) const {
 Paint Film::paintOf(const Pixel& p) {
     if (p.object.hits == 0) return p.seen.paint;
     const auto hits = static_cast<float>(p.object.hits);
-    return {p.baseColour / hits, p.metallic / hits};
+    return {p.baseColour / hits, p.metallic / hits, {p.albedoScale / hits, p.albedoOffset / hits}};
 }
 
 float Film::error(std::size_t pixel, const Exposure& exposure) const {
@@ -263,8 +265,9 @@ Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const
     Resolved out = resolved(p, shown(p, exposure));
     if (out.hit.id != 0 && out.hit.id != kCatcherId && p.object.hits > 0) {
         const double hits = p.object.hits;
-        out.light = SurfaceLight{(p.object.first / hits).cast<float>(),
-                                 (p.object.second / hits).cast<float>()};
+        out.light =
+            packed({(p.object.first / hits).cast<float>(), (p.object.second / hits).cast<float>()},
+                   paintOf(p), exposure.scale);
     }
     return out;
 }
@@ -274,19 +277,21 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
     const Pixel& p = at(pixel);
     if (light.id == 0) return resolved(pixel, exposure);
     Means m;
-    SurfaceLight onObject;
+    LightWords words;
     if (light.id == kCatcherId) {
         if (light.first.isZero(0)) return {};
         m.without = light.second.matrix();
         m.with = (light.first + light.second).matrix();
         m.catcherShare = 1;
     } else {
-        onObject = {light.first.matrix(), light.second.matrix()};
-        m.object = onObject.on(paintOf(p));
+        const SurfaceLight onObject{light.first.matrix(), light.second.matrix()};
+        const Paint paint = paintOf(p);
+        m.object = onObject.on(paint);
+        words = packed(onObject, paint, exposure.scale);
         m.objectShare = 1;
     }
     Resolved out = resolved(p, shown(m, exposure));
-    out.light = onObject;
+    out.light = words;
     return out;
 }
 

@@ -102,7 +102,7 @@ public:
     struct Resolved {
         std::array<std::uint8_t, 4> colour{};
         FirstHit hit;
-        SurfaceLight light{};  ///< of an object
+        LightWords light{};  ///< of an object
     };
     [[nodiscard]] Resolved resolved(std::size_t pixel, const Exposure& exposure) const;
     /// The light of a pixel, for a NoiseFilter, and the pixel with what that has made of it.
@@ -124,7 +124,7 @@ private:
         Eigen::Vector3d radiance{0, 0, 0};    // of the objects
         double radianceSquares = 0;           // of its luminance
         Eigen::Vector3f baseColour{0, 0, 0};  // of the objects
-        float metallic = 0;
+        float metallic = 0, albedoScale = 0, albedoOffset = 0;
         std::uint32_t taken = 0, lost = 0;
         SeenSurface seen;  // through its centre
         bool isSeen = false;

@@ -173,7 +173,7 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
     const SurfacePoint point = scene_.objectPoint(hit, direction);
     World all{scene_, true};
     const Sent sent = walk(point, -direction.normalized(), sampler, all);
-    const Paint paint{point.look.baseColour, point.look.metallic};
+    const Paint paint = point.paint(direction);
     return {sent.radiance, lightOf(sent.radiance, sent.white, paint), paint};
 }
 

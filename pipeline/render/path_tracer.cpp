@@ -138,7 +138,7 @@ private:
             const SurfacePoint point = scene.objectPoint(object, ray.direction);
             seen = {{object.t, scene.idOf(object)},
                     point.shading,
-                    {point.look.baseColour, point.look.metallic},
+                    point.paint(ray.direction),
                     point.look.roughness};
         } else if (real.found()) {
             seen = {{real.t, kCatcherId}, scene.catcherPoint(real, ray.direction).shading, {}, 1};

@@ -95,7 +95,7 @@ void PictureResolver::write(int row) {
         const auto [colour, hit, onObject] = film_->resolvedFrom(light, i, exposure_);
         out_->colour[i] = colour;
         out_->depth[i] = hit.depth;
-        out_->light[i] = packed(onObject, exposure_.scale);
+        out_->light[i] = onObject;
         out_->id[i] = hit.id;
         if (hit.id == 0) continue;
         taken_[static_cast<std::size_t>(row)] += film_->samples(i);

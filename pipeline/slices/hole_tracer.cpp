@@ -73,7 +73,7 @@ void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
         out.colour.push_back(colour);
         out.depth.push_back(hit.depth);
         out.id.push_back(hit.id);
-        out.light.push_back(packed(light, exposure.scale));
+        out.light.push_back(light);
     }
     answered_ += out.pixels.size();
     stage_ = Stage::Idle;
