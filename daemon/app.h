@@ -55,7 +55,7 @@ private:
         std::string startLine;
         Timestamp time;
     };
-    /// What the GL thread reports when all output is written.
+    /// The GL thread reports this once all output is written.
     struct Over {
         std::string reason;
         std::exception_ptr error;  ///< null: all is well

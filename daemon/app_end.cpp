@@ -84,7 +84,7 @@ void App::leave(const std::string& why) {
     std::_Exit(static_cast<int>(code));
 }
 
-// What the socket's destructor does, which does not run here.
+// The socket is removed here, as its destructor does not run.
 void App::removeControl() const {
     std::error_code ignored;
     if (options_.control) std::filesystem::remove(*options_.control, ignored);

@@ -14,8 +14,7 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, CameraDriver>, 2> kDrivers = {
     {{"libcamera", CameraDriver::Libcamera}, {"v4l2", CameraDriver::V4l2}}};
-constexpr double kLeastRate = 0.01;               // [Hz]
-constexpr int kLeastSide = 16, kMostSide = 8192;  // [px]
+constexpr double kLeastRate = 0.01;  // [Hz]
 
 std::optional<std::string> rateFault(double value) {
     if (value == 0 || value >= kLeastRate) return std::nullopt;
@@ -25,9 +24,9 @@ std::optional<std::string> rateFault(double value) {
 void readCamera(TomlReader& file, const std::string& section, CameraConfig& camera) {
     file.choice<CameraDriver>(section + "driver", camera.driver, kDrivers);
     file.text(section + "camera", camera.camera);
-    file.integer(section + "width", camera.size.width, kLeastSide, kMostSide);
-    file.integer(section + "height", camera.size.height, kLeastSide, kMostSide);
-    file.number(section + "rate_hz", camera.rateHz, 0, 1000, rateFault);
+    file.integer(range::kWidth, camera.size.width, section);
+    file.integer(range::kHeight, camera.size.height, section);
+    file.number(range::kCameraRate, camera.rateHz, rateFault, section);
     file.text(section + "format", camera.format,
               [&](std::string_view word) -> std::optional<std::string> {
                   if (word == "auto" || camera.driver == CameraDriver::V4l2) return std::nullopt;
@@ -41,13 +40,13 @@ void readLine(TomlReader& file, TriggerLineConfig& line) {
     file.text("cameras.trigger.chip", line.chip);
     file.text("cameras.trigger.line", line.line);
     file.boolean("cameras.trigger.active_low", line.activeLow);
-    file.number("cameras.trigger.pulse_ms", line.pulseMs, 0.001, 10000);
+    file.number(range::kPulse, line.pulseMs);
     file.boolean("cameras.trigger.pulse_is_exposure", line.pulseIsExposure);
     file.text("cameras.trigger.loopback_chip", line.loopbackChip);
     file.text("cameras.trigger.loopback", line.loopback);
-    file.number("cameras.trigger.delay_ms", line.delayMs, -1000, 10000);
-    file.number("cameras.trigger.jitter_ms", line.jitterMs, 0.001, 1000);
-    file.number("cameras.trigger.arrival_ms", line.arrivalMs, 1, 60000);
+    file.number(range::kDelay, line.delayMs);
+    file.number(range::kJitter, line.jitterMs);
+    file.number(range::kArrival, line.arrivalMs);
 }
 
 }  // namespace

@@ -40,19 +40,19 @@ std::filesystem::path besides(const std::string& file, const std::filesystem::pa
 
 void readTrigger(TomlReader& file, TriggerConfig& trigger) {
     file.choice<TriggerMode>("trigger.mode", trigger.mode, kTriggerModes);
-    file.number("trigger.rate_hz", trigger.rateHz, 0.01, 60);
-    file.number("trigger.explained_below", trigger.explainedBelow, 0, 1);
-    file.number("trigger.max_age_s", trigger.maxAgeS, 0.1, 86400);
-    file.number("trigger.min_interval_s", trigger.minIntervalS, 0, 3600);
-    file.number("trigger.timeout_s", trigger.timeoutS, 0.05, 60);
+    file.number(range::kStillRate, trigger.rateHz);
+    file.number(range::kExplained, trigger.explainedBelow);
+    file.number(range::kMaxAge, trigger.maxAgeS);
+    file.number(range::kMinInterval, trigger.minIntervalS);
+    file.number(range::kTimeout, trigger.timeoutS);
 }
 
 void readRecord(TomlReader& file, RecordConfig& record) {
     std::string directory;
     file.text("record.directory", directory);
     record.directory = directory;
-    file.number("record.least_free_mb", record.leastFreeMb, 0, 1e9);
-    file.number("record.most_mb", record.mostMb, 0, 1e9);
+    file.number(range::kLeastFree, record.leastFreeMb);
+    file.number(range::kMostRecorded, record.mostMb);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ Config parseConfig(std::string_view toml, const std::string& fileName) {
     if (!config.governor.table.empty())
         config.governor.table = besides(fileName, config.governor.table);
     readRecord(file, config.record);
-    file.number("status.interval_s", config.status.intervalS, 0.1, 3600);
+    file.number(range::kStatusInterval, config.status.intervalS);
     file.boolean("status.measure", config.status.measure);
     const std::filesystem::path folder = std::filesystem::path(fileName).parent_path();
     readLimits(file, config.limits);

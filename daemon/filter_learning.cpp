@@ -52,6 +52,11 @@ FilterLearning::FilterLearning(FilterLearningOptions options) : options_(std::mo
 }
 
 FilterLearning::~FilterLearning() {
+    stop();
+}
+
+void FilterLearning::stop() {
+    if (!thread_.joinable()) return;
     thread_.request_stop();
     thread_.join();
     if (resets_) forget();

@@ -42,8 +42,11 @@ public:
     explicit FilterLearning(FilterLearningOptions options);
     FilterLearning(const FilterLearning&) = delete;
     FilterLearning& operator=(const FilterLearning&) = delete;
-    /// Gives up what is being learned from, and stores the state.
+    /// Like stop(), but faults are lost.
     ~FilterLearning() override;
+
+    /// Gives up what is being learned from, and stores the state, which may wait for the disk.
+    void stop();
 
     // For the frame's thread; none but finish() waits for the learning.
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,

@@ -10,8 +10,6 @@
 namespace mfar {
 namespace {
 
-constexpr double kLongestDeadline = 10000;  // [ms]
-
 std::string namesOf(const std::vector<QualityLevel>& levels) {
     std::string out;
     for (const QualityLevel& level : levels)
@@ -22,7 +20,7 @@ std::string namesOf(const std::vector<QualityLevel>& levels) {
 }  // namespace
 
 void readGovernor(TomlReader& file, GovernorConfig& governor) {
-    file.number("governor.deadline_ms", governor.deadlineMs, 0, kLongestDeadline);
+    file.number(range::kDeadline, governor.deadlineMs);
     file.text("governor.pin", governor.pin);
     std::string table;
     file.text("governor.table", table);

@@ -15,7 +15,7 @@ namespace mfar {
 namespace {
 
 constexpr double kMegabyte = 1 << 20;
-constexpr double kLeastMb = 64, kMostMb = 1 << 20;
+constexpr double kLeastMb = 64;
 /// Of the machine's memory: the rest is for the system, drivers and the program itself.
 constexpr double kShareOfMachine = 0.75, kMostByMachine = 4096 * kMegabyte;
 constexpr double kShareOfFrames = 2.0 / 3, kShareOfFiles = 1.0 / 6;
@@ -58,11 +58,10 @@ std::uint64_t LimitsConfig::memoryBytes() const {
 }
 
 void readLimits(TomlReader& file, LimitsConfig& limits) {
-    file.number("limits.memory_mb", limits.memoryMb, 0, kMostMb,
-                [](double mb) -> std::optional<std::string> {
-                    if (mb == 0 || mb >= kLeastMb) return std::nullopt;
-                    return fmt::format("must be 0 or at least {}", kLeastMb);
-                });
+    file.number(range::kMemory, limits.memoryMb, [](double mb) -> std::optional<std::string> {
+        if (mb == 0 || mb >= kLeastMb) return std::nullopt;
+        return fmt::format("must be 0 or at least {}", kLeastMb);
+    });
 }
 
 void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place) {

@@ -21,8 +21,6 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, VirtualShape>, 3> kShapes = {
     {{"box", VirtualShape::Box}, {"sphere", VirtualShape::Sphere}, {"quad", VirtualShape::Quad}}};
-constexpr double kLeastSize = 0.001, kMostSize = 100, kFarthest = 1000;  // [m]
-constexpr double kLeastScale = 1e-4, kMostScale = 1e4;
 
 std::optional<std::string> lengthFault(std::span<const double> wxyz) {
     constexpr double kTolerance = 0.01;
@@ -36,15 +34,16 @@ std::optional<std::string> lengthFault(std::span<const double> wxyz) {
 void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) {
     out.size.setConstant(0.1);
     file.choice<VirtualShape>(prefix + "shape", out.shape, kShapes);
-    file.numbers(prefix + "size", {out.size.data(), 3}, kLeastSize, kMostSize);
+    file.numbers(range::kObjectSize, {out.size.data(), 3}, prefix);
     // One colour alone is that of the whole.
     Eigen::Vector3d first = Eigen::Vector3d::Constant(-1);
-    file.numbers(prefix + "colour", {first.data(), 3}, 0, 1);
+    file.numbers(range::kColour, {first.data(), 3}, prefix);
     if (first.x() >= 0) out.colours.fill(first.cast<float>());
     Eigen::Vector3d second = out.colours[1].cast<double>();
-    file.numbers(prefix + "second_colour", {second.data(), 3}, 0, 1);
+    file.numbers(prefix + "second_colour", {second.data(), 3}, range::kColour.least,
+                 range::kColour.most);
     out.colours[1] = second.cast<float>();
-    file.integer(prefix + "squares", out.squares, 1, 256);
+    file.integer(range::kSquares, out.squares, prefix);
 }
 
 /// Reads each model once, however many objects show it and whatever they call its file.
@@ -96,7 +95,7 @@ void readModel(TomlReader& file, const std::string& prefix, ModelReader& models,
                   }
               });
     double scale = 1;
-    file.number(prefix + "scale", scale, kLeastScale, kMostScale);
+    file.number(range::kScale, scale, nullptr, prefix);
     out.scale = static_cast<float>(scale);
 }
 
@@ -118,7 +117,7 @@ PlacedObject readObject(TomlReader& file, const std::string& prefix, ModelReader
     readShape(file, prefix, out.shape);
     readTag(file, prefix, out.tag);
     RigidTransform& T = out.T_anchor_object;
-    file.numbers(prefix + "position", {T.translation.data(), 3}, -kFarthest, kFarthest);
+    file.numbers(range::kPosition, {T.translation.data(), 3}, prefix);
     std::array<double, 4> wxyz{1, 0, 0, 0};
     file.numbers(prefix + "orientation", wxyz, -1, 1, lengthFault);
     T.rotation = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();

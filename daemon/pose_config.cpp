@@ -44,11 +44,11 @@ void readPose(TomlReader& file, PoseConfig& pose) {
         if (std::find(pose.families.begin(), pose.families.end(), family) == pose.families.end())
             pose.families.push_back(family);
     }
-    file.number("pose.tag_size", pose.tagSize, plausible::kTagSize.least, plausible::kTagSize.most);
-    file.number("pose.decimation", pose.decimation, 1, 8, decimationFault);
-    file.integer("pose.threads", pose.threads, 1, 64);
-    file.integer("pose.full_search_interval", pose.fullSearchInterval, 1, 1000000);
-    file.integer("pose.bridge_frames", pose.bridgeFrames, 0, 300);
+    file.number(range::kTagSize, pose.tagSize);
+    file.number(range::kDecimation, pose.decimation, decimationFault);
+    file.integer(range::kDetectors, pose.threads);
+    file.integer(range::kFullSearch, pose.fullSearchInterval);
+    file.integer(range::kBridge, pose.bridgeFrames);
 }
 
 std::optional<PoseOrigin> poseOrigin(std::string_view word) {

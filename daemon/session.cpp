@@ -46,7 +46,6 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
       levels_(governedLevels(config.governor)), objects_(config.objects), light_(config.light),
       tags_(poses_.tags()), sensors_(sensorsOf(config, rig_)) {
-    beginRecording(config);
     pipeline_.setMeasure(config.status.measure);
     PlaneImporter* importer = gl_.context ? gl_.context->planeImporter() : nullptr;
     pipeline_.setImporter(importer);
@@ -67,6 +66,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                     rig_.video().info().rateHz};
     if (description_.source.starts_with("cameras"))
         description_.source += importer != nullptr ? ", read in place by the GPU" : ", copied";
+    beginRecording(config);  // last: a failure of the others must not wait for the disk
 }
 
 Session::~Session() = default;
@@ -106,6 +106,7 @@ std::string Session::run(std::optional<std::uint64_t> maxFrames, const Over& ove
     try {
         std::string reason = showFrames(mailbox, capture, maxFrames);
         over(reason, nullptr);
+        endLearning();
         return reason;
     } catch (...) {
         over("", std::current_exception());

@@ -23,6 +23,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -89,6 +90,8 @@ public:
 
 private:
     void beginRecording(const Config& config);
+    /// Records from now on what beginRecording() has asked for, once its folder is there.
+    void takeFirstRecording();
     void checkRecording();
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
@@ -108,6 +111,7 @@ private:
     void finishDisplay();
     [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
+    void endLearning();
     void tell(Timestamp time);
     void tellLearning();
     void tellFaultyPasses();
@@ -119,6 +123,7 @@ private:
     CallQueue<Session>& calls_;
     StopTokens stop_;
     Rig rig_;
+    std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid: its folder is being made
     PoseFinder poses_;
     OpenedGl gl_;
     GpuWatch gpu_{gl_.context};

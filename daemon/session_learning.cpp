@@ -25,6 +25,12 @@ void Session::setLearning(bool wanted) {
     tellLearning();
 }
 
+void Session::endLearning() {
+    if (!learning_) return;
+    learning_->stop();
+    tellLearning();
+}
+
 void Session::resetLearning() {
     if (!learning_) throw std::runtime_error("no filters are learned");
     learning_->reset();

@@ -1,27 +1,42 @@
+#include "daemon/budgets.h"
 #include "daemon/exit_code.h"
 #include "daemon/session.h"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <utility>
 
 namespace mfar {
 
-// Who names a folder on the command line is told at once; a service goes on without its recording.
+// A folder on the command line that cannot be written ends the start. A service goes on without its
+// recording and does not wait for a disk that hangs. Without live cameras all pictures are
+// recorded.
 void Session::beginRecording(const Config& config) {
-    if (!config.recordTo.empty()) {
-        startRecording(makeRecording(config.recordTo)());
-    } else if (!config.record.directory.empty()) {
-        try {
-            startRecording(makeRecording(newRecordingIn(config.record.directory))());
-        } catch (const Failure& failure) {
-            stats_.warn(fmt::format("nothing is recorded: {}", failure.what()),
-                        {message::kRecording});
-        }
+    if (!config.recordTo.empty()) return startRecording(makeRecording(config.recordTo)());
+    if (config.record.directory.empty()) return;
+    firstRecording_ = std::async(
+        std::launch::async, [this, &hearts = stats_.heartbeats(), in = config.record.directory] {
+            const Heartbeat heart(hearts, "recording opener", budget::kWriter, ThreadRole::Helper);
+            return makeRecording(newRecordingIn(in))();
+        });
+    if (rig_.handOver() == HandOver::Lossless) firstRecording_.wait();
+    takeFirstRecording();
+}
+
+void Session::takeFirstRecording() {
+    constexpr std::chrono::seconds kNow{0};
+    if (!firstRecording_.valid() || firstRecording_.wait_for(kNow) != std::future_status::ready)
+        return;
+    try {
+        startRecording(firstRecording_.get());
+    } catch (const Failure& failure) {
+        stats_.warn(fmt::format("nothing is recorded: {}", failure.what()), {message::kRecording});
     }
 }
 
 void Session::checkRecording() {
+    takeFirstRecording();
     if (const std::optional<std::string> why = rig_.endBrokenRecording())
         stats_.warn(fmt::format("the recording has ended: {}", *why), {message::kRecording});
     stats_.recording(rig_.recordingFolder());

@@ -15,6 +15,12 @@ namespace {
 constexpr std::size_t kMostFaults = 50;
 constexpr std::size_t kLongestKey = 200;
 
+std::string keyOf(const range::ConfigRange& range, std::string_view prefix) {
+    std::string out(prefix.empty() ? range.section : prefix);
+    if (!out.ends_with('.')) out += '.';
+    return out.append(range.name);
+}
+
 std::string_view kind(const toml::node& node) {
     switch (node.type()) {
     case toml::node_type::table: return "a section";
@@ -96,6 +102,20 @@ void TomlReader::number(std::string_view key, double& out, double least, double 
     if (const std::optional<std::string> wrong = check ? check(value) : std::nullopt)
         return fault(node->source(), fmt::format("{} = {}: {}", key, value, *wrong));
     out = value;
+}
+
+void TomlReader::number(const range::ConfigRange& range, double& out, const NumberCheck& check,
+                        std::string_view prefix) {
+    number(keyOf(range, prefix), out, range.least, range.most, check);
+}
+
+void TomlReader::integer(const range::ConfigRange& range, int& out, std::string_view prefix) {
+    integer(keyOf(range, prefix), out, static_cast<int>(range.least), static_cast<int>(range.most));
+}
+
+void TomlReader::numbers(const range::ConfigRange& range, std::span<double> out,
+                         std::string_view prefix) {
+    numbers(keyOf(range, prefix), out, range.least, range.most);
 }
 
 void TomlReader::integer(std::string_view key, std::uint64_t& out) {

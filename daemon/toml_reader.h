@@ -1,5 +1,7 @@
 #pragma once
 
+#include "daemon/config_ranges.h"
+
 #include <toml++/toml.h>
 
 #include <cstdint>
@@ -33,6 +35,10 @@ public:
                 const NumberCheck& check = nullptr);
     void integer(std::string_view key, std::uint64_t& out);
     void integer(std::string_view key, int& out, int least, int most);
+    /// The same of a range's own section, or of the one that `prefix` names: "section.".
+    void number(const range::ConfigRange& range, double& out, const NumberCheck& check = nullptr,
+                std::string_view prefix = {});
+    void integer(const range::ConfigRange& range, int& out, std::string_view prefix = {});
     void boolean(std::string_view key, bool& out);
     /// The text is good when `check` says nothing.
     void text(std::string_view key, std::string& out, const Check& check = nullptr);
@@ -41,6 +47,7 @@ public:
     /// A list of exactly so many numbers as `out` holds.
     void numbers(std::string_view key, std::span<double> out, double least, double most,
                  const NumbersCheck& check = nullptr);
+    void numbers(const range::ConfigRange& range, std::span<double> out, std::string_view prefix);
     /// A table of texts, numbers and true or false by any name, each as text: "1", "0.5", "true";
     /// in the order of the file.
     void values(std::string_view key, std::vector<std::pair<std::string, std::string>>& out);

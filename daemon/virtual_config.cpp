@@ -74,14 +74,14 @@ std::optional<std::string> takeEnvironment(std::string_view name,
 
 void readVirtual(TomlReader& file, VirtualOptions& options) {
     file.choice<VirtualRendering>("virtual.rendering", options.rendering, kRenderings);
-    file.number("virtual.budget_ms", options.budgetMs, 0.1, 1000);
+    file.number(range::kTracing, options.budgetMs);
     file.choice<Slicing>("virtual.slicing", options.slicing, kSlicings);
-    file.integer("virtual.samples", options.samples, 1, 65536);
-    file.number("virtual.resolution", options.resolution, 0.05, 1);
+    file.integer(range::kSamples, options.samples);
+    file.number(range::kResolution, options.resolution);
     file.choice<HoleFilling>("virtual.holes", options.holes, kHoleFillings);
-    file.integer("virtual.threads", options.threads, 1, 64);
+    file.integer(range::kTracers, options.threads);
     file.boolean("virtual.filter", options.filter);
-    file.number("virtual.turn_deg", options.turnDeg, 0.1, 90);
+    file.number(range::kTurn, options.turnDeg);
 }
 
 void readLight(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
@@ -93,7 +93,7 @@ void readLight(TomlReader& file, const std::filesystem::path& folder, FileMemory
     if (light.source == LightSource::File) light.file = name;
     readSun(file, light.sun);
     double exposure = light.exposure;
-    file.number("light.exposure", exposure, 1e-3, 1e3);
+    file.number(range::kExposure, exposure);
     light.exposure = static_cast<float>(exposure);
 }
 

@@ -34,7 +34,7 @@ private:
     float exposure_ = 1;
 };
 
-/// How the layer of these options is traced and warped; its size is the caller's.
+/// Options of the traced layer but for its size, which the caller sets.
 [[nodiscard]] TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure);
 
 /// A scene of these objects, placed by the tag map, in this light. Light that the camera is to

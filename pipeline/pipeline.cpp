@@ -232,12 +232,21 @@ Pipeline::State::Match Pipeline::State::matchStill(const VideoFrame& frame, cons
                                   newest.lastFlow != nullptr && options.skips.knownFlow);
     }
     lap("flow");
-    const CellWeights& weights = newest.weigh->run(pyramids, *found, work);
+    const CellWeights& weights = weighed(newest, frame, pyramids, *found, work);
     lap("weigh");
     newest.lastFlow = found;
     newest.lastWeights = &weights;
     listen(weights);
     return {*found, weights};
+}
+
+const CellWeights& Pipeline::State::weighed(const Reference& still, const VideoFrame& frame,
+                                            const LumaPyramid& pyramids, const FlowCells& flow,
+                                            const TileWork& work) {
+    const CellWeights& weights = still.weigh->run(pyramids, flow, work);
+    if (quality.mode != SuperResMode::Detail || !quality.learned) return weights;
+    const FineMatch& match = filterBank()->fineMatch();
+    return match.isKnown() ? still.weigh->confirm(frame, *still.pictures, work, match) : weights;
 }
 
 const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const TileWork& work) {
@@ -256,7 +265,7 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     const LumaPyramid& pyramids = second.pyramid->video(frame, missed);
     const bool usePrior = second.lastFlow != nullptr && options.skips.knownFlow;
     second.lastFlow = &second.flow->run(pyramids, missed, usePrior);
-    second.lastWeights = &second.weigh->run(pyramids, *second.lastFlow, missed);
+    second.lastWeights = &weighed(second, frame, pyramids, *second.lastFlow, missed);
     secondTiles->judge(shown, second.lastWeights->weighed.host());
     second.count(missed.matched, secondTiles->gained());
     result.stats.matchedSecond = missed.matched;

@@ -65,6 +65,10 @@ struct Pipeline::State {
     /// Along epipolar lines where a pose is given, else in both dimensions.
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
+    /// How far a still is trusted.
+    const CellWeights& weighed(const Reference& still, const VideoFrame& frame,
+                               const LumaPyramid& pyramids, const FlowCells& flow,
+                               const TileWork& work);
     /// Before a new still comes: keeps the newest as the second, where that is worth more.
     void retireNewest();
     /// Matches the second still with the tiles that the newest does not show; null where there are

@@ -17,7 +17,7 @@ CameraInfo LibcameraCamera::info() const {
 }
 
 void LibcameraCamera::start() {
-    stream_->start();
+    stream_->begin();
 }
 
 std::optional<Frame> LibcameraCamera::next(std::chrono::milliseconds timeout) {
@@ -25,7 +25,7 @@ std::optional<Frame> LibcameraCamera::next(std::chrono::milliseconds timeout) {
 }
 
 void LibcameraCamera::stop() {
-    stream_->stop();
+    stream_->end();
 }
 
 LibcameraCounters LibcameraCamera::counters() const {

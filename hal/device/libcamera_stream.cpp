@@ -56,6 +56,7 @@ LibcameraCamera::Stream::Stream(const LibcameraOptions& options) : options_(opti
     manager_ = libcameraManager();
     camera_ = findLibcamera(*manager_, options.camera);
     id_ = camera_->id();
+    cycle_.setName(fmt::format("camera '{}'", id_));
     if (const int error = camera_->acquire(); error != 0)
         throw std::runtime_error(
             fmt::format("camera '{}' is {}", id_,
@@ -92,37 +93,17 @@ void LibcameraCamera::Stream::allocate() {
             throw std::runtime_error(fmt::format("camera '{}' takes no requests", id_));
         slot.picture = std::make_shared<MappedPicture>(*buffer, configured_.layout);
         slots_.push_back(std::move(slot));
-    }
-}
-
-// A device that was unplugged while it runs libcamera learns late, from udev. To stop it with
-// requests in it ends the process; once libcamera knows, stopping does nothing. The lost node may
-// be another camera's, which goes with it.
-void LibcameraCamera::Stream::awaitUnplugged() {
-    const auto end = std::chrono::steady_clock::now() + kUdevTime;
-    while (hasLostVideoNode() && std::chrono::steady_clock::now() < end) {
-        std::unique_lock lock(mutex_);
-        const std::uint64_t frames = counters_.frames;
-        const auto isQueued = [](const Slot& slot) { return slot.state == State::Queued; };
-        if (changed_.wait_for(lock, kNodeLook, [&] {
-                return !running_ || unplugged_ || counters_.frames != frames ||
-                       std::ranges::none_of(slots_, isQueued);
-            }))
-            return;
+        cycle_.add();
     }
 }
 
 void LibcameraCamera::Stream::close() {
-    stop();
+    end();
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);
-    std::vector<Slot> slots;
-    {
-        std::lock_guard lock(mutex_);
-        slots.swap(slots_);
-    }
+    cycle_.close();
     // Requests belong to the camera and buffers to the allocator: both go before what they know.
-    slots.clear();
+    slots_.clear();
     allocator_.reset();
     configured_.configuration.reset();
     camera_->release();
@@ -135,36 +116,6 @@ CameraInfo LibcameraCamera::Stream::info() const {
 }
 
 void LibcameraCamera::Stream::start() {
-    const std::lock_guard life(lifecycle_);
-    begin();
-}
-
-void LibcameraCamera::Stream::stop() {
-    const std::lock_guard life(lifecycle_);
-    halt();
-}
-
-// A pipeline that has waited too long for its sensor gives back all requests and takes no more
-// until it is started again: Raspberry Pi's after a second without a pulse, on libcamera 0.0.3 at
-// least.
-void LibcameraCamera::Stream::restart() {
-    const std::lock_guard life(lifecycle_);
-    {
-        const std::lock_guard lock(mutex_);
-        if (!running_) return;
-        ++counters_.restarted;
-    }
-    halt();
-    begin();
-}
-
-/// With the life cycle held.
-void LibcameraCamera::Stream::begin() {
-    {
-        std::lock_guard lock(mutex_);
-        if (running_) return;
-        if (!lost_.empty()) throw DeviceLost(lost_);
-    }
     libcamera::ControlList initial(camera_->controls());
     for (const auto& [id, value] : controls_)
         initial.set(id, value);
@@ -173,96 +124,54 @@ void LibcameraCamera::Stream::begin() {
         if (error == -ENODEV) throw DeviceLost(text);
         throw std::runtime_error(text);
     }
-    std::lock_guard lock(mutex_);
-    running_ = true;
-    givenBack_ = false;
+    controlsDue_ = true;
+    const std::lock_guard lock(mutex_);
     drops_.pause();
-    bool first = true;
-    for (Slot& slot : slots_) {
-        if (slot.state != State::Idle) continue;
-        slot.request->reuse(libcamera::Request::ReuseBuffers);
-        // Some drivers (uvcvideo) look at controls in requests alone.
-        for (const auto& [id, value] : first ? controls_ : ControlValues{})
-            slot.request->controls().set(id, value);
-        first = false;
-        queue(slot);
-    }
 }
 
-/// With the life cycle held.
-void LibcameraCamera::Stream::halt() {
-    awaitUnplugged();
-    {
-        std::lock_guard lock(mutex_);
-        if (!running_) return;
-        running_ = false;
-    }
-    changed_.notify_all();
-    camera_->stop();  // completes what is queued, so without the mutex
-    std::lock_guard lock(mutex_);
-    ready_.clear();
-    for (Slot& slot : slots_)
-        if (slot.state != State::Lent) slot.state = State::Idle;
+int LibcameraCamera::Stream::queue(std::size_t slot) {
+    libcamera::Request& request = *slots_[slot].request;
+    request.reuse(libcamera::Request::ReuseBuffers);
+    // Some drivers (uvcvideo) look at controls in requests alone.
+    for (const auto& [id, value] : controlsDue_ ? controls_ : ControlValues{})
+        request.controls().set(id, value);
+    controlsDue_ = false;
+    return camera_->queueRequest(&request);
 }
 
-/// With the mutex held, the request clean.
-void LibcameraCamera::Stream::queue(Slot& slot) {
-    slot.state = State::Queued;
-    const int error = camera_->queueRequest(slot.request.get());
-    if (error == 0) return;
-    slot.state = State::Idle;
-    lose(fmt::format("camera '{}' takes no more requests (error {})", id_, -error));
+// A device that was unplugged while it runs libcamera learns late, from udev. To stop it with
+// requests in it ends the process; once libcamera knows, stopping does nothing. The lost node may
+// be another camera's, which goes with it.
+void LibcameraCamera::Stream::prepareStop() {
+    const auto end = std::chrono::steady_clock::now() + kUdevTime;
+    while (hasLostVideoNode() && std::chrono::steady_clock::now() < end)
+        if (cycle_.awaitSign(kNodeLook) || unplugged_) return;
 }
 
-void LibcameraCamera::Stream::lose(const std::string& why) {
-    if (lost_.empty()) lost_ = why;
-    changed_.notify_all();
-}
-
-void LibcameraCamera::Stream::giveBack(std::size_t index) {
-    std::lock_guard lock(mutex_);
-    if (index >= slots_.size()) return;  // closed
-    Slot& slot = slots_[index];
-    slot.state = State::Idle;
-    if (!running_ || !lost_.empty()) return;
-    slot.request->reuse(libcamera::Request::ReuseBuffers);
-    queue(slot);
+void LibcameraCamera::Stream::stop() {
+    camera_->stop();
 }
 
 /// In libcamera's thread.
 void LibcameraCamera::Stream::disconnected() {
-    std::lock_guard lock(mutex_);
     unplugged_ = true;
-    lose(fmt::format("camera '{}' has been unplugged", id_));
+    cycle_.lose(fmt::format("camera '{}' has been unplugged", id_));
 }
 
 /// In libcamera's thread.
 void LibcameraCamera::Stream::completed(libcamera::Request* request) {
-    std::lock_guard lock(mutex_);
-    const auto index = static_cast<std::size_t>(request->cookie());
-    if (index >= slots_.size()) return;  // closed
-    Slot& slot = slots_[index];
-    slot.state = State::Idle;
-    changed_.notify_all();
-    if (!running_) return;
-    if (request->status() == libcamera::Request::RequestCancelled) {
-        const auto isQueued = [](const Slot& other) { return other.state == State::Queued; };
-        givenBack_ = std::ranges::none_of(slots_, isQueued);
-        return;
-    }
-    const libcamera::FrameMetadata& metadata = request->findBuffer(stream_)->metadata();
-    std::optional<Done> done;
-    if (isSound(metadata))
-        done = describe(index, *request, metadata);
-    else
-        drops_.addUntimed(metadata.sequence);
-    if (!done) {
-        request->reuse(libcamera::Request::ReuseBuffers);
-        queue(slot);
-        return;
-    }
-    slot.state = State::Ready;
-    ready_.push_back(*done);
+    const auto slot = static_cast<std::size_t>(request->cookie());
+    if (request->status() == libcamera::Request::RequestCancelled) return cycle_.cancelled(slot);
+    cycle_.completed(slot, [&] { return judge(slot, *request); });
+}
+
+std::optional<RequestCycle::Done> LibcameraCamera::Stream::judge(std::size_t slot,
+                                                                 libcamera::Request& request) {
+    const std::lock_guard lock(mutex_);
+    const libcamera::FrameMetadata& metadata = request.findBuffer(stream_)->metadata();
+    if (isSound(metadata)) return describe(slot, request, metadata);
+    drops_.addUntimed(metadata.sequence);
+    return std::nullopt;
 }
 
 bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) {
@@ -280,7 +189,7 @@ bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) 
 }
 
 /// Nothing for a frame whose time cannot be true.
-std::optional<LibcameraCamera::Stream::Done>
+std::optional<RequestCycle::Done>
 LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
                                   const libcamera::FrameMetadata& metadata) {
     namespace controls = libcamera::controls;
@@ -303,10 +212,9 @@ LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
         drops_.add(*time, metadata.sequence);
     else
         drops_.addUntimed(metadata.sequence);
-    ++counters_.frames;
     last_ = time;
     checkView(told);
-    return Done{slot, *time, exposure};
+    return RequestCycle::Done{slot, *time, exposure};
 }
 
 void LibcameraCamera::Stream::checkView(const libcamera::ControlList& told) {
@@ -317,34 +225,29 @@ void LibcameraCamera::Stream::checkView(const libcamera::ControlList& told) {
 }
 
 std::optional<Frame> LibcameraCamera::Stream::next(std::chrono::milliseconds timeout) {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, timeout,
-                      [&] { return !running_ || !lost_.empty() || !ready_.empty() || givenBack_; });
-    if (!lost_.empty()) throw DeviceLost(lost_);
-    if (!viewFault_.empty()) throw std::runtime_error(viewFault_);
-    if (running_ && ready_.empty() && givenBack_) {
-        lock.unlock();
-        restart();
-        return std::nullopt;
+    const std::optional<RequestCycle::Done> done = cycle_.next(timeout);
+    {
+        const std::lock_guard lock(mutex_);
+        if (!viewFault_.empty()) throw std::runtime_error(viewFault_);
     }
-    if (!running_ || ready_.empty()) return std::nullopt;
-    const Done done = ready_.front();
-    ready_.pop_front();
-    slots_[done.slot].state = State::Lent;
-    const std::shared_ptr<const MappedPicture> picture = slots_[done.slot].picture;
-    lock.unlock();
+    if (!done) return std::nullopt;
+    const std::shared_ptr<const MappedPicture> picture = slots_[done->request].picture;
     picture->beginRead();
-    Frame frame(picture->view(), done.time, [picture, stream = weak_from_this(), slot = done.slot] {
-        picture->endRead();
-        if (const auto alive = stream.lock()) alive->giveBack(slot);
-    });
-    frame.exposure = done.exposure;
+    Frame frame(picture->view(), done->time,
+                [picture, stream = weak_from_this(), slot = done->request] {
+                    picture->endRead();
+                    if (const auto alive = stream.lock()) alive->cycle_.giveBack(slot);
+                });
+    frame.exposure = done->exposure;
     return frame;
 }
 
 LibcameraCounters LibcameraCamera::Stream::counters() const {
-    std::lock_guard lock(mutex_);
+    const std::uint64_t frames = cycle_.delivered(), restarts = cycle_.restarts();
+    const std::lock_guard lock(mutex_);
     LibcameraCounters counters = counters_;
+    counters.frames = frames;
+    counters.restarted = restarts;
     counters.dropped = drops_.dropped();
     counters.clock = clock_.kind();
     return counters;

@@ -144,7 +144,9 @@ void Recorder::addFile(std::string_view name, std::string_view text) {
 }
 
 void Recorder::checkSpace(std::uintmax_t bytes) {
-    if (fs::space(root_).available < options_.leastFreeBytes + bytes)
+    const std::uintmax_t available = fs::space(root_).available;
+    if (available < bytes) throw std::runtime_error(root_.string() + ": the disk is full");
+    if (available < options_.leastFreeBytes + bytes)
         throw std::runtime_error(fmt::format("{}: less than {} MB are free on the disk",
                                              root_.string(), options_.leastFreeBytes >> 20));
     if (options_.mostBytes > 0 && bytes_ > options_.mostBytes)

@@ -24,6 +24,7 @@
 namespace mfar {
 
 class FilterBank;
+struct FineMatch;
 class PlaneImporter;
 
 /// A frame of the video sensor: as the camera delivered it, and its colours as planes.
@@ -113,6 +114,10 @@ public:
     virtual ~WeighStep() = default;
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
+    /// Lowers the weights of the last run() on the same frame where the still does not show the
+    /// video's finest detail as `match` lets expect; see params::kFineRoom.
+    virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
+                                       const TileWork& work, const FineMatch& match) = 0;
 };
 
 /// Counts of one frame.

@@ -64,13 +64,15 @@ EnlargerLearner::Outcome EnlargerLearner::add(const MatchedPictures& pictures,
     }
     const StillSums still = sumsOf(pictures, pairs, stop);
     if (stop.stop_requested()) return Outcome::Stopped;
+    fineMatch_.add(pictures, stop);
+    if (stop.stop_requested()) return Outcome::Stopped;
     ++counts_.stills;
     rememberShown();
     sums_.fade(kForgetting);
     sums_.add(still.learn);
     held_.fade(kForgetting);
     held_.add(still.choose);
-    const bool replaced = choose(still.check);
+    const bool replaced = choose(still.check) || putFineMatchInPlace();
     held_.add(still.check);
     measure();
     return replaced ? Outcome::Replaced : Outcome::Kept;
@@ -202,13 +204,18 @@ bool EnlargerLearner::choose(const SumsOfClasses& check) {
     return putInPlace(weights, learned);
 }
 
+bool EnlargerLearner::putFineMatchInPlace() {
+    return fineMatch_.fineMatch() != inPlace_->fineMatch() && putInPlace(current_, learned_);
+}
+
 bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
                                  const std::vector<bool>& learned) {
     std::vector<FilterBank::Filter> filters;
     for (const ClassWeights& of : weights)
         filters.push_back(roundedFilter(of));
     try {
-        inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance());
+        inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance(),
+                                                      fineMatch_.fineMatch());
     } catch (const FilterBankError&) {
         return false;  // weights too large for the kernels: what is in place stays
     }
@@ -235,6 +242,7 @@ void EnlargerLearner::measure() {
     counts_.pairs = guidance_.pairs();
     counts_.guidance = guidance_.guidance();
     counts_.guidanceGainDb = guidance_.gainDb();
+    counts_.fineMatch = inPlace_->fineMatch();
 }
 
 }  // namespace mfar

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/enlarge/class_sums.h"
+#include "pipeline/enlarge/fine_match_learner.h"
 #include "pipeline/enlarge/guidance_learner.h"
 #include "pipeline/enlarge/learner_counts.h"
 #include "pipeline/enlarge/matched_pictures.h"
@@ -76,6 +77,7 @@ private:
                                    const std::stop_token& stop) const;
     bool choose(const enlarge::SumsOfClasses& check);
     [[nodiscard]] enlarge::ClassWeights solved(int unique) const;
+    bool putFineMatchInPlace();
     bool putInPlace(const std::vector<enlarge::ClassWeights>& weights,
                     const std::vector<bool>& learned);
     void measure();
@@ -84,6 +86,7 @@ private:
     std::vector<bool> learned_;  // of each class: `current_` is no shipped filter and not zero
     enlarge::SumsOfClasses sums_, held_;
     enlarge::GuidanceLearner guidance_;
+    enlarge::FineMatchLearner fineMatch_;
     std::shared_ptr<const FilterBank> inPlace_;
     // Means of 4x4 pixels: those that were learned from, and the last picture's.
     std::vector<std::uint8_t> shown_, means_;

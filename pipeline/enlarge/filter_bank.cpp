@@ -75,12 +75,14 @@ std::uint64_t nextNumber() {
 
 }  // namespace
 
-FilterBank::FilterBank(std::span<const Filter> unique, const Guidance& guidance)
-    : number_(nextNumber()), guidance_(guidance), cubic_({kFilterSize, 1}) {
+FilterBank::FilterBank(std::span<const Filter> unique, const Guidance& guidance,
+                       const FineMatch& fineMatch)
+    : number_(nextNumber()), guidance_(guidance), fineMatch_(fineMatch), cubic_({kFilterSize, 1}) {
     if (unique.size() != kUnique)
         throw FilterBankError("filters of " + std::to_string(unique.size()) +
                               " classes, expected " + std::to_string(kUnique));
     if (!guidance.isValid()) throw FilterBankError("guidance is out of range");
+    if (!fineMatch.isValid()) throw FilterBankError("the usual match is out of range");
     for (std::size_t i = 0; i < unique.size(); ++i)
         if (!fits(unique[i]))
             throw FilterBankError("weights of class " + std::to_string(i) + " are too large");

@@ -32,16 +32,30 @@ struct Guidance {
     bool operator==(const Guidance&) const = default;
 };
 
-/// Filters of the learned enlarger, one for each class, see filter_layout.h, and how far a still
-/// guides what the video shows, too. Immutable.
+/// The variance of the video's finest detail that a correctly matched still usually does not
+/// explain, see params::kFineRoom: noise + share * that detail's variance. Noise 0: not known.
+struct FineMatch {
+    float noise = 0;  ///< [grey levels^2], [0, kMostNoise]
+    float share = 0;  ///< [0, 1]
+
+    static constexpr float kMostNoise = 4096;
+    [[nodiscard]] bool isKnown() const { return noise > 0; }
+    [[nodiscard]] bool isValid() const {
+        return noise >= 0 && noise <= kMostNoise && share >= 0 && share <= 1;
+    }
+    bool operator==(const FineMatch&) const = default;
+};
+
+/// Filters of the learned enlarger, one for each class, see filter_layout.h, and how a still guides
+/// what the video shows and usually matches it, too. Immutable.
 class FilterBank {
 public:
     /// Weights of a class, with 16384 as one, halved: the residuals of both classes are added.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
-    /// `unique`: kUnique filters, those by gradient first. `guidance`: see guidance(). Throws
-    /// FilterBankError.
-    explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {});
+    /// `unique`: kUnique filters, those by gradient first. Throws FilterBankError.
+    explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {},
+                        const FineMatch& fineMatch = {});
     /// What the product ships: learned by mfar-train-enlarger, part of the program.
     [[nodiscard]] static const FilterBank& prior();
 
@@ -52,12 +66,15 @@ public:
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
     /// None for the shipped filters: it depends on how noisy and how sharp both sensors are.
     [[nodiscard]] const Guidance& guidance() const { return guidance_; }
+    /// Not known of the shipped filters, for the same reason.
+    [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
     /// Keys' cubic on the same grid, less the pixel, as a filter: with 16384 as one, not halved.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
     std::uint64_t number_;
     Guidance guidance_;
+    FineMatch fineMatch_;
     AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
 };
 

@@ -15,6 +15,7 @@ struct LearnerCounts {
     std::uint64_t pairs = 0;    ///< of stills that guidance was learned from
     Guidance guidance{};        ///< FilterBank::guidance()
     double guidanceGainDb = 0;  ///< over none, in the part held out
+    FineMatch fineMatch{};      ///< FilterBank::fineMatch()
 };
 
 }  // namespace mfar

@@ -15,9 +15,10 @@ using namespace enlarge;
 
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
-constexpr std::array<std::uint64_t, 4> kHeader{3, kUnique, kTaps, kPhases};
-// Versions that are still read: without guidance, and with ten numbers of a single factor.
-constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2;
+constexpr std::array<std::uint64_t, 4> kHeader{4, kUnique, kTaps, kPhases};
+// Versions that are still read: without guidance, with ten numbers of a single factor, and without
+// the usual match.
+constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
 constexpr std::size_t kMostKeySize = 4096;
@@ -79,6 +80,13 @@ public:
         if (!std::isfinite(out)) refuse("has numbers that are not finite");
         return out;
     }
+    template <std::size_t Count>
+    std::array<double, Count> reals() {
+        std::array<double, Count> out{};
+        for (double& value : out)
+            value = real();
+        return out;
+    }
     std::string text() {
         const std::uint64_t size = number();
         if (size > kMostKeySize) refuse("has a name of sensors that is too long");
@@ -138,6 +146,8 @@ std::vector<std::uint8_t> EnlargerLearner::stored(const std::string& key) const 
     }
     for (const double value : guidance_.stored())
         out.number(value);
+    for (const double value : fineMatch_.stored())
+        out.number(value);
     return std::move(out).finished();
 }
 
@@ -162,12 +172,12 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     if (in.version() == kOneFactor)  // learned anew
         for (int i = 0; i < kOneFactorNumbers; ++i)
             (void)in.real();
-    if (in.version() == kHeader[0]) {
-        std::array<double, GuidanceLearner::kNumbers> numbers{};
-        for (double& value : numbers)
-            value = in.real();
-        if (!out.guidance_.restore(numbers)) in.refuse("has a guidance that is out of range");
-    }
+    if (in.version() >= kTwoFactors &&
+        !out.guidance_.restore(in.reals<GuidanceLearner::kNumbers>()))
+        in.refuse("has a guidance that is out of range");
+    if (in.version() == kHeader[0] &&
+        !out.fineMatch_.restore(in.reals<FineMatchLearner::kNumbers>()))
+        in.refuse("has a usual match that is out of range");
     in.finish();
     if (!out.putInPlace(weights, learned)) in.refuse("has weights that are too large");
     out.measure();

@@ -4,6 +4,7 @@
 #include "pipeline/engine/cells.h"
 #include "pipeline/plan/rgb_planes.h"
 
+#include <cmath>
 #include <cstdint>
 
 namespace mfar {
@@ -30,5 +31,12 @@ struct MatchedPictures {
     /// Row of `luma`, from the picture's first pixel on; rows beyond the border repeat it.
     [[nodiscard]] const std::int16_t* row(int y) const;
 };
+
+/// Is a cell matched well enough to learn from it?
+[[nodiscard]] inline bool mayTeach(const LookUpCell& cell) {
+    constexpr float kLeastWeight = 0.25F, kLeastConfidence = 0.8F;
+    return std::isfinite(cell.x) && std::isfinite(cell.y) && cell.weight >= kLeastWeight &&
+           cell.confidence >= kLeastConfidence;
+}
 
 }  // namespace mfar

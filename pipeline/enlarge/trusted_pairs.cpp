@@ -12,8 +12,6 @@
 namespace mfar::enlarge {
 namespace {
 
-// Of a cell that is used at all.
-constexpr float kLeastWeight = 0.25F, kLeastConfidence = 0.8F;
 constexpr int kBorder = 8;  // video px
 // A pixel is learned from where both differ by no more than this share of the video's variance and
 // the noise. A share of 0.1 costs 0.07 dB of what is learned from photographs, as look-ups that are
@@ -61,8 +59,7 @@ void TrustedPairs::findCells() {
         for (int x = 0; x < cells_.width; ++x) {
             const LookUpCell& cell = in_.lookUps[y][x];
             lookUps_[y][x] = cell;
-            known_[y][x] = std::isfinite(cell.x) && std::isfinite(cell.y) &&
-                           cell.weight >= kLeastWeight && cell.confidence >= kLeastConfidence;
+            known_[y][x] = mayTeach(cell);
         }
 }
 

@@ -3,6 +3,7 @@
 #include "pipeline/gles/cell_weigher.h"
 #include "pipeline/gles/detail_painter.h"
 #include "pipeline/gles/device_copies.h"
+#include "pipeline/gles/fine_check.h"
 #include "pipeline/gles/flow2d.h"
 #include "pipeline/gles/luma_pyramids.h"
 #include "pipeline/gles/still_reference.h"
@@ -13,6 +14,13 @@
 
 namespace mfar::gles {
 namespace {
+
+/// Raised luma. From the other engine it comes with the pixel below in the second channel.
+const gpu::Texture& raisedOf(const StillPictures& still) {
+    const auto linear = gpu::Filter::Linear;
+    return still.raised.isEmpty() ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
+                                  : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
+}
 
 /// A still's texture whose rows on the host are its luma.
 class StillLumaCopy final : public DeviceCopy {
@@ -146,8 +154,8 @@ private:
 class GlesWeigh final : public WeighStep {
 public:
     GlesWeigh(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame)
-        : frame_(frame), weigher_(stillRig), weighedCopy_(weigher_.weighed()),
-          lookUpCopy_(weigher_.lookUps()), trustCopy_(weigher_.trust(), true),
+        : rig_(stillRig), frame_(frame), weigher_(stillRig),
+          copies_(weigher_.weighed(), weigher_.lookUps(), weigher_.trust()),
           weights_{Field<WeighedCell>({}, setup.transfers), Field<LookUpCell>({}, setup.transfers),
                    Field<TrustCell>({}, setup.transfers)} {}
 
@@ -160,17 +168,43 @@ public:
                           flow.errorsGiven},
                          frame_.tiles(work));
         }
-        const Size cells = weigher_.weighed().size();
-        weights_.weighed.writtenOnDevice(weighedCopy_, cells);
-        weights_.lookUps.writtenOnDevice(lookUpCopy_, cells);
-        weights_.trust.writtenOnDevice(trustCopy_, cells);
-        return weights_;
+        return written(copies_);
+    }
+    const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
+                               const TileWork& work, const FineMatch& match) override {
+        if (!fine_) {
+            fine_.emplace(rig_);
+            const FineCheck::Weights out = fine_->weights();
+            fineCopies_.emplace(out.weighed, out.lookUps, out.trust);
+        }
+        if (work.changed > 0)
+            fine_->run(frame_.video(frame), raisedOf(still),
+                       {weigher_.weighed(), weigher_.lookUps(), weigher_.trust()},
+                       frame_.tiles(work), match);
+        return written(*fineCopies_);
     }
 
 private:
+    struct Copies {
+        Copies(const gpu::Texture& weighedIn, const gpu::Texture& lookUpsIn,
+               const gpu::Texture& trustIn)
+            : weighed(weighedIn), lookUps(lookUpsIn), trust(trustIn, true) {}
+        TextureCopy weighed, lookUps, trust;
+    };
+    const CellWeights& written(Copies& copies) {
+        const Size cells = weigher_.weighed().size();
+        weights_.weighed.writtenOnDevice(copies.weighed, cells);
+        weights_.lookUps.writtenOnDevice(copies.lookUps, cells);
+        weights_.trust.writtenOnDevice(copies.trust, cells);
+        return weights_;
+    }
+
+    StereoRig rig_;
     FrameOnGpu& frame_;
     CellWeigher weigher_;
-    TextureCopy weighedCopy_, lookUpCopy_, trustCopy_;
+    Copies copies_;
+    std::optional<FineCheck> fine_;  // since it was needed for the first time
+    std::optional<Copies> fineCopies_;
     CellWeights weights_;
 };
 
@@ -207,18 +241,10 @@ private:
         const CellWeights& weights = matched.weights;
         return {mode == SuperResMode::Blend
                     ? textureOf(still.picture, gpu::TexelFormat::Rgba8, linear).texture()
-                    : lumaOf(still),
+                    : raisedOf(still),
                 textureOf(weights.weighed, gpu::TexelFormat::Rgba32F).texture(),
                 textureOf(weights.lookUps, gpu::TexelFormat::Rgba16F, linear).texture(),
                 textureOf(weights.trust, gpu::TexelFormat::Rgba8, linear, true).texture()};
-    }
-
-    // From the other engine it comes with the pixel below in the second channel.
-    static const gpu::Texture& lumaOf(const StillPictures& still) {
-        const auto linear = gpu::Filter::Linear;
-        return still.raised.isEmpty()
-                   ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
-                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
     }
 
     FrameOnGpu& frame_;

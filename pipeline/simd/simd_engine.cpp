@@ -1,5 +1,6 @@
 #include "pipeline/engine/engine.h"
 #include "pipeline/simd/detail_step.h"
+#include "pipeline/simd/fine_check.h"
 #include "pipeline/simd/flow2d.h"
 #include "pipeline/simd/luma_pyramids.h"
 #include "pipeline/simd/occlusion_step.h"
@@ -121,10 +122,42 @@ private:
     AlignedRows<FlowCell> row_;
 };
 
+/// Stills as the host reads them. From the other engine they come without pairs: these are made
+/// once.
+class PairedStills {
+public:
+    explicit PairedStills(std::shared_ptr<Workers> workers) : workers_(std::move(workers)) {}
+
+    simd::StillPairs of(const StillPictures& still) {
+        if (!still.pairs.isEmpty()) {
+            const Rows<const std::uint16_t> rows = still.pairs.host();
+            return {rows.data, rows.pitch, rows.size};
+        }
+        const Rows<const std::uint8_t> luma = still.raised.host();
+        const auto [width, height] = luma.size;
+        if (number_ != still.number || pairs_.size() != luma.size) {
+            if (pairs_.size() != luma.size) pairs_ = AlignedRows<std::uint16_t>(luma.size);
+            workers_->forRange(height, 16, [&, width = width, height = height](int y, int end) {
+                for (; y < end; ++y)
+                    simd::pairRows(luma[y], luma[std::min(y + 1, height - 1)],
+                                   static_cast<std::size_t>(width), pairs_[y]);
+            });
+            number_ = still.number;
+        }
+        return {pairs_[0], pairs_.pitch(), pairs_.size()};
+    }
+
+private:
+    std::shared_ptr<Workers> workers_;
+    AlignedRows<std::uint16_t> pairs_;
+    std::uint64_t number_ = 0;
+};
+
 class SimdWeigh final : public WeighStep {
 public:
     explicit SimdWeigh(const StepSetup& setup)
-        : weigh_(stillFor(setup.output, setup.rig), setup.workers),
+        : stillRig_(stillFor(setup.output, setup.rig)), workers_(setup.workers),
+          weigh_(stillRig_, setup.workers), stills_(setup.workers),
           weights_{Field<WeighedCell>({}, setup.transfers), Field<LookUpCell>({}, setup.transfers),
                    Field<TrustCell>({}, setup.transfers)} {}
 
@@ -147,23 +180,37 @@ public:
                              flow.forward};
             weigh_.run(in);
         }
+        return written();
+    }
+    const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
+                               const TileWork& work, const FineMatch& match) override {
+        if (work.changed == 0 || work.matched == 0) return weights_;
+        if (!fine_) fine_.emplace(stillRig_, workers_);
+        weigh_.lower(fine_->run(frame.planes, stills_.of(still), weigh_.lookUps(), work, match));
+        return written();
+    }
+
+private:
+    const CellWeights& written() {
         weights_.weighed.writtenOnHost(weigh_.weighed());
         weights_.lookUps.writtenOnHost(weigh_.lookUps());
         weights_.trust.writtenOnHost(weigh_.trust());
         return weights_;
     }
 
-private:
+    StereoRig stillRig_;
+    std::shared_ptr<Workers> workers_;
     simd::WeighStep weigh_;
+    std::optional<simd::FineCheck> fine_;  // since it was needed for the first time
+    PairedStills stills_;
     CellWeights weights_;
 };
 
 class SimdDetail final : public DetailStep {
 public:
     explicit SimdDetail(const StepSetup& setup)
-        : workers_(setup.workers),
-          detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
-          picture_(setup.output), output_({}, setup.transfers) {
+        : detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
+          stills_(setup.workers), picture_(setup.output), output_({}, setup.transfers) {
         output_.writtenOnHost(picture_.rows());
     }
 
@@ -174,7 +221,7 @@ public:
             if (options.mode == SuperResMode::Blend)
                 in.picture = matched->still.picture.host();
             else
-                in.still = pairsOf(matched->still);
+                in.still = stills_.of(matched->still);
             in.weighed = matched->weights.weighed.host();
             in.lookUps = matched->weights.lookUps.host();
             in.trust = matched->weights.trust.host();
@@ -204,33 +251,12 @@ private:
         return out;
     }
     simd::DetailInput::Second secondOf(const Matched& second) {
-        return {pairsOf(second.still), second.weights.weighed.host(), second.weights.lookUps.host(),
-                second.weights.trust.host()};
-    }
-    simd::StillPairs pairsOf(const StillPictures& still) {
-        if (!still.pairs.isEmpty()) {
-            const Rows<const std::uint16_t> rows = still.pairs.host();
-            return {rows.data, rows.pitch, rows.size};
-        }
-        // From the other engine a still comes without pairs: they are made once.
-        const Rows<const std::uint8_t> luma = still.raised.host();
-        const auto [width, height] = luma.size;
-        if (pairedStill_ != still.number || pairs_.size() != luma.size) {
-            if (pairs_.size() != luma.size) pairs_ = AlignedRows<std::uint16_t>(luma.size);
-            workers_->forRange(height, 16, [&, width = width, height = height](int y, int end) {
-                for (; y < end; ++y)
-                    simd::pairRows(luma[y], luma[std::min(y + 1, height - 1)],
-                                   static_cast<std::size_t>(width), pairs_[y]);
-            });
-            pairedStill_ = still.number;
-        }
-        return {pairs_[0], pairs_.pitch(), pairs_.size()};
+        return {stills_.of(second.still), second.weights.weighed.host(),
+                second.weights.lookUps.host(), second.weights.trust.host()};
     }
 
-    std::shared_ptr<Workers> workers_;
     simd::DetailStep detail_;
-    AlignedRows<std::uint16_t> pairs_;
-    std::uint64_t pairedStill_ = 0;
+    PairedStills stills_;
     AlignedRows<std::uint32_t> picture_;
     Field<std::uint32_t> output_;
     TileSummary summary_;

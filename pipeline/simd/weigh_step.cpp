@@ -11,48 +11,13 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kLongestVector = 16;  // of the kernels [cells]
-
-int wholeVectors(int cells) {
-    return (cells + kLongestVector - 1) / kLongestVector * kLongestVector;
-}
-
-Size wholeVectors(Size cells) {
-    return {wholeVectors(cells.width), cells.height};
-}
-
 PatchLevel patchLevel(std::span<const std::uint32_t> words, const LumaLevel& level) {
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(words.data());
     const std::ptrdiff_t first = 4 * (std::ptrdiff_t{level.offset} + kLumaMarginWords);
     return {bytes + first, 4 * static_cast<std::ptrdiff_t>(level.pitch), level.width, level.height};
 }
 
-/// Calls body(matched, first, last) for the longest runs of cells whose tiles are alike.
-template <class Body>
-void forRuns(const TileWork& work, int tileRow, int cellsPerTile, int cells, const Body& body) {
-    for (int tile = 0; tile < work.tiles.width;) {
-        const bool matched = work.at(tile, tileRow).matched != 0;
-        const int begin = tile;
-        while (tile < work.tiles.width && (work.at(tile, tileRow).matched != 0) == matched)
-            ++tile;
-        body(matched, cellsPerTile * begin, std::min(cellsPerTile * tile, cells));
-    }
-}
-
 }  // namespace
-
-WeighStep::CellPlane::CellPlane(Size cells)
-    : cells_(cells), rows_({2 * kMargin + wholeVectors(cells.width), cells.height}) {}
-
-void WeighStep::CellPlane::repeatBorder(int y) {
-    float* row = (*this)[y];
-    row[-1] = row[0];
-    row[cells_.width] = row[cells_.width - 1];
-}
-
-RowsAround WeighStep::CellPlane::around(int y) {
-    return {(*this)[std::max(y - 1, 0)], (*this)[y], (*this)[std::min(y + 1, cells_.height - 1)]};
-}
 
 WeighStep::WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers)
     : params_(stillRig), workers_(std::move(workers)), cells_(cellsOf(stillRig.video.size)),
@@ -146,6 +111,17 @@ void WeighStep::measureGain(const WeighInput& in, int row) {
             });
     halfCovariance_.repeatBorder(row);
     halfVarianceStill_.repeatBorder(row);
+}
+
+void WeighStep::lower(Rows<const float> shares) {
+    forRows(cells_.height, kCellsPerTile, [&](int row) {
+        const float* share = shares[row];
+        for (int x = 0; x < cells_.width; ++x) {
+            weighed_[row][x].weight *= share[x];
+            lookUps_[row][x].weight *= share[x];
+            trust_[row][x].halfWeight *= share[x];
+        }
+    });
 }
 
 void WeighStep::weigh(int row, float noise) {

@@ -6,7 +6,7 @@
 #include "pipeline/engine/cells.h"
 #include "pipeline/flow/luma_layout.h"
 #include "pipeline/plan/tile_work.h"
-#include "pipeline/simd/cell_weights.h"
+#include "pipeline/simd/cell_plane.h"
 #include "pipeline/simd/still_look_up.h"
 
 #include <cstdint>
@@ -45,26 +45,14 @@ public:
     /// own. The results' rows, one entry per cell, are valid until the next run.
     void run(const WeighInput& in);
 
+    /// Keeps this share of each cell's weight, one entry per cell.
+    void lower(Rows<const float> shares);
+
     [[nodiscard]] Rows<const WeighedCell> weighed() const { return shown(weighed_); }
     [[nodiscard]] Rows<const LookUpCell> lookUps() const { return shown(lookUps_); }
     [[nodiscard]] Rows<const TrustCell> trust() const { return shown(trust_); }
 
 private:
-    /// A value per cell, whose rows repeat their border.
-    class CellPlane {
-    public:
-        explicit CellPlane(Size cells);
-        [[nodiscard]] float* operator[](int y) { return rows_[y] + kMargin; }
-        void repeatBorder(int y);
-        /// Rows around row y; those outside are held at the border.
-        [[nodiscard]] RowsAround around(int y);
-
-    private:
-        static constexpr int kMargin = 16;  // a cache line
-        Size cells_;
-        AlignedRows<float> rows_;
-    };
-
     template <class T>
     [[nodiscard]] Rows<const T> shown(const AlignedRows<T>& rows) const {
         return {rows[0], rows.pitch(), cells_};

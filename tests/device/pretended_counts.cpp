@@ -1,10 +1,14 @@
 #include "tests/device/pretended_counts.h"
 
-/// For another library in the same program: what the program should have refused.
+/// For another library in the same program: what the program should have refused, the gain that it
+/// has set, and what it has taken before.
 // NOLINTNEXTLINE(readability-identifier-naming)
-extern "C" void mfar_pretended_refusable(const char* camera, std::uint64_t* broken,
-                                         std::uint64_t* badTimes) {
-    const auto counts = mfar::pretended::RefusableCounts::get().of(camera);
-    *broken = counts.broken;
-    *badTimes = counts.badTimes;
+extern "C" void mfar_pretended_known(const char* camera, std::uint64_t* broken,
+                                     std::uint64_t* badTimes, std::int64_t* gain,
+                                     std::uint64_t* ungained) {
+    const auto known = mfar::pretended::Known::get().of(camera);
+    *broken = known.broken;
+    *badTimes = known.badTimes;
+    *gain = known.gain;
+    *ungained = known.ungained;
 }

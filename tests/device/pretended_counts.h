@@ -11,10 +11,13 @@
 
 namespace mfar::pretended {
 
-/// What a program has taken from a camera and has to refuse.
-struct Refusable {
+/// What a camera knows of the program that uses it.
+struct KnownOfCamera {
+    // Pictures that the program has taken and has to refuse.
     std::uint64_t broken = 0;    ///< flagged or short
     std::uint64_t badTimes = 0;  ///< ahead of now, of long ago, or not after the one before
+    std::int64_t gain = 0;       ///< as it was set last since the camera was opened
+    std::uint64_t ungained = 0;  ///< pictures that it has taken before that
 };
 
 inline std::int64_t microsecondsNow() {
@@ -28,15 +31,19 @@ inline std::int64_t microseconds(const timeval& t) {
 }
 
 /// Of all cameras by their names, over all times that they were opened. Thread-safe.
-class RefusableCounts {
+class Known {
 public:
-    static RefusableCounts& get() {
-        static auto* all = new RefusableCounts;  // threads outlive main()
+    static Known& get() {
+        static auto* all = new Known;  // threads outlive main()
         return *all;
     }
-    [[nodiscard]] Refusable of(const std::string& camera) {
+    [[nodiscard]] KnownOfCamera of(const std::string& camera) {
         const std::lock_guard lock(mutex_);
         return counts_[camera];
+    }
+    void setGain(const std::string& camera, std::int64_t value) {
+        const std::lock_guard lock(mutex_);
+        counts_[camera].gain = value;
     }
     /// `lastGood`: the time of the last that need not be refused, since the camera was opened.
     void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
@@ -49,14 +56,15 @@ public:
         const bool isBroken = (taken.flags & V4L2_BUF_FLAG_ERROR) != 0 || taken.bytesused < whole;
         if (!isBad && !isBroken) lastGood = stamp;
         const std::lock_guard lock(mutex_);
-        Refusable& counts = counts_[camera];
+        KnownOfCamera& counts = counts_[camera];
+        counts.ungained += counts.gain == 0 ? 1 : 0;
         counts.broken += isBroken ? 1 : 0;
         counts.badTimes += isBad && !isBroken ? 1 : 0;
     }
 
 private:
     std::mutex mutex_;
-    std::map<std::string, Refusable> counts_;
+    std::map<std::string, KnownOfCamera> counts_;
 };
 
 }  // namespace mfar::pretended

@@ -1,13 +1,15 @@
 // A library to be loaded before a program (LD_PRELOAD): V4L2 cameras that the machine does not
-// have, on the program's own calls of open(), ioctl() and mmap(). The devices are the files of the
-// folder MFAR_PRETENDED_V4L2, each "/dev/NAME" a camera that gives YUYV of any size. The file's
-// words say what is wrong with it, and may change at any time, by renaming another file onto it:
+// have, on the program's own calls of open(), ioctl() and mmap(), and a trigger's line. The devices
+// are the files of the folder MFAR_PRETENDED_V4L2, each "/dev/NAME" a camera that gives YUYV of any
+// size. The file's words say what is wrong with it, and may change at any time, by renaming another
+// file onto it:
 //   hang          the calls that move buffers do not return
 //   hang-open     opening it does not return, and
 //   hang-close    neither does closing it
 //   slow MS       opening takes so long
 //   gone          it is unplugged: what is open fails, nothing can be opened
 //   unplug N      the device is lost that was opened at another N
+//   refuse N      the first N settings of its control, "gain", since it was opened are refused
 //   eio           taking a picture fails, until the camera is opened anew
 //   silent        no further picture
 //   repeat        the same picture again and again
@@ -20,280 +22,38 @@
 //   skip N        with each word's first sight, N numbers are left out
 //   restart       with each word's first sight, numbers begin at 0
 //   plain         nothing wrong, but pictures without their time
+//   triggered     nothing wrong, a picture for each pulse of the line
+// The file "gpiochip0" is a GPIO chip with the line TRIGGER:
+//   gone          it is unplugged
+//   busy          somebody else has the line
+//   eio           the line cannot be set
 // Pictures are noise over a gray, with their time across the upper half, see pretended_picture.h.
 // One that finds no buffer has no number.
 
-#include "tests/device/pretended_counts.h"
-#include "tests/device/pretended_picture.h"
-#include "tests/device/pretended_words.h"
+#include "tests/device/pretended_camera.h"
+#include "tests/device/pretended_gpio.h"
 
 #include <fcntl.h>
-#include <linux/videodev2.h>
-#include <sys/eventfd.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <cstdarg>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
-#include <vector>
+#include <string_view>
 
 namespace {
 
-using std::chrono::steady_clock;
-
-using mfar::pretended::Words;
-
-void sleepMs(double ms) {
-    std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
-}
-
-class Device {
-public:
-    Device(std::string file, std::string name)
-        : words_(std::move(file)), name_(std::move(name)), plug_(words_.now()["unplug"]),
-          fd_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK | EFD_SEMAPHORE)),
-          memory_(memfd_create("pretended", MFD_CLOEXEC)) {}
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
-    ~Device() {
-        stop();
-        close(memory_);
-    }
-
-    [[nodiscard]] int fd() const { return fd_; }
-    [[nodiscard]] int memory() const { return memory_; }
-
-    int open() const {
-        if (fd_ < 0 || memory_ < 0) return EMFILE;
-        waitWhile("hang-open");
-        const Words wrong = words_.now();
-        if (wrong.contains("slow")) sleepMs(wrong.at("slow"));
-        return wrong.contains("gone") ? ENODEV : 0;
-    }
-    void waitWhile(const char* word) const {
-        while (words_.now().contains(word))
-            sleepMs(5);
-    }
-
-    int call(unsigned long request, void* argument) {
-        if (request == VIDIOC_DQBUF || request == VIDIOC_QBUF || request == VIDIOC_STREAMOFF)
-            waitWhile("hang");
-        if (request == VIDIOC_DQBUF && words_.now()["unplug"] != plug_) return ENODEV;
-        if (isLost_ && request != VIDIOC_STREAMOFF) return lostError_;
-        switch (request) {
-        case VIDIOC_QUERYCAP: return describe(*static_cast<v4l2_capability*>(argument));
-        case VIDIOC_ENUM_FMT: {
-            auto& query = *static_cast<v4l2_fmtdesc*>(argument);
-            query.pixelformat = V4L2_PIX_FMT_YUYV;
-            return query.index == 0 ? 0 : EINVAL;
-        }
-        case VIDIOC_ENUM_FRAMESIZES: {
-            auto& query = *static_cast<v4l2_frmsizeenum*>(argument);
-            query.type = V4L2_FRMSIZE_TYPE_STEPWISE;
-            query.stepwise = {16, 4096, 2, 16, 4096, 2};
-            return query.index == 0 ? 0 : EINVAL;
-        }
-        case VIDIOC_G_PARM:
-        case VIDIOC_S_PARM: return rate(request, *static_cast<v4l2_streamparm*>(argument));
-        case VIDIOC_S_FMT: return setFormat(*static_cast<v4l2_format*>(argument));
-        case VIDIOC_REQBUFS: return allocate(*static_cast<v4l2_requestbuffers*>(argument));
-        case VIDIOC_QUERYBUF: return query(*static_cast<v4l2_buffer*>(argument));
-        case VIDIOC_QBUF: return queue(*static_cast<v4l2_buffer*>(argument));
-        case VIDIOC_DQBUF: return dequeue(*static_cast<v4l2_buffer*>(argument));
-        case VIDIOC_STREAMON: return start();
-        case VIDIOC_STREAMOFF: stop(); return 0;
-        default: return request == VIDIOC_QUERY_EXT_CTRL ? EINVAL : ENOTTY;
-        }
-    }
-
-private:
-    int describe(v4l2_capability& about) const {
-        about = {};
-        std::strncpy(reinterpret_cast<char*>(about.card), name_.c_str(), sizeof about.card - 1);
-        std::memcpy(about.bus_info, about.card, sizeof about.bus_info - 1);
-        about.capabilities = V4L2_CAP_DEVICE_CAPS | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-        about.device_caps = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-        return 0;
-    }
-
-    int rate(unsigned long request, v4l2_streamparm& parameters) {
-        auto& capture = parameters.parm.capture;
-        const v4l2_fract asked = capture.timeperframe;
-        if (request == VIDIOC_S_PARM && asked.numerator > 0 && asked.denominator > 0)
-            rateHz_ = static_cast<double>(asked.denominator) / asked.numerator;
-        capture.capability = V4L2_CAP_TIMEPERFRAME;
-        capture.timeperframe = {1000, static_cast<std::uint32_t>(rateHz_ * 1000)};
-        return 0;
-    }
-
-    int setFormat(v4l2_format& format) {
-        auto& pix = format.fmt.pix;
-        pix.pixelformat = V4L2_PIX_FMT_YUYV;
-        pix.bytesperline = pix.width * 2;
-        pix.sizeimage = pix.bytesperline * pix.height;
-        bytes_ = pix.sizeimage;
-        width_ = static_cast<int>(pix.width);
-        return 0;
-    }
-
-    int allocate(v4l2_requestbuffers& request) {
-        const std::lock_guard lock(mutex_);
-        const Words wrong = words_.now();
-        const auto most = wrong.contains("buffers") ? wrong.at("buffers") : 32;
-        request.count = std::min(request.count, static_cast<std::uint32_t>(most));
-        room_ = (bytes_ + 4095) / 4096 * 4096;
-        buffers_.assign(request.count, {});
-        return ftruncate(memory_, static_cast<off_t>(room_ * buffers_.size())) == 0 ? 0 : ENOMEM;
-    }
-
-    int query(v4l2_buffer& to) {
-        const std::lock_guard lock(mutex_);
-        if (to.index >= buffers_.size()) return EINVAL;
-        to.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
-        to.length = static_cast<std::uint32_t>(bytes_);
-        to.m.offset = static_cast<std::uint32_t>(room_ * to.index);
-        return 0;
-    }
-
-    int queue(v4l2_buffer& from) {
-        const std::lock_guard lock(mutex_);
-        if (from.index >= buffers_.size()) return EINVAL;
-        free_.push_back(from.index);
-        return 0;
-    }
-
-    int dequeue(v4l2_buffer& to) {
-        const std::lock_guard lock(mutex_);
-        if (filled_.empty()) return EAGAIN;
-        to = buffers_[filled_.front()];
-        filled_.pop_front();
-        std::uint64_t one = 0;
-        static_cast<void>(!read(fd_, &one, sizeof one));
-        mfar::pretended::RefusableCounts::get().add(name_, to, bytes_, lastGood_);
-        return 0;
-    }
-
-    int start() {
-        const std::lock_guard lock(mutex_);
-        running_ = true;
-        picture_.clear();
-        maker_ = std::thread([this] { make(); });
-        return 0;
-    }
-
-    void stop() {
-        running_ = false;
-        if (maker_.joinable()) maker_.join();
-        const std::lock_guard lock(mutex_);
-        free_.clear();
-        for (; !filled_.empty(); filled_.pop_front()) {
-            std::uint64_t one = 0;
-            static_cast<void>(!read(fd_, &one, sizeof one));
-        }
-    }
-
-    void make() {
-        auto due = steady_clock::now();
-        std::uint32_t number = 0;
-        Words before;
-        for (std::uint64_t i = 1; running_; ++i) {
-            const Words wrong = words_.now();
-            const double hz = wrong.contains("rate") ? wrong.at("rate") : rateHz_.load();
-            due += std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 / hz));
-            while (running_ && steady_clock::now() < due)
-                std::this_thread::sleep_for(std::min<steady_clock::duration>(
-                    due - steady_clock::now(), std::chrono::milliseconds(20)));
-            if (wrong.contains("gone") || wrong.contains("eio"))
-                return lose(wrong.contains("gone") ? ENODEV : EIO);
-            if (wrong.contains("skip") && !before.contains("skip"))
-                number += static_cast<std::uint32_t>(wrong.at("skip"));
-            if (wrong.contains("restart") && !before.contains("restart")) number = 0;
-            const bool silent = wrong.contains("silent");
-            if (!running_ || silent || fill(wrong, i, number)) ++number;
-            before = wrong;
-        }
-    }
-
-    /// Whoever waits for pictures wakes up and finds the error.
-    void lose(int error) {
-        lostError_ = error;
-        isLost_ = true;
-        const std::uint64_t one = 1;
-        static_cast<void>(!write(fd_, &one, sizeof one));
-    }
-
-    /// False without a free buffer.
-    bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number) {
-        const std::int64_t us = mfar::pretended::microsecondsNow();
-        const std::lock_guard lock(mutex_);
-        if (free_.empty() || wrong.contains("hang")) return false;
-        if (!wrong.contains("repeat") || picture_.empty()) {
-            picture_.resize(bytes_);
-            mfar::pretended::paint(picture_, i);
-            if (!wrong.contains("plain")) mfar::pretended::stamp(picture_, width_, us / 1000);
-        }
-        const std::uint32_t index = free_.front();
-        free_.pop_front();
-        void* to = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, memory_,
-                        static_cast<off_t>(room_ * index));
-        std::memcpy(to, picture_.data(), bytes_);
-        munmap(to, bytes_);
-        const auto isDue = [&](const char* word) {
-            const auto at = wrong.find(word);
-            return at != wrong.end() && i % static_cast<std::uint64_t>(at->second) == 0;
-        };
-        v4l2_buffer said{};
-        said.index = index;
-        said.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-        said.memory = V4L2_MEMORY_MMAP;
-        said.sequence = number;
-        said.length = static_cast<std::uint32_t>(bytes_);
-        said.bytesused = said.length - (isDue("short") ? 4096 : 0);
-        said.flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
-        if (isDue("error")) said.flags |= V4L2_BUF_FLAG_ERROR;
-        std::int64_t stamp = us;
-        if (isDue("backward")) stamp -= 200'000;
-        if (isDue("future")) stamp += 3'600'000'000LL;
-        said.timestamp.tv_sec = stamp / 1'000'000;
-        said.timestamp.tv_usec = stamp % 1'000'000;
-        buffers_[index] = said;
-        filled_.push_back(index);
-        const std::uint64_t one = 1;
-        static_cast<void>(!write(fd_, &one, sizeof one));
-        return true;
-    }
-
-    const mfar::pretended::WordFile words_;
-    const std::string name_;
-    const double plug_;  ///< the word "unplug" when it was opened
-    const int fd_;       ///< readable as often as there are filled buffers; closed by the program
-    const int memory_;
-    std::atomic<double> rateHz_{30};
-    std::size_t bytes_ = 0, room_ = 0;
-    int width_ = 0;
-    std::atomic<bool> running_{false}, isLost_{false};
-    std::atomic<int> lostError_{0};
-    std::thread maker_;
-    std::vector<std::uint8_t> picture_;
-    std::optional<std::int64_t> lastGood_;
-    std::mutex mutex_;
-    std::vector<v4l2_buffer> buffers_;
-    std::deque<std::uint32_t> free_, filled_;
-};
+using mfar::pretended::Device;
+using mfar::pretended::GpioChip;
 
 std::mutex devicesMutex;
 
@@ -333,7 +93,12 @@ void* mapFile(void* at, std::size_t length, int protection, int flags, int fd, o
     return reinterpret_cast<void*>(out);
 }
 
+bool isOfGpio(std::string_view path) {
+    return (path == GpioChip::kPath || path == GpioChip::kNumbers) && GpioChip::get().isThere();
+}
+
 int openFile(const char* path, int flags, mode_t mode) {
+    if (isOfGpio(path)) return GpioChip::get().open(path);
     if (const std::optional<int> pretended = openDevice(path)) return *pretended;
     return static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
 }
@@ -358,13 +123,41 @@ int open64(const char* path, int flags, ...) {
     return openFile(path, flags | O_LARGEFILE, mode);
 }
 
+// Who looks for chips in /dev finds those that are pretended.
+int openat(int folder, const char* path, int flags, ...) {
+    va_list rest;
+    va_start(rest, flags);
+    const auto mode = static_cast<mode_t>(va_arg(rest, int));
+    va_end(rest);
+    if (std::string_view(path) == "/dev" && GpioChip::get().isThere())
+        path = GpioChip::get().folder().c_str();
+    return static_cast<int>(syscall(SYS_openat, folder, path, flags, mode));
+}
+
+int lstat(const char* path, struct stat* out) noexcept {
+    if (isOfGpio(path)) return GpioChip::describe(out);
+    return fstatat(AT_FDCWD, path, out, AT_SYMLINK_NOFOLLOW);
+}
+
+int stat(const char* path, struct stat* out) noexcept {
+    if (isOfGpio(path)) return GpioChip::describe(out);
+    return fstatat(AT_FDCWD, path, out, 0);
+}
+
+int access(const char* path, int mode) noexcept {
+    if (isOfGpio(path)) return 0;
+    return faccessat(AT_FDCWD, path, mode, 0);
+}
+
 int ioctl(int fd, unsigned long request, ...) noexcept {
     va_list rest;
     va_start(rest, request);
     void* argument = va_arg(rest, void*);
     va_end(rest);
-    if (const auto device = deviceOf(fd)) {
-        const int error = device->call(request, argument);
+    const auto device = deviceOf(fd);
+    if (device || GpioChip::get().owns(fd)) {
+        const int error =
+            device ? device->call(request, argument) : GpioChip::get().call(fd, request, argument);
         if (error == 0) return 0;
         errno = error;
         return -1;
@@ -392,6 +185,7 @@ int close(int fd) {
             devices().erase(at);
         }
     }
+    GpioChip::get().forget(fd);
     if (closed) closed->waitWhile("hang-close");
     closed.reset();
     return static_cast<int>(syscall(SYS_close, fd));

@@ -17,13 +17,14 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
 namespace mfar::faults {
 namespace {
 
-/// Without the mode of super-resolution, which is the end of it.
+/// Then come how the still camera is triggered, and super-resolution.
 constexpr std::string_view kConfiguration = R"(source = "cameras"
 [record]
 least_free_mb = 0
@@ -35,13 +36,27 @@ camera = "/dev/video90"
 width = 64
 height = 48
 rate_hz = 30.0
+controls = { gain = 100 }
 [cameras.still]
 driver = "v4l2"
 camera = "/dev/video91"
 width = 128
 height = 96
-rate_hz = 5.0
-[superres]
+controls = { gain = 100 }
+)";
+
+constexpr std::string_view kTrigger = R"(rate_hz = 0.0
+[cameras.trigger]
+line = "TRIGGER"
+pulse_ms = 50.0
+[trigger]
+mode = "rate"
+rate_hz = 2.0
+)";
+constexpr std::string_view kNoTrigger = "rate_hz = 5.0\n";
+
+/// Its mode is the end of it.
+constexpr std::string_view kSuperRes = R"([superres]
 learn = false
 )";
 
@@ -96,22 +111,36 @@ Board& Board::get() {
     return *board;
 }
 
-void Board::setUp(std::string_view mode) {
-    configuration_ = fmt::format("{}mode = \"{}\"\n", kConfiguration, mode);
+void Board::setUp(const Plan& plan) {
+    constexpr std::string_view kRecord = "[record]\n";
+    hasTrigger_ = plan.hasTrigger;
+    configuration_ =
+        fmt::format("{}{}{}", kConfiguration, hasTrigger_ ? kTrigger : kNoTrigger, kSuperRes);
+    if (plan.recordsAtStart())
+        configuration_.insert(configuration_.find(kRecord) + kRecord.size(),
+                              fmt::format("directory = \"{}start\"\n", kRecording));
     static_cast<void>(std::filesystem::create_directories("cameras"));
-    writeCamera(Where::Video);
-    writeCamera(Where::Still);
-    replace("mfard.toml", configuration_);
+    for (const Where device : {Where::Video, Where::Still, Where::Line})
+        writeDevice(device);
+    replace("mfard.toml", fmt::format("{}mode = \"{}\"\n", configuration_, plan.mode));
     if (mkfifo(kPipe, 0600) != 0 && errno != EEXIST)
         throw std::runtime_error("no pipe can be made");
 }
 
-void Board::writeCamera(Where which) const {
+void Board::writeDevice(Where which) const {
     // What is on the screen has the time of the video picture alone.
     std::string text = which == Where::Still ? "plain " : "";
+    if (which == Where::Still && hasTrigger_) text += "triggered ";
     for (const Fault* fault : active_)
         if (fault->kind->where == which) text += words(*fault) + " ";
-    replace(which == Where::Video ? "cameras/video90" : "cameras/video91", text);
+    const char* file = which == Where::Video ? "video90" : "video91";
+    replace(std::string("cameras/") + (which == Where::Line ? "gpiochip0" : file), text);
+}
+
+bool Board::lineRests() const {
+    std::ifstream line("cameras/line");
+    char level = '0';
+    return !(line >> level) || level == '0';
 }
 
 void Board::begin(const Fault& fault) {
@@ -127,7 +156,8 @@ void Board::end(const Fault& fault) {
 void Board::disturb(const Fault& fault, int by) {
     switch (fault.kind->where) {
     case Where::Video:
-    case Where::Still: return writeCamera(fault.kind->where);
+    case Where::Still:
+    case Where::Line: return writeDevice(fault.kind->where);
     case Where::Reader: readerStalls_ += by; return;
     case Where::Clients:
         for (int i = 0; by > 0 && i < fault.number; ++i)
@@ -166,8 +196,7 @@ void Board::limitDescriptors(int free) {
 void Board::changeConfiguration(const Fault& fault) {
     const auto which = static_cast<std::size_t>(fault.number);
     if (!Judge::get().isReady()) return;  // nobody would take the signal
-    replace("mfard.toml",
-            std::string(kConfiguration) + std::string(which < kBad.size() ? kBad[which] : ""));
+    replace("mfard.toml", configuration_ + std::string(which < kBad.size() ? kBad[which] : ""));
     kill(getpid(), SIGHUP);
 }
 

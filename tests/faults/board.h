@@ -18,27 +18,31 @@ class Board {
 public:
     static Board& get();
 
-    /// Makes the files. `mode`: of super-resolution.
-    void setUp(std::string_view mode);
+    /// Makes the files.
+    void setUp(const Plan& plan);
     void begin(const Fault& fault);
     void end(const Fault& fault);
 
     [[nodiscard]] bool readerStalls() const { return readerStalls_ > 0; }
     [[nodiscard]] bool diskIsFull() const { return diskFull_ > 0; }
+    /// The trigger's line is as it is without a pulse, or there is none.
+    [[nodiscard]] bool lineRests() const;
     [[nodiscard]] bool diskHangs() const { return diskHangs_ > 0; }
 
     static constexpr const char* kPipe = "screen.y4m";
     static constexpr const char* kSocket = "control";
-    static constexpr const char* kRecording = "disk-";  ///< and a number
+    static constexpr int kGain = 100;                   ///< of both cameras, as configured
+    static constexpr const char* kRecording = "disk-";  ///< and what follows
 
 private:
-    void writeCamera(Where which) const;
+    void writeDevice(Where which) const;
     void plug(const Fault& fault, bool broken);
     void disturb(const Fault& fault, int by);
     void changeConfiguration(const Fault& fault);
     void limitDescriptors(int free);
 
     std::string configuration_;
+    bool hasTrigger_ = false;
     std::vector<const Fault*> active_;
     std::vector<int> clients_;
     std::optional<rlimit> descriptors_;  ///< before they were limited

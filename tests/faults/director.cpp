@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -24,6 +25,7 @@
 namespace mfar::faults {
 namespace {
 
+constexpr Ns kUs = 1000;
 constexpr Ns kEndTime = 3 * kSecond;    ///< from SIGTERM to the end
 constexpr Ns kReadyTime = 5 * kSecond;  ///< from the start, whatever devices do
 /// Between episodes: what may be late has come, and mfard is watched while all is well.
@@ -91,7 +93,7 @@ void apply(const Step& step) {
     static int recordings = 0;
     const bool ofDisk = step.fault->kind->where == Where::Disk;
     if (step.begins) {
-        if (ofDisk) {
+        if (ofDisk && Judge::get().isReady()) {
             const std::string name = Board::kRecording + std::to_string(++recordings);
             request({{"command", "record"}, {"name", name}});
             sleepFor(300 * kMs);
@@ -102,16 +104,22 @@ void apply(const Step& step) {
         Board::get().end(*step.fault);
         // Which waits for the disk, as another fault may hold it.
         if (ofDisk)
-            std::thread(request, nlohmann::json{{"command", "record"}, {"stop", true}}).detach();
+            std::thread([] {
+                sleepFor(300 * kMs);  // one that it has held up begins now
+                request({{"command", "record"}, {"stop", true}});
+            }).detach();
         Judge::get().ends(*step.fault);
     }
 }
 
 void checkRecordings() {
-    for (const auto& folder : std::filesystem::directory_iterator(".")) {
+    namespace fs = std::filesystem;
+    for (const auto& folder : fs::directory_iterator(".")) {
         if (!folder.path().filename().string().starts_with(Board::kRecording)) continue;
-        Judge::get().recording(folder.path().string());
-        std::filesystem::remove_all(folder.path());
+        for (const auto& inner : fs::recursive_directory_iterator(folder))
+            if (inner.path().filename() == "cam0")
+                Judge::get().recording(inner.path().parent_path().string());
+        fs::remove_all(folder.path());
     }
 }
 
@@ -123,9 +131,18 @@ void checkGrowth(std::uint64_t moreBytes = 8U << 20U) {
     Judge::get().fail("memory, descriptors or threads have grown");
 }
 
+void checkLine() {
+    for (int i = 0; i < 5; ++i) {
+        if (Board::get().lineRests()) return;
+        sleepFor(70 * kMs);  // there may have been a pulse
+    }
+    Judge::get().fail("the trigger's line does not rest");
+}
+
 void checkInQuiet() {
     checkGrowth();
     checkRecordings();
+    checkLine();
     try {
         Judge::get().stats(ask(Board::kSocket, {{"command", "stats"}}).body);
     } catch (const std::exception& error) {
@@ -133,7 +150,21 @@ void checkInQuiet() {
     }
 }
 
+/// Of the first thread: until it has done that, SIGTERM ends the process as any other.
+bool blocksSigterm() {
+    std::ifstream status("/proc/self/status");
+    for (std::string key; status >> key;) {
+        std::uint64_t mask = 0;
+        if (key == "SigBlk:" && status >> std::hex >> mask)
+            return (mask >> (SIGTERM - 1) & 1U) != 0;
+    }
+    return false;
+}
+
 [[noreturn]] void terminate() {
+    while (!blocksSigterm())
+        sleepFor(kUs);
+    if (!Judge::get().isReady()) Judge::get().count("SIGTERM before READY", 1);
     Judge::get().terminated();
     kill(getpid(), SIGTERM);
     sleepFor(kEndTime);
@@ -187,9 +218,10 @@ void run(const Plan& plan) {
 }
 
 const Plan& plan() {
-    static const Plan drawn =
-        Plan::drawn(static_cast<std::uint64_t>(numberOf("MFAR_FAULTS_SEED", 1)),
-                    static_cast<int>(numberOf("MFAR_FAULTS_EPISODES", 10)));
+    static const Plan drawn = Plan::drawn(
+        static_cast<std::uint64_t>(numberOf("MFAR_FAULTS_SEED", 1)),
+        static_cast<int>(numberOf("MFAR_FAULTS_EPISODES", 10)),
+        std::getenv("MFAR_FAULTS_ONLY") != nullptr ? std::getenv("MFAR_FAULTS_ONLY") : "");
     return drawn;
 }
 
@@ -216,7 +248,7 @@ void direct() {
     if (frames == 0 && plan().beginsBroken && !endsAtOnce) {
         std::thread(awaitReady).detach();
         runEpisode(plan().episodes.front(), Scheduler::get().now());
-    } else {
+    } else if (!plan().endsBeforeReady) {
         awaitReady();
         if (!endsAtOnce) sleepFor(kQuiet);
     }
@@ -227,7 +259,7 @@ void direct() {
 
 __attribute__((constructor)) void begin() {
     Judge::get();
-    Board::get().setUp(plan().mode);
+    Board::get().setUp(plan());
     // Signals are for mfard's own threads.
     sigset_t all, before;
     sigfillset(&all);

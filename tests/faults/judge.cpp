@@ -1,5 +1,7 @@
 #include "tests/faults/judge.h"
 
+#include "tests/faults/board.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -244,12 +246,16 @@ void Judge::ended(int code, bool inTime) {
 }
 
 void Judge::stats(const ordered_json& said) {
-    using Refusable = void (*)(const char*, std::uint64_t*, std::uint64_t*);
-    const auto refusable =
-        reinterpret_cast<Refusable>(dlsym(RTLD_DEFAULT, "mfar_pretended_refusable"));
+    using Known =
+        void (*)(const char*, std::uint64_t*, std::uint64_t*, std::int64_t*, std::uint64_t*);
+    const auto known = reinterpret_cast<Known>(dlsym(RTLD_DEFAULT, "mfar_pretended_known"));
     for (const auto& [camera, device] : {std::pair("video", "video90"), {"still", "video91"}}) {
-        std::uint64_t broken = 0, badTimes = 0;
-        refusable(device, &broken, &badTimes);
+        std::uint64_t broken = 0, badTimes = 0, ungained = 0;
+        std::int64_t gain = 0;
+        known(device, &broken, &badTimes, &gain, &ungained);
+        if (gain != Board::kGain || ungained > 0)
+            fail(fmt::format("the {} camera's gain is {}, {} is configured; {} pictures without it",
+                             camera, gain, Board::kGain, ungained));
         const ordered_json& counted = said.at("cameras").at(camera);
         if (counted.at("broken") != broken || counted.at("bad_times") != badTimes)
             fail(fmt::format("the {} camera has sent {} broken pictures and {} bad times, counted "

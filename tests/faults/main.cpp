@@ -1,5 +1,6 @@
 // mfar-faults: mfard under schedules of faults until the time is over or one of its promises
 // breaks.
+#include "tests/faults/plan.h"
 #include "tests/faults/trial.h"
 #include "tests/stability/processes.h"
 
@@ -43,6 +44,7 @@ Options parse(int argc, char** argv) {
     app.add_option("--episodes", o.trial.episodes,
                    "of one start of mfard, each with one or two faults (default 10)")
         ->check(CLI::PositiveNumber);
+    app.add_option("--only", o.trial.only, "of faults whose names contain this");
     app.add_option("--soak", o.trial.soakFrames, "no faults; ends after so many pictures");
     app.add_option("--jobs", o.jobs, "processes, each with seeds of its own (default: one a core)")
         ->check(CLI::Range(1, 1024));
@@ -124,6 +126,7 @@ Tally runAll(const Options& o) {
 int main(int argc, char** argv) {
     const Options o = parse(argc, argv);
     try {
+        static_cast<void>(Plan::drawn(1, 1, o.trial.only));
         const auto begin = Clock::now();
         const Tally tally = runAll(o);
         print(tally, std::chrono::duration<double>(Clock::now() - begin).count());

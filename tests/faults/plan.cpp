@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 namespace mfar::faults {
 namespace {
@@ -25,6 +26,7 @@ constexpr std::array kKinds = {
     Kind{"video opens never", Video, StopsDevice, "gone hang-open"},
     Kind{"video opens slowly", Video, StopsDevice, "gone slow *", 100, 1500},
     Kind{"video few buffers", Video, StopsDevice, "gone buffers *", 1, 4},
+    Kind{"video control refused", Video, StopsDevice, "unplug refuse *", 3, 6},
     Kind{"video broken frames", Video, None, "error *", 2, 9},
     Kind{"video short frames", Video, None, "short *", 2, 9},
     Kind{"video backward times", Video, None, "backward *", 2, 9},
@@ -42,11 +44,15 @@ constexpr std::array kKinds = {
     Kind{"still opens never", Still, StopsDevice, "gone hang-open"},
     Kind{"still opens slowly", Still, StopsDevice, "gone slow *", 100, 1500},
     Kind{"still few buffers", Still, StopsDevice, "gone buffers *", 1, 4},
+    Kind{"still control refused", Still, StopsDevice, "unplug refuse *", 3, 6},
     Kind{"still broken frames", Still, None, "error *", 2, 9},
     Kind{"still short frames", Still, None, "short *", 2, 9},
     Kind{"still backward times", Still, None, "backward *", 2, 9},
     Kind{"still huge times", Still, None, "future *", 2, 9},
     Kind{"still gap", Still, None, "skip *", 1, 100},
+    Kind{"line unplugged", Line, None, "gone"},
+    Kind{"line i/o error", Line, None, "eio"},
+    Kind{"line busy", Line, None, "eio busy"},
     Kind{"reader stalls", Reader, StopsReader, ""},
     Kind{"idle clients", Clients, None, "", 1, 20},
     Kind{"bad configuration", Configuration, None, "", 0, 5},
@@ -58,19 +64,26 @@ constexpr std::array kKinds = {
     Kind{"slow machine", Machine, Slows, "", 10, 200},
 };
 
+/// From the start to READY, where nothing waits: each look at the clock costs half a microsecond.
+constexpr std::uint64_t kStartTime = 40'000;
+
 /// Those by which a picture can stand still come three times as often.
-const Kind& drawnKind(std::mt19937_64& random) {
+const Kind& drawnKind(std::mt19937_64& random, std::string_view only) {
+    const auto isMeant = [&](const Kind& kind) { return kind.name.find(only) != only.npos; };
+    if (std::ranges::none_of(kKinds, isMeant))
+        throw std::runtime_error(fmt::format("no fault is called '{}'", only));
     for (;;) {
         const Kind& kind = kKinds[random() % kKinds.size()];
+        if (!isMeant(kind)) continue;
         const bool canStop = kind.where == Video && kind.effect != None;
         if (canStop || random() % 3 == 0) return kind;
     }
 }
 
-Fault drawnFault(std::mt19937_64& random) {
+Fault drawnFault(std::mt19937_64& random, std::string_view only) {
     const auto below = [&](std::uint64_t end) { return random() % end; };
     Fault out;
-    out.kind = &drawnKind(random);
+    out.kind = &drawnKind(random, only);
     out.begin = static_cast<Ns>(below(1500)) * kMs;
     // From 30 ms to 10 s, half of them above 1.8 s.
     const double octave = static_cast<double>(std::max(below(1000), below(1000))) / 1000;
@@ -95,21 +108,29 @@ std::string Fault::text() const {
     return out;
 }
 
-Plan Plan::drawn(std::uint64_t seed, int episodes) {
+bool Plan::recordsAtStart() const {
+    const auto isOfDisk = [](const Fault& fault) { return fault.kind->where == Disk; };
+    return beginsBroken && std::ranges::any_of(episodes.front(), isOfDisk);
+}
+
+Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only) {
     std::mt19937_64 random(seed);
     Plan out;
     constexpr std::array<std::string_view, 3> kModes = {"off", "detail", "blend"};
     out.beginsBroken = random() % 4 == 0;
+    out.hasTrigger = random() % 2 == 0 && MFAR_FAULTS_HAS_LINE;
     out.mode = kModes[random() % kModes.size()];
     // SIGTERM may come at once, while all is being set up.
     const bool endsEarly = random() % 8 == 0;
+    out.endsBeforeReady = endsEarly && random() % 2 == 0;
     if (endsEarly) episodes = 1;
     for (int i = 0; i < episodes; ++i) {
-        Episode episode{drawnFault(random)};
-        if (random() % 2 == 0) episode.push_back(drawnFault(random));
+        Episode episode{drawnFault(random, only)};
+        if (random() % 2 == 0) episode.push_back(drawnFault(random, only));
         out.episodes.push_back(std::move(episode));
     }
     out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;
+    if (out.endsBeforeReady) out.endAfter = static_cast<Ns>(random() % kStartTime);
     out.isKilled = random() % 6 == 0;
     // Without descriptors nothing can begin.
     for (const Fault& fault : out.episodes.front())

@@ -10,7 +10,18 @@
 
 namespace mfar::faults {
 
-enum class Where { Video, Still, Reader, Clients, Configuration, Wall, Disk, Descriptors, Machine };
+enum class Where {
+    Video,
+    Still,
+    Line,
+    Reader,
+    Clients,
+    Configuration,
+    Wall,
+    Disk,
+    Descriptors,
+    Machine
+};
 
 /// What a fault does to what is seen, which the judge goes by.
 enum class Effect {
@@ -41,13 +52,17 @@ struct Fault {
 using Episode = std::vector<Fault>;
 
 struct Plan {
-    bool beginsBroken = false;  ///< the first episode begins before the program
-    std::string_view mode;      ///< of super-resolution
+    bool beginsBroken = false;                  ///< the first episode begins before the program
+    std::string_view mode;                      ///< of super-resolution
+    [[nodiscard]] bool recordsAtStart() const;  ///< into a disk that is broken then
     std::vector<Episode> episodes;
-    Ns endAfter = 0;        ///< the signal, so long after the begin of the last episode
+    Ns endAfter = 0;               ///< the signal, so long after the begin of the last episode
+    bool hasTrigger = false;       ///< which the still camera waits for
+    bool endsBeforeReady = false;  ///< or soon after: nobody waits for that
     bool isKilled = false;  ///< with SIGKILL instead of SIGTERM; then it is started once more
 
-    [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes);
+    /// Of the kinds whose names contain `only`. Throws std::runtime_error where there is none.
+    [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes, std::string_view only);
 };
 
 [[nodiscard]] std::span<const Kind> kinds();

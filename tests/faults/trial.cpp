@@ -74,6 +74,7 @@ constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
     const std::vector<std::pair<const char*, std::string>> environment = {
         {"MFAR_FAULTS_SEED", std::to_string(seed)},
         {"MFAR_FAULTS_EPISODES", std::to_string(options.episodes)},
+        {"MFAR_FAULTS_ONLY", options.only},
         {"MFAR_FAULTS_SOAK", std::to_string(options.soakFrames)},
         {"MFAR_FAULTS_REPORT", "report"},
         {"MFAR_PRETENDED_V4L2", "cameras"},
@@ -164,7 +165,8 @@ TrialResult runTrial(const TrialOptions& options, std::uint64_t seed) {
     if (why.empty() && std::ranges::none_of(lines, tellsFailure)) return out;
     const std::string repeat = options.soakFrames > 0
                                    ? fmt::format("--soak {}", options.soakFrames)
-                                   : fmt::format("--seed {} --episodes {}", seed, options.episodes);
+                                   : fmt::format("--seed {} --episodes {} --only '{}'", seed,
+                                                 options.episodes, options.only);
     out.failure = fmt::format("FAILED seed {}: {}\n{}repeat: ./run stress --faults {}\n", seed,
                               why.empty() ? "a promise is broken" : why, excerpt(lines), repeat);
     if (!why.empty()) out.failure += textOf(folder.path() / "err");

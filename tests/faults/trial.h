@@ -10,6 +10,7 @@ namespace mfar::faults {
 struct TrialOptions {
     std::filesystem::path program = MFAR_FAULTS_MFARD;
     int episodes = 10;
+    std::string only;     ///< kinds of faults, by a part of their names
     long soakFrames = 0;  ///< no faults, but so many pictures; 0: faults
     int job = 0;          ///< each has a processor of its own, as far as there are
 };

@@ -75,13 +75,14 @@ TEST(LearnerState, NumbersThatAreNotFiniteAreRefusedThoughTheSumIsRight) {
     EXPECT_THAT(faultOf(bytes), HasSubstr("not finite"));
 }
 
-constexpr std::size_t kGuidanceSize = 8 * enlarge::GuidanceLearner::kNumbers;
+constexpr std::size_t kGuidanceSize = 8 * enlarge::GuidanceLearner::kNumbers,
+                      kFineMatchSize = 8 * enlarge::FineMatchLearner::kNumbers;
 
 TEST(LearnerState, OlderVersionsAreReadWithoutTheirGuidance) {
     const EnlargerLearner now = learned();
     for (const auto& [version, numbers] : {std::pair{1, 0}, {2, 10}}) {
         auto bytes = now.stored("a, b");
-        bytes.resize(bytes.size() - 4 - kGuidanceSize);
+        bytes.resize(bytes.size() - 4 - kGuidanceSize - kFineMatchSize);
         bytes[8] = static_cast<std::uint8_t>(version);
         bytes.resize(bytes.size() + 8U * numbers);
         enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
@@ -90,15 +91,31 @@ TEST(LearnerState, OlderVersionsAreReadWithoutTheirGuidance) {
         EXPECT_EQ(then.counts().pairs, 0U);
         EXPECT_EQ(then.counts().stills, now.counts().stills);
         EXPECT_DOUBLE_EQ(then.counts().gainDb, now.counts().gainDb);
+        EXPECT_FALSE(then.filters()->fineMatch().isKnown());
     }
+}
+
+TEST(LearnerState, VersionThreeIsReadWithItsGuidanceButWithoutTheUsualMatch) {
+    const EnlargerLearner now = learned();
+    auto bytes = now.stored("a, b");
+    bytes.resize(bytes.size() - 4 - kFineMatchSize);
+    bytes[8] = 3;
+    enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
+    const EnlargerLearner then = EnlargerLearner::restored(bytes, "a, b", "state");
+    EXPECT_EQ(then.filters()->guidance(), now.filters()->guidance());
+    EXPECT_FALSE(then.filters()->fineMatch().isKnown());
 }
 
 TEST(LearnerState, AGuidanceOutOfRangeIsRefusedThoughTheSumIsRight) {
     auto bytes = learned().stored("a, b");
     bytes.resize(bytes.size() - 4);
-    bytes[bytes.size() - kGuidanceSize + 15] ^= 0x40;  // a guidance of far more than one
+    auto guidance = bytes;
+    guidance[bytes.size() - kFineMatchSize - kGuidanceSize + 15] ^= 0x40;  // of far more than one
+    enlarge::putNumber(guidance, enlarge::fnv1a(guidance), 4);
+    EXPECT_THAT(faultOf(guidance), HasSubstr("guidance that is out of range"));
+    bytes[bytes.size() - 1] ^= 0x40;  // the share of the usual match
     enlarge::putNumber(bytes, enlarge::fnv1a(bytes), 4);
-    EXPECT_THAT(faultOf(bytes), HasSubstr("guidance that is out of range"));
+    EXPECT_THAT(faultOf(bytes), HasSubstr("usual match that is out of range"));
 }
 
 TEST(LearnerState, OneThatIsTooLongOrShortIsRefusedThoughTheSumIsRight) {

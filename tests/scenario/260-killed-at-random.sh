@@ -1,36 +1,62 @@
 #!/usr/bin/env bash
-# mfard is killed at random moments, again and again: each start shows its first picture within five
-# seconds, finds the control socket of the dead one, and every recording can be read.
-# Usage: 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so
+# mfard is killed at random moments, also during a pulse, again and again: each start shows its first
+# picture within five seconds, finds the control socket of the dead one, what systemd starts after a
+# crash gives the trigger's line its level at rest, and every recording can be read.
+# Usage: 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so [TIMES]
 . "$(dirname "$0")/lib.sh"
 
 pretended=$3
+times=${4:-20}
 ctl="$(dirname "$sim")/mfarctl"
 RANDOM=${MFAR_SEED:-7}
-mkdir state
-pretended_cameras '[record]
+mkdir state run
+export STATE_DIRECTORY=$PWD/state RUNTIME_DIRECTORY=$PWD/run MFAR_PRETENDED_V4L2=$PWD/cameras
+pretended_cameras '[cameras.trigger]
+line = "TRIGGER"
+pulse_ms = 100.0
+[trigger]
+mode = "rate"
+rate_hz = 6.0
+[record]
 directory = "films"'
+sed -i 's/^rate_hz = 5.0/rate_hz = 0.0/' mfard.toml
+echo triggered >cameras/video91
+touch cameras/gpiochip0
 shows_pictures() {
     [ "$(timeout 10 "$ctl" --socket control status 2>/dev/null | sed -n 's/^frames  *//p')" -gt 0 ] 2>/dev/null
 }
 begin() {
     begun=$(milliseconds)
-    LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras STATE_DIRECTORY=$PWD/state start \
-        --config mfard.toml --display none --control control
+    LD_PRELOAD=$pretended start --config mfard.toml --display none --control control
 }
+recorded() { cat films/*/cam0/data.csv 2>/dev/null | grep -c '^[0-9]' || true; }
+records() { [ "$(recorded)" -gt "$before" ]; }
+is_active() { [ "$(cat cameras/line 2>/dev/null)" = 1 ]; }
 
-for round in $(seq 20); do
+active=0
+for round in $(seq "$times"); do
+    before=$(recorded)
     begin
     sleep 0.$((RANDOM % 3))$((RANDOM % 10))
-    # Every second one has shown its first picture before.
+    # Every second one has shown its first picture before, every fourth has recorded, and is in a pulse.
     if [ $((round % 2)) = 0 ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))
         [ $took -le $((5000 * patience)) ] || fail "round $round: first picture after $took ms"
     fi
+    if [ $((round % 4)) = 0 ]; then
+        until_true records
+        until_true is_active
+    fi
     kill -KILL "$pid"
     wait "$pid" 2>/dev/null || true
+    if is_active; then active=$((active + 1)); fi
+    export LD_PRELOAD=$pretended
+    run 0 --release-trigger
+    unset LD_PRELOAD
+    if is_active; then fail "round $round: the line does not rest"; fi
 done
+[ $active -ge $((times / 10)) ] || fail "only $active kills were in a pulse"
 begin
 until_true shows_pictures
 kill -TERM "$pid"
@@ -42,4 +68,5 @@ for film in films/*; do
     run 0 --recording "$film" --frames 1
     readable=$((readable + 1))
 done
-[ $readable -ge 8 ] || fail "only $readable recordings have pictures"
+echo "$times kills, $active of them in a pulse, $readable recordings with pictures"
+[ $readable -ge $((times / 4)) ] || fail "only $readable recordings have pictures"

@@ -23,6 +23,21 @@ sed "s|/usr/bin/mfard|$mfard|; s|^Documentation=.*|Documentation=man:systemd(1)|
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify ended with $?"
 [[ -z $said ]] || fault "verify: $said"
 
+# The drop-in for those who want a reboot at the end: systemd takes it, and the starts that it counts
+# happen within its time, though mfard waits before each.
+reboot=$(dirname "$unit")/reboot.conf
+install -D -m 644 "$reboot" "$work/mfard.service.d/reboot.conf"
+said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify of reboot.conf ended with $?"
+[[ -z $said ]] || fault "verify of reboot.conf: $said"
+grep -qx 'StartLimitAction=reboot' "$reboot" || fault "reboot.conf does not reboot"
+minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
+starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
+wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
+    "$sources/../daemon/restart_pause.cpp")
+# A hang costs as long as the watchdog and the start may take.
+((60 * minutes > starts * (wait + 20))) || fault "reboot.conf never counts $starts starts"
+rm -r "$work/mfard.service.d"
+
 exposure=$(systemd-analyze security --offline=true --no-pager "$unit" |
     sed -n 's/.*Overall exposure level for [^:]*: \([0-9.]*\) .*/\1/p')
 echo "exposure $exposure"

@@ -39,6 +39,15 @@ inline constexpr float kTexturedContrast = 8.0F;
 /// Squared correlation times confidence of a textured cell that the still does not explain.
 inline constexpr float kUnexplainedMatch = 0.25F;
 
+/// The finest detail that the video shows, what pixels differ from the mean of their block of 2x2,
+/// is compared with the still's at the same places. A cell keeps its weight as long as the still
+/// leaves no more of that detail's variance unexplained than so many times what is usual
+/// (FineMatch), which is twice the usual deviation, and beyond that a part of it. Look-ups that are
+/// off by a part of a pixel show there alone.
+inline constexpr float kFineRoom = 4.0F;
+/// Variance below all that counts [grey levels^2].
+inline constexpr float kFineLeast = 0.1F;
+
 struct alignas(16) AssessCells {
     Rig rig;
     LumaLevel video, still;  ///< finest levels, both at the video's geometry
@@ -63,6 +72,18 @@ struct alignas(16) WeighCells {
     std::int32_t columns, rows;
     std::int32_t halfColumns, halfRows;  ///< of half-resolution cells
     float noise;                         ///< standard deviation of the video's [grey levels]
+};
+
+struct alignas(16) SumFine {
+    std::int32_t columns, rows;            ///< of cells
+    std::int32_t videoWidth, videoHeight;  ///< [px]
+    float scaleX, scaleY;                  ///< still pixels per video pixel
+    float texelX, texelY;                  ///< 1 / size of the still [1/px]
+};
+
+struct alignas(16) ConfirmCells {
+    std::int32_t columns, rows;  ///< of cells
+    float noise, share;          ///< FineMatch
 };
 
 }  // namespace mfar::params

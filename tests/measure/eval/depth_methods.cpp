@@ -1,7 +1,6 @@
 #include "tests/measure/eval/depth_methods.h"
 
-#include "pipeline/pipeline.h"
-#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/triangulation/triangulation.h"
 
@@ -63,14 +62,10 @@ public:
         pipeline_.setMeasure(true);
     }
 
-    void setStill(const Shot& still) override {
-        const cv::Mat rgba = toRgba(still.picture);
-        pipeline_.setStill(viewOf(rgba), still.time, still.pose);
-    }
+    void setStill(const Shot& still) override { PipelineShot(still).giveAsStill(pipeline_); }
 
     Result run(const Shot& frame) override {
-        const cv::Mat rgba = toRgba(frame.picture);
-        pipeline_.run(viewOf(rgba), frame.time, frame.pose);
+        PipelineShot(frame).run(pipeline_);
         const InverseDepthField& field = pipeline_.inverseDepth();
         Result out{cv::Mat(frame.picture.size(), CV_32F, cv::Scalar(0)), 0};
         for (std::size_t i = 0; i < field.rho.size(); ++i)

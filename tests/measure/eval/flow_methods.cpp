@@ -1,8 +1,7 @@
 #include "tests/measure/eval/flow_methods.h"
 
-#include "pipeline/pipeline.h"
 #include "tests/measure/eval/paper_pipeline.h"
-#include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/rig_resample.h"
 #include "tests/measure/eval/stereo_peer.h"
 #include "tests/measure/eval/stopwatch.h"
@@ -120,20 +119,18 @@ public:
     }
 
     void setStill(const Shot& still) override {
-        const cv::Mat rgba = toRgba(still.picture);
-        pipeline_.setStill(viewOf(rgba), still.time, usePoses_ ? still.pose : std::nullopt);
+        PipelineShot(still, usePoses_).giveAsStill(pipeline_);
     }
 
     Result run(const Shot& frame) override {
-        const cv::Mat rgba = toRgba(frame.picture);
-        const auto pose = usePoses_ ? frame.pose : std::nullopt;
-        pipeline_.run(viewOf(rgba), frame.time, pose);
+        const PipelineShot shot(frame, usePoses_);
+        shot.run(pipeline_);
         std::vector<float> vectors = pipeline_.readFlow();
         Result out{cv::Mat(size_.height, size_.width, CV_32FC2, vectors.data()).clone(), 0};
         std::vector<float> confidence = pipeline_.readConfidence();
         out.confidence = cv::Mat(size_.height, size_.width, CV_32F, confidence.data()).clone();
         out.ms = medianOfThree([&] {
-            pipeline_.run(viewOf(rgba), frame.time, pose);
+            shot.run(pipeline_);
             return flowMs();
         });
         return out;

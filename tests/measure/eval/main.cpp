@@ -37,6 +37,8 @@ constexpr const char* kSuperResHelp =
     "exceeds bicubic's by more than 2 grey levels. psnr_rgb_db: over red, green and blue.\n"
     "tiles_below: share of the 64x64 output tiles whose root mean square error exceeds bicubic's\n"
     "by more than 0.25 grey levels; incomplete tiles at the right and bottom are left out.\n"
+    "flicker: deviation of the error from one frame to the next along the true motion [grey\n"
+    "levels], where truth/flow has it.\n"
     "--classes adds for pixels outside the still's view, unmatched (hidden there, or confidence\n"
     "below 0.5) and matched their share and what each method gains there over bicubic.\n"
     "The reference of a frame is the still nearest to it in time that does not show the "

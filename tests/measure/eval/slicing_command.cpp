@@ -1,6 +1,6 @@
 #include "tests/measure/eval/slicing_command.h"
 
-#include "tests/measure/eval/budget_option.h"
+#include "tests/measure/eval/picture_options.h"
 
 #include <cmath>
 #include <string>
@@ -27,12 +27,7 @@ constexpr const char* kSlicingHelp =
 CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request) {
     CLI::App* sub = app.add_subcommand("slicing", "time slices, spatial slices, full renderings");
     sub->footer(kSlicingHelp);
-    sub->add_option("--width", request.size.width, "of the picture [px]")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
-    sub->add_option("--height", request.size.height, "of the picture [px]")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
+    addSize(*sub, request.size, "picture");
     sub->add_option("--samples", request.samples, "of a pixel of a finished picture")
         ->check(CLI::Range(1, 65536))
         ->capture_default_str();

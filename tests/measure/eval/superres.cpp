@@ -1,8 +1,10 @@
 #include "tests/measure/eval/superres.h"
 
+#include "hal/virtual/image_files.h"
 #include "hal/virtual/recording.h"
 #include "tests/measure/eval/labels.h"
 #include "tests/measure/eval/match_classes.h"
+#include "tests/measure/eval/metrics/flicker.h"
 #include "tests/measure/eval/metrics/harm_rate.h"
 #include "tests/measure/eval/metrics/luma.h"
 #include "tests/measure/eval/metrics/tiles_below.h"
@@ -28,9 +30,9 @@ double colourPsnr(const cv::Mat& picture, const cv::Mat& truth) {
     return cv::PSNR(picture, withoutBorder(truth), 255);
 }
 
-/// Nothing where there is no tile.
-std::optional<double> shareOf(double tiles) {
-    return std::isnan(tiles) ? std::nullopt : std::optional(tiles);
+/// NaN says that there was nothing to measure.
+std::optional<double> measured(double value) {
+    return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 /// One recording with the methods set up for its rig.
@@ -60,7 +62,8 @@ public:
                                          : cv::Mat();
         const std::string name = std::to_string(sample.video.time.ns);
         save(name, "truth", truthPicture);
-        for (const Named& method : methods_) {
+        const cv::Mat flow = flowTo(sample.video.time);
+        for (Named& method : methods_) {
             const auto result = method.method->run(frame);
             CV_Assert(result.picture.size() == truthPicture.size());
             const cv::Mat picture = luma(withoutBorder(result.picture));
@@ -69,7 +72,12 @@ public:
                                       scores.hdrVdpQ, harmRate(picture, bicubic, truth)},
                                      furtherValues(scores, request_.metrics));
             values.emplace_back(colourPsnr(withoutBorder(result.picture), truthPicture));
-            values.push_back(shareOf(tilesBelow(picture, bicubic, truth)));
+            values.push_back(measured(tilesBelow(picture, bicubic, truth)));
+            cv::Mat error = picture - truth;
+            values.push_back(flow.empty()
+                                 ? std::nullopt
+                                 : measured(flicker(method.error, error, flow, kSuperResBorder)));
+            method.error = std::move(error);
             if (matcher_)
                 values = followedBy(
                     values, matchClassValues(withoutBorder(classes), picture, bicubic, truth));
@@ -82,9 +90,18 @@ private:
     struct Named {
         std::string name;
         std::unique_ptr<SuperResMethod> method;
+        cv::Mat error{};  ///< of the last frame
     };
     using Times = std::pair<Timestamp, Timestamp>;
 
+    /// The true flow from the last frame to this one; empty where that is not known.
+    [[nodiscard]] cv::Mat flowTo(Timestamp time) {
+        const auto last = std::exchange(frameTime_, time);
+        const auto file = last ? recording_.truthFlow(*last, time) : std::nullopt;
+        if (!file) return {};
+        FlowImage flow = loadFlo(*file);
+        return cv::Mat(flow.size.height, flow.size.width, CV_32FC2, flow.vectors.data()).clone();
+    }
     [[nodiscard]] Shot loadFrame(const SuperResSample& sample) const {
         const Timestamp time = sample.video.time;
         const cv::Mat picture = degrade(loadPicture(sample.video.file), request_.videoDegradation,
@@ -131,6 +148,7 @@ private:
     std::vector<Named> methods_;
     std::unique_ptr<StillMatcher> matcher_;  // where classes are wanted
     std::optional<Times> stillTimes_;
+    std::optional<Timestamp> frameTime_;
 };
 
 }  // namespace
@@ -141,6 +159,7 @@ Report evaluateSuperRes(const SuperResRequest& request) {
         furtherColumns(request.metrics));
     columns.push_back({"psnr_rgb_db", 2});
     columns.push_back({"tiles_below", 4});
+    columns.push_back({"flicker", 2});
     if (request.classes) columns = followedBy(columns, matchClassColumns());
     Report report(columns);
     if (request.classes) report.setHead(matchClassesHead());

@@ -1,8 +1,8 @@
 #include "tests/measure/eval/superres_learning.h"
 
 #include "hal/virtual/recording.h"
-#include "pipeline/pipeline.h"
 #include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/still_choice.h"
 
 #include <fmt/format.h>
@@ -40,13 +40,15 @@ void StillLearning::replaced(const RgbPlanes& video, Rows<const std::uint8_t> st
 
 void StillLearning::report() const {
     const EnlargerLearner::Counts& counts = learner_.counts();
-    fmt::print(stderr,
-               "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
-               "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
-               "of the still for {:.2f} of the video from {} pairs of stills, held out {:.2f} dB\n",
-               counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
-               counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video,
-               counts.pairs, counts.guidanceGainDb);
+    fmt::print(
+        stderr,
+        "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
+        "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
+        "of the still for {:.2f} of the video from {} pairs of stills, held out {:.2f} dB; the "
+        "finest detail differs by {:.2f} + {:.3f} of its variance\n",
+        counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
+        counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video, counts.pairs,
+        counts.guidanceGainDb, counts.fineMatch.noise, counts.fineMatch.share);
 }
 
 namespace {
@@ -86,18 +88,20 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
             const Timestamp at = recording.video[frame].time,
                             stillAt = recording.stills[still].time;
             const PosePair pose = poses.of(at, stillAt);
-            const cv::Mat picture =
-                toRgba(degrade(loadPicture(recording.stills[still].file), request.degradation,
-                               static_cast<std::uint64_t>(stillAt.ns)));
+            const Shot reference{degrade(loadPicture(recording.stills[still].file),
+                                         request.degradation,
+                                         static_cast<std::uint64_t>(stillAt.ns)),
+                                 stillAt, pose.still};
             // Noise of its own: not that of the frame that is measured.
-            const cv::Mat video =
-                toRgba(degrade(loadPicture(recording.video[frame].file), request.videoDegradation,
-                               ~static_cast<std::uint64_t>(at.ns) - 1));
+            const Shot video{degrade(loadPicture(recording.video[frame].file),
+                                     request.videoDegradation,
+                                     ~static_cast<std::uint64_t>(at.ns) - 1),
+                             at, pose.frame};
             // A still that shows the very view of a frame is that frame's truth.
             learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
             last = at;
-            pipeline.setStill(viewOf(picture), stillAt, pose.still);
-            pipeline.run(viewOf(video), at, pose.frame);
+            PipelineShot(reference).giveAsStill(pipeline);
+            PipelineShot(video).run(pipeline);
         }
         if (request.learn == kEachOnce) return;
     }

@@ -1,9 +1,9 @@
 #include "tests/measure/eval/superres_methods.h"
 
-#include "pipeline/pipeline.h"
 #include "tests/measure/eval/dnn_peer.h"
 #include "tests/measure/eval/paper_pipeline.h"
 #include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/rig_resample.h"
 #include "tests/measure/eval/stopwatch.h"
 
@@ -28,30 +28,24 @@ public:
 
     void setStills(const Shot& newest, const Shot* second) override {
         pipeline_.dropStill();
-        if (second != nullptr) setStill(*second);
-        setStill(newest);
+        if (second != nullptr) PipelineShot(*second, usePoses_).giveAsStill(pipeline_);
+        PipelineShot(newest, usePoses_).giveAsStill(pipeline_);
     }
 
     Result run(const Shot& frame) override {
-        const cv::Mat rgba = toRgba(frame.picture);
-        const auto pose = usePoses_ ? frame.pose : std::nullopt;
-        pipeline_.run(viewOf(rgba), frame.time, pose);
+        const PipelineShot shot(frame, usePoses_);
+        shot.run(pipeline_);
         // The picture is that of the first run: a second one could start from its own answer.
         Result out{fromRgba(pipeline_.readImage(), pipeline_.outputSize()), 0};
         glFinish();
         out.ms = wallMs([&] {
-            pipeline_.run(viewOf(rgba), frame.time, pose);
+            shot.run(pipeline_);
             glFinish();
         });
         return out;
     }
 
 private:
-    void setStill(const Shot& still) {
-        const cv::Mat rgba = toRgba(still.picture);
-        pipeline_.setStill(viewOf(rgba), still.time, usePoses_ ? still.pose : std::nullopt);
-    }
-
     bool usePoses_;
     Pipeline pipeline_;
 };
@@ -107,14 +101,10 @@ public:
         : video_(rig.video.size.width, rig.video.size.height),
           pipeline_(rig, {.output = {}, .skipUnchanged = false}) {}
 
-    void setStill(const Shot& still) override {
-        const cv::Mat rgba = toRgba(still.picture);
-        pipeline_.setStill(viewOf(rgba), still.time, still.pose);
-    }
+    void setStill(const Shot& still) override { PipelineShot(still).giveAsStill(pipeline_); }
 
     StillMatch run(const Shot& frame) override {
-        const cv::Mat rgba = toRgba(frame.picture);
-        pipeline_.run(viewOf(rgba), frame.time, frame.pose);
+        PipelineShot(frame).run(pipeline_);
         const std::vector<float> flow = pipeline_.readFlow();
         const std::vector<float> confidence = pipeline_.readConfidence();
         return {cv::Mat(flow, true).reshape(2, video_.height),

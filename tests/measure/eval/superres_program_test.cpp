@@ -22,7 +22,7 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 2 * 7 + 7) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
-                             "psnr_rgb_db,tiles_below"));
+                             "psnr_rgb_db,tiles_below,flicker"));
     for (std::size_t i = 1; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].size(), rows[0].size());
         EXPECT_EQ(rows[i][0], "tiny");
@@ -68,16 +68,16 @@ TEST(MfarEval, SuperResTellsClassesOfPixelsApart) {
     EXPECT_EQ(outcome.text.find("classes by the match"), 0U) << outcome.text;
     const auto rows = readCsv(folder / "out.csv");
     ASSERT_EQ(rows.size(), 1U + 2 * 2 + 2);
-    ASSERT_EQ(rows[0].size(), 17U);
-    EXPECT_EQ(rows[0][11], "outside_share");
-    EXPECT_EQ(rows[0][16], "matched_gain_db");
+    ASSERT_EQ(rows[0].size(), 18U);
+    EXPECT_EQ(rows[0][12], "outside_share");
+    EXPECT_EQ(rows[0][17], "matched_gain_db");
     for (std::size_t i = 1; i < rows.size(); ++i) {
         double shares = 0;
-        for (const std::size_t c : {11U, 13U, 15U})
+        for (const std::size_t c : {12U, 14U, 16U})
             shares += std::stod(rows[i].at(c));
         EXPECT_NEAR(shares, 1, 1e-5);
         if (rows[i][2] != "bicubic") continue;
-        for (const std::size_t c : {12U, 14U, 16U})
+        for (const std::size_t c : {13U, 15U, 17U})
             EXPECT_TRUE(rows[i][c].empty() || std::abs(std::stod(rows[i][c])) < 1e-6);
     }
 }
@@ -133,7 +133,7 @@ TEST(MfarEval, SuperResTakesSlowMeasuresWhenAsked) {
     EXPECT_EQ(rows.at(0), split("recording,frame,method,ms,psnr_db,ssim,lpc_si,hdrvdp_q,harm_rate,"
                                 "msssim,lpc_si_p10,lpc_si_median,lpc_si_p90,lpc_ratio,hdrvdp_qmos,"
                                 "hdrvdp_ppd,hdrvdp_peak,hdrvdp_black,hdrvdp_gamma,"
-                                "psnr_rgb_db,tiles_below"));
+                                "psnr_rgb_db,tiles_below,flicker"));
     ASSERT_EQ(rows.at(1).size(), rows[0].size());
     EXPECT_TRUE(rows[1][5].empty());  // ssim was not asked for
     EXPECT_GT(std::stod(rows[1][6]), 0);

@@ -7,6 +7,7 @@
 #include "pipeline/composite/shadow_catcher.h"
 #include "pipeline/slices/view_change.h"
 #include "pipeline/traced_layer.h"
+#include "tests/measure/eval/metrics/flicker.h"
 #include "tests/measure/eval/stopwatch.h"
 #include "tests/measure/eval/traced_truth.h"
 #include "tests/measure/eval/warp_scenes.h"
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <thread>
 
@@ -104,41 +106,50 @@ struct MeanSquare {
         if (!(values > 0)) return {};
         return 10 * std::log10(255.0 * 255 * values / std::max(sum, 1e-9));
     }
-    [[nodiscard]] std::optional<double> root() const {
-        if (!(values > 0)) return {};
-        return std::sqrt(sum / values);
-    }
 };
 
-bool showsObject(const RenderedPicture& picture, std::size_t pixel) {
-    return picture.id[pixel] != 0 && picture.id[pixel] != kCatcherId;
+/// An error's luma, CV_64F.
+cv::Mat lumaOf(const Picture& error, Size size) {
+    cv::Mat out(size.height, size.width, CV_64F);
+    double* to = out.ptr<double>();
+    for (const Rgb& rgb : error)
+        *to++ = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
+    return out;
 }
 
-/// How the errors of objects' pixels change from a frame to the next.
-std::optional<double> flicker(const Picture& before, const RenderedPicture& truthBefore,
-                              const Picture& now, const RenderedPicture& truth) {
-    const Size size = truth.camera.size;
-    const LensProjection lens(truth.camera);
-    const RigidTransform T = truthBefore.T_world_camera.inverse() * truth.T_world_camera;
-    MeanSquare out;
+/// Where objects' pixels of a frame were in the one before, as flow, CV_32FC2; NaN where that does
+/// not show the object.
+cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
+    const Size size = now.camera.size;
+    const LensProjection lens(now.camera);
+    const RigidTransform T = before.T_world_camera.inverse() * now.T_world_camera;
+    constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+    cv::Mat out(size.height, size.width, CV_32FC2, cv::Scalar(kUnknown, kUnknown));
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * size.width + x;
-            if (!showsObject(truth, i)) continue;
-            const Eigen::Vector3d point =
-                static_cast<double>(truth.depth[i]) * truth.camera.unproject({x, y}).homogeneous();
-            const Eigen::Vector3d h = lens(T * point);
+            if (!showsObject(now, i)) continue;
+            const Eigen::Vector3d h = lens(T * (static_cast<double>(now.depth[i]) *
+                                                now.camera.unproject({x, y}).homogeneous()));
             if (!(h.z() > LensProjection::kNear)) continue;
-            const auto u = std::lround(h.x() / h.z()), v = std::lround(h.y() / h.z());
+            const Eigen::Vector2d at = h.hnormalized();
+            const auto u = std::lround(at.x()), v = std::lround(at.y());
             if (u < 0 || v < 0 || u >= size.width || v >= size.height) continue;
-            const std::size_t j = static_cast<std::size_t>(v) * size.width + u;
-            if (truthBefore.id[j] != truth.id[i]) continue;
-            Rgb change{};
-            for (std::size_t c = 0; c < 3; ++c)
-                change[c] = now[i][c] - before[j][c];
-            out.add(change);
+            if (before.id[static_cast<std::size_t>(v) * size.width + u] != now.id[i]) continue;
+            out.at<cv::Vec2f>(y, x) = {static_cast<float>(at.x() - x),
+                                       static_cast<float>(at.y() - y)};
         }
-    return out.root();
+    return out;
+}
+
+/// How the errors of objects' pixels change from a frame to the next; nothing where none is in
+/// both.
+std::optional<double> flickerOf(const Picture& before, const RenderedPicture& truthBefore,
+                                const Picture& now, const RenderedPicture& truth) {
+    const Size size = truth.camera.size;
+    const double out =
+        flicker(lumaOf(now, size), lumaOf(before, size), motionTo(truthBefore, truth), 0);
+    return std::isnan(out) ? std::nullopt : std::optional(out);
 }
 
 TracedLayerOptions optionsOf(const TracedRequest& request, const std::string& method) {
@@ -244,12 +255,14 @@ private:
                 compare(method, i, error, truth, frames);
             } else if (follows && errorBefore && i > kFirstFrames) {
                 report_.add(label_, std::to_string(i), method,
-                            {{}, {}, flicker(*errorBefore, *truthBefore, error, truth), {}, {}});
+                            {{}, {}, flickerOf(*errorBefore, *truthBefore, error, truth), {}, {}});
             }
             if (isCompared(i)) {
-                const std::string name = fmt::format("{}-{:03}", fileStem(), i);
-                savePicture(request_.save, name + "-" + method, request_.size, shown);
-                savePicture(request_.save, name + "-truth", request_.size, exact);
+                const auto nameOf = [&](const std::string& what) {
+                    return fmt::format("{}-{:03}-{}", fileStem(), i, what);
+                };
+                savePicture(request_.save, nameOf(method), request_.size, shown);
+                savePicture(request_.save, nameOf("truth"), request_.size, exact);
             }
             errorBefore = std::move(error);
             truthBefore = &truth;

@@ -30,10 +30,9 @@ struct TracedRequest {
 /// made within the budget, against a picture path traced in that very view, both over grey paper.
 /// Rows of SCENE/PATH, frame and method; means over the frames after the first half second. Columns
 /// [dB]: psnr of the pixels where the truth shows an object, shadow_psnr where it shows what the
-/// objects change of the real surface; flicker [grey levels]: root mean square of how the error of
-/// an object's pixel changes from a frame to the next, followed along its motion; samples of a
-/// pixel of the picture shown; warp_ms. Needs a current GL context where the engine is GLES. Throws
-/// EvalError.
+/// objects change of the real surface; flicker of the objects' luma [grey levels], as of
+/// metrics/flicker.h; pictures shown so far; warp_ms. Needs a current GL context where the engine
+/// is GLES. Throws EvalError.
 [[nodiscard]] Report evaluateTraced(const TracedRequest& request);
 
 }  // namespace mfar::eval

@@ -2,8 +2,8 @@
 
 #include "hal/gl_context.h"
 #include "pipeline/engine/engine.h"
-#include "tests/measure/eval/budget_option.h"
 #include "tests/measure/eval/name_options.h"
+#include "tests/measure/eval/picture_options.h"
 #include "tests/measure/eval/warp_scenes.h"
 
 namespace mfar::eval {
@@ -11,15 +11,14 @@ namespace {
 
 constexpr const char* kTracedHelp =
     "Moves the camera as the synthetic board does, path traces the objects within the budget of\n"
-    "each frame as mfard does, and compares what is shown with a picture path traced in that "
-    "view.\n"
+    "each frame as mfard does, and compares what is shown with a picture traced in that view.\n"
     "Methods: product; independent: the same budget and filter, random numbers without order and\n"
     "no light kept from one picture to the next.\n"
     "psnr_db: of red, green and blue where the truth shows an object; shadow_psnr_db: where it\n"
-    "shows a shadow or light of the objects on the real surface; flicker [grey levels]: root mean\n"
-    "square change of an object's error from a frame to the next, followed along its motion;\n"
-    "pictures: shown so far; warp_ms: drawing of the layer. Frames of the first half second are\n"
-    "not scored.";
+    "shows a shadow or light of the objects on the real surface; flicker [grey levels]: change\n"
+    "of the luma error of objects from a frame to the next along their motion, root mean square\n"
+    "over the square root of two; pictures: shown so far; warp_ms: drawing of the layer. Frames\n"
+    "of the first half second are not scored.";
 
 }  // namespace
 
@@ -38,12 +37,7 @@ CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request) {
                     fmt::format("of {}", fmt::join(tracedMethodNames(), ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(tracedMethodNames()));
-    sub->add_option("--width", request.size.width, "of the layer [px]")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
-    sub->add_option("--height", request.size.height, "of the layer [px]")
-        ->check(CLI::Range(16, 4096))
-        ->capture_default_str();
+    addSize(*sub, request.size, "layer");
     sub->add_option("--budget", request.budgetMs, "processor time of the path tracer a frame [ms]")
         ->check(isBudget)
         ->capture_default_str();

@@ -15,11 +15,12 @@ namespace mfar::eval {
 /// one.
 class TracedTruth {
 public:
-    /// `name`: of the course, for the files; the scene must outlive this.
+    /// `name`: of the course, for the files.
     TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                 std::filesystem::path folder, const std::string& name);
 
-    /// Stays as long as this does. Throws EvalError for a file that cannot be written.
+    /// Stays as long as this does. A file that is not whole is made anew. Throws EvalError for one
+    /// that cannot be written.
     const RenderedPicture& at(int frame, const RenderView& view);
 
 private:

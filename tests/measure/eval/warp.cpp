@@ -23,10 +23,6 @@ namespace {
 constexpr int kFrames = 12;  // of one view, in which its holes and its edges are answered
 constexpr double kInpaintRadius = 3;
 
-bool showsObject(const RenderedPicture& picture, std::size_t pixel) {
-    return picture.id[pixel] != 0 && picture.id[pixel] != kCatcherId;
-}
-
 std::size_t objectPixels(const RenderedPicture& picture) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < picture.id.size(); ++i)

@@ -2,6 +2,7 @@
 
 #include "hal/gl_context.h"
 #include "pipeline/engine/engine.h"
+#include "tests/measure/eval/picture_options.h"
 #include "tests/measure/eval/warp_scenes.h"
 
 #include <fmt/format.h>
@@ -48,10 +49,7 @@ CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files) 
         ->delimiter(',')
         ->check(isTurn)
         ->capture_default_str();
-    sub->add_option("--width", request.size.width, "of the picture [px]")
-        ->check(CLI::Range(16, 4096));
-    sub->add_option("--height", request.size.height, "of the picture [px]")
-        ->check(CLI::Range(16, 4096));
+    addSize(*sub, request.size, "picture");
     sub->add_option("--samples", request.referenceSamples, "a pixel of the picture")
         ->check(CLI::Range(1, 65536));
     sub->add_option("--truth-samples", request.truthSamples, "a pixel of the truth")

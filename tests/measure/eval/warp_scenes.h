@@ -21,6 +21,10 @@ namespace mfar::eval {
 /// distance that shows all of them, `degrees` around them and 35 degrees above.
 [[nodiscard]] RenderView warpView(const Scene& scene, Size size, double degrees);
 
+[[nodiscard]] inline bool showsObject(const RenderedPicture& picture, std::size_t pixel) {
+    return picture.id[pixel] != 0 && picture.id[pixel] != kCatcherId;
+}
+
 /// So many samples of each pixel, on all processors. Pixels not listed stay empty.
 [[nodiscard]] RenderedPicture tracePixels(const PathTracer& tracer, const RenderView& view,
                                           std::span<const std::uint32_t> pixels, int samples);

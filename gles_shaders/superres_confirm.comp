@@ -1,0 +1,37 @@
+// Lowers the weights of cells where the still does not show the video's finest detail: see kFineRoom.
+// In: sums of superres_fine.comp, fields of superres_weigh.comp. Out: these fields anew.
+// Range: newCells -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
+// Range: newLookUps -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
+#include "pipeline/engine/params/weigh.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(std140, binding = 0) uniform Params {
+    ConfirmCells params;
+};
+layout(binding = 0) uniform sampler2D fineField;
+layout(binding = 1) uniform sampler2D cellField;
+layout(binding = 2) uniform sampler2D weightField;
+layout(binding = 3) uniform sampler2D lookupField;
+layout(rgba32f, binding = 0) uniform writeonly highp image2D newCells;
+layout(rgba8, binding = 1) uniform writeonly highp image2D newWeights;
+layout(rgba16f, binding = 2) uniform writeonly highp image2D newLookUps;
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy), last = ivec2(params.columns, params.rows) - 1;
+    if (any(greaterThan(cell, last))) return;
+    vec3 sum = vec3(0.0);
+    for (int y = -1; y <= 1; ++y)
+        for (int x = -1; x <= 1; ++x)
+            sum += float((2 - abs(x)) * (2 - abs(y))) *
+                   texelFetch(fineField, clamp(cell + ivec2(x, y), ivec2(0), last), 0).xyz;
+    sum /= 16.0;
+    float both = max(sum.y, 0.0);
+    float unexplained = sum.x - both * both / (sum.z + kFineLeast);
+    float allowed = kFineRoom * (params.noise + params.share * sum.x);
+    float kept = allowed / max(unexplained, kFineLeast);
+    if (!(kept < 1.0)) kept = 1.0;
+    vec3 keptWeight = vec3(1.0, 1.0, kept);
+    imageStore(newCells, cell, texelFetch(cellField, cell, 0) * vec4(keptWeight, 1.0));
+    imageStore(newLookUps, cell, texelFetch(lookupField, cell, 0) * vec4(keptWeight, 1.0));
+    imageStore(newWeights, cell, texelFetch(weightField, cell, 0) * vec4(kept, 1.0, 1.0, 1.0));
+}

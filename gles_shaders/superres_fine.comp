@@ -1,0 +1,58 @@
+// How the finest detail of the video and of the still vary together in each cell: see kFineRoom.
+// In: tiles, look-ups, raised luma of the still, video. Out: mean products of what pixels of the middle two rows
+// differ from the mean of their block of 2x2: video, both, still [grey levels^2]. Nothing in tiles that are not
+// matched and in cells that are not whole.
+// A workgroup each tile.
+// Range: fineField 0..65025, -65025..65025, 0..65025, 0
+#include "luma.glsl"
+#include "still_linear.glsl"
+#include "pipeline/engine/params/weigh.h"
+
+layout(local_size_x = 4, local_size_y = 4) in;
+layout(std140, binding = 0) uniform Params {
+    SumFine params;
+};
+layout(std430, binding = 0) readonly buffer Tiles {
+    uvec2 header;
+    uvec2 tiles[];  // changed, matched
+};
+layout(binding = 0) uniform sampler2D picture;
+layout(binding = 1) uniform sampler2D lookupField;
+layout(binding = 2) uniform sampler2D still;  // raised luma
+layout(rgba32f, binding = 0) uniform writeonly highp image2D fineField;
+
+// Mean of 2x2 samples of a video pixel.
+float stillAt(ivec2 pixel) {
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 p = vec2(pixel) + 0.25 + 0.5 * vec2(i & 1, i >> 1);
+        vec2 l = textureLod(lookupField, p / vec2(4 * ivec2(params.columns, params.rows)), 0.0).xy;
+        vec2 at = p * vec2(params.scaleX, params.scaleY) + l;
+        sum += linearly(still, at * vec2(params.texelX, params.texelY));
+    }
+    return 0.25 * sum;
+}
+
+vec3 sumsOfBlock(ivec2 first) {
+    vec4 video, seen;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 p = first + ivec2(i & 1, i >> 1);
+        video[i] = 255.0 * lumaOf(texelFetch(picture, p, 0).rgb);
+        seen[i] = 255.0 * stillAt(p);
+    }
+    video -= dot(video, vec4(0.25));
+    seen -= dot(seen, vec4(0.25));
+    return vec3(dot(video, video), dot(video, seen), dot(seen, seen)) / 8.0;
+}
+
+void main() {
+    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(cell, ivec2(params.columns, params.rows)))) return;
+    bool matched = tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u;
+    bool isWhole = all(lessThanEqual(4 * cell + 4, ivec2(params.videoWidth, params.videoHeight)));
+    vec3 sums = vec3(0.0);
+    if (matched && isWhole)
+        for (int i = 0; i < 2; ++i)
+            sums += sumsOfBlock(4 * cell + ivec2(2 * i, 1));
+    imageStore(fineField, cell, vec4(sums, 0.0));
+}

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "base/geometry.h"
+#include "base/rows.h"
+#include "base/workers.h"
+#include "pipeline/engine/cells.h"
+#include "pipeline/plan/rgb_planes.h"
+#include "pipeline/plan/tile_work.h"
+#include "pipeline/simd/cell_plane.h"
+#include "pipeline/simd/fine_rows.h"
+#include "pipeline/simd/look_up_rows.h"
+#include "pipeline/simd/pixel_spans.h"
+#include "pipeline/simd/scratch_slots.h"
+
+#include <cstdint>
+#include <memory>
+
+namespace mfar::simd {
+
+/// Checks cell by cell whether the still shows the finest detail of the video: superres_fine.comp
+/// and superres_confirm.comp on the host's lanes. Allocates in the constructor.
+class FineCheck {
+public:
+    /// `stillRig`: StillPreparation::rig().
+    FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
+
+    /// Share of its weight that each cell keeps, [0, 1]; valid until the next run. Tiles that are
+    /// not matched, and cells that are not whole, say nothing of their own.
+    Rows<const float> run(const RgbPlanes& video, const StillPairs& still,
+                          Rows<const LookUpCell> lookUps, const TileWork& work,
+                          const FineMatch& match);
+
+private:
+    static constexpr int kSamples = 2;  // of the still, in each pixel of the video each way
+    struct Scratch {
+        Scratch(const FineCheck& check);
+        LookUpRowCache lookUps;
+        AlignedRows<std::int16_t> video, still;
+        PixelSpans cells;
+    };
+    struct Frame {
+        const RgbPlanes& video;
+        const StillPairs& still;
+        Rows<const LookUpCell> lookUps;
+        const TileWork& work;
+    };
+
+    void sumTiles(const Frame& frame, Scratch& scratch, int tileRow);
+    void sum(const Frame& frame, Scratch& scratch, int row);
+
+    Size video_, cells_;
+    std::shared_ptr<Workers> workers_;
+    LookUpTaps taps_;
+    CellPlane ofVideo_, ofBoth_, ofStill_;
+    AlignedRows<float> shares_;
+    ScratchSlots<Scratch> scratch_;
+};
+
+}  // namespace mfar::simd

@@ -1,0 +1,81 @@
+#include "daemon/config_ranges.h"
+#include "tests/daemon/config_faults.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+using range::ConfigRange;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// What the default configuration says of a key: its line, with the lines of comment before it.
+std::string shown(const ConfigRange& range) {
+    std::ifstream in(MFAR_DEFAULT_CONFIG);
+    std::string comment, section;
+    // Keys of sections that may be absent are comments themselves.
+    const std::string isKey = fmt::format("{} = ", range.name), isCommented = "# " + isKey;
+    for (std::string line; std::getline(in, line);) {
+        const std::string bare = line.starts_with("# [") ? line.substr(2) : line;
+        if (bare.starts_with("[")) section = bare.substr(0, bare.rfind(']') + 1);
+        const bool isHere = section == fmt::format("[{}]", range.section) ||
+                            section == fmt::format("[[{}]]", range.section);
+        if (isHere && line.starts_with(isCommented)) return line;
+        if (isHere && line.starts_with(isKey)) return comment + line;
+        // Keys that follow each other share a comment.
+        if (line.empty()) comment.clear();
+        if (line.starts_with("#")) comment += line.substr(1);
+    }
+    return "";
+}
+
+std::string with(const ConfigRange& range, double value) {
+    const bool isList = range.count > 1, isArray = range.section == "objects";
+    const std::string text =
+        range.isWhole ? fmt::format("{:.0f}", value) : fmt::format("{:.6f}", value);
+    const std::vector<std::string> all(static_cast<std::size_t>(range.count), text);
+    return fmt::format("{0}{2}{1}\n{3} = {4}{5}{6}\n", isArray ? "[[" : "[", isArray ? "]]" : "]",
+                       range.section, range.name, isList ? "[" : "", fmt::join(all, ", "),
+                       isList ? "]" : "");
+}
+
+class ConfigRanges : public testing::TestWithParam<ConfigRange> {};
+
+TEST_P(ConfigRanges, AreInTheDefaultConfiguration) {
+    const ConfigRange& range = GetParam();
+    const std::string text = shown(range);
+    EXPECT_THAT(text, HasSubstr(fmt::format("{} to {}", range.least, range.most)));
+    const std::string unit = range.unit.empty() ? "" : fmt::format("[{}]", range.unit);
+    EXPECT_THAT(text, HasSubstr(unit));
+}
+
+TEST_P(ConfigRanges, AreWhatTheParserTakes) {
+    const ConfigRange& range = GetParam();
+    EXPECT_THAT(test::configFaults(with(range, range.least)), IsEmpty());
+    EXPECT_THAT(test::configFaults(with(range, range.most)), IsEmpty());
+    const std::string refused = fmt::format(" from {} to {}", range.least, range.most);
+    const double step = range.isWhole ? 1 : 1e-6;
+    for (const double value : {range.least - step, range.most + step, -1e12, 1e12})
+        EXPECT_THAT(test::configFaults(with(range, value)), HasSubstr(refused)) << value;
+}
+
+std::string nameOf(const testing::TestParamInfo<ConfigRange>& of) {
+    std::string out = fmt::format("{}_{}", of.param.section, of.param.name);
+    for (char& c : out)
+        if (c == '.') c = '_';
+    return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ConfigRanges, testing::ValuesIn(range::kAll), nameOf);
+
+}  // namespace
+}  // namespace mfar

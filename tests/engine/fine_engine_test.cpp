@@ -1,0 +1,159 @@
+#include "pipeline/gles/device_copies.h"
+#include "pipeline/gles/fine_check.h"
+#include "pipeline/simd/fine_check.h"
+#include "tests/engine/gl_test.h"
+#include "tests/engine/simd/detail_case.h"
+#include "tests/oracle/fine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mfar {
+namespace {
+
+using simd::DetailCase;
+using Shares = std::vector<float>;
+
+constexpr FineMatch kMatch{5, 0.02F};
+
+/// A frame with a still of its size, prepared.
+struct FineInput {
+    explicit FineInput(Size video, Size stillSize)
+        : frame(video, stillSize), still(frame.rig, stillSize, std::make_shared<Workers>(2)) {
+        still.set(frame.stillView());
+        for (std::size_t i = 0; i < frame.work.flags.size(); ++i)
+            frame.work.flags[i].matched = i % 4 != 1;
+    }
+    [[nodiscard]] Rows<const LookUpCell> lookUps() const {
+        return {frame.lookUps.data(), frame.cells.width, frame.cells};
+    }
+    [[nodiscard]] std::vector<double> wanted() const {
+        const Size video = frame.rig.video.size, size = frame.rig.still.size;
+        const simd::StillPairs pairs = still.pairs();
+        const auto field = [&](auto member) {
+            return twin::greyOf(frame.cells, [&](int x, int y) {
+                return double(frame.lookUps[y * frame.cells.width + x].*member);
+            });
+        };
+        const twin::Grey offX = field(&LookUpCell::x), offY = field(&LookUpCell::y);
+        const twin::Grey luma = twin::greyOf(
+            size, [&](int x, int y) { return double((pairs.data + y * pairs.pitch)[x] & 255); });
+        const twin::FineCase in{
+            twin::greyOf(video,
+                         [&](int x, int y) {
+                             return 0.299 * frame.video.row(0, y)[x] +
+                                    0.587 * frame.video.row(1, y)[x] +
+                                    0.114 * frame.video.row(2, y)[x];
+                         }),
+            [&](double x, double y) {
+                const double u = (x + 0.5) / 4 - 0.5, v = (y + 0.5) / 4 - 0.5;
+                const double px = (x + 0.5) * frame.rig.still.fx / frame.rig.video.fx - 0.5 +
+                                  offX.bilinear(u, v),
+                             py = (y + 0.5) * frame.rig.still.fy / frame.rig.video.fy - 0.5 +
+                                  offY.bilinear(u, v);
+                return luma.bilinear(std::clamp(px, 0.0, size.width - 1.0),
+                                     std::clamp(py, 0.0, size.height - 1.0));
+            },
+            [&](int x, int y) { return frame.work.at(x / 4, y / 4).matched != 0; }};
+        return twin::fineShares(in, frame.cells, kMatch);
+    }
+
+    DetailCase frame;
+    simd::StillPreparation still;
+};
+
+Shares onHost(const FineInput& in) {
+    simd::FineCheck check(in.still.rig(), std::make_shared<Workers>(2));
+    Shares out;
+    for (int run = 0; run < 2; ++run) {  // nothing is left of a run before
+        const Rows<const float> rows =
+            check.run(in.frame.video, in.still.pairs(), in.lookUps(), in.frame.work, kMatch);
+        out.clear();
+        for (int y = 0; y < rows.size.height; ++y)
+            out.insert(out.end(), rows[y], rows[y] + rows.size.width);
+    }
+    return out;
+}
+
+template <class Cell>
+gpu::Texture uploaded(const std::vector<Cell>& cells, Size size, gpu::TexelFormat format,
+                      bool floats = false) {
+    gpu::Texture out(size, format, gpu::Filter::Linear);
+    TextureCopy(out, floats)
+        .upload(cells.data(), static_cast<std::ptrdiff_t>(sizeof(Cell)) * size.width);
+    return out;
+}
+
+Shares onGpu(const FineInput& in) {
+    const Size cells = in.frame.cells, video = in.frame.rig.video.size;
+    std::vector<WeighedCell> ones(in.frame.weighed.size(), {1, 2, 1, 0.5F});
+    std::vector<LookUpCell> lookUps = in.frame.lookUps;
+    std::vector<TrustCell> trust(ones.size(), {1, 0.5F, 0.25F, 1});
+    for (LookUpCell& cell : lookUps)
+        cell.weight = 1;
+    const simd::StillPairs pairs = in.still.pairs();
+    std::vector<std::uint8_t> luma;
+    for (int y = 0; y < pairs.size.height; ++y)
+        for (int x = 0; x < pairs.size.width; ++x)
+            luma.push_back(static_cast<std::uint8_t>((pairs.data + y * pairs.pitch)[x] & 255));
+    gpu::Texture picture(video, gpu::TexelFormat::Rgba8);
+    TextureCopy(picture).upload(in.frame.videoPixels.data(), 4L * video.width);
+    const gpu::Texture still = uploaded(luma, pairs.size, gpu::TexelFormat::R8),
+                       weighed = uploaded(ones, cells, gpu::TexelFormat::Rgba32F),
+                       looked = uploaded(lookUps, cells, gpu::TexelFormat::Rgba16F),
+                       trusted = uploaded(trust, cells, gpu::TexelFormat::Rgba8, true);
+    TileBuffer tiles(video);
+    tiles.set(in.frame.work);
+    FineCheck check(in.still.rig());
+    check.run(picture, still, {weighed, looked, trusted}, tiles, kMatch);
+    const std::vector<float> got = check.weights().weighed.readRgba32F(),
+                             gotLooked = check.weights().lookUps.readRgba32F();
+    const std::vector<std::uint8_t> gotTrust = check.weights().trust.readRgba8();
+    Shares out;
+    for (std::size_t i = 0; i < ones.size(); ++i) {
+        const float share = got[4 * i + 2];
+        out.push_back(share);
+        EXPECT_EQ(got[4 * i], 1);
+        EXPECT_EQ(got[4 * i + 1], 2);
+        EXPECT_EQ(got[4 * i + 3], 0.5F);
+        EXPECT_NEAR(gotLooked[4 * i], lookUps[i].x, 1e-3 * std::abs(lookUps[i].x) + 1e-3);
+        EXPECT_NEAR(gotLooked[4 * i + 2], share, 1e-3);
+        EXPECT_NEAR(gotTrust[4 * i] / 255.0, share, 3e-3);
+        EXPECT_NEAR(gotTrust[4 * i + 2] / 255.0, 0.25, 3e-3);
+        EXPECT_EQ(gotTrust[4 * i + 3], 255);
+    }
+    return out;
+}
+
+class FineEngines : public GlTest {
+protected:
+    static void expectTheOracles(const std::function<Shares(const FineInput&)>& sharesOf) {
+        for (const auto& [video, still] :
+             {std::pair{Size{160, 96}, Size{576, 346}}, {Size{83, 61}, Size{211, 155}}}) {
+            const FineInput in(video, still);
+            const Shares got = sharesOf(in);
+            const std::vector<double> wanted = in.wanted();
+            ASSERT_EQ(got.size(), wanted.size());
+            int whole = 0, part = 0;
+            for (std::size_t i = 0; i < got.size(); ++i) {
+                ASSERT_NEAR(got[i], wanted[i], 0.02)
+                    << i % in.frame.cells.width << ", " << i / in.frame.cells.width;
+                whole += wanted[i] == 1 ? 1 : 0;
+                part += wanted[i] < 0.7 ? 1 : 0;
+            }
+            EXPECT_GT(whole, 20);
+            EXPECT_GT(part, 20);
+        }
+    }
+};
+
+TEST_F(FineEngines, HostsSharesAreTheOracles) {
+    expectTheOracles(onHost);
+}
+
+TEST_F(FineEngines, GpusSharesAreTheOracles) {
+    expectTheOracles(onGpu);
+}
+
+}  // namespace
+}  // namespace mfar

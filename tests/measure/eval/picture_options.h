@@ -1,0 +1,26 @@
+#pragma once
+
+#include "base/geometry.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <string>
+
+namespace mfar::eval {
+
+/// Checks a budget of processor time [ms]; CLI::Range lets NaN pass.
+inline std::string isBudget(const std::string& text) {
+    double ms = -1;
+    const bool number = CLI::detail::lexical_cast(text, ms);
+    return number && ms >= 0.1 && ms <= 1000 ? "" : text + " is not in [0.1, 1000]";
+}
+
+/// Adds --width and --height; `what` has that size.
+inline void addSize(CLI::App& sub, Size& size, const char* what) {
+    const std::string help = fmt::format("of the {} [px]", what);
+    for (const auto& [name, side] : {std::pair("--width", &size.width), {"--height", &size.height}})
+        sub.add_option(name, *side, help)->check(CLI::Range(16, 4096))->capture_default_str();
+}
+
+}  // namespace mfar::eval

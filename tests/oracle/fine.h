@@ -1,0 +1,72 @@
+#pragma once
+
+#include "pipeline/engine/params/weigh.h"
+#include "pipeline/enlarge/filter_bank.h"
+#include "tests/oracle/upscale.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+/// Scalar twin of what compares the finest detail of the video with a still's.
+namespace mfar::twin {
+
+struct FineCase {
+    Grey video;
+    /// The still where a place of the video looks [video px].
+    std::function<double(double x, double y)> still;
+    std::function<bool(int x, int y)> isMatched;  ///< of a cell
+};
+
+/// Variance of the video, covariance, variance of the still: blocks of 2x2 pixels in the middle
+/// rows of a cell.
+inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
+    Eigen::Vector3d out = Eigen::Vector3d::Zero();
+    const Size size = in.video.size;
+    if (!in.isMatched(cellX, cellY) || 4 * cellX + 4 > size.width || 4 * cellY + 4 > size.height)
+        return out;
+    for (const int first : {4 * cellX, 4 * cellX + 2}) {
+        Eigen::Vector4d video, still;
+        for (int i = 0; i < 4; ++i) {
+            const int x = first + i % 2, y = 4 * cellY + 1 + i / 2;
+            video[i] = in.video.at(x, y);
+            still[i] = (in.still(x - 0.25, y - 0.25) + in.still(x + 0.25, y - 0.25) +
+                        in.still(x - 0.25, y + 0.25) + in.still(x + 0.25, y + 0.25)) /
+                       4;
+        }
+        video.array() -= video.mean();
+        still.array() -= still.mean();
+        out += Eigen::Vector3d(video.dot(video), video.dot(still), still.dot(still)) / 8;
+    }
+    return out;
+}
+
+/// Share of its weight that each cell keeps, row-major.
+inline std::vector<double> fineShares(const FineCase& in, Size cells, const FineMatch& match) {
+    std::vector<Eigen::Vector3d> sums;
+    for (int y = 0; y < cells.height; ++y)
+        for (int x = 0; x < cells.width; ++x)
+            sums.push_back(fineSums(in, x, y));
+    std::vector<double> out;
+    for (int y = 0; y < cells.height; ++y)
+        for (int x = 0; x < cells.width; ++x) {
+            Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+            for (int k = 0; k < 9; ++k) {
+                const int i = x + k % 3 - 1, j = y + k / 3 - 1;
+                mean += (i == x ? 2 : 1) * (j == y ? 2 : 1) / 16.0 *
+                        sums[std::clamp(j, 0, cells.height - 1) * cells.width +
+                             std::clamp(i, 0, cells.width - 1)];
+            }
+            const double both = std::max(mean[1], 0.0);
+            const double unexplained = mean[0] - both * both / (mean[2] + params::kFineLeast);
+            const double allowed =
+                params::kFineRoom * (double(match.noise) + double(match.share) * mean[0]);
+            out.push_back(
+                std::min(allowed / std::max(unexplained, double(params::kFineLeast)), 1.0));
+        }
+    return out;
+}
+
+}  // namespace mfar::twin

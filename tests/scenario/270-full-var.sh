@@ -1,0 +1,109 @@
+#!/usr/bin/env bash
+# The disk under recordings, kept state and a log file is full, really: a small file system of its own.
+# mfard starts, goes on, says what is not written, and what has been written can be read.
+# Usage: 270-full-var.sh MFARD MFAR-SIM PRETENDED.so. Exit status 77: no file system can be mounted.
+if [ -z "${MFAR_MOUNTS:-}" ]; then
+    for how in "--mount" "--mount --map-root-user"; do
+        # shellcheck disable=SC2086
+        if unshare $how mount -t tmpfs none /mnt 2>/dev/null; then
+            MFAR_MOUNTS=1 exec unshare $how "$0" "$@"
+        fi
+    done
+    echo "no file system can be mounted"
+    exit 77
+fi
+. "$(dirname "$0")/lib.sh"
+
+pretended=$3
+ctl="$(dirname "$sim")/mfarctl"
+status() { timeout 10 "$ctl" --socket control status; }
+frames() { status | sed -n 's/^frames  *//p'; }
+goes_on() {
+    shown=$(frames)
+    more() { [ "$(frames)" -gt $((shown + 15)) ] 2>/dev/null; }
+    until_true more
+    says <(status) '"state":"ok"'
+}
+trap 'umount --lazy "$work/var"; clean_up' EXIT
+mkdir var
+mount -t tmpfs -o size=6m none var
+# As the service does, it works there, and all that it says is kept elsewhere.
+printf '#!/bin/sh\ncd "%s/var" && exec "%s" "$@"\n' "$work" "$mfard" >mfard
+chmod +x mfard
+mfard=$work/mfard
+fill() { dd if=/dev/zero of=var/fill bs=4k 2>/dev/null || true; }
+is_full() {
+    local took=0
+    echo more 2>/dev/null >var/probe || took=1
+    rm -f var/probe
+    [ $took = 1 ]
+}
+mkdir var/state
+export STATE_DIRECTORY=$PWD/var/state
+pretended_cameras '[record]
+directory = "films"
+least_free_mb = 0'
+begin() {
+    LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras start --config "$work/mfard.toml" \
+        --display none --control "$work/control"
+    until_true started
+}
+
+echo "it becomes full under a recording"
+begin
+film=$(until_true test -d var/films && ls -d var/films/*)
+listed() { [ "$(grep -c '^[0-9]' "$film/cam0/data.csv" 2>/dev/null)" -gt 3 ]; }
+until_true listed
+fill
+no_room='(the disk is full|No space left)'
+ended() { grep -Eq "the recording has ended: .*${film#var/}.*$no_room" err; }
+until_true ended
+is_full || fail "there is room"
+goes_on
+says <(status) '^recording +null$'
+
+echo "a new recording is refused or ends"
+"$ctl" --socket control record more 2>refused || says refused "$no_room"
+goes_on
+kill -TERM "$pid"
+ends_with 0 1500
+run 0 --recording "${film#var/}" --frames 1
+says err 'first picture'
+
+echo "it is full from the start"
+fill
+begin
+refused() { grep -Eq "(nothing is recorded|the recording has ended): .*$no_room" err; }
+until_true refused
+goes_on
+kill -TERM "$pid"
+ends_with 0 1500
+
+echo "there is room again"
+rm -f var/fill
+begin
+until_true listed
+goes_on
+kill -TERM "$pid"
+ends_with 0 1500
+
+echo "filters that cannot be kept are named"
+rm -rf var/films
+printf '[engine]\nuse = "simd"\n[trigger]\nmode = "rate"\nrate_hz = 10.0\nmin_interval_s = 0.0\n' >learn.toml
+fill
+run 0 --config "$work/learn.toml" --source synthetic:office --pace consumer --frames 6 --display none
+says err 'warning: .*filters-.*: No space left.*; learned filters cannot be written'
+[ -z "$(ls var/state)" ] || fail "a part of a file is left"
+
+echo "a log file that is full ends nothing"
+is_full || fail "there is room"
+sed -i '/^\[record\]/,$d' mfard.toml
+LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras "$mfard" --config "$work/mfard.toml" \
+    --display none --control "$work/control" 2>var/log >/dev/null &
+pid=$!
+pids+=("$pid")
+answers() { status >answer 2>&1; }
+until_true answers
+goes_on
+kill -TERM "$pid"
+ends_with 0 1500
