@@ -114,8 +114,8 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     if (isCatcher) return;
     p.radiance += sample.radiance.cast<double>();
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
-    p.baseColour += sample.paint.baseColour;
-    p.metallic += sample.paint.metallic;
+    p.diffusePaint += sample.paint.diffuse;
+    p.facingPaint += sample.paint.facing;
     p.albedoScale += sample.paint.albedo.scale;
     p.albedoOffset += sample.paint.albedo.offset;
 }
@@ -158,7 +158,7 @@ KnownLight Film::known(std::size_t pixel) const {
 Paint Film::paintOf(const Pixel& p) {
     if (p.object.hits == 0) return p.seen.paint;
     const auto hits = static_cast<float>(p.object.hits);
-    return {p.baseColour / hits, p.metallic / hits, {p.albedoScale / hits, p.albedoOffset / hits}};
+    return {p.diffusePaint / hits, p.facingPaint / hits, {p.albedoScale / hits, p.albedoOffset / hits}};
 }
 
 float Film::error(std::size_t pixel, const Exposure& exposure) const {
@@ -198,12 +198,15 @@ float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
     if (known.firstCount < 2 || known.secondCount < 2)
         return std::numeric_limits<float>::infinity();
     const Paint paint = paintOf(p);
-    const float diffuse = luminanceOf(paint.diffuse()) *
+    const Eigen::Vector3f white = paint.diffuse.cwiseProduct(p.seen.far.diffuse);
+    const Eigen::Vector3f mirrored = paint.specular().cwiseProduct(p.seen.far.specular);
+    const float diffuse = luminanceOf(white) *
                           deviationOf(known.first, known.firstSquare, known.firstCount);
-    const float specular = luminanceOf(paint.specular()) *
+    const float specular = luminanceOf(mirrored) *
                            deviationOf(known.second, known.secondSquare, known.secondCount);
-    return slopeAt(SurfaceLight{known.first, known.second}.on(paint), exposure) *
-           (diffuse + specular);
+    const Eigen::Vector3f radiance =
+        white.cwiseProduct(known.first) + mirrored.cwiseProduct(known.second);
+    return slopeAt(radiance, exposure) * (diffuse + specular);
 }
 
 Film::Means Film::meansOf(const Pixel& p) {
@@ -265,9 +268,9 @@ Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const
     Resolved out = resolved(p, shown(p, exposure));
     if (out.hit.id != 0 && out.hit.id != kCatcherId && p.object.hits > 0) {
         const double hits = p.object.hits;
-        out.light =
-            packed({(p.object.first / hits).cast<float>(), (p.object.second / hits).cast<float>()},
-                   paintOf(p), exposure.scale);
+        const SurfaceLight light{(p.object.first / hits).cast<float>(),
+                                 (p.object.second / hits).cast<float>()};
+        out.light = packed(product(light, p.seen.far), paintOf(p), exposure.scale);
     }
     return out;
 }
@@ -284,7 +287,8 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
         m.with = (light.first + light.second).matrix();
         m.catcherShare = 1;
     } else {
-        const SurfaceLight onObject{light.first.matrix(), light.second.matrix()};
+        const SurfaceLight onObject =
+            product({light.first.matrix(), light.second.matrix()}, p.seen.far);
         const Paint paint = paintOf(p);
         m.object = onObject.on(paint);
         words = packed(onObject, paint, exposure.scale);

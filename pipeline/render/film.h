@@ -28,6 +28,8 @@ struct SeenSurface {
     Eigen::Vector3f normal{0, 0, 0};  ///< world, unit length, towards the eye
     Paint paint{};
     float roughness = 1;
+    /// Light that is known without a ray, above 0: the samples' is a multiple of it.
+    SurfaceLight far{{1, 1, 1}, {1, 1, 1}};
 };
 
 /// What one sample of a pixel saw.
@@ -35,7 +37,7 @@ struct FilmSample {
     FirstHit hit;
     Eigen::Vector3f radiance{0, 0, 0};  ///< of the object or, with the objects there, the catcher
     Eigen::Vector3f without{0, 0, 0};   ///< of the catcher if the objects were not there
-    SurfaceLight light{};               ///< of the object, where it was hit
+    SurfaceLight light{};               ///< of the object where it was hit, over its far light
     Paint paint{};
 };
 
@@ -123,8 +125,8 @@ private:
         LightSums object, catcher;
         Eigen::Vector3d radiance{0, 0, 0};    // of the objects
         double radianceSquares = 0;           // of its luminance
-        Eigen::Vector3f baseColour{0, 0, 0};  // of the objects
-        float metallic = 0, albedoScale = 0, albedoOffset = 0;
+        Eigen::Vector3f diffusePaint{0, 0, 0}, facingPaint{0, 0, 0};  // of the objects
+        float albedoScale = 0, albedoOffset = 0;
         std::uint32_t taken = 0, lost = 0;
         SeenSurface seen;  // through its centre
         bool isSeen = false;

@@ -13,22 +13,23 @@ inline constexpr float kLeastPaint = 0.01F;
 /// The colours of a surface by which its light is multiplied, as of glTF's metallic-roughness
 /// material; linear, shares in [0, 1].
 struct Paint {
-    Eigen::Vector3f baseColour{0, 0, 0};
-    float metallic = 0;
-    SpecularAlbedo albedo{};  ///< towards the eye
+    Eigen::Vector3f diffuse{0, 0, 0};  ///< of diffuse light
+    Eigen::Vector3f facing{0, 0, 0};   ///< of specular light along the normal
+    SpecularAlbedo albedo{};           ///< towards the eye
 
-    /// Of diffuse light.
-    [[nodiscard]] Eigen::Vector3f diffuse() const { return (1 - metallic) * baseColour; }
-    /// Reflectance along the normal.
-    [[nodiscard]] Eigen::Vector3f facing() const {
-        return Eigen::Vector3f::Constant((1 - metallic) * kDielectricReflectance) +
-               metallic * baseColour;
-    }
     /// Of specular light.
     [[nodiscard]] Eigen::Vector3f specular() const {
-        return (albedo.scale * facing()).array() + albedo.offset;
+        return (albedo.scale * facing).array() + albedo.offset;
     }
 };
+
+[[nodiscard]] inline Paint paintOf(const Eigen::Vector3f& baseColour, float metallic,
+                                   const SpecularAlbedo& albedo) {
+    return {(1 - metallic) * baseColour,
+            Eigen::Vector3f::Constant((1 - metallic) * kDielectricReflectance) +
+                metallic * baseColour,
+            albedo};
+}
 
 /// What a surface sends to the eye, without its paint.
 struct SurfaceLight {
@@ -36,16 +37,24 @@ struct SurfaceLight {
     Eigen::Vector3f specular{0, 0, 0};  ///< and if it reflected all light
 
     [[nodiscard]] Eigen::Vector3f on(const Paint& paint) const {
-        return paint.diffuse().cwiseProduct(diffuse) + paint.specular().cwiseProduct(specular);
+        return paint.diffuse.cwiseProduct(diffuse) + paint.specular().cwiseProduct(specular);
     }
 };
+
+/// Light as a multiple of other light, channel by channel, and back.
+[[nodiscard]] inline SurfaceLight quotient(const SurfaceLight& a, const SurfaceLight& b) {
+    return {a.diffuse.cwiseQuotient(b.diffuse), a.specular.cwiseQuotient(b.specular)};
+}
+[[nodiscard]] inline SurfaceLight product(const SurfaceLight& a, const SurfaceLight& b) {
+    return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
+}
 
 /// For a surface whose paint is known by its reflectance along the normal alone: how much more it
 /// reflects towards the eye is in the light.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
     const Eigen::Vector3f more =
-        paint.specular().cwiseQuotient(paint.facing().cwiseMax(kLeastPaint));
+        paint.specular().cwiseQuotient(paint.facing.cwiseMax(kLeastPaint));
     const auto word = [&](const Eigen::Vector3f& rgb) {
         return packedLight({exposure * rgb.x(), exposure * rgb.y(), exposure * rgb.z()});
     };
@@ -55,7 +64,7 @@ struct SurfaceLight {
 /// The light of a radiance of which `white` is the diffuse part before its paint.
 [[nodiscard]] inline SurfaceLight lightOf(const Eigen::Vector3f& radiance,
                                           const Eigen::Vector3f& white, const Paint& paint) {
-    const Eigen::Vector3f rest = radiance - paint.diffuse().cwiseProduct(white);
+    const Eigen::Vector3f rest = radiance - paint.diffuse.cwiseProduct(white);
     return {white, rest.cwiseMax(0.0F).cwiseQuotient(paint.specular().cwiseMax(kLeastPaint))};
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pipeline/render/environment_light.h"
+#include "pipeline/render/far_light.h"
 #include "pipeline/render/paint.h"
 #include "pipeline/render/path_tracer_options.h"
 #include "pipeline/render/sobol.h"
@@ -22,11 +23,15 @@ public:
     /// found it, of any length; and the point's paint, with the light on it.
     struct OfObject {
         Eigen::Vector3f radiance;
-        SurfaceLight light;
+        SurfaceLight light;  ///< over far() of the point
         Paint paint;
     };
     [[nodiscard]] OfObject ofObject(const RayHit& hit, const Eigen::Vector3f& direction,
                                     const PixelSampler& sampler) const;
+
+    /// Light on a point of an object if nothing stood before it, above 0.
+    [[nodiscard]] SurfaceLight far(const SurfacePoint& point,
+                                   const Eigen::Vector3f& direction) const;
 
     /// Radiance of the catcher with the objects there and without them, from the same random
     /// numbers: equal to the bit where no object was met.
@@ -42,16 +47,42 @@ private:
     /// What leaves the first point of a path, and its diffuse part before the point's paint.
     struct Sent {
         Eigen::Vector3f radiance{0, 0, 0}, white{0, 0, 0};
+
+        Sent& operator+=(const Sent& other) {
+            radiance += other.radiance;
+            white += other.white;
+            return *this;
+        }
     };
-    [[nodiscard]] Sent walk(SurfacePoint point, Eigen::Vector3f wo, const PixelSampler& sampler,
-                            World& world) const;
-    [[nodiscard]] Sent direct(const Vertex& vertex, const PixelSampler& sampler, std::uint32_t pair,
-                              World& world) const;
+    /// Light straight from the lights: as the objects let it through, and as it would be without
+    /// them.
+    struct Arrived {
+        Sent light, unblocked;
+    };
+    /// What some lobes of a first surface send to the eye, in parts.
+    struct Parts {
+        Arrived direct;  ///< straight from the lights
+        Sent known;      ///< the mean of direct.unblocked, without a ray
+        Sent rest;       ///< by way of other surfaces
+    };
+    /// From `point` to `wo`, by these lobes of its.
+    [[nodiscard]] Parts walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
+                             const PixelSampler& sampler, World& world) const;
+    /// Of sample `number` of a pixel.
+    [[nodiscard]] static Sent sum(const Parts& parts, std::uint32_t number);
+    [[nodiscard]] Arrived direct(const Vertex& vertex, Lobes lobes, const PixelSampler& sampler,
+                                 std::uint32_t pair, World& world) const;
     /// Of one strategy's sample from its density and the other's.
     using Weight = float (*)(float taken, float other);
-    [[nodiscard]] static Sent lit(const Vertex& vertex, const LightSample& light, Weight weight,
-                                  World& world);
-    [[nodiscard]] Eigen::Vector3f escaped(const Eigen::Vector3f& direction, float density) const;
+    /// `far`: radiance by FarLight in the sample's direction.
+    [[nodiscard]] static Arrived lit(const Vertex& vertex, Lobes lobes, const LightSample& light,
+                                     const Eigen::Vector3f& far, Weight weight, World& world);
+    /// Light from a direction in which nothing is, and by FarLight.
+    struct Escaped {
+        Eigen::Vector3f light{0, 0, 0}, far{0, 0, 0};
+    };
+    [[nodiscard]] Sent known(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
+    [[nodiscard]] Escaped escaped(const Eigen::Vector3f& direction, float density) const;
     /// The share of light that is kept of what came from surface number `depth` of a path.
     [[nodiscard]] float kept(const Eigen::Vector3f& light, int depth) const;
 
@@ -59,6 +90,8 @@ private:
     const PathTracerOptions& options_;
     SunLight sun_;
     EnvironmentLight environment_;
+    FarLight far_;
+    float leastFar_;  // light that is less is not divided by
 };
 
 }  // namespace mfar

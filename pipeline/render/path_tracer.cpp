@@ -139,7 +139,8 @@ private:
             seen = {{object.t, scene.idOf(object)},
                     point.shading,
                     point.paint(ray.direction),
-                    point.look.roughness};
+                    point.look.roughness,
+                    parts_.integrator.far(point, ray.direction)};
         } else if (real.found()) {
             seen = {{real.t, kCatcherId}, scene.catcherPoint(real, ray.direction).shading, {}, 1};
         }

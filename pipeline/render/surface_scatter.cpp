@@ -50,7 +50,9 @@ SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& w
     whiteFactor_ = kInversePi / std::max(passedMean, kLeastPassed);
     passedOut_ = passed(wo_.z());
     const SpecularAlbedo albedo = specularAlbedo(roughness_, wo_.z());
-    const float specular = f0_.mean() * albedo.scale + albedo.offset;
+    reflectance_ = {passedOut_.diffuse, passedOut_.manyfold * manyfold,
+                    (albedo.scale * f0_).array() + albedo.offset};
+    const float specular = reflectance_.mirrored.mean();
     const float wide = manyfold.mean() * passedOut_.manyfold +
                        (1 - metallic) * look.baseColour.mean() * passedOut_.diffuse;
     // A lobe hardly higher than the broad ones about it needs no samples of its own: those would be
@@ -73,35 +75,44 @@ SurfaceScatter::Passed SurfaceScatter::passed(float mu) const {
     return {std::max(1 - back, 0.0F), lost};
 }
 
-ScatterValue SurfaceScatter::evaluate(const Eigen::Vector3f& wi) const {
+ScatterValue SurfaceScatter::evaluate(const Eigen::Vector3f& wi, Lobes lobes) const {
     if (!(wi.z() > kLeastCosine)) return {};
     const float mu = wi.z();
-    const float white = kInversePi * mu;
-    if (matt_) return {diffuseColour_ * white, white, white};
-    const Passed in = passed(mu);
+    const float even = kInversePi * mu;
+    if (matt_) return {diffuseColour_ * even, even, even};
     ScatterValue out;
-    out.white = whiteFactor_ * (mu * in.diffuse * passedOut_.diffuse);
-    out.value =
-        diffuseColour_ * out.white + manyfoldFactor_ * (mu * in.manyfold * passedOut_.manyfold);
-    out.density = white;
+    out.density = even;
+    if (lobes != Lobes::Mirrored) {
+        const Passed in = passed(mu);
+        out.white = whiteFactor_ * (mu * in.diffuse * passedOut_.diffuse);
+        out.value =
+            diffuseColour_ * out.white + manyfoldFactor_ * (mu * in.manyfold * passedOut_.manyfold);
+        if (lobes == Lobes::Broad) return out;
+    }
     const Eigen::Vector3f h = (wo_ + wi).normalized();
     const float density = ggx_.density(h);
     out.value += fresnel(wo_.dot(h)) * (density * ggx_.visibility(wo_.z(), wi.z()) * wi.z());
     const float mirrored = density * ggx_.masking(wo_.z()) / (4 * wo_.z());
-    out.density += specularShare_ * (mirrored - out.density);
+    out.density += shareOf(lobes) * (mirrored - out.density);
     return out;
 }
 
-ScatterSample SurfaceScatter::sample(const Eigen::Vector2f& u) const {
+float SurfaceScatter::shareOf(Lobes lobes) const {
+    if (matt_ || lobes == Lobes::Broad) return 0;
+    return lobes == Lobes::Mirrored ? 1 : specularShare_;
+}
+
+ScatterSample SurfaceScatter::sample(const Eigen::Vector2f& u, Lobes lobes) const {
     ScatterSample out;
-    if (matt_ || u.x() >= specularShare_) {
-        const float x = matt_ ? u.x() : (u.x() - specularShare_) / (1 - specularShare_);
+    const float share = shareOf(lobes);
+    if (u.x() >= share) {
+        const float x = (u.x() - share) / (1 - share);
         out.wi = cosineDirection({std::min(x, 1 - 0x1p-24F), u.y()});
     } else {
-        const Eigen::Vector3f h = ggx_.sampleNormal(wo_, {u.x() / specularShare_, u.y()});
+        const Eigen::Vector3f h = ggx_.sampleNormal(wo_, {u.x() / share, u.y()});
         out.wi = (2 * wo_.dot(h) * h - wo_).normalized();
     }
-    const ScatterValue f = evaluate(out.wi);
+    const ScatterValue f = evaluate(out.wi, lobes);
     if (!(f.density > 0)) return out;
     out.density = f.density;
     out.weight = f.value / f.density;

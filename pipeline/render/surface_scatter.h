@@ -26,6 +26,17 @@ struct ScatterSample {
     float density = 0;                ///< 0: nothing goes anywhere
 };
 
+/// The parts of a reflection: what is scattered widely, and the lobe about the mirrored direction.
+enum class Lobes { Both, Broad, Mirrored };
+
+/// Shares of light that a surface sends to the eye: of even light over the hemisphere, and of that
+/// in the mirrored lobe.
+struct Reflectance {
+    float white = 1;                         ///< of even light, before the diffuse paint
+    Eigen::Vector3f manyfold{0, 0, 0};       ///< of even light, by several reflections
+    Eigen::Vector3f mirrored{0, 0, 0};
+};
+
 /// Reflection of glTF's metallic-roughness material seen from one direction: GGX with Schlick's
 /// Fresnel term, what leaves it after several reflections (Kulla and Conty 2017), and Lambert's law
 /// for the light that passes a dielectric both ways; dielectric and metal mixed by `metallic`.
@@ -35,8 +46,12 @@ class SurfaceScatter {
 public:
     SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& wo);
 
-    [[nodiscard]] ScatterValue evaluate(const Eigen::Vector3f& wi) const;
-    [[nodiscard]] ScatterSample sample(const Eigen::Vector2f& u) const;
+    /// The density is that of samples of these lobes.
+    [[nodiscard]] ScatterValue evaluate(const Eigen::Vector3f& wi, Lobes lobes = Lobes::Both) const;
+    [[nodiscard]] ScatterSample sample(const Eigen::Vector2f& u, Lobes lobes = Lobes::Both) const;
+    [[nodiscard]] const Reflectance& reflectance() const { return reflectance_; }
+    /// Of light in any colour; the paint of white().
+    [[nodiscard]] const Eigen::Vector3f& diffuseColour() const { return diffuseColour_; }
 
 private:
     /// What a first reflection at cosine mu leaves to the broad lobes.
@@ -46,6 +61,8 @@ private:
     };
     [[nodiscard]] Passed passed(float mu) const;
     [[nodiscard]] Eigen::Vector3f fresnel(float cosH) const;
+    /// Of the samples, that go into the mirrored lobe.
+    [[nodiscard]] float shareOf(Lobes lobes) const;
 
     Eigen::Vector3f wo_;
     bool matt_;
@@ -56,6 +73,7 @@ private:
     float whiteFactor_ = 0;
     float dielectricManyfold_ = 0;  // share that a dielectric sends back of what hits it again
     Passed passedOut_;
+    Reflectance reflectance_;
     float specularShare_ = 0;  // of the samples
 };
 

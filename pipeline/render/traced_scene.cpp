@@ -46,7 +46,7 @@ Eigen::Vector3f shownTowards(const Eigen::Vector3f& normal, const Eigen::Vector3
 
 Paint SurfacePoint::paint(const Eigen::Vector3f& direction) const {
     const float cosine = std::clamp(-shading.dot(direction.normalized()), 0.0F, 1.0F);
-    return {look.baseColour, look.metallic, specularAlbedo(look.roughness, cosine)};
+    return paintOf(look.baseColour, look.metallic, specularAlbedo(look.roughness, cosine));
 }
 
 Ray SurfacePoint::leaving(const Eigen::Vector3f& direction) const {

@@ -28,10 +28,17 @@ struct Four {
     T a, b, c, d;
 };
 
-/// Linear colour, metallic.
-struct Paint {
-    V r, g, b, metallic;
+/// Linear red, green and blue.
+struct Colour {
+    V r, g, b;
 };
+struct Paint {
+    Colour diffuse, facing;
+};
+HWY_INLINE Paint NoPaint() {
+    const V zero = hn::Zero(D());
+    return {{zero, zero, zero}, {zero, zero, zero}};
+}
 
 HWY_INLINE V F(float value) {
     return hn::Set(D(), value);
@@ -90,18 +97,25 @@ HWY_INLINE Level LevelAt(const PaintInput& in, VI level) {
             hn::BitCast(di, hn::ShiftRight<16>(size)), LowHalf(size), HighHalf(size)};
 }
 
-/// Adds what a texel holds.
-HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
-    const DU du;
-    const VU t = hn::GatherIndex(du, in.texels, texel), bits = hn::Set(du, 0xFFU);
+/// Adds the squares of a word's bytes.
+HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
+    const VU bits = hn::Set(DU(), 0xFFU);
     const auto byte = [&](VU shifted) HWY_ATTR {
         return hn::ConvertTo(D(), hn::BitCast(DI(), hn::And(shifted, bits)));
     };
-    const V r = byte(t), g = byte(hn::ShiftRight<8>(t)), b = byte(hn::ShiftRight<16>(t));
+    const V r = byte(word), g = byte(hn::ShiftRight<8>(word)), b = byte(hn::ShiftRight<16>(word));
     sum.r = hn::MulAdd(hn::Mul(r, r), share, sum.r);
     sum.g = hn::MulAdd(hn::Mul(g, g), share, sum.g);
     sum.b = hn::MulAdd(hn::Mul(b, b), share, sum.b);
-    sum.metallic = hn::MulAdd(byte(hn::ShiftRight<24>(t)), share, sum.metallic);
+}
+
+/// Adds what a texel holds.
+HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
+    const DU du;
+    const auto* words = reinterpret_cast<const std::uint32_t*>(in.texels);
+    const VI at = hn::Add(texel, texel);
+    AddSquares(hn::GatherIndex(du, words, at), share, sum.diffuse);
+    AddSquares(hn::GatherIndex(du, words + 1, at), share, sum.facing);
 }
 
 /// The texels around a coordinate that repeats, and how far it is beyond the first.
@@ -133,16 +147,6 @@ HWY_INLINE void AddProbe(const PaintInput& in, const Level& level, V u, V v, flo
     AddTexel(in, hn::Add(upper, x.second), aboveRight, sum);
     AddTexel(in, hn::Add(lower, x.first), hn::Sub(below, belowRight), sum);
     AddTexel(in, hn::Add(lower, x.second), belowRight, sum);
-}
-
-HWY_INLINE void Scale(const PaintInput& in, VU factor, Paint& paint) {
-    const D d;
-    if (hn::AllTrue(DU(), hn::Eq(factor, hn::Zero(DU())))) return;
-    const VI at = hn::BitCast(DI(), hn::ShiftLeft<2>(factor));
-    paint.r = hn::Mul(paint.r, hn::GatherIndex(d, in.factors, at));
-    paint.g = hn::Mul(paint.g, hn::GatherIndex(d, in.factors + 1, at));
-    paint.b = hn::Mul(paint.b, hn::GatherIndex(d, in.factors + 2, at));
-    paint.metallic = hn::Mul(paint.metallic, hn::GatherIndex(d, in.factors + 3, at));
 }
 
 /// A parallelogram of the texture.
@@ -186,14 +190,13 @@ HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float sprea
     const VI level = hn::ConvertTo(di, hn::Min(hn::Mul(F(0.5F), Log2(held)), last));
     const VI first = hn::BitCast(di, hn::And(levels, hn::Set(DU(), 0xFFFFFFU)));
     const Level at = LevelAt(in, hn::Add(first, level));
-    Paint sum{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    Paint sum = NoPaint();
     const V rightU = hn::Add(f.u, f.ux), rightV = hn::Add(f.v, f.vx);
     const V leftU = hn::Sub(f.u, f.ux), leftV = hn::Sub(f.v, f.vx);
     AddProbe(in, at, hn::Add(rightU, f.uy), hn::Add(rightV, f.vy), 0.25F, sum);
     AddProbe(in, at, hn::Sub(rightU, f.uy), hn::Sub(rightV, f.vy), 0.25F, sum);
     AddProbe(in, at, hn::Add(leftU, f.uy), hn::Add(leftV, f.vy), 0.25F, sum);
     AddProbe(in, at, hn::Sub(leftU, f.uy), hn::Sub(leftV, f.vy), 0.25F, sum);
-    Scale(in, WordOf(DU(), in.triangles, triangle, 11), sum);
     return sum;
 }
 
@@ -280,7 +283,7 @@ HWY_INLINE M Differ(const PaintInput& in, const Shown& s) {
                hn::Or(hn::Xor(s.triangles.c, s.triangle), hn::Xor(s.triangles.d, s.triangle)));
     if (hn::AllTrue(du, hn::Eq(differ, hn::Zero(du)))) return hn::FirstN(d, 0);
     const auto materialOf = [&](VU triangle)
-                                HWY_ATTR { return WordOf(du, in.triangles, triangle, 12); };
+                                HWY_ATTR { return WordOf(du, in.triangles, triangle, 11); };
     const VU own = materialOf(s.triangle);
     const VU others = hn::Or(
         hn::Or(hn::Xor(materialOf(s.triangles.a), own), hn::Xor(materialOf(s.triangles.b), own)),
@@ -288,15 +291,18 @@ HWY_INLINE M Differ(const PaintInput& in, const Shown& s) {
     return hn::RebindMask(d, hn::Ne(others, hn::Zero(du)));
 }
 
+HWY_INLINE void AddShare(const Colour& colour, V share, Colour& sum) {
+    sum.r = hn::MulAdd(colour.r, share, sum.r);
+    sum.g = hn::MulAdd(colour.g, share, sum.g);
+    sum.b = hn::MulAdd(colour.b, share, sum.b);
+}
+
 HWY_INLINE Paint SampleQuarters(const PaintInput& in, const Shown& s, V x, V y) {
-    const D d;
-    Paint sum{hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    Paint sum = NoPaint();
     const auto add = [&](VU triangle, V share, float dx, float dy) HWY_ATTR {
         const Paint p = Sample(in, triangle, hn::Add(x, F(dx)), hn::Add(y, F(dy)), 1);
-        sum.r = hn::MulAdd(p.r, share, sum.r);
-        sum.g = hn::MulAdd(p.g, share, sum.g);
-        sum.b = hn::MulAdd(p.b, share, sum.b);
-        sum.metallic = hn::MulAdd(p.metallic, share, sum.metallic);
+        AddShare(p.diffuse, share, sum.diffuse);
+        AddShare(p.facing, share, sum.facing);
     };
     add(s.triangles.a, s.part.a, -0.5F, -0.5F);
     add(s.triangles.b, s.part.b, 0.5F, -0.5F);
@@ -305,14 +311,26 @@ HWY_INLINE Paint SampleQuarters(const PaintInput& in, const Shown& s, V x, V y) 
     return sum;
 }
 
+HWY_INLINE VU ColourWord(M any, const Colour& c) {
+    const VU rg = hn::Or(SrgbByte(c.r), hn::ShiftLeft<8>(SrgbByte(c.g)));
+    return hn::IfThenElseZero(hn::RebindMask(DU(), any),
+                              hn::Or(rg, hn::ShiftLeft<16>(SrgbByte(c.b))));
+}
+
+HWY_INLINE Colour Chosen(M yes, const Colour& a, const Colour& b) {
+    return {hn::IfThenElse(yes, a.r, b.r), hn::IfThenElse(yes, a.g, b.g),
+            hn::IfThenElse(yes, a.b, b.b)};
+}
+
 void PaintRowOf(const PaintRow& row, const PaintInput& in) {
     const D d;
     const DU du;
     const V y = F(2 * static_cast<float>(row.y) + 0.5F);
     for (int i = 0; i < row.count; i += static_cast<int>(hn::Lanes(d))) {
         const Shown s = Choose(row, i);
+        auto* out = reinterpret_cast<std::uint32_t*>(row.out + i);
         if (hn::AllFalse(d, s.any)) {
-            hn::StoreU(hn::Zero(du), du, row.out + i);
+            hn::StoreInterleaved2(hn::Zero(du), hn::Zero(du), du, out);
             continue;
         }
         const V pixel = hn::Iota(d, static_cast<float>(row.x + i));
@@ -321,14 +339,9 @@ void PaintRowOf(const PaintRow& row, const PaintInput& in) {
         const M differ = Differ(in, s);
         if (!hn::AllFalse(d, differ)) {
             const Paint mixed = SampleQuarters(in, s, x, y);
-            p = {hn::IfThenElse(differ, mixed.r, p.r), hn::IfThenElse(differ, mixed.g, p.g),
-                 hn::IfThenElse(differ, mixed.b, p.b),
-                 hn::IfThenElse(differ, mixed.metallic, p.metallic)};
+            p = {Chosen(differ, mixed.diffuse, p.diffuse), Chosen(differ, mixed.facing, p.facing)};
         }
-        const VU rg = hn::Or(SrgbByte(p.r), hn::ShiftLeft<8>(SrgbByte(p.g)));
-        const VU bm = hn::Or(hn::ShiftLeft<16>(SrgbByte(p.b)), hn::ShiftLeft<24>(Byte(p.metallic)));
-        const auto any = hn::RebindMask(du, s.any);
-        hn::StoreU(hn::IfThenElseZero(any, hn::Or(rg, bm)), du, row.out + i);
+        hn::StoreInterleaved2(ColourWord(s.any, p.diffuse), ColourWord(s.any, p.facing), du, out);
     }
 }
 

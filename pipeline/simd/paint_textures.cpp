@@ -1,6 +1,7 @@
 #include "pipeline/simd/paint_textures.h"
 
 #include "base/srgb.h"
+#include "pipeline/render/paint.h"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,15 @@ constexpr float kMost = 255;
 
 using Values = std::array<float, 4>;  // linear, [0, 1]
 
+Values linearOf(const SurfaceTexture& texture, std::size_t texel) {
+    Values out{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        const std::uint8_t byte = texture.texels[texel][c];
+        out[c] = texture.srgb && c < 3 ? linearOfSrgbByte()[byte] : static_cast<float>(byte) / kMost;
+    }
+    return out;
+}
+
 /// As texture_lookup.h has it.
 Values lookedUp(const SurfaceTexture& texture, float u, float v) {
     const auto pair = [](float share, int side, int& first, int& second) {
@@ -29,10 +39,10 @@ Values lookedUp(const SurfaceTexture& texture, float u, float v) {
     const float below = pair(v, texture.size.height, y0, y1);
     Values out{};
     const auto add = [&](int x, int y, float weight) {
-        const auto& texel = texture.texels[static_cast<std::size_t>(y) * texture.size.width + x];
+        const Values texel =
+            linearOf(texture, static_cast<std::size_t>(y) * texture.size.width + x);
         for (std::size_t c = 0; c < 4; ++c)
-            out[c] += weight * (texture.srgb && c < 3 ? linearOfSrgbByte()[texel[c]]
-                                                      : static_cast<float>(texel[c]) / kMost);
+            out[c] += weight * texel[c];
     };
     add(x0, y0, (1 - right) * (1 - below));
     add(x1, y0, right * (1 - below));
@@ -48,60 +58,30 @@ std::uint32_t rootByte(float linear) {
     return nearestByte(kMost * std::sqrt(linear));
 }
 
-/// What each byte of a texture becomes.
-using Bytes = std::array<std::uint32_t, 256>;
-Bytes bytesBy(const auto& value) {
-    Bytes out{};
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = value(i);
-    return out;
-}
-Bytes rootBytes(bool srgb) {
-    return bytesBy([srgb](std::size_t i) {
-        return rootByte(srgb ? linearOfSrgbByte()[i] : static_cast<float>(i) / kMost);
-    });
-}
-Bytes metallicBytes(bool srgb) {
-    return bytesBy([srgb](std::size_t i) {
-        return srgb ? nearestByte(kMost * linearOfSrgbByte()[i]) : static_cast<std::uint32_t>(i);
-    });
+std::uint32_t rootsOf(const std::array<float, 3>& linear) {
+    return rootByte(linear[0]) | rootByte(linear[1]) << 8 | rootByte(linear[2]) << 16;
 }
 
-void fillColours(std::span<std::uint32_t> out, Size size, const SurfaceTexture& from) {
-    if (from.size == size) {
-        const Bytes bytes = rootBytes(from.srgb);
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            const auto& t = from.texels[i];
-            out[i] = bytes[t[0]] | bytes[t[1]] << 8 | bytes[t[2]] << 16 | (out[i] & 0xFF000000U);
-        }
-        return;
+/// As TracedScene has it: more than all light does not come back.
+PaintWords wordsOf(const Values& base) {
+    std::array<float, 3> diffuse{}, facing{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float colour = std::clamp(base[c], 0.0F, 1.0F);
+        diffuse[c] = (1 - base[3]) * colour;
+        facing[c] = (1 - base[3]) * kDielectricReflectance + base[3] * colour;
     }
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const auto x = static_cast<float>(i % size.width), y = static_cast<float>(i / size.width);
-        const Values t = lookedUp(from, (x + 0.5F) / static_cast<float>(size.width),
-                                  (y + 0.5F) / static_cast<float>(size.height));
-        out[i] =
-            rootByte(t[0]) | rootByte(t[1]) << 8 | rootByte(t[2]) << 16 | (out[i] & 0xFF000000U);
-    }
+    return {rootsOf(diffuse), rootsOf(facing)};
 }
 
-void fillMetallic(std::span<std::uint32_t> out, Size size, const SurfaceTexture& from) {
-    if (from.size == size) {
-        const Bytes bytes = metallicBytes(from.srgb);
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = (out[i] & 0x00FFFFFFU) | bytes[from.texels[i][2]] << 24;
-        return;
-    }
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const auto x = static_cast<float>(i % size.width), y = static_cast<float>(i / size.width);
-        const Values t = lookedUp(from, (x + 0.5F) / static_cast<float>(size.width),
-                                  (y + 0.5F) / static_cast<float>(size.height));
-        out[i] = (out[i] & 0x00FFFFFFU) | nearestByte(kMost * t[2]) << 24;
+void addSquares(std::uint32_t roots, float weight, std::array<float, 3>& sum) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float root = static_cast<float>(roots >> 8 * c & 0xFFU) / kMost;
+        sum[c] += weight * root * root;
     }
 }
 
 /// Means of two by two texels; of an odd side the middle three are drawn together into one.
-void halve(const std::uint32_t* from, Size size, std::uint32_t* out, Size half) {
+void halve(const PaintWords* from, Size size, PaintWords* out, Size half) {
     struct Taps {
         int first, count;
         std::array<float, 3> weights;
@@ -126,23 +106,19 @@ void halve(const std::uint32_t* from, Size size, std::uint32_t* out, Size half) 
         const Taps rows = taps(y, size.height, half.height);
         for (int x = 0; x < half.width; ++x) {
             const Taps& c = columns[static_cast<std::size_t>(x)];
-            Values sum{};
+            std::array<float, 3> diffuse{}, facing{};
             for (int j = 0; j < rows.count; ++j)
                 for (int i = 0; i < c.count; ++i) {
-                    const std::uint32_t t =
+                    const PaintWords& t =
                         from[static_cast<std::ptrdiff_t>(rows.first + j) * size.width + c.first +
                              i];
                     const float weight = rows.weights[static_cast<std::size_t>(j)] *
                                          c.weights[static_cast<std::size_t>(i)];
-                    for (std::size_t k = 0; k < 3; ++k) {
-                        const auto root = static_cast<float>(t >> 8 * k & 0xFFU);
-                        sum[k] += weight * root * root;
-                    }
-                    sum[3] += weight * static_cast<float>(t >> 24);
+                    addSquares(t.diffuse, weight, diffuse);
+                    addSquares(t.facing, weight, facing);
                 }
-            out[static_cast<std::ptrdiff_t>(y) * half.width + x] =
-                nearestByte(std::sqrt(sum[0])) | nearestByte(std::sqrt(sum[1])) << 8 |
-                nearestByte(std::sqrt(sum[2])) << 16 | nearestByte(sum[3]) << 24;
+            out[static_cast<std::ptrdiff_t>(y) * half.width + x] = {rootsOf(diffuse),
+                                                                    rootsOf(facing)};
         }
     }
 }
@@ -157,20 +133,37 @@ Size sizeOf(const PaintLevel& level) {
     return {static_cast<int>(level.size & 0xFFFFU), static_cast<int>(level.size >> 16)};
 }
 
-using Factor = std::array<float, 4>;
-Factor factorOf(const Material& m) {
-    return {m.baseColour.x(), m.baseColour.y(), m.baseColour.z(), m.metallic};
-}
-
 }  // namespace
 
-PaintTextures::Textures PaintTextures::texturesOf(const SilhouetteModels::Part& part) {
-    return {part.baseColour, part.metallicRoughness};
+PaintTextures::Source PaintTextures::sourceOf(const SilhouetteModels::Part& part) {
+    const mfar::Material& m = *part.material;
+    return {part.baseColour,
+            part.metallicRoughness,
+            {m.baseColour.x(), m.baseColour.y(), m.baseColour.z(), m.metallic}};
 }
 
-void PaintTextures::addPicture(Picture& picture, const Textures& textures) {
+void PaintTextures::fill(const Source& source, Size size, std::span<PaintWords> out) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const auto x = static_cast<float>(i % size.width), y = static_cast<float>(i / size.width);
+        const float u = (x + 0.5F) / static_cast<float>(size.width);
+        const float v = (y + 0.5F) / static_cast<float>(size.height);
+        const auto valueOf = [&](const SurfaceTexture& texture) {
+            return texture.size == size ? linearOf(texture, i) : lookedUp(texture, u, v);
+        };
+        Values base = source.factor;
+        if (source.colour != nullptr) {
+            const Values t = valueOf(*source.colour);
+            for (std::size_t c = 0; c < 3; ++c)
+                base[c] *= t[c];
+        }
+        if (source.metallic != nullptr) base[3] *= valueOf(*source.metallic)[2];
+        out[i] = wordsOf(base);
+    }
+}
+
+void PaintTextures::addPicture(Picture& picture, const Source& source) {
     Size size{1, 1};
-    for (const SurfaceTexture* texture : {textures.first, textures.second})
+    for (const SurfaceTexture* texture : {source.colour, source.metallic})
         if (texture != nullptr)
             size = {std::min(std::max(size.width, texture->size.width), kLargestSide),
                     std::min(std::max(size.height, texture->size.height), kLargestSide)};
@@ -179,14 +172,13 @@ void PaintTextures::addPicture(Picture& picture, const Textures& textures) {
         const std::size_t first = texels_.size();
         picture.levels.push_back({static_cast<std::uint32_t>(first),
                                   static_cast<std::uint32_t>(level.width | level.height << 16)});
-        texels_.resize(first + texelsOf(level), 0xFFFFFFFFU);
-        const std::span<std::uint32_t> out(texels_.data() + first, texelsOf(level));
+        texels_.resize(first + texelsOf(level));
+        const std::span<PaintWords> out(texels_.data() + first, texelsOf(level));
         if (picture.levels.size() > 1) {
             const PaintLevel& finer = picture.levels[picture.levels.size() - 2];
             halve(texels_.data() + finer.first, sizeOf(finer), out.data(), level);
         } else {
-            if (textures.first != nullptr) fillColours(out, size, *textures.first);
-            if (textures.second != nullptr) fillMetallic(out, size, *textures.second);
+            fill(source, size, out);
         }
         if (texelsOf(level) == 1) break;
     }
@@ -196,13 +188,13 @@ void PaintTextures::setPictures(std::span<const SilhouetteModels::Object> object
     Pictures now;
     for (const SilhouetteModels::Object& object : objects)
         for (const SilhouetteModels::Part& part : object.shape->parts)
-            now.try_emplace(texturesOf(part), Picture{object.shape->model, {}});
+            now.try_emplace(sourceOf(part), Picture{object.shape->model, {}});
     const auto isKept = [this](const auto& entry) { return pictures_.contains(entry.first); };
     if (now.size() == pictures_.size() && std::ranges::all_of(now, isKept)) return;
     const Pictures before = std::exchange(pictures_, std::move(now));
-    const std::vector<std::uint32_t> texels = std::exchange(texels_, {});
-    for (auto& [textures, picture] : pictures_) {
-        if (const auto kept = before.find(textures); kept != before.end()) {
+    const std::vector<PaintWords> texels = std::exchange(texels_, {});
+    for (auto& [source, picture] : pictures_) {
+        if (const auto kept = before.find(source); kept != before.end()) {
             picture = kept->second;
             for (PaintLevel& level : picture.levels) {
                 const auto from = texels.begin() + level.first;
@@ -211,7 +203,7 @@ void PaintTextures::setPictures(std::span<const SilhouetteModels::Object> object
                                from + static_cast<std::ptrdiff_t>(texelsOf(sizeOf(level))));
             }
         } else {
-            addPicture(picture, textures);
+            addPicture(picture, source);
         }
     }
 }
@@ -219,31 +211,18 @@ void PaintTextures::setPictures(std::span<const SilhouetteModels::Object> object
 void PaintTextures::set(std::span<const SilhouetteModels::Object> objects) {
     setPictures(objects);
     levels_.clear();
-    std::map<Textures, std::uint32_t> firstLevels;
-    for (const auto& [textures, picture] : pictures_) {
-        firstLevels[textures] = static_cast<std::uint32_t>(levels_.size());
+    std::map<Source, Material> made;
+    for (const auto& [source, picture] : pictures_) {
+        const auto first = static_cast<std::uint32_t>(levels_.size());
+        const auto last = static_cast<std::uint32_t>(picture.levels.size() - 1);
+        made[source] = {picture.levels.front().size, first | last << 24,
+                        static_cast<std::uint32_t>(made.size())};
         levels_.insert(levels_.end(), picture.levels.begin(), picture.levels.end());
     }
-    constexpr Factor kPlain{1, 1, 1, 1};
-    std::map<Factor, std::uint32_t> factors{{kPlain, 0}};
-    factors_.assign(kPlain.begin(), kPlain.end());
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> paints;
     materials_.clear();
     for (const SilhouetteModels::Object& object : objects)
-        for (const SilhouetteModels::Part& part : object.shape->parts) {
-            const Textures textures = texturesOf(part);
-            const std::vector<PaintLevel>& levels = pictures_.at(textures).levels;
-            const Factor factor = factorOf(*part.material);
-            const auto [at, isNew] =
-                factors.try_emplace(factor, static_cast<std::uint32_t>(factors.size()));
-            if (isNew) factors_.insert(factors_.end(), factor.begin(), factor.end());
-            const std::uint32_t first = firstLevels.at(textures);
-            const auto last = static_cast<std::uint32_t>(levels.size() - 1);
-            const auto paint =
-                paints.try_emplace({first, at->second}, static_cast<std::uint32_t>(paints.size()));
-            materials_[&part] = {levels.front().size, first | last << 24, at->second,
-                                 paint.first->second};
-        }
+        for (const SilhouetteModels::Part& part : object.shape->parts)
+            materials_[&part] = made.at(sourceOf(part));
 }
 
 }  // namespace mfar::simd

@@ -3,23 +3,24 @@
 #include "pipeline/simd/paint_rows.h"
 #include "pipeline/warp/silhouette_models.h"
 
+#include <array>
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace mfar::simd {
 
-/// The textures of a scene's surfaces for paintRow(), all in one array: base colour and metallic as
-/// one picture at the larger size of both, in all sizes down to one texel. A picture of two
-/// textures is held once, whatever shows it.
+/// The textures of a scene's surfaces for paintRow(), all in one array: what a material's base
+/// colour and metallic make, as one picture at the larger size of both textures, in all sizes down
+/// to one texel. Equal materials have one.
 class PaintTextures {
 public:
     /// What a part is painted with: the words of PaintTriangle.
     struct Material {
-        std::uint32_t size, levels, factor, material;
+        std::uint32_t size, levels, material;
     };
 
     /// Makes pictures that the objects before did not have; keeps the others. Borrows nothing.
@@ -31,26 +32,31 @@ public:
     }
     /// Without triangles. Valid until set().
     [[nodiscard]] PaintInput input() const {
-        return {texels_.data(), levels_.data(), nullptr, factors_.data()};
+        return {texels_.data(), levels_.data(), nullptr};
     }
 
 private:
-    /// Base colour, metallic-roughness.
-    using Textures = std::pair<const SurfaceTexture*, const SurfaceTexture*>;
+    /// Textures of base colour and metallic-roughness, and what multiplies them: colour, metallic.
+    struct Source {
+        const SurfaceTexture *colour = nullptr, *metallic = nullptr;
+        std::array<float, 4> factor{};
+
+        auto operator<=>(const Source&) const = default;
+    };
     struct Picture {
         std::shared_ptr<const Model> model;  // owns the textures: their addresses are not used anew
         std::vector<PaintLevel> levels;      // largest first
     };
-    using Pictures = std::map<Textures, Picture>;
+    using Pictures = std::map<Source, Picture>;
 
-    static Textures texturesOf(const SilhouetteModels::Part& part);
+    static Source sourceOf(const SilhouetteModels::Part& part);
+    static void fill(const Source& source, Size size, std::span<PaintWords> out);
     void setPictures(std::span<const SilhouetteModels::Object> objects);
-    void addPicture(Picture& picture, const Textures& textures);
+    void addPicture(Picture& picture, const Source& source);
 
     Pictures pictures_;
-    std::vector<std::uint32_t> texels_;
+    std::vector<PaintWords> texels_;
     std::vector<PaintLevel> levels_;
-    std::vector<float> factors_;
     std::map<const SilhouetteModels::Part*, Material> materials_;
 };
 

@@ -64,13 +64,14 @@ void addShare(std::array<float, 3>& sum, float share, const std::array<float, 3>
 }
 
 /// A channel [0, 255] of a painted surface in sums of light; the last one is its coverage.
-float lit(std::uint32_t paint, std::size_t channel, const std::array<float, 3>& diffuse,
+float lit(const PaintWords& paint, std::size_t channel, const std::array<float, 3>& diffuse,
           const std::array<float, 3>& specular, float weights) {
     if (channel == 3) return 255;
-    const float metallic = static_cast<float>(paint >> 24) / 255;
-    const float base = srgbDecoded(static_cast<float>(paint >> 8 * channel & 0xFF) / 255);
-    const float mirrored = metallic * base + (1 - metallic) * kDielectricReflectance;
-    const float sent = (1 - metallic) * base * diffuse[channel] + mirrored * specular[channel];
+    const auto linear = [channel](std::uint32_t word) {
+        return srgbDecoded(static_cast<float>(word >> 8 * channel & 0xFFU) / 255);
+    };
+    const float sent = linear(paint.diffuse) * diffuse[channel] +
+                       linear(paint.facing) * specular[channel];
     return 255 * srgbEncoded(sent / weights);
 }
 

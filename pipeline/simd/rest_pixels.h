@@ -30,7 +30,7 @@ public:
     struct Asked {
         const std::uint32_t *upper, *lower;  ///< two words each
         float rayX, rayY;
-        std::uint32_t paint;
+        PaintWords paint;
     };
     [[nodiscard]] RestPixel at(const Asked& asked) const;
     /// Some picture knows light without paint.
@@ -56,7 +56,7 @@ private:
     struct Wanted {
         Point3 point;
         float id;
-        std::uint32_t paint;
+        PaintWords paint;
     };
     static bool lookUp(const View& view, const Point3& at, const Wanted& wanted, Colour& found);
     float known(const Wanted& wanted, Colour& found) const;

@@ -84,7 +84,7 @@ void SurfaceRaster::setScene(const Scene& scene) {
     if (models_.catcher()) add(*models_.catcher(), kCatcherId | kBehindObjects);
 }
 
-void SurfaceRaster::paintRow(int y, int x0, int x1, std::uint32_t* out) const {
+void SurfaceRaster::paintRow(int y, int x0, int x1, PaintWords* out) const {
     PaintInput input = paint_.input();
     input.triangles = paintTriangles_.data();
     const std::ptrdiff_t first = 2L * x0;
@@ -110,7 +110,6 @@ void SurfaceRaster::place(const SilhouetteModels::Object& object, std::uint32_t 
             PaintTriangle paint{};
             paint.size = m.size;
             paint.levels = m.levels;
-            paint.factor = m.factor;
             paint.material = m.material;
             paintTriangles_.insert(paintTriangles_.end(), triangles, paint);
         }

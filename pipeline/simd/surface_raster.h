@@ -37,7 +37,7 @@ public:
     /// colour and metallic, both factor times texture over the pixel's footprint, averaged in
     /// linear light; 0 where no object is. Of several objects in a pixel it is that of the one with
     /// most quarters, as RestPixels looks it up. Writes up to 7 words beyond. From any thread.
-    void paintRow(int y, int x0, int x1, std::uint32_t* out) const;
+    void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:
     /// A part's corners in rows: x, y, z [m].

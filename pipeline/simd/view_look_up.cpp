@@ -47,7 +47,7 @@ ViewLookUp::ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> wor
                [&] {
                    const auto words = static_cast<std::size_t>(layer.camera.size.width) + 16;
                    return Scratch{std::vector<std::uint32_t>(words),
-                                  std::vector<std::uint32_t>(words)};
+                                  std::vector<PaintWords>(words)};
                }),
       rowHoles_(static_cast<std::size_t>(layer.camera.size.height)) {
     const Size size = layer.camera.size;
@@ -104,7 +104,8 @@ void ViewLookUp::runRow(const Input& input, const ViewLookUpInput& plain, const 
     const Rows<const std::uint32_t> surface = input.raster.surface();
     const std::uint32_t *upper = surface[2 * y], *lower = surface[2 * y + 1];
     const int x0 = where.x0, count = where.x1 - where.x0;
-    std::uint32_t *left = scratch.left.data(), *paint = scratch.paint.data();
+    std::uint32_t* left = scratch.left.data();
+    PaintWords* paint = scratch.paint.data();
     if (plain.lights != nullptr || rest.needsPaint()) input.raster.paintRow(y, x0, where.x1, paint);
     const int leftCount =
         lookUpRow({count, upper + 2L * x0, lower + 2L * x0, paint, rayX_[y] + x0, rayY_[y] + x0,

@@ -78,7 +78,7 @@ public:
 private:
     struct Scratch {
         std::vector<std::uint32_t> left;  // pixels of a row that are not plain
-        std::vector<std::uint32_t> paint;
+        std::vector<PaintWords> paint;
     };
     void runRow(const Input& input, const ViewLookUpInput& plain, const RestPixels& rest,
                 const PixelRect& where, int y, Scratch& scratch);

@@ -99,28 +99,29 @@ HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     return out;
 }
 
+/// Of two vectors of PaintWords.
+struct PaintOf {
+    VU diffuse, facing;
+};
+
 /// The surface's radiance as a display's bytes.
 template <int kShift>
-HWY_INLINE VU LitChannel(VU paint, V metallic, V diffuse, V specular) {
+HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular) {
     const D d;
-    const V base =
-        LinearOf(d, hn::ConvertTo(d, hn::BitCast(DI(), hn::And(hn::ShiftRight<kShift>(paint),
-                                                               hn::Set(DU(), 0xFFU)))));
-    const V rough = hn::Sub(hn::Set(d, 1), metallic);
-    const V mirrored =
-        hn::MulAdd(metallic, base, hn::Mul(rough, hn::Set(d, kDielectricReflectance)));
-    const V sent = hn::MulAdd(hn::Mul(rough, base), diffuse, hn::Mul(mirrored, specular));
+    const auto linear = [&](VU word) HWY_ATTR {
+        const VU byte = hn::And(hn::ShiftRight<kShift>(word), hn::Set(DU(), 0xFFU));
+        return LinearOf(d, hn::ConvertTo(d, hn::BitCast(DI(), byte)));
+    };
+    const V sent = hn::MulAdd(linear(paint.diffuse), diffuse,
+                              hn::Mul(linear(paint.facing), specular));
     const VU byte = hn::BitCast(DU(), hn::NearestInt(SrgbLevel(d, sent)));
     return hn::ShiftLeft<kShift>(byte);
 }
 
-HWY_INLINE VU Lit(VU paint, const Light& diffuse, const Light& specular) {
-    const D d;
-    const V metallic = hn::Mul(hn::ConvertTo(d, hn::BitCast(DI(), hn::ShiftRight<24>(paint))),
-                               hn::Set(d, 1.0F / 255));
-    const VU redGreen = hn::Or(LitChannel<0>(paint, metallic, diffuse.x, specular.x),
-                               LitChannel<8>(paint, metallic, diffuse.y, specular.y));
-    return hn::Or(hn::Or(redGreen, LitChannel<16>(paint, metallic, diffuse.z, specular.z)),
+HWY_INLINE VU Lit(const PaintOf& paint, const Light& diffuse, const Light& specular) {
+    const VU redGreen = hn::Or(LitChannel<0>(paint, diffuse.x, specular.x),
+                               LitChannel<8>(paint, diffuse.y, specular.y));
+    return hn::Or(hn::Or(redGreen, LitChannel<16>(paint, diffuse.z, specular.z)),
                   hn::Set(DU(), 0xFF000000U));
 }
 
@@ -221,7 +222,7 @@ HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
 }
 
 /// Reads the reference where `a` asks for it.
-HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, VU paint, Found& out) {
+HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const PaintOf& paint, Found& out) {
     const D d;
     const DU du;
     const V width = hn::Set(d, static_cast<float>(in.reference.width));
@@ -261,7 +262,8 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, VU pain
     out.left = hn::Or(out.left, hn::AndNot(plain, a.asked));
 }
 
-HWY_INLINE Found LookUp(const ViewLookUpInput& in, const Four& s, V rayX, V rayY, VU paint) {
+HWY_INLINE Found LookUp(const ViewLookUpInput& in, const Four& s, V rayX, V rayY,
+                        const PaintOf& paint) {
     const D d;
     const DU du;
     const Asked a = AskFor(in, s, rayX, rayY);
@@ -285,7 +287,10 @@ int LookUpRow(const ViewRow& row, const ViewLookUpInput& in) {
             hn::StoreU(hn::Zero(d), d, row.depth + x);
             continue;
         }
-        const VU paint = in.lights == nullptr ? hn::Zero(du) : hn::LoadU(du, row.paint + x);
+        PaintOf paint{hn::Zero(du), hn::Zero(du)};
+        if (in.lights != nullptr)
+            hn::LoadInterleaved2(du, reinterpret_cast<const std::uint32_t*>(row.paint + x),
+                                 paint.diffuse, paint.facing);
         Found f = LookUp(in, s, hn::LoadU(d, row.rayX + x), hn::LoadU(d, row.rayY + x), paint);
         const M within = hn::FirstN(d, static_cast<std::size_t>(row.count - x));
         // Beside the row there is nothing.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/rows.h"
+#include "pipeline/simd/paint_words.h"
 #include "pipeline/simd/point_lens.h"
 
 #include <cstdint>
@@ -40,7 +41,7 @@ struct ViewLookUpInput {
 struct ViewRow {
     int count;
     const std::uint32_t *upper, *lower;  ///< surfaces at twice the resolution
-    const std::uint32_t* paint;          ///< SurfaceRaster::paintRow(); with lights alone
+    const PaintWords* paint;             ///< SurfaceRaster::paintRow(); with lights alone
     const float *rayX, *rayY;            ///< normalised
     std::uint32_t* colour;               ///< RGBA8 premultiplied
     float* depth;                        ///< z [m], 0 = nothing
