@@ -8,11 +8,12 @@
 
 namespace mfar {
 
-// Three linear values that are not negative in a word with one exponent, as OpenGL's RGB9_E5:
-// 9 bits each from bit 0 on, and the exponent in the upper 5.
+// Three linear values that are not negative in a word with one exponent, as OpenGL's RGB9_E5, but
+// with 8 bits each from bit 0 on. The exponent has the next 5; the upper 3 are free.
 
-inline constexpr int kLightBits = 9, kLightBias = 15;
-inline constexpr float kMostLight = 65408;  ///< what is more, is this; NaN is 0
+inline constexpr int kLightBits = 8, kLightBias = 15, kLightFreeBit = 29;
+inline constexpr std::uint32_t kLightExponent = 0x1F;
+inline constexpr float kMostLight = 65280;  ///< what is more, is this; NaN is 0
 
 [[nodiscard]] inline std::uint32_t packedLight(const std::array<float, 3>& rgb) {
     std::array<float, 3> held{};
@@ -32,10 +33,10 @@ inline constexpr float kMostLight = 65408;  ///< what is more, is this; NaN is 0
 
 [[nodiscard]] inline std::array<float, 3> unpackedLight(std::uint32_t word) {
     // 2^(exponent - bias - bits) as a float's own exponent.
-    const std::uint32_t exponent = (word >> 3 * kLightBits) + 127 - kLightBias - kLightBits;
+    const std::uint32_t exponent = (word >> 3 * kLightBits & kLightExponent) + 127 - kLightBias - kLightBits;
     const float scale = std::bit_cast<float>(exponent << 23);
     const auto value = [&](int channel) {
-        return scale * static_cast<float>(word >> channel * kLightBits & 0x1FF);
+        return scale * static_cast<float>(word >> channel * kLightBits & 0xFFU);
     };
     return {value(0), value(1), value(2)};
 }
@@ -43,10 +44,39 @@ inline constexpr float kMostLight = 65408;  ///< what is more, is this; NaN is 0
 /// Of what is no metal, along its normal, as of glTF's metallic-roughness material.
 inline constexpr float kDielectricReflectance = 0.04F;
 
-/// Light on a surface without its paint, times the exposure.
+/// Light on a surface without its paint, times the exposure; two light words. `veil` is the share of
+/// the specular light that the surface sends whatever its paint is, as it is seen edge on; its 6
+/// bits are the words' free ones.
 struct LightWords {
     std::uint32_t diffuse = 0, specular = 0;
     bool operator==(const LightWords&) const = default;
 };
+struct UnpackedLight {
+    std::array<float, 3> diffuse{}, specular{};
+    float veil = 0;  ///< [0, 1]
+};
+inline constexpr float kMostVeil = 63;
+
+[[nodiscard]] inline LightWords packedWords(const UnpackedLight& light) {
+    const auto veil = static_cast<std::uint32_t>(
+        std::lround(kMostVeil * (light.veil > 0 ? std::min(light.veil, 1.0F) : 0)));
+    return {packedLight(light.diffuse) | veil >> 3 << kLightFreeBit,
+            packedLight(light.specular) | (veil & 7U) << kLightFreeBit};
+}
+[[nodiscard]] inline UnpackedLight unpackedWords(const LightWords& words) {
+    const std::uint32_t veil =
+        words.diffuse >> kLightFreeBit << 3 | words.specular >> kLightFreeBit;
+    return {unpackedLight(words.diffuse), unpackedLight(words.specular),
+            static_cast<float>(veil) / kMostVeil};
+}
+
+/// Adds `share` of other light.
+inline void addShare(UnpackedLight& sum, float share, const UnpackedLight& other) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        sum.diffuse[c] += share * other.diffuse[c];
+        sum.specular[c] += share * other.specular[c];
+    }
+    sum.veil += share * other.veil;
+}
 
 }  // namespace mfar

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace mfar {
 
 /// No paint is darker: what a metal's channel that reflects nothing has of light is not known.
@@ -49,16 +51,15 @@ struct SurfaceLight {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }
 
-/// For a surface whose paint is known by its reflectance along the normal alone: how much more it
-/// reflects towards the eye is in the light.
+/// For a surface whose paint is known by its reflectance along the normal alone.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
-    const Eigen::Vector3f more =
-        paint.specular().cwiseQuotient(paint.facing.cwiseMax(kLeastPaint));
-    const auto word = [&](const Eigen::Vector3f& rgb) {
-        return packedLight({exposure * rgb.x(), exposure * rgb.y(), exposure * rgb.z()});
+    const float full = paint.albedo.full();
+    const auto words = [&](const Eigen::Vector3f& rgb) {
+        return std::array<float, 3>{exposure * rgb.x(), exposure * rgb.y(), exposure * rgb.z()};
     };
-    return {word(light.diffuse), word(light.specular.cwiseProduct(more))};
+    return packedWords({words(light.diffuse), words(full * light.specular),
+                        full > 0 ? paint.albedo.offset / full : 0});
 }
 
 /// The light of a radiance of which `white` is the diffuse part before its paint.

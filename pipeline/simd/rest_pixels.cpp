@@ -58,20 +58,16 @@ Point3 scaled(float by, const Point3& p) {
     return {by * p.x, by * p.y, by * p.z};
 }
 
-void addShare(std::array<float, 3>& sum, float share, const std::array<float, 3>& light) {
-    for (std::size_t c = 0; c < 3; ++c)
-        sum[c] += share * light[c];
-}
-
 /// A channel [0, 255] of a painted surface in sums of light; the last one is its coverage.
-float lit(const PaintWords& paint, std::size_t channel, const std::array<float, 3>& diffuse,
-          const std::array<float, 3>& specular, float weights) {
+float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light,
+          float weights) {
     if (channel == 3) return 255;
     const auto linear = [channel](std::uint32_t word) {
         return srgbDecoded(static_cast<float>(word >> 8 * channel & 0xFFU) / 255);
     };
-    const float sent = linear(paint.diffuse) * diffuse[channel] +
-                       linear(paint.facing) * specular[channel];
+    const float facing = linear(paint.facing), veil = light.veil / weights;
+    const float sent = linear(paint.diffuse) * light.diffuse[channel] +
+                       (facing + veil * (1 - facing)) * light.specular[channel];
     return 255 * srgbEncoded(sent / weights);
 }
 
@@ -129,7 +125,7 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
     const int x0 = static_cast<int>(lowX), y0 = static_cast<int>(lowY);
     const bool isLit = !view.lights.empty() && wanted.id != kCatcherId;
     Colour sum;
-    std::array<float, 3> diffuse{}, specular{};
+    UnpackedLight light;
     float weights = 0;
     for (int i = 0; i < 4; ++i) {
         const int right = i & 1, down = i >> 1, x = x0 + right, y = y0 + down;
@@ -142,8 +138,7 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
         const float w = (right != 0 ? fx : 1 - fx) * (down != 0 ? fy : 1 - fy);
         weights += w;
         if (isLit) {
-            addShare(diffuse, w, unpackedLight(view.lights[t].diffuse));
-            addShare(specular, w, unpackedLight(view.lights[t].specular));
+            addShare(light, w, unpackedWords(view.lights[t]));
         } else {
             for (std::size_t c = 0; c < 4; ++c)
                 sum.rgba[c] += w * static_cast<float>(view.colours[t][c]);
@@ -152,7 +147,7 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
     if (!(weights > params::kLeastLookUpWeight)) return false;
     for (std::size_t c = 0; c < 4; ++c)
         found.rgba[c] =
-            isLit ? lit(wanted.paint, c, diffuse, specular, weights) : sum.rgba[c] / weights;
+            isLit ? lit(wanted.paint, c, light, weights) : sum.rgba[c] / weights;
     return true;
 }
 

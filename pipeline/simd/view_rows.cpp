@@ -71,7 +71,8 @@ HWY_INLINE V LightScale(VU words, VU share) {
     const DU du;
     const D d;
     constexpr std::uint32_t kOffset = 127 - kLightBias - kLightBits;
-    const VU exponent = hn::Add(hn::ShiftRight<3 * kLightBits>(words), hn::Set(du, kOffset));
+    const VU bits = hn::And(hn::ShiftRight<3 * kLightBits>(words), hn::Set(du, kLightExponent));
+    const VU exponent = hn::Add(bits, hn::Set(du, kOffset));
     const V scale = hn::BitCast(d, hn::ShiftLeft<23>(exponent));
     return hn::Mul(scale,
                    hn::Mul(hn::ConvertTo(d, hn::BitCast(DI(), share)), hn::Set(d, 1.0F / 256)));
@@ -99,6 +100,20 @@ HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     return out;
 }
 
+/// Bilinear, the share of specular light that no paint changes.
+HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& weights) {
+    const auto veil = [&](VU d, VU s, VU weight) HWY_ATTR {
+        const VU bits =
+            hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)), hn::ShiftRight<kLightFreeBit>(s));
+        return hn::Mul(bits, weight);
+    };
+    const VU sum = hn::Add(
+        hn::Add(veil(diffuse.a, specular.a, weights.a), veil(diffuse.b, specular.b, weights.b)),
+        hn::Add(veil(diffuse.c, specular.c, weights.c), veil(diffuse.d, specular.d, weights.d)));
+    return hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), sum)),
+                   hn::Set(D(), 1 / (256 * kMostVeil)));
+}
+
 /// Of two vectors of PaintWords.
 struct PaintOf {
     VU diffuse, facing;
@@ -106,22 +121,23 @@ struct PaintOf {
 
 /// The surface's radiance as a display's bytes.
 template <int kShift>
-HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular) {
+HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular, V veil) {
     const D d;
     const auto linear = [&](VU word) HWY_ATTR {
         const VU byte = hn::And(hn::ShiftRight<kShift>(word), hn::Set(DU(), 0xFFU));
         return LinearOf(d, hn::ConvertTo(d, hn::BitCast(DI(), byte)));
     };
-    const V sent = hn::MulAdd(linear(paint.diffuse), diffuse,
-                              hn::Mul(linear(paint.facing), specular));
+    const V facing = linear(paint.facing);
+    const V mirrored = hn::MulAdd(veil, hn::Sub(hn::Set(d, 1), facing), facing);
+    const V sent = hn::MulAdd(linear(paint.diffuse), diffuse, hn::Mul(mirrored, specular));
     const VU byte = hn::BitCast(DU(), hn::NearestInt(SrgbLevel(d, sent)));
     return hn::ShiftLeft<kShift>(byte);
 }
 
-HWY_INLINE VU Lit(const PaintOf& paint, const Light& diffuse, const Light& specular) {
-    const VU redGreen = hn::Or(LitChannel<0>(paint, diffuse.x, specular.x),
-                               LitChannel<8>(paint, diffuse.y, specular.y));
-    return hn::Or(hn::Or(redGreen, LitChannel<16>(paint, diffuse.z, specular.z)),
+HWY_INLINE VU Lit(const PaintOf& paint, const Light& diffuse, const Light& specular, V veil) {
+    const VU redGreen = hn::Or(LitChannel<0>(paint, diffuse.x, specular.x, veil),
+                               LitChannel<8>(paint, diffuse.y, specular.y, veil));
+    return hn::Or(hn::Or(redGreen, LitChannel<16>(paint, diffuse.z, specular.z, veil)),
                   hn::Set(DU(), 0xFF000000U));
 }
 
@@ -249,7 +265,8 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const P
             const Four diffuse = GatherLights(in.lights, at, in.reference.width);
             const Four specular = GatherLights(in.lights + 1, at, in.reference.width);
             const VU colour =
-                Lit(paint, BlendLight(diffuse, weights), BlendLight(specular, weights));
+                Lit(paint, BlendLight(diffuse, weights), BlendLight(specular, weights),
+                    BlendVeil(diffuse, specular, weights));
             found =
                 hn::BitCast(du, hn::IfThenElse(lit, hn::BitCast(d, colour), hn::BitCast(d, found)));
         }

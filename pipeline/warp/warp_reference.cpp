@@ -72,22 +72,12 @@ private:
     Size size_;
 };
 
-void addTo(std::array<float, 3>& sum, const std::array<float, 3>& value) {
-    for (std::size_t c = 0; c < 3; ++c)
-        sum[c] += value[c];
-}
-
-std::array<float, 3> shared(const std::array<float, 3>& sum, int count) {
-    const float share = 1 / static_cast<float>(count);
-    return {share * sum[0], share * sum[1], share * sum[2]};
-}
-
 /// Takes the means of the plain pixels beside it that show the same; false: there are none.
 bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
                         WarpReference& r, int x, int y) {
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
-    std::array<float, 3> diffuse{}, specular{};
+    UnpackedLight sumOfLight;
     int count = 0;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
@@ -98,18 +88,18 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
             const std::size_t at = grid.index(x + i, y + j);
             for (std::size_t c = 0; c < 4; ++c)
                 sum[c] += r.picture[at][c];
-            if (!r.light.empty()) {
-                addTo(diffuse, unpackedLight(light[at].diffuse));
-                addTo(specular, unpackedLight(light[at].specular));
-            }
+            if (!r.light.empty()) addShare(sumOfLight, 1, unpackedWords(light[at]));
             ++count;
         }
     if (count == 0) return false;
     const std::size_t at = grid.index(x, y);
     for (std::size_t c = 0; c < 4; ++c)
         r.colour[at][c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
-    if (!r.light.empty())
-        r.light[at] = {packedLight(shared(diffuse, count)), packedLight(shared(specular, count))};
+    if (!r.light.empty()) {
+        UnpackedLight mean;
+        addShare(mean, 1 / static_cast<float>(count), sumOfLight);
+        r.light[at] = packedWords(mean);
+    }
     return true;
 }
 
