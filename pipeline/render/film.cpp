@@ -64,6 +64,21 @@ void Film::begin(const PixelRect& where) {
 
 const Film::Pixel Film::kNothing{};
 
+namespace {
+
+const Eigen::Vector3f kNoFar{1, 1, 1};
+
+/// Of light that falls on a paint, by how much of it leaves the surface.
+struct PaintWeights {
+    double diffuse, specular;
+};
+PaintWeights weightsOf(const Paint& paint) {
+    constexpr double kLeast = 1e-3;  // of black
+    return {kLeast + luminanceOf<float>(paint.diffuse), kLeast + luminanceOf<float>(paint.specular())};
+}
+
+}  // namespace
+
 Film::Pixel& Film::begun(std::size_t pixel) {
     Pixel& p = memory(pixel);
     if (p.picture != picture_) {
@@ -88,8 +103,21 @@ void Film::setCentre(std::size_t pixel, const SeenSurface& surface) {
 
 bool Film::isUntouched(std::size_t pixel) const {
     const Pixel& p = at(pixel);
-    return p.seen.hit.id == kCatcherId && isWhole(p) && !(p.catcher.firstSquares > 0) &&
+    return p.seen.hit.id == kCatcherId && isWhole(p) && !(p.catcher.first.squares > 0) &&
            !(p.carried.firstSquare > 0);
+}
+
+void Film::LightSum::add(double weight, const Eigen::Vector3f& sampled,
+                         const Eigen::Vector3f& known) {
+    light += weight * sampled.cast<double>();
+    far += weight * known.cast<double>();
+    weights += weight;
+    squares += squared(luminanceOf<double>(sampled.cwiseQuotient(known).cast<double>()));
+}
+
+Eigen::Vector3f Film::LightSum::relative() const {
+    if (!(weights > 0)) return {0, 0, 0};
+    return light.cwiseQuotient(far).cast<float>();
 }
 
 void Film::add(std::size_t pixel, const FilmSample& sample) {
@@ -103,15 +131,15 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     if (sample.hit.id == 0) return;
     keepNearest(isCatcher ? p.nearestCatcher : p.nearest, sample.hit);
     LightSums& sums = isCatcher ? p.catcher : p.object;
-    const auto first = isCatcher ? (sample.radiance - sample.without).cast<double>().eval()
-                                 : sample.light.diffuse.cast<double>().eval();
-    const auto second = (isCatcher ? sample.without : sample.light.specular).cast<double>().eval();
     ++sums.hits;
-    sums.first += first;
-    sums.second += second;
-    sums.firstSquares += squared(luminanceOf<double>(first));
-    sums.secondSquares += squared(luminanceOf<double>(second));
-    if (isCatcher) return;
+    if (isCatcher) {
+        sums.first.add(1, sample.radiance - sample.without, kNoFar);
+        sums.second.add(1, sample.without, kNoFar);
+        return;
+    }
+    const auto [diffuse, specular] = weightsOf(sample.paint);
+    sums.first.add(diffuse, sample.light.diffuse, sample.far.diffuse);
+    sums.second.add(specular, sample.light.specular, sample.far.specular);
     p.radiance += sample.radiance.cast<double>();
     p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
     p.diffusePaint += sample.paint.diffuse;
@@ -134,16 +162,16 @@ KnownLight Film::knownOf(const LightSums& sums, const KnownLight& carried) {
     out.secondCount = n + carried.secondCount;
     if (out.firstCount > 0) {
         out.first =
-            (sums.first.cast<float>() + carried.firstCount * carried.first) / out.firstCount;
+            (n * sums.first.relative() + carried.firstCount * carried.first) / out.firstCount;
         out.firstSquare =
-            (static_cast<float>(sums.firstSquares) + carried.firstCount * carried.firstSquare) /
+            (static_cast<float>(sums.first.squares) + carried.firstCount * carried.firstSquare) /
             out.firstCount;
     }
     if (out.secondCount > 0) {
         out.second =
-            (sums.second.cast<float>() + carried.secondCount * carried.second) / out.secondCount;
+            (n * sums.second.relative() + carried.secondCount * carried.second) / out.secondCount;
         out.secondSquare =
-            (static_cast<float>(sums.secondSquares) + carried.secondCount * carried.secondSquare) /
+            (static_cast<float>(sums.second.squares) + carried.secondCount * carried.secondSquare) /
             out.secondCount;
     }
     return out;
@@ -159,6 +187,19 @@ Paint Film::paintOf(const Pixel& p) {
     if (p.object.hits == 0) return p.seen.paint;
     const auto hits = static_cast<float>(p.object.hits);
     return {p.diffusePaint / hits, p.facingPaint / hits, {p.albedoScale / hits, p.albedoOffset / hits}};
+}
+
+SurfaceLight Film::farOf(const Pixel& p) {
+    const auto mean = [&](const LightSum& sum, double weight, const Eigen::Vector3f& centre) {
+        if (!p.isSeen) weight = 0;
+        const double all = sum.weights + weight;
+        return all > 0 ? Eigen::Vector3f(((sum.far + weight * centre.cast<double>()) / all)
+                                             .cast<float>())
+                       : centre;
+    };
+    const auto [diffuse, specular] = weightsOf(p.seen.paint);
+    return {mean(p.object.first, diffuse, p.seen.far.diffuse),
+            mean(p.object.second, specular, p.seen.far.specular)};
 }
 
 float Film::error(std::size_t pixel, const Exposure& exposure) const {
@@ -177,9 +218,9 @@ float Film::error(std::size_t pixel, const Exposure& exposure) const {
     }
     if (catchers > 0) {
         const double slope =
-            slopeAt((p.catcher.second / catchers).cast<float>(), exposure) * catchers / n;
-        variance += slope * slope *
-                    varianceOfMean(luminanceOf(p.catcher.first), p.catcher.firstSquares, catchers);
+            slopeAt((p.catcher.second.light / catchers).cast<float>(), exposure) * catchers / n;
+        variance += slope * slope * varianceOfMean(luminanceOf(p.catcher.first.light),
+                                                   p.catcher.first.squares, catchers);
     }
     const double covered = objects / n;
     const double edge = kEdgeContrast * kEdgeContrast * covered * (1 - covered);
@@ -198,8 +239,9 @@ float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
     if (known.firstCount < 2 || known.secondCount < 2)
         return std::numeric_limits<float>::infinity();
     const Paint paint = paintOf(p);
-    const Eigen::Vector3f white = paint.diffuse.cwiseProduct(p.seen.far.diffuse);
-    const Eigen::Vector3f mirrored = paint.specular().cwiseProduct(p.seen.far.specular);
+    const SurfaceLight far = farOf(p);
+    const Eigen::Vector3f white = paint.diffuse.cwiseProduct(far.diffuse);
+    const Eigen::Vector3f mirrored = paint.specular().cwiseProduct(far.specular);
     const float diffuse = luminanceOf(white) *
                           deviationOf(known.first, known.firstSquare, known.firstCount);
     const float specular = luminanceOf(mirrored) *
@@ -219,8 +261,8 @@ Film::Means Film::meansOf(const Pixel& p) {
     }
     if (p.catcher.hits > 0) {
         const double hits = p.catcher.hits;
-        out.with = ((p.catcher.first + p.catcher.second) / hits).cast<float>();
-        out.without = (p.catcher.second / hits).cast<float>();
+        out.with = ((p.catcher.first.light + p.catcher.second.light) / hits).cast<float>();
+        out.without = (p.catcher.second.light / hits).cast<float>();
         out.catcherShare = static_cast<float>(hits) / n;
     }
     return out;
@@ -252,14 +294,14 @@ FirstHit Film::firstHit(const Pixel& p, bool changed) {
     const bool objects = p.object.hits > 0;
     if (p.seen.hit.id != 0 && p.seen.hit.id != kCatcherId) return p.seen.hit;
     // The catcher is nothing where objects change nothing of it.
-    const bool catches = p.catcher.firstSquares > 0 || p.carried.firstSquare > 0;
+    const bool catches = p.catcher.first.squares > 0 || p.carried.firstSquare > 0;
     if (p.seen.hit.id == kCatcherId && (catches || !objects)) return p.seen.hit;
     if (catches && !objects) return p.nearestCatcher;
     return objects ? p.nearest : FirstHit{};
 }
 
 Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
-    if (p.object.hits == 0 && p.catcher.first.isZero(0)) return {};
+    if (p.object.hits == 0 && p.catcher.first.light.isZero(0)) return {};
     return shown(meansOf(p), exposure);
 }
 
@@ -267,10 +309,8 @@ Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const
     const Pixel& p = at(pixel);
     Resolved out = resolved(p, shown(p, exposure));
     if (out.hit.id != 0 && out.hit.id != kCatcherId && p.object.hits > 0) {
-        const double hits = p.object.hits;
-        const SurfaceLight light{(p.object.first / hits).cast<float>(),
-                                 (p.object.second / hits).cast<float>()};
-        out.light = packed(product(light, p.seen.far), paintOf(p), exposure.scale);
+        const SurfaceLight light{p.object.first.relative(), p.object.second.relative()};
+        out.light = packed(product(light, farOf(p)), paintOf(p), exposure.scale);
     }
     return out;
 }
@@ -288,7 +328,7 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
         m.catcherShare = 1;
     } else {
         const SurfaceLight onObject =
-            product({light.first.matrix(), light.second.matrix()}, p.seen.far);
+            product({light.first.matrix(), light.second.matrix()}, farOf(p));
         const Paint paint = paintOf(p);
         m.object = onObject.on(paint);
         words = packed(onObject, paint, exposure.scale);

@@ -37,7 +37,8 @@ struct FilmSample {
     FirstHit hit;
     Eigen::Vector3f radiance{0, 0, 0};  ///< of the object or, with the objects there, the catcher
     Eigen::Vector3f without{0, 0, 0};   ///< of the catcher if the objects were not there
-    SurfaceLight light{};               ///< of the object where it was hit, over its far light
+    SurfaceLight light{};               ///< of the object, where it was hit
+    SurfaceLight far{{1, 1, 1}, {1, 1, 1}};  ///< as SeenSurface's
     Paint paint{};
 };
 
@@ -116,9 +117,19 @@ public:
 
 private:
     // In single precision a million samples would be a percent off, and a variance nothing.
+    /// A part of the light, each sample weighted by the paint that it falls on: what leaves the
+    /// surface is the mean light times the mean paint.
+    struct LightSum {
+        Eigen::Vector3d light{0, 0, 0}, far{0, 0, 0};
+        double weights = 0;
+        double squares = 0;  // of the luminance of light over far light, not weighted
+
+        void add(double weight, const Eigen::Vector3f& light, const Eigen::Vector3f& far);
+        /// Light over far light.
+        [[nodiscard]] Eigen::Vector3f relative() const;
+    };
     struct LightSums {
-        Eigen::Vector3d first{0, 0, 0}, second{0, 0, 0};  // as of KnownLight
-        double firstSquares = 0, secondSquares = 0;
+        LightSum first, second;  // as of KnownLight
         std::uint32_t hits = 0;
     };
     struct Pixel {
@@ -143,6 +154,8 @@ private:
     [[nodiscard]] static bool isWhole(const Pixel& p);
     [[nodiscard]] static KnownLight knownOf(const LightSums& sums, const KnownLight& carried);
     [[nodiscard]] static Paint paintOf(const Pixel& p);
+    /// Far light on the object, a mean over its samples and the pixel's centre.
+    [[nodiscard]] static SurfaceLight farOf(const Pixel& p);
     [[nodiscard]] static float errorOfKnown(const Pixel& p, const Exposure& exposure);
     /// Nothing where objects neither are nor change the light, as in most of a picture.
     [[nodiscard]] static Shown shown(const Pixel& p, const Exposure& exposure);

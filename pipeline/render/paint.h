@@ -43,10 +43,7 @@ struct SurfaceLight {
     }
 };
 
-/// Light as a multiple of other light, channel by channel, and back.
-[[nodiscard]] inline SurfaceLight quotient(const SurfaceLight& a, const SurfaceLight& b) {
-    return {a.diffuse.cwiseQuotient(b.diffuse), a.specular.cwiseQuotient(b.specular)};
-}
+/// Light that is a multiple of other light, channel by channel.
 [[nodiscard]] inline SurfaceLight product(const SurfaceLight& a, const SurfaceLight& b) {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }

@@ -264,8 +264,7 @@ PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
     sent.radiance = sent.radiance.cwiseMax(0.0F);
     sent.white = sent.white.cwiseMax(0.0F);
     const Paint paint = point.paint(direction);
-    return {sent.radiance,
-            quotient(lightOf(sent.radiance, sent.white, paint), far(point, direction)), paint};
+    return {sent.radiance, lightOf(sent.radiance, sent.white, paint), far(point, direction), paint};
 }
 
 SurfaceLight PathIntegrator::far(const SurfacePoint& point,

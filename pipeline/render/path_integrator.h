@@ -23,7 +23,7 @@ public:
     /// found it, of any length; and the point's paint, with the light on it.
     struct OfObject {
         Eigen::Vector3f radiance;
-        SurfaceLight light;  ///< over far() of the point
+        SurfaceLight light, far;  ///< the latter as far() has it
         Paint paint;
     };
     [[nodiscard]] OfObject ofObject(const RayHit& hit, const Eigen::Vector3f& direction,

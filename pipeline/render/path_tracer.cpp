@@ -121,6 +121,7 @@ private:
             const auto light = parts_.integrator.ofObject(object, ray.direction, sampler);
             out.radiance = light.radiance;
             out.light = light.light;
+            out.far = light.far;
             out.paint = light.paint;
         } else if (real.found()) {
             const auto light = parts_.integrator.ofCatcher(real, ray.direction, sampler);
