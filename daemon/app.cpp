@@ -263,13 +263,24 @@ void App::logHealth(const Health& health) {
     told_ = health;
 }
 
+// Updates what was described at the start.
+void App::takeChanges(const Counted& counted) {
+    RunDescription& run = running_->description;
+    if (counted.rendering) {
+        run.engine = counted.rendering->engine;
+        run.renderer = counted.rendering->renderer;
+        run.source = counted.rendering->source;
+    }
+    if (!counted.display.empty() && counted.display != run.display) {
+        run.display = counted.display;
+        log_.change("display " + counted.display, {}, {message::kDisplay});
+    }
+}
+
 void App::showStatus(const Counted& counted, const Health& health) {
     if (!running_) return;
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
-    if (!counted.display.empty() && counted.display != running_->description.display) {
-        running_->description.display = counted.display;
-        log_.change("display " + counted.display, {}, {message::kDisplay});
-    }
+    takeChanges(counted);
     if (counted.atFirstPicture && !std::exchange(firstPictureShown_, true))
         log_.notice(firstPictureLine(*counted.atFirstPicture));
     for (const Warning& warning : stats_.takeWarnings())

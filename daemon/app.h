@@ -99,6 +99,7 @@ private:
     [[nodiscard]] Health health(const Counted& counted);
     void feedWatchdog(const Health& health);
     void logHealth(const Health& health);
+    void takeChanges(const Counted& counted);
     void showStatus(const Counted& counted, const Health& health);
     [[nodiscard]] ExitCode finish(std::future<std::string>& end);
     [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);

@@ -49,6 +49,7 @@ ordered_json App::statusNow() {
     ordered_json out = {{"state", state}, {"health", healthJson(now)}, {"fault", nullptr}};
     if (counted.fault) out["fault"] = *counted.fault;
     if (!running_) return out;
+    takeChanges(counted);
     const RunDescription& run = running_->description;
     const double elapsed = Timestamp::now().seconds() - running_->time.seconds();
     out.update({{"seconds", elapsed},
@@ -70,6 +71,7 @@ ordered_json App::statusNow() {
 
 ordered_json App::statsNow() {
     const Counted counted = stats_.count();
+    if (running_) takeChanges(counted);
     ordered_json out = summary(counted, running_ ? running_->description : RunDescription{}, "", 0);
     out.erase("exit_reason");
     out.erase("exit_code");

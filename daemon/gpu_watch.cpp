@@ -1,30 +1,24 @@
 #include "daemon/gpu_watch.h"
 
-#include "daemon/exit_code.h"
-
-#include <fmt/format.h>
+#include "daemon/gpu_failures.h"
 
 namespace mfar {
 namespace {
 
 // As many as a display has buffers: the processor may be so far ahead.
 constexpr std::size_t kMostInWork = 3;
+constexpr const char* kLate = "the GPU does not finish a picture";
 
 }  // namespace
 
 bool GpuWatch::isReady() {
     if (!context_) return true;
-    if (const auto lost = context_->lost()) throw Failure(ExitCode::Internal, *lost);
+    requireSound();
     while (!inWork_.empty() && inWork_.front().fence.passed())
         inWork_.pop_front();
     isLate_ = isOldestDue() && !inWork_.front().fence.passed(gpu::kLongestGpuWait);
-    if (!isLate_) return true;
-    const auto since = Timestamp::now() - inWork_.front().since;
-    if (since > kGivenUp && !context_->isSoftware())
-        throw Failure(ExitCode::Internal,
-                      fmt::format("the GPU has not finished a picture for {:.1f} s",
-                                  std::chrono::duration<double>(since).count()));
-    return false;
+    if (isLate_ && !context_->isSoftware()) throw GpuLost(kLate);
+    return !isLate_;
 }
 
 bool GpuWatch::isOldestDue() const {
@@ -32,13 +26,28 @@ bool GpuWatch::isOldestDue() const {
            (!inWork_.empty() && Timestamp::now() - inWork_.front().since > gpu::kLongestGpuWait);
 }
 
+void GpuWatch::requireSound() const {
+    if (!context_) return;
+    if (const auto fault = context_->takeFault()) throw GpuLost(*fault);
+}
+
 void GpuWatch::drawn() {
+    requireSound();
     if (context_) inWork_.push_back({gpu::Fence(), Timestamp::now()});
+}
+
+// A loss may cause an exception of any type.
+std::optional<std::string> GpuWatch::lossBehind(const std::exception& error) const {
+    if (!context_) return std::nullopt;
+    if (const auto* lost = dynamic_cast<const GpuLost*>(&error)) return lost->what();
+    if (auto fault = context_->takeFault()) return fault;
+    if (const auto* ofGl = dynamic_cast<const gpu::GlError*>(&error)) return ofGl->what();
+    return std::nullopt;
 }
 
 std::optional<std::string> GpuWatch::fault() const {
     if (!isLate_) return std::nullopt;
-    return "the GPU does not finish a picture";
+    return kLate;
 }
 
 }  // namespace mfar

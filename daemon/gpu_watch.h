@@ -5,31 +5,34 @@
 #include "hal/gl_context.h"
 
 #include <deque>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
 
 namespace mfar {
 
-/// Looks whether the GPU gets done with the pictures. Lives on the thread of the context.
+/// Looks whether the GPU gets done with the pictures and has lost nothing. Lives on the thread of
+/// the context.
 ///
-/// A GPU that does not is waited for half a second at a time, so that its thread goes on; after
-/// five seconds, or as soon as the context is lost, only a new process helps. A software renderer
-/// may be as slow as it likes.
+/// A GPU is waited for half a second. A software renderer may be as slow as it likes, but its
+/// thread goes on every half a second, too.
 class GpuWatch {
 public:
-    static constexpr std::chrono::seconds kGivenUp{5};
-
     /// `context` may be null, now or later, and then there is nothing to watch. It must outlive
     /// this.
     explicit GpuWatch(const std::unique_ptr<GlContext>& context) : context_(context) {}
 
     /// To be asked before each picture; waits where the GPU has not done the third last one, or one
-    /// for half a second. False: it still has not, and nothing may be drawn. Throws Failure where
-    /// only a new process helps.
+    /// for half a second. False: a software renderer still has not, and nothing may be drawn.
+    /// Throws GpuLost.
     [[nodiscard]] bool isReady();
-    /// After the commands of a picture, before the display's.
+    /// Throws GpuLost where what was drawn so far cannot be trusted.
+    void requireSound() const;
+    /// After the commands of a picture, before the display's. Throws GpuLost where they failed.
     void drawn();
+    /// Why all on the GPU has to be made anew after `error`; nothing where that is another's fault.
+    [[nodiscard]] std::optional<std::string> lossBehind(const std::exception& error) const;
     /// For people, nothing when all is well.
     [[nodiscard]] std::optional<std::string> fault() const;
 

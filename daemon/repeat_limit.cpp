@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 namespace mfar {
@@ -45,7 +45,7 @@ std::vector<RepeatLimit::Message> RepeatLimit::rest(Timestamp now) {
 }
 
 std::vector<RepeatLimit::Message> RepeatLimit::take(Timestamp now, bool all) {
-    std::vector<std::pair<Timestamp, Message>> found;
+    std::multimap<Timestamp, Message> found;  // by time; equal ones in the order found
     for (auto one = events_.begin(); one != events_.end();) {
         Entry& entry = one->second;
         const bool isOver = all || now - entry.said >= kInterval;
@@ -56,12 +56,11 @@ std::vector<RepeatLimit::Message> RepeatLimit::take(Timestamp now, bool all) {
         if (isOver) {
             entry.newest.text += times(entry.kept, now - entry.said);
             entry.newest.count = entry.kept;
-            found.emplace_back(entry.last, std::move(entry.newest));
+            found.emplace(entry.last, std::move(entry.newest));
             entry = Entry{now};
         }
         ++one;
     }
-    std::ranges::stable_sort(found, {}, [](const auto& one) { return one.first; });
     std::vector<Message> out;
     out.reserve(found.size());
     for (auto& [last, message] : found)

@@ -32,67 +32,58 @@ constexpr std::chrono::milliseconds kFaultInterval{30};
 // on this thread at the end.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
-    : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)),
+    : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), config_(config),
       rig_(config, stats.heartbeats()), poses_(config.pose, rig_.poseInputs(), stats),
-      gl_(openGl(config)),
-      validation_(config.validate ? std::make_unique<gpu::Validation>() : nullptr),
+      gl_(openGl(config, device_)),
       display_(openDisplay(config, rig_.video().info().rateHz, stop_.cancel, displayPolicy())),
       output_(outputSizeFor(config.size, rig_.geometry(), display_->screenSize())),
-      engines_(chooseEngines(config, gl_.context.get(), rig_.geometry(), output_)),
-      pipeline_(rig_.geometry(), pipelineOptions(config)),
-      virtual_(config.virtualLayer, rig_.geometry(), pipeline_),
-      previews_(VirtualWorld::drawsPreviews(config.virtualLayer)), policy_(config.trigger),
-      mode_(config.superres.mode), banner_(pipeline_.outputSize()),
-      deadlineMs_(config.governor.governs() ? config.governor.deadlineMs : 0),
-      levels_(governedLevels(config.governor)), objects_(config.objects), light_(config.light),
-      tags_(poses_.tags()), sensors_(sensorsOf(config, rig_)) {
-    pipeline_.setMeasure(config.status.measure);
-    PlaneImporter* importer = gl_.context ? gl_.context->planeImporter() : nullptr;
-    pipeline_.setImporter(importer);
+      policy_(config.trigger), levels_(governedLevels(config.governor)), tags_(poses_.tags()),
+      sensors_(sensorsOf(config, rig_)) {
     if (!gl_.without.empty())
         stats_.warn("without OpenGL ES the processor's vector units compute the pictures: " +
                     gl_.without);
-    placeObjects();
+    try {
+        makeDrawing();
+    } catch (const std::runtime_error& error) {
+        const std::optional<std::string> why = GpuWatch(gl_.context).lossBehind(error);
+        if (!why) throw;
+        makeDrawingAnew(*why);
+    }
     setUpQuality(config.superres.mode);
     setLearning(config.superres.learn);
-    description_ = {gl_.context ? gl_.context->description() : "without OpenGL ES",
-                    rig_.description(),
+    const Rendering how = rendering();
+    description_ = {how.renderer,
+                    how.source,
                     display_->name(),
                     std::string(name(config.superres.mode)),
                     rig_.videoFrames(),
                     std::nullopt,
                     poses_.description(),
-                    describe(engines_),
+                    how.engine,
                     rig_.video().info().rateHz};
-    if (description_.source.starts_with("cameras"))
-        description_.source += importer != nullptr ? ", read in place by the GPU" : ", copied";
     beginRecording(config);  // last: a failure of the others must not wait for the disk
 }
 
 Session::~Session() = default;
 
-PipelineOptions Session::pipelineOptions(const Config& config) const {
-    PipelineOptions options;
-    options.mode = config.superres.mode;
-    options.output = output_;
-    options.skipUnchanged = config.superres.skipUnchanged;
-    options.engines = engines_;
-    return options;
-}
-
 void Session::setUpQuality(SuperResMode best) {
     if (levels_.empty()) return;
     std::vector<QualityLevel> levels = limitedTo(levels_, best);
     choice_ = {};
-    pipeline_.setQuality(levels.front().quality);
-    stats_.quality(levels.front().name, deadlineMs_);
-    if (!(deadlineMs_ > 0)) return;
-    governor_.emplace(std::move(levels), deadlineMs_);
+    setQuality(levels.front());
+    if (!(deadlineMs() > 0)) return;
+    governor_.emplace(std::move(levels), deadlineMs());
     govern();
 }
 
+void Session::setQuality(const QualityLevel& level) {
+    quality_ = level.quality;
+    drawing_->pipeline.setQuality(level.quality);
+    stats_.quality(level.name, deadlineMs());
+}
+
 std::string Session::startLine() const {
-    const Size out = pipeline_.outputSize();
+    const Size out = drawing_->pipeline.outputSize();
     return fmt::format("engine {}; {}; {}; {}; display {}, {}x{}{}", description_.engine,
                        description_.renderer, description_.source, description_.poses,
                        description_.display, out.width, out.height,
@@ -119,28 +110,21 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     Heartbeat heart(stats_.heartbeats(), std::string(kPictureThread), budget::kPicture);
     heart_ = &heart;
     const std::shared_ptr<void> atEnd(nullptr, [this](void*) { heart_ = nullptr; });
+    std::optional<CapturedFrame> captured;  // that is not shown yet
     bool enough = false;
     while (!enough) {
         heart.beat();
-        const bool isGpuReady = gpu_.isReady();
-        stats_.gpu(gpu_.fault());
-        if (!isGpuReady) {
-            if (mailbox.over()) break;
-            continue;
+        try {
+            const bool may = mayDraw();
+            if (may && !captured) captured = mailbox.takeWithin(kFaultInterval);
+            if ((!may || !captured) && mailbox.over()) break;
+            if (may) showNext(captured);
+            enough = maxFrames && pictures_ >= *maxFrames;
+        } catch (const std::exception& error) {
+            const std::optional<std::string> why = drawing_->gpu.lossBehind(error);
+            if (!why) throw;
+            makeDrawingAnew(*why);
         }
-        std::optional<CapturedFrame> captured = mailbox.takeWithin(kFaultInterval);
-        if (!captured && mailbox.over()) break;
-        if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
-        calls_.runAll(*this);
-        checkRecording();
-        if (!captured) {
-            showFault();
-            continue;
-        }
-        // Without a clock of its own a source waits for us: only our own time is latency then.
-        if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
-        process(std::move(*captured));
-        enough = maxFrames && pictures_ >= *maxFrames;
     }
     heart.rest();
     capture.stop();
@@ -149,6 +133,23 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     stats_.recorderDropped(rig_.notRecorded());
     finishDisplay();
     return enough ? "all frames asked for are shown" : "end of the source";
+}
+
+bool Session::mayDraw() {
+    const bool isReady = drawing_->gpu.isReady();
+    stats_.gpu(gpuFault());
+    return isReady;
+}
+
+void Session::showNext(std::optional<CapturedFrame>& captured) {
+    if (const std::optional<Tunables> change = changes_.tryTake()) apply(*change);
+    calls_.runAll(*this);
+    checkRecording();
+    if (!captured) return showFault();
+    // Without a clock of its own a source waits for us: only our own time is latency then.
+    if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
+    process(*captured);
+    captured.reset();
 }
 
 void Session::finishDisplay() {
@@ -176,32 +177,41 @@ FileDisplayPolicy Session::displayPolicy() {
 }
 
 void Session::apply(const Tunables& wanted) {
-    mode_ = wanted.superres.mode;
-    pipeline_.setMode(mode_);
+    config_.superres = wanted.superres;
+    config_.trigger = wanted.trigger;
+    config_.status.measure = wanted.measure;
+    drawing_->pipeline.setMode(wanted.superres.mode);
     useStill();
     setUpQuality(wanted.superres.mode);
-    pipeline_.setSkipUnchanged(wanted.superres.skipUnchanged);
-    pipeline_.setMeasure(wanted.measure);
+    drawing_->pipeline.setSkipUnchanged(wanted.superres.skipUnchanged);
+    drawing_->pipeline.setMeasure(wanted.measure);
     setLearning(wanted.superres.learn);
     policy_.configure(wanted.trigger);
-    const auto before =
-        std::pair(std::exchange(objects_, wanted.objects), std::exchange(light_, wanted.light));
+    const auto before = std::pair(std::exchange(config_.objects, wanted.objects),
+                                  std::exchange(config_.light, wanted.light));
     try {
         placeObjects();
     } catch (const std::exception& error) {
+        drawing_->gpu.requireSound();
         stats_.warn(fmt::format("objects: {}; those before stay", error.what()),
                     {message::kObjects});
-        std::tie(objects_, light_) = before;
+        std::tie(config_.objects, config_.light) = before;
         placeObjects();
     }
 }
 
+double Session::deadlineMs() const {
+    return config_.governor.governs() ? config_.governor.deadlineMs : 0;
+}
+
 // Previews of virtual objects are drawn with GL, whatever engine does the steps.
 bool Session::canShowObjects() {
-    if (gl_.context || objects_.empty() || !previews_) return true;
+    if (gl_.context || config_.objects.empty() ||
+        !VirtualWorld::drawsPreviews(config_.virtualLayer))
+        return true;
     if (gl_.without.empty()) {
         try {
-            gl_.context = createGlContext();
+            gl_.context = createGlContext(device_);
             return true;
         } catch (const std::runtime_error& error) {
             gl_.without = error.what();
@@ -215,16 +225,16 @@ bool Session::canShowObjects() {
 
 void Session::placeObjects() {
     if (!canShowObjects()) return;
-    virtual_.set(objects_, light_, tags_);
+    drawing_->objects.set(config_.objects, config_.light, tags_);
     if (tags_.empty() && poses_.mayFindTags()) return;
-    for (std::string& text : leftOut(objects_, tags_, virtual_.shapesAlone()))
+    for (std::string& text : leftOut(config_.objects, tags_, drawing_->objects.shapesAlone()))
         stats_.warn(std::move(text), {message::kObjects});
 }
 
-void Session::process(CapturedFrame captured) {
+void Session::process(CapturedFrame& captured) {
     const Timestamp begun = Timestamp::now();
     const bool newStill = captured.still.has_value();
-    stats_.stillsSuperseded(captured.stillsSuperseded);
+    stats_.stillsSuperseded(std::exchange(captured.stillsSuperseded, 0));
     if (captured.still) takeStill(*std::exchange(captured.still, std::nullopt));
     if (std::optional<TagMap> found = poses_.takeFoundTags()) {
         tags_ = *std::move(found);
@@ -232,11 +242,12 @@ void Session::process(CapturedFrame captured) {
         placeObjects();
     }
     const Timestamp time = captured.video.time();
-    const FrameResult& result = pipeline_.run(captured.video.view(), time, captured.pose);
+    const FrameResult& result = drawing_->pipeline.run(captured.video.view(), time, captured.pose);
+    drawing_->gpu.requireSound();
     // Before the display, which may wait: the exposure runs meanwhile.
     fireIfNeeded(time, result.stats);
     previous_ = time;
-    last_ = result.picture;
+    drawing_->last = result.picture;
     const Timestamp drawn = Timestamp::now();
     show(time, result.unchanged);
     if (++pictures_ == 1) stats_.firstPicture(processUse());
@@ -244,7 +255,7 @@ void Session::process(CapturedFrame captured) {
     if (stillTime_) age = static_cast<double>((time - *stillTime_).count()) * 1e-9;
     const Timestamp shown = Timestamp::now();
     const double ms = static_cast<double>((shown - begun).count()) * 1e-6;
-    stages_ = pipeline_.stageTimes();
+    stages_ = drawing_->pipeline.stageTimes();
     stages_.push_back({"display", static_cast<double>((shown - drawn).count()) * 1e-6});
     std::optional<Timestamp> since;
     if (rig_.cameraKind() == CameraKind::Sensor) since = std::min(time, shown);
@@ -254,15 +265,15 @@ void Session::process(CapturedFrame captured) {
         govern();
     }
     tell(time);
-    if (validation_) tellFaultyPasses();
+    if (drawing_->validation) tellFaultyPasses();
 }
 
 void Session::tell(Timestamp time) {
-    if (const auto traced = pipeline_.tracedCounters()) stats_.traced(*traced, time);
+    if (const auto traced = drawing_->pipeline.tracedCounters()) stats_.traced(*traced, time);
     tellLearning();
-    if (auto error = pipeline_.takeSceneError())
+    if (auto error = drawing_->pipeline.takeSceneError())
         stats_.warn("objects: " + *error, {message::kObjects});
-    if (auto error = pipeline_.takeImportFault()) stats_.warn(*error + ": it is copied");
+    if (auto error = drawing_->pipeline.takeImportFault()) stats_.warn(*error + ": it is copied");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
         // It is the policy that repeats.
@@ -272,23 +283,22 @@ void Session::tell(Timestamp time) {
 }
 
 void Session::tellFaultyPasses() {
-    for (const gpu::ValidationFault& fault : validation_->takeFaults()) {
+    for (const gpu::ValidationFault& fault : drawing_->validation->takeFaults()) {
         ++validated_.faults;
         stats_.warn("validation: " + describe(fault));
     }
     validated_.values = 0;
-    for (const auto& [pass, count] : validation_->counts())
+    for (const auto& [pass, count] : drawing_->validation->counts())
         validated_.values += static_cast<std::uint64_t>(count.values);
     stats_.validation(validated_);
-    validation_->nextFrame();
+    drawing_->validation->nextFrame();
 }
 
 void Session::govern() {
     if (governor_->next() == choice_) return;
     choice_ = governor_->next();
-    pipeline_.setQuality(governor_->level().quality);
-    if (choice_.redraw) pipeline_.redraw();
-    stats_.quality(governor_->level().name, deadlineMs_);
+    setQuality(governor_->level());
+    if (choice_.redraw) drawing_->pipeline.redraw();
 }
 
 void Session::takeStill(CapturedStill still) {
@@ -299,20 +309,21 @@ void Session::takeStill(CapturedStill still) {
 
 // A picture that is only enlarged needs no still; it is kept until another mode does.
 void Session::useStill() {
-    if (!newestStill_ || mode_ == SuperResMode::Off) return;
+    if (!newestStill_ || config_.superres.mode == SuperResMode::Off) return;
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
     if (learning_) {
         learning_->finish();
-        if (auto filters = learning_->takeFilters()) pipeline_.setFilters(std::move(filters));
+        takeFilters();
     }
-    pipeline_.setStill(still.frame.view(), still.frame.time(), still.pose);
+    keepUsedStill(still);
+    drawing_->pipeline.setStill(still.frame.view(), still.frame.time(), still.pose);
     stillTime_ = still.frame.time();
     stats_.stillUsed();
 }
 
 ScreenPicture Session::snapshot(bool ofScreen) const {
-    if (!shown_) throw std::runtime_error("there is no picture yet");
-    if (!ofScreen) return copyOf(*shown_);
+    if (!drawing_->shown) throw std::runtime_error("there is no picture yet");
+    if (!ofScreen) return copyOf(*drawing_->shown);
     std::optional<ScreenPicture> screen = display_->lastShown();
     if (!screen) throw std::runtime_error("there is no screen: " + display_->name());
     return *std::move(screen);
@@ -359,19 +370,24 @@ void Session::showFault() {
 
 // The last picture of the pipeline, with what is wrong over it.
 void Session::show(Timestamp time, bool unchanged) {
-    const std::string fault = rig_.fault().value_or("");
+    const std::string fault = bannerText();
     try {
-        if (unchanged && shown_ && fault == faultShown_) {
-            gpu_.drawn();
-            display_->showAgain(*shown_, time);
+        if (unchanged && drawing_->shown && fault == drawing_->faultShown) {
+            drawing_->gpu.drawn();
+            display_->showAgain(*drawing_->shown, time);
         } else {
-            shown_ = fault.empty() ? last_ : banner_.over(last_, fault);
-            faultShown_ = fault;
-            gpu_.drawn();
-            display_->show(*shown_, time);
+            drawing_->shown =
+                fault.empty() ? drawing_->last : drawing_->banner.over(drawing_->last, fault);
+            drawing_->faultShown = fault;
+            drawing_->gpu.drawn();
+            display_->show(*drawing_->shown, time);
         }
         stats_.display(display_->name());
         stats_.displayed(display_->fault(), display_->leftOut());
+    } catch (const gpu::GlError&) {
+        throw;
+    } catch (const GpuLost&) {
+        throw;
     } catch (const std::runtime_error& error) {
         throw Failure(ExitCode::OutputFailed, error.what());
     }

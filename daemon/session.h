@@ -1,12 +1,11 @@
 #pragma once
 
-#include "base/gl/validation.h"
-#include "daemon/banner.h"
 #include "daemon/call_queue.h"
 #include "daemon/capture.h"
 #include "daemon/config.h"
+#include "daemon/drawing.h"
 #include "daemon/governor.h"
-#include "daemon/gpu_watch.h"
+#include "daemon/gpu_failures.h"
 #include "daemon/mailbox.h"
 #include "daemon/pose_finder.h"
 #include "daemon/rig.h"
@@ -14,10 +13,8 @@
 #include "daemon/stats.h"
 #include "daemon/status.h"
 #include "daemon/still_policy.h"
-#include "daemon/virtual_world.h"
 #include "hal/display.h"
 #include "hal/gl_context.h"
-#include "pipeline/pipeline.h"
 
 #include <cstdint>
 #include <exception>
@@ -89,6 +86,13 @@ public:
     [[nodiscard]] std::function<Recorded()> stopRecording() { return rig_.stopRecording(); }
 
 private:
+    /// A copy of the still that the pipeline matches.
+    struct UsedStill {
+        std::vector<std::uint8_t> pixels;
+        ImageView view;
+        Timestamp time;
+        std::optional<Pose> pose;
+    };
     void beginRecording(const Config& config);
     /// Records from now on what beginRecording() has asked for, once its folder is there.
     void takeFirstRecording();
@@ -96,21 +100,37 @@ private:
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
-    [[nodiscard]] PipelineOptions pipelineOptions(const Config& config) const;
+    /// Applies pending changes and calls, then shows the frame; without one, the fault.
+    void showNext(std::optional<CapturedFrame>& captured);
+    /// Deadline of a picture [ms]; 0: none.
+    [[nodiscard]] double deadlineMs() const;
     /// Opens GL for the objects where it is not open yet; reports where that fails.
     bool canShowObjects();
     void placeObjects();
-    void process(CapturedFrame captured);
+    /// On the context that is open, or on none: with all that was set, and the still that was used.
+    void makeDrawing();
+    /// On another context, after all on the one before is lost. Throws Failure where that does not
+    /// help.
+    void makeDrawingAnew(std::string why);
+    [[nodiscard]] std::optional<std::string> gpuFault();
+    [[nodiscard]] std::string bannerText();
+    [[nodiscard]] Rendering rendering() const;
+    void keepUsedStill(const CapturedStill& still);
+    [[nodiscard]] bool mayDraw();
+    /// Leaves of `captured` what is needed to process it once more.
+    void process(CapturedFrame& captured);
     void takeStill(CapturedStill still);
     void useStill();
     void fireIfNeeded(Timestamp frame, const FrameStats& stats);
     void setUpQuality(SuperResMode best);
+    void setQuality(const QualityLevel& level);
     /// Takes the governor's choice for the next frame.
     void govern();
     void showFault();
     void finishDisplay();
     [[nodiscard]] FileDisplayPolicy displayPolicy();
     void setLearning(bool wanted);
+    void takeFilters();
     void endLearning();
     void tell(Timestamp time);
     void tellLearning();
@@ -122,36 +142,29 @@ private:
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
+    Config config_;  ///< with the changes so far
     Rig rig_;
     std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid: its folder is being made
     PoseFinder poses_;
+    GlDevice device_ = GlDevice::Preferred;
     OpenedGl gl_;
-    GpuWatch gpu_{gl_.context};
-    std::unique_ptr<gpu::Validation> validation_;  ///< of all that the pipeline writes
     std::unique_ptr<Display> display_;
     Size output_;
-    EngineChoice engines_;
-    Pipeline pipeline_;
-    std::unique_ptr<FilterLearning> learning_;  ///< null: the shipped filters
-    VirtualWorld virtual_;
-    bool previews_;  // of virtual objects
+    GpuFailures failures_;
+    std::unique_ptr<FilterLearning> learning_;   ///< null: the shipped filters
+    std::shared_ptr<const FilterBank> filters_;  ///< learned; null: none or the shipped ones
+    std::optional<Quality> quality_;             ///< the pipeline's; nothing: as configured
+    std::unique_ptr<Drawing> drawing_;           ///< tells the learning
     StillPolicy policy_;
-    SuperResMode mode_;
     std::optional<CapturedStill> newestStill_;  ///< not used yet
-    int lostTold_ = 0;  ///< of the policy's lost stills, those that the log has
-    Banner banner_;
-    double deadlineMs_;                 ///< 0: none
+    std::optional<UsedStill> usedStill_;        ///< where steps run on GLES
+    int lostTold_ = 0;                  ///< of the policy's lost stills, those that the log has
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
     std::optional<Governor> governor_;
     Governor::Choice choice_{};          ///< the pipeline's
-    Picture last_;                       ///< the pipeline's, without banner; empty before the first
-    std::optional<Picture> shown_;       ///< what the display got last
-    std::string faultShown_;             ///< over it
     std::vector<StageTime> stages_;      ///< of the last picture
     std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
     std::optional<Timestamp> stillTime_;
-    std::vector<PlacedObject> objects_;
-    LightOptions light_;
     TagMap tags_;
     std::string sensors_;  ///< that filters are learned for
     std::uint64_t pictures_ = 0;

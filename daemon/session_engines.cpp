@@ -11,14 +11,14 @@
 
 namespace mfar {
 
-OpenedGl openGl(const Config& config) {
+OpenedGl openGl(const Config& config, GlDevice device) {
     const bool drawsElsewhere =
         (!config.objects.empty() && VirtualWorld::drawsPreviews(config.virtualLayer)) ||
         config.validate;
     if (config.engine.isSimdAlone() && !drawsElsewhere) return {};
     std::unique_ptr<GlContext> context;
     try {
-        context = createGlContext();
+        context = createGlContext(device);
     } catch (const std::runtime_error& error) {
         if (config.engine.needsGles() || config.validate)
             throw Failure(ExitCode::Unavailable, error.what());

@@ -18,7 +18,7 @@ struct OpenedGl {
 /// Opens GL unless every step runs on SIMD and nothing else draws with it: with engine "auto" a
 /// software renderer is given back. Throws Failure where the configuration needs GLES and there is
 /// none.
-[[nodiscard]] OpenedGl openGl(const Config& config);
+[[nodiscard]] OpenedGl openGl(const Config& config, GlDevice device);
 
 /// Which engine does which step: as configured; where that leaves it open, SIMD without GL and on a
 /// software renderer, else what was measured to be faster on this GPU, now or at an earlier start.

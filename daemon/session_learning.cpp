@@ -9,8 +9,8 @@ namespace mfar {
 
 void Session::setLearning(bool wanted) {
     if (wanted == (learning_ != nullptr)) return;
-    pipeline_.setMatchListener(nullptr);
-    pipeline_.setFilters(nullptr);
+    drawing_->pipeline.setMatchListener(nullptr);
+    drawing_->pipeline.setFilters(filters_ = nullptr);
     learning_.reset();
     if (wanted) {
         learning_ = std::make_unique<FilterLearning>(FilterLearningOptions{
@@ -19,10 +19,15 @@ void Session::setLearning(bool wanted) {
             rig_.handOver() == HandOver::Lossless,
             rig_.geometry(),
             {&stats_.heartbeats(), "filter learning", budget::kLearning, ThreadRole::Helper}});
-        pipeline_.setMatchListener(learning_.get());
-        pipeline_.setFilters(learning_->takeFilters());
+        drawing_->pipeline.setMatchListener(learning_.get());
+        takeFilters();
     }
     tellLearning();
+}
+
+void Session::takeFilters() {
+    auto others = learning_->takeFilters();
+    if (others) drawing_->pipeline.setFilters(filters_ = std::move(others));
 }
 
 void Session::endLearning() {

@@ -130,6 +130,17 @@ void Stats::gpu(const std::optional<std::string>& fault) {
     counted_.gpuFault = fault;
 }
 
+void Stats::gpuFailed(const std::optional<std::string>& fault) {
+    gpu(fault);
+    const std::lock_guard lock(mutex_);
+    ++counted_.gpuFailures;
+}
+
+void Stats::rendering(const Rendering& changed) {
+    const std::lock_guard lock(mutex_);
+    counted_.rendering = changed;
+}
+
 void Stats::bannerShown(Timestamp shown) {
     const std::lock_guard lock(mutex_);
     counted_.lastBanner = shown;

@@ -41,6 +41,13 @@ struct StillCounts {
 
 enum class CameraRole : std::uint8_t { Video, Still };
 
+/// What makes the pictures, for people.
+struct Rendering {
+    std::string engine;    ///< see describe() in engine_config.h
+    std::string renderer;  ///< of GL
+    std::string source;    ///< with how its pictures get there
+};
+
 /// What was checked of what passes wrote.
 struct ValidationCounts {
     std::uint64_t values = 0;
@@ -87,7 +94,9 @@ struct Counted {
     std::optional<Timestamp>
         lastBanner{};  ///< when a picture that says a fault was, without frames
     std::optional<std::string> displayFault{};  ///< see Display::fault()
-    std::optional<std::string> gpuFault{};      ///< see GpuWatch
+    std::optional<std::string> gpuFault{};      ///< see GpuWatch, GpuFailures
+    std::uint64_t gpuFailures = 0;              ///< times that all on the GPU was lost
+    std::optional<Rendering> rendering{};       ///< where it has changed since the start
     ValidationCounts validation{};              ///< zero where it is not asked for
     std::optional<ProcessUse> atFirstPicture;   ///< when the display had it
     std::optional<LearningCounts> learning{};   ///< where filters are learned
@@ -143,8 +152,11 @@ public:
     void display(const std::string& name);
     /// See Display::fault(), leftOut().
     void displayed(const std::optional<std::string>& fault, std::uint64_t leftOut);
-    /// See GpuWatch::fault().
+    /// See GpuWatch::fault(), GpuFailures::fault().
     void gpu(const std::optional<std::string>& fault);
+    /// The same, where all on the GPU was lost once more.
+    void gpuFailed(const std::optional<std::string>& fault);
+    void rendering(const Rendering& changed);
     /// A picture was shown that says what is missing, while no frames come.
     void bannerShown(Timestamp shown);
     /// Totals so far.

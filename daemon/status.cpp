@@ -305,6 +305,7 @@ nlohmann::ordered_json summary(const Counted& counted, const RunDescription& run
         {"virtual", virtualSummary(counted)},
         {"drops", dropSummary(counted.drops)},
         {"faults", counted.faults},
+        {"gpu_failures", counted.gpuFailures},
         {"validation", validationSummary(counted.validation)},
     };
 }

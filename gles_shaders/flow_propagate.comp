@@ -15,7 +15,7 @@ layout(std430, binding = 1) buffer Patches {
     vec4 patches[];
 };
 
-#include "patch_template.glsl"
+#include "patch_refine.glsl"
 
 const int kNeighbours = 4;
 
@@ -48,6 +48,7 @@ void main() {
             moved = true;
         }
     }
-    if (moved) refine(known, lb, cell, params.steps, best, found);
-    patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, known.y);
+    // A branch around all of it takes one register more, which a V3D does not have.
+    refine(known, lb, cell, moved ? params.steps : -1, best, found);
+    patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
 }

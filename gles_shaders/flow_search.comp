@@ -29,7 +29,7 @@ layout(std430, binding = 2) readonly buffer Lists {
 };
 #endif
 
-#include "patch_template.glsl"
+#include "patch_refine.glsl"
 
 vec2 coarser(ivec2 c) {
     c = clamp(c, ivec2(0), ivec2(params.coarserColumns, params.coarserRows) - 1);
@@ -86,5 +86,5 @@ void main() {
         patches[params.errors + at].x = max(found - kGoodCost, 0.0) * kErrorPerCost;
     }
 #endif
-    patches[params.target + at] = vec4(best, found, known.y);
+    patches[params.target + at] = vec4(best, found, momentAt(1));
 }

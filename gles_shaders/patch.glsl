@@ -32,14 +32,14 @@ uvec2 cellRow(uvec3 w) {
 
 // A patch between the pixels.
 struct Window {
-    int column, y;  // first word, row of `above`
+    int first, y;   // word of the level's first row in which the patch begins; row of `above`
     uint shift;     // bits of that word left of the patch
     vec2 f;         // share of a pixel that the patch lies right of and below its pixels
     uvec3 above;    // nine pixels of the row read last
 };
 
 uvec3 fetchPixels(LumaLevel l, Window w) {
-    uvec3 words = fetchWords(wordAt(l, w.column, w.y));
+    uvec3 words = fetchWords(w.first + clamp(w.y, 0, l.height - 1) * l.pitch);
     uint up = 31u - w.shift;  // and one: a shift by 32 is undefined
     return uvec3((words.x >> w.shift) | (words.y << 1 << up), (words.y >> w.shift) | (words.z << 1 << up),
                  words.z >> w.shift);
@@ -50,7 +50,7 @@ Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
     vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
     ivec2 at = ivec2(whole);
-    Window w = Window(at.x >> 2, at.y, uint(at.x & 3) * 8u, origin - whole, uvec3(0u));
+    Window w = Window(wordAt(l, at.x >> 2, 0), at.y, uint(at.x & 3) * 8u, origin - whole, uvec3(0u));
     w.above = fetchPixels(l, w);
     return w;
 }

@@ -3,9 +3,10 @@
 
 // The template: three words for each of rows -1 to kRows, its eight pixels and then those left and right
 // of them. Behind the rows nine floats: mean, variance (sum of squared deviations), sum of the gradient (x, y),
-// sum of a (less its mean) times the gradient, inverse Hessian (xx, xy, yy). No GPU has registers for all of this next to a comparison. Variable
-// indices keep it in memory, on Mali if it has more than 64 words, and loops of a length that compilers do
-// not know, here and in what uses this, stay loops with one row in registers.
+// sum of a (less its mean) times the gradient, inverse Hessian (xx, xy, yy); then five of patch_refine.glsl.
+// No GPU has registers for all of this next to a comparison. Variable indices keep it in memory, on Mali if it
+// has more than 64 words, and loops of a length that compilers do not know, here and in what uses this, stay
+// loops with one row in registers.
 uint templateWords[72];
 
 // Over the pixels of a patch: of the other picture, of its square, of its product with the template and
@@ -37,7 +38,14 @@ Row slopeDown(int r) {
     return Row(below.left - above.left, below.right - above.right);
 }
 
-// Sets the rows. Returns mean and variance.
+float momentAt(int i) {
+    return uintBitsToFloat(templateWords[3 * kRows + 6 + i]);
+}
+void setMoment(int i, float value) {
+    templateWords[3 * kRows + 6 + i] = floatBitsToUint(value);
+}
+
+// Sets the rows, mean and variance. Returns both.
 vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     float sum = 0.0, sumSquares = 0.0;
     for (int r = -1; r <= kRows; ++r) {
@@ -52,11 +60,13 @@ vec2 loadTemplate(LumaLevel l, ivec2 cell) {
         sum += sumOf(a);
         sumSquares += product(a, a);
     }
-    float mean = sum / kPatchPixels;
-    return vec2(mean, max(sumSquares - sum * mean, 0.0));
+    float mean = sum / kPatchPixels, variance = max(sumSquares - sum * mean, 0.0);
+    setMoment(0, mean);
+    setMoment(1, variance);
+    return vec2(mean, variance);
 }
 
-// Sets the floats behind the rows, given mean and variance.
+// Sets the other floats behind the rows, given mean and variance.
 void prepareSteps(vec2 known, ivec2 cell) {
     vec2 sum = vec2(0.0), sumA = vec2(0.0);
     vec3 h = vec3(0.0);
@@ -71,12 +81,8 @@ void prepareSteps(vec2 known, ivec2 cell) {
     sumA = 0.5 * sumA - known.x * sum;
     h = 0.25 * h + vec3(kPatchDamping, 0.0, kPatchDamping) - vec3(sum.x * sum, sum.y * sum.y) / kPatchPixels;
     h = vec3(h.z, -h.y, h.x) / max(h.x * h.z - h.y * h.y, 1.0);
-    float moments[9] = float[](known.x, known.y, sum.x, sum.y, sumA.x, sumA.y, h.x, h.y, h.z);
-    for (int i = 0; i < 9; ++i) templateWords[3 * r + 6 + i] = floatBitsToUint(moments[i]);
-}
-
-float momentAt(int i) {
-    return uintBitsToFloat(templateWords[3 * kRows + 6 + i]);
+    float moments[7] = float[](sum.x, sum.y, sumA.x, sumA.y, h.x, h.y, h.z);
+    for (int i = 0; i < 7; ++i) templateWords[3 * r + 8 + i] = floatBitsToUint(moments[i]);
 }
 
 void add(inout Sums sums, Row a, Row b) {
@@ -118,28 +124,4 @@ float costAt(vec2 known, LumaLevel l, ivec2 cell, vec2 u) {
     }
     float gain;
     return costOf(known, sums, gain);
-}
-
-// Takes Gauss-Newton steps from `best` on as long as they lower the cost.
-void refine(vec2 known, LumaLevel l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
-    prepareSteps(known, cell);
-    vec2 u = best;
-    for (int k = 0; k <= steps; ++k) {
-        Window w = windowAt(l, cell, u);
-        Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
-        int end = w.y + kRows;
-        while (w.y < end) {
-            Row b = nextRow(w, l);
-            int r = w.y - end + kRows - 1;
-            Row a = templateRow(r);
-            add(sums, a, b);
-            sums.gb += vec2(product(slopeAcross(r, a), b), product(slopeDown(r), b));
-        }
-        Match m = matchOf(sums);
-        if (k > 0 && !(m.cost < cost)) break;
-        cost = m.cost;
-        best = u;
-        if (!(dot(m.step, m.step) > kShortestStep)) break;
-        u = best + m.step;
-    }
 }

@@ -6,7 +6,8 @@
 
 layout(binding = 0) uniform sampler2D virtualDepth;
 layout(binding = 1) uniform sampler2D rangeField;
-layout(location = 0) out float visibility;
+// A vec4, as Mesa 22.3 for Mali crashes where a shader that writes the depth has a single output channel.
+layout(location = 0) out vec4 visibility;
 
 void main() {
     float z = layerDepth(virtualDepth);
@@ -16,6 +17,6 @@ void main() {
     vec2 range = texelFetch(rangeField, clamp(base, ivec2(0), lastVideoPixel()), 0).rg;
     bool before = inverse >= range.x;
     bool behind = inverse * (1.0 + (params.bias + params.softness) * params.virtualSigma) <= range.y;
-    visibility = there && before ? 1.0 : 0.0;
+    visibility = vec4(there && before ? 1.0 : 0.0);
     gl_FragDepth = there && !before && !behind ? 1.0 : 0.0;
 }

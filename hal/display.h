@@ -31,11 +31,15 @@ public:
     virtual ~Display() = default;
 
     /// Shows the picture (or queues it for that). May wait for the device's pace; must not keep a
-    /// texture after returning. Throws std::runtime_error when the device is lost.
+    /// texture after returning. Throws std::runtime_error when the device is lost, GlError where
+    /// the GPU is.
     virtual void show(const Picture& picture, Timestamp time) = 0;
     /// The same where the picture is the last one, to the bit: a screen that shows it needs
     /// nothing.
     virtual void showAgain(const Picture& picture, Timestamp time) { show(picture, time); }
+    /// Lets go of all that it has on the GL context, which ends after this: the next picture comes
+    /// with another one, or lies on the host.
+    virtual void releaseGl() {}
     /// Blocks until everything shown is out (files written). Throws like show().
     virtual void finish() = 0;
     /// What the last show() sent to a screen, screen-sized. Nothing where there is no screen. Waits

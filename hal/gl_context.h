@@ -2,6 +2,7 @@
 
 #include "hal/plane_importer.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,18 +25,22 @@ public:
     /// Nothing where the driver imports no memory of cameras, or reads faster what is uploaded: a
     /// software renderer.
     [[nodiscard]] virtual PlaneImporter* planeImporter() { return nullptr; }
-    /// Why the context is gone, as after a reset of the GPU, for people; nothing as long as it is
-    /// there. Never waits.
-    [[nodiscard]] virtual std::optional<std::string> lost() { return std::nullopt; }
+    /// Why nothing that was drawn since the last call can be trusted, for people: the GPU was
+    /// reset, or a call failed. Nothing when all is well. Never waits.
+    [[nodiscard]] virtual std::optional<std::string> takeFault() = 0;
     /// Does the processor draw, not a GPU?
     [[nodiscard]] virtual bool isSoftware() const = 0;
     /// One line for people: "EGL surfaceless: llvmpipe (...), OpenGL ES 3.2 ..., software".
     [[nodiscard]] virtual std::string description() const = 0;
 };
 
-/// Creates a context and leaves it current on the calling thread. A hardware GPU is preferred;
-/// `MFAR_GL_DEVICE=software` (environment) asks for the software renderer.
-/// Throws std::runtime_error naming what is missing.
-[[nodiscard]] std::unique_ptr<GlContext> createGlContext();
+enum class GlDevice : std::uint8_t {
+    Preferred,  ///< a GPU; without one, or with `MFAR_GL_DEVICE=software` (environment), the next
+    Software    ///< the software renderer
+};
+
+/// Creates a context and leaves it current on the calling thread. Throws std::runtime_error naming
+/// what is missing.
+[[nodiscard]] std::unique_ptr<GlContext> createGlContext(GlDevice device = GlDevice::Preferred);
 
 }  // namespace mfar

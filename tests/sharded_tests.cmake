@@ -18,7 +18,9 @@ function(mfar_add_sharded_tests target name)
         set(properties)
         foreach(property LABELS ENVIRONMENT)
             if(arg_${property})
-                list(APPEND properties ${property} "${arg_${property}}")
+                # A property's value is one argument, however many variables it sets.
+                string(REPLACE ";" "\\;" value "${arg_${property}}")
+                list(APPEND properties ${property} "${value}")
             endif()
         endforeach()
         gtest_discover_tests(${target} TEST_LIST ${name} TEST_FILTER ${arg_FILTER}

@@ -2,6 +2,8 @@
 
 #include <GLES3/gl31.h>
 
+#include <array>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -11,6 +13,24 @@ namespace mfar::gpu {
 class GlError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
+
+/// GL_CONTEXT_LOST of OpenGL ES 3.2 and GL_KHR_robustness.
+inline constexpr GLenum kContextLost = 0x0507;
+
+/// The first error that the context has recorded since the last call, GL_NO_ERROR for none. A lost
+/// context may report that for ever.
+[[nodiscard]] inline GLenum takeError() {
+    const GLenum first = glGetError();
+    for (GLenum next = first; next != GL_NO_ERROR && next != kContextLost;)
+        next = glGetError();
+    return first;
+}
+/// "0x0502"
+[[nodiscard]] inline std::string errorCode(GLenum error) {
+    std::array<char, 16> code{};
+    std::snprintf(code.data(), code.size(), "0x%04x", error);
+    return code.data();
+}
 
 /// Throws GlError naming `where` when the context has recorded an error. Not for the frame path.
 void checkErrors(const char* where);

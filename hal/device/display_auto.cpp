@@ -59,6 +59,8 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
         shown_ = std::min(shown_ + 1, kProven);
         failed_ = nullptr;
         if (shown_ == kProven) fault_.clear();
+    } catch (const gpu::GlError&) {
+        throw;  // not of the screen
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }
@@ -68,6 +70,13 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
 void ScreenDisplay::showAgain(const Picture& picture, Timestamp time) {
     refresh();
     if (active_ == nullptr || shown_ < kProven) show(picture, time);
+}
+
+void ScreenDisplay::releaseGl() {
+    for (const auto& screen : screens_)
+        screen->releaseGl();
+    if (scaler_) scaler_->releaseGl();
+    shown_ = 0;
 }
 
 void ScreenDisplay::lose(const std::string& why) {

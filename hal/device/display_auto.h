@@ -36,6 +36,7 @@ public:
 
     void show(const Picture& picture, Timestamp time) override;
     void finish() override {}
+    void releaseGl() override;
     [[nodiscard]] std::optional<Size> screenSize() override;
     void showAgain(const Picture& picture, Timestamp time) override;
     [[nodiscard]] std::string name() const override;

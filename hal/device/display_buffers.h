@@ -31,6 +31,8 @@ public:
     virtual void begin(const Picture& picture) = 0;
     /// The picture begun. The one before must be on the screen by now.
     [[nodiscard]] virtual Ready complete() = 0;
+    /// See Display::releaseGl(). Nothing more is drawn into them; what the screen shows stays.
+    virtual void releaseGl() = 0;
     /// The picture begun last, as it is sent to the screen.
     [[nodiscard]] virtual ScreenPicture last() const = 0;
 };

@@ -76,6 +76,7 @@ public:
         });
         return {to.framebuffer.id(), OwnedFd()};
     }
+    void releaseGl() override { reader_.releaseGl(); }
     [[nodiscard]] ScreenPicture last() const override { return reader_.last(); }
 
 private:

@@ -186,6 +186,10 @@ void FbdevScreen::panTo(int row) {
             fmt::format("{}: panning failed: {}", path_, std::strerror(errno)));
 }
 
+void FbdevScreen::releaseGl() {
+    reader_.reset();
+}
+
 void FbdevScreen::close() {
     if (mapping_ && shown_) {
         std::copy(before_.begin(), before_.end(), mapping_->data());
@@ -204,7 +208,7 @@ std::string FbdevScreen::status() const {
 }
 
 std::optional<ScreenPicture> FbdevScreen::lastShown() const {
-    if (!shown_) return std::nullopt;
+    if (!shown_ || !reader_) return std::nullopt;
     return reader_->last();
 }
 

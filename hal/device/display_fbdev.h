@@ -43,6 +43,7 @@ public:
     Presence look(bool thorough) override;
     [[nodiscard]] Size size() const override { return geometry_.size; }
     void show(const Picture& picture) override;
+    void releaseGl() override;
     void close() override;
     [[nodiscard]] std::string status() const override;
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;

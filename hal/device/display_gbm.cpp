@@ -130,6 +130,13 @@ public:
 
     [[nodiscard]] GLuint framebuffer() const { return framebuffer_; }
     [[nodiscard]] std::uint32_t scanout() const { return scanout_.id(); }
+    void release() {
+        glDeleteFramebuffers(1, &framebuffer_);
+        glDeleteRenderbuffers(1, &renderbuffer_);
+        framebuffer_ = renderbuffer_ = 0;
+        if (image_ != EGL_NO_IMAGE_KHR) importer_.destroyImage(importer_.display, image_);
+        image_ = EGL_NO_IMAGE_KHR;
+    }
 
 private:
     EGLImageKHR import(Size size) {
@@ -147,12 +154,6 @@ private:
         return importer_.createImage(importer_.display, EGL_NO_CONTEXT, EGL_LINUX_DMA_BUF_EXT,
                                      nullptr, attributes.data());
     }
-    void release() {
-        glDeleteFramebuffers(1, &framebuffer_);
-        glDeleteRenderbuffers(1, &renderbuffer_);
-        importer_.destroyImage(importer_.display, image_);
-    }
-
     const Importer& importer_;
     GbmBuffer buffer_;
     DrmFramebuffer scanout_;
@@ -179,8 +180,12 @@ public:
     }
     Ready complete() override {
         if (!fences_ && !gpu::finishWithin())
-            throw std::runtime_error("the GPU does not finish the picture");
+            throw gpu::GlError("the GPU does not finish the picture");
         return {targets_[current_].scanout(), std::move(fence_)};
+    }
+    void releaseGl() override {
+        for (GbmTarget& target : targets_)
+            target.release();
     }
     [[nodiscard]] ScreenPicture last() const override {
         const KeptTarget kept;

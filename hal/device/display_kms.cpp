@@ -121,7 +121,7 @@ void KmsScreen::startOutput(const Picture& picture) {
     properties_ = {DrmProperties(fd, output_->connector, DRM_MODE_OBJECT_CONNECTOR),
                    DrmProperties(fd, output_->crtc, DRM_MODE_OBJECT_CRTC),
                    DrmProperties(fd, output_->plane, DRM_MODE_OBJECT_PLANE)};
-    saved_.reset(drmModeGetCrtc(fd, output_->crtc));
+    if (!left_) saved_.reset(drmModeGetCrtc(fd, output_->crtc));
     std::string faults;
     for (const ScanoutMethod method :
          {ScanoutMethod::GbmFenced, ScanoutMethod::Gbm, ScanoutMethod::Dumb}) {
@@ -133,6 +133,7 @@ void KmsScreen::startOutput(const Picture& picture) {
             buffers_->begin(picture);
             commit(buffers_->complete(), Commit::ModeSet);
             method_ = method;
+            left_.reset();
             return;
         } catch (const std::runtime_error& error) {
             buffers_.reset();
@@ -189,10 +190,16 @@ void KmsScreen::waitForLastFlip() {
         fmt::format("{}, {}: shows no new picture", card_->path(), output_->connectorName));
 }
 
+void KmsScreen::releaseGl() {
+    if (!buffers_) return;
+    buffers_->releaseGl();
+    left_ = std::move(buffers_);
+}
+
 // The console's picture is set before our buffers go: a buffer that goes while shown turns the
 // screen off. It may have no picture to come back to, and a lost device takes no orders.
 void KmsScreen::leaveOutput() {
-    if (buffers_ && output_) {
+    if ((buffers_ || left_) && output_) {
         try {
             waitForLastFlip();
         } catch (const std::runtime_error&) {
@@ -203,6 +210,7 @@ void KmsScreen::leaveOutput() {
                            &output_->connector, 1, &saved_->mode);
     }
     buffers_.reset();
+    left_.reset();
     saved_.reset();
     output_.reset();
     flipPending_ = false;

@@ -20,6 +20,7 @@ public:
     Presence look(bool thorough) override;
     [[nodiscard]] Size size() const override;
     void show(const Picture& picture) override;
+    void releaseGl() override;
     void close() override;
     [[nodiscard]] std::string status() const override;
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override;
@@ -46,6 +47,7 @@ private:
     Properties properties_;
     SavedCrtc saved_;
     std::unique_ptr<ScanoutBuffers> buffers_;
+    std::unique_ptr<ScanoutBuffers> left_;  ///< shown until buffers_ are
     ScanoutMethod method_ = ScanoutMethod::Dumb;
     bool flipPending_ = false;
 };

@@ -94,7 +94,15 @@ KeptTarget::~KeptTarget() {
 }
 
 ScreenScaler::~ScreenScaler() {
+    releaseGl();
+}
+
+void ScreenScaler::releaseGl() {
+    copy_.reset();
+    scale_.reset();
     if (sampler_ != 0) glDeleteSamplers(1, &sampler_);
+    sampler_ = 0;
+    upload_ = {};
 }
 
 gpu::Program& ScreenScaler::programFor(int pairs) {
@@ -182,7 +190,7 @@ ImageView ScreenReader::map() {
     glBindBuffer(GL_PIXEL_PACK_BUFFER, target_->packBuffer);
     const void* pixels =
         glMapBufferRange(GL_PIXEL_PACK_BUFFER, 0, bytesOf(screen_), GL_MAP_READ_BIT);
-    if (pixels == nullptr) throw std::runtime_error("the picture for the screen cannot be read");
+    if (pixels == nullptr) throw gpu::GlError("the picture for the screen cannot be read");
     return {static_cast<const std::uint8_t*>(pixels), screen_,
             static_cast<std::size_t>(screen_.width) * 4, PixelFormat::Bgra8};
 }

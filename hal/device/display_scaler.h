@@ -41,6 +41,8 @@ public:
     /// Fills `framebuffer` (row 0 = top row), of `screen` pixels, and leaves it bound. Throws
     /// std::runtime_error for a picture without pixels.
     void draw(const Picture& picture, GLuint framebuffer, Size screen, Order order);
+    /// See Display::releaseGl().
+    void releaseGl();
     /// Compiles what a screen of 1280x720 to 1920x1080 will most likely need, unless something has
     /// been compiled already, so that its first picture does not wait for it.
     void warmUp(const GlImage& picture);
@@ -84,6 +86,8 @@ public:
         take(map());
         unmap();
     }
+    /// See Display::releaseGl(). There is no last picture then, unless it is on the host.
+    void releaseGl() { target_.reset(); }
     /// A copy of the last picture begun, alpha 255.
     [[nodiscard]] ScreenPicture last() const;
 

@@ -28,6 +28,8 @@ public:
     /// Shows a picture, at the pace of the screen. Only after look() said Ready.
     /// Throws std::runtime_error when the screen is lost; close() it then.
     virtual void show(const Picture& picture) = 0;
+    /// See Display::releaseGl(). What the screen shows stays there.
+    virtual void releaseGl() = 0;
     /// Gives the device back as it was found. Idempotent.
     virtual void close() = 0;
     /// "kms:card0,HDMI-A-1,1280x720@60 ..." while ready, otherwise what is missing.

@@ -1,5 +1,6 @@
 #include "hal/device/egl_plane_importer.h"
 
+#include "base/gl/gl.h"
 #include "hal/device/egl_extensions.h"
 
 #include <EGL/eglext.h>
@@ -57,8 +58,7 @@ public:
             create_(display_, EGL_NO_CONTEXT, EGL_LINUX_DMA_BUF_EXT, nullptr, attributes.data());
         if (image == EGL_NO_IMAGE_KHR)
             throw std::runtime_error("the GPU's driver does not import the camera's memory");
-        while (glGetError() != GL_NO_ERROR) {
-        }
+        (void)gpu::takeError();
         GLuint texture = 0;
         glGenTextures(1, &texture);
         glBindTexture(GL_TEXTURE_2D, texture);

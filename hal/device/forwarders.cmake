@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # cmake -DHEADER=/usr/include/GLES3/gl31.h -DINCLUDE=GLES3/gl31.h -DMACRO=GL_APICALL -DNAME=Gles
-#       -DOUT=file.cpp -P forwarders.cmake
+#       -DOUT=file.cpp [-DVISIBILITY=default] -P forwarders.cmake
 # Writes C++ that defines every function which a Khronos header declares, each a jump to where a
 # table says, and connectNAME(), which fills the table. The header is the one that is compiled
 # against, of this machine or of a sysroot: Khronos makes it from a registry, one prototype a line:
@@ -48,9 +48,11 @@ if(functions STREQUAL "")
     message(FATAL_ERROR "${HEADER}: no prototypes that begin with ${MACRO}")
 endif()
 
+if(NOT VISIBILITY)
+    set(VISIBILITY hidden) # for this program alone: libraries that are loaded later use their own
+endif()
 file(WRITE "${OUT}" "// Made by forwarders.cmake. NOLINTBEGIN
-// For this program alone: libraries that are loaded later use their own.
-#define ${MACRO} __attribute__((visibility(\"hidden\")))
+#define ${MACRO} __attribute__((visibility(\"${VISIBILITY}\")))
 #include <${INCLUDE}>
 
 #include \"hal/device/gl_libraries.h\"

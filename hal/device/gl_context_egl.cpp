@@ -1,3 +1,5 @@
+#include "base/gl/gl.h"
+
 #include "hal/device/egl_extensions.h"
 #include "hal/device/egl_plane_importer.h"
 #include "hal/device/gl_libraries.h"
@@ -35,10 +37,12 @@ struct OpenedDisplay {
 };
 
 // Of GL_KHR_robustness, which GL_EXT_robustness shares.
-constexpr GLenum kContextLost = 0x0507, kGuiltyReset = 0x8253, kInnocentReset = 0x8254;
+constexpr GLenum kGuiltyReset = 0x8253, kInnocentReset = 0x8254;
 using ResetStatus = GLenum(GL_APIENTRYP)();
 
-ResetStatus resetStatusOf(const char* glExtensions) {
+ResetStatus resetStatusOf(std::string_view version, const char* glExtensions) {
+    if (version.starts_with("OpenGL ES 3.2"))
+        return eglProc<ResetStatus>("glGetGraphicsResetStatus");
     if (hasExtension(glExtensions, "GL_KHR_robustness"))
         return eglProc<ResetStatus>("glGetGraphicsResetStatusKHR");
     if (hasExtension(glExtensions, "GL_EXT_robustness"))
@@ -46,23 +50,32 @@ ResetStatus resetStatusOf(const char* glExtensions) {
     return nullptr;
 }
 
-// One that is told of resets, where the driver knows such.
+// As of boards whose GPU is older than OpenGL ES 3.1: lima, vc4, etnaviv.
+std::string tooOld(EGLDisplay display) {
+    const char* name = nullptr;
+    if (hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_MESA_query_driver"))
+        if (const auto ask = eglProc<const char* (*)(EGLDisplay)>("eglGetDisplayDriverName"))
+            name = ask(display);
+    return "EGL: the GPU's driver" + (name != nullptr ? " " + std::string(name) : "") +
+           " has no OpenGL ES 3.1; use the SIMD engine (engine.use = \"simd\")";
+}
+
+// One that is told of resets, where the driver knows such. For OpenGL ES the extension's attribute
+// is older than that of EGL 1.5, and some drivers know one of them alone.
 EGLContext createContext(EGLDisplay display, EGLConfig config) {
-    const std::array<EGLint, 7> robust{EGL_CONTEXT_MAJOR_VERSION,
-                                       3,
-                                       EGL_CONTEXT_MINOR_VERSION,
-                                       1,
-                                       EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
-                                       EGL_LOSE_CONTEXT_ON_RESET_EXT,
-                                       EGL_NONE};
-    const std::array<EGLint, 5> plain{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1,
-                                      EGL_NONE};
+    const auto create = [&](EGLint attribute, EGLint value) {
+        const std::array<EGLint, 7> wanted{
+            EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 1, attribute, value, EGL_NONE};
+        return eglCreateContext(display, config, EGL_NO_CONTEXT, wanted.data());
+    };
     EGLContext context = EGL_NO_CONTEXT;
     if (hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_EXT_create_context_robustness"))
-        context = eglCreateContext(display, config, EGL_NO_CONTEXT, robust.data());
-    if (context == EGL_NO_CONTEXT)
-        context = eglCreateContext(display, config, EGL_NO_CONTEXT, plain.data());
-    return context;
+        context = create(EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT,
+                         EGL_LOSE_CONTEXT_ON_RESET_EXT);
+    const char* version = eglQueryString(display, EGL_VERSION);
+    if (context == EGL_NO_CONTEXT && version != nullptr && std::string_view(version) >= "1.5")
+        context = create(EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET);
+    return context != EGL_NO_CONTEXT ? context : create(EGL_NONE, EGL_NONE);
 }
 
 // A device without EGL_MESA_device_software is a GPU; the surfaceless platform is the software
@@ -100,22 +113,23 @@ OpenedDisplay openDisplay(bool software) {
 
 // EGL displays are shared by all contexts of the process and are never terminated: a context may
 // be created while another thread still uses the display.
-OpenedDisplay sharedDisplay() {
+OpenedDisplay sharedDisplay(GlDevice device) {
     static std::mutex mutex;
-    static OpenedDisplay opened{EGL_NO_DISPLAY, ""};
+    static std::array<OpenedDisplay, 2> all{{{EGL_NO_DISPLAY, ""}, {EGL_NO_DISPLAY, ""}}};
     const std::lock_guard lock(mutex);
-    if (opened.display == EGL_NO_DISPLAY) {
-        loadGlLibraries();
-        const char* wanted = std::getenv("MFAR_GL_DEVICE");
-        opened = openDisplay(wanted != nullptr && std::strcmp(wanted, "software") == 0);
-    }
+    [[maybe_unused]] static const bool areLoaded = (loadGlLibraries(), true);
+    const char* wanted = std::getenv("MFAR_GL_DEVICE");
+    const bool software =
+        device == GlDevice::Software || (wanted != nullptr && std::strcmp(wanted, "software") == 0);
+    OpenedDisplay& opened = all[software ? 1 : 0];
+    if (opened.display == EGL_NO_DISPLAY) opened = openDisplay(software);
     return opened;
 }
 
 class EglContext final : public GlContext {
 public:
-    EglContext() {
-        const OpenedDisplay opened = sharedDisplay();
+    explicit EglContext(GlDevice device) {
+        const OpenedDisplay opened = sharedDisplay(device);
         display_ = opened.display;
         eglBindAPI(EGL_OPENGL_ES_API);
         const std::array<EGLint, 7> configWanted{EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE,
@@ -124,12 +138,11 @@ public:
         EGLint count = 0;
         if (eglChooseConfig(display_, configWanted.data(), &config, 1, &count) != EGL_TRUE ||
             count == 0)
-            throw std::runtime_error("EGL: no configuration renders OpenGL ES 3");
+            throw std::runtime_error(tooOld(display_));
         context_ = createContext(display_, config);
-        if (context_ == EGL_NO_CONTEXT)
-            throw std::runtime_error("EGL: this driver offers no OpenGL ES 3.1 context");
+        if (context_ == EGL_NO_CONTEXT) throw std::runtime_error(tooOld(display_));
         makeCurrent();
-        resetStatus_ = resetStatusOf(text(GL_EXTENSIONS).c_str());
+        resetStatus_ = resetStatusOf(text(GL_VERSION), text(GL_EXTENSIONS).c_str());
         const std::string renderer = text(GL_RENDERER);
         software_ = renderer.find("llvmpipe") != renderer.npos ||
                     renderer.find("softpipe") != renderer.npos;
@@ -157,12 +170,14 @@ public:
     }
     Proc getProcAddress(const char* name) const override { return eglGetProcAddress(name); }
     PlaneImporter* planeImporter() override { return importer_.get(); }
-    std::optional<std::string> lost() override {
+    std::optional<std::string> takeFault() override {
         const GLenum status = resetStatus_ != nullptr ? resetStatus_() : GL_NO_ERROR;
         if (status == kGuiltyReset) return "the GPU was reset, as work of this program hung";
         if (status == kInnocentReset) return "the GPU was reset, as work of another program hung";
         if (status != GL_NO_ERROR) return "the GPU was reset";
-        if (glGetError() == kContextLost) return "the context of OpenGL ES is lost";
+        const GLenum error = gpu::takeError();
+        if (error == gpu::kContextLost) return "the context of OpenGL ES is lost";
+        if (error != GL_NO_ERROR) return "OpenGL ES reports error " + gpu::errorCode(error);
         return std::nullopt;
     }
     bool isSoftware() const override { return software_; }
@@ -180,8 +195,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<GlContext> createGlContext() {
-    return std::make_unique<EglContext>();
+std::unique_ptr<GlContext> createGlContext(GlDevice device) {
+    return std::make_unique<EglContext>(device);
 }
 
 }  // namespace mfar

@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-RequestCycle::RequestCycle(RequestDriver& driver, const RestartLimits& limits)
-    : driver_(driver), limits_(limits) {}
+RequestCycle::RequestCycle(RequestDriver& driver, const RestartLimits& limits, Clock clock)
+    : driver_(driver), limits_(limits), clock_(std::move(clock)) {}
 
 void RequestCycle::add() {
     const std::lock_guard lock(mutex_);
@@ -53,9 +53,8 @@ void RequestCycle::begin() {
     const std::lock_guard lock(mutex_);
     running_ = true;
     restartAt_.reset();
-    begun_ = Timestamp::now();
-    for (std::size_t i = 0; i < requests_.size(); ++i)
-        if (requests_[i] == State::Idle) queue(i);
+    begun_ = clock_();
+    queueIdle();
 }
 
 /// With the life cycle held.
@@ -87,6 +86,12 @@ void RequestCycle::queue(std::size_t request) {
     loseLocked(fmt::format("{} takes no more requests (error {})", name_, -error));
 }
 
+/// With the mutex held.
+void RequestCycle::queueIdle() {
+    for (std::size_t i = 0; i < requests_.size() && lost_.empty(); ++i)
+        if (requests_[i] == State::Idle) queue(i);
+}
+
 void RequestCycle::loseLocked(const std::string& why) {
     if (lost_.empty()) lost_ = why;
     changed_.notify_all();
@@ -110,11 +115,13 @@ void RequestCycle::completed(std::size_t request, const Judge& judge) {
     requests_[request] = State::Idle;
     changed_.notify_all();
     if (!running_) return;
-    const std::optional<Done> done = judge();
-    if (!done) return queue(request);
-    requests_[request] = State::Ready;
-    ready_.push_back(*done);
-    ++delivered_;
+    if (const std::optional<Done> done = judge()) {
+        requests_[request] = State::Ready;
+        ready_.push_back(*done);
+        ++delivered_;
+    }
+    // The stream runs: it can have those back that were cancelled singly.
+    queueIdle();
 }
 
 void RequestCycle::cancelled(std::size_t request) {
@@ -128,7 +135,7 @@ void RequestCycle::cancelled(std::size_t request) {
 /// With the mutex held. What users give back until the restart is given back unfilled as well.
 void RequestCycle::planRestart() {
     if (restartAt_) return;
-    const Timestamp now = Timestamp::now();
+    const Timestamp now = clock_();
     earlyEnds_ = now - begun_ < limits_.early ? earlyEnds_ + 1 : 0;
     if (earlyEnds_ >= limits_.most)
         return loseLocked(fmt::format("{} gives its requests back unfilled, {} times in a row",
@@ -138,10 +145,10 @@ void RequestCycle::planRestart() {
 }
 
 std::optional<RequestCycle::Done> RequestCycle::next(std::chrono::milliseconds timeout) {
-    const Timestamp end = Timestamp::now() + timeout;
+    const Timestamp end = clock_() + timeout;
     std::unique_lock lock(mutex_);
     while (running_ && lost_.empty() && ready_.empty()) {
-        const Timestamp now = Timestamp::now();
+        const Timestamp now = clock_();
         if (restartAt_ && now >= *restartAt_) {
             lock.unlock();
             restart();

@@ -54,8 +54,11 @@ public:
     /// Looks at a completed request; nothing: its picture is not to be used.
     using Judge = std::function<std::optional<Done>()>;
 
+    using Clock = std::function<Timestamp()>;
+
     /// `driver` must outlive this.
-    explicit RequestCycle(RequestDriver& driver, const RestartLimits& limits = {});
+    explicit RequestCycle(RequestDriver& driver, const RestartLimits& limits = {},
+                          Clock clock = &Timestamp::now);
 
     /// One more request, before the start. Its number is the count of those before.
     void add();
@@ -92,6 +95,7 @@ private:
 
     [[nodiscard]] bool anyQueued() const;
     void queue(std::size_t request);
+    void queueIdle();
     void loseLocked(const std::string& why);
     void planRestart();
     void begin();
@@ -100,6 +104,7 @@ private:
 
     RequestDriver& driver_;
     const RestartLimits limits_;
+    const Clock clock_;
     std::string name_ = "camera";
     std::mutex lifecycle_;  ///< one start() or stop() at a time; taken before the other
     mutable std::mutex mutex_;

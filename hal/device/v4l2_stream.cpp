@@ -154,6 +154,8 @@ void V4l2Stream::close() noexcept {
     none.memory = V4L2_MEMORY_MMAP;
     static_cast<void>(device_->tryCall(VIDIOC_REQBUFS, &none));
     device_.reset();
+    const std::scoped_lock returnedLock(returnedMutex_);
+    wake_ = OwnedFd();
 }
 
 std::optional<V4l2Filled> V4l2Stream::take() {
@@ -185,7 +187,7 @@ void V4l2Stream::giveBack(int index) noexcept {
     const std::scoped_lock lock(returnedMutex_);
     returned_.push_back(index);
     constexpr std::uint64_t kOne = 1;
-    static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
+    if (wake_.get() >= 0) static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
 }
 
 std::vector<int> V4l2Stream::takeReturned() noexcept {

@@ -52,7 +52,8 @@ public:
     void giveBack(int index) noexcept;
     /// Hands the buffers that were given back to the driver.
     void takeBack() noexcept;
-    /// Readable as long as buffers were given back and not handed to the driver, for poll().
+    /// Readable as long as buffers were given back and not handed to the driver, for poll(). Not
+    /// after close().
     [[nodiscard]] int givenBack() const { return wake_.get(); }
 
     /// How many there are.
@@ -93,7 +94,7 @@ private:
 
     std::mutex returnedMutex_;  ///< of what follows; never held during a call of the driver
     std::vector<int> returned_;
-    OwnedFd wake_;  ///< eventfd
+    OwnedFd wake_;  ///< eventfd; none after close()
 };
 
 }  // namespace mfar

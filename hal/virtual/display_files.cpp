@@ -58,6 +58,9 @@ public:
         if (!slot) return;
         auto loan = std::make_shared<Frame>(pool_->lend(*slot, time));
         copyPicture(picture, slot->data, slot->stride);
+        // A lost context leaves the pixels as they were.
+        if (!picture.isOnHost() && gpu::takeError() != GL_NO_ERROR)
+            throw gpu::GlError("the picture cannot be read back from GL");
         {
             const std::lock_guard lock(mutex_);
             waiting_.push_back(std::move(loan));

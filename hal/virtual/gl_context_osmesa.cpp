@@ -1,3 +1,4 @@
+#include "base/gl/gl.h"
 #include "hal/gl_context.h"
 
 #include <GL/osmesa.h>
@@ -46,6 +47,11 @@ public:
     Proc getProcAddress(const char* name) const override {
         return reinterpret_cast<Proc>(OSMesaGetProcAddress(name));
     }
+    std::optional<std::string> takeFault() override {
+        const GLenum error = gpu::takeError();
+        if (error == GL_NO_ERROR) return std::nullopt;
+        return "OpenGL reports error " + gpu::errorCode(error);
+    }
     bool isSoftware() const override { return true; }
     std::string description() const override { return description_; }
 
@@ -58,7 +64,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<GlContext> createGlContext() {
+std::unique_ptr<GlContext> createGlContext(GlDevice /*software*/) {
     return std::make_unique<OsMesaContext>();
 }
 

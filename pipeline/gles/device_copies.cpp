@@ -83,6 +83,7 @@ void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
         glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(pitch / layout.bytes));
         glReadPixels(0, 0, width, height, layout.channels, layout.type, data);
         glPixelStorei(GL_PACK_ROW_LENGTH, 0);
+        gpu::checkErrors("TextureCopy");  // a lost context leaves the values as they were
         return;
     }
     const auto row = [&](int y) { return static_cast<std::byte*>(data) + y * pitch; };

@@ -7,11 +7,19 @@
 
 #include <fstream>
 #include <gmock/gmock.h>
+#include <ostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace mfar {
+namespace range {
+
+std::ostream& operator<<(std::ostream& out, const ConfigRange& range) {
+    return out << fmt::format("[{}] {}", range.section, range.name);
+}
+
+}  // namespace range
 namespace {
 
 using range::ConfigRange;

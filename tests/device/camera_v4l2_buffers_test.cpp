@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <system_error>
+
 #include <cstdint>
+#include <filesystem>
 #include <future>
 #include <string>
 #include <thread>
@@ -134,6 +137,31 @@ TEST(CameraV4l2Buffers, EnoughBuffersAreLentWithoutACopy) {
     const auto held = camera.next(1s);
     EXPECT_FALSE(camera.next(0ms).has_value());
     EXPECT_EQ(fake.queued(), 3);
+}
+
+/// Event descriptors of this process.
+int eventDescriptors() {
+    int out = 0;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code error;  // the folder's own is closed by now
+        out += std::filesystem::read_symlink(entry.path(), error) == "anon_inode:[eventfd]" ? 1 : 0;
+    }
+    return out;
+}
+
+TEST(CameraV4l2Buffers, AFrameOfAClosedCameraHoldsItsMemoryAlone) {
+    const int before = eventDescriptors();
+    FakeV4l2 fake;
+    std::optional<Frame> held;
+    {
+        CameraV4l2 camera(fourBuffers(), fake);
+        camera.start();
+        fake.deliver();
+        held = camera.next(1s);
+        EXPECT_GT(eventDescriptors(), before);
+    }
+    ASSERT_TRUE(held.has_value());
+    EXPECT_EQ(eventDescriptors(), before);
 }
 
 TEST(CameraV4l2Buffers, FramesOutliveTheCameraAndDoNotBlockTheNextOne) {

@@ -17,7 +17,7 @@ struct Device {
     Presence presence = Presence::Absent;
     bool refuses = false;        // show() throws
     int refusesAfter = 1000000;  // pictures
-    int shown = 0, looks = 0, thoroughLooks = 0;
+    int shown = 0, looks = 0, thoroughLooks = 0, released = 0;
     bool held = false;
     Size size{640, 400};
 };
@@ -39,6 +39,7 @@ public:
             throw std::runtime_error(name_ + " is broken");
         ++device_.shown;
     }
+    void releaseGl() override { ++device_.released; }
     void close() override { device_.held = false; }
     [[nodiscard]] std::string status() const override {
         return name_ + (device_.held ? " held" : " missing");
@@ -216,6 +217,17 @@ TEST_F(AutoDisplay, TriesTheFirstAgainWhenThereIsNoNext) {
     EXPECT_THAT(display_->name(), HasSubstr("kms is broken"));
     kms_.refuses = false;
     EXPECT_GE(run(kSecond), 8);
+}
+
+TEST_F(AutoDisplay, ReleasesTheContextAndKeepsTheScreen) {
+    kms_.presence = Screen::Presence::Ready;
+    EXPECT_GT(run(std::chrono::seconds(1)), 0);
+    display_->releaseGl();
+    EXPECT_EQ(kms_.released, 1);
+    EXPECT_TRUE(kms_.held);
+    const int before = kms_.shown;
+    display_->showAgain({}, now_);
+    EXPECT_EQ(kms_.shown, before + 1) << "the screen's buffers are others now";
 }
 
 TEST_F(AutoDisplay, OpensNothingWhenTheDevicesDoNotExist) {

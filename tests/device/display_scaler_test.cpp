@@ -145,6 +145,22 @@ TEST_F(DisplayScaler, WarmUpChangesNothingThatIsShown) {
     EXPECT_NO_THROW(scaler.warmUp({})) << "there is no picture yet";
 }
 
+TEST_F(DisplayScaler, DrawsOnAnotherContextOnceTheFirstIsReleased) {
+    const auto colour = [](int x, int y) { return Colour{9 * x, 7 * y, 40}; };
+    constexpr Size kPicture{24, 18}, kScreen{10, 8};
+    ScreenScaler scaler;
+    const std::vector<Colour> before = shown(scaler, picture(kPicture, colour), kScreen);
+    scaler.releaseGl();
+    EXPECT_NO_THROW(gpu::checkErrors("releaseGl"));
+    {
+        const std::unique_ptr<GlContext> other = createGlContext();
+        EXPECT_EQ(shown(scaler, picture(kPicture, colour), kScreen), before);
+        EXPECT_EQ(other->takeFault(), std::nullopt);
+        scaler.releaseGl();
+    }
+    context().makeCurrent();
+}
+
 TEST_F(DisplayScaler, KeptTargetGivesTheCallersTargetBack) {
     const gpu::Texture target({31, 17}, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer framebuffer(target);

@@ -79,6 +79,7 @@ public:
     Presence look(bool /*thorough*/) override { return Presence::Ready; }
     [[nodiscard]] Size size() const override { return {64, 48}; }
     void show(const Picture& picture) override { shown_ += picture.isOnHost() ? 1 : 0; }
+    void releaseGl() override {}
     void close() override {}
     [[nodiscard]] std::string status() const override { return "cpu"; }
     [[nodiscard]] std::optional<ScreenPicture> lastShown() const override { return std::nullopt; }

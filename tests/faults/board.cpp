@@ -120,7 +120,7 @@ void Board::setUp(const Plan& plan) {
         configuration_.insert(configuration_.find(kRecord) + kRecord.size(),
                               fmt::format("directory = \"{}start\"\n", kRecording));
     static_cast<void>(std::filesystem::create_directories("cameras"));
-    for (const Where device : {Where::Video, Where::Still, Where::Line})
+    for (const Where device : {Where::Video, Where::Still, Where::Line, Where::Gpu})
         writeDevice(device);
     replace("mfard.toml", fmt::format("{}mode = \"{}\"\n", configuration_, plan.mode));
     if (mkfifo(kPipe, 0600) != 0 && errno != EEXIST)
@@ -133,8 +133,11 @@ void Board::writeDevice(Where which) const {
     if (which == Where::Still && hasTrigger_) text += "triggered ";
     for (const Fault* fault : active_)
         if (fault->kind->where == which) text += words(*fault) + " ";
-    const char* file = which == Where::Video ? "video90" : "video91";
-    replace(std::string("cameras/") + (which == Where::Line ? "gpiochip0" : file), text);
+    const char* file = which == Where::Video   ? "cameras/video90"
+                       : which == Where::Still ? "cameras/video91"
+                       : which == Where::Line  ? "cameras/gpiochip0"
+                                               : kGpu;
+    replace(file, text);
 }
 
 bool Board::lineRests() const {
@@ -157,6 +160,7 @@ void Board::disturb(const Fault& fault, int by) {
     switch (fault.kind->where) {
     case Where::Video:
     case Where::Still:
+    case Where::Gpu:
     case Where::Line: return writeDevice(fault.kind->where);
     case Where::Reader: readerStalls_ += by; return;
     case Where::Clients:

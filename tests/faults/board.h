@@ -31,12 +31,12 @@ public:
 
     static constexpr const char* kPipe = "screen.y4m";
     static constexpr const char* kSocket = "control";
-    static constexpr int kGain = 100;                   ///< of both cameras, as configured
+    static constexpr const char* kGpu = "gpu";  ///< what is wrong with it, see faulty_gl.cpp
+    static constexpr int kGain = 100;           ///< of both cameras, as configured
     static constexpr const char* kRecording = "disk-";  ///< and what follows
 
 private:
     void writeDevice(Where which) const;
-    void plug(const Fault& fault, bool broken);
     void disturb(const Fault& fault, int by);
     void changeConfiguration(const Fault& fault);
     void limitDescriptors(int free);

@@ -3,6 +3,7 @@
 #include "tests/faults/board.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 #include <dlfcn.h>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <utility>
 
@@ -24,6 +26,7 @@ using nlohmann::ordered_json;
 // What the product promises, see daemon/budgets.h and the service's unit.
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
+constexpr Ns kPicture = 2000 * kMs;
 constexpr Ns kRepeats = 200 * kMs;  ///< some pictures
 constexpr Ns kLookTime = kSecond;   ///< how often mfard looks at its threads
 constexpr Ns kSameLine = 10 * kSecond;
@@ -44,6 +47,16 @@ Ns now() {
 std::uint64_t entries(const char* folder) {
     return static_cast<std::uint64_t>(
         std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+/// What each descriptor is open on.
+std::multiset<std::string> openFiles() {
+    std::multiset<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+        std::error_code error;  // the folder's own is closed by now
+        out.insert(std::filesystem::read_symlink(entry.path(), error).string());
+    }
+    return out;
 }
 
 std::uint64_t residentBytes() {
@@ -95,6 +108,9 @@ void Judge::change(const Fault& fault, int by) {
     touch(Still, kind.where == Where::Still && stops);
     touch(Screen, kind.effect == Effect::StopsReader);
     touch(Slow, kind.effect == Effect::Slows);
+    touch(Gpu, kind.where == Where::Gpu);
+    hadGpuFaults_ = hadGpuFaults_ || kind.where == Where::Gpu;
+    touch(Drawing, kind.effect == Effect::HangsGpu);
     touch(VideoDevice, kind.where == Where::Video && stops && kind.effect != Effect::Repeats);
 }
 
@@ -132,6 +148,14 @@ Ns Judge::missing(Ns at) const {
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
+/// For how long the GPU has finished no picture, because of its fault. Those that come first have
+/// more time, nothing is drawn without a camera, and a GPU that was given up draws nothing.
+Ns Judge::unfinished(Watched gpu, Ns at) const {
+    if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
+    if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
+    return std::min(age(at), at - std::max(calm_[gpu].since, calm_[Video].since));
+}
+
 void Judge::status(const ordered_json& said, Ns asked) {
     ++asked_;
     if (now() - asked > kAnswer && calm_[Slow].lasts(kBack, now()))
@@ -142,7 +166,9 @@ void Judge::status(const ordered_json& said, Ns asked) {
 }
 
 void Judge::judgeState(const ordered_json& said, Ns asked) {
-    const std::string state = textOf(said.value("health", ordered_json::object()), "state");
+    const ordered_json health = said.value("health", ordered_json::object());
+    const std::string state = textOf(health, "state"), cause = textOf(health, "cause");
+    isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the processor draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
     // A pipe that is not read takes some pictures, and then one for as long as a writer may need.
@@ -153,11 +179,17 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
     if (age(asked) > kStale + kSlack && isFine && isKnown)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
-    if (missing(asked) > kMarked + kSlack && isFine)
+    // Cameras are looked at between pictures.
+    if (missing(asked) > kMarked + kSlack && isFine && calm_[Drawing].lasts(kMarked, asked))
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
              ", status says ok");
+    if (unfinished(Gpu, asked) > kPicture + kSlack && isFine)
+        fail("the GPU has finished no picture for " + seconds(unfinished(Gpu, asked)) +
+             ", status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
-    if (!isFine)
+    // A GPU that has failed is named for a minute, or for ever.
+    const bool namesGpu = hadGpuFaults_ && cause.find("the GPU failed") != cause.npos;
+    if (!isFine && !namesGpu)
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
                          seconds(asked - calm_[All].since), state, fault,
                          said.value("health", ordered_json::object()).dump()));
@@ -175,7 +207,8 @@ void Judge::judgeBlame(const std::string& fault, Ns asked) {
         fail("the video camera is blamed: " + fault);
     if (still && fault.find("still camera") != fault.npos)
         fail("the still camera is blamed: " + fault);
-    if (video && calm_[Screen].lasts(kBack, asked) && shown_ && age(asked) > kOnScreen)
+    if (video && calm_[Screen].lasts(kBack, asked) && calm_[Gpu].lasts(kBack, asked) && shown_ &&
+        age(asked) > kOnScreen)
         fail("the video camera is sound, the screen's picture is " + seconds(age(asked)) + " old");
 }
 
@@ -204,7 +237,10 @@ void Judge::fed() {
         fail("nothing is wrong, and the watchdog was not fed for " + seconds(now() - before));
     if (hangs_ && missing(now()) > kVideoBudget + kSlack)
         fail("the watchdog is fed while the video driver hangs for " + seconds(missing(now())));
-    const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now());
+    if (unfinished(Drawing, now()) > kPicture + kSlack)
+        fail("the watchdog is fed while drawing hangs for " + seconds(unfinished(Drawing, now())));
+    const bool isNamed = !calm_[Video].lasts(kBack, now()) || !calm_[Screen].lasts(kBack, now()) ||
+                         !calm_[Gpu].lasts(kBack, now());
     if (age(now()) > kStale + kSlack && !isNamed)
         fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
 }
@@ -282,13 +318,19 @@ void Judge::recording(const std::string& folder) {
 }
 
 bool Judge::holdsNoMore(std::uint64_t moreBytes) {
-    const std::array<std::uint64_t, 3> is{entries("/proc/self/fd"), entries("/proc/self/task"),
-                                          residentBytes()};
+    const Held is{openFiles(), entries("/proc/self/task"), residentBytes()};
     if (!first_) first_ = is;
-    const auto& first = *first_;
-    note(fmt::format("has {} descriptors, {} threads, {} KB; at first {}, {}, {}", is[0], is[1],
-                     is[2] >> 10U, first[0], first[1], first[2] >> 10U));
-    return is[0] <= first[0] && is[1] <= first[1] && is[2] <= first[2] + moreBytes;
+    const Held& first = *first_;
+    note(fmt::format("has {} descriptors, {} threads, {} KB; at first {}, {}, {}", is.files.size(),
+                     is.threads, is.bytes >> 10U, first.files.size(), first.threads,
+                     first.bytes >> 10U));
+    const bool moreFiles = is.files.size() > first.files.size();
+    if (moreFiles) {
+        std::vector<std::string> added;
+        std::ranges::set_difference(is.files, first.files, std::back_inserter(added));
+        note(fmt::format("new descriptors: {}", fmt::join(added, ", ")));
+    }
+    return !moreFiles && is.threads <= first.threads && is.bytes <= first.bytes + moreBytes;
 }
 
 }  // namespace mfar::faults

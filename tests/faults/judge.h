@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,11 +64,12 @@ private:
             return active == 0 && now - since > time;
         }
     };
-    enum Watched { All, Video, VideoDevice, Still, Screen, Slow, WatchedCount };
+    enum Watched { All, Video, VideoDevice, Still, Screen, Slow, Gpu, Drawing, WatchedCount };
 
     Judge();
     [[nodiscard]] Ns age(Ns now) const;
     [[nodiscard]] Ns missing(Ns now) const;
+    [[nodiscard]] Ns unfinished(Watched gpu, Ns now) const;
     void judgeState(const nlohmann::ordered_json& said, Ns asked);
     void judgeBlame(const std::string& fault, Ns asked);
     void fed();
@@ -81,7 +83,12 @@ private:
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;
-    std::optional<std::array<std::uint64_t, 3>> first_;  ///< descriptors, threads, bytes
+    bool hadGpuFaults_ = false, isGpuGivenUp_ = false;
+    struct Held {
+        std::multiset<std::string> files;  ///< what descriptors are open on
+        std::uint64_t threads = 0, bytes = 0;
+    };
+    std::optional<Held> first_;
 };
 
 }  // namespace mfar::faults

@@ -2,60 +2,46 @@
 // breaks.
 #include "tests/faults/plan.h"
 #include "tests/faults/trial.h"
-#include "tests/stability/processes.h"
+#include "tests/stability/seeded_run.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <optional>
+#include <ratio>
 #include <sstream>
 #include <string>
-#include <thread>
 
 namespace {
 
 using namespace mfar::faults;
+using mfar::stress::SeededRun;
 using mfar::stress::Tally;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-    double minutes = 1;
-    std::optional<std::uint64_t> seed;
-    std::uint64_t first = 0;
-    int rounds = 0;
-    int jobs = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
-    bool keepGoing = false, twice = false;
+    SeededRun run;
+    bool twice = false;
     TrialOptions trial;
 };
 
 Options parse(int argc, char** argv) {
     Options o;
     CLI::App app("mfar-faults: mfard under schedules of faults, on a simulated clock");
-    app.add_option("--minutes", o.minutes, "how long new seeds are drawn (default 1)")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--seed", o.seed, "runs the schedule of this seed alone");
-    app.add_option("--first", o.first, "the first seed (default: by the clock)");
-    app.add_option("--rounds", o.rounds, "ends after so many seeds in each process");
+    o.run.addOptions(app);
     app.add_option("--episodes", o.trial.episodes,
                    "of one start of mfard, each with one or two faults (default 10)")
         ->check(CLI::PositiveNumber);
     app.add_option("--only", o.trial.only, "of faults whose names contain this");
+    app.add_flag("--gpu", o.trial.hasGpu, "with OpenGL ES, which may fail, instead of SIMD");
     app.add_option("--soak", o.trial.soakFrames, "no faults; ends after so many pictures");
-    app.add_option("--jobs", o.jobs, "processes, each with seeds of its own (default: one a core)")
-        ->check(CLI::Range(1, 1024));
-    app.add_flag("--keep-going", o.keepGoing, "goes on after a failure");
     app.add_flag("--twice", o.twice, "runs each seed twice, and compares");
     app.add_option("--mfard", o.trial.program, "the program")->check(CLI::ExistingFile);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        std::exit(app.exit(error) == 0 ? 0 : 2);
-    }
+    mfar::stress::parseOrExit(app, argc, argv);
+    if (o.trial.soakFrames > 0 && !o.run.seed) o.run.seed = 1;
     return o;
 }
 
@@ -99,26 +85,10 @@ Tally drawSeeds(const Options& o, std::uint64_t seed) {
         }
         sum.failures += failed ? 1 : 0;
         std::fflush(stdout);
-        const std::chrono::duration<double> spent = Clock::now() - begin;
-        more = !o.seed && o.trial.soakFrames == 0 && (!failed || o.keepGoing) &&
-               spent.count() < 60 * o.minutes && (o.rounds == 0 || sum.seeds < o.rounds);
+        const std::chrono::duration<double, std::ratio<60>> spent = Clock::now() - begin;
+        more = o.run.goesOn(sum.seeds, spent.count(), sum.failures);
     }
     return sum;
-}
-
-Tally runAll(const Options& o) {
-    constexpr std::uint64_t kNextJob = 1000000000000;
-    if (o.seed || o.trial.soakFrames > 0) return drawSeeds(o, o.seed.value_or(1));
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    const std::uint64_t first =
-        o.first != 0 ? o.first
-                     : static_cast<std::uint64_t>(
-                           std::chrono::duration_cast<std::chrono::seconds>(now).count());
-    return mfar::stress::inProcesses(o.jobs, o.keepGoing, [&](int job) {
-        Options own = o;
-        own.trial.job = job;
-        return drawSeeds(own, first + static_cast<std::uint64_t>(job) * kNextJob);
-    });
 }
 
 }  // namespace
@@ -126,9 +96,13 @@ Tally runAll(const Options& o) {
 int main(int argc, char** argv) {
     const Options o = parse(argc, argv);
     try {
-        static_cast<void>(Plan::drawn(1, 1, o.trial.only));
+        static_cast<void>(Plan::drawn(1, 1, o.trial.only, o.trial.hasGpu));
         const auto begin = Clock::now();
-        const Tally tally = runAll(o);
+        const Tally tally = o.run.run([&o](std::uint64_t first, int job) {
+            Options own = o;
+            own.trial.job = job;
+            return drawSeeds(own, first);
+        });
         print(tally, std::chrono::duration<double>(Clock::now() - begin).count());
         return tally.failures == 0 ? 0 : 1;
     } catch (const std::exception& error) {

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <span>
 #include <stdexcept>
 
 namespace mfar::faults {
@@ -62,32 +63,42 @@ constexpr std::array kKinds = {
     Kind{"disk hangs", Disk, None, "", 1, 1},
     Kind{"no descriptors", Descriptors, Slows, "", 0, 3},
     Kind{"slow machine", Machine, Slows, "", 10, 200},
+    // With a GPU alone.
+    Kind{"GPU late", Gpu, StopsGpu, "never"},
+    Kind{"GPU lost", Gpu, None, "lost"},
+    Kind{"GPU hangs", Gpu, HangsGpu, "hang"},
 };
+constexpr std::size_t kOfGpu = 3;
+
+/// Two that overlap end before the watchdog ends mfard.
+constexpr Ns kLongestOfGpu = 3300 * kMs;
 
 /// From the start to READY, where nothing waits: each look at the clock costs half a microsecond.
 constexpr std::uint64_t kStartTime = 40'000;
 
 /// Those by which a picture can stand still come three times as often.
-const Kind& drawnKind(std::mt19937_64& random, std::string_view only) {
+const Kind& drawnKind(std::mt19937_64& random, std::string_view only, bool hasGpu) {
     const auto isMeant = [&](const Kind& kind) { return kind.name.find(only) != only.npos; };
-    if (std::ranges::none_of(kKinds, isMeant))
+    const auto kinds = std::span(kKinds).first(kKinds.size() - (hasGpu ? 0 : kOfGpu));
+    if (std::ranges::none_of(kinds, isMeant))
         throw std::runtime_error(fmt::format("no fault is called '{}'", only));
     for (;;) {
-        const Kind& kind = kKinds[random() % kKinds.size()];
+        const Kind& kind = kinds[random() % kinds.size()];
         if (!isMeant(kind)) continue;
-        const bool canStop = kind.where == Video && kind.effect != None;
+        const bool canStop = (kind.where == Video && kind.effect != None) || kind.where == Gpu;
         if (canStop || random() % 3 == 0) return kind;
     }
 }
 
-Fault drawnFault(std::mt19937_64& random, std::string_view only) {
+Fault drawnFault(std::mt19937_64& random, std::string_view only, bool hasGpu) {
     const auto below = [&](std::uint64_t end) { return random() % end; };
     Fault out;
-    out.kind = &drawnKind(random, only);
+    out.kind = &drawnKind(random, only, hasGpu);
     out.begin = static_cast<Ns>(below(1500)) * kMs;
     // From 30 ms to 10 s, half of them above 1.8 s.
     const double octave = static_cast<double>(std::max(below(1000), below(1000))) / 1000;
     out.length = static_cast<Ns>(30e6 * std::pow(333.0, octave));
+    if (out.kind->where == Gpu) out.length = std::min(out.length, kLongestOfGpu);
     out.number =
         out.kind->least +
         static_cast<int>(below(static_cast<std::uint64_t>(out.kind->most - out.kind->least) + 1));
@@ -95,10 +106,6 @@ Fault drawnFault(std::mt19937_64& random, std::string_view only) {
 }
 
 }  // namespace
-
-std::span<const Kind> kinds() {
-    return kKinds;
-}
 
 std::string Fault::text() const {
     std::string out =
@@ -113,7 +120,7 @@ bool Plan::recordsAtStart() const {
     return beginsBroken && std::ranges::any_of(episodes.front(), isOfDisk);
 }
 
-Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only) {
+Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only, bool hasGpu) {
     std::mt19937_64 random(seed);
     Plan out;
     constexpr std::array<std::string_view, 3> kModes = {"off", "detail", "blend"};
@@ -125,8 +132,8 @@ Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only) {
     out.endsBeforeReady = endsEarly && random() % 2 == 0;
     if (endsEarly) episodes = 1;
     for (int i = 0; i < episodes; ++i) {
-        Episode episode{drawnFault(random, only)};
-        if (random() % 2 == 0) episode.push_back(drawnFault(random, only));
+        Episode episode{drawnFault(random, only, hasGpu)};
+        if (random() % 2 == 0) episode.push_back(drawnFault(random, only, hasGpu));
         out.episodes.push_back(std::move(episode));
     }
     out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;

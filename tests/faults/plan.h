@@ -3,7 +3,6 @@
 #include "tests/faults/scheduler.h"
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +19,8 @@ enum class Where {
     Wall,
     Disk,
     Descriptors,
-    Machine
+    Machine,
+    Gpu
 };
 
 /// What a fault does to what is seen, which the judge goes by.
@@ -30,6 +30,8 @@ enum class Effect {
     HangsDriver,  ///< the same, and a thread of mfard's hangs
     Repeats,      ///< a camera sends one picture for ever
     StopsReader,  ///< the screen takes nothing
+    StopsGpu,     ///< no picture is finished, and that is to be said, of no camera
+    HangsGpu,     ///< the same, and the thread that draws hangs
     Slows,        ///< nothing can be said of times
 };
 
@@ -37,7 +39,7 @@ struct Kind {
     std::string_view name;
     Where where;
     Effect effect;
-    std::string_view words;   ///< of a camera's file; * is a number
+    std::string_view words;   ///< of a camera's file or the GPU's; * is a number
     int least = 0, most = 0;  ///< that number
 };
 
@@ -62,9 +64,8 @@ struct Plan {
     bool isKilled = false;  ///< with SIGKILL instead of SIGTERM; then it is started once more
 
     /// Of the kinds whose names contain `only`. Throws std::runtime_error where there is none.
-    [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes, std::string_view only);
+    [[nodiscard]] static Plan drawn(std::uint64_t seed, int episodes, std::string_view only,
+                                    bool hasGpu);
 };
-
-[[nodiscard]] std::span<const Kind> kinds();
 
 }  // namespace mfar::faults

@@ -1,5 +1,7 @@
 #include "tests/faults/trial.h"
 
+#include "tests/faults/board.h"
+
 #include <fmt/format.h>
 
 #include <fcntl.h>
@@ -71,7 +73,7 @@ constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
     takeProcessor(options.job);
     for (const int fd : {STDOUT_FILENO, STDERR_FILENO})
         dup2(open(fd == STDOUT_FILENO ? "out" : "err", O_WRONLY | O_CREAT | O_TRUNC, 0666), fd);
-    const std::vector<std::pair<const char*, std::string>> environment = {
+    std::vector<std::pair<const char*, std::string>> environment = {
         {"MFAR_FAULTS_SEED", std::to_string(seed)},
         {"MFAR_FAULTS_EPISODES", std::to_string(options.episodes)},
         {"MFAR_FAULTS_ONLY", options.only},
@@ -81,10 +83,15 @@ constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
         {"NOTIFY_SOCKET", "/nowhere"},  // what is sent there is taken over
         {"WATCHDOG_USEC", "10000000"},
         {"LD_PRELOAD", MFAR_FAULTS_BOARD ":" MFAR_FAULTS_CAMERAS}};
+    if (options.hasGpu) {
+        environment.emplace_back("MFAR_FAULTY_GL", Board::kGpu);
+        environment.emplace_back("LD_LIBRARY_PATH", MFAR_FAULTS_GL);
+    }
     for (const auto& [name, value] : environment)
         setenv(name, value.c_str(), 1);
     execl(options.program.c_str(), "mfard", "--config", "mfard.toml", "--display", "y4m:screen.y4m",
-          "--control", "control", "--engine", "simd", "--summary", "summary.json", nullptr);
+          "--control", "control", "--engine", options.hasGpu ? "gles" : "simd", "--summary",
+          "summary.json", nullptr);
     _exit(127);
 }
 
@@ -163,10 +170,11 @@ TrialResult runTrial(const TrialOptions& options, std::uint64_t seed) {
     }
     if (why.empty() && report.find("ENDED with 0") == report.npos) why = "it has not told its end";
     if (why.empty() && std::ranges::none_of(lines, tellsFailure)) return out;
-    const std::string repeat = options.soakFrames > 0
-                                   ? fmt::format("--soak {}", options.soakFrames)
-                                   : fmt::format("--seed {} --episodes {} --only '{}'", seed,
-                                                 options.episodes, options.only);
+    const std::string repeat =
+        options.soakFrames > 0
+            ? fmt::format("--soak {}", options.soakFrames)
+            : fmt::format("--seed {} --episodes {} --only '{}'{}", seed, options.episodes,
+                          options.only, options.hasGpu ? " --gpu" : "");
     out.failure = fmt::format("FAILED seed {}: {}\n{}repeat: ./run stress --faults {}\n", seed,
                               why.empty() ? "a promise is broken" : why, excerpt(lines), repeat);
     if (!why.empty()) out.failure += textOf(folder.path() / "err");

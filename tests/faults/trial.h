@@ -11,6 +11,7 @@ struct TrialOptions {
     std::filesystem::path program = MFAR_FAULTS_MFARD;
     int episodes = 10;
     std::string only;     ///< kinds of faults, by a part of their names
+    bool hasGpu = false;  ///< the engine is gles, and its library can fail as well
     long soakFrames = 0;  ///< no faults, but so many pictures; 0: faults
     int job = 0;          ///< each has a processor of its own, as far as there are
 };

@@ -44,7 +44,7 @@ homeOf() {
     home=''
     case $1 in
     apriltag/* | apriltag.h | tag36h11.h) home='pipeline/track/|tests/' ;;
-    hwy/*) home='pipeline/simd/|tests/engine/simd/' ;;
+    hwy/*) home='pipeline/simd/|tests/engine/simd/|tests/measure/boards/' ;;
     embree*) home='pipeline/render/|tests/' ;;
     EGL/* | libcamera/* | gpiod* | xf86drm* | drm/* | libdrm/* | gbm.h) home='hal/device/|tests/device/' ;;
     GL/osmesa.h) home='hal/virtual/' ;;

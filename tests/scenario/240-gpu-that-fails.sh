@@ -1,55 +1,80 @@
 #!/usr/bin/env bash
-# A GPU that does not finish a picture is named, while control and cameras go on; one that never does
-# and a context that is lost end mfard with 70, so that the service manager starts it again.
+# A GPU that is lost or hangs is named and set up anew while control and cameras go on. One that is
+# lost three times within a minute draws no more: the processor does, and the picture says so. A
+# driver that does not return is named, and holds up no run of some seconds.
 # Usage: 240-gpu-that-fails.sh MFARD MFAR-SIM PRETENDED.so FAULTY-GL-FOLDER
 . "$(dirname "$0")/lib.sh"
 
 pretended=$3
 faulty=$4
 ctl="$(dirname "$sim")/mfarctl"
-status() { timeout 10 "$ctl" --socket control status; }
-status_says() { status | grep -Eq -- "$1"; }
-frames() { [ "$(status | sed -n 's/^frames  *//p')" -gt "$1" ] 2>/dev/null; }
+control() { timeout 10 "$ctl" --socket control "$@"; }
+status_says() { control status | grep -Eq -- "$1"; }
+frames() { [ "$(control status | sed -n 's/^frames  *//p')" -gt "$1" ] 2>/dev/null; }
 # What is wrong with the GPU from now on.
 gpu_says() {
     echo "$1" >gl.new
     mv gl.new gl
 }
+failed_times() { control stats | grep -Eq "\"gpu_failures\": ?$1,"; }
+goes_on() { until_true frames $(($(control status | sed -n 's/^frames  *//p') + 10)); }
 
-pretended_cameras
+pretended_cameras '[status]
+interval_s = 0.2'
 begin() {
     gpu_says ""
     LD_LIBRARY_PATH=$faulty LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras \
-        MFAR_FAULTY_GL=$PWD/gl start --config mfard.toml --engine gles --display none \
+        MFAR_FAULTY_GL=$PWD/gl start --config mfard.toml --display none \
         --control control --summary summary.json "$@"
     until_true frames 12
     status_says '"state":"ok"' || fail "it is not ok"
 }
 
-echo "it is late: named, and all is well when it goes on"
-begin
-gpu_says never
-until_true status_says '"state":"degraded","cause":"the GPU does not finish a picture"'
-gpu_says ""
-until_true status_says '"state":"ok"'
-until_true frames $(($(status | sed -n 's/^frames  *//p') + 10))
+echo "its context is lost"
+begin --engine gles --mode detail
+gpu_says "lost once"
+until_true failed_times 1
+until_true status_says \
+    '"state":"degraded","cause":"the GPU failed and was set up anew \(the context of OpenGL ES is lost\)"'
+goes_on
+until_true says err 'the GPU failed and was set up anew \(.*\): within [0-9]{1,4} ms'
 
-echo "it never finishes"
+echo "it does not finish a picture"
 gpu_says never
-ends_with 70 10000
-says err 'error: the GPU has not finished a picture for [5-9]'
-summary_has exit_code 70
+until_true failed_times 2
+gpu_says ""
+goes_on
+status_says '"cause":"the GPU failed and was set up anew \(the GPU does not finish a picture\)"' ||
+    fail "that is not told"
+status_says '^engine +gles' || fail "it does not draw any more"
+control snapshot before.png
+
+echo "the third time the processor draws"
+gpu_says "lost again"
+until_true status_says '^engine +simd'
+goes_on
+status_says '"state":"degraded","cause":"the GPU failed 3 times within a minute, the processor draws' ||
+    fail "health does not say so"
+status_says '^renderer +without OpenGL ES' || fail "it still has a renderer"
+control snapshot after.png
+! cmp -s before.png after.png || fail "the picture does not say so"
+kill -TERM "$pid"
+ends_with 0 1000
+summary_has gpu_failures 3
+summary_has engine '"simd"'
+
+echo "a context that is lost as soon as it is made"
+begin --engine gles
+gpu_says broken
+until_true status_says '^engine +simd'
+goes_on
+kill -TERM "$pid"
+ends_with 0 1000
 
 echo "a driver that does not return from drawing is named, and holds up no run of some seconds"
-begin --seconds 4
+begin --engine gles --seconds 4
 gpu_says hang
 until_true status_says '"state":"stalled","cause":"the picture thread hangs"'
 ends_with 0 6000
 says err 'the picture thread hangs, ended without it'
 summary_has exit_reason '"--seconds"'
-
-echo "its context is lost"
-begin
-gpu_says lost
-ends_with 70 1500
-says err 'error: the context of OpenGL ES is lost'

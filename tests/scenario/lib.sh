@@ -67,6 +67,13 @@ until_true() {
 # The line with renderer, sensors and display: devices are open and frames come.
 started() { grep -q 'display ' err; }
 
+# Vulkan's validation layer, where one is loaded, writes to standard output.
+no_complaint() {
+    if [ -f out ] && grep -aE 'Validation (Error|Warning|Performance)' out >&2; then
+        fail "Vulkan's validation layer complains"
+    fi
+}
+
 # ends_with EXIT-CODE LIMIT-MS: the background mfard ends with this code, this long from now at most.
 ends_with() {
     local begin code=0 took
@@ -80,6 +87,7 @@ ends_with() {
     wait "$pid" || code=$?
     echo "ended with $code after $took ms"
     [ "$code" = "$1" ] || fail "ended with $code instead of $1"
+    no_complaint
     [ "$took" -le $(($2 * patience)) ] || fail "took $took ms, limit $2 ms times $patience"
 }
 

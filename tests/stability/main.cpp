@@ -2,7 +2,7 @@
 #include "tests/stability/balance.h"
 #include "tests/stability/cases.h"
 #include "tests/stability/precision.h"
-#include "tests/stability/processes.h"
+#include "tests/stability/seeded_run.h"
 #include "tests/stability/watched_shaders.h"
 
 #include <CLI/CLI.hpp>
@@ -13,9 +13,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace {
@@ -25,26 +23,17 @@ using namespace mfar::stress;
 using Clock = std::chrono::steady_clock;
 
 struct Options {
-    double minutes = 1;
-    std::optional<std::uint64_t> seed;
-    std::uint64_t first = 0;
-    int rounds = 0;
+    SeededRun run;
     std::vector<std::string> cases;
     int plant = -1;
     long pixels = 100000000;
-    int jobs = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
-    bool small = false, full = false, keepGoing = false, precision = false, listPlanted = false,
-         listCases = false;
+    bool small = false, full = false, precision = false, listPlanted = false, listCases = false;
 };
 
 Options parse(int argc, char** argv) {
     Options o;
     CLI::App app("mfar-stress: runs every part of the pipeline on hostile input");
-    app.add_option("--minutes", o.minutes, "how long new seeds are drawn (default 1)")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--seed", o.seed, "runs the cases with this seed alone");
-    app.add_option("--first", o.first, "the first seed (default: by the clock)");
-    app.add_option("--rounds", o.rounds, "ends after so many seeds");
+    o.run.addOptions(app);
     app.add_option("--case", o.cases, "these cases alone")->delimiter(',');
     app.add_option("--plant", o.plant, "plants a fault of --list-planted first");
     app.add_flag("--small", o.small, "small pictures alone, as in the tests");
@@ -52,17 +41,10 @@ Options parse(int argc, char** argv) {
     app.add_option("--pixels", o.pixels,
                    "three quarters of the time bring as many through each pass (default 10^8)")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--jobs", o.jobs, "processes, each with seeds of its own (default: one a core)")
-        ->check(CLI::Range(1, 1024));
-    app.add_flag("--keep-going", o.keepGoing, "goes on after a failure");
     app.add_flag("--precision", o.precision, "prints the errors of single and half precision");
     app.add_flag("--list-planted", o.listPlanted, "prints the faults that can be planted");
     app.add_flag("--list-cases", o.listCases, "prints the names of the cases");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        std::exit(app.exit(error) == 0 ? 0 : 2);
-    }
+    parseOrExit(app, argc, argv);
     return o;
 }
 
@@ -97,7 +79,7 @@ private:
     [[nodiscard]] double minutes() const {
         return std::chrono::duration<double>(Clock::now() - begin_).count() / 60;
     }
-    [[nodiscard]] bool stops() const { return failures_ > 0 && !options_.keepGoing; }
+    [[nodiscard]] bool stops() const { return options_.run.stops(failures_); }
     void runCase(const Case& one, std::uint64_t seed, Scale scale);
     void fillUp(std::uint64_t seed, double until);
     void progress(std::uint64_t seed) const;
@@ -144,7 +126,7 @@ void Run::progress(std::uint64_t seed) const {
 
 Tally Run::drawSeeds(std::uint64_t first) {
     std::uint64_t seed = first;
-    const bool repeats = options_.seed.has_value();
+    const bool repeats = options_.run.seed.has_value();
     const Scale scale = options_.full    ? Scale::Product
                         : options_.small ? Scale::Tests
                                          : Scale::Mixed;
@@ -157,10 +139,9 @@ Tally Run::drawSeeds(std::uint64_t first) {
         }
         // Three times as long as the seed took.
         if (scale == Scale::Mixed && !repeats)
-            fillUp(seed, std::min(4 * minutes() - 3 * start, options_.minutes));
+            fillUp(seed, std::min(4 * minutes() - 3 * start, options_.run.minutes));
         ++seeds_;
-        more = !repeats && !stops() && minutes() < options_.minutes &&
-               (options_.rounds == 0 || seeds_ < options_.rounds);
+        more = options_.run.goesOn(seeds_, minutes(), failures_);
         if (minutes() < told && more) continue;
         told = minutes() + 0.25;
         progress(seed);
@@ -169,17 +150,8 @@ Tally Run::drawSeeds(std::uint64_t first) {
 }
 
 Tally runAll(Options o) {
-    constexpr std::uint64_t kNextJob = 1000000000000;
-    if (o.seed) return Run(o).drawSeeds(*o.seed);
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    const std::uint64_t first =
-        o.first != 0 ? o.first
-                     : static_cast<std::uint64_t>(
-                           std::chrono::duration_cast<std::chrono::seconds>(now).count());
-    o.pixels /= o.jobs;
-    return inProcesses(o.jobs, o.keepGoing, [&](int job) {
-        return Run(o).drawSeeds(first + static_cast<std::uint64_t>(job) * kNextJob);
-    });
+    if (!o.run.seed) o.pixels /= o.run.jobs;
+    return o.run.run([&o](std::uint64_t first, int) { return Run(o).drawSeeds(first); });
 }
 
 int listPlanted() {

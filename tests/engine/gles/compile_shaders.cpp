@@ -3,10 +3,11 @@
 // apart:
 //   V3D_DEBUG=shaderdb mfar-compile-shaders 2>&1
 // BIFROST_MESA_DEBUG=shaderdb does the same on Mali. Usage:
-//   mfar-compile-shaders [--no-dispatch] [FILE...]
-// --no-dispatch: compute shaders are linked only. Panfrost has compiled them by then, and without a
-// GPU (Mesa's drm-shim) it ends at a dispatch. With files: these instead, texts as gles_shaders/
-// has them with every #include resolved. Exit status 1 when one of them does not compile.
+//   mfar-compile-shaders [--link-only] [FILE...]
+// --link-only: nothing is drawn or dispatched. Panfrost has compiled a shader when it is linked,
+// and without a GPU (Mesa's drm-shim) it crashes at a dispatch and where a shader spills. With
+// files: these instead, texts as gles_shaders/ has them with every #include resolved. Exit status 1
+// when one of them does not compile.
 
 #include "base/gl/buffer.h"
 #include "base/gl/pass.h"
@@ -120,7 +121,7 @@ std::vector<gpu::Texture> boundImages(const std::string& text) {
 /// it is first used.
 class Use {
 public:
-    explicit Use(bool dispatch) : dispatch_(dispatch) {
+    explicit Use(bool runs) : runs_(runs) {
         const std::array<const gpu::Texture*, 3> targets{&targets_[0], &targets_[1], &targets_[2]};
         target_ = gpu::Framebuffer(targets);
         target_.bind();
@@ -130,13 +131,14 @@ public:
         }
     }
     void compute(const LinkedProgram& program, const std::string& text) {
-        if (!dispatch_) return;
+        if (!runs_) return;
         const std::vector<gpu::Texture> images = boundImages(text);
         glUseProgram(program.id());
         glDispatchCompute(1, 1, 1);
         gpu::checkErrors("dispatch");
     }
     void draw(const LinkedProgram& program) {
+        if (!runs_) return;
         glUseProgram(program.id());
         glDrawArrays(GL_TRIANGLES, 0, 3);
         gpu::checkErrors("draw");
@@ -144,7 +146,7 @@ public:
 
 private:
     static constexpr Size kPixel{1, 1};
-    bool dispatch_;
+    bool runs_;
     gpu::Buffer zeros_{65536};
     std::array<gpu::Texture, 3> targets_{gpu::Texture(kPixel, gpu::TexelFormat::Rgba8),
                                          gpu::Texture(kPixel, gpu::TexelFormat::Rgba8),
@@ -206,10 +208,10 @@ std::vector<Shader> wanted(const std::vector<std::string>& files) {
     return out;
 }
 
-int compileAll(const std::vector<Shader>& shaders, bool dispatch) {
+int compileAll(const std::vector<Shader>& shaders, bool runs) {
     const std::unique_ptr<GlContext> context = createGlContext();
     std::printf("%s\n", context->description().c_str());
-    Use use(dispatch);
+    Use use(runs);
     int failed = 0;
     for (const Shader& shader : shaders)
         failed += compiles(shader, use) ? 0 : 1;
@@ -224,8 +226,8 @@ int compileAll(const std::vector<Shader>& shaders, bool dispatch) {
 int main(int argc, char** argv) {
     try {
         std::vector<std::string> files(argv + 1, argv + argc);
-        const bool dispatch = std::erase(files, "--no-dispatch") == 0;
-        return mfar::compileAll(mfar::wanted(files), dispatch);
+        const bool runs = std::erase(files, "--link-only") == 0;
+        return mfar::compileAll(mfar::wanted(files), runs);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "mfar-compile-shaders: %s\n", error.what());
         return 1;

@@ -1,0 +1,89 @@
+// Builds everything that draws on the GL context of a session, and rebuilds it after a loss.
+
+#include "base/image_layout.h"
+#include "daemon/exit_code.h"
+#include "daemon/filter_learning.h"
+#include "daemon/session.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <utility>
+
+namespace mfar {
+
+void Session::makeDrawing() {
+    drawing_ = std::make_unique<Drawing>(config_, rig_.geometry(), output_, gl_.context);
+    Pipeline& pipeline = drawing_->pipeline;
+    if (quality_) pipeline.setQuality(*quality_);
+    pipeline.setMatchListener(learning_.get());
+    pipeline.setFilters(filters_);
+    if (usedStill_ && config_.superres.mode != SuperResMode::Off)
+        pipeline.setStill(usedStill_->view, usedStill_->time, usedStill_->pose);
+    placeObjects();
+}
+
+void Session::makeDrawingAnew(std::string why) {
+    for (bool isMade = false; !isMade;) {
+        const Timestamp begun = Timestamp::now();
+        const bool isLast = failures_.add(begun, why);
+        if (isLast && (config_.validate || device_ == GlDevice::Software))
+            throw Failure(ExitCode::Internal, why);
+        if (heart_ != nullptr) heart_->beat();
+        drawing_.reset();
+        display_->releaseGl();
+        gl_ = {};
+        if (isLast) {
+            config_.engine = {.use = EngineWish::Simd};
+            device_ = GlDevice::Software;
+        }
+        stats_.gpuFailed(gpuFault());
+        try {
+            gl_ = openGl(config_, device_);
+            if (!isLast && !gl_.without.empty()) throw std::runtime_error(gl_.without);
+            makeDrawing();
+            isMade = true;
+        } catch (const std::runtime_error& error) {
+            if (isLast) throw;
+            why = error.what();
+            continue;
+        }
+        const double ms = static_cast<double>((Timestamp::now() - begun).count()) * 1e-6;
+        stats_.warn(fmt::format("{}: within {:.0f} ms", *gpuFault(), ms), {message::kGpu});
+        stats_.rendering(rendering());
+    }
+}
+
+std::optional<std::string> Session::gpuFault() {
+    const auto now = drawing_ ? drawing_->gpu.fault() : std::nullopt;
+    return now ? now : failures_.fault(Timestamp::now());
+}
+
+// A device that is missing counts before what works all the same.
+std::string Session::bannerText() {
+    if (const std::optional<std::string> fault = rig_.fault()) return *fault;
+    return failures_.banner(Timestamp::now()).value_or("");
+}
+
+Rendering Session::rendering() const {
+    Rendering out{describe(drawing_->engines),
+                  gl_.context ? gl_.context->description() : "without OpenGL ES",
+                  rig_.description()};
+    if (out.source.starts_with("cameras"))
+        out.source +=
+            gl_.context && gl_.context->planeImporter() ? ", read in place by the GPU" : ", copied";
+    return out;
+}
+
+// A still comes seldom, perhaps never again: it is needed once more where the GPU loses it.
+void Session::keepUsedStill(const CapturedStill& still) {
+    if (!gl_.context || !drawing_->engines.uses(EngineKind::Gles)) return;
+    if (!usedStill_) usedStill_.emplace();
+    const ImageView& view = still.frame.view();
+    usedStill_->pixels.resize(packedBytes(view.format, view.size));
+    usedStill_->view = packInto(usedStill_->pixels.data(), view);
+    usedStill_->time = still.frame.time();
+    usedStill_->pose = still.pose;
+}
+
+}  // namespace mfar

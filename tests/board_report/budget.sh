@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Holds every shader to its budget on every board whose drivers are in the cache; ends with 77 where there
+# are none. With "planted": whether a shader with a large local array is found on each of them.
+# Usage: budget.sh COMPILE-SHADERS [planted]
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+boards=$here/../../toolchains/boards
+cache=${MFAR_CACHE:-${XDG_CACHE_HOME:-${HOME:-/root}/.cache}/mfar}
+command -v python3 >/dev/null || { echo "python3 is not installed"; exit 77; }
+drivers=()
+for suite in bookworm trixie; do
+    if libraries=$("$boards/drivers.sh" --if-built "$cache" "$suite"); then
+        drivers+=(--drivers "$suite=$libraries")
+    fi
+done
+[[ ${#drivers[@]} -gt 0 ]] || { echo "the boards' drivers are not built; ./run board-report builds them"; exit 77; }
+check=(python3 -B "$boards/report.py" --compile-shaders "$1" --check "${drivers[@]}")
+if [[ ${2:-} != planted ]]; then exec "${check[@]}"; fi
+
+found=$("${check[@]}" --budget "$here/planted.csv" --file "$here/planted.comp") && {
+    echo "a shader with a large local array is within the budget"
+    exit 1
+}
+printf '%s\n' "$found"
+compiled=$(sed -n 's/^[0-9]* shaders on \([0-9]*\) GPUs.*/\1/p' <<<"$found")
+[[ $(grep -c '^planted.comp on .* scratch, the budget is 0$' <<<"$found") == "$compiled" ]]

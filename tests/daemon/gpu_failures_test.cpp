@@ -1,0 +1,46 @@
+#include "daemon/gpu_failures.h"
+
+#include <gtest/gtest.h>
+
+namespace mfar {
+namespace {
+
+using std::chrono::seconds;
+
+const Timestamp kStart{1'000'000'000'000};
+
+TEST(GpuFailures, NothingIsWrongBeforeTheFirst) {
+    GpuFailures failures;
+    EXPECT_EQ(failures.fault(kStart), std::nullopt);
+    EXPECT_EQ(failures.banner(kStart), std::nullopt);
+}
+
+TEST(GpuFailures, OneIsNamedForAMinuteAndNotInThePicture) {
+    GpuFailures failures;
+    EXPECT_FALSE(failures.add(kStart, "reset"));
+    EXPECT_EQ(failures.fault(kStart + seconds(60)), "the GPU failed and was set up anew (reset)");
+    EXPECT_EQ(failures.banner(kStart), std::nullopt);
+    EXPECT_EQ(failures.fault(kStart + seconds(61)), std::nullopt);
+}
+
+TEST(GpuFailures, ThreeWithinAMinuteAreTooMany) {
+    GpuFailures failures;
+    EXPECT_FALSE(failures.add(kStart, "reset"));
+    EXPECT_FALSE(failures.add(kStart + seconds(30), "reset"));
+    EXPECT_TRUE(failures.add(kStart + seconds(60), "error 1"));
+    const std::string said =
+        "the GPU failed 3 times within a minute, the processor draws (error 1)";
+    EXPECT_EQ(failures.fault(kStart + seconds(60)), said);
+    EXPECT_EQ(failures.banner(kStart + seconds(120)), said);
+    EXPECT_EQ(failures.banner(kStart + seconds(121)), std::nullopt);
+    EXPECT_EQ(failures.fault(kStart + seconds(1000)), said);
+}
+
+TEST(GpuFailures, ThreeInMoreThanAMinuteAreNot) {
+    GpuFailures failures;
+    for (int i = 0; i < 20; ++i)
+        EXPECT_FALSE(failures.add(kStart + i * seconds(31), "reset")) << i;
+}
+
+}  // namespace
+}  // namespace mfar

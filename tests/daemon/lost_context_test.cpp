@@ -1,0 +1,192 @@
+// A context that is lost at any moment of a frame is made anew, and the pictures are those of a run
+// without a loss. By a libGLESv2 that loses it, see tests/device/faulty_moments.h.
+
+#include "daemon/session.h"
+#include "hal/virtual/recorder.h"
+#include "tests/device/faulty_moments.h"
+#include "tests/unit/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <dlfcn.h>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace mfar {
+namespace {
+
+constexpr int kFrames = 6;
+constexpr int kStillFrame = 1;  // of the same time as the only still
+constexpr Size kVideo{160, 120}, kStill{320, 240};
+
+template <class F>
+F* inFaultyGl(const char* name) {
+    static void* const library = dlopen("libGLESv2.so.2", RTLD_NOW);
+    return reinterpret_cast<F*>(dlsym(library, name));
+}
+
+StereoRig rigOf() {
+    StereoRig rig;
+    rig.video = {kVideo, 150, 150, 79.5, 59.5, {}};
+    rig.still = {kStill, 300, 300, 159.5, 119.5, {}};
+    rig.T_still_video.translation = {-0.01, 0, 0};
+    return rig;
+}
+
+/// A wall one metre away, seen from `x`.
+std::vector<std::uint8_t> wall(const CameraModel& camera, double x) {
+    std::vector<std::uint8_t> out;
+    for (int v = 0; v < camera.size.height; ++v)
+        for (int u = 0; u < camera.size.width; ++u) {
+            const double wx = (u - camera.cx) / camera.fx + x, wy = (v - camera.cy) / camera.fy;
+            const double wave = std::sin(97 * wx + 3 * std::sin(31 * wy)) +
+                                std::sin(83 * wy - 2 * std::sin(41 * wx)) +
+                                std::sin(211 * (wx + 0.7 * wy));
+            out.push_back(static_cast<std::uint8_t>(128 + 38 * wave));
+        }
+    return out;
+}
+
+void record(const std::filesystem::path& folder, int frames) {
+    const StereoRig rig = rigOf();
+    Recorder recorder(folder, rig, 30);
+    const auto view = [](const std::vector<std::uint8_t>& pixels, Size size) {
+        return ImageView{pixels.data(), size, static_cast<std::size_t>(size.width),
+                         PixelFormat::Gray8};
+    };
+    for (int i = 0; i < frames; ++i) {
+        const Timestamp time{1'000'000'000 + i * 33'333'333LL};
+        const double x = 0.004 * (i % kFrames);
+        Pose pose{time, {}};
+        pose.T_world_video.translation = {x, 0, 0};
+        while (!recorder.video(view(wall(rig.video, x), kVideo), time))
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        ASSERT_TRUE(recorder.pose(pose));
+        if (i == kStillFrame) {
+            ASSERT_TRUE(recorder.still(view(wall(rig.still, x + 0.01), kStill), time));
+        }
+    }
+    recorder.finish();
+}
+
+double meanDifference(const ScreenPicture& a, const ScreenPicture& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        sum += std::abs(int{a.pixels[i]} - int{b.pixels[i]});
+    return sum / static_cast<double>(a.pixels.size());
+}
+
+class LostContext : public testing::Test {
+protected:
+    struct Ran {
+        ScreenPicture last;
+        Counted counted;
+        std::vector<std::string> moments;  ///< different ones, after the start
+    };
+
+    void SetUp() override {
+        if (inFaultyGl<decltype(mfarFaultyGlLoseAt)>("mfarFaultyGlLoseAt") == nullptr)
+            GTEST_SKIP() << "LD_LIBRARY_PATH does not name the libGLESv2 that fails";
+    }
+
+    /// `virtualLayer`: keys of the section.
+    void play(int frames, const std::string& virtualLayer) {
+        record(folder_ / "recording", frames);
+        config_ = parseConfig("[pose]\nsource = \"recorded\"\n[engine]\nuse = \"gles\"\n"
+                              "[superres]\nlearn = false\n[virtual]\n" +
+                                  virtualLayer +
+                                  "\n[[objects]]\nshape = \"box\"\nsize = [0.2, 0.2, 0.2]\n"
+                                  "position = [0.0, 0.0, 0.8]\n",
+                              "test");
+        config_.recording = folder_ / "recording";
+        config_.display = "none";
+    }
+
+    /// A run that loses its context at this moment of a frame, null: never. It ends with the
+    /// recording, or early some pictures after the loss.
+    Ran run(const char* moment, bool early = false) {
+        Stats stats;
+        Mailbox<Tunables> changes(HandOver::NewestWins);
+        CallQueue<Session> calls;
+        std::stop_source input;
+        Session session(config_, stats, changes, calls, {input.get_token(), {}});
+        inFaultyGl<decltype(mfarFaultyGlLoseAt)>("mfarFaultyGlLoseAt")(moment);
+        const std::jthread watch([&](const std::stop_token& over) {
+            std::optional<std::uint64_t> lostAt;
+            while (early && !over.stop_requested()) {
+                const Counted now = stats.count();
+                if (now.gpuFailures > 0 && !lostAt) lostAt = now.frames;
+                if (lostAt && now.frames > *lostAt + kFrames) input.request_stop();
+                std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            }
+        });
+        (void)session.run(std::nullopt, [](const auto&, const auto&) {});
+        std::set<std::string> moments;
+        auto* const momentAt = inFaultyGl<decltype(mfarFaultyGlMoment)>("mfarFaultyGlMoment");
+        for (int i = 0; momentAt(i) != nullptr; ++i)
+            moments.insert(momentAt(i));
+        return {session.snapshot(false), stats.count(), {moments.begin(), moments.end()}};
+    }
+
+    /// Loses the context at those moments of a run that `isOne` is true for.
+    void loseAtAll(const std::function<bool(std::string_view)>& isOne) {
+        play(kFrames, "rendering = \"preview\"");
+        const Ran whole = run(nullptr);
+        ASSERT_EQ(whole.counted.gpuFailures, 0U);
+        ASSERT_EQ(whole.counted.frames, kFrames);
+        for (const std::string& moment : whole.moments) {
+            if (!isOne(moment)) continue;
+            SCOPED_TRACE(moment);
+            const Ran with = run(moment.c_str());
+            EXPECT_EQ(with.counted.gpuFailures, 1U);
+            EXPECT_EQ(with.counted.frames, kFrames);
+            EXPECT_TRUE(with.counted.last.usedStill);
+            ASSERT_EQ(with.last.size, whole.last.size);
+            EXPECT_LT(meanDifference(with.last, whole.last), 0.1);
+        }
+    }
+
+    test::TempFolder folder_;
+    Config config_;
+};
+
+// One for each step, and for each shader of it.
+TEST_F(LostContext, RecoversInEveryShader) {
+    loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
+}
+
+TEST_F(LostContext, RecoversInEveryTransfer) {
+    loseAtAll([](std::string_view moment) {
+        return std::ranges::none_of(
+            std::array{"glUseProgram", "glBufferSubData", "glDispatchCompute", "glDrawArrays"},
+            [&](const char* other) { return moment.starts_with(other); });
+    });
+}
+
+// They are warped once the path tracer has a picture of them.
+TEST_F(LostContext, RecoversWhileTracedObjectsAreWarped) {
+    constexpr int kSeconds = 12;
+    play(30 * kSeconds,
+         "rendering = \"path-traced\"\nresolution = 0.3\nsamples = 1\nbudget_ms = 30");
+    config_.pace = SourcePace::Realtime;
+    for (const char* shader : {"warp_silhouette.frag", "warp_fill.comp", "warp_look_up.frag"}) {
+        SCOPED_TRACE(shader);
+        const Ran with = run(("glUseProgram " + std::string(shader)).c_str(), true);
+        EXPECT_EQ(with.counted.gpuFailures, 1U);
+        EXPECT_TRUE(with.counted.last.usedStill);
+    }
+}
+
+}  // namespace
+}  // namespace mfar

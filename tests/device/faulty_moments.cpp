@@ -1,0 +1,54 @@
+#include "tests/device/faulty_moments.h"
+
+#include "gles_shaders/shaders.h"
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mfar::faulty {
+namespace {
+
+std::string loseAt;  // empty: at none
+std::vector<std::string> moments;
+std::map<unsigned, std::string> shaders, programs;  // names
+std::string current;
+
+}  // namespace
+
+bool isLostAt(const char* function) {
+    moments.push_back(std::string(function) + " " + current);
+    if (moments.back() != loseAt) return false;
+    loseAt.clear();
+    return true;
+}
+
+void sourceOf(unsigned shader, const char* text) {
+    for (const mfar::shaders::Source& one : mfar::shaders::all())
+        if (one.text == text) shaders[shader] = one.name;
+}
+
+// Of a program that draws, the fragment shader is the last one.
+void attached(unsigned program, unsigned shader) {
+    programs[program] = shaders[shader];
+}
+
+void used(unsigned program) {
+    current = programs[program];
+}
+
+}  // namespace mfar::faulty
+
+using namespace mfar::faulty;
+
+void mfarFaultyGlLoseAt(const char* name) {
+    moments.clear();
+    current.clear();
+    loseAt = name != nullptr ? name : "";
+}
+
+const char* mfarFaultyGlMoment(int i) {
+    const auto index = static_cast<std::size_t>(i);
+    return index < moments.size() ? moments[index].c_str() : nullptr;
+}

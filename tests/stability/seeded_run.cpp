@@ -1,0 +1,46 @@
+#include "tests/stability/seeded_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+namespace mfar::stress {
+
+void SeededRun::addOptions(CLI::App& app) {
+    jobs = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1U));
+    app.add_option("--minutes", minutes, "how long new seeds are drawn (default 1)")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--seed", seed, "runs this seed alone");
+    app.add_option("--first", first, "the first seed (default: by the clock)");
+    app.add_option("--rounds", rounds, "ends after so many seeds in each process")
+        ->check(CLI::NonNegativeNumber);
+    app.add_option("--jobs", jobs, "processes, each with seeds of its own (default: one a core)")
+        ->check(CLI::Range(1, 1024));
+    app.add_flag("--keep-going", keepGoing, "goes on after a failure");
+}
+
+bool SeededRun::goesOn(long seeds, double spentMinutes, long failures) const {
+    return !seed && !stops(failures) && spentMinutes < minutes && (rounds == 0 || seeds < rounds);
+}
+
+Tally SeededRun::run(const Draw& draw) const {
+    constexpr std::uint64_t kNextJob = 1000000000000;
+    if (seed) return draw(*seed, 0);
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(now).count();
+    const std::uint64_t begin = first != 0 ? first : static_cast<std::uint64_t>(seconds);
+    return inProcesses(jobs, keepGoing, [&](int job) {
+        return draw(begin + static_cast<std::uint64_t>(job) * kNextJob, job);
+    });
+}
+
+void parseOrExit(CLI::App& app, int argc, char** argv) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::exit(app.exit(error) == 0 ? 0 : 2);
+    }
+}
+
+}  // namespace mfar::stress

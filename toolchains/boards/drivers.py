@@ -1,0 +1,32 @@
+"""Runs mfar-compile-shaders on a board's driver, without the board."""
+import os
+import subprocess
+
+import shader_stats
+
+STATISTICS = {'v3d': {'V3D_DEBUG': 'nir,shaderdb'}, 'panfrost': {'BIFROST_MESA_DEBUG': 'shaders,shaderdb'},
+              'freedreno': {'IR3_SHADER_DEBUG': 'vs,fs,cs'}}
+
+
+def command(libraries, driver, program, arguments):
+    """With the libraries of the drivers' release, from its C library on."""
+    return [os.path.join(libraries, 'ld-linux-x86-64.so.2'), '--library-path', libraries, '--preload',
+            os.path.join(libraries, f'lib{driver}_noop_drm_shim.so'), program, *arguments]
+
+
+def compile_shaders(libraries, gpu, program, files=()):
+    """Key: Shader, of every shader of the product or of these files. Raises RuntimeError where one does not
+    compile."""
+    # Without a GPU, Panfrost survives neither a dispatch nor a shader that spills.
+    arguments = (['--link-only'] if gpu['driver'] == 'panfrost' else []) + list(files)
+    environment = dict(os.environ, LIBGL_DRIVERS_PATH=libraries, GBM_BACKENDS_PATH=libraries,
+                       MESA_SHADER_CACHE_DISABLE='1', **STATISTICS[gpu['driver']], **gpu['environment'])
+    environment.pop('MFAR_GL_DEVICE', None)
+    run = subprocess.run(command(libraries, gpu['driver'], program, arguments), env=environment, text=True,
+                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, errors='replace', check=False)
+    lines = run.stdout.splitlines()
+    if run.returncode != 0:
+        named = [line for line in lines if line.startswith('shader: ') and 'MESA_' not in line]
+        raise RuntimeError(f'{gpu["name"]}: mfar-compile-shaders ended with {run.returncode} after '
+                           f'{named[-1] if named else "no shader"}: {" | ".join(lines[-3:])[:500]}')
+    return shader_stats.parse(lines)

@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# Builds Mesa's drivers for boards from a release's source package, unless they are there, and prints the
+# folder of the result. With them comes Mesa's drm-shim, libraries that stand in for a GPU's kernel driver
+# and do nothing: a program then meets the real driver, whose compiler says what it makes of each shader,
+# while nothing is drawn. The folder holds all libraries down to the C library, so that a release's drivers
+# run on another. Needs root; 10 to 20 minutes on two cores, 2 GB while it builds, 150 MB after.
+# Usage: drivers.sh [--if-built] CACHE SUITE   (--if-built: ends with 77 where they are not there)
+set -euo pipefail
+here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
+# shellcheck source=toolchains/debian.sh
+. "$here/../debian.sh"
+
+# What Mesa's build needs.
+mesaPackages() {
+    echo bison dpkg-dev flex g++ libdrm-dev libelf-dev libexpat1-dev meson ninja-build pkg-config \
+        python3-mako zlib1g-dev
+    # Panfrost compiles helpers in OpenCL C since Mesa 25.
+    if [[ $1 != bookworm ]]; then
+        echo glslang-tools libclang-19-dev libclang-cpp19-dev libclc-19 libclc-19-dev libllvmspirvlib-19-dev \
+            llvm-19-dev llvm-spirv-19 python3-packaging python3-yaml spirv-tools
+    fi
+}
+
+# Makes a root of the release with the build's packages and Mesa's source in /mesa.
+makeRoot() {
+    local suite=$1 root=$2 mirror
+    mirror=$(debianMirror)
+    [[ -n $mirror ]] || die "no source of Debian packages is configured"
+    # shellcheck disable=SC2046 # a list of words
+    mmdebstrap --quiet --mode=root --variant=apt --aptopt='APT::Install-Recommends "false"' \
+        --include="$(mesaPackages "$suite" | xargs | tr ' ' ,)" "$suite" "$root" \
+        "deb $mirror $suite main" "deb-src $mirror $suite main"
+    cp /etc/resolv.conf "$root/etc/resolv.conf"
+    chroot "$root" sh -c 'cd /tmp && apt-get -qq update && apt-get -qq source --download-only mesa &&
+        mkdir /mesa && tar xf mesa_*.orig.tar.*z -C /mesa --strip-components=1'
+}
+
+# The stand-in for V3D knows one GPU and, in Mesa 22.3, says nothing of what that kernel driver can do since
+# then: without compute there is no OpenGL ES 3.1. V3D_GPU_ID=71 makes it a V3D 7.1 with three slices.
+amend() {
+    local file=$1/mesa/src/broadcom/drm-shim/v3d_noop.c
+    if ! grep -q PARAM_SUPPORTS_CSD "$file"; then
+        sed -i 's/^\( *case DRM_V3D_PARAM_SUPPORTS\)_TFU:/\1_CSD:\n\1_CACHE_FLUSH:\n&/' "$file"
+    fi
+    sed -i -e 's/static const uint32_t v3d42_reg_map/const uint32_t v3d42_reg_map/' \
+        -e 's/= 0x04443356,/= getenv("V3D_GPU_ID") ? 0x07443356 : 0x04443356,/' \
+        -e 's/= 0x81001422,/= getenv("V3D_GPU_ID") ? 0x81001431 : 0x81001422,/' "$file"
+}
+
+buildMesa() {
+    local root=$1 llvm=disabled
+    if [[ -d $root/usr/lib/llvm-19 ]]; then llvm=enabled; fi
+    chroot "$root" meson setup /mesa /mesa/build --wrap-mode=nofallback --buildtype=release \
+        -Dgallium-drivers=v3d,panfrost,freedreno -Dvulkan-drivers= -Dtools=drm-shim -Dplatforms= \
+        -Degl=enabled -Dgbm=enabled -Dgles1=disabled -Dgles2=enabled -Dglx=disabled -Dllvm=$llvm \
+        -Dlibunwind=disabled -Dvalgrind=disabled
+    chroot "$root" ninja -C /mesa/build
+}
+
+# Copies the drivers and every library that they and a program in C++ need.
+collect() {
+    local root=$1 out=$2 library
+    mkdir -p "$out"
+    find "$root/mesa/build/src" -name '*.so*' ! -type d ! -path '*.p/*' ! -name '*.symbols' -exec cp -a -t "$out" {} +
+    {
+        for library in "$out"/*.so*; do
+            cp "$library" "$root/tmp/one.so"
+            chroot "$root" ldd /tmp/one.so || true
+        done
+        chroot "$root" ldd /usr/bin/ninja  # as in C++
+    } | sed -n 's/.* => \(\/[^ ]*\) .*/\1/p; s/^\s*\(\/lib64\/ld-[^ ]*\) .*/\1/p' | sort -u |
+        while IFS= read -r library; do
+            if [[ ! -e $out/${library##*/} ]]; then cp -L "$root$library" "$out/"; fi
+        done
+}
+
+ifBuilt=
+if [[ ${1:-} == --if-built ]]; then
+    ifBuilt=yes
+    shift
+fi
+[[ $# -eq 2 ]] || die "usage: drivers.sh [--if-built] CACHE SUITE"
+cache=$1
+suite=$2
+drivers=$cache/boards-$suite-$(inputHash "$suite" "$(cat "$here/drivers.sh")")
+if [[ ! -d $drivers ]]; then
+    if [[ -n $ifBuilt ]]; then exit 77; fi
+    printf 'Making %s, 10 to 20 minutes\n' "$drivers" >&2
+    rm -rf "$drivers.part"
+    mkdir -p "$drivers.part"
+    # In the background, as "||" would let each of these go on after a fault.
+    {
+        makeRoot "$suite" "$drivers.part/root"
+        amend "$drivers.part/root"
+        buildMesa "$drivers.part/root"
+        collect "$drivers.part/root" "$drivers.part/lib"
+    } >"$drivers.log" 2>&1 &
+    wait $! || {
+        tail -n 20 "$drivers.log" >&2
+        die "Mesa of $suite cannot be built, see $drivers.log"
+    }
+    rm -rf "$drivers.part/root" "$drivers.log"
+    chmod -R a+rX "$drivers.part"
+    mv "$drivers.part" "$drivers"
+fi
+# Those of earlier versions of this script.
+find "$cache" -maxdepth 1 -name "boards-$suite-*" ! -name "${drivers##*/}" -mtime +14 -exec rm -rf {} +
+echo "$drivers/lib"

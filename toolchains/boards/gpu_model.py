@@ -1,0 +1,92 @@
+"""What a pass costs on a GPU, from what its compiler made of the shader and how often that runs."""
+import ast
+import math
+
+
+MOST_BYTES = 16  # of one access
+
+
+class UnknownLoops(Exception):
+    """model.toml does not say how often these loops run."""
+
+
+def evaluate(expression, names):
+    """Sums, differences and products of integers and names."""
+    def value(node):
+        if isinstance(node, ast.Constant):
+            return node.value
+        if isinstance(node, ast.Name):
+            return names[node.id]
+        if isinstance(node, ast.BinOp):
+            left, right = value(node.left), value(node.right)
+            return {ast.Add: left + right, ast.Sub: left - right, ast.Mult: left * right}[type(node.op)]
+        raise ValueError(f'cannot evaluate {expression}')
+    return value(ast.parse(expression, mode='eval').body)
+
+
+def trips_of(shader, params, loops):
+    """How often each loop of a shader runs. `loops`: the table of model.toml."""
+    lying = ' '.join(str(loop.depth) for loop in shader.loops[1:])
+    if not lying:
+        return []
+    for entry in loops:
+        if entry['shader'] == shader.name and lying in entry['trips']:
+            return [evaluate(expression, params) for expression in entry['trips'][lying]]
+    raise UnknownLoops(f'{shader.key}: model.toml has no trips for loops that lie "{lying}"')
+
+
+def unit_cycles(shader, trips, gpu):
+    """Cycles that one wave keeps each kind of unit busy, and how many cores share one of these."""
+    arithmetic, memory, texture = shader.weights(trips)
+    if gpu['driver'] == 'panfrost':
+        weights = {'texture': texture, 't': texture, 'ldst': memory, 'ls': memory, 'vary': 1, 'v': 1}
+        return {unit: (shader.cycles.get(unit, 0) * weights.get(unit, arithmetic) * gpu['lanes'] / rate, 1)
+                for unit, rate in gpu['units'].items()}
+    slice_ = gpu['cores_per_slice']
+    fetches = shader.executed('texture', trips) * gpu['lanes'] / gpu['texture']
+    accesses = shader.executed('memory', trips) * gpu['lanes'] / gpu['memory']
+    units = {'arithmetic': (executed_instructions(shader, trips) * gpu['issue'], 1)}
+    if gpu['driver'] == 'v3d':  # one unit does both
+        units['texture, memory'] = fetches + accesses, slice_
+    else:
+        units['texture'], units['memory'] = (fetches, slice_), (accesses, slice_)
+    return units
+
+
+def executed_instructions(shader, trips):
+    """Of one invocation: those that stand there, weighed as its operations in NIR are."""
+    kinds = ('arithmetic', 'memory', 'texture')
+    stands = sum(getattr(loop, kind) for loop in shader.loops for kind in kinds)
+    runs = sum(shader.executed(kind, trips) for kind in kinds)
+    return shader.instructions * (runs / stands if stands else 1)
+
+
+def waves_of_core(shader, gpu):
+    if gpu['driver'] == 'v3d':
+        return shader.threads
+    if gpu['driver'] == 'panfrost':
+        return gpu['waves'] * (1 if shader.threads == 2 else 0.5)
+    return max(1, gpu['waves'] * min(1, 24 / max(shader.registers, 1)))
+
+
+def pass_time(work, shader, gpu, board, model):
+    """(time [ms], what limits it, milliseconds by limit) of one draw or dispatch."""
+    trips = trips_of(shader, work['params'], model['loops'])
+    cores, clock = board['gpu']['cores'], board['gpu']['clock'] * 1e3  # cycles a millisecond
+    waves = math.ceil(work['invocations'] / gpu['lanes'])
+    ms = {}
+    for unit, (cycles, shared) in unit_cycles(shader, trips, gpu).items():
+        ms[unit] = waves * cycles / max(cores / shared, 1) / clock
+    waits = shader.executed('memory', trips) + shader.executed('texture', trips)
+    lone = executed_instructions(shader, trips) * gpu['lone_issue'] + waits * model['gpu_model']['memory_latency']
+    ms['waiting'] = max(waves / (cores * waves_of_core(shader, gpu)), 1) * lone / clock
+    # A pass that looks up a few cells does not read the whole of what is bound.
+    read = min(work['read'], work['invocations'] * waits * MOST_BYTES)
+    ms['bandwidth'] = (read + work['written']) / bandwidth(board, model)
+    limit = max(ms, key=ms.get)
+    return ms[limit] + board['gpu']['job_us'] * 1e-3, limit, ms
+
+
+def bandwidth(board, model):
+    """Bytes a millisecond."""
+    return board['memory'] * 1e6 * model['gpu_model']['bandwidth_share']

@@ -1,0 +1,77 @@
+"""Predictions of a frame on each board: steps on either engine, the frame path, and which engine wins."""
+import gpu_model
+
+STEPS = ('plan', 'pyramid', 'flow', 'weigh', 'detail')
+MATCHING = ('pyramid', 'flow', 'weigh')
+CORES = (1, 2, 4)
+
+
+def step_of_shader(name, steps):
+    for step, begins in steps.items():
+        if name.startswith(tuple(begins)):
+            return step
+    raise ValueError(f'{name} belongs to no step of model.toml')
+
+
+def passes(board, works, shaders, model):
+    """Every draw and dispatch of a list with its prediction."""
+    gpu = model['gpus'][board['gpu']['kind']]
+    out = []
+    for work in works:
+        shader = shaders[(work['shader'] + ' ' + work['defines']).strip()]
+        ms, limit, units = gpu_model.pass_time(work, shader, gpu, board, model)
+        out.append({'shader': shader.key, 'step': step_of_shader(work['shader'], model['shader_steps']), 'ms': ms,
+                    'limit': limit, 'units': units, 'invocations': work['invocations']})
+    return out
+
+
+def gpu_steps(board, works, shaders, model):
+    """Milliseconds of each step on the GPU. The picture is uploaded with the first."""
+    out = {step: 0.0 for step in STEPS[1:]}
+    for one in passes(board, works, shaders, model):
+        out[one['step']] = out.get(one['step'], 0.0) + one['ms']
+    if works:
+        width, height = model['frame']['video']
+        out['pyramid'] += 2 * 4 * width * height / gpu_model.bandwidth(board, model)
+    return out
+
+
+def cpu_steps(board, cycles, output, model, cores, moving=True):
+    """Milliseconds of each step on `cores` cores. `cycles`: million of a frame on one core, by step. At rest only
+    the plan looks at pixels."""
+    share = model['cpu_model']['parallel_share']
+    video, still = (w * h for w, h in (model['frame']['video'], model['frame']['still']))
+    pixels = {'video': video, 'output': output[0] * output[1], 'still': still}
+    out = {}
+    for step, million in cycles.items():
+        one = million * 1e3 / board['cpu']['clock']
+        bytes_ = sum(pixels[of] * n for of, n in model['cpu_bytes'].get(step, {}).items())
+        if not moving and step != 'plan':
+            bytes_ = 0
+        out[step] = max(one * (1 - share + share / cores), bytes_ / gpu_model.bandwidth(board, model))
+    return out
+
+
+def placements(cpu, gpu):
+    """Milliseconds of a frame by where its steps run. `gpu`: None without one."""
+    host = cpu.get('plan', 0) + cpu.get('rest', 0)  # these have no shaders
+    sums = {'simd': sum(cpu.values())}
+    if gpu is None:
+        return sums
+    drawing = {'detail'}
+    sums['gles'] = host + sum(gpu.values())
+    sums['match simd, draw gles'] = host + sum(cpu.get(s, 0) for s in MATCHING) + sum(gpu[s] for s in drawing)
+    sums['match gles, draw simd'] = host + sum(gpu[s] for s in MATCHING) + sum(cpu.get(s, 0) for s in drawing)
+    return sums
+
+
+def winners(cpu, gpu):
+    """Step: engine."""
+    return {step: 'simd' if gpu is None or cpu.get(step, 0) <= gpu[step] else 'gles' for step in STEPS[1:]}
+
+
+def error_table(predicted, measured):
+    """(step, predicted, measured, measured over predicted) [ms], for the steps that both have."""
+    rows = [(step, predicted[step], measured[step]) for step in predicted if step in measured]
+    rows.append(('all of these', sum(r[1] for r in rows), sum(r[2] for r in rows)))
+    return [(step, p, m, m / p if p else float('nan')) for step, p, m in rows]
