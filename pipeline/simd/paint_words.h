@@ -9,6 +9,7 @@ namespace mfar::simd {
 /// one of metallic would not do.
 struct PaintWords {
     std::uint32_t diffuse = 0, facing = 0;
+    bool operator==(const PaintWords&) const = default;
 };
 
 }  // namespace mfar::simd

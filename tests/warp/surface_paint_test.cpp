@@ -1,6 +1,7 @@
 #include "base/workers.h"
 #include "pipeline/render/exposure.h"
 #include "pipeline/render/texture_lookup.h"
+#include "pipeline/render/paint.h"
 #include "pipeline/simd/surface_raster.h"
 
 #include <gtest/gtest.h>
@@ -87,7 +88,7 @@ Scene sceneOf(std::vector<SceneObject> objects) {
     return scene;
 }
 
-using Words = std::vector<std::uint32_t>;
+using Words = std::vector<PaintWords>;
 
 Words paintOf(SurfaceRaster& raster) {
     Words out, row(kPainted.width + 8);
@@ -105,15 +106,22 @@ Words paintOf(const Scene& scene, int threads = 1) {
     return paintOf(raster);
 }
 
-std::array<int, 4> bytesOf(std::uint32_t word) {
-    const auto byte = [word](int i) { return static_cast<int>(word >> 8 * i & 0xFFU); };
-    return {byte(0), byte(1), byte(2), byte(3)};
+/// Diffuse colour, reflectance along the normal.
+using Six = Eigen::Matrix<double, 6, 1>;
+
+Six bytesOf(const PaintWords& words) {
+    Six out;
+    for (int c = 0; c < 3; ++c) {
+        out[c] = words.diffuse >> 8 * c & 0xFFU;
+        out[3 + c] = words.facing >> 8 * c & 0xFFU;
+    }
+    return out;
 }
 
-/// Linear base colour and metallic of what a ray from the origin meets first.
-std::optional<Eigen::Vector4d> met(const Scene& scene, const Eigen::Vector3d& along) {
+/// Linear; what a ray from the origin meets first.
+std::optional<Six> met(const Scene& scene, const Eigen::Vector3d& along) {
     double nearest = 1e9;
-    std::optional<Eigen::Vector4d> out;
+    std::optional<Six> out;
     for (const SceneObject& object : scene.objects)
         for (const Mesh& mesh : object.model->meshes)
             for (const auto& t : mesh.triangles) {
@@ -143,7 +151,8 @@ std::optional<Eigen::Vector4d> met(const Scene& scene, const Eigen::Vector3d& al
                         paint.w() *= lookUp(textures[material.metallicRoughnessTexture], uv).z();
                 }
                 nearest = s.z();
-                out = paint.cast<double>();
+                const Paint made = mfar::paintOf(paint.head<3>(), paint.w(), {});
+                out = (Six() << made.diffuse.cast<double>(), made.facing.cast<double>()).finished();
             }
     return out;
 }
@@ -159,7 +168,7 @@ Errors errorsOf(const Words& words, const Scene& scene) {
     Errors out;
     for (int y = 0; y < kPainted.height; ++y)
         for (int x = 0; x < kPainted.width; ++x) {
-            Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+            Six sum = Six::Zero();
             int hits = 0;
             for (int i = 0; i < kRays * kRays; ++i) {
                 const Eigen::Vector2d at(x + (i % kRays + 0.5) / kRays - 0.5,
@@ -172,14 +181,14 @@ Errors errorsOf(const Words& words, const Scene& scene) {
             if (hits < kRays * kRays) continue;
             ++out.pixels;
             const auto bytes = bytesOf(words[static_cast<std::size_t>(y) * kPainted.width + x]);
-            for (int c = 0; c < 4; ++c) {
-                const double truth = c < 3 ? srgbEncoded(static_cast<float>(sum[c])) : sum[c];
-                const double error = std::abs(bytes[static_cast<std::size_t>(c)] - 255 * truth);
+            for (int c = 0; c < 6; ++c) {
+                const double truth = srgbEncoded(static_cast<float>(sum[c]));
+                const double error = std::abs(bytes[c] - 255 * truth);
                 out.mean += error;
                 out.worst = std::max(out.worst, error);
             }
         }
-    out.mean /= 4 * out.pixels;
+    out.mean /= 6 * out.pixels;
     return out;
 }
 
@@ -233,9 +242,12 @@ TEST(SurfacePaint, OfPlainColoursIsExact) {
             }
             const Words words =
                 paintOf(sceneOf({{modelOf(square(), material, {plain}), placed(0, {0, 0, 1}), 1}}));
-            const auto bytes = bytesOf(words[20UL * kPainted.width + 30]);
-            for (std::size_t c = 0; c < 4; ++c)
-                ASSERT_NEAR(bytes[c], level, hasTexture && c < 3 ? 1 : 0) << level << " " << c;
+            const Paint truth = mfar::paintOf(Eigen::Vector3f::Constant(linear), material.metallic, {});
+            const Six bytes = bytesOf(words[20UL * kPainted.width + 30]);
+            for (int c = 0; c < 6; ++c) {
+                const Eigen::Vector3f& part = c < 3 ? truth.diffuse : truth.facing;
+                ASSERT_NEAR(bytes[c], 255 * srgbEncoded(part[c % 3]), 1) << level << " " << c;
+            }
         }
 }
 
@@ -246,8 +258,8 @@ TEST(SurfacePaint, WithoutTextureCoordinatesIsTheFactorAlone) {
     bare.uvs.clear();
     const Words words =
         paintOf(sceneOf({{modelOf(bare, material, {noise({4, 4}, 4)}), placed(0, {0, 0, 1}), 1}}));
-    EXPECT_EQ(words[20UL * kPainted.width + 30], 0xFFFF00FFU);
-    EXPECT_EQ(words.front(), 0U);
+    EXPECT_EQ(words[20UL * kPainted.width + 30].facing & 0xFFFFFFU, 0xFF00FFU) << "a metal";
+    EXPECT_EQ(words.front(), PaintWords{});
 }
 
 // A nearer square covers the upper right quarter of pixel (30, 20), two of its neighbours' halves.
@@ -261,7 +273,7 @@ TEST(SurfacePaint, OfTwoObjectsInAPixelIsThatOfMostQuarters) {
     for (const Scene& scene : {sceneOf({far, near}), sceneOf({near, far})}) {
         const Words words = paintOf(scene);
         const auto at = [&](int x, int y) {
-            return words[static_cast<std::size_t>(y) * kPainted.width + x];
+            return words[static_cast<std::size_t>(y) * kPainted.width + x].diffuse & 0xFFFFFFU;
         };
         EXPECT_EQ(at(30, 20), 0x000000FFU);
         EXPECT_EQ(at(30, 19), 0x000000FFU);  // of equals the first from below
@@ -286,7 +298,7 @@ TEST(SurfacePaint, IsSeenThroughHoles) {
         paintOf(sceneOf({{modelOf(square(), red), placed(0, {0, 0, 1.01}), 1},
                          {modelOf(whole, masked, {board}), placed(0, {0, 0, 1}), 1}}));
     const auto at = [&](int x, int y) {
-        return words[static_cast<std::size_t>(y) * kPainted.width + x];
+        return words[static_cast<std::size_t>(y) * kPainted.width + x].diffuse & 0xFFFFFFU;
     };
     EXPECT_EQ(at(24, 14), 0x0000FF00U);
     EXPECT_EQ(at(34, 14), 0x000000FFU);
@@ -309,7 +321,7 @@ TEST(SurfacePaint, ThreadsAndTheRowsEndsChangeNothing) {
     scene.catcher.triangles = {{0, 1, 2}, {0, 2, 3}};
     const Words one = paintOf(scene);
     EXPECT_EQ(one, paintOf(scene, 3));
-    EXPECT_EQ(one.front(), 0U);
+    EXPECT_EQ(one.front(), PaintWords{});
     SurfaceRaster raster(paintCamera(), nullptr);
     raster.setScene(scene);
     raster.draw({}, {7, 3, 51, 37});
