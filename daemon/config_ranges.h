@@ -14,7 +14,8 @@ struct ConfigRange {
     std::string_view unit;  ///< empty: none, or the text beside it says it
     double least, most;
     bool isWhole = false;
-    int count = 1;  ///< numbers in the list; 1: it is no list
+    int count = 1;            ///< numbers in the list; 1: it is no list
+    bool hasLength1 = false;  ///< the list is a vector of that length
 };
 
 // Both cameras have these.
@@ -53,17 +54,25 @@ inline constexpr ConfigRange kTracers{"virtual", "threads", "", 1, 64, true};
 inline constexpr ConfigRange kTurn{"virtual", "turn_deg", "degrees", 0.1, 90};
 inline constexpr ConfigRange kExposure{"light", "exposure", "", 0.001, 1000};
 
+inline constexpr ConfigRange kSunDirection{"light.sun", "direction", "", -1000, 1000, false, 3};
+inline constexpr ConfigRange kSunIrradiance{"light.sun", "irradiance", "", 0, 10000, false, 3};
+inline constexpr ConfigRange kSunRadius{"light.sun", "radius_deg", "degrees", 0.05, 45};
+
 inline constexpr ConfigRange kScale{"objects", "scale", "", 0.0001, 10000};
 inline constexpr ConfigRange kPosition{"objects", "position", "m", -1000, 1000, false, 3};
+inline constexpr ConfigRange kOrientation{"objects", "orientation", "", -1, 1, false, 4, true};
 inline constexpr ConfigRange kObjectSize{"objects", "size", "m", 0.001, 100, false, 3};
 inline constexpr ConfigRange kColour{"objects", "colour", "", 0, 1, false, 3};
+inline constexpr ConfigRange kSecondColour{"objects", "second_colour", "", 0, 1, false, 3};
 inline constexpr ConfigRange kSquares{"objects", "squares", "", 1, 256, true};
 
 inline constexpr std::array kAll{
-    kWidth,          kHeight,     kCameraRate, kPulse,       kDelay,     kJitter,       kArrival,
-    kStillRate,      kExplained,  kMaxAge,     kMinInterval, kTimeout,   kTagSize,      kDecimation,
-    kDetectors,      kFullSearch, kBridge,     kDeadline,    kLeastFree, kMostRecorded, kMemory,
-    kStatusInterval, kTracing,    kSamples,    kResolution,  kTracers,   kTurn,         kExposure,
-    kScale,          kPosition,   kObjectSize, kColour,      kSquares};
+    kWidth,        kHeight,       kCameraRate, kPulse,          kDelay,        kJitter,
+    kArrival,      kStillRate,    kExplained,  kMaxAge,         kMinInterval,  kTimeout,
+    kTagSize,      kDecimation,   kDetectors,  kFullSearch,     kBridge,       kDeadline,
+    kLeastFree,    kMostRecorded, kMemory,     kStatusInterval, kTracing,      kSamples,
+    kResolution,   kTracers,      kTurn,       kExposure,       kSunDirection, kSunIrradiance,
+    kSunRadius,    kScale,        kPosition,   kOrientation,    kObjectSize,   kColour,
+    kSecondColour, kSquares};
 
 }  // namespace mfar::range

@@ -27,7 +27,7 @@ constexpr std::string_view kStalled = "0728b91900ba489c9f57c778157c86b8";
 constexpr std::string_view kRecovered = "467a898a4b6148d88db37d31ed672b14";
 /// What is to be known of a camera: its rate, repeated pictures, few buffers; MFAR_CAMERA.
 constexpr std::string_view kCamera = "6d665cd9de5246c7b16ef1928c94a25f";
-/// A still that was triggered has not come; MFAR_CAMERA.
+/// A still that was triggered has not come, or its exposure is unverified; MFAR_CAMERA.
 constexpr std::string_view kStill = "365758b84a734f5a930be01bd0adfb87";
 /// The display has changed.
 constexpr std::string_view kDisplay = "e94473ee2a28474dadb06e3c8109fe93";

@@ -40,8 +40,7 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     file.numbers(range::kColour, {first.data(), 3}, prefix);
     if (first.x() >= 0) out.colours.fill(first.cast<float>());
     Eigen::Vector3d second = out.colours[1].cast<double>();
-    file.numbers(prefix + "second_colour", {second.data(), 3}, range::kColour.least,
-                 range::kColour.most);
+    file.numbers(range::kSecondColour, {second.data(), 3}, prefix);
     out.colours[1] = second.cast<float>();
     file.integer(range::kSquares, out.squares, prefix);
 }
@@ -119,7 +118,7 @@ PlacedObject readObject(TomlReader& file, const std::string& prefix, ModelReader
     RigidTransform& T = out.T_anchor_object;
     file.numbers(range::kPosition, {T.translation.data(), 3}, prefix);
     std::array<double, 4> wxyz{1, 0, 0, 0};
-    file.numbers(prefix + "orientation", wxyz, -1, 1, lengthFault);
+    file.numbers(range::kOrientation, wxyz, prefix, lengthFault);
     T.rotation = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).normalized();
     return out;
 }

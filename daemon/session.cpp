@@ -317,6 +317,7 @@ void Session::useStill() {
     }
     keepUsedStill(still);
     drawing_->pipeline.setStill(still.frame.view(), still.frame.time(), still.pose);
+    keepSecondStill();
     stillTime_ = still.frame.time();
     stats_.stillUsed();
 }
@@ -348,14 +349,11 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }
     }
-    if (policy_.lost() > lostTold_) {
-        lostTold_ = policy_.lost();
-        stats_.warn(fmt::format("{}: no still has come for a pulse{}", trigger->name(),
-                                policy_.pending() ? ", it is asked for once more" : ""),
-                    {message::kStill, "still"});
-    }
-    stats_.triggers(static_cast<std::uint64_t>(policy_.fired()),
-                    static_cast<std::uint64_t>(policy_.lost()));
+    const auto lost = static_cast<std::uint64_t>(policy_.lost());
+    for (const std::string_view report :
+         triggerReports_.newSince({lost, trigger->missedEdges(), policy_.pending()}))
+        stats_.warn(fmt::format("{}: {}", trigger->name(), report), {message::kStill, "still"});
+    stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), lost);
 }
 
 // Frames bring the fault with them; without them it is shown over the last picture.

@@ -13,6 +13,7 @@
 #include "daemon/stats.h"
 #include "daemon/status.h"
 #include "daemon/still_policy.h"
+#include "daemon/trigger_reports.h"
 #include "hal/display.h"
 #include "hal/gl_context.h"
 
@@ -86,7 +87,7 @@ public:
     [[nodiscard]] std::function<Recorded()> stopRecording() { return rig_.stopRecording(); }
 
 private:
-    /// A copy of the still that the pipeline matches.
+    /// A copy of a still that the pipeline matches.
     struct UsedStill {
         std::vector<std::uint8_t> pixels;
         ImageView view;
@@ -107,7 +108,8 @@ private:
     /// Opens GL for the objects where it is not open yet; reports where that fails.
     bool canShowObjects();
     void placeObjects();
-    /// On the context that is open, or on none: with all that was set, and the still that was used.
+    /// On the context that is open, or on none: with all that was set, and the stills that were
+    /// used.
     void makeDrawing();
     /// On another context, after all on the one before is lost. Throws Failure where that does not
     /// help.
@@ -116,6 +118,8 @@ private:
     [[nodiscard]] std::string bannerText();
     [[nodiscard]] Rendering rendering() const;
     void keepUsedStill(const CapturedStill& still);
+    /// After the pipeline has taken it.
+    void keepSecondStill();
     [[nodiscard]] bool mayDraw();
     /// Leaves of `captured` what is needed to process it once more.
     void process(CapturedFrame& captured);
@@ -157,8 +161,10 @@ private:
     std::unique_ptr<Drawing> drawing_;           ///< tells the learning
     StillPolicy policy_;
     std::optional<CapturedStill> newestStill_;  ///< not used yet
-    std::optional<UsedStill> usedStill_;        ///< where steps run on GLES
-    int lostTold_ = 0;                  ///< of the policy's lost stills, those that the log has
+    // Where steps run on GLES: the newest used, the one that the pipeline keeps beside it, and the
+    // one before, whose memory is used again.
+    std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
+    TriggerReports triggerReports_;
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
     std::optional<Governor> governor_;
     Governor::Choice choice_{};          ///< the pipeline's

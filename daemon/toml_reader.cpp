@@ -114,8 +114,8 @@ void TomlReader::integer(const range::ConfigRange& range, int& out, std::string_
 }
 
 void TomlReader::numbers(const range::ConfigRange& range, std::span<double> out,
-                         std::string_view prefix) {
-    numbers(keyOf(range, prefix), out, range.least, range.most);
+                         std::string_view prefix, const NumbersCheck& check) {
+    numbers(keyOf(range, prefix), out, range.least, range.most, check);
 }
 
 void TomlReader::integer(std::string_view key, std::uint64_t& out) {

@@ -47,7 +47,8 @@ public:
     /// A list of exactly so many numbers as `out` holds.
     void numbers(std::string_view key, std::span<double> out, double least, double most,
                  const NumbersCheck& check = nullptr);
-    void numbers(const range::ConfigRange& range, std::span<double> out, std::string_view prefix);
+    void numbers(const range::ConfigRange& range, std::span<double> out,
+                 std::string_view prefix = {}, const NumbersCheck& check = nullptr);
     /// A table of texts, numbers and true or false by any name, each as text: "1", "0.5", "true";
     /// in the order of the file.
     void values(std::string_view key, std::vector<std::pair<std::string, std::string>>& out);

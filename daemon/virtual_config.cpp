@@ -32,13 +32,12 @@ std::optional<std::string> directionFault(std::span<const double> xyz) {
 }
 
 void readSun(TomlReader& file, std::optional<Sun>& sun) {
-    constexpr double kStrongest = 1e4, kLargestDeg = 45;
     // Any of its keys makes a sun.
     Eigen::Vector3d towards = Eigen::Vector3d::Zero(), irradiance = Eigen::Vector3d::Constant(-1);
     double radiusDeg = 0;
-    file.numbers("light.sun.direction", {towards.data(), 3}, -1000, 1000, directionFault);
-    file.numbers("light.sun.irradiance", {irradiance.data(), 3}, 0, kStrongest);
-    file.number("light.sun.radius_deg", radiusDeg, 0.05, kLargestDeg);
+    file.numbers(range::kSunDirection, {towards.data(), 3}, {}, directionFault);
+    file.numbers(range::kSunIrradiance, {irradiance.data(), 3});
+    file.number(range::kSunRadius, radiusDeg);
     if (towards.isZero() && irradiance.x() < 0 && radiusDeg == 0) return;
     sun.emplace();
     sun->towards.normalize();

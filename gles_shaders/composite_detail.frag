@@ -1,8 +1,13 @@
 // out = up(video) + weight * (still - up(its mean over each video pixel)) (design: mode `detail`).
 // With LEARNED also what the learned enlarger adds, by the share that the weight leaves of one: the still knows
 // better what it shows.
+// With SECOND also LEARNED, of a second still, to be blended over the first's as far as it counts for more.
 // Variant: #define PLAIN_TILE
 // Variant: #define LEARNED
+// Variant: #define SECOND
+#ifdef SECOND
+#define LEARNED
+#endif
 #include "tile_params.glsl"
 #include "look_up.glsl"
 #ifdef LEARNED
@@ -14,6 +19,14 @@
 #include "upscale.glsl"
 
 layout(binding = 1) uniform sampler2D still;  // raised luma
+#ifdef SECOND
+layout(binding = 5) uniform sampler2D newestField;
+
+// The weight of the detail that lies below.
+float newestShare() {
+    return textureLod(newestField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) / vec2(4 * cellCount()), 0.0).z;
+}
+#endif
 layout(location = 0) out vec4 colour;
 
 void main() {
@@ -25,5 +38,10 @@ void main() {
 #else
     float added = l.z * (textureLod(still, uv, 0.0).r - video.a);
 #endif
+#ifdef SECOND
+    float shown = clamp((l.z - newestShare() - kSecondFrom) / (kSecondAlone - kSecondFrom), 0.0, 1.0);
+    colour = shown * vec4(clamp(video.rgb + added, 0.0, 1.0), 1.0);
+#else
     colour = vec4(video.rgb + added, 1.0);
+#endif
 }

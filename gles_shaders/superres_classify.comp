@@ -1,8 +1,8 @@
 // Class of every tile and the draw lists of the frame.
-// In: change flags, cell field. Out: lists[] = four lists of changed tiles (all, upscaled, trusted, blended;
-// empty when the whole frame is drawn at once, the first two when it is enlarged at once; the first also has the
-// tiles around those that show detail or are enlarged by filters, which is made of what lies there), draws[] = their indirect commands and
-// the counts of the frame, classes[] per tile.
+// In: change flags, cell fields of up to two stills. Out: lists[] = lists of changed tiles (all, upscaled, trusted,
+// blended; empty when the whole frame is drawn at once, the first two when it is enlarged at once; the first also has
+// the tiles around those that show detail or are enlarged by filters, which is made of what lies there; and those that
+// show some of the second still), draws[] = their indirect commands and the counts of the frame, classes[] per tile.
 // One invocation a tile; draws[] is zeroed before.
 // Range: classes 0..3, 0..16
 #include "tiles.glsl"
@@ -19,14 +19,16 @@ layout(std430, binding = 1) buffer Classes {
     uvec2 classes[];  // class this frame, unexplained cells when last drawn
 };
 layout(std430, binding = 2) buffer Draws {
-    uvec4 draws[4];    // vertices, instances, first vertex, reserved
-    uint counts[8];    // tiles per class, unexplained tiles, confidence sum * 256
+    uvec4 draws[5];    // vertices, instances, first vertex, reserved
+    uint counts[8];    // tiles per class, -, unexplained tiles, confidence sum * 256, tiles with the second still
 };
 layout(std430, binding = 3) buffer Lists {
     uint lists[];  // then of each tile, when it was last listed for a neighbour
 };
 layout(binding = 0) uniform sampler2D cellField;
 layout(binding = 1) uniform sampler2D weightField;
+layout(binding = 2) uniform sampler2D secondCells;  // of the second still
+layout(binding = 3) uniform sampler2D secondWeights;
 
 ivec2 lastCell() {
     return ivec2(params.cellColumns, params.cellRows) - 1;
@@ -57,6 +59,25 @@ uint classOf(ivec2 first) {
     return kTileTrusted;
 }
 
+// Does the second still count for more?
+bool secondIsMore(ivec2 c) {
+    return texelFetch(secondCells, c, 0).z > texelFetch(cellField, c, 0).z + kSecondFrom;
+}
+
+// As far as pixels of the tile look: between its cells and those beside it.
+bool showsSecond(ivec2 first) {
+    ivec2 low = max(first - 1, ivec2(0)), high = min(first + 4, lastCell());
+    for (int y = low.y; y <= high.y; ++y)
+        for (int x = low.x; x <= high.x; ++x)
+            if (secondIsMore(ivec2(x, y))) return true;
+    return false;
+}
+
+bool isUnexplained(ivec2 c) {
+    if (texelFetch(weightField, c, 0).w < 0.5) return false;
+    return params.secondGiven == 0 || texelFetch(secondWeights, c, 0).w >= 0.5 || !secondIsMore(c);
+}
+
 void append(uint list, uint packedTile) {
     uint at = atomicAdd(draws[list].y, 1u);
     lists[int(list) * params.columns * params.rows + int(at)] = packedTile;
@@ -69,7 +90,7 @@ void appendUnchangedAround(ivec2 tile) {
         for (int x = first.x; x <= last.x; ++x) {
             int index = y * params.columns + x;
             if (changed[index].x != 0u) continue;
-            uint before = atomicExchange(lists[4 * params.columns * params.rows + index], params.detailFrame);
+            uint before = atomicExchange(lists[5 * params.columns * params.rows + index], params.detailFrame);
             if (before != params.detailFrame) append(0u, packTile(ivec2(x, y)));
         }
     }
@@ -90,10 +111,13 @@ void main() {
         kind = !stillGiven || changed[index].y == 0u ? kTileUpscaled : classOf(4 * tile);
         unexplained = !stillGiven ? 16u : 0u;
         if (stillGiven) {
-            for (int i = 0; i < 16; ++i) {
-                ivec2 c = min(4 * tile + ivec2(i & 3, i >> 2), lastCell());
-                unexplained += uint(texelFetch(weightField, c, 0).w + 0.5);
-            }
+            for (int i = 0; i < 16; ++i)
+                unexplained += uint(isUnexplained(min(4 * tile + ivec2(i & 3, i >> 2), lastCell())));
+        }
+        if (params.secondGiven != 0 && showsSecond(4 * tile)) {
+            kind = kTileBlended;
+            append(4u, packTile(tile));
+            atomicAdd(counts[7], 1u);
         }
         if (!whole) append(0u, packTile(tile));
         if (!whole || (header.x == 2u && kind != kTileUpscaled)) append(kind, packTile(tile));

@@ -1,6 +1,8 @@
 // One rectangle per listed tile, at any resolution. In: packed tile (instanced). Six vertices.
 // With PLAIN_TILE also the look-up of the tile's corners, from the cells that meet there.
+// With AROUND what lies around the tile, too.
 // Variant: #define PLAIN_TILE
+// Variant: #define AROUND
 #include "tile_params.glsl"
 #include "tiles.glsl"
 
@@ -14,7 +16,11 @@ void main() {
     ivec2 corner = ivec2(gl_VertexID % 3 == 1 || gl_VertexID == 3 ? 1 : 0,
                          gl_VertexID % 3 == 2 || gl_VertexID == 3 ? 1 : 0);
     ivec2 at = unpackTile(packedTile) + corner;
-    vec2 p = min(vec2(16 * at), vec2(videoSize()));
+    ivec2 pixel = 16 * at;
+#ifdef AROUND
+    pixel += (2 * corner - 1) * kTileAround;
+#endif
+    vec2 p = vec2(clamp(pixel, ivec2(0), videoSize()));
 #ifdef PLAIN_TILE
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 4; ++i)

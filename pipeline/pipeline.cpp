@@ -47,17 +47,14 @@ Size Pipeline::fullSize(const StereoRig& rig) {
 Pipeline::State::State(const StereoRig& rigIn, const PipelineOptions& optionsIn)
     : rig(rigIn), options(optionsIn), output(outputSize(rig, options.output)),
       workers(std::make_shared<Workers>(options.threads)), now(rig.video.size),
-      drawn(rig.video.size), plan(rig.video.size, workers) {
+      drawn(rig.video.size), plan(rig.video.size, workers), secondTiles(tilesOf(rig.video.size)) {
     validate(options.epipolar);
     validate(options.depth);
     const StepSetup setup{rig, output, options.flow2d, workers, &transfers};
     if (options.engines.uses(EngineKind::Gles)) gles = makeGlesEngine(setup);
     if (options.engines.uses(EngineKind::Simd)) simd = makeSimdEngine(setup);
     newest = makeReference();
-    if (options.engines.keepsTwo()) {
-        second = makeReference();
-        secondTiles.emplace(tilesOf(rig.video.size));
-    }
+    second = makeReference();
     detail = engineOf(options.engines.detail).detail();
     quality.mode = options.mode;
     if (!options.skips.tileLists) plan.drawWholeFrom(0);
@@ -73,7 +70,7 @@ Reference Pipeline::State::makeReference() {
     Reference out{engineOf(engines.still).still(), engineOf(engines.pyramid).pyramid(),
                   engineOf(engines.flow).flow(), engineOf(engines.weigh).weigh()};
     const Size cells = cellsOf(rig.video.size);
-    if (engines.keepsTwo()) out.first.reserve(static_cast<std::size_t>(cells.width) * cells.height);
+    out.first.reserve(static_cast<std::size_t>(cells.width) * cells.height);
     return out;
 }
 
@@ -83,12 +80,14 @@ Pipeline::~Pipeline() = default;
 Pipeline::Pipeline(Pipeline&&) noexcept = default;
 Pipeline& Pipeline::operator=(Pipeline&&) noexcept = default;
 
-void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<Pose>& pose) {
+void Pipeline::setStill(const ImageView& still, Timestamp time, const std::optional<Pose>& pose) {
     State& s = *state_;
     requireFit(still, s.rig.still.size, "still");
     s.tellReplaced();
     s.retireNewest();
-    s.newest.take(still, s.quality.mode);
+    s.newest.take(still, time, s.quality.mode);
+    if (s.options.engines.weigh == EngineKind::Simd || s.options.engines.detail == EngineKind::Simd)
+        s.simd->take(*s.newest.pictures);
     if (s.epipolar) s.epipolar->dropStill();
     if (pose) s.needEpipolar().setStill(still, *pose);
     if (s.depth) s.depth->stage.renew();
@@ -98,12 +97,12 @@ void Pipeline::setStill(const ImageView& still, Timestamp, const std::optional<P
 }
 
 void Pipeline::State::retireNewest() {
-    if (!secondTiles || newest.pictures == nullptr) return;
+    if (newest.pictures == nullptr) return;
     if (!keepsSecond())
         second.drop();
     else if (!keepsOlder(second, newest))
         std::swap(newest, second);
-    secondTiles->forget();
+    secondTiles.forget();
 }
 
 void Pipeline::dropStill() {
@@ -111,6 +110,11 @@ void Pipeline::dropStill() {
     state_->second.drop();
     if (state_->epipolar) state_->epipolar->dropStill();
     state_->redraw = true;
+}
+
+std::optional<Timestamp> Pipeline::secondStill() const {
+    const Reference& second = state_->second;
+    return second.pictures != nullptr ? std::optional(second.time) : std::nullopt;
 }
 
 void Pipeline::setMode(SuperResMode mode) {
@@ -127,7 +131,7 @@ void Pipeline::setQuality(const Quality& quality) {
     s.quality = quality;
     s.quality.cubic = quality.cubic || quality.mode != SuperResMode::Off;
     s.newest.flow->setOptions(quality.flow2d);
-    if (s.second.flow) s.second.flow->setOptions(quality.flow2d);
+    s.second.flow->setOptions(quality.flow2d);
     s.options.epipolar = changed(s.options.epipolar, quality.epipolar);
     if (s.epipolar) s.epipolar->setOptions(s.options.epipolar);
 }
@@ -256,8 +260,8 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
                                    newest.lastWeights->trust.host()};
     const double share = second.pictures != nullptr ? quality.secondShare : 0;
     const int most = static_cast<int>(std::ceil(share * static_cast<double>(work.flags.size())));
-    const TileWork& missed = secondTiles->choose(work, plan.measured(), shown, most);
-    newest.count(secondTiles->matched(), secondTiles->shownByNewest());
+    const TileWork& missed = secondTiles.choose(work, plan.measured(), shown, most);
+    newest.count(secondTiles.matched(), secondTiles.shownByNewest());
     if (missed.matched == 0) {
         second.lastFlow = nullptr;  // of too long ago to be where a search begins
         return nullptr;
@@ -266,8 +270,8 @@ const CellWeights* Pipeline::State::matchSecond(const VideoFrame& frame, const T
     const bool usePrior = second.lastFlow != nullptr && options.skips.knownFlow;
     second.lastFlow = &second.flow->run(pyramids, missed, usePrior);
     second.lastWeights = &weighed(second, frame, pyramids, *second.lastFlow, missed);
-    secondTiles->judge(shown, second.lastWeights->weighed.host());
-    second.count(missed.matched, secondTiles->gained());
+    secondTiles.judge(shown, second.lastWeights->weighed.host());
+    second.count(missed.matched, secondTiles.gained());
     result.stats.matchedSecond = missed.matched;
     lap("second still");
     return second.lastWeights;

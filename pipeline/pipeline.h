@@ -61,7 +61,9 @@ public:
     /// `pose` of the video camera at the still's time: with it and a frame's the flow is sought
     /// along epipolar lines; without one of them it is sought in both dimensions.
     void setStill(const ImageView& still, Timestamp time, const std::optional<Pose>& pose = {});
-    /// Forgets the still: the upscaled video is shown until the next one.
+    /// Time of the older still that is kept for what the newest does not show.
+    [[nodiscard]] std::optional<Timestamp> secondStill() const;
+    /// Forgets the stills: the upscaled video is shown until the next one.
     void dropStill();
     /// Computes one picture. Throws std::invalid_argument as setStill() does.
     const FrameResult& run(const ImageView& video, Timestamp time,

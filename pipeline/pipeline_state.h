@@ -96,8 +96,7 @@ struct Pipeline::State {
     [[nodiscard]] bool leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const;
     [[nodiscard]] Engine& engineOf(EngineKind kind);
     [[nodiscard]] bool keepsSecond() const {
-        return secondTiles && quality.mode == SuperResMode::Detail && quality.learned &&
-               quality.secondShare > 0;
+        return quality.mode == SuperResMode::Detail && quality.learned && quality.secondShare > 0;
     }
     [[nodiscard]] const FilterBank* filterBank() const {
         return filters ? filters.get() : &FilterBank::prior();
@@ -116,10 +115,10 @@ struct Pipeline::State {
     Transfers transfers, transfersBefore;  // in all
     std::unique_ptr<Engine> gles, simd;    // as far as the choice needs them
     Reference newest, second;
-    std::optional<SecondTiles> secondTiles;  // where the engines keep a second still
     std::unique_ptr<DetailStep> detail;
     RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
     WorkPlan plan;
+    SecondTiles secondTiles;
     std::unique_ptr<EpipolarFlow> epipolar;  // since the first still with a pose
     std::future<std::unique_ptr<EpipolarFlow>> comingEpipolar;
     std::optional<RealDepth> depth;  // since it is needed for the first time

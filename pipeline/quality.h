@@ -27,7 +27,7 @@ struct Quality {
     double detailShare = 1;
     /// Tiles that are matched with a second, older still, where the newest does not show them, at
     /// most, as a share of all; [0, 1], 0: none is kept. Where tiles are enlarged by learned
-    /// filters and the engines do that, see EngineChoice::keepsTwo().
+    /// filters alone.
     double secondShare = 0.25;
     /// Real depth is measured in one of so many frames, and carried on in between; [1, 60].
     int depthEvery = 1;

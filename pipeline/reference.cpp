@@ -14,7 +14,8 @@ constexpr double kSameView = 0.5 * kTileSize;  // [video px]
 
 }  // namespace
 
-void Reference::take(const ImageView& picture, SuperResMode mode) {
+void Reference::take(const ImageView& picture, Timestamp taken, SuperResMode mode) {
+    time = taken;
     pictures = &still->run(picture, mode);
     pyramid->still(*pictures);
     lastFlow = nullptr;

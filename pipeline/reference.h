@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/time.h"
 #include "pipeline/engine/steps.h"
 
 #include <memory>
@@ -15,13 +16,14 @@ struct Reference {
     std::unique_ptr<FlowStep> flow;
     std::unique_ptr<WeighStep> weigh;
     const StillPictures* pictures = nullptr;  // null: there is no still
+    Timestamp time{};                         ///< of the still
     const FlowCells* lastFlow = nullptr;      // belongs to that still
     const CellWeights* lastWeights = nullptr;
     /// Of the tiles that were to be matched with it, the share that it showed, over some frames.
     double shows = 1;
     std::vector<WeighedCell> first{};  ///< as of the first frame; empty: there was none
 
-    void take(const ImageView& picture, SuperResMode mode);
+    void take(const ImageView& picture, Timestamp taken, SuperResMode mode);
     void drop();
     /// A frame's tiles that were to be matched, and those that the still showed.
     void count(int tiles, int shown);

@@ -37,68 +37,94 @@ std::string shaderPreamble(std::string_view defines) {
            "precision highp uimage2D;\nprecision highp iimage2D;\n#line 1\n";
 }
 
+/// Owns a program of the context.
+class LinkedProgram {
+public:
+    LinkedProgram() : id_(glCreateProgram()) {}
+    LinkedProgram(const LinkedProgram&) = delete;
+    LinkedProgram& operator=(const LinkedProgram&) = delete;
+    ~LinkedProgram() { glDeleteProgram(id_); }
+
+    [[nodiscard]] GLuint id() const { return id_; }
+
+private:
+    GLuint id_;
+};
+
+namespace {
+
+void finishLink(GLuint program, const std::string& name, std::size_t paramsBytes) {
+    glLinkProgram(program);
+    GLint ok = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    if (ok != GL_TRUE) {
+        std::array<char, 4096> log{};
+        glGetProgramInfoLog(program, log.size(), nullptr, log.data());
+        throw GlError("shader " + name + " does not link: " + log.data());
+    }
+    const GLuint block = glGetUniformBlockIndex(program, "Params");
+    if (block == GL_INVALID_INDEX)
+        throw GlError("shader " + name + " has no active uniform block Params");
+    GLint bytes = 0;
+    glGetActiveUniformBlockiv(program, block, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
+    // Drivers may report the size with or without the trailing padding of the last vec4.
+    if ((static_cast<std::size_t>(bytes) + 15) / 16 * 16 != paramsBytes)
+        throw GlError("shader " + name + ": block Params has " + std::to_string(bytes) +
+                      " bytes, the program expects " + std::to_string(paramsBytes));
+    glUniformBlockBinding(program, block, 0);
+}
+
+}  // namespace
+
+ProgramCache::~ProgramCache() = default;
+
+ProgramCache::Use::Use(ProgramCache& cache) {
+    detail::programs = &cache;
+}
+ProgramCache::Use::~Use() {
+    detail::programs = nullptr;
+}
+
 Program::Program(std::string_view computeShader, std::string_view defines, std::size_t paramsBytes)
     : name_(computeShader) {
-    const GLuint shader = compile(GL_COMPUTE_SHADER, computeShader, defines);
-    id_ = glCreateProgram();
-    glAttachShader(id_, shader);
-    glDeleteShader(shader);
-    finishLink(paramsBytes);
+    link({{GL_COMPUTE_SHADER, computeShader}}, defines, paramsBytes);
 }
 
 Program::Program(std::string_view vertexShader, std::string_view fragmentShader,
                  std::string_view defines, std::size_t paramsBytes)
     : name_(fragmentShader) {
-    const GLuint vertex = compile(GL_VERTEX_SHADER, vertexShader, defines);
-    const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragmentShader, defines);
-    id_ = glCreateProgram();
-    for (const GLuint shader : {vertex, fragment}) {
-        glAttachShader(id_, shader);
-        glDeleteShader(shader);
-    }
-    finishLink(paramsBytes);
+    link({{GL_VERTEX_SHADER, vertexShader}, {GL_FRAGMENT_SHADER, fragmentShader}}, defines,
+         paramsBytes);
 }
 
-void Program::finishLink(std::size_t paramsBytes) {
-    glLinkProgram(id_);
-    GLint ok = 0;
-    glGetProgramiv(id_, GL_LINK_STATUS, &ok);
-    if (ok != GL_TRUE) {
-        std::array<char, 4096> log{};
-        glGetProgramInfoLog(id_, log.size(), nullptr, log.data());
-        throw GlError("shader " + name_ + " does not link: " + log.data());
+void Program::link(std::initializer_list<Shader> shaders, std::string_view defines,
+                   std::size_t paramsBytes) {
+    std::string text(defines);
+    for (const auto& [stage, name] : shaders)
+        text.append(name) += '\n';
+    std::shared_ptr<const LinkedProgram> made;
+    auto& linked = detail::programs != nullptr ? detail::programs->linked_[text] : made;
+    if (linked == nullptr) {
+        auto program = std::make_shared<const LinkedProgram>();
+        for (const auto& [stage, name] : shaders) {
+            const GLuint shader = compile(stage, name, defines);
+            glAttachShader(program->id(), shader);
+            glDeleteShader(shader);
+        }
+        finishLink(program->id(), name_, paramsBytes);
+        linked = std::move(program);
     }
-    const GLuint block = glGetUniformBlockIndex(id_, "Params");
-    if (block == GL_INVALID_INDEX)
-        throw GlError("shader " + name_ + " has no active uniform block Params");
-    GLint bytes = 0;
-    glGetActiveUniformBlockiv(id_, block, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
-    // Drivers may report the size with or without the trailing padding of the last vec4.
-    if ((static_cast<std::size_t>(bytes) + 15) / 16 * 16 != paramsBytes)
-        throw GlError("shader " + name_ + ": block Params has " + std::to_string(bytes) +
-                      " bytes, the program expects " + std::to_string(paramsBytes));
-    glUniformBlockBinding(id_, block, 0);
+    linked_ = linked;
     params_ = Buffer(paramsBytes);
     checkErrors("Program");
 }
 
-Program::Program(Program&& other) noexcept
-    : id_(std::exchange(other.id_, 0)), name_(std::move(other.name_)),
-      params_(std::move(other.params_)) {}
-
-Program& Program::operator=(Program&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(name_, other.name_);
-    std::swap(params_, other.params_);
-    return *this;
-}
-
-Program::~Program() {
-    if (id_ != 0) glDeleteProgram(id_);
+GLuint Program::id() const {
+    return linked_->id();
 }
 
 void Program::use(const void* params, std::size_t bytes, Bindings bindings) {
-    glUseProgram(id_);
+    glUseProgram(linked_->id());
     params_.write(std::span(static_cast<const std::byte*>(params), bytes));
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, params_.id());
     for (const Binding& b : bindings) {

@@ -5,9 +5,12 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace mfar::gpu {
@@ -34,8 +37,11 @@ inline Binding storage(GLuint index, const Buffer& b) {
 using Bindings = std::initializer_list<Binding>;
 
 class Program;
+class ProgramCache;
 class Validation;
 namespace detail {
+/// The cache that this thread uses; null: programs are not shared.
+inline constinit thread_local ProgramCache* programs = nullptr;
 /// The Validation of this thread.
 inline constinit thread_local Validation* validation = nullptr;
 void validate(const Program& program, Bindings bindings, const Framebuffer* target);
@@ -56,6 +62,30 @@ struct Groups {
 /// What stands before the text of every shader: version, `defines`, highp everywhere.
 [[nodiscard]] std::string shaderPreamble(std::string_view defines);
 
+class LinkedProgram;
+
+/// Programs that passes share. While a Use lives, passes of its thread that are made of the same
+/// text get the same program, which is compiled once. Of one context; destroyed with it current.
+class ProgramCache {
+public:
+    ProgramCache() = default;
+    ProgramCache(const ProgramCache&) = delete;
+    ProgramCache& operator=(const ProgramCache&) = delete;
+    ~ProgramCache();
+
+    class Use {
+    public:
+        explicit Use(ProgramCache& cache);
+        Use(const Use&) = delete;
+        Use& operator=(const Use&) = delete;
+        ~Use();
+    };
+
+private:
+    friend class Program;
+    std::map<std::string, std::shared_ptr<const LinkedProgram>> linked_;
+};
+
 /// A linked program and the uniform block `Params` (binding 0) it declares. Untyped base of the two
 /// passes. Throws GlError with the shader's name and the compiler's text.
 class Program {
@@ -64,22 +94,19 @@ public:
     Program(std::string_view computeShader, std::string_view defines, std::size_t paramsBytes);
     Program(std::string_view vertexShader, std::string_view fragmentShader,
             std::string_view defines, std::size_t paramsBytes);
-    Program(Program&& other) noexcept;
-    Program& operator=(Program&& other) noexcept;
-    Program(const Program&) = delete;
-    Program& operator=(const Program&) = delete;
-    ~Program();
 
     /// Activates the program with its parameters and bindings.
     void use(const void* params, std::size_t bytes, Bindings bindings);
-    [[nodiscard]] GLuint id() const { return id_; }
+    [[nodiscard]] GLuint id() const;
     /// Of the compute or the fragment shader.
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
-    void finishLink(std::size_t paramsBytes);
+    using Shader = std::pair<GLenum, std::string_view>;
+    void link(std::initializer_list<Shader> shaders, std::string_view defines,
+              std::size_t paramsBytes);
 
-    GLuint id_ = 0;
+    std::shared_ptr<const LinkedProgram> linked_;
     std::string name_;
     Buffer params_;
 };

@@ -151,6 +151,8 @@ bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit) {
         if (count < 0 && errno == EINTR) continue;
         const bool told = count > 0 && (waiting.revents & POLLIN) != 0;
         if (!told || drmHandleEvent(fd, &events) != 0) return false;
+        // Other events do not extend the wait.
+        if (pending && left.count() <= 0) return false;
     }
     return true;
 }

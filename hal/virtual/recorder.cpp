@@ -110,8 +110,10 @@ void Recorder::sync() {
     syncer_.post([this, rows = std::move(rows)] {
         const std::shared_ptr<void> atEnd(nullptr, [this](void*) { isSyncing_ = false; });
         syncFileSystem(root_);
+        if (rows.empty()) return;
         for (const auto& [file, text] : rows)
             appendToFile(file, text);
+        syncFileSystem(root_);  // or the names would be lost until the next of these points
     });
 }
 
@@ -169,7 +171,6 @@ void Recorder::writePose(const Pose& pose) {
 void Recorder::finish() {
     writer_.post([this] { sync(); });
     writer_.drain();
-    syncer_.post([this] { syncFileSystem(root_); });  // the rows themselves
     syncer_.drain();
 }
 

@@ -31,10 +31,10 @@ struct RecorderOptions {
 /// Writes a recording while the frames it is made of are in use. video(), still() and pose() copy
 /// and return at once, whatever the disk does: when their buffers are full the picture is dropped
 /// and counted. A data.csv names a picture only after its file is on the disk: at finish() and
-/// every `syncEvery` the file system is synchronised, and what was written since is named then. So
-/// a recording that was cut off at any moment, also by a cut of power, can be loaded, and lacks at
-/// most what came after the last of these points. The body frame B of the recording is the video
-/// camera.
+/// every `syncEvery` the file system is synchronised, what was written since is named, and the
+/// names are synchronised, too. So a recording that was cut off at any moment, also by a cut of
+/// power, can be loaded, and lacks at most what came after the last of these points. The body frame
+/// B of the recording is the video camera.
 ///
 /// video() is called from one thread, and so are still() and pose(); the three may be different
 /// ones. Returned false = not recorded: buffers full, time not after that of the previous picture,
@@ -93,7 +93,7 @@ private:
     void writePicture(PictureStream& stream, const ImageView& picture, Timestamp time);
     void writePose(const Pose& pose);
     void syncWhenDue();
-    /// Makes all files safe, then names them.
+    /// Makes all files safe, names them, and makes the names safe.
     void sync();
     /// Throws std::runtime_error where no further picture may be written.
     void checkSpace(std::uintmax_t bytes);

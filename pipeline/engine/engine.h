@@ -41,11 +41,6 @@ struct EngineChoice {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||
                detail == kind || occlusion == kind;
     }
-    /// Is a second still kept for what the newest misses? Shaders draw from one alone.
-    [[nodiscard]] bool keepsTwo() const {
-        return still == EngineKind::Simd && pyramid == EngineKind::Simd &&
-               flow == EngineKind::Simd && weigh == EngineKind::Simd && detail == EngineKind::Simd;
-    }
     bool operator==(const EngineChoice&) const = default;
 };
 
@@ -73,6 +68,8 @@ public:
     [[nodiscard]] virtual std::unique_ptr<WarpStep> warp(const CameraModel& layer,
                                                          const WarpOptions& options) = 0;
 
+    /// Prepares a new still for the steps that weigh and draw: frames allocate nothing for it.
+    virtual void take(const StillPictures&) {}
     /// Lets the work begin that has been asked for.
     virtual void flush() {}
     /// Waits until it is done: for measurements.

@@ -144,8 +144,8 @@ public:
     struct Matched {
         const StillPictures& still;
         const CellWeights& weights;
-        /// A second still, seen where it counts for more; null: none. For engines that
-        /// EngineChoice::keepsTwo(), in mode Detail alone.
+        /// A second still, seen where it counts for more; null: none. In mode Detail with filters
+        /// alone.
         const Matched* second = nullptr;
     };
 

@@ -181,6 +181,8 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
     in.finish();
     if (!out.putInPlace(weights, learned)) in.refuse("has weights that are too large");
     out.measure();
+    if (!std::isfinite(out.counts_.gainDb) || !std::isfinite(out.counts_.priorDb))
+        in.refuse("has sums that are too large");
     return out;
 }
 

@@ -24,7 +24,7 @@ DetailPainter::DetailPainter(const StereoRig& stillRig, Size output)
       output_(output, gpu::TexelFormat::Rgba8), sharpenedTarget_(sharpened_),
       columnsTarget_(columns_), outputTarget_(output_),
       classes_(8 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
-      lists_(20 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
+      lists_(24 * static_cast<std::size_t>(tiles_.width) * tiles_.height),
       draws_{gpu::Buffer(sizeof(DrawBlock)), gpu::Buffer(sizeof(DrawBlock))},
       classify_("superres_classify.comp"), sharpen_("superres_sharpen.frag"),
       columnsPass_("superres_vertical.frag"), wholeBlend_("composite_blend.frag"),
@@ -39,6 +39,7 @@ void DetailPainter::classify(const Matched* matched, const TileBuffer& tiles,
         command[0] = kQuadVertices;
     draws_[current_].write(std::span<const DrawBlock>(&block, 1));
     const bool learns = filtersOf(options) != nullptr;
+    const Matched* second = matched != nullptr && learns ? matched->second : nullptr;
     const bool hasDetail = matched != nullptr && options.mode == SuperResMode::Detail;
     classified_ = std::max(classified_ + 1, 1U);
     classify_.run({.columns = tiles_.width,
@@ -49,11 +50,14 @@ void DetailPainter::classify(const Matched* matched, const TileBuffer& tiles,
                    .plainFlow = options.plainTiles ? params::kPlainFlow : 0.0F,
                    .stillGiven = matched != nullptr ? 1 : 0,
                    .detailFrame = hasDetail || learns ? classified_ : 0,
-                   .learns = learns ? 1 : 0},
+                   .learns = learns ? 1 : 0,
+                   .secondGiven = second != nullptr ? 1 : 0},
                   {gpu::storage(0, tiles.buffer()), gpu::storage(1, classes_),
                    gpu::storage(2, draws_[current_]), gpu::storage(3, lists_),
                    gpu::sampler(0, matched != nullptr ? matched->weighed : blank_),
-                   gpu::sampler(1, matched != nullptr ? matched->trust : blank_)},
+                   gpu::sampler(1, matched != nullptr ? matched->trust : blank_),
+                   gpu::sampler(2, second != nullptr ? second->weighed : blank_),
+                   gpu::sampler(3, second != nullptr ? second->trust : blank_)},
                   {gpu::groupsFor(tiles_.width, 8), gpu::groupsFor(tiles_.height, 8), 1});
 }
 
@@ -179,6 +183,23 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         composite(passes, p,
                   {gpu::sampler(0, columns), gpu::sampler(1, still), gpu::sampler(2, lookUps)},
                   matched != nullptr, work);
+    if (learns && matched != nullptr && matched->second != nullptr)
+        drawSecond(p, video, *matched, *filtersOf(options));
+}
+
+// Over the first still's detail, which fades where the second counts for more.
+void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
+                               const Matched& matched, const FilterBank& filters) {
+    const Matched& second = *matched.second;
+    const gpu::InstanceList tiles = list(List::Second);
+    learned_->seeSecond(video, {second.still, second.lookUps}, filters, params, tiles);
+    const gpu::PremultipliedBlend blend;
+    learned_->second().runTiles(
+        params,
+        {gpu::sampler(0, learned_->columns()), gpu::sampler(1, second.still),
+         gpu::sampler(2, second.lookUps), gpu::sampler(3, learned_->residuals()),
+         gpu::sampler(4, learned_->tiles()), gpu::sampler(5, matched.lookUps)},
+        outputTarget_, tiles);
 }
 
 void DetailPainter::composite(Composites passes, const TileParams& params, gpu::Bindings bindings,
@@ -209,6 +230,7 @@ TileSummary DetailPainter::summary(int which) const {
     s.changed = 1.0 - static_cast<double>(s.tiles[0]) / total;
     s.explained = 1.0 - static_cast<double>(block.counts[5]) / total;
     s.meanConfidence = block.counts[6] / (256.0 * total);
+    s.second = static_cast<int>(block.counts[7]);
     return s;
 }
 

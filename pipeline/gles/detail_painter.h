@@ -27,6 +27,8 @@ public:
         const gpu::Texture& weighed;  ///< Rgba32F, as the other two one texel a cell
         const gpu::Texture& lookUps;  ///< Rgba16F, linear filter
         const gpu::Texture& trust;    ///< Rgba8, linear filter
+        /// Seen where it counts for more; null: none. In mode Detail with filters alone.
+        const Matched* second = nullptr;
     };
     /// Sorts the changed tiles into classes and draws them. Null: only enlarges.
     void draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
@@ -62,10 +64,10 @@ private:
     };
     /// draws[] of superres_classify.comp.
     struct DrawBlock {
-        std::array<std::array<std::uint32_t, 4>, 4> commands;
+        std::array<std::array<std::uint32_t, 4>, 5> commands;
         std::array<std::uint32_t, 8> counts;
     };
-    enum class List : std::uint32_t { All, Upscaled, Trusted, Blended };
+    enum class List : std::uint32_t { All, Upscaled, Trusted, Blended, Second };
 
     [[nodiscard]] TileSummary summary(int which) const;
     [[nodiscard]] gpu::InstanceList list(List which) const;
@@ -76,6 +78,8 @@ private:
                         const TileBuffer& tiles, const FilterBank& filters);
     void enlargeColumns(const TileParams& params, const gpu::Texture& video, const Matched* matched,
                         const TileBuffer& tiles, const DetailOptions& options);
+    void drawSecond(const TileParams& params, const gpu::Texture& video, const Matched& matched,
+                    const FilterBank& filters);
     void composite(Composites passes, const TileParams& params, gpu::Bindings bindings,
                    bool isMatched, const TileWork& work);
     void drawDetail(Composites passes, const TileParams& params, gpu::Bindings bindings,

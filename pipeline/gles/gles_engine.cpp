@@ -1,4 +1,5 @@
 #include "base/gl/gl.h"
+#include "base/gl/pass.h"
 #include "pipeline/gles/gles_steps.h"
 #include "pipeline/warp/warp_step.h"
 
@@ -11,12 +12,21 @@ public:
         : setup_(setup), stillRig_(stillFor(setup.output, setup.rig)),
           frame_(setup.rig.video.size) {}
 
-    std::unique_ptr<StillStep> still() override { return gles::makeStillStep(setup_, frame_); }
+    // Two stills are matched by the same programs.
+    std::unique_ptr<StillStep> still() override {
+        const gpu::ProgramCache::Use use(programs_);
+        return gles::makeStillStep(setup_, frame_);
+    }
     std::unique_ptr<PyramidStep> pyramid() override {
+        const gpu::ProgramCache::Use use(programs_);
         return gles::makePyramidStep(setup_, frame_);
     }
-    std::unique_ptr<FlowStep> flow() override { return gles::makeFlowStep(setup_, frame_); }
+    std::unique_ptr<FlowStep> flow() override {
+        const gpu::ProgramCache::Use use(programs_);
+        return gles::makeFlowStep(setup_, frame_);
+    }
     std::unique_ptr<WeighStep> weigh() override {
+        const gpu::ProgramCache::Use use(programs_);
         return gles::makeWeighStep(setup_, stillRig_, frame_);
     }
     std::unique_ptr<DetailStep> detail() override {
@@ -38,6 +48,7 @@ public:
 private:
     StepSetup setup_;
     StereoRig stillRig_;
+    gpu::ProgramCache programs_;
     gles::FrameOnGpu frame_;
 };
 

@@ -154,8 +154,9 @@ private:
 class GlesWeigh final : public WeighStep {
 public:
     GlesWeigh(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame)
-        : rig_(stillRig), frame_(frame), weigher_(stillRig),
-          copies_(weigher_.weighed(), weigher_.lookUps(), weigher_.trust()),
+        : frame_(frame), weigher_(stillRig),
+          copies_(weigher_.weighed(), weigher_.lookUps(), weigher_.trust()), fine_(stillRig),
+          fineCopies_(fine_.weights().weighed, fine_.weights().lookUps, fine_.weights().trust),
           weights_{Field<WeighedCell>({}, setup.transfers), Field<LookUpCell>({}, setup.transfers),
                    Field<TrustCell>({}, setup.transfers)} {}
 
@@ -172,16 +173,11 @@ public:
     }
     const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                const TileWork& work, const FineMatch& match) override {
-        if (!fine_) {
-            fine_.emplace(rig_);
-            const FineCheck::Weights out = fine_->weights();
-            fineCopies_.emplace(out.weighed, out.lookUps, out.trust);
-        }
         if (work.changed > 0)
-            fine_->run(frame_.video(frame), raisedOf(still),
-                       {weigher_.weighed(), weigher_.lookUps(), weigher_.trust()},
-                       frame_.tiles(work), match);
-        return written(*fineCopies_);
+            fine_.run(frame_.video(frame), raisedOf(still),
+                      {weigher_.weighed(), weigher_.lookUps(), weigher_.trust()},
+                      frame_.tiles(work), match);
+        return written(fineCopies_);
     }
 
 private:
@@ -199,12 +195,11 @@ private:
         return weights_;
     }
 
-    StereoRig rig_;
     FrameOnGpu& frame_;
     CellWeigher weigher_;
     Copies copies_;
-    std::optional<FineCheck> fine_;  // since it was needed for the first time
-    std::optional<Copies> fineCopies_;
+    FineCheck fine_;
+    Copies fineCopies_;
     CellWeights weights_;
 };
 
@@ -224,7 +219,10 @@ public:
         if (matched == nullptr) {
             painter_.draw(video, nullptr, tiles, options);
         } else {
-            const DetailPainter::Matched on = texturesOf(*matched, options.mode);
+            DetailPainter::Matched on = texturesOf(*matched, options.mode);
+            std::optional<DetailPainter::Matched> second;
+            if (matched->second != nullptr)
+                on.second = &second.emplace(texturesOf(*matched->second, options.mode));
             painter_.draw(video, &on, tiles, options);
         }
         if (work.changed > 0) output_.writtenOnDevice(copy_, painter_.output().size());
@@ -259,6 +257,12 @@ const gpu::Texture& FrameOnGpu::video(const VideoFrame& frame) {
     if (number_ != frame.number) video_.upload(frame.view);
     number_ = frame.number;
     return video_.texture();
+}
+
+const TileBuffer& FrameOnGpu::tiles(const TileWork& work) {
+    if (!tiles_[used_].holds(work)) used_ = 1 - used_;
+    tiles_[used_].set(work);
+    return tiles_[used_];
 }
 
 void FrameOnGpu::setImporter(PlaneImporter* importer) {

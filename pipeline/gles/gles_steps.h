@@ -5,6 +5,8 @@
 #include "pipeline/gles/tile_buffer.h"
 #include "pipeline/superres/still_scale.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,14 +18,12 @@ namespace mfar::gles {
 /// the engine's steps; needs a current context for its whole life.
 class FrameOnGpu {
 public:
-    explicit FrameOnGpu(Size video) : tiles_(video) {}
+    explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}
 
     [[nodiscard]] const gpu::Texture& video(const VideoFrame& frame);
-    [[nodiscard]] const TileBuffer& tiles(const TileWork& work) {
-        tiles_.set(work);
-        return tiles_;
-    }
-    /// See gpu::PictureTexture; for the video and for stills.
+    /// Two plans of a frame, one for each still, are kept.
+    [[nodiscard]] const TileBuffer& tiles(const TileWork& work);
+    /// See gpu::PictureTexture. Of the still that came last.
     [[nodiscard]] gpu::PictureTexture& stillPicture() { return still_; }
     void setImporter(PlaneImporter* importer);
     [[nodiscard]] std::optional<std::string> takeImportFault();
@@ -32,7 +32,8 @@ public:
 private:
     gpu::PictureTexture video_, still_{gpu::Filter::Linear};
     std::optional<std::uint64_t> number_;  // of the frame in video_
-    TileBuffer tiles_;
+    std::array<TileBuffer, 2> tiles_;
+    std::size_t used_ = 0;  // of tiles_, last
 };
 
 [[nodiscard]] std::unique_ptr<StillStep> makeStillStep(const StepSetup& setup, FrameOnGpu& frame);

@@ -9,6 +9,7 @@ namespace mfar {
 namespace {
 
 constexpr const char* kLearned = "#define LEARNED\n";
+constexpr const char* kAround = "#define AROUND\n";
 constexpr int kClasses = enlarge::GradientClasses::kCount + enlarge::CurvatureClasses::kCount;
 constexpr int kFilterWords = enlarge::kFilterSize / 2;
 
@@ -19,6 +20,11 @@ std::uint32_t halfOf(std::int16_t weight) {
 gpu::Framebuffer targetOf(const gpu::Texture& first, const gpu::Texture& second) {
     const std::array<const gpu::Texture*, 2> both{&first, &second};
     return gpu::Framebuffer(both);
+}
+
+void setGuidance(params::DrawTiles& params, const FilterBank& filters) {
+    params.guidanceStill = filters.guidance().still;
+    params.guidanceVideo = filters.guidance().video;
 }
 
 /// The least rectangle that holds all tiles that are drawn by filters, and one more around it.
@@ -48,7 +54,12 @@ LearnedEnlarger::LearnedEnlarger(Size video, Size output)
       residuals_(columns_.size(), gpu::TexelFormat::Rgba16I), seenTarget_(seen_),
       guidedTarget_(guided_), columnsTarget_(targetOf(columns_, residuals_)),
       enlarge_("superres_enlarge.comp"), see_("superres_seen.frag"), guide_("superres_guide.frag"),
-      enlargeColumns_("superres_vertical.frag", kLearned), passes_(kLearned) {}
+      enlargeColumns_("superres_vertical.frag", kLearned), passes_(kLearned),
+      seeAround_("tile_rect.vert", "superres_seen.frag", kAround),
+      guideAround_("tile_rect.vert", "superres_guide.frag", kAround),
+      enlargeColumnsAround_("tile_rect.vert", "superres_vertical.frag",
+                            "#define AROUND\n#define LEARNED\n"),
+      second_("tile_rect.vert", "composite_detail.frag", "#define SECOND\n") {}
 
 // As half floats, which shaders unpack in one instruction: a weight of one has eleven bits of 14.
 void LearnedEnlarger::takeFilters(const FilterBank& filters) {
@@ -96,8 +107,7 @@ void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const Til
     takeTiles(tiles.work());
     fillGrid(video, tiles);
     const bool whole = tiles.work().drawsWhole();
-    params.guidanceStill = filters.guidance().still;
-    params.guidanceVideo = filters.guidance().video;
+    setGuidance(params, filters);
     const bool guides = seen != nullptr && filters.guidance().any();
     if (seen != nullptr)
         see_.run(
@@ -116,6 +126,22 @@ void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const Til
     seenIsOld_ = seen == nullptr;
     guidedIsOld_ = !guides;
     columnsAreOld_ = false;
+}
+
+void LearnedEnlarger::seeSecond(const gpu::Texture& video, const Seen& seen,
+                                const FilterBank& filters, params::DrawTiles params,
+                                const gpu::InstanceList& list) {
+    setGuidance(params, filters);
+    seeAround_.runTiles(
+        params,
+        {gpu::sampler(0, video), gpu::sampler(2, seen.lookUps), gpu::sampler(3, seen.still)},
+        seenTarget_, list);
+    const bool guides = filters.guidance().any();
+    if (guides) guideAround_.runTiles(params, {gpu::sampler(1, seen_)}, guidedTarget_, list);
+    enlargeColumnsAround_.runTiles(
+        params,
+        {gpu::sampler(0, video), gpu::sampler(1, guides ? guided_ : seen_), gpu::sampler(2, grid_)},
+        columnsTarget_, list);
 }
 
 }  // namespace mfar

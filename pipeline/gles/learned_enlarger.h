@@ -25,6 +25,10 @@ public:
     /// `seen` may be null.
     void run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
              const FilterBank& filters, params::DrawTiles params, const gpu::InstanceList& list);
+    /// Makes what the composites read of another still in place of the last run()'s, in these tiles
+    /// and around them; the next run() makes that anew.
+    void seeSecond(const gpu::Texture& video, const Seen& seen, const FilterBank& filters,
+                   params::DrawTiles params, const gpu::InstanceList& list);
     /// A frame is drawn by other passes: all tiles are made for the next.
     void skip() { columnsAreOld_ = seenIsOld_ = guidedIsOld_ = true; }
 
@@ -33,6 +37,8 @@ public:
     [[nodiscard]] const gpu::Texture& residuals() const { return residuals_; }
     [[nodiscard]] const gpu::Texture& tiles() const { return learned_; }
     [[nodiscard]] DetailPasses& passes() { return passes_; }
+    /// Draws a second still over the first, whose look-ups are at binding 5.
+    [[nodiscard]] gpu::DrawPass<params::DrawTiles>& second() { return second_; }
 
 private:
     void takeFilters(const FilterBank& filters);
@@ -49,6 +55,7 @@ private:
     gpu::ComputePass<params::EnlargeTiles> enlarge_;
     TilePass see_, guide_, enlargeColumns_;
     DetailPasses passes_;
+    gpu::DrawPass<params::DrawTiles> seeAround_, guideAround_, enlargeColumnsAround_, second_;
 };
 
 }  // namespace mfar

@@ -1,5 +1,6 @@
 #include "pipeline/gles/tile_buffer.h"
 
+#include <algorithm>
 #include <span>
 
 namespace mfar {
@@ -30,6 +31,14 @@ void TileBuffer::set(const TileWork& work) {
     if (entries_ == uploaded_) return;
     buffer_.write(std::span<const Entries::value_type>(entries_));
     uploaded_ = entries_;
+}
+
+bool TileBuffer::holds(const TileWork& work) const {
+    const auto alike = [](const TileWork::Tile& a, const TileWork::Tile& b) {
+        return a.changed == b.changed && a.matched == b.matched;
+    };
+    return work_.draw == work.draw && work_.changed == work.changed &&
+           std::ranges::equal(work_.flags, work.flags, alike);
 }
 
 }  // namespace mfar

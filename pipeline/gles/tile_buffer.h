@@ -17,6 +17,7 @@ public:
 
     /// Uploads the plan where it differs from the one before.
     void set(const TileWork& work);
+    [[nodiscard]] bool holds(const TileWork& work) const;
 
     [[nodiscard]] const TileWork& work() const { return work_; }
     /// uvec2 header: how the frame is drawn (0: changed tiles alone, 1: whole, 2: whole, enlarged,

@@ -89,7 +89,8 @@ void normalize(std::vector<Eigen::Vector4f>& tangents,
                const std::vector<Eigen::Vector3f>& normals) {
     for (std::size_t i = 0; i < tangents.size(); ++i) {
         Eigen::Vector3f t = tangents[i].head<3>();
-        if (!(t.norm() > kShortestUnit)) t = anyOrthogonal(normals[i]);
+        if (!(t.norm() > kShortestUnit))
+            t = normals.empty() ? Eigen::Vector3f::UnitX() : anyOrthogonal(normals[i]);
         tangents[i] << t.normalized(), (tangents[i].w() < 0 ? -1.0F : 1.0F);
     }
 }
@@ -161,7 +162,7 @@ Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh) {
     for (Eigen::Vector4f& t : out.tangents)
         t << (linear * t.head<3>().cast<double>() / (length > 0 ? length : 1)).cast<float>(),
             mirrors ? -t.w() : t.w();
-    if (!out.normals.empty()) normalize(out.tangents, out.normals);
+    normalize(out.tangents, out.normals);
     if (mirrors)
         for (Triangle& t : out.triangles)
             std::swap(t[1], t[2]);

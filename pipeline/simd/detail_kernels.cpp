@@ -154,8 +154,8 @@ void FadeRow(const std::int16_t* second, const LookUpRows& secondRows, const Loo
     const hn::Rebind<std::int16_t, F> d16;
     const int lanes = static_cast<int>(hn::Lanes(df));
     const auto zero = hn::Zero(df), one = hn::Set(df, 1.0F);
-    const auto from = hn::Set(df, kSecondFrom),
-               rise = hn::Set(df, 1 / (kSecondAlone - kSecondFrom));
+    const auto from = hn::Set(df, params::kSecondFrom),
+               rise = hn::Set(df, 1 / (params::kSecondAlone - params::kSecondFrom));
     const auto at = [&](const std::int16_t* row) HWY_ATTR {
         return hn::ConvertTo(F(), hn::PromoteTo(I(), hn::LoadU(d16, row)));
     };

@@ -60,11 +60,8 @@ struct WarpedRow {
 void detailRow(const WarpedRow& warped, const LookUpRows& lookUp, const std::int16_t* learned,
                int begin, int end, std::int16_t* to);
 
-/// By how much the second still's share must be above the first's to be seen at all; to be seen
-/// alone. In between it fades in, so that no seam shows.
-inline constexpr float kSecondFrom = 0.05F, kSecondAlone = 0.15F;
-
-/// Fades a row of detail over to that of a second still, as far as it counts for more.
+/// Fades a row of detail over to that of a second still, as far as it counts for more: see
+/// params::kSecondFrom.
 void fadeRow(const std::int16_t* second, const LookUpRows& secondLookUp, const LookUpRows& lookUp,
              int begin, int end, std::int16_t* inOut);
 

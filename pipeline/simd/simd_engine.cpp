@@ -122,8 +122,8 @@ private:
     AlignedRows<FlowCell> row_;
 };
 
-/// Stills as the host reads them. From the other engine they come without pairs: these are made
-/// once.
+/// Stills as the host reads them, for all steps of an engine. From the other engine they come
+/// without pairs: these are made once.
 class PairedStills {
 public:
     explicit PairedStills(std::shared_ptr<Workers> workers) : workers_(std::move(workers)) {}
@@ -133,31 +133,47 @@ public:
             const Rows<const std::uint16_t> rows = still.pairs.host();
             return {rows.data, rows.pitch, rows.size};
         }
-        const Rows<const std::uint8_t> luma = still.raised.host();
-        const auto [width, height] = luma.size;
-        if (number_ != still.number || pairs_.size() != luma.size) {
-            if (pairs_.size() != luma.size) pairs_ = AlignedRows<std::uint16_t>(luma.size);
-            workers_->forRange(height, 16, [&, width = width, height = height](int y, int end) {
-                for (; y < end; ++y)
-                    simd::pairRows(luma[y], luma[std::min(y + 1, height - 1)],
-                                   static_cast<std::size_t>(width), pairs_[y]);
-            });
-            number_ = still.number;
+        Made& made = madeOf(still);
+        if (made.number != still.number) {
+            pair(still.raised.host(), made.pairs);
+            made.number = still.number;
         }
-        return {pairs_[0], pairs_.pitch(), pairs_.size()};
+        return {made.pairs[0], made.pairs.pitch(), made.pairs.size()};
     }
 
 private:
+    struct Made {
+        const StillPictures* still;
+        std::uint64_t number = 0;
+        AlignedRows<std::uint16_t> pairs{};
+    };
+    /// Each still step has one StillPictures, and a pipeline two steps.
+    Made& madeOf(const StillPictures& still) {
+        const auto at = std::ranges::find(made_, &still, &Made::still);
+        return at != made_.end() ? *at : made_.emplace_back(Made{&still});
+    }
+    void pair(Rows<const std::uint8_t> luma, AlignedRows<std::uint16_t>& to) {
+        const auto [width, height] = luma.size;
+        if (to.size() != luma.size) to = AlignedRows<std::uint16_t>(luma.size);
+        workers_->forRange(height, 16, [&, width = width, height = height](int y, int end) {
+            for (; y < end; ++y)
+                simd::pairRows(luma[y], luma[std::min(y + 1, height - 1)],
+                               static_cast<std::size_t>(width), to[y]);
+        });
+    }
+
     std::shared_ptr<Workers> workers_;
-    AlignedRows<std::uint16_t> pairs_;
-    std::uint64_t number_ = 0;
+    std::vector<Made> made_;
 };
 
 class SimdWeigh final : public WeighStep {
 public:
-    explicit SimdWeigh(const StepSetup& setup)
-        : stillRig_(stillFor(setup.output, setup.rig)), workers_(setup.workers),
-          weigh_(stillRig_, setup.workers), stills_(setup.workers),
+    SimdWeigh(const StepSetup& setup, std::shared_ptr<PairedStills> stills)
+        : SimdWeigh(setup, stillFor(setup.output, setup.rig), std::move(stills)) {}
+    SimdWeigh(const StepSetup& setup, const StereoRig& stillRig,
+              std::shared_ptr<PairedStills> stills)
+        : weigh_(stillRig, setup.workers), fine_(stillRig, setup.workers),
+          stills_(std::move(stills)),
           weights_{Field<WeighedCell>({}, setup.transfers), Field<LookUpCell>({}, setup.transfers),
                    Field<TrustCell>({}, setup.transfers)} {}
 
@@ -185,8 +201,7 @@ public:
     const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                const TileWork& work, const FineMatch& match) override {
         if (work.changed == 0 || work.matched == 0) return weights_;
-        if (!fine_) fine_.emplace(stillRig_, workers_);
-        weigh_.lower(fine_->run(frame.planes, stills_.of(still), weigh_.lookUps(), work, match));
+        weigh_.lower(fine_.run(frame.planes, stills_->of(still), weigh_.lookUps(), work, match));
         return written();
     }
 
@@ -198,19 +213,17 @@ private:
         return weights_;
     }
 
-    StereoRig stillRig_;
-    std::shared_ptr<Workers> workers_;
     simd::WeighStep weigh_;
-    std::optional<simd::FineCheck> fine_;  // since it was needed for the first time
-    PairedStills stills_;
+    simd::FineCheck fine_;
+    std::shared_ptr<PairedStills> stills_;
     CellWeights weights_;
 };
 
 class SimdDetail final : public DetailStep {
 public:
-    explicit SimdDetail(const StepSetup& setup)
+    SimdDetail(const StepSetup& setup, std::shared_ptr<PairedStills> stills)
         : detail_(stillFor(setup.output, setup.rig), setup.output, setup.workers),
-          stills_(setup.workers), picture_(setup.output), output_({}, setup.transfers) {
+          stills_(std::move(stills)), picture_(setup.output), output_({}, setup.transfers) {
         output_.writtenOnHost(picture_.rows());
     }
 
@@ -221,7 +234,7 @@ public:
             if (options.mode == SuperResMode::Blend)
                 in.picture = matched->still.picture.host();
             else
-                in.still = stills_.of(matched->still);
+                in.still = stills_->of(matched->still);
             in.weighed = matched->weights.weighed.host();
             in.lookUps = matched->weights.lookUps.host();
             in.trust = matched->weights.trust.host();
@@ -251,12 +264,12 @@ private:
         return out;
     }
     simd::DetailInput::Second secondOf(const Matched& second) {
-        return {stills_.of(second.still), second.weights.weighed.host(),
+        return {stills_->of(second.still), second.weights.weighed.host(),
                 second.weights.lookUps.host(), second.weights.trust.host()};
     }
 
     simd::DetailStep detail_;
-    PairedStills stills_;
+    std::shared_ptr<PairedStills> stills_;
     AlignedRows<std::uint32_t> picture_;
     Field<std::uint32_t> output_;
     TileSummary summary_;
@@ -287,15 +300,21 @@ private:
 
 class SimdEngine final : public Engine {
 public:
-    explicit SimdEngine(const StepSetup& setup) : setup_(setup) {}
+    explicit SimdEngine(const StepSetup& setup)
+        : setup_(setup), stills_(std::make_shared<PairedStills>(setup.workers)) {}
 
     std::unique_ptr<StillStep> still() override { return std::make_unique<SimdStill>(setup_); }
     std::unique_ptr<PyramidStep> pyramid() override {
         return std::make_unique<SimdPyramid>(setup_);
     }
     std::unique_ptr<FlowStep> flow() override { return std::make_unique<SimdFlow>(setup_); }
-    std::unique_ptr<WeighStep> weigh() override { return std::make_unique<SimdWeigh>(setup_); }
-    std::unique_ptr<DetailStep> detail() override { return std::make_unique<SimdDetail>(setup_); }
+    std::unique_ptr<WeighStep> weigh() override {
+        return std::make_unique<SimdWeigh>(setup_, stills_);
+    }
+    std::unique_ptr<DetailStep> detail() override {
+        return std::make_unique<SimdDetail>(setup_, stills_);
+    }
+    void take(const StillPictures& still) override { (void)stills_->of(still); }
     std::unique_ptr<OcclusionStep> occlusion(Size layer) override {
         return std::make_unique<SimdOcclusion>(setup_, layer);
     }
@@ -305,6 +324,7 @@ public:
 
 private:
     StepSetup setup_;
+    std::shared_ptr<PairedStills> stills_;
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ struct TileClasses::Fields {
     [[nodiscard]] bool showsSecond(int column, int row) const;
     [[nodiscard]] bool secondExplains(int x, int y) const {
         return second.weighed.data != nullptr && at(second.trust, x, y).unexplained < 0.5F &&
-               at(second.weighed, x, y).weight > at(weighed, x, y).weight + kSecondFrom;
+               at(second.weighed, x, y).weight > at(weighed, x, y).weight + params::kSecondFrom;
     }
     [[nodiscard]] float confidence(int column, int row) const;
 };
@@ -81,7 +81,8 @@ bool TileClasses::Fields::showsSecond(int column, int row) const {
     const int x0 = kCells * column - 1, y0 = kCells * row - 1;
     for (int i = 0; i < kWithBorder * kWithBorder; ++i) {
         const int x = x0 + i % kWithBorder, y = y0 + i / kWithBorder;
-        if (at(second.weighed, x, y).weight > at(weighed, x, y).weight + kSecondFrom) return true;
+        if (at(second.weighed, x, y).weight > at(weighed, x, y).weight + params::kSecondFrom)
+            return true;
     }
     return false;
 }

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <ostream>
@@ -50,7 +51,8 @@ std::string with(const ConfigRange& range, double value) {
     const bool isList = range.count > 1, isArray = range.section == "objects";
     const std::string text =
         range.isWhole ? fmt::format("{:.0f}", value) : fmt::format("{:.6f}", value);
-    const std::vector<std::string> all(static_cast<std::size_t>(range.count), text);
+    std::vector<std::string> all(static_cast<std::size_t>(range.count), text);
+    if (range.hasLength1) std::fill(all.begin() + 1, all.end(), "0");
     return fmt::format("{0}{2}{1}\n{3} = {4}{5}{6}\n", isArray ? "[[" : "[", isArray ? "]]" : "]",
                        range.section, range.name, isList ? "[" : "", fmt::join(all, ", "),
                        isList ? "]" : "");

@@ -27,7 +27,13 @@ namespace mfar {
 namespace {
 
 constexpr int kFrames = 6;
-constexpr int kStillFrame = 1;  // of the same time as the only still
+/// A still of the time of a frame, seen from a place beside it.
+struct StillAt {
+    int frame;
+    double aside;  ///< [m]
+};
+// Each shows a border of the picture that the other does not.
+constexpr std::array kStills{StillAt{1, 0.08}, StillAt{3, -0.08}};
 constexpr Size kVideo{160, 120}, kStill{320, 240};
 
 template <class F>
@@ -73,9 +79,10 @@ void record(const std::filesystem::path& folder, int frames) {
         while (!recorder.video(view(wall(rig.video, x), kVideo), time))
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         ASSERT_TRUE(recorder.pose(pose));
-        if (i == kStillFrame) {
-            ASSERT_TRUE(recorder.still(view(wall(rig.still, x + 0.01), kStill), time));
-        }
+        for (const StillAt& still : kStills)
+            if (i == still.frame) {
+                ASSERT_TRUE(recorder.still(view(wall(rig.still, x + still.aside), kStill), time));
+            }
     }
     recorder.finish();
 }
@@ -145,6 +152,7 @@ protected:
         const Ran whole = run(nullptr);
         ASSERT_EQ(whole.counted.gpuFailures, 0U);
         ASSERT_EQ(whole.counted.frames, kFrames);
+        ASSERT_GT(whole.counted.last.showSecond, 0);
         for (const std::string& moment : whole.moments) {
             if (!isOne(moment)) continue;
             SCOPED_TRACE(moment);

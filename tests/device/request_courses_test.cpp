@@ -235,7 +235,7 @@ private:
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };
 
-/// What has happened in all courses.
+/// Totals over all courses.
 struct Seen {
     std::array<int, kPauses.size()> pauses{};
     int lost = 0, failedStarts = 0, stopsInRestarts = 0;

@@ -43,13 +43,21 @@ public:
           pictures_(still_->run(first.stillView(), SuperResMode::Detail)) {}
 
     Rows<const std::uint32_t> draw(const DetailCase& frame, const FilterBank* filters = nullptr) {
-        CellWeights weights;
-        weights.weighed.writtenOnHost(rowsOf(frame.weighed, frame.cells));
-        weights.lookUps.writtenOnHost(rowsOf(frame.lookUps, frame.cells));
-        weights.trust.writtenOnHost(rowsOf(frame.trust, frame.cells));
+        const CellWeights weights = weightsOf(frame);
         const DetailStep::Matched matched{pictures_, weights};
         return draw(frame, &matched, filters);
     }
+    /// With a second still, and as that matches.
+    Rows<const std::uint32_t> drawBoth(const DetailCase& frame, const DetailCase& second,
+                                       const FilterBank* filters) {
+        if (!secondStill_) secondStill_ = stillEngine_->still();
+        const StillPictures& pictures = secondStill_->run(second.stillView(), SuperResMode::Detail);
+        const CellWeights weights = weightsOf(frame), secondWeights = weightsOf(second);
+        const DetailStep::Matched other{pictures, secondWeights},
+            matched{pictures_, weights, &other};
+        return draw(frame, &matched, filters);
+    }
+    [[nodiscard]] TileSummary summary() const { return step_->summary(); }
     Rows<const std::uint32_t> drawWithoutStill(const DetailCase& frame, const FilterBank* filters) {
         return draw(frame, nullptr, filters);
     }
@@ -74,6 +82,13 @@ private:
                      .filters = filters});
         return step_->output().host();
     }
+    static CellWeights weightsOf(const DetailCase& frame) {
+        CellWeights out;
+        out.weighed.writtenOnHost(rowsOf(frame.weighed, frame.cells));
+        out.lookUps.writtenOnHost(rowsOf(frame.lookUps, frame.cells));
+        out.trust.writtenOnHost(rowsOf(frame.trust, frame.cells));
+        return out;
+    }
     template <class T>
     static Rows<const T> rowsOf(const std::vector<T>& cells, Size size) {
         return {cells.data(), size.width, size};
@@ -84,11 +99,18 @@ private:
 
     StepSetup setup_;
     std::unique_ptr<Engine> stillEngine_, detailEngine_;
-    std::unique_ptr<StillStep> still_;
+    std::unique_ptr<StillStep> still_, secondStill_;
     std::unique_ptr<DetailStep> step_;
     const StillPictures& pictures_;
     std::uint64_t number_ = 0;
 };
+
+std::vector<std::uint32_t> copyOf(Rows<const std::uint32_t> picture) {
+    std::vector<std::uint32_t> out;
+    for (int y = 0; y < picture.size.height; ++y)
+        out.insert(out.end(), picture[y], picture[y] + picture.size.width);
+    return out;
+}
 
 double channel(Rows<const std::uint32_t> picture, int x, int y, int c) {
     return static_cast<double>(picture[y][x] >> (8 * c) & 255U);
@@ -253,7 +275,66 @@ TEST_P(DetailEngineTest, OnlyChangedTilesAreGuided) {
         expectOnlyChangedTiles(GetParam(), sizes, &simd::guidedBank());
 }
 
+/// Another still of the same video: darker, matched elsewhere, and trusted where the first is not.
+DetailCase secondOf(DetailCase frame) {
+    for (std::uint8_t& byte : frame.stillPixels)
+        byte = static_cast<std::uint8_t>(byte * 4 / 5);
+    for (int y = 0; y < frame.cells.height; ++y)
+        for (int x = 0; x < frame.cells.width; ++x) {
+            const std::size_t i = std::size_t(y) * frame.cells.width + x;
+            const auto px = static_cast<float>(x), py = static_cast<float>(y);
+            const float weight =
+                std::clamp(0.5F + 0.6F * std::sin(0.26F * px - 0.31F * py), 0.0F, 1.1F);
+            frame.lookUps[i] = {frame.lookUps[i].x + 2.5F, frame.lookUps[i].y - 1.75F, weight,
+                                0.9F};
+            frame.weighed[i].weight = weight;
+            frame.trust[i] = {0.5F * weight, 0.9F, 0.9F, weight > 0.3F ? 0.0F : 1.0F};
+        }
+    return frame;
+}
+
+TEST_P(DetailEngineTest, OnlyChangedTilesShowASecondStill) {
+    const Size video{160, 120}, stillSize{400, 300}, output{576, 432};
+    const DetailCase whole = withRoom(DetailCase(video, stillSize)),
+                     part = withRoom(DetailCase(video, stillSize, 0.4));
+    for (const FilterBank* filters : {&FilterBank::prior(), &simd::guidedBank()}) {
+        Drawing all(GetParam(), whole, output), some(GetParam(), whole, output);
+        const Rows<const std::uint32_t> wanted = all.drawBoth(whole, secondOf(whole), filters);
+        const std::vector<std::uint32_t> one = copyOf(some.draw(whole, filters));
+        const Rows<const std::uint32_t> drawn = some.drawBoth(part, secondOf(part), filters);
+        int differs = 0;
+        for (int y = 0; y < output.height; ++y)
+            for (int x = 0; x < output.width; ++x) {
+                const bool changed = part.work
+                                         .at(simd::tileAt(x, video.width, output.width),
+                                             simd::tileAt(y, video.height, output.height))
+                                         .changed != 0;
+                const std::uint32_t before = one[std::size_t(y) * output.width + x];
+                ASSERT_EQ(drawn[y][x], changed ? wanted[y][x] : before) << x << " " << y;
+                differs += wanted[y][x] != before ? 1 : 0;
+            }
+        EXPECT_GT(differs, output.width * output.height / 10) << "the second still shows nothing";
+        EXPECT_GT(some.summary().second, 0);
+        EXPECT_LT(some.summary().second, all.summary().second);
+        // Nothing of the second stays where the next frame shows one alone.
+        EXPECT_EQ(copyOf(some.draw(whole, filters)), one);
+    }
+}
+
 using DetailEngines = GlTest;
+
+/// `most` and `rms`: of a channel's differences.
+void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double most, double rms) {
+    double squares = 0;
+    for (int y = 0; y < a.size.height; ++y)
+        for (int x = 0; x < a.size.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const double off = channel(a, x, y, c) - channel(b, x, y, c);
+                ASSERT_LE(std::abs(off), most) << a.size.width << ": " << x << " " << y;
+                squares += off * off;
+            }
+    EXPECT_LE(std::sqrt(squares / (3.0 * a.size.width * a.size.height)), rms) << a.size.width;
+}
 
 // The kernels take the mean of the warped still, which has to be finer than the video for it.
 void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
@@ -262,17 +343,7 @@ void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing gles({EngineKind::Gles, EngineKind::Simd}, frame, output),
             simd({EngineKind::Simd, EngineKind::Simd}, frame, output);
-        const Rows<const std::uint32_t> a = gles.draw(frame, filters),
-                                        b = simd.draw(frame, filters);
-        double squares = 0;
-        for (int y = 0; y < output.height; ++y)
-            for (int x = 0; x < output.width; ++x)
-                for (int c = 0; c < 3; ++c) {
-                    const double off = channel(a, x, y, c) - channel(b, x, y, c);
-                    ASSERT_LE(std::abs(off), most) << output.width << ": " << x << " " << y;
-                    squares += off * off;
-                }
-        EXPECT_LE(std::sqrt(squares / (3.0 * output.width * output.height)), rms) << output.width;
+        expectNear(gles.draw(frame, filters), simd.draw(frame, filters), most, rms);
     }
 }
 
@@ -286,6 +357,26 @@ TEST_F(DetailEngines, EnlargeByTheSameFilters) {
 
 TEST_F(DetailEngines, GuideByTheSameShare) {
     expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
+}
+
+TEST_F(DetailEngines, ShowTheSameOfASecondStill) {
+    const Size output{576, 432};
+    const DetailCase whole = withRoom(DetailCase({160, 120}, {400, 300}));
+    for (const double share : {1.0, 0.4}) {
+        const DetailCase frame = withRoom(DetailCase({160, 120}, {400, 300}, share));
+        for (const EngineKind still : {EngineKind::Gles, EngineKind::Simd}) {
+            Drawing gles({EngineKind::Gles, still}, frame, output),
+                simd({EngineKind::Simd, still}, frame, output);
+            // Unchanged tiles keep what the frame before shows.
+            (void)gles.draw(whole, &simd::guidedBank());
+            (void)simd.draw(whole, &simd::guidedBank());
+            expectNear(gles.drawBoth(frame, secondOf(frame), &simd::guidedBank()),
+                       simd.drawBoth(frame, secondOf(frame), &simd::guidedBank()), 4, 0.6);
+            EXPECT_EQ(gles.summary().second, simd.summary().second);
+            EXPECT_EQ(gles.summary().tiles, simd.summary().tiles);
+            EXPECT_NEAR(gles.summary().explained, simd.summary().explained, 1e-9);
+        }
+    }
 }
 
 }  // namespace

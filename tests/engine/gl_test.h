@@ -9,14 +9,32 @@
 
 namespace mfar {
 
-/// A test with a current GL context, shared by all tests of the program. Every test ends with a
-/// look at the error state, so that no GL error goes unnoticed.
+/// The GL context that all tests of a program share. It is closed after the last test: while the
+/// process exits, a layer of the driver may already have ended.
+class SharedContext final : public testing::Environment {
+public:
+    GlContext& context() {
+        if (!context_) context_ = createGlContext();
+        return *context_;
+    }
+    void TearDown() override { context_.reset(); }
+
+private:
+    std::unique_ptr<GlContext> context_;
+};
+
+/// GoogleTest owns it.
+inline SharedContext* const kSharedContext = [] {
+    auto* out = new SharedContext;
+    testing::AddGlobalTestEnvironment(out);
+    return out;
+}();
+
+/// A test with the shared context current. Every test ends with a look at the error state, so that
+/// no GL error goes unnoticed.
 class GlTest : public testing::Test {
 protected:
-    static GlContext& context() {
-        static const std::unique_ptr<GlContext> shared = createGlContext();
-        return *shared;
-    }
+    static GlContext& context() { return kSharedContext->context(); }
     void SetUp() override { context().makeCurrent(); }
     void TearDown() override { EXPECT_NO_THROW(gpu::checkErrors("the test's end")); }
 };

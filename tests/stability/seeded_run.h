@@ -21,7 +21,7 @@ struct SeededRun {
 
     void addOptions(CLI::App& app);
     [[nodiscard]] bool stops(long failures) const { return failures > 0 && !keepGoing; }
-    /// Whether a process draws another seed after so many of them and so many minutes.
+    /// Whether to run another seed after this many seeds and minutes in one process.
     [[nodiscard]] bool goesOn(long seeds, double spentMinutes, long failures) const;
 
     /// Draws seeds from the first on, in the process of this number.

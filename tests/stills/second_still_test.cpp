@@ -1,4 +1,5 @@
 #include "pipeline/pipeline.h"
+#include "tests/engine/gl_test.h"
 #include "tests/learn/sensor_pair.h"
 
 #include <gtest/gtest.h>
@@ -34,10 +35,9 @@ Bytes bytesOf(const Grey& picture) {
 }
 
 /// A scene, a still that shows all of it, and one that does not show its left.
-class SecondStill : public testing::Test {
+class SecondStillTest : public GlTest {
 protected:
-    static Pipeline made(double share = Quality().secondShare,
-                         const EngineChoice& engines = EngineChoice::all(EngineKind::Simd)) {
+    static Pipeline made(double share, const EngineChoice& engines) {
         Pipeline out(simpleRig(), {.output = {}, .engines = engines});
         out.setQuality({.secondShare = share});
         return out;
@@ -71,7 +71,39 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-TEST_F(SecondStill, ShowsWhatTheNewestDoesNot) {
+/// Each engine alone, and each drawing what the other has matched.
+struct Engines {
+    const char* name;
+    EngineChoice choice;
+};
+
+EngineChoice drawnBy(EngineKind kind) {
+    EngineChoice out =
+        EngineChoice::all(kind == EngineKind::Gles ? EngineKind::Simd : EngineKind::Gles);
+    out.detail = kind;
+    return out;
+}
+
+class SecondStillOfEngines : public SecondStillTest, public testing::WithParamInterface<Engines> {
+protected:
+    static Pipeline made(double share) { return SecondStillTest::made(share, GetParam().choice); }
+};
+INSTANTIATE_TEST_SUITE_P(Engines, SecondStillOfEngines,
+                         testing::Values(Engines{"simd", EngineChoice::all(EngineKind::Simd)},
+                                         Engines{"gles", EngineChoice::all(EngineKind::Gles)},
+                                         Engines{"drawn_by_gles", drawnBy(EngineKind::Gles)},
+                                         Engines{"drawn_by_simd", drawnBy(EngineKind::Simd)}),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+/// Tests that do not depend on the engine.
+class SecondStill : public SecondStillTest {
+protected:
+    static Pipeline made(double share) {
+        return SecondStillTest::made(share, EngineChoice::all(EngineKind::Simd));
+    }
+};
+
+TEST_P(SecondStillOfEngines, ShowsWhatTheNewestDoesNot) {
     Pipeline one = made(0), two = made(1);
     FrameStats stats;
     for (Pipeline* pipeline : {&one, &two}) {
@@ -87,7 +119,7 @@ TEST_F(SecondStill, ShowsWhatTheNewestDoesNot) {
     EXPECT_LT(error(two, false), 1.02 * error(one, false));
 }
 
-TEST_F(SecondStill, CostsNothingWhereTheNewestShowsAll) {
+TEST_P(SecondStillOfEngines, CostsNothingWhereTheNewestShowsAll) {
     Pipeline pipeline = made(1);
     setStill(pipeline, whole_);
     EXPECT_EQ(run(pipeline).matchedSecond, 0) << "there is one still";
@@ -132,7 +164,7 @@ TEST_F(SecondStill, IsUsedInModeDetailWithFiltersAlone) {
     EXPECT_GT(run(pipeline).matchedSecond, 30);
 }
 
-TEST_F(SecondStill, IsDroppedWithTheNewest) {
+TEST_P(SecondStillOfEngines, IsDroppedWithTheNewest) {
     Pipeline pipeline = made(1), fresh = made(1);
     setStill(pipeline, whole_);
     run(pipeline);
@@ -156,6 +188,34 @@ TEST_F(SecondStill, StaysWhileNewStillsMissTheSame) {
     for (int still = 0; still < 4; ++still) {
         setStill(pipeline, part_);
         EXPECT_GT(run(pipeline).showSecond, 30) << still;
+    }
+}
+
+TEST_F(SecondStillTest, IsSeenAlikeByAllEngines) {
+    Pipeline simd = made(1, EngineChoice::all(EngineKind::Simd));
+    std::vector<FrameStats> stats;
+    const auto show = [&](Pipeline& pipeline) {
+        setStill(pipeline, whole_);
+        run(pipeline);
+        EXPECT_FALSE(pipeline.secondStill());
+        setStill(pipeline, part_);
+        EXPECT_TRUE(pipeline.secondStill());
+        stats.push_back(run(pipeline));
+        return pipeline.readImage();
+    };
+    const Bytes wanted = show(simd);
+    for (const EngineChoice& engines : {EngineChoice::all(EngineKind::Gles),
+                                        drawnBy(EngineKind::Gles), drawnBy(EngineKind::Simd)}) {
+        Pipeline other = made(1, engines);
+        const Bytes got = show(other);
+        double squares = 0;
+        for (std::size_t i = 0; i < got.size(); ++i)
+            squares += std::pow(double(got[i]) - wanted[i], 2);
+        EXPECT_LT(std::sqrt(squares / static_cast<double>(got.size())), 1)
+            << nameOf(engines.detail);
+        EXPECT_NEAR(stats.back().matchedSecond, stats.front().matchedSecond, 3);
+        EXPECT_NEAR(stats.back().showSecond, stats.front().showSecond, 5);
+        EXPECT_NEAR(stats.back().explained, stats.front().explained, 0.03);
     }
 }
 

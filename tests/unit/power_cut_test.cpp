@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdarg>
+#include <gmock/gmock.h>
 #include <map>
 #include <mutex>
 #include <random>
@@ -224,6 +225,17 @@ std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count
     return safe > 0 ? safe - 1 : 0;  // without the heading
 }
 
+/// Synchronisations after each addition to a list, until the next addition or the end.
+std::vector<int> syncsAfterRows(const std::vector<Operation>& operations, const std::string& list) {
+    std::vector<int> out;
+    for (const Operation& operation : operations) {
+        const auto* written = std::get_if<Written>(&operation);
+        if (written != nullptr && written->file == list) out.push_back(0);
+        if (std::holds_alternative<Synced>(operation) && !out.empty()) ++out.back();
+    }
+    return out;
+}
+
 void expectWhole(const std::vector<RecordedImage>& images, Size size) {
     std::vector<std::uint8_t> rgba(std::size_t{4} * size.width * size.height);
     for (const RecordedImage& image : images) {
@@ -273,6 +285,13 @@ TEST_F(PowerCut, WhatWasSafeReadsBackAfterACutAtAnyMoment) {
         if (HasFailure()) return;
     }
     EXPECT_GT(read, 300);  // most cuts come late enough
+}
+
+TEST_F(PowerCut, RowsAreSafeBeforeTheNextPicturesAre) {
+    std::vector<int> syncs = syncsAfterRows(operations_, (whole_ / "cam0/data.csv").string());
+    ASSERT_GT(syncs.size(), 2U);
+    ++syncs.back();  // as no pictures follow
+    EXPECT_THAT(syncs, testing::Each(testing::Ge(2)));
 }
 
 }  // namespace

@@ -19,6 +19,10 @@ inline constexpr float kLeastDetailWeight = 0.02F;
 /// px are 0.3 px of the output.
 inline constexpr float kPlainFlow = 0.08F;
 inline constexpr float kPlainWeight = 0.25F;
+/// By how much the second still's share must be above the first's to be seen at all; to be seen
+/// alone. In between it fades in, so that no seam shows.
+inline constexpr float kSecondFrom = 0.05F;
+inline constexpr float kSecondAlone = 0.15F;
 /// Unexplained cells, of 16, of an unexplained tile.
 inline constexpr std::uint32_t kUnexplainedCells = 8U;
 
@@ -39,6 +43,8 @@ inline constexpr float kSeen = 1.0F;
 /// the trusted pixels of a square that reaches so far around a pixel [video px]. Differences in
 /// exposure are in the mean. A reach of 1 gained 0.08 to 0.1 dB less on synthetic scenes.
 inline constexpr int kGuideReach = 2;
+/// Room around a tile, beyond what its detail needs: what the video shows of a still [video px].
+inline constexpr int kTileAround = 8;
 
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;  ///< of tiles
@@ -48,6 +54,7 @@ struct alignas(16) ClassifyTiles {
     std::int32_t stillGiven;    ///< 0: the fields are blank
     std::uint32_t detailFrame;  ///< other than in earlier frames; 0: nothing depends on neighbours
     std::int32_t learns;        ///< matched tiles are enlarged by filters
+    std::int32_t secondGiven;   ///< 0: its fields are blank
 };
 
 /// Of all programs that draw tiles.

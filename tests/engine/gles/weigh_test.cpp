@@ -150,7 +150,7 @@ constexpr Size kClassified{7, 4};
 constexpr unsigned kTileCount = 28;
 
 struct Draws {
-    std::array<std::array<std::uint32_t, 4>, 4> commands{};
+    std::array<std::array<std::uint32_t, 4>, 5> commands{};
     std::array<std::uint32_t, 8> counts{};
 };
 struct Classified {
@@ -164,7 +164,7 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
     const gpu::Texture cells = floatTexture(kWhole, gpu::TexelFormat::Rgba32F, field.values);
     const gpu::Texture weights = uploaded(TestPicture(kWhole));
     gpu::Buffer changedBuffer(changed.size() * 4), classes(8 * kTileCount);
-    gpu::Buffer draws(sizeof(Draws)), lists(20 * kTileCount);
+    gpu::Buffer draws(sizeof(Draws)), lists(24 * kTileCount);
     changedBuffer.write(std::span(changed));
     gpu::ComputePass<params::ClassifyTiles> pass("superres_classify.comp");
     pass.run({.columns = kClassified.width,
@@ -175,7 +175,8 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
               .plainFlow = params::kPlainFlow,
               .stillGiven = hasStill ? 1 : 0,
               .detailFrame = detailFrame,
-              .learns = 0},
+              .learns = 0,
+              .secondGiven = 0},
              {gpu::storage(0, changedBuffer), gpu::storage(1, classes), gpu::storage(2, draws),
               gpu::storage(3, lists), gpu::sampler(0, cells), gpu::sampler(1, weights)},
              {1, 1, 1});

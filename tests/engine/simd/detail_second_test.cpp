@@ -72,7 +72,7 @@ void expectAlike(const AlignedRows<std::uint32_t>& a, const AlignedRows<std::uin
 }
 
 TEST(DetailStepSecond, AStillThatCountsForNoMoreIsNotSeen) {
-    for (const float more : {-0.3F, 0.0F, 0.9F * kSecondFrom}) {
+    for (const float more : {-0.3F, 0.0F, 0.9F * params::kSecondFrom}) {
         const TwoStills stills(more);
         const DrawnWithBoth both(stills);
         const Drawn one(stills.frame, kOutput, withFilters());

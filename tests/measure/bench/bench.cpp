@@ -3,6 +3,8 @@
 #include "tests/measure/bench/gpu_timer.h"
 #include "tests/measure/eval/paper_pipeline.h"
 #include "tests/measure/eval/picture.h"
+#include "tests/measure/eval/pipeline_shot.h"
+#include "tests/measure/eval/still_learning.h"
 #include "tests/measure/eval/stopwatch.h"
 
 #include <GLES3/gl31.h>
@@ -37,6 +39,7 @@ public:
          Size output = {})
         : work_(work), engine_(engine),
           pipeline_(work.rig, optionsFor(mode, engine, threads, output)) {
+        pipeline_.setFilters(work.filters);
         for (const cv::Mat& still : work.stills)
             stills_.push_back(eval::toRgba(still));
         for (const cv::Mat& frame : work.frames)
@@ -197,6 +200,24 @@ void measureAgainstPeers(const std::string& name, Ours& ours, const Workload& wo
 }
 
 }  // namespace
+
+std::shared_ptr<const FilterBank> learnedFrom(const Workload& work) {
+    if (work.lessons.empty()) return nullptr;
+    eval::StillLearning learning;
+    learning.begin(work.rig);
+    Pipeline pipeline(
+        work.rig,
+        {.output = {}, .skipUnchanged = false, .engines = EngineChoice::all(EngineKind::Simd)});
+    pipeline.setMatchListener(&learning);
+    Timestamp time;
+    for (const Lesson& lesson : work.lessons) {
+        time = time + std::chrono::seconds(1);
+        eval::PipelineShot({lesson.still, time, lesson.stillPose}).giveAsStill(pipeline);
+        eval::PipelineShot({lesson.frame, time, lesson.framePose}).run(pipeline);
+    }
+    learning.report("mfar-bench");
+    return learning.filters();
+}
 
 BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                      EngineKind engine, const std::string& renderer) {

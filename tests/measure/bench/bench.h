@@ -9,6 +9,7 @@
 #include "tests/measure/bench/workload.h"
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,10 @@ struct BenchResult {
     std::vector<ScalingResult> scaling;
     RenderFigures render;
 };
+
+/// Filters learned from a workload's lessons as the daemon learns them; null: there are none. One
+/// line on what was learned goes to stderr.
+[[nodiscard]] std::shared_ptr<const FilterBank> learnedFrom(const Workload& work);
 
 /// Needs a current GL context, which `renderer` describes. The first frames warm up and do not
 /// count. Poses of `moving` are not used, those of `posed` are; without frames it is left out.

@@ -34,6 +34,7 @@ constexpr const char* kHelp =
     "moving: every frame differs from the one before, no poses; handheld: the synthetic board's "
     "office by a hand-held camera with its exact poses, or the recording's frames with its poses; "
     "rest: the same frame again; rest-noise: the same view with sensor noise of sigma 2.\n"
+    "The product has learned from stills before. "
     "Whole frames run undisturbed until the picture is finished; stages are timed in a run of "
     "their own. "
     "The peers are the paper's method on OpenCV (DIS medium, DIS fast), run in turn with ours.";
@@ -41,7 +42,7 @@ constexpr const char* kHelp =
 struct Options {
     std::string recording, json, mode = "detail", engine = "auto";
     int frames = 0;
-    bool quick = false, scaling = false;
+    bool quick = false, scaling = false, shipped = false;
     std::filesystem::path curves;
     std::vector<std::filesystem::path> data;
 };
@@ -56,7 +57,8 @@ Workloads workloadsFor(const Options& o) {
     if (o.recording.empty()) {
         const Size video = o.quick ? Size{160, 120} : Size{640, 480};
         const Size still = o.quick ? Size{576, 432} : Size{2304, 1728};
-        return {syntheticWorkload(video, still, frames), handheldWorkload(video, still, frames)};
+        return {syntheticWorkload(video, still, frames, kLessons),
+                handheldWorkload(video, still, frames, kLessons)};
     }
     Workloads out{recordedWorkload(o.recording, frames), {}};
     const auto known = [](const std::vector<std::optional<Pose>>& poses) {
@@ -103,6 +105,7 @@ void addOptions(CLI::App& app, Options& o) {
                    "of all steps; auto: simd where GLES is a software renderer")
         ->check(CLI::IsMember({"auto", "gles", "simd"}))
         ->capture_default_str();
+    app.add_flag("--as-shipped", o.shipped, "with the shipped filters, as before the first still");
     app.add_flag("--scaling", o.scaling, "also one thread against two at three output sizes");
     app.add_option("--json", o.json, "file for all results");
     app.add_flag("--quick", o.quick, "few small frames: shows that it runs, not how fast");
@@ -132,8 +135,11 @@ int run(int argc, char** argv) {
     if (skip.asked()) return skip.run(), 0;
     if (governor.asked()) return governor.run(), 0;
     if (!o.curves.empty()) return drawCurves(o), 0;
-    const auto [moving, posed] = workloadsFor(o);
+    auto [moving, posed] = workloadsFor(o);
     const auto context = createGlContext();
+    if (!o.shipped)
+        for (Workload* work : {&moving, &posed})
+            work->filters = learnedFrom(*work);
     const SuperResMode mode = o.mode == "blend" ? SuperResMode::Blend : SuperResMode::Detail;
     const EngineKind engine = o.engine == "simd" || (o.engine == "auto" && context->isSoftware())
                                   ? EngineKind::Simd

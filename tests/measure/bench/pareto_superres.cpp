@@ -1,4 +1,5 @@
 #include "hal/virtual/synthetic_board.h"
+#include "tests/measure/bench/bench.h"
 #include "tests/measure/bench/pareto_stages.h"
 #include "tests/measure/bench/pareto_timing.h"
 #include "tests/measure/eval/metrics/luma.h"
@@ -60,6 +61,7 @@ public:
     explicit SequencePipeline(const Workload& work)
         : work_(work), pipeline_(work.rig, {.output = {}, .skipUnchanged = false}),
           still_(eval::toRgba(work.stills[0])) {
+        pipeline_.setFilters(learnedFrom(work));
         for (const cv::Mat& frame : work.frames)
             frames_.push_back(eval::toRgba(frame));
     }
@@ -133,7 +135,7 @@ std::vector<SequenceSample> syntheticSequences(Size video, Size still, int frame
         if (out.size() == most) break;
         SyntheticBoard board(
             {.scene = scene, .path = synthetic::Path::Handheld, .pace = Pace::Consumer});
-        SequenceSample sample{handheldWorkload(board, video, still, frames), {}};
+        SequenceSample sample{handheldWorkload(board, video, still, frames, kLessons), {}};
         sample.work.name = name(scene);
         for (std::size_t i = 0; i < sample.work.frames.size(); ++i)
             sample.truth.push_back(

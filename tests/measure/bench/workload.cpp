@@ -21,6 +21,7 @@ namespace mfar::bench {
 namespace {
 
 constexpr double kVideoNoise = 1.5;  // grey levels, a good sensor indoors
+constexpr int kLessonEvery = 10;     // frames
 
 /// Random blobs at four scales and hard-edged bars: detail far finer than the video's pixels.
 cv::Mat texture(cv::Size size) {
@@ -86,52 +87,69 @@ StereoRig sameLens(Size video, Size still) {
 
 }  // namespace
 
-Workload syntheticWorkload(Size video, Size still, int frames) {
+Workload syntheticWorkload(Size video, Size still, int frames, int lessons) {
     const cv::Size stillSize(still.width, still.height), videoSize(video.width, video.height);
     const cv::Mat world = texture({still.width * 11 / 10, still.height * 11 / 10});
     Workload out{"synthetic", sameLens(video, still), {viewAt(world, stillSize, -2)}, {}, {}, {},
                  {}};
-    for (int k = 0; k < frames; ++k) {
+    const auto frameAt = [&](int k) {
         cv::Mat frame;
         cv::resize(viewAt(world, stillSize, k), frame, videoSize, 0, 0, cv::INTER_AREA);
-        out.frames.push_back(withNoise(frame, kVideoNoise, static_cast<std::uint64_t>(k)));
+        return withNoise(frame, kVideoNoise, static_cast<std::uint64_t>(k));
+    };
+    for (int k = -kLessonEvery * lessons; k < 0; k += kLessonEvery)
+        out.lessons.push_back({viewAt(world, stillSize, k - 2), frameAt(k)});
+    for (int k = 0; k < frames; ++k) {
+        out.frames.push_back(frameAt(k));
         out.stillOf.push_back(0);
     }
     return out;
 }
 
-Workload handheldWorkload(Size video, Size still, int frames) {
+Workload handheldWorkload(Size video, Size still, int frames, int lessons) {
     SyntheticBoard board({.scene = synthetic::Scene::Office,
                           .path = synthetic::Path::Handheld,
                           .pace = Pace::Consumer});
-    Workload out = handheldWorkload(board, video, still, frames);
+    Workload out = handheldWorkload(board, video, still, frames, lessons);
     out.name = "office, hand-held";
     return out;
 }
 
-Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames) {
+Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames, int lessons) {
     const StereoRig& rig = board.rig();
-    Workload out{"synthetic board",
-                 {rig.video.scaledTo(video), rig.still.scaledTo(still), rig.T_still_video},
-                 {},
-                 {},
-                 {},
-                 {},
-                 {}};
+    Workload out{};
+    out.name = "synthetic board";
+    out.rig = {rig.video.scaledTo(video), rig.still.scaledTo(still), rig.T_still_video};
     board.video().start();
     board.stills().start();
-    board.trigger().fire();
-    while (out.frames.size() < static_cast<std::size_t>(frames)) {
-        const auto frame = board.video().next(std::chrono::seconds(1));
+    const auto nextFrame = [&] {
+        auto frame = board.video().next(std::chrono::seconds(1));
         if (!frame) throw std::runtime_error("the synthetic board has stopped");
-        if (!out.stills.empty()) {
-            out.frames.push_back(pictureOf(*frame, video));
-            out.framePoses.emplace_back(board.pose(frame->time()));
-            out.stillOf.push_back(0);
-        } else if (const auto taken = board.stills().next(std::chrono::milliseconds(0))) {
-            out.stills.push_back(pictureOf(*taken, still));
-            out.stillPoses.emplace_back(board.pose(taken->time()));
+        return std::move(*frame);
+    };
+    const auto nextStill = [&] {
+        board.trigger().fire();
+        for (;;) {
+            (void)nextFrame();
+            if (auto taken = board.stills().next(std::chrono::milliseconds(0)))
+                return std::move(*taken);
         }
+    };
+    for (int lesson = 0; lesson < lessons; ++lesson) {
+        const Frame taken = nextStill(), frame = nextFrame();
+        out.lessons.push_back({pictureOf(taken, still), pictureOf(frame, video),
+                               board.pose(taken.time()), board.pose(frame.time())});
+        for (int i = 1; i < kLessonEvery; ++i)
+            (void)nextFrame();
+    }
+    const Frame taken = nextStill();
+    out.stills.push_back(pictureOf(taken, still));
+    out.stillPoses.emplace_back(board.pose(taken.time()));
+    while (out.frames.size() < static_cast<std::size_t>(frames)) {
+        const Frame frame = nextFrame();
+        out.frames.push_back(pictureOf(frame, video));
+        out.framePoses.emplace_back(board.pose(frame.time()));
+        out.stillOf.push_back(0);
     }
     return out;
 }
@@ -149,12 +167,13 @@ Workload recordedWorkload(const std::filesystem::path& folder, int frames) {
                                               folder.string(), recording.video[i].time.ns));
         const RecordedImage& reference = recording.stills[*still];
         const auto poses = eval::posesOf(recording, recording.video[i].time, reference.time);
+        out.framePoses.push_back(poses.frame);
+        out.frames.push_back(eval::loadPicture(recording.video[i].file));
         if (loaded.emplace(*still, out.stills.size()).second) {
             out.stills.push_back(eval::loadPicture(reference.file));
             out.stillPoses.push_back(poses.still);
+            out.lessons.push_back({out.stills.back(), out.frames.back(), poses.still, poses.frame});
         }
-        out.framePoses.push_back(poses.frame);
-        out.frames.push_back(eval::loadPicture(recording.video[i].file));
         out.stillOf.push_back(loaded.at(*still));
     }
     for (std::size_t i = distinct; i < static_cast<std::size_t>(frames); ++i) {

@@ -5,6 +5,7 @@
 #include "tests/measure/eval/metrics/luma.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/scene_run.h"
+#include "tests/measure/eval/still_learning.h"
 #include "tests/measure/eval/superres_learning.h"
 #include "tests/measure/eval/superres_methods.h"
 #include "tests/measure/eval/superres_samples.h"

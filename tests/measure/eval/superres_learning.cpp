@@ -4,53 +4,12 @@
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/pipeline_shot.h"
 #include "tests/measure/eval/still_choice.h"
-
-#include <fmt/format.h>
+#include "tests/measure/eval/still_learning.h"
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 
 namespace mfar::eval {
-
-void StillLearning::begin(const StereoRig& rig) {
-    matcher_.emplace(rig);
-    hasOlder_ = false;
-}
-
-void StillLearning::matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
-                            Rows<const LookUpCell> lookUps,
-                            const MatchedPictures::LookedUp& lookedUp) {
-    pictures_.take(video, still, lookUps, lookedUp);
-    learner_.add(pictures_);
-    if (!hasOlder_) return;
-    hasOlder_ = false;
-    matcher_->match(olderVideo_, still, truth_);
-    learner_.addOlder(truth_, older_);
-}
-
-void StillLearning::replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
-                             Rows<const LookUpCell> lookUps,
-                             const MatchedPictures::LookedUp& lookedUp) {
-    hasOlder_ = mayUseOlder_;
-    if (!hasOlder_) return;
-    older_.take(video, still, lookUps, lookedUp);
-    olderVideo_ = video;
-}
-
-void StillLearning::report() const {
-    const EnlargerLearner::Counts& counts = learner_.counts();
-    fmt::print(
-        stderr,
-        "mfar-eval: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
-        "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
-        "of the still for {:.2f} of the video from {} pairs of stills, held out {:.2f} dB; the "
-        "finest detail differs by {:.2f} + {:.3f} of its variance\n",
-        counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
-        counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video, counts.pairs,
-        counts.guidanceGainDb, counts.fineMatch.noise, counts.fineMatch.share);
-}
-
 namespace {
 
 struct Match {

@@ -1,48 +1,16 @@
 #pragma once
 
-#include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/filter_bank.h"
-#include "pipeline/enlarge/match_listener.h"
-#include "pipeline/frame_matcher.h"
 #include "tests/measure/eval/superres.h"
 
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace mfar::eval {
 
 /// SuperResRequest::learn: from each still of the recordings, once.
 inline constexpr int kEachOnce = -1;
-
-/// Learns from every still that a pipeline matches, as the daemon does, but in the pipeline's own
-/// thread: the same pictures teach the same filters.
-class StillLearning final : public MatchListener {
-public:
-    /// Before the first still of a pipeline with this rig.
-    void begin(const StereoRig& rig);
-    /// Whether the next still may tell what the last frame should look like (default: yes). It may
-    /// not where it shows the frame's very own view.
-    void setMayUseOlder(bool may) { mayUseOlder_ = may; }
-    [[nodiscard]] std::shared_ptr<const FilterBank> filters() const { return learner_.filters(); }
-    /// Prints one line on what was learned to stderr.
-    void report() const;
-
-    void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
-                 Rows<const LookUpCell> lookUps,
-                 const MatchedPictures::LookedUp& lookedUp) override;
-    void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
-                  Rows<const LookUpCell> lookUps,
-                  const MatchedPictures::LookedUp& lookedUp) override;
-
-private:
-    MatchedPictures pictures_, older_, truth_;
-    RgbPlanes olderVideo_{Size{1, 1}};
-    bool hasOlder_ = false, mayUseOlder_ = true;
-    std::optional<FrameMatcher> matcher_;
-    EnlargerLearner learner_;
-};
 
 /// Filters learned from these recordings as the daemon learns them: each still is matched to the
 /// frame nearest to it that does not show its very own view, those after the last one once more to

@@ -1,0 +1,16 @@
+#include "daemon/trigger_reports.h"
+
+namespace mfar {
+
+std::vector<std::string_view> TriggerReports::newSince(const Seen& seen) {
+    std::vector<std::string_view> out;
+    if (seen.lost > reported_.lost)
+        out.push_back(seen.repeats ? "no still has come for a pulse, it is asked for once more"
+                                   : "no still has come for a pulse");
+    if (seen.missedEdges > reported_.missedEdges)
+        out.push_back("the loopback missed an edge of a pulse, exposure unverified");
+    reported_ = seen;
+    return out;
+}
+
+}  // namespace mfar

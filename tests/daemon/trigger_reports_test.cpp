@@ -1,0 +1,34 @@
+#include "daemon/trigger_reports.h"
+
+#include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
+
+namespace mfar {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+TEST(TriggerReports, EachEventIsReportedOnce) {
+    TriggerReports reports;
+    EXPECT_THAT(reports.newSince({}), IsEmpty());
+    EXPECT_THAT(reports.newSince({1, 0, true}),
+                ElementsAre("no still has come for a pulse, it is asked for once more"));
+    EXPECT_THAT(reports.newSince({1, 0, false}), IsEmpty());
+    EXPECT_THAT(reports.newSince({1, 2, false}),
+                ElementsAre("the loopback missed an edge of a pulse, exposure unverified"));
+    EXPECT_THAT(reports.newSince({2, 2, false}), ElementsAre("no still has come for a pulse"));
+    EXPECT_THAT(reports.newSince({2, 2, false}), IsEmpty());
+}
+
+// Another device is opened, whose counts begin anew.
+TEST(TriggerReports, CountsThatBeginAnewAreNoEvents) {
+    TriggerReports reports;
+    (void)reports.newSince({5, 5, false});
+    EXPECT_THAT(reports.newSince({0, 0, false}), IsEmpty());
+    EXPECT_EQ(reports.newSince({1, 1, false}).size(), 2U);
+}
+
+}  // namespace
+}  // namespace mfar

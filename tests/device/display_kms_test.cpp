@@ -1,0 +1,159 @@
+#include "base/rows.h"
+#include "base/time.h"
+#include "hal/device/display_kms.h"
+#include "tests/device/pretended_drm.h"
+#include "tests/unit/temp_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+
+namespace mfar {
+namespace {
+
+using std::chrono::milliseconds;
+using Presence = Screen::Presence;
+
+class KmsScreenTest : public testing::Test {
+protected:
+    KmsScreenTest() {
+        for (int y = 0; y < rows_.size().height; ++y)
+            std::fill_n(rows_[y], rows_.size().width, 0xff302010U);
+    }
+
+    [[nodiscard]] std::string card() const { return (folder_ / "card").string(); }
+    void show() { screen_.show(Picture(rows_.rows())); }
+    /// The message that show() throws; `took` receives its duration.
+    std::string faultOfShow(milliseconds& took) {
+        const Timestamp begin = Timestamp::now();
+        std::string out;
+        try {
+            show();
+        } catch (const std::runtime_error& error) {
+            out = error.what();
+        }
+        took = std::chrono::duration_cast<milliseconds>(Timestamp::now() - begin);
+        return out;
+    }
+
+    test::TempFolder folder_;
+    test::PretendedDrm& driver_ = test::pretendedDrm(card());
+    AlignedRows<std::uint32_t> rows_{{64, 48}};  // RGBA8
+    ScreenScaler scaler_;
+    KmsScreen screen_{{ScreenSpec::Kind::Kms, card(), "", {}}, scaler_};
+};
+
+TEST_F(KmsScreenTest, ShowsPicturesAndGivesTheScreenBack) {
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    EXPECT_EQ(screen_.size(), (Size{64, 48}));
+    show();
+    EXPECT_EQ(driver_.modeSets, 1);
+    const std::uint32_t first = driver_.shown;
+    show();
+    show();
+    EXPECT_EQ(driver_.modeSets, 1);
+    EXPECT_EQ(driver_.flipped, 1) << "one picture is in flight";
+    EXPECT_EQ(driver_.shown, first) << "there are two buffers";
+    for (const std::uint32_t pixel : test::shownPixels())
+        ASSERT_EQ(pixel & 0xffffffU, 0x102030U);
+    EXPECT_NE(screen_.status().find("HDMI-A-1,64x48@60"), std::string::npos) << screen_.status();
+    screen_.close();
+    EXPECT_TRUE(driver_.console);
+    EXPECT_EQ(driver_.flipped, 2) << "the console's picture waits for the last flip";
+    EXPECT_EQ(driver_.buffers, 0);
+    EXPECT_EQ(driver_.framebuffers, 0);
+}
+
+TEST_F(KmsScreenTest, AFlipThatNeverCompletesIsReportedAfterHalfASecondAndRetried) {
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    show();
+    driver_.flips = false;
+    show();
+    milliseconds took{};
+    EXPECT_EQ(faultOfShow(took), card() + ", HDMI-A-1: shows no new picture");
+    EXPECT_GE(took, milliseconds(500));
+    EXPECT_LT(took, milliseconds(1000)) << "other events extend the wait";
+    screen_.close();
+    test::pretendedDrm(card());
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    show();
+    show();
+    EXPECT_EQ(driver_.modeSets, 1);
+}
+
+TEST_F(KmsScreenTest, OtherEventsAreNoFlip) {
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    show();
+    show();
+    driver_.otherEvents = 3;
+    show();
+    EXPECT_EQ(driver_.flipped, 1);
+    EXPECT_EQ(driver_.otherEvents, 0);
+}
+
+TEST_F(KmsScreenTest, ARefusedFlipNamesTheScreenAndTheReason) {
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    show();
+    driver_.refusesFlips = true;
+    milliseconds took{};
+    EXPECT_EQ(faultOfShow(took),
+              card() + ", HDMI-A-1: the picture is refused: Device or resource busy");
+}
+
+TEST_F(KmsScreenTest, FollowsTheMonitor) {
+    driver_.connected = false;
+    ASSERT_EQ(screen_.look(true), Presence::Waiting);
+    EXPECT_NE(screen_.status().find("no screen connected (HDMI-A-1 disconnected)"),
+              std::string::npos)
+        << screen_.status();
+    driver_.connected = true;
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    show();
+    driver_.width = 80;
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    EXPECT_EQ(screen_.size(), (Size{80, 48}));
+    show();
+    EXPECT_EQ(driver_.modeSets, 2);
+    EXPECT_EQ(test::shownPixels().size(), 80U * 48U);
+    driver_.connected = false;
+    EXPECT_EQ(screen_.look(true), Presence::Waiting);
+    EXPECT_EQ(driver_.buffers, 0);
+}
+
+// The buffers of a lost GPU are shown until new ones are.
+TEST_F(KmsScreenTest, ThePictureStaysWhileTheGpuIsMadeAnew) {
+    ASSERT_EQ(screen_.look(true), Presence::Ready);
+    show();
+    screen_.releaseGl();
+    EXPECT_EQ(driver_.framebuffers, 2);
+    EXPECT_FALSE(driver_.console);
+    show();
+    EXPECT_EQ(driver_.modeSets, 2);
+    EXPECT_EQ(driver_.framebuffers, 2) << "old buffers are kept";
+    screen_.close();
+    EXPECT_TRUE(driver_.console);
+}
+
+// A descriptor that is never readable, and one whose other end is gone.
+TEST(WaitForFlip, EndsInTimeAndWithTheDevice) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe(ends.data()), 0);
+    bool pending = true;
+    const Timestamp begin = Timestamp::now();
+    EXPECT_FALSE(waitForFlip(ends[0], pending, milliseconds(50)));
+    EXPECT_GE(Timestamp::now() - begin, milliseconds(50));
+    ::close(ends[1]);
+    EXPECT_FALSE(waitForFlip(ends[0], pending, std::chrono::hours(1)));
+    pending = false;
+    EXPECT_TRUE(waitForFlip(ends[0], pending, milliseconds(0)));
+    ::close(ends[0]);
+}
+
+}  // namespace
+}  // namespace mfar

@@ -1,0 +1,253 @@
+#include "tests/device/pretended_drm.h"
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <drm_fourcc.h>
+#include <fstream>
+#include <map>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <xf86drm.h>
+#include <xf86drmMode.h>
+
+namespace {
+
+using mfar::test::PretendedDrm;
+
+// Objects, and properties by their place in kProperties.
+constexpr std::uint32_t kCrtc = 10, kConnector = 20, kPlane = 30, kEncoder = 40;
+constexpr std::uint32_t kConsole = 99, kFirstProperty = 100;
+constexpr std::array<std::string_view, 12> kProperties = {"CRTC_ID", "MODE_ID", "ACTIVE", "FB_ID",
+                                                          "SRC_X",   "SRC_Y",   "SRC_W",  "SRC_H",
+                                                          "CRTC_X",  "CRTC_Y",  "CRTC_W", "CRTC_H"};
+constexpr std::uint32_t kType = kFirstProperty + kProperties.size();
+constexpr std::uint32_t kFramebufferProperty = kFirstProperty + 3;
+
+struct DumbBuffer {
+    std::uint64_t offset = 0;
+    std::uint32_t width = 0, height = 0;
+};
+
+struct Driver {
+    PretendedDrm seen;
+    std::filesystem::path card;
+    std::map<std::uint32_t, DumbBuffer> buffers;
+    std::map<std::uint32_t, std::uint32_t> framebuffers;  // and their buffers
+    std::uint32_t next = 1;
+    std::uint32_t asked = 0;  // framebuffer of the request
+    void* flipping = nullptr;
+    std::uint64_t end = 0;
+};
+Driver driver;
+
+// libdrm frees what it returns with free().
+template <class T>
+T* made(std::size_t count = 1) {
+    return static_cast<T*>(std::calloc(count, sizeof(T)));
+}
+template <class T>
+T* listOf(T value) {
+    T* out = made<T>();
+    *out = value;
+    return out;
+}
+
+int refused(int error) {
+    errno = error;
+    return -error;
+}
+
+}  // namespace
+
+namespace mfar::test {
+
+PretendedDrm& pretendedDrm(const std::filesystem::path& card) {
+    driver = {};
+    driver.card = card;
+    std::ofstream(card).flush();
+    return driver.seen;
+}
+
+std::vector<std::uint32_t> shownPixels() {
+    const DumbBuffer& from = driver.buffers.at(driver.framebuffers.at(driver.seen.shown));
+    std::vector<std::uint32_t> out(std::size_t{from.width} * from.height);
+    std::ifstream file(driver.card, std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(from.offset));
+    file.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(4 * out.size()));
+    return out;
+}
+
+}  // namespace mfar::test
+
+extern "C" {
+
+int drmIsMaster(int /*fd*/) {
+    return 1;
+}
+int drmSetClientCap(int /*fd*/, std::uint64_t /*capability*/, std::uint64_t /*value*/) {
+    return 0;
+}
+
+drmModeResPtr drmModeGetResources(int /*fd*/) {
+    auto* out = made<drmModeRes>();
+    out->count_crtcs = out->count_connectors = 1;
+    out->crtcs = listOf(kCrtc);
+    out->connectors = listOf(kConnector);
+    return out;
+}
+
+drmModeConnectorPtr drmModeGetConnector(int /*fd*/, std::uint32_t id) {
+    auto* out = made<drmModeConnector>();
+    out->connector_id = id;
+    out->connector_type = DRM_MODE_CONNECTOR_HDMIA;
+    out->connector_type_id = 1;
+    out->encoder_id = kEncoder;
+    out->connection = driver.seen.connected ? DRM_MODE_CONNECTED : DRM_MODE_DISCONNECTED;
+    if (!driver.seen.connected) return out;
+    drmModeModeInfo mode{};
+    mode.hdisplay = driver.seen.width;
+    mode.vdisplay = driver.seen.height;
+    mode.vrefresh = 60;
+    out->count_modes = 1;
+    out->modes = listOf(mode);
+    return out;
+}
+drmModeConnectorPtr drmModeGetConnectorCurrent(int fd, std::uint32_t id) {
+    return drmModeGetConnector(fd, id);
+}
+std::uint32_t drmModeConnectorGetPossibleCrtcs(int /*fd*/, const drmModeConnector* /*connector*/) {
+    return 1;
+}
+drmModeEncoderPtr drmModeGetEncoder(int /*fd*/, std::uint32_t id) {
+    auto* out = made<drmModeEncoder>();
+    out->encoder_id = id;
+    out->crtc_id = kCrtc;
+    return out;
+}
+drmModePlaneResPtr drmModeGetPlaneResources(int /*fd*/) {
+    auto* out = made<drmModePlaneRes>();
+    out->count_planes = 1;
+    out->planes = listOf(kPlane);
+    return out;
+}
+drmModePlanePtr drmModeGetPlane(int /*fd*/, std::uint32_t id) {
+    auto* out = made<drmModePlane>();
+    out->plane_id = id;
+    out->possible_crtcs = 1;
+    out->count_formats = 1;
+    out->formats = listOf(std::uint32_t{DRM_FORMAT_XRGB8888});
+    return out;
+}
+
+drmModeObjectPropertiesPtr drmModeObjectGetProperties(int /*fd*/, std::uint32_t /*object*/,
+                                                      std::uint32_t /*type*/) {
+    auto* out = made<drmModeObjectProperties>();
+    out->count_props = kProperties.size() + 1;
+    out->props = made<std::uint32_t>(out->count_props);
+    out->prop_values = made<std::uint64_t>(out->count_props);
+    for (std::uint32_t i = 0; i < out->count_props; ++i)
+        out->props[i] = kFirstProperty + i;
+    out->prop_values[kProperties.size()] = DRM_PLANE_TYPE_PRIMARY;
+    return out;
+}
+drmModePropertyPtr drmModeGetProperty(int /*fd*/, std::uint32_t id) {
+    auto* out = made<drmModePropertyRes>();
+    out->prop_id = id;
+    const std::string_view name = id == kType ? "type" : kProperties.at(id - kFirstProperty);
+    std::memcpy(out->name, name.data(), name.size());
+    return out;
+}
+int drmModeCreatePropertyBlob(int /*fd*/, const void* /*data*/, std::size_t /*size*/,
+                              std::uint32_t* id) {
+    *id = driver.next++;
+    return 0;
+}
+int drmModeDestroyPropertyBlob(int /*fd*/, std::uint32_t /*id*/) {
+    return 0;
+}
+
+drmModeCrtcPtr drmModeGetCrtc(int /*fd*/, std::uint32_t id) {
+    auto* out = made<drmModeCrtc>();
+    out->crtc_id = id;
+    out->buffer_id = kConsole;
+    out->mode_valid = 1;
+    return out;
+}
+int drmModeSetCrtc(int /*fd*/, std::uint32_t /*crtc*/, std::uint32_t buffer, std::uint32_t /*x*/,
+                   std::uint32_t /*y*/, std::uint32_t* /*connectors*/, int /*count*/,
+                   drmModeModeInfoPtr /*mode*/) {
+    driver.seen.console = buffer == kConsole;
+    return 0;
+}
+
+int drmModeCreateDumbBuffer(int /*fd*/, std::uint32_t width, std::uint32_t height,
+                            std::uint32_t /*bpp*/, std::uint32_t /*flags*/, std::uint32_t* handle,
+                            std::uint32_t* pitch, std::uint64_t* size) {
+    constexpr std::uint64_t kPage = 65536;
+    *handle = driver.next++;
+    *pitch = 4 * width;
+    *size = std::uint64_t{*pitch} * height;
+    driver.buffers[*handle] = {driver.end, width, height};
+    driver.end += (*size + kPage - 1) / kPage * kPage;
+    std::filesystem::resize_file(driver.card, driver.end);
+    ++driver.seen.buffers;
+    return 0;
+}
+int drmModeMapDumbBuffer(int /*fd*/, std::uint32_t handle, std::uint64_t* offset) {
+    *offset = driver.buffers.at(handle).offset;
+    return 0;
+}
+int drmModeDestroyDumbBuffer(int /*fd*/, std::uint32_t handle) {
+    driver.seen.buffers -= static_cast<int>(driver.buffers.erase(handle));
+    return 0;
+}
+int drmModeAddFB2(int /*fd*/, std::uint32_t /*width*/, std::uint32_t /*height*/,
+                  std::uint32_t /*format*/, const std::uint32_t handles[4],
+                  const std::uint32_t /*pitches*/[4], const std::uint32_t /*offsets*/[4],
+                  std::uint32_t* id, std::uint32_t /*flags*/) {
+    *id = driver.next++;
+    driver.framebuffers[*id] = handles[0];
+    ++driver.seen.framebuffers;
+    return 0;
+}
+int drmModeRmFB(int /*fd*/, std::uint32_t id) {
+    driver.seen.framebuffers -= static_cast<int>(driver.framebuffers.erase(id));
+    return 0;
+}
+
+int drmModeAtomicAddProperty(drmModeAtomicReqPtr /*request*/, std::uint32_t /*object*/,
+                             std::uint32_t property, std::uint64_t value) {
+    if (property == kFramebufferProperty) driver.asked = static_cast<std::uint32_t>(value);
+    return 1;
+}
+int drmModeAtomicCommit(int /*fd*/, const drmModeAtomicReqPtr /*request*/, std::uint32_t flags,
+                        void* data) {
+    if (driver.framebuffers.count(driver.asked) == 0) return refused(ENOENT);
+    if ((flags & DRM_MODE_ATOMIC_ALLOW_MODESET) != 0) {
+        ++driver.seen.modeSets;
+    } else {
+        if (driver.seen.refusesFlips || driver.flipping != nullptr) return refused(EBUSY);
+        driver.flipping = data;
+    }
+    driver.seen.shown = driver.asked;
+    driver.seen.console = false;
+    return 0;
+}
+int drmHandleEvent(int fd, drmEventContextPtr context) {
+    if (driver.seen.otherEvents > 0 || !driver.seen.flips) {
+        --driver.seen.otherEvents;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        return 0;
+    }
+    if (void* data = std::exchange(driver.flipping, nullptr); data != nullptr) {
+        ++driver.seen.flipped;
+        context->page_flip_handler2(fd, 0, 0, 0, kCrtc, data);
+    }
+    return 0;
+}
+
+}  // extern "C"

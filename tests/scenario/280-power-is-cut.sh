@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# The power is cut while mfard records, on a real file system: what its disk was sent is logged, and
+# disks are made as cuts at random moments leave them. Each can be mounted, holds all that was safe,
+# and every picture that the recording names can be read.
+# Usage: 280-power-is-cut.sh MFARD MFAR-SIM PRETENDED.so [CUTS]. Exit status 77: not without root,
+# loop devices, qemu-storage-daemon and FUSE.
+for needed in qemu-storage-daemon mkfs.ext4 losetup python3; do
+    command -v $needed >/dev/null || { echo "$needed is not installed" && exit 77; }
+done
+if [ "$(id -u)" != 0 ] || [ ! -e /dev/fuse ] || [ ! -e /dev/loop-control ]; then
+    echo "no file system can be mounted"
+    exit 77
+fi
+if [ -z "${MFAR_MOUNTS:-}" ]; then MFAR_MOUNTS=1 exec unshare --mount "$0" "$@"; fi
+tools=$(dirname "$(readlink -f "$0")")
+. "$tools/lib.sh"
+
+pretended=$3
+cuts=${4:-10}
+seed=${MFAR_SEED:-7}
+trap 'umount --lazy disk after shown 2>/dev/null || true; losetup --detach "$loop" 2>/dev/null || true; clean_up' EXIT
+
+# The disk is what QEMU shows of disk.img as the file "shown", with a log of it.
+truncate --size 64M disk.img
+mkfs.ext4 -q disk.img
+cp --sparse=always disk.img start.img
+mkdir disk after state
+touch shown log
+qemu-storage-daemon --blockdev driver=file,node-name=image,filename=disk.img \
+    --blockdev driver=file,node-name=log,filename=log \
+    --blockdev driver=blklogwrites,node-name=logged,file=image,log=log \
+    --export type=fuse,id=export,node-name=logged,mountpoint="$PWD/shown",writable=on &
+pids+=($!)
+exported() { [ -s shown ]; }
+until_true exported
+loop=$(losetup --find --show shown)
+# By itself ext4 would write out everything every five seconds.
+mount -t ext4 -o commit=300 "$loop" disk
+
+export STATE_DIRECTORY=$PWD/state
+pretended_cameras '[record]
+directory = "disk/films"
+least_free_mb = 0'
+LD_PRELOAD=$pretended MFAR_PRETENDED_V4L2=$PWD/cameras start --config mfard.toml --display none
+named() { cat disk/films/*/cam0/data.csv 2>/dev/null | grep -c '^[0-9]' || true; }
+has_grown() { [ "$(named)" -gt "$rows" ]; }
+rows=0
+for _ in 1 2 3 4; do
+    until_true has_grown
+    # The rows before are safe, as their names are made so before further pictures are.
+    echo "$(stat --format %s log) $rows" >>marks
+    rows=$(named)
+done
+kill -KILL "$pid"
+wait "$pid" 2>/dev/null || true
+cp log log.whole
+echo "$(stat --format %s log.whole) bytes of log"
+
+readable=0
+for cut in $(seq "$cuts"); do
+    safe=$(python3 -B "$tools/disk_after_cut.py" start.img log.whole marks $((seed + cut)) cut.img)
+    mount -t ext4 -o loop cut.img after || fail "cut $cut: no file system"
+    film=$(ls -d after/films/* 2>/dev/null || true)
+    rows=0
+    # The list may be longer than what it has of its last rows, which are no rows then.
+    if [ -n "$film" ]; then rows=$(grep -acE '^[0-9]+,[0-9]+\.png$' "$film/cam0/data.csv" || true); fi
+    [ "$rows" -ge "$safe" ] || fail "cut $cut: $rows pictures are left, $safe were safe"
+    if [ "$rows" -gt 0 ]; then
+        run 0 --recording "$film" --pace consumer --display none --summary summary.json
+        summary_has frames "$rows"
+        readable=$((readable + 1))
+    fi
+    umount after
+done
+echo "$cuts cuts, $readable recordings with pictures"
+[ $readable -ge $((cuts / 2)) ] || fail "only $readable recordings have pictures"

@@ -1,0 +1,80 @@
+#!/usr/bin/env python3
+"""Makes a disk as a cut of power at a random moment leaves it, from what was written to it.
+
+Usage: disk_after_cut.py START LOG MARKS SEED OUT
+
+START is the disk before the first write. LOG has all writes and flushes since, in the format of
+Linux's dm-log-writes, as QEMU's blklogwrites makes it. Each line of MARKS says "BYTES ROWS": that
+many rows were safe when the log had that many bytes. OUT is the disk. Prints how many rows were
+safe before the cut.
+
+A disk keeps what came before its last flush. Of what came after it, it keeps any blocks of 4 KiB, as
+they are written as a whole: a share of them that depends on the seed."""
+
+import random
+import shutil
+import struct
+import sys
+from pathlib import Path
+
+MAGIC = 0x6a736677736872
+FLUSH, FUA, DISCARD = 1, 2, 4
+ENTRY = struct.Struct('<QQQQ')  # sector, sectors, flags, bytes of data
+SECTOR, BLOCK = 512, 4096
+
+
+def entries(log):
+    """(end in the log, flags, place on the disk, bytes) of each entry, in order."""
+    magic, version, _, sector_size = struct.unpack_from('<QQQI', log)
+    if (magic, version, sector_size) != (MAGIC, 1, SECTOR):
+        sys.exit(f'not a log of writes to sectors of {SECTOR} bytes')
+    at, out = SECTOR, []
+    while at + SECTOR <= len(log):
+        sector, count, flags, _ = ENTRY.unpack_from(log, at)
+        at += SECTOR
+        if flags & DISCARD:
+            sys.exit('the disk was told to discard sectors')
+        data = log[at:at + count * SECTOR]
+        if len(data) < count * SECTOR:
+            break
+        at += len(data)
+        out.append((at, flags, sector * SECTOR, data))
+    return out
+
+
+def blocks(place, data):
+    """Parts of a write that a disk has either wholly or not at all."""
+    begin = 0
+    while begin < len(data):
+        end = min(len(data), begin + BLOCK - (place + begin) % BLOCK)
+        yield place + begin, data[begin:end]
+        begin = end
+
+
+def after_cut(start, done, chance, share, out):
+    """The disk when the power fails after the entries `done`."""
+    flushed = max((i for i, entry in enumerate(done) if entry[1] & FLUSH), default=0)
+    shutil.copyfile(start, out)
+    with open(out, 'r+b') as disk:
+        for i, (_, flags, place, data) in enumerate(done):
+            for begin, block in blocks(place, data):
+                if i < flushed or flags & FUA or chance.random() < share:
+                    disk.seek(begin)
+                    disk.write(block)
+
+
+def main():
+    start, log, marks, seed, out = sys.argv[1:]
+    chance = random.Random(int(seed))
+    written = entries(Path(log).read_bytes())
+    done = written[:chance.randrange(1, len(written) + 1)]
+    after_cut(start, done, chance, chance.choice([0, chance.random(), 1]), out)
+    rows = 0
+    for line in Path(marks).read_text(encoding='ascii').splitlines():
+        size, safe = map(int, line.split())
+        if size <= done[-1][0]:
+            rows = safe
+    print(rows)
+
+
+main()
