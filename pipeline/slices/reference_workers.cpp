@@ -254,25 +254,6 @@ void ReferenceWorkers::finish(const Job& job, double ms) {
     const std::int64_t samples = job.samples();
     counters_.samples += static_cast<std::uint64_t>(samples);
     if (job.kind != Job::Kind::Build) counters_.cpuMs += ms;
-    if (getenv("MFAR_DBG")) {
-        static double t[40];
-        static long n[40];
-        int k =
-            int(job.kind) * 2 + (job.kind == Job::Kind::Trace && job.portion.slice.samples == 0);
-        if (job.kind == Job::Kind::Resolve) k = 20 + job.rows.stage;
-        t[k] += ms;
-        n[k] += job.kind == Job::Kind::Resolve
-                    ? pictures_.resolver().pixelsOf(job.rows)
-                    : std::max<long>(samples, job.portion.slice.pixels.size());
-        static int c = 0;
-        if (++c % 500 == 0) {
-            for (int i = 0; i < 40; ++i)
-                if (t[i] > 0)
-                    fprintf(stderr, "k%d %.2fms %ld %.3fus; ", i, t[i], n[i],
-                            1e3 * t[i] / std::max(n[i], 1L));
-            fprintf(stderr, "\n");
-        }
-    }  // DBG
     switch (job.kind) {
     case Job::Kind::None: return;
     case Job::Kind::Build: finishBuild(job); break;
