@@ -33,7 +33,8 @@ inline constexpr float kMostLight = 65280;  ///< what is more, is this; NaN is 0
 
 [[nodiscard]] inline std::array<float, 3> unpackedLight(std::uint32_t word) {
     // 2^(exponent - bias - bits) as a float's own exponent.
-    const std::uint32_t exponent = (word >> 3 * kLightBits & kLightExponent) + 127 - kLightBias - kLightBits;
+    const std::uint32_t exponent =
+        (word >> 3 * kLightBits & kLightExponent) + 127 - kLightBias - kLightBits;
     const float scale = std::bit_cast<float>(exponent << 23);
     const auto value = [&](int channel) {
         return scale * static_cast<float>(word >> channel * kLightBits & 0xFFU);
@@ -44,8 +45,8 @@ inline constexpr float kMostLight = 65280;  ///< what is more, is this; NaN is 0
 /// Of what is no metal, along its normal, as of glTF's metallic-roughness material.
 inline constexpr float kDielectricReflectance = 0.04F;
 
-/// Light on a surface without its paint, times the exposure; two light words. `veil` is the share of
-/// the specular light that the surface sends whatever its paint is, as it is seen edge on; its 6
+/// Light on a surface without its paint, times the exposure; two light words. `veil` is the share
+/// of the specular light that the surface sends whatever its paint is, as it is seen edge on; its 6
 /// bits are the words' free ones.
 struct LightWords {
     std::uint32_t diffuse = 0, specular = 0;

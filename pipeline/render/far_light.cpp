@@ -12,8 +12,8 @@ namespace mfar {
 namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
-constexpr int kFinest = 256;     // texels a side, 0.9 degrees at the poles
-constexpr int kCoarsest = 8;     // of the pyramid
+constexpr int kFinest = 256;  // texels a side, 0.9 degrees at the poles
+constexpr int kCoarsest = 8;  // of the pyramid
 constexpr int kDiffuseEdge = 16;
 constexpr int kIntegrated = 32;  // edge of the level that irradiance is summed over
 constexpr int kSamples = 64;     // of a lobe
@@ -85,7 +85,8 @@ FarLight::FarLight(const EnvironmentLight& environment, const Lighting& lighting
         const Sun& sun = *lighting.sun;
         const float height = sun.towards.normalized().z();
         if (height > 0) {
-            ground_ = catcher.albedo.cwiseProduct(sun.irradiance) * (height * std::numbers::inv_pi_v<float>);
+            ground_ = catcher.albedo.cwiseProduct(sun.irradiance) *
+                      (height * std::numbers::inv_pi_v<float>);
             dark_ = false;
         }
     }
@@ -100,7 +101,8 @@ FarLight::FarLight(const EnvironmentLight& environment, const Lighting& lighting
         makeDiffuse(light);
     }
     makeMirrored(light);
-    for (const Eigen::Vector3f& axis : {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(0, 0, 1)})
+    for (const Eigen::Vector3f& axis :
+         {Eigen::Vector3f(1, 0, 0), Eigen::Vector3f(0, 1, 0), Eigen::Vector3f(0, 0, 1)})
         brightness_ += (diffuse_(axis) + diffuse_(-axis)).mean() / 6;
 }
 
@@ -175,7 +177,8 @@ void FarLight::makeMirrored(const Pyramid& light) {
             const float angle = 1 / (kSamples * ggx.reflectedDensity(middle, h));
             std::size_t coarse = 0;
             while (coarse + 1 < light.size() &&
-                   kFullSphere / std::pow(static_cast<float>(light[coarse].edge() - 1), 2.0F) < angle)
+                   kFullSphere / std::pow(static_cast<float>(light[coarse].edge() - 1), 2.0F) <
+                       angle)
                 ++coarse;
             lobe.push_back({d, d.z(), coarse});
         }

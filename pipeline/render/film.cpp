@@ -74,7 +74,8 @@ struct PaintWeights {
 };
 PaintWeights weightsOf(const Paint& paint) {
     constexpr double kLeast = 1e-3;  // of black
-    return {kLeast + luminanceOf<float>(paint.diffuse), kLeast + luminanceOf<float>(paint.specular())};
+    return {kLeast + luminanceOf<float>(paint.diffuse),
+            kLeast + luminanceOf<float>(paint.specular())};
 }
 
 }  // namespace
@@ -124,7 +125,8 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     Pixel& p = begun(pixel);
     ++p.taken;
     const bool isCatcher = sample.hit.id == kCatcherId;
-    if (!isLight(sample.radiance) || !isLight(sample.without)) {
+    if (!isLight(sample.radiance) || !isLight(sample.without) || !isLight(sample.light.diffuse) ||
+        !isLight(sample.light.specular)) {
         ++p.lost;
         return;
     }
@@ -186,15 +188,16 @@ KnownLight Film::known(std::size_t pixel) const {
 Paint Film::paintOf(const Pixel& p) {
     if (p.object.hits == 0) return p.seen.paint;
     const auto hits = static_cast<float>(p.object.hits);
-    return {p.diffusePaint / hits, p.facingPaint / hits, {p.albedoScale / hits, p.albedoOffset / hits}};
+    return {
+        p.diffusePaint / hits, p.facingPaint / hits, {p.albedoScale / hits, p.albedoOffset / hits}};
 }
 
 SurfaceLight Film::farOf(const Pixel& p) {
     const auto mean = [&](const LightSum& sum, double weight, const Eigen::Vector3f& centre) {
         if (!p.isSeen) weight = 0;
         const double all = sum.weights + weight;
-        return all > 0 ? Eigen::Vector3f(((sum.far + weight * centre.cast<double>()) / all)
-                                             .cast<float>())
+        return all > 0 ? Eigen::Vector3f(
+                             ((sum.far + weight * centre.cast<double>()) / all).cast<float>())
                        : centre;
     };
     const auto [diffuse, specular] = weightsOf(p.seen.paint);
@@ -219,8 +222,9 @@ float Film::error(std::size_t pixel, const Exposure& exposure) const {
     if (catchers > 0) {
         const double slope =
             slopeAt((p.catcher.second.light / catchers).cast<float>(), exposure) * catchers / n;
-        variance += slope * slope * varianceOfMean(luminanceOf(p.catcher.first.light),
-                                                   p.catcher.first.squares, catchers);
+        variance +=
+            slope * slope *
+            varianceOfMean(luminanceOf(p.catcher.first.light), p.catcher.first.squares, catchers);
     }
     const double covered = objects / n;
     const double edge = kEdgeContrast * kEdgeContrast * covered * (1 - covered);
@@ -242,10 +246,10 @@ float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
     const SurfaceLight far = farOf(p);
     const Eigen::Vector3f white = paint.diffuse.cwiseProduct(far.diffuse);
     const Eigen::Vector3f mirrored = paint.specular().cwiseProduct(far.specular);
-    const float diffuse = luminanceOf(white) *
-                          deviationOf(known.first, known.firstSquare, known.firstCount);
-    const float specular = luminanceOf(mirrored) *
-                           deviationOf(known.second, known.secondSquare, known.secondCount);
+    const float diffuse =
+        luminanceOf(white) * deviationOf(known.first, known.firstSquare, known.firstCount);
+    const float specular =
+        luminanceOf(mirrored) * deviationOf(known.second, known.secondSquare, known.secondCount);
     const Eigen::Vector3f radiance =
         white.cwiseProduct(known.first) + mirrored.cwiseProduct(known.second);
     return slopeAt(radiance, exposure) * (diffuse + specular);

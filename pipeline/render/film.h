@@ -134,8 +134,8 @@ private:
     };
     struct Pixel {
         LightSums object, catcher;
-        Eigen::Vector3d radiance{0, 0, 0};    // of the objects
-        double radianceSquares = 0;           // of its luminance
+        Eigen::Vector3d radiance{0, 0, 0};                            // of the objects
+        double radianceSquares = 0;                                   // of its luminance
         Eigen::Vector3f diffusePaint{0, 0, 0}, facingPaint{0, 0, 0};  // of the objects
         float albedoScale = 0, albedoOffset = 0;
         std::uint32_t taken = 0, lost = 0;

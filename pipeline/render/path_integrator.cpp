@@ -29,6 +29,8 @@ float powerWeight(float taken, float other) {
 
 // Of the mean light; and of a dark scene.
 constexpr float kLeastFarShare = 0.05F, kLeastFar = 1e-6F;
+// A sun that is wider cannot be treated as one direction and a wider lobe [rad].
+constexpr float kWidestKnownSun = 0.05F;
 
 }  // namespace
 
@@ -77,6 +79,7 @@ struct PathIntegrator::Vertex {
 
 PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options)
     : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
+      sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun),
       environment_(scene.scene().lighting.environment),
       far_(environment_, scene.scene().lighting, scene.scene().catcher),
       leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
@@ -109,7 +112,8 @@ PathIntegrator::Arrived PathIntegrator::direct(const Vertex& vertex, Lobes lobes
     };
     if (!sun_.dark()) {
         const LightSample light = sun_.sample(sampler.pair(pair + kSunPair));
-        add(lit(vertex, lobes, light, light.radiance, powerWeight, world));
+        const Eigen::Vector3f far = sunIsKnown_ ? light.radiance : Eigen::Vector3f(0, 0, 0);
+        add(lit(vertex, lobes, light, far, powerWeight, world));
     }
     if (environment_.sampled()) {
         const LightSample light = environment_.sample(sampler.pair(pair + kEnvironmentPair));
@@ -123,9 +127,10 @@ PathIntegrator::Escaped PathIntegrator::escaped(const Eigen::Vector3f& direction
                                                 float density) const {
     Escaped sum;
     if (const float other = sun_.density(direction); other > 0)
-        sum.light = sum.far = sun_.radiance(direction) * powerWeight(density, other);
-    const Eigen::Vector3f sky = environment_.dark() ? Eigen::Vector3f(0, 0, 0)
-                                                    : environment_.radiance(direction);
+        sum.light = sun_.radiance(direction) * powerWeight(density, other);
+    if (sunIsKnown_) sum.far = sum.light;
+    const Eigen::Vector3f sky =
+        environment_.dark() ? Eigen::Vector3f(0, 0, 0) : environment_.radiance(direction);
     const float weight = balanceWeight(density, environment_.density(direction));
     sum.light += weight * sky;
     sum.far += weight * far_.radiance(direction, sky);
@@ -133,32 +138,43 @@ PathIntegrator::Escaped PathIntegrator::escaped(const Eigen::Vector3f& direction
 }
 
 PathIntegrator::Sent PathIntegrator::known(const Vertex& vertex, const Eigen::Vector3f& wo,
-                                           Lobes lobes) const {
+                                           Lobes lobes, bool withSun) const {
+    Sent sum = knownSky(vertex, wo, lobes);
+    if (withSun) sum += knownSun(vertex, wo, lobes);
+    return sum;
+}
+
+PathIntegrator::Sent PathIntegrator::knownSky(const Vertex& vertex, const Eigen::Vector3f& wo,
+                                              Lobes lobes) const {
+    if (far_.dark()) return {};
     Sent sum;
     const SurfacePoint& point = vertex.point;
     const Reflectance& share = vertex.scatter.reflectance();
-    if (!far_.dark() && lobes == Lobes::Mirrored) {
+    if (lobes == Lobes::Mirrored) {
         const Eigen::Vector3f towards = 2 * point.shading.dot(wo) * point.shading - wo;
-        sum.radiance =
-            share.mirrored.cwiseProduct(far_.mirrored(towards, point.look.roughness));
-    } else if (!far_.dark()) {
+        sum.radiance = share.mirrored.cwiseProduct(far_.mirrored(towards, point.look.roughness));
+    } else {
         const Eigen::Vector3f even = far_.diffuse(point.shading);
         sum.white = share.white * even;
         sum.radiance =
             (share.white * vertex.scatter.diffuseColour() + share.manyfold).cwiseProduct(even);
     }
-    if (!sun_.dark()) {
-        const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
-        // A lobe sharper than the sun's disc shows the disc.
-        SurfaceLook look = point.look;
-        look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
-        const ScatterValue f =
-            lobes == Lobes::Mirrored && look.roughness > point.look.roughness
-                ? SurfaceScatter(look, vertex.frame.transpose() * wo).evaluate(towards, lobes)
-                : vertex.scatter.evaluate(towards, lobes);
-        sum += {f.value.cwiseProduct(sun_.irradiance()), f.white * sun_.irradiance()};
-    }
     return sum;
+}
+
+PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, const Eigen::Vector3f& wo,
+                                              Lobes lobes) const {
+    if (sun_.dark()) return {};
+    const SurfacePoint& point = vertex.point;
+    const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
+    // A lobe sharper than the sun's disc shows the disc.
+    SurfaceLook look = point.look;
+    look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
+    const ScatterValue f =
+        lobes == Lobes::Mirrored && look.roughness > point.look.roughness
+            ? SurfaceScatter(look, vertex.frame.transpose() * wo).evaluate(towards, lobes)
+            : vertex.scatter.evaluate(towards, lobes);
+    return {f.value.cwiseProduct(sun_.irradiance()), f.white * sun_.irradiance()};
 }
 
 float PathIntegrator::kept(const Eigen::Vector3f& light, int depth) const {
@@ -170,8 +186,7 @@ float PathIntegrator::kept(const Eigen::Vector3f& light, int depth) const {
 PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
                                            const PixelSampler& sampler, World& world) const {
     Parts out;
-    const std::uint32_t firstPair =
-        kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0);
+    const std::uint32_t firstPair = kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0);
     Eigen::Vector3f throughput{1, 1, 1}, whiteThroughput{0, 0, 0};  // white: none before a bounce
     const auto add = [&](Sent& sum, const Eigen::Vector3f& light, int depth) {
         const Eigen::Vector3f sent = throughput.cwiseProduct(light);
@@ -189,7 +204,7 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
         const Arrived lit = direct(vertex, here, sampler, pair, world);
         if (first) {
             out.direct = lit;
-            if (lobes != Lobes::Both) out.known = known(vertex, wo, lobes);
+            if (lobes != Lobes::Both) out.known = known(vertex, wo, lobes, sunIsKnown_);
         } else {
             add(out.rest, lit.light.radiance, depth);
         }
@@ -203,8 +218,7 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
             whiteThroughput.setConstant(scattered.white);
         else
             whiteThroughput = whiteThroughput.cwiseProduct(scattered.weight);
-        if (first)
-            add(out.direct.unblocked, escaped(direction, scattered.density).far, depth);
+        if (first) add(out.direct.unblocked, escaped(direction, scattered.density).far, depth);
         if (!vertex.faces(direction)) return out;
         if (depth >= options_.rouletteDepth) {
             const float chance = std::min(1.0F, throughput.maxCoeff() / kSurvives);
@@ -243,10 +257,9 @@ PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, std::uint32_t numbe
     Sent out = parts.rest;
     out += direct.light;
     const float unblocked = luminanceOf(direct.unblocked.radiance);
-    float trust = number < kTrusted ? 1.0F
-                                    : static_cast<float>(kTrusted) / static_cast<float>(number);
-    if (unblocked > 0)
-        trust *= std::min(1.0F, luminanceOf(direct.light.radiance) / unblocked);
+    float trust =
+        number < kTrusted ? 1.0F : static_cast<float>(kTrusted) / static_cast<float>(number);
+    if (unblocked > 0) trust *= std::min(1.0F, luminanceOf(direct.light.radiance) / unblocked);
     out += {trust * (parts.known.radiance - direct.unblocked.radiance),
             trust * (parts.known.white - direct.unblocked.white)};
     return out;
@@ -271,8 +284,8 @@ SurfaceLight PathIntegrator::far(const SurfacePoint& point,
                                  const Eigen::Vector3f& direction) const {
     const Eigen::Vector3f wo = -direction.normalized();
     const Vertex vertex(point, wo);
-    Sent sent = known(vertex, wo, Lobes::Broad);
-    if (!point.look.matt) sent += known(vertex, wo, Lobes::Mirrored);
+    Sent sent = known(vertex, wo, Lobes::Broad, true);
+    if (!point.look.matt) sent += known(vertex, wo, Lobes::Mirrored, true);
     SurfaceLight out = lightOf(sent.radiance, sent.white, point.paint(direction));
     out.diffuse = out.diffuse.cwiseMax(leastFar_);
     out.specular = out.specular.cwiseMax(leastFar_);

@@ -54,15 +54,15 @@ private:
             return *this;
         }
     };
-    /// Light straight from the lights: as the objects let it through, and as it would be without
-    /// them.
+    /// Light straight from the lights: as the objects let it through, and that of the known lights
+    /// as it would be without objects. A wide sun is no known light.
     struct Arrived {
         Sent light, unblocked;
     };
     /// What some lobes of a first surface send to the eye, in parts.
     struct Parts {
         Arrived direct;  ///< straight from the lights
-        Sent known;      ///< the mean of direct.unblocked, without a ray
+        Sent known;      ///< about the mean of direct.unblocked, without a ray
         Sent rest;       ///< by way of other surfaces
     };
     /// From `point` to `wo`, by these lobes of its.
@@ -81,7 +81,12 @@ private:
     struct Escaped {
         Eigen::Vector3f light{0, 0, 0}, far{0, 0, 0};
     };
-    [[nodiscard]] Sent known(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
+    /// Without a ray and without objects.
+    [[nodiscard]] Sent known(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes,
+                             bool withSun) const;
+    [[nodiscard]] Sent knownSky(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
+    /// As of a narrow sun: a wide one's light is off by more the wider it is.
+    [[nodiscard]] Sent knownSun(const Vertex& vertex, const Eigen::Vector3f& wo, Lobes lobes) const;
     [[nodiscard]] Escaped escaped(const Eigen::Vector3f& direction, float density) const;
     /// The share of light that is kept of what came from surface number `depth` of a path.
     [[nodiscard]] float kept(const Eigen::Vector3f& light, int depth) const;
@@ -89,6 +94,7 @@ private:
     const TracedScene& scene_;
     const PathTracerOptions& options_;
     SunLight sun_;
+    bool sunIsKnown_;
     EnvironmentLight environment_;
     FarLight far_;
     float leastFar_;  // light that is less is not divided by

@@ -32,8 +32,8 @@ enum class Lobes { Both, Broad, Mirrored };
 /// Shares of light that a surface sends to the eye: of even light over the hemisphere, and of that
 /// in the mirrored lobe.
 struct Reflectance {
-    float white = 1;                         ///< of even light, before the diffuse paint
-    Eigen::Vector3f manyfold{0, 0, 0};       ///< of even light, by several reflections
+    float white = 1;                    ///< of even light, before the diffuse paint
+    Eigen::Vector3f manyfold{0, 0, 0};  ///< of even light, by several reflections
     Eigen::Vector3f mirrored{0, 0, 0};
 };
 

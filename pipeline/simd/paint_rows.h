@@ -41,8 +41,9 @@ struct PaintRow {
     const std::uint32_t *upperIndices, *lowerIndices;  ///< triangles
     PaintWords* out;
 };
-/// Writes `count` pixels, and up to 7 beyond: bytes of sRGB, 0 where no object is. Of several objects in a pixel the one that has most of the quarters is painted
-/// (RestPixels), in the middle of them.
+/// Writes `count` pixels, and up to 7 beyond: bytes of sRGB, 0 where no object is. Of several
+/// objects in a pixel the one that has most of the quarters is painted (RestPixels), in the middle
+/// of them.
 void paintRow(const PaintRow& row, const PaintInput& in);
 
 }  // namespace mfar::simd

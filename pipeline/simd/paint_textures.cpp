@@ -21,7 +21,8 @@ Values linearOf(const SurfaceTexture& texture, std::size_t texel) {
     Values out{};
     for (std::size_t c = 0; c < 4; ++c) {
         const std::uint8_t byte = texture.texels[texel][c];
-        out[c] = texture.srgb && c < 3 ? linearOfSrgbByte()[byte] : static_cast<float>(byte) / kMost;
+        out[c] =
+            texture.srgb && c < 3 ? linearOfSrgbByte()[byte] : static_cast<float>(byte) / kMost;
     }
     return out;
 }

@@ -31,9 +31,7 @@ public:
         return materials_.at(&part);
     }
     /// Without triangles. Valid until set().
-    [[nodiscard]] PaintInput input() const {
-        return {texels_.data(), levels_.data(), nullptr};
-    }
+    [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
 
 private:
     /// Textures of base colour and metallic-roughness, and what multiplies them: colour, metallic.

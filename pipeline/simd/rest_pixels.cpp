@@ -59,8 +59,7 @@ Point3 scaled(float by, const Point3& p) {
 }
 
 /// A channel [0, 255] of a painted surface in sums of light; the last one is its coverage.
-float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light,
-          float weights) {
+float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light, float weights) {
     if (channel == 3) return 255;
     const auto linear = [channel](std::uint32_t word) {
         return srgbDecoded(static_cast<float>(word >> 8 * channel & 0xFFU) / 255);
@@ -146,8 +145,7 @@ bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted
     }
     if (!(weights > params::kLeastLookUpWeight)) return false;
     for (std::size_t c = 0; c < 4; ++c)
-        found.rgba[c] =
-            isLit ? lit(wanted.paint, c, light, weights) : sum.rgba[c] / weights;
+        found.rgba[c] = isLit ? lit(wanted.paint, c, light, weights) : sum.rgba[c] / weights;
     return true;
 }
 

@@ -33,10 +33,10 @@ public:
     /// Twice the layer's size: z and number, packed as warp_surface.glsl says; 0 = nothing. The
     /// catcher's number is seen only where no object is, nearer or not.
     [[nodiscard]] Rows<const std::uint32_t> surface() const { return words_.rows(); }
-    /// The paint of layer pixels `x0` to `x1` of row `y`, within what was drawn: factor times texture
-    /// over the pixel's footprint, averaged in linear light, as bytes of sRGB; 0 where no object is.
-    /// Of several objects in a pixel it is that of the one with most quarters, as RestPixels looks
-    /// it up. Writes up to 7 words beyond. From any thread.
+    /// The paint of layer pixels `x0` to `x1` of row `y`, within what was drawn: factor times
+    /// texture over the pixel's footprint, averaged in linear light, as bytes of sRGB; 0 where no
+    /// object is. Of several objects in a pixel it is that of the one with most quarters, as
+    /// RestPixels looks it up. Writes up to 7 words beyond. From any thread.
     void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:

@@ -103,15 +103,14 @@ HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
 /// Bilinear, the share of specular light that no paint changes.
 HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& weights) {
     const auto veil = [&](VU d, VU s, VU weight) HWY_ATTR {
-        const VU bits =
-            hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)), hn::ShiftRight<kLightFreeBit>(s));
+        const VU bits = hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)),
+                               hn::ShiftRight<kLightFreeBit>(s));
         return hn::Mul(bits, weight);
     };
     const VU sum = hn::Add(
         hn::Add(veil(diffuse.a, specular.a, weights.a), veil(diffuse.b, specular.b, weights.b)),
         hn::Add(veil(diffuse.c, specular.c, weights.c), veil(diffuse.d, specular.d, weights.d)));
-    return hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), sum)),
-                   hn::Set(D(), 1 / (256 * kMostVeil)));
+    return hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), sum)), hn::Set(D(), 1 / (256 * kMostVeil)));
 }
 
 /// Of two vectors of PaintWords.
@@ -238,7 +237,8 @@ HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
 }
 
 /// Reads the reference where `a` asks for it.
-HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const PaintOf& paint, Found& out) {
+HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const PaintOf& paint,
+                              Found& out) {
     const D d;
     const DU du;
     const V width = hn::Set(d, static_cast<float>(in.reference.width));

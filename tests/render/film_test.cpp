@@ -11,8 +11,13 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
+/// Of a white matt object.
 FilmSample objectSample(float radiance, float depth = 1, std::uint8_t id = 1) {
-    return {{depth, id}, Eigen::Vector3f::Constant(radiance), {0, 0, 0}};
+    const Eigen::Vector3f grey = Eigen::Vector3f::Constant(radiance);
+    FilmSample out{{depth, id}, grey, {0, 0, 0}};
+    out.light.diffuse = grey;
+    out.paint.diffuse = {1, 1, 1};
+    return out;
 }
 
 FilmSample catcherSample(const Eigen::Vector3f& with, const Eigen::Vector3f& without) {
@@ -130,8 +135,11 @@ TEST(Film, WhatIsNotFiniteIsDroppedAndCounted) {
     film.add(0, objectSample(std::numeric_limits<float>::infinity()));
     film.add(0, objectSample(-1));
     film.add(0, catcherSample({1, 1, 1}, {kNan, 1, 1}));
-    EXPECT_EQ(film.dropped(), 4U);
-    EXPECT_EQ(film.samples(0), 5U);
+    FilmSample bright = objectSample(0.2F);
+    bright.light.specular.x() = std::numeric_limits<float>::infinity();
+    film.add(0, bright);
+    EXPECT_EQ(film.dropped(), 5U);
+    EXPECT_EQ(film.samples(0), 6U);
     const RenderedPicture picture = pictureOf(film);
     EXPECT_EQ(picture.colour[0][0], std::lround(255 * srgbEncoded(0.2F)));
     EXPECT_EQ(picture.colour[0][3], 255);

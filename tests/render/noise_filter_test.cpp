@@ -38,8 +38,8 @@ template <class Value>
 double errorOf(const Pixels& pixels, Value value) {
     double squares = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const float wanted = value(static_cast<int>(i % kNoisySize.width),
-                                   static_cast<int>(i / kNoisySize.width));
+        const float wanted =
+            value(static_cast<int>(i % kNoisySize.width), static_cast<int>(i / kNoisySize.width));
         for (const float found : {pixels[i].first[0], pixels[i].second[0]})
             squares += (found - wanted) * (found - wanted);
     }

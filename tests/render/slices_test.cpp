@@ -150,8 +150,7 @@ TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
         turns.push_back(slices.samples());
         EXPECT_EQ(slices.turns(), static_cast<int>(turns.size()));
         const auto isSampled = [](const auto& pixel) { return pixel.second > 0; };
-        sampled.push_back(
-            static_cast<int>(std::ranges::count_if(picture.samples(), isSampled)));
+        sampled.push_back(static_cast<int>(std::ranges::count_if(picture.samples(), isSampled)));
         EXPECT_EQ(picture.samples().size(), slices.pixels()) << "each was looked at";
         if (turns.back() == 0) continue;
         for (const auto& [pixel, samples] : picture.samples())

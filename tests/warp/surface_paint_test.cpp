@@ -1,7 +1,7 @@
 #include "base/workers.h"
 #include "pipeline/render/exposure.h"
-#include "pipeline/render/texture_lookup.h"
 #include "pipeline/render/paint.h"
+#include "pipeline/render/texture_lookup.h"
 #include "pipeline/simd/surface_raster.h"
 
 #include <gtest/gtest.h>
@@ -242,7 +242,8 @@ TEST(SurfacePaint, OfPlainColoursIsExact) {
             }
             const Words words =
                 paintOf(sceneOf({{modelOf(square(), material, {plain}), placed(0, {0, 0, 1}), 1}}));
-            const Paint truth = mfar::paintOf(Eigen::Vector3f::Constant(linear), material.metallic, {});
+            const Paint truth =
+                mfar::paintOf(Eigen::Vector3f::Constant(linear), material.metallic, {});
             const Six bytes = bytesOf(words[20UL * kPainted.width + 30]);
             for (int c = 0; c < 6; ++c) {
                 const Eigen::Vector3f& part = c < 3 ? truth.diffuse : truth.facing;

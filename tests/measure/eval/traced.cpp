@@ -232,7 +232,7 @@ public:
         std::vector<std::vector<Picture>> shown;  // of each method, for the video
         for (const std::string& method : request_.methods)
             shown.push_back(run(method));
-        if (!request_.video.empty()) writeVideo(shown);  //DBG
+        if (!request_.video.empty()) writeVideo(shown);
     }
 
 private:
@@ -267,8 +267,6 @@ private:
             errorBefore = std::move(error);
             truthBefore = &truth;
         }
-        const auto c = frames.counters().render;  //DBG
-        fmt::print(stderr, "{} samples {} ms/sample {:.5f} cpu {:.1f} pictures {} shown {} progress {:.3f} holes {}\n", label_, c.samples, c.msPerSample, c.cpuMs, c.pictures, c.shown, c.progress, c.holePixels);  //DBG
         return all;
     }
 
