@@ -1,5 +1,7 @@
 #include "pipeline/render/path_integrator.h"
 
+#include "pipeline/render/luminance.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -239,14 +241,6 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
         wo = -direction;
     }
 }
-
-namespace {
-
-float luminanceOf(const Eigen::Vector3f& rgb) {
-    return rgb.dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F));
-}
-
-}  // namespace
 
 // What objects let through of the light that is known (Heitz et al. 2018): where nothing stands
 // before the surface, no noise is left. What is known is off by some percent, so that of many
