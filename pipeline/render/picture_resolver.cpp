@@ -90,9 +90,8 @@ void PictureResolver::write(int row) {
     if (row < traced_.y0 || row >= traced_.y1) return;
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
-        const LightPixel light = lightOf(x, row);
-        if (memory_ != nullptr) memory_->remember(i, light);
-        const auto [colour, hit, onObject] = film_->resolvedFrom(light, i, exposure_);
+        const auto [colour, hit, onObject] =
+            filters_ ? filtered(x, row) : film_->resolved(i, exposure_);
         out_->colour[i] = colour;
         out_->depth[i] = hit.depth;
         out_->light[i] = onObject;
@@ -103,13 +102,18 @@ void PictureResolver::write(int row) {
     }
 }
 
-LightPixel PictureResolver::lightOf(int x, int y) {
+Film::Resolved PictureResolver::filtered(int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y) * film_->size().width + x;
-    if (memory_ == nullptr || film_->isSeen(i))
-        return filters_ ? filter_.filtered()[i] : film_->light(i, exposure_);
-    const LightPixel out = between(x, y);
-    if (out.id != 0) memory_->setCentre(i, {{out.depth, out.id}, out.normal.matrix(), {}, 1});
-    return out;
+    LightPixel light = filter_.filtered()[i];
+    if (memory_ != nullptr) {
+        if (!film_->isSeen(i)) {
+            light = between(x, y);
+            if (light.id != 0)
+                memory_->setCentre(i, {{light.depth, light.id}, light.normal.matrix(), {}, 1});
+        }
+        memory_->remember(i, light);
+    }
+    return film_->resolvedFrom(light, i, exposure_);
 }
 
 // Of the real surface; nothing where none of the pixels around was looked at.

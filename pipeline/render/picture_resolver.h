@@ -46,7 +46,7 @@ private:
     [[nodiscard]] int rowsEnd() const;
     void prepare(int row);
     void write(int row);
-    [[nodiscard]] LightPixel lightOf(int x, int y);
+    [[nodiscard]] Film::Resolved filtered(int x, int y);
     [[nodiscard]] LightPixel between(int x, int y) const;
 
     const Film* film_ = nullptr;

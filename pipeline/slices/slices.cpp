@@ -182,7 +182,10 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
         if (adapts) kept = keepNoisy(tile, states);
         tile.handed = 0;
     } else if (tile.handed < tile.active) {
-        if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) kept = 0;
+        if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
+            kept = 0;
+            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // are traced
+        }
     } else {
         tile.samples += step(tile);
         tile.handed = 0;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -15,10 +17,9 @@ namespace {
 constexpr Size kReferenceSize{48, 36};
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-std::shared_ptr<const ReferenceScene> preparedStillLife(std::uint64_t objects,
-                                                        std::uint64_t light) {
+std::shared_ptr<const ReferenceScene> prepared(const std::shared_ptr<const Scene>& scene,
+                                               std::uint64_t objects, std::uint64_t light) {
     auto out = std::make_shared<ReferenceScene>();
-    const auto scene = render_scenes::stillLife();
     out->tracer = std::make_shared<PathTracer>(scene);
     out->balls = objectBalls(*scene);
     out->objects = objects;
@@ -26,15 +27,25 @@ std::shared_ptr<const ReferenceScene> preparedStillLife(std::uint64_t objects,
     return out;
 }
 
+std::shared_ptr<const ReferenceScene> preparedStillLife(std::uint64_t objects,
+                                                        std::uint64_t light) {
+    return prepared(render_scenes::stillLife(), objects, light);
+}
+
+/// Neither filter nor history: every pixel is sampled.
+constexpr ReferencePolicy kPlain{{4, 0.2}, 8, false, false};
+constexpr ReferencePolicy kProduct{{4, 0.2}, 8, true, true};
+
 /// Does one by one what the threads of a renderer do, and keeps what was shown.
 class Driver {
 public:
-    explicit Driver(const SliceOptions& slices) : pictures(slices, {{4, 0.2}, 8}) {
+    explicit Driver(const SliceOptions& slices, const ReferencePolicy& policy = kPlain)
+        : pictures(slices, policy) {
         pictures.setScene(preparedStillLife(1, 1));
     }
 
     void look(double azimuth) {
-        const RenderView view = render_scenes::viewFrom(kReferenceSize, azimuth);
+        const RenderView view = render_scenes::viewFrom(size, azimuth);
         pictures.look(view, view, {});
     }
     /// True if there was something to do.
@@ -75,6 +86,7 @@ public:
         return !shown.empty() && shown.back().T_world_camera.translation == there.translation;
     }
 
+    Size size = kReferenceSize;
     ReferencePictures pictures;
     std::vector<RenderedPicture> shown;
 };
@@ -90,12 +102,13 @@ TEST(NextStep, FollowsTheCamera) {
     for (const auto& [sinceShown, sinceNext, step] : std::vector<Case>{
              {{}, {}, Start},         // nothing yet
              {{}, 9.0, Continue},     // the first one, wherever the camera is
-             {0.9, {}, Refine},       // it serves
-             {1.0, {}, Start},        // it serves no longer
+             {0.2, {}, Refine},       // it is new
+             {0.3, {}, Start},        // the next one takes over its light
              {kInfinite, {}, Start},  // it never did
              {1.1, 0.9, Continue},    // on the way
              {0.6, 2.0, Start},       // the same, and the shown one serves meanwhile
-             {0.4, 0.7, Drop},        // come back
+             {0.1, 0.7, Drop},        // come back
+             {0.2, 0.7, Continue},    // not quite
              {2.0, 1.5, Continue},    // too fast, but better than what is shown
              {1.5, 2.0, Start},       // another way than was predicted
          }) {
@@ -125,7 +138,7 @@ TEST(ReferencePictures, ACameraThatComesToRestGetsAPictureOfItsOwnView) {
     driver.settle();
     const std::size_t before = driver.shown.size();
     for (int i = 0; i < 30; ++i) {  // it still moves, and the picture serves
-        driver.look(20.5 + 0.05 * i);
+        driver.look(i % 2 == 0 ? 20.8 : 19.2);
         EXPECT_FALSE(driver.step()) << i;
     }
     for (int i = 0; i < 12; ++i)
@@ -264,6 +277,111 @@ TEST(ReferencePictures, NothingInViewIsShownAsNothing) {
     ASSERT_EQ(driver.shown.size(), 1U);
     for (const std::uint8_t id : driver.shown[0].id)
         EXPECT_EQ(id, 0);
+    EXPECT_TRUE(driver.pictures.settled());
+}
+
+/// Of objects' colours [grey levels], root mean square, against samples without filter or history.
+double errorOf(const RenderedPicture& picture, double azimuth) {
+    Driver exact({Slicing::Time, 256, 16, 0, 16});
+    exact.look(azimuth);
+    exact.settle();
+    const RenderedPicture& truth = exact.shown.back();
+    double squares = 0;
+    int values = 0;
+    for (std::size_t i = 0; i < truth.id.size(); ++i) {
+        if (truth.id[i] == 0 || truth.id[i] == kCatcherId) continue;
+        for (std::size_t c = 0; c < 3; ++c)
+            squares += std::pow(double(truth.colour[i][c]) - picture.colour[i][c], 2);
+        values += 3;
+    }
+    EXPECT_GT(values, 300);
+    return std::sqrt(squares / values);
+}
+
+TEST(ReferencePictures, AFirstPictureIsShownOfOneSampleInSixteenPixels) {
+    Driver driver(kThirtyTwo, kProduct);
+    driver.look(20);
+    driver.untilShown(1);
+    EXPECT_LT(driver.shown[0].samples, 0.15);
+    driver.settle();
+    EXPECT_GT(driver.shown.size(), 4U);
+    const RenderedPicture &first = driver.shown.front(), &last = driver.shown.back();
+    for (std::size_t i = 0; i < first.id.size(); ++i) {
+        // Through a pixel's centre; later samples may find an object beside it.
+        if (first.id[i] == 0 || first.id[i] == kCatcherId || last.id[i] == kCatcherId) continue;
+        ASSERT_EQ(first.id[i], last.id[i]) << "objects are whole at once";
+    }
+    const auto objectsOf = [](const RenderedPicture& p) {
+        return std::ranges::count_if(p.id, [](int id) { return id != 0 && id != kCatcherId; });
+    };
+    EXPECT_GT(objectsOf(first), 0.85 * static_cast<double>(objectsOf(last)));
+    EXPECT_GT(errorOf(first, 20), errorOf(last, 20));
+}
+
+TEST(ReferencePictures, ANextPictureTakesOverTheLightOfTheOneBefore) {
+    Driver fresh(kThirtyTwo, kProduct), going(kThirtyTwo, kProduct);
+    fresh.look(26);
+    fresh.untilShown(1);
+    going.look(20);
+    going.settle();
+    const std::size_t before = going.shown.size();
+    going.look(26);
+    going.untilShown(before + 1);
+    ASSERT_TRUE(going.shows(26));
+    EXPECT_LT(going.shown.back().samples, 0.1);
+    EXPECT_LT(errorOf(going.shown.back(), 26), 0.7 * errorOf(fresh.shown.back(), 26));
+}
+
+TEST(ReferencePictures, LightOfAnotherLightIsSoonOutweighed) {
+    Driver driver(kThirtyTwo, kProduct);
+    const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
+    dark->lighting.sun->irradiance *= 0.2F;
+    driver.pictures.setScene(prepared(dark, 1, 1));
+    driver.look(20);
+    driver.settle();
+    const std::size_t before = driver.shown.size();
+    driver.pictures.setScene(preparedStillLife(1, 2));
+    driver.look(20);
+    driver.settle();
+    ASSERT_GT(driver.shown.size(), before);
+    Driver fresh(kThirtyTwo, kProduct);
+    fresh.look(20);
+    fresh.settle();
+    EXPECT_LT(errorOf(driver.shown.back(), 20), errorOf(fresh.shown.back(), 20) + 2);
+}
+
+TEST(ReferencePictures, SurfacesThatNothingChangesAreTracedOnce) {
+    Driver driver({Slicing::Time, 2, 1, 0, 2}, kProduct);
+    driver.size = {192, 144};
+    // A black ball in the sun: it has a shadow, and changes no light elsewhere.
+    const auto sunlit = std::make_shared<Scene>(*render_scenes::stillLife());
+    sunlit->lighting.environment = nullptr;
+    sunlit->objects.resize(1);
+    Model black = *sunlit->objects[0].model;
+    black.materials[0].baseColour.head<3>().setZero();
+    sunlit->objects[0].model = std::make_shared<Model>(black);
+    driver.pictures.setScene(prepared(sunlit, 1, 1));
+    driver.look(20);
+    driver.settle();
+    const std::size_t all = driver.pictures.pixels();
+    driver.look(26);
+    driver.settle();
+    EXPECT_LT(driver.pictures.pixels(), 0.9 * static_cast<double>(all));
+    driver.pictures.setScene(prepared(sunlit, 1, 2));
+    driver.look(20);
+    driver.settle();
+    EXPECT_GE(driver.pictures.pixels(), all) << "in new light any may be changed";
+}
+
+TEST(ReferencePictures, AtRestEachPixelHasItsOwnSamples) {
+    Driver driver(kThirtyTwo, kProduct);
+    driver.look(20);
+    driver.settle();
+    EXPECT_LT(driver.shown.back().samples, 32) << "of the real surface a quarter";
+    for (int i = 0; i < 12; ++i)
+        driver.look(20);
+    driver.settle();
+    EXPECT_EQ(driver.shown.back().samples, 32);
     EXPECT_TRUE(driver.pictures.settled());
 }
 

@@ -221,6 +221,7 @@ TEST(Slices, UntouchedTilesGetTheSparseSamplesAlone) {
             EXPECT_EQ(samples, 16) << pixel;
     }
     EXPECT_EQ(sampled, 16 * 24 / 4);
+    EXPECT_DOUBLE_EQ(slices.progress(), 1);
 }
 
 TEST(Slices, DensityLeavesOutTilesAndPixels) {

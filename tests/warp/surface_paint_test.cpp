@@ -226,7 +226,8 @@ TEST(SurfacePaint, OfABallHasFactorsAndTexturesOfTwoSizes) {
     EXPECT_LT(errors.mean, 3.6);
 }
 
-TEST(SurfacePaint, OfPlainColoursIsExact) {
+// Textures keep roots of linear values in bytes: half a step is 0.75 grey levels where it is dark.
+TEST(SurfacePaint, OfPlainColoursIsRoundedTwice) {
     for (const bool hasTexture : {false, true})
         for (int level = 0; level < 256; ++level) {
             Material material;
@@ -247,7 +248,7 @@ TEST(SurfacePaint, OfPlainColoursIsExact) {
             const Six bytes = bytesOf(words[20UL * kPainted.width + 30]);
             for (int c = 0; c < 6; ++c) {
                 const Eigen::Vector3f& part = c < 3 ? truth.diffuse : truth.facing;
-                ASSERT_NEAR(bytes[c], 255 * srgbEncoded(part[c % 3]), 1) << level << " " << c;
+                ASSERT_NEAR(bytes[c], 255 * srgbEncoded(part[c % 3]), 1.25) << level << " " << c;
             }
         }
 }
