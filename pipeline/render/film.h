@@ -156,6 +156,8 @@ private:
     [[nodiscard]] static Paint paintOf(const Pixel& p);
     /// Far light on the object, a mean over its samples and the pixel's centre.
     [[nodiscard]] static SurfaceLight farOf(const Pixel& p);
+    /// Of an object, over far light; the latter itself where nothing is known.
+    [[nodiscard]] static SurfaceLight relativeOf(const KnownLight& light);
     [[nodiscard]] static float errorOfKnown(const Pixel& p, const Exposure& exposure);
     /// Nothing where objects neither are nor change the light, as in most of a picture.
     [[nodiscard]] static Shown shown(const Pixel& p, const Exposure& exposure);

@@ -51,11 +51,19 @@ Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
 Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const {
     const Pixel& p = at(pixel);
     Resolved out = resolved(p, shown(p, exposure));
-    if (out.hit.id != 0 && out.hit.id != kCatcherId && p.object.hits > 0) {
-        const SurfaceLight light{p.object.first.relative(), p.object.second.relative()};
+    if (out.hit.id != 0 && out.hit.id != kCatcherId) {
+        const SurfaceLight light =
+            p.object.hits > 0 ? SurfaceLight{p.object.first.relative(), p.object.second.relative()}
+                              : relativeOf(p.carried);
         out.light = packed(product(light, farOf(p)), paintOf(p), exposure.scale);
     }
     return out;
+}
+
+// What nothing is known of is seen as if no object shaded it.
+SurfaceLight Film::relativeOf(const KnownLight& light) {
+    return {light.firstCount > 0 ? light.first : Eigen::Vector3f(1, 1, 1),
+            light.secondCount > 0 ? light.second : Eigen::Vector3f(1, 1, 1)};
 }
 
 Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
@@ -71,7 +79,9 @@ Film::Resolved Film::resolvedFrom(const LightPixel& light, std::size_t pixel,
         m.catcherShare = 1;
     } else {
         const SurfaceLight onObject =
-            product({light.first.matrix(), light.second.matrix()}, farOf(p));
+            product(relativeOf({light.first.matrix(), light.second.matrix(), 0, 0, light.firstCount,
+                                light.secondCount}),
+                    farOf(p));
         const Paint paint = paintOf(p);
         m.object = onObject.on(paint);
         words = packed(onObject, paint, exposure.scale);

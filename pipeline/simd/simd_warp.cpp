@@ -49,6 +49,7 @@ public:
         picture_ = copied<std::uint32_t>(reference.camera.size, reference.picture.data());
         depth_ = copied<float>(reference.camera.size, reference.depth.data());
     }
+    bool takesLight() const override { return true; }
     LayerPicture& reference() override {
         rendered_.colour.writtenOnHost(picture_.rows());
         rendered_.depth.writtenOnHost(depth_.rows());

@@ -6,10 +6,10 @@
 namespace mfar {
 namespace {
 
-// A camera that goes on gets a new picture at this share of the limit: it inherits the light.
-constexpr double kRenewed = 0.25;
+// A camera that goes on soon gets a new picture at this share of the limit: it inherits the light.
+constexpr double kSoon = 0.25;
 // A next picture is given up when the camera has come back half of the way.
-constexpr double kBack = 0.5 * kRenewed;
+constexpr double kBack = 0.5;
 // So many limits away from its view the picture shown is worse than a noisy one.
 constexpr double kHopeless = 3;
 // A finer picture is worth a conversion when its error has halved.
@@ -25,12 +25,13 @@ constexpr int kLookTurn = 1;
 
 }  // namespace
 
-ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext) {
+ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
+                       double renewed) {
     if (!sinceNext)
-        return sinceShown && *sinceShown < kRenewed ? ReferenceStep::Refine : ReferenceStep::Start;
+        return sinceShown && *sinceShown < renewed ? ReferenceStep::Refine : ReferenceStep::Start;
     // The very first picture is finished wherever the camera goes: it is better than none.
     if (!sinceShown) return ReferenceStep::Continue;
-    if (*sinceShown < kBack) return ReferenceStep::Drop;
+    if (*sinceShown < kBack * renewed) return ReferenceStep::Drop;
     return *sinceNext >= 1 && *sinceNext > *sinceShown ? ReferenceStep::Start
                                                        : ReferenceStep::Continue;
 }
@@ -68,7 +69,8 @@ ReferenceStep ReferencePictures::chosenStep() const {
     if (!hasBegun && rests && (isElsewhere || (shown.wasShown && !shown.rests)))
         return ReferenceStep::Start;
     const ReferenceStep step =
-        nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt);
+        nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
+                 policy_.soon ? kSoon : 1);
     // One that knows little yet would be inherited for nothing, as long as it serves.
     const bool serves = sinceShown && *sinceShown < 1;
     if (step == ReferenceStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
@@ -202,7 +204,7 @@ bool ReferencePictures::toShow() const {
 bool ReferencePictures::isSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
     const Picture& shown = pictures_[shown_];
-    return &picture == &shown || !shown.scene || picture.history;
+    return &picture == &shown || !shown.scene || (policy_.soon && picture.history);
 }
 
 void ReferencePictures::beginShow(const Exposure& exposure, RenderedPicture& out) {

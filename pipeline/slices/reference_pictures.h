@@ -24,8 +24,9 @@ enum class ReferenceStep : unsigned char {
 
 /// The changes since the pictures' views, as of viewChange(); nothing: there is no such picture, or
 /// it is of another scene.
+/// A next picture is begun at `renewed` of the limit.
 [[nodiscard]] ReferenceStep nextStep(std::optional<double> sinceShown,
-                                     std::optional<double> sinceNext);
+                                     std::optional<double> sinceNext, double renewed);
 
 struct ReferencePolicy {
     ViewLimits limits;
@@ -35,6 +36,9 @@ struct ReferencePolicy {
     int samplesToReplace = 4;
     bool filter = true;   ///< of noise
     bool history = true;  ///< light of the picture before is carried over to the next
+    /// While the camera moves, the next picture begins long before the one shown has reached its
+    /// limits, and is shown before every pixel has a sample. For what takes light alone from it.
+    bool soon = true;
     bool operator==(const ReferencePolicy&) const = default;
 };
 

@@ -145,6 +145,23 @@ TEST(Film, WhatIsNotFiniteIsDroppedAndCounted) {
     EXPECT_EQ(picture.colour[0][3], 255);
 }
 
+// Through the pixel's centre an object is seen that no sample met.
+TEST(Film, LightThatNoSampleKnowsIsThatOfNoShade) {
+    SeenSurface seen{{1, 3}};
+    seen.paint.diffuse = {0.5F, 0.5F, 0.5F};
+    seen.far.diffuse = {0.4F, 0.4F, 0.4F};
+    Film film({1, 1});
+    film.setCentre(0, seen);
+    film.add(0, catcherSample({0.1F, 0.1F, 0.1F}, {0.2F, 0.2F, 0.2F}));
+    EXPECT_EQ(film.resolved(0, {}).hit.id, 3);
+    EXPECT_NEAR(unpackedWords(film.resolved(0, {}).light).diffuse[0], 0.4F, 0.01F);
+    film.clear(0);
+    film.setCentre(0, seen);
+    const LightPixel unknown{.depth = 1, .id = 3};
+    EXPECT_NEAR(unpackedWords(film.resolvedFrom(unknown, 0, {}).light).diffuse[0], 0.4F, 0.01F);
+    EXPECT_NEAR(film.resolvedFrom(unknown, 0, {}).colour[0], 255 * srgbEncoded(0.2F), 1);
+}
+
 TEST(Film, ErrorIsThatOfTheMeanInGreyLevels) {
     Film film({1, 1});
     film.add(0, objectSample(0.4F));
