@@ -18,6 +18,15 @@ constexpr float kLeastWeight = 0.1F;  // of the pixels about a point that show i
 // point: its reflection turns by twice the eye's angle.
 constexpr float kLobeTurn = 0.5F;
 
+void addShare(KnownLight& sum, float share, const KnownLight& light) {
+    sum.first += share * light.first;
+    sum.second += share * light.second;
+    sum.firstSquare += share * light.firstSquare;
+    sum.secondSquare += share * light.secondSquare;
+    sum.firstCount += share * light.firstCount;
+    sum.secondCount += share * light.secondCount;
+}
+
 }  // namespace
 
 LightHistory::LightHistory(const Film& film, const RenderView& view,
@@ -37,16 +46,16 @@ bool LightHistory::isSame(std::size_t pixel, const Eigen::Vector2f& ray, const S
 
 KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& point,
                             const Eigen::Vector3f& eye) const {
-    KnownLight out;
-    if (seen.hit.id == 0) return out;
+    if (seen.hit.id == 0) return {};
     const Eigen::Vector3f there = R_world_camera_.transpose() * (point - eye_);
-    if (!(there.z() > kNearest)) return out;
+    if (!(there.z() > kNearest)) return {};
     const Eigen::Vector2d pixel = camera_.project(there.hnormalized().cast<double>());
     const Size size = camera_.size;
     if (!(pixel.x() > -1 && pixel.y() > -1 && pixel.x() < size.width && pixel.y() < size.height))
-        return out;
+        return {};
     const double lowX = std::floor(pixel.x()), lowY = std::floor(pixel.y());
     const auto fx = static_cast<float>(pixel.x() - lowX), fy = static_cast<float>(pixel.y() - lowY);
+    KnownLight sum;
     float weights = 0;
     for (int i = 0; i < 4; ++i) {
         const int right = i & 1, down = i >> 1;
@@ -59,21 +68,13 @@ KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& poin
         const KnownLight known = film_.known(at);
         if (!(known.firstCount > 0 && known.secondCount > 0)) continue;
         weights += weight;
-        out.first += weight * known.first;
-        out.second += weight * known.second;
-        out.firstSquare += weight * known.firstSquare;
-        out.secondSquare += weight * known.secondSquare;
-        out.firstCount += weight * known.firstCount;
-        out.secondCount += weight * known.secondCount;
+        addShare(sum, weight, known);
     }
     if (weights < kLeastWeight) return {};
-    const float share = 1 / weights;
-    out.first *= share;
-    out.second *= share;
-    out.firstSquare *= share;
-    out.secondSquare *= share;
-    out.firstCount = std::min(out.firstCount * share, mostSamples_);
-    out.secondCount = std::min(out.secondCount * share, mostSamples_);
+    KnownLight out;
+    addShare(out, 1 / weights, sum);
+    out.firstCount = std::min(out.firstCount, mostSamples_);
+    out.secondCount = std::min(out.secondCount, mostSamples_);
     if (seen.hit.id == kCatcherId) return out;
     const float cosine = (point - eye_).normalized().dot((point - eye).normalized());
     const float turn = std::acos(std::clamp(cosine, -1.0F, 1.0F));

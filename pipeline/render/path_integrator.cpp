@@ -79,6 +79,27 @@ struct PathIntegrator::Vertex {
     }
 };
 
+/// What a path lets through of the light that arrives where it is.
+struct PathIntegrator::Carried {
+    Eigen::Vector3f all{1, 1, 1}, white{0, 0, 0};  // white: none before the first bounce
+
+    void scatter(const ScatterSample& sample, bool first) {
+        all = all.cwiseProduct(sample.weight);
+        if (first)
+            white.setConstant(sample.white);
+        else
+            white = white.cwiseProduct(sample.weight);
+    }
+    /// Russian roulette; false: the path ends.
+    bool survives(float random) {
+        const float chance = std::min(1.0F, all.maxCoeff() / kSurvives);
+        if (!(random < chance)) return false;
+        all /= chance;
+        white /= chance;
+        return true;
+    }
+};
+
 PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options)
     : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
       sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun),
@@ -185,49 +206,41 @@ float PathIntegrator::kept(const Eigen::Vector3f& light, int depth) const {
     return options_.fireflyClamp / most;
 }
 
+PathIntegrator::Sent PathIntegrator::sent(const Carried& carried, const Eigen::Vector3f& light,
+                                          int depth) const {
+    const Eigen::Vector3f all = carried.all.cwiseProduct(light);
+    const float share = kept(all, depth);
+    return {all * share, carried.white.cwiseProduct(light) * share};
+}
+
 PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
                                            const PixelSampler& sampler, World& world) const {
     Parts out;
-    const std::uint32_t firstPair = kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0);
-    Eigen::Vector3f throughput{1, 1, 1}, whiteThroughput{0, 0, 0};  // white: none before a bounce
+    std::uint32_t pair = kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0);
+    Carried carried;
     const auto add = [&](Sent& sum, const Eigen::Vector3f& light, int depth) {
-        const Eigen::Vector3f sent = throughput.cwiseProduct(light);
-        const float share = kept(sent, depth);
-        sum += {sent * share, whiteThroughput.cwiseProduct(light) * share};
+        sum += sent(carried, light, depth);
     };
-    for (int depth = 1;; ++depth) {
-        const std::uint32_t pair =
-            firstPair + static_cast<std::uint32_t>(depth - 1) * kPairsOfVertex;
+    for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
         const bool first = depth == 1;
         const Lobes here = first ? lobes : Lobes::Both;
         // What shines at the second surface is direct light of the first.
         if (!first || lobes != Lobes::Mirrored) add(out.rest, point.emission, depth - 1);
         const Vertex vertex(point, wo);
         const Arrived lit = direct(vertex, here, sampler, pair, world);
-        if (first) {
-            out.direct = lit;
-            if (lobes != Lobes::Both) out.known = known(vertex, wo, lobes, sunIsKnown_);
-        } else {
-            add(out.rest, lit.light.radiance, depth);
-        }
-
+        if (first) out.direct = lit;
+        if (first && lobes != Lobes::Both) out.known = known(vertex, wo, lobes, sunIsKnown_);
+        if (!first) add(out.rest, lit.light.radiance, depth);
         const ScatterSample scattered =
             vertex.scatter.sample(sampler.pair(pair + kScatterPair), here);
         if (!(scattered.density > 0)) return out;
         const Eigen::Vector3f direction = vertex.frame * scattered.wi;
-        throughput = throughput.cwiseProduct(scattered.weight);
-        if (first)
-            whiteThroughput.setConstant(scattered.white);
-        else
-            whiteThroughput = whiteThroughput.cwiseProduct(scattered.weight);
+        carried.scatter(scattered, first);
         if (first) add(out.direct.unblocked, escaped(direction, scattered.density).far, depth);
         if (!vertex.faces(direction)) return out;
-        if (depth >= options_.rouletteDepth) {
-            const float chance = std::min(1.0F, throughput.maxCoeff() / kSurvives);
-            if (!(sampler.pair(pair + kRoulettePair).x() < chance)) return out;
-            throughput /= chance;
-            whiteThroughput /= chance;
-        }
+        if (depth >= options_.rouletteDepth &&
+            !carried.survives(sampler.pair(pair + kRoulettePair).x()))
+            return out;
         const Ray ray = point.leaving(direction);
         const bool last = depth == options_.maxDepth;
         std::optional<SurfacePoint> next;

@@ -44,6 +44,7 @@ public:
 private:
     struct World;
     struct Vertex;
+    struct Carried;
     /// What leaves the first point of a path, and its diffuse part before the point's paint.
     struct Sent {
         Eigen::Vector3f radiance{0, 0, 0}, white{0, 0, 0};
@@ -90,6 +91,8 @@ private:
     [[nodiscard]] Escaped escaped(const Eigen::Vector3f& direction, float density) const;
     /// The share of light that is kept of what came from surface number `depth` of a path.
     [[nodiscard]] float kept(const Eigen::Vector3f& light, int depth) const;
+    /// Of that light, as the path carries it.
+    [[nodiscard]] Sent sent(const Carried& carried, const Eigen::Vector3f& light, int depth) const;
 
     const TracedScene& scene_;
     const PathTracerOptions& options_;

@@ -219,20 +219,50 @@ struct Shown {
     Four<VU> triangles;
 };
 
+/// Numbers of the objects in the quarters of pixels, 0 where there is none.
+HWY_INLINE Four<VU> ObjectsOf(const PaintRow& row, int x) {
+    const DU du;
+    Four<VU> s;
+    hn::LoadInterleaved2(du, row.upper + 2L * x, s.a, s.b);
+    hn::LoadInterleaved2(du, row.lower + 2L * x, s.c, s.d);
+    const VU bits = hn::Set(du, 0xFFU), ofCatcher = hn::Set(du, kCatcherNumber);
+    const auto object = [&](VU word) HWY_ATTR {
+        const VU number = hn::And(word, bits);
+        return hn::IfThenElseZero(hn::Ne(number, ofCatcher), number);
+    };
+    return {object(s.a), object(s.b), object(s.c), object(s.d)};
+}
+
+/// Paints pixels in equal parts with the quarters of the object `number`, of which there are
+/// `count`.
+HWY_INLINE void Divide(const Four<VU>& s, const Four<VU>& t, VU number, VU count, Shown& out) {
+    const D d;
+    const DU du;
+    const V part = hn::Div(F(1), hn::Max(hn::ConvertTo(d, hn::BitCast(DI(), count)), F(1)));
+    const auto within = hn::RebindMask(du, out.any);
+    out.triangle = hn::IfThenElseZero(within, out.triangle);
+    const auto own = [&](VU n, VU index, V& share, VU& shown) HWY_ATTR {
+        const auto mine = hn::And(hn::Eq(n, number), within);
+        share = hn::IfThenElseZero(hn::RebindMask(d, mine), part);
+        shown = hn::IfThenElse(mine, index, out.triangle);
+    };
+    own(s.a, t.a, out.part.a, out.triangles.a);
+    own(s.b, t.b, out.part.b, out.triangles.b);
+    own(s.c, t.c, out.part.c, out.triangles.c);
+    own(s.d, t.d, out.part.d, out.triangles.d);
+    const V right = hn::Add(out.part.b, out.part.d), left = hn::Add(out.part.a, out.part.c);
+    const V below = hn::Add(out.part.c, out.part.d), above = hn::Add(out.part.a, out.part.b);
+    out.dx = hn::Mul(F(0.5F), hn::Sub(right, left));
+    out.dy = hn::Mul(F(0.5F), hn::Sub(below, above));
+}
+
 HWY_INLINE Shown Choose(const PaintRow& row, int x) {
     const D d;
     const DU du;
-    Four<VU> s, t;
-    hn::LoadInterleaved2(du, row.upper + 2L * x, s.a, s.b);
-    hn::LoadInterleaved2(du, row.lower + 2L * x, s.c, s.d);
+    const VU zero = hn::Zero(du), one = hn::Set(du, 1);
+    const Four<VU> s = ObjectsOf(row, x);
+    Four<VU> t;
     Shown out;
-    const VU bits = hn::Set(du, 0xFFU);
-    s = {hn::And(s.a, bits), hn::And(s.b, bits), hn::And(s.c, bits), hn::And(s.d, bits)};
-    const VU ofCatcher = hn::Set(du, kCatcherNumber), zero = hn::Zero(du), one = hn::Set(du, 1);
-    const auto object = [&](VU number) HWY_ATTR {
-        return hn::IfThenElseZero(hn::Ne(number, ofCatcher), number);
-    };
-    s = {object(s.a), object(s.b), object(s.c), object(s.d)};
     out.any = hn::And(hn::RebindMask(d, hn::Ne(hn::Or(hn::Or(s.a, s.b), hn::Or(s.c, s.d)), zero)),
                       hn::FirstN(d, static_cast<std::size_t>(row.count - x)));
     if (hn::AllFalse(d, out.any)) return out;
@@ -255,22 +285,7 @@ HWY_INLINE Shown Choose(const PaintRow& row, int x) {
     offer(s.d, ad, bd, cd, t.d);
     offer(s.b, ab, bc, bd, t.b);
     offer(s.a, ab, ac, ad, t.a);
-    const V part = hn::Div(F(1), hn::Max(hn::ConvertTo(d, hn::BitCast(DI(), most)), F(1)));
-    const auto within = hn::RebindMask(du, out.any);
-    out.triangle = hn::IfThenElseZero(within, out.triangle);
-    const auto own = [&](VU n, VU index, V& share, VU& shown) HWY_ATTR {
-        const auto mine = hn::And(hn::Eq(n, number), within);
-        share = hn::IfThenElseZero(hn::RebindMask(d, mine), part);
-        shown = hn::IfThenElse(mine, index, out.triangle);
-    };
-    own(s.a, t.a, out.part.a, out.triangles.a);
-    own(s.b, t.b, out.part.b, out.triangles.b);
-    own(s.c, t.c, out.part.c, out.triangles.c);
-    own(s.d, t.d, out.part.d, out.triangles.d);
-    const V right = hn::Add(out.part.b, out.part.d), left = hn::Add(out.part.a, out.part.c);
-    const V below = hn::Add(out.part.c, out.part.d), above = hn::Add(out.part.a, out.part.b);
-    out.dx = hn::Mul(F(0.5F), hn::Sub(right, left));
-    out.dy = hn::Mul(F(0.5F), hn::Sub(below, above));
+    Divide(s, t, number, most, out);
     return out;
 }
 

@@ -75,6 +75,14 @@ std::uint32_t byteOf(float value) {
     return static_cast<std::uint32_t>(above);
 }
 
+/// The share of objects.
+float coveredOf(const Quarters& quarters) {
+    float out = 0;
+    for (const std::uint32_t quarter : quarters)
+        out += numberOf(quarter) != 0 && numberOf(quarter) != kCatcherNumber ? 0.25F : 0;
+    return out;
+}
+
 }  // namespace
 
 RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
@@ -182,9 +190,7 @@ RestPixel RestPixels::at(const Asked& asked) const {
     const std::uint32_t id = mostOf(s);
     const Point3 object = middleOf(s, id);
     Point3 catcher = middleOf(s, kCatcherNumber);
-    float covered = 0;
-    for (const std::uint32_t quarter : s)
-        covered += numberOf(quarter) != 0 && numberOf(quarter) != kCatcherNumber ? 0.25F : 0;
+    const float covered = coveredOf(s);
     if (catcher.z == 0) catcher.z = plain_.plane.depthAlong(rayX, rayY, layerLens_.nearest);
     const float below = catcher.z > 0 ? 1 - covered : 0;
     const auto pointAt = [&](const Point3& middle) {

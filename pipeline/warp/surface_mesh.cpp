@@ -88,6 +88,33 @@ private:
     std::vector<std::uint32_t> parents_;
 };
 
+/// Cells with vertices, and which of them each vertex lies in.
+struct Cells {
+    std::vector<Cell> cells;
+    std::vector<std::uint32_t> of;
+};
+
+Cells cellsOf(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
+    const float side = box.sizes().maxCoeff() / static_cast<float>(cells);
+    std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+    Cells out;
+    out.of.reserve(mesh.vertices.size());
+    for (const SurfaceVertex& v : mesh.vertices) {
+        const Eigen::Array3f at = (positionOf(v) - box.min()).array() / side;
+        const auto index = at.max(0).min(static_cast<float>(cells)).cast<std::uint64_t>().eval();
+        const std::uint64_t key = index.x() << 40 | index.y() << 20 | index.z();
+        const auto number = static_cast<std::uint32_t>(out.cells.size());
+        const auto [place, isNew] = numbers.try_emplace(key, number);
+        if (isNew) out.cells.emplace_back();
+        out.of.push_back(place->second);
+        Cell& cell = out.cells[place->second];
+        for (std::size_t i = 0; i < 3; ++i)
+            cell.position[i] += v.position[i];
+        ++cell.count;
+    }
+    return out;
+}
+
 struct UvSum {
     std::array<float, 2> uv{};
     float count = 0;
@@ -96,24 +123,7 @@ struct UvSum {
 };
 
 SurfaceMesh clustered(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
-    const float side = box.sizes().maxCoeff() / static_cast<float>(cells);
-    std::unordered_map<std::uint64_t, std::uint32_t> numbers;
-    std::vector<Cell> grid;
-    std::vector<std::uint32_t> cellOf;
-    cellOf.reserve(mesh.vertices.size());
-    for (const SurfaceVertex& v : mesh.vertices) {
-        const Eigen::Array3f at = (positionOf(v) - box.min()).array() / side;
-        const auto index = at.max(0).min(static_cast<float>(cells)).cast<std::uint64_t>().eval();
-        const std::uint64_t key = index.x() << 40 | index.y() << 20 | index.z();
-        const auto number = static_cast<std::uint32_t>(grid.size());
-        const auto [place, isNew] = numbers.try_emplace(key, number);
-        if (isNew) grid.emplace_back();
-        cellOf.push_back(place->second);
-        Cell& cell = grid[place->second];
-        for (std::size_t i = 0; i < 3; ++i)
-            cell.position[i] += v.position[i];
-        ++cell.count;
-    }
+    const auto [grid, cellOf] = cellsOf(mesh, box, cells);
     Groups groups(mesh.vertices.size());
     for (const Triangle& t : mesh.triangles)
         for (std::size_t i = 0; i < 3; ++i)
