@@ -17,7 +17,8 @@ namespace mfar::demo {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
-constexpr int kMostRestFrames = 20000;
+// A camera that has rested for some frames gets a picture of its very view.
+constexpr int kLeastRestFrames = 30, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
     return counters.render.idle && counters.render.progress >= 1;
@@ -104,7 +105,8 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
     run.region = show.region();
     if (run.region.empty())
         throw std::runtime_error(recording.root.string() + ": no object is in view at the end");
-    for (int i = 0; i < kMostRestFrames && !(i > 10 && isSettled(show.counters())); ++i)
+    for (int i = 0; i < kMostRestFrames && !(i > kLeastRestFrames && isSettled(show.counters()));
+         ++i)
         show.again();
     progress(all + 1, all + 1);
     run.atRest = show.picture();
