@@ -12,7 +12,8 @@ namespace {
 
 using namespace reference_pictures;
 
-/// Of objects' colours [grey levels], root mean square, against samples without filter or history.
+/// Of objects' colours within their silhouettes [grey levels], root mean square, against samples
+/// without filter or history.
 double errorOf(const RenderedPicture& picture, double azimuth) {
     Driver exact({Slicing::Time, 256, 16, 0, 16});
     exact.look(azimuth);
@@ -21,7 +22,7 @@ double errorOf(const RenderedPicture& picture, double azimuth) {
     double squares = 0;
     int values = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i) {
-        if (truth.id[i] == 0 || truth.id[i] == kCatcherId) continue;
+        if (truth.id[i] == 0 || truth.id[i] == kCatcherId || truth.colour[i][3] < 255) continue;
         for (std::size_t c = 0; c < 3; ++c)
             squares += std::pow(double(truth.colour[i][c]) - picture.colour[i][c], 2);
         values += 3;

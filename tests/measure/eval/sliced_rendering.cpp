@@ -27,7 +27,8 @@ public:
         slices.begin(scene.bounds, scene.view.camera.size);
     }
 
-    /// At most so many samples, of all pixels together; returns how many.
+    /// At most so many samples, of all pixels together; returns how many. A look through a pixel's
+    /// centre counts as one.
     std::int64_t trace(std::int64_t most) {
         const double begin = threadCpuMs();
         const Slice slice = slices.next(most);
@@ -37,7 +38,7 @@ public:
             return PixelState{film.error(pixel), static_cast<float>(film.samples(pixel)), false};
         });
         ms += threadCpuMs() - begin;
-        return static_cast<std::int64_t>(slice.pixels.size()) * slice.samples;
+        return static_cast<std::int64_t>(slice.pixels.size()) * std::max(slice.samples, 1);
     }
     [[nodiscard]] ErrorAt state() const {
         const auto pixels = static_cast<double>(std::max<std::size_t>(slices.pixels(), 1));
