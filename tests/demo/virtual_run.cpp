@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
 // A camera that has rested for some frames gets a picture of its very view.
-constexpr int kLeastRestFrames = 30, kMostRestFrames = 20000;
+constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
     return counters.render.idle && counters.render.progress >= 1;
@@ -105,9 +105,15 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
     run.region = show.region();
     if (run.region.empty())
         throw std::runtime_error(recording.root.string() + ": no object is in view at the end");
-    for (int i = 0; i < kMostRestFrames && !(i > kLeastRestFrames && isSettled(show.counters()));
-         ++i)
+    Timestamp seen = show.counters().render.frame;
+    int looks = 0;  // frames that the tracer's threads have seen: they may be slower than these
+    for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));
+         ++i) {
         show.again();
+        if (show.counters().render.frame == seen) continue;
+        seen = show.counters().render.frame;
+        ++looks;
+    }
     progress(all + 1, all + 1);
     run.atRest = show.picture();
     run.rested = show.counters();

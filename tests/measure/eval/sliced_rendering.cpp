@@ -125,7 +125,9 @@ std::vector<ErrorAt> wholeErrors(const SlicedScene& scene, int samples) {
 
 std::vector<double> frameTimes(const SlicedScene& scene, const SliceOptions& options, int frames) {
     SlicedPicture picture(scene, options);
-    const auto total = static_cast<std::int64_t>(picture.slices.pixels()) * options.samples;
+    const int looks = options.slicing == Slicing::Time ? 1 : 0;
+    const auto total =
+        static_cast<std::int64_t>(picture.slices.pixels()) * (options.samples + looks);
     std::vector<double> out;
     std::int64_t traced = 0;
     for (int frame = 1; frame <= frames; ++frame) {
