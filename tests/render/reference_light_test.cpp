@@ -132,5 +132,28 @@ TEST(ReferenceLight, AtRestEachPixelHasItsOwnSamples) {
     EXPECT_TRUE(driver.pictures.settled());
 }
 
+// Of silhouettes, where carried light knows nothing.
+TEST(ReferenceLight, AtRestSilhouettesAreAsSmoothAsWithoutHistory) {
+    Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
+    driver.look(20);
+    driver.settle();
+    for (int i = 0; i < 12; ++i)
+        driver.look(20);
+    driver.settle();
+    exact.look(20);
+    exact.settle();
+    const RenderedPicture &shown = driver.shown.back(), &truth = exact.shown.back();
+    double squares = 0;
+    int edges = 0;
+    for (std::size_t i = 0; i < truth.id.size(); ++i) {
+        if (truth.id[i] == kCatcherId || truth.colour[i][3] < 20 || truth.colour[i][3] > 235)
+            continue;
+        squares += std::pow(double(truth.colour[i][3]) - shown.colour[i][3], 2);
+        ++edges;
+    }
+    EXPECT_GT(edges, 20);
+    EXPECT_LT(std::sqrt(squares / edges), 25);
+}
+
 }  // namespace
 }  // namespace mfar
