@@ -11,6 +11,7 @@
 #include <array>
 #include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace mfar::demo {
@@ -113,6 +114,11 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         if (show.counters().render.frame == seen) continue;
         seen = show.counters().render.frame;
         ++looks;
+    }
+    // What is finished is shown by a frame after that.
+    for (int i = 0; i < 5; ++i) {
+        std::this_thread::sleep_for(kFrameInterval);
+        show.again();
     }
     progress(all + 1, all + 1);
     run.atRest = show.picture();
