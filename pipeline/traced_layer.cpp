@@ -10,8 +10,15 @@ namespace mfar {
 
 struct TracedLayer::State {
     State(const CameraModel& video, Engine& warps, const TracedLayerOptions& options)
-        : camera(video.scaledTo(options.size)), renderer(options.reference),
-          warp(camera, options.size, warps, options.warp), fadeFrames(options.warp.fadeFrames) {}
+        : camera(video.scaledTo(options.size)), warp(camera, options.size, warps, options.warp),
+          renderer(referenceOptions(options, warp)), fadeFrames(options.warp.fadeFrames) {}
+
+    // What shows colours of references would show each other one's noise.
+    static ReferenceOptions referenceOptions(const TracedLayerOptions& options, const Warp& warp) {
+        ReferenceOptions out = options.reference;
+        out.policy.soon = out.policy.soon && warp.takesLight();
+        return out;
+    }
 
     /// Pictures of another scene come with their models.
     void take(const RenderedPicture& picture) {
@@ -26,8 +33,8 @@ struct TracedLayer::State {
     }
 
     CameraModel camera;
-    ReferenceRenderer renderer;
     Warp warp;
+    ReferenceRenderer renderer;
     int fadeFrames;
     std::shared_ptr<const Scene> scene;      // of the picture shown
     const RenderedPicture* shown = nullptr;  // only to be told from the next

@@ -35,6 +35,7 @@ public:
         textures_.upload(reference);
         reference_ = &reference;
     }
+    bool takesLight() const override { return false; }
     LayerPicture& reference() override {
         return rendered_.show(textures_.picture(), textures_.depth(), reference_->bounds);
     }

@@ -13,7 +13,7 @@ PatchTextures::PatchTextures(Size layer)
     const std::vector<std::array<std::uint8_t, 4>> colours(pixels);
     const std::vector<WarpSurface> surfaces(pixels);
     for (int slot = 0; slot < PatchPictures::kPatches; ++slot)
-        store({slot, 0, layer.height, colours, surfaces});
+        store({slot, 0, layer.height, colours, {}, surfaces});
 }
 
 void PatchTextures::store(const PatchPictures::StoredRows& rows) {

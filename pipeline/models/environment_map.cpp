@@ -1,10 +1,10 @@
 #include "pipeline/models/environment_map.h"
 
 #include "base/bounded_file.h"
+#include "base/srgb.h"
 #include "hal/image_codec.h"
 #include "pipeline/models/gltf_model.h"
 #include "pipeline/models/radiance_hdr.h"
-#include "pipeline/models/srgb_bytes.h"
 
 #include <fmt/format.h>
 

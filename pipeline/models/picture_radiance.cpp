@@ -1,7 +1,7 @@
 #include "pipeline/models/picture_radiance.h"
 
 #include "base/image_layout.h"
-#include "pipeline/models/srgb_bytes.h"
+#include "base/srgb.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "pipeline/models/shape_model.h"
 
-#include "pipeline/models/srgb_bytes.h"
+#include "base/srgb.h"
 
 #include <algorithm>
 #include <cmath>

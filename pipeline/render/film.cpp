@@ -1,5 +1,7 @@
 #include "pipeline/render/film.h"
 
+#include "pipeline/render/luminance.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,15 +9,10 @@
 namespace mfar {
 namespace {
 
-constexpr float kDisplayGamma = 2.2F;
 constexpr float kGreyLevels = 255;
+constexpr float kEnough = 16;  // samples, to know that there is no change
 // Of an unknown background to an object's value: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
-
-template <typename Number>
-Number luminanceOf(const Eigen::Vector3<Number>& rgb) {
-    return rgb.dot(Eigen::Vector3d(0.2126, 0.7152, 0.0722).cast<Number>());
-}
 
 bool isLight(const Eigen::Vector3f& rgb) {
     return rgb.allFinite() && rgb.minCoeff() >= 0;
@@ -31,24 +28,52 @@ double varianceOfMean(double sum, double squares, double n) {
     return std::max(0.0, squares - sum * sum / n) / (n * (n - 1));
 }
 
+template <typename Number>
+Number squared(Number value) {
+    return value * value;
+}
+
+/// Of the mean of `count` samples, from their mean and the mean of their squared luminances.
+float deviationOf(const Eigen::Vector3f& mean, float square, float count) {
+    if (count < 2) return 0;
+    return std::sqrt(std::max(0.0F, square - squared(luminanceOf(mean))) / (count - 1));
+}
+
 float slopeAt(const Eigen::Vector3f& radiance, const Exposure& exposure) {
     return kGreyLevels * exposure.scale * srgbSlope(luminanceOf(radiance) * exposure.scale);
 }
 
-std::uint8_t quantised(float value) {
-    return static_cast<std::uint8_t>(std::lround(kGreyLevels * std::clamp(value, 0.0F, 1.0F)));
+}  // namespace
+
+void Film::begin(const PixelRect& where) {
+    ++picture_;
+    where_ = common(where, {0, 0, size_.width, size_.height});
+    if (where_.empty()) where_ = {};
+    const std::size_t count = static_cast<std::size_t>(where_.x1 - where_.x0) *
+                              static_cast<std::size_t>(where_.y1 - where_.y0);
+    if (count > pixels_.size()) pixels_.resize(count);
+}
+
+const Film::Pixel Film::kNothing{};
+
+namespace {
+
+const Eigen::Vector3f kNoFar{1, 1, 1};
+
+/// Of light that falls on a paint, by how much of it leaves the surface.
+struct PaintWeights {
+    double diffuse, specular;
+};
+PaintWeights weightsOf(const Paint& paint) {
+    constexpr double kLeast = 1e-3;  // of black
+    return {kLeast + luminanceOf<float>(paint.diffuse),
+            kLeast + luminanceOf<float>(paint.specular())};
 }
 
 }  // namespace
 
-Film::Film(Size size)
-    : size_(size),
-      pixels_(static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height)) {}
-
-const Film::Pixel Film::kNothing{};
-
 Film::Pixel& Film::begun(std::size_t pixel) {
-    Pixel& p = pixels_[pixel];
+    Pixel& p = memory(pixel);
     if (p.picture != picture_) {
         p = {};
         p.picture = picture_;
@@ -58,72 +83,183 @@ Film::Pixel& Film::begun(std::size_t pixel) {
 
 std::uint64_t Film::dropped() const {
     std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < pixels_.size(); ++i)
-        sum += at(i).lost;
+    for (const Pixel& p : pixels_)
+        sum += p.picture == picture_ ? p.lost : 0;
     return sum;
+}
+
+void Film::setCentre(std::size_t pixel, const SeenSurface& surface) {
+    Pixel& p = begun(pixel);
+    p.seen = surface;
+    p.isSeen = true;
+}
+
+bool Film::isUntouched(std::size_t pixel) const {
+    const Pixel& p = at(pixel);
+    return p.seen.hit.id == kCatcherId && isWhole(p) && !(p.catcher.first.squares > 0) &&
+           !(p.carried.firstSquare > 0);
+}
+
+void Film::LightSum::add(double weight, const Eigen::Vector3f& sampled,
+                         const Eigen::Vector3f& known) {
+    light += weight * sampled.cast<double>();
+    far += weight * known.cast<double>();
+    weights += weight;
+    squares += squared(luminanceOf<double>(sampled.cwiseQuotient(known).cast<double>()));
+}
+
+Eigen::Vector3f Film::LightSum::relative() const {
+    if (!(weights > 0)) return {0, 0, 0};
+    return light.cwiseQuotient(far).cast<float>();
 }
 
 void Film::add(std::size_t pixel, const FilmSample& sample) {
     Pixel& p = begun(pixel);
     ++p.taken;
-    if (!isLight(sample.radiance) || !isLight(sample.without)) {
+    const bool isCatcher = sample.hit.id == kCatcherId;
+    if (!isLight(sample.radiance) || !isLight(sample.without) || !isLight(sample.light.diffuse) ||
+        !isLight(sample.light.specular)) {
         ++p.lost;
-    } else if (sample.hit.id == kCatcherId) {
-        ++p.catcherHits;
-        p.with += sample.radiance.cast<double>();
-        p.without += sample.without.cast<double>();
-        const double change =
-            luminanceOf<double>((sample.radiance - sample.without).cast<double>());
-        p.changeSquares += change * change;
-        keepNearest(p.catcher, sample.hit);
-    } else if (sample.hit.id != 0) {
-        ++p.objectHits;
-        p.object += sample.radiance.cast<double>();
-        p.baseColour += sample.baseColour;
-        const double y = luminanceOf<double>(sample.radiance.cast<double>());
-        p.objectSquares += y * y;
-        keepNearest(p.nearest, sample.hit);
+        return;
     }
+    if (sample.hit.id == 0) return;
+    keepNearest(isCatcher ? p.nearestCatcher : p.nearest, sample.hit);
+    LightSums& sums = isCatcher ? p.catcher : p.object;
+    ++sums.hits;
+    if (isCatcher) {
+        sums.first.add(1, sample.radiance - sample.without, kNoFar);
+        sums.second.add(1, sample.without, kNoFar);
+        return;
+    }
+    const auto [diffuse, specular] = weightsOf(sample.paint);
+    sums.first.add(diffuse, sample.light.diffuse, sample.far.diffuse);
+    sums.second.add(specular, sample.light.specular, sample.far.specular);
+    p.radiance += sample.radiance.cast<double>();
+    p.radianceSquares += squared(luminanceOf<double>(sample.radiance.cast<double>()));
+    p.diffusePaint += sample.paint.diffuse;
+    p.facingPaint += sample.paint.facing;
+    p.albedoScale += sample.paint.albedo.scale;
+    p.albedoOffset += sample.paint.albedo.offset;
 }
 
-void Film::setCentre(std::size_t pixel, const FirstHit& hit) {
-    begun(pixel).centre = hit;
+// Only one surface is in it, as far as is known.
+bool Film::isWhole(const Pixel& p) {
+    const std::uint32_t n = p.taken - p.lost;
+    if (p.seen.hit.id == 0) return n > 0 && (p.object.hits == n || p.catcher.hits == n);
+    return (p.seen.hit.id == kCatcherId ? p.catcher : p.object).hits == n;
+}
+
+KnownLight Film::knownOf(const LightSums& sums, const KnownLight& carried) {
+    const auto n = static_cast<float>(sums.hits);
+    KnownLight out;
+    out.firstCount = n + carried.firstCount;
+    out.secondCount = n + carried.secondCount;
+    if (out.firstCount > 0) {
+        out.first =
+            (n * sums.first.relative() + carried.firstCount * carried.first) / out.firstCount;
+        out.firstSquare =
+            (static_cast<float>(sums.first.squares) + carried.firstCount * carried.firstSquare) /
+            out.firstCount;
+    }
+    if (out.secondCount > 0) {
+        out.second =
+            (n * sums.second.relative() + carried.secondCount * carried.second) / out.secondCount;
+        out.secondSquare =
+            (static_cast<float>(sums.second.squares) + carried.secondCount * carried.secondSquare) /
+            out.secondCount;
+    }
+    return out;
+}
+
+KnownLight Film::known(std::size_t pixel) const {
+    const Pixel& p = at(pixel);
+    if (p.seen.hit.id == 0 || !isWhole(p)) return {};
+    return knownOf(p.seen.hit.id == kCatcherId ? p.catcher : p.object, p.carried);
+}
+
+Paint Film::paintOf(const Pixel& p) {
+    if (p.object.hits == 0) return p.seen.paint;
+    const auto hits = static_cast<float>(p.object.hits);
+    return {
+        p.diffusePaint / hits, p.facingPaint / hits, {p.albedoScale / hits, p.albedoOffset / hits}};
+}
+
+SurfaceLight Film::farOf(const Pixel& p) {
+    const auto mean = [&](const LightSum& sum, double weight, const Eigen::Vector3f& centre) {
+        if (!p.isSeen) weight = 0;
+        const double all = sum.weights + weight;
+        return all > 0 ? Eigen::Vector3f(
+                             ((sum.far + weight * centre.cast<double>()) / all).cast<float>())
+                       : centre;
+    };
+    const auto [diffuse, specular] = weightsOf(p.seen.paint);
+    return {mean(p.object.first, diffuse, p.seen.far.diffuse),
+            mean(p.object.second, specular, p.seen.far.specular)};
 }
 
 float Film::error(std::size_t pixel, const Exposure& exposure) const {
     const Pixel& p = at(pixel);
     const auto n = static_cast<double>(p.taken - p.lost);
+    const bool carries = p.carried.firstCount > 0 && isWhole(p);
+    if (carries) return errorOfKnown(p, exposure);
     if (n < 2) return std::numeric_limits<float>::infinity();
-    const auto objects = static_cast<double>(p.objectHits);
-    const auto catchers = static_cast<double>(p.catcherHits);
+    const auto objects = static_cast<double>(p.object.hits);
+    const auto catchers = static_cast<double>(p.catcher.hits);
     double variance = 0;
     if (objects > 0) {
-        const double slope = slopeAt((p.object / objects).cast<float>(), exposure) * objects / n;
-        variance += slope * slope * varianceOfMean(luminanceOf(p.object), p.objectSquares, objects);
+        const double slope = slopeAt((p.radiance / objects).cast<float>(), exposure) * objects / n;
+        variance +=
+            slope * slope * varianceOfMean(luminanceOf(p.radiance), p.radianceSquares, objects);
     }
     if (catchers > 0) {
-        const double slope = slopeAt((p.without / catchers).cast<float>(), exposure) * catchers / n;
-        const double change = luminanceOf<double>(p.with - p.without);
-        variance += slope * slope * varianceOfMean(change, p.changeSquares, catchers);
+        const double slope =
+            slopeAt((p.catcher.second.light / catchers).cast<float>(), exposure) * catchers / n;
+        variance +=
+            slope * slope *
+            varianceOfMean(luminanceOf(p.catcher.first.light), p.catcher.first.squares, catchers);
     }
     const double covered = objects / n;
     const double edge = kEdgeContrast * kEdgeContrast * covered * (1 - covered);
     return static_cast<float>(std::sqrt(variance + edge / (n * std::sqrt(n))));
 }
 
+// Both parts of an object's light are of the same paths: their errors add up.
+float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
+    if (p.seen.hit.id == kCatcherId) {
+        const KnownLight known = knownOf(p.catcher, p.carried);
+        if (known.firstCount < 2) return std::numeric_limits<float>::infinity();
+        return slopeAt(known.second, exposure) *
+               deviationOf(known.first, known.firstSquare, known.firstCount);
+    }
+    const KnownLight known = knownOf(p.object, p.carried);
+    if (known.firstCount < 2 || known.secondCount < 2)
+        return std::numeric_limits<float>::infinity();
+    const Paint paint = paintOf(p);
+    const SurfaceLight far = farOf(p);
+    const Eigen::Vector3f white = paint.diffuse.cwiseProduct(far.diffuse);
+    const Eigen::Vector3f mirrored = paint.specular().cwiseProduct(far.specular);
+    const float diffuse =
+        luminanceOf(white) * deviationOf(known.first, known.firstSquare, known.firstCount);
+    const float specular =
+        luminanceOf(mirrored) * deviationOf(known.second, known.secondSquare, known.secondCount);
+    const Eigen::Vector3f radiance =
+        white.cwiseProduct(known.first) + mirrored.cwiseProduct(known.second);
+    return slopeAt(radiance, exposure) * (diffuse + specular);
+}
+
 Film::Means Film::meansOf(const Pixel& p) {
     Means out;
     const auto n = static_cast<float>(p.taken - p.lost);
-    if (p.objectHits > 0) {
-        const auto hits = static_cast<float>(p.objectHits);
-        out.object = (p.object / double(p.objectHits)).cast<float>();
-        out.objectShare = hits / n;
+    if (p.object.hits > 0) {
+        const double hits = p.object.hits;
+        out.object = (p.radiance / hits).cast<float>();
+        out.objectShare = static_cast<float>(hits) / n;
     }
-    if (p.catcherHits > 0) {
-        const auto hits = static_cast<float>(p.catcherHits);
-        out.with = (p.with / double(p.catcherHits)).cast<float>();
-        out.without = (p.without / double(p.catcherHits)).cast<float>();
-        out.catcherShare = hits / n;
+    if (p.catcher.hits > 0) {
+        const double hits = p.catcher.hits;
+        out.with = ((p.catcher.first.light + p.catcher.second.light) / hits).cast<float>();
+        out.without = (p.catcher.second.light / hits).cast<float>();
+        out.catcherShare = static_cast<float>(hits) / n;
     }
     return out;
 }
@@ -132,73 +268,52 @@ Film::Means Film::means(std::size_t pixel) const {
     return meansOf(at(pixel));
 }
 
-Film::Shown Film::shown(const Means& m, const Exposure& exposure) {
-    Shown out{m.objectShare * displayed(m.object, exposure), m.objectShare};
-    if (m.with == m.without) return out;
-    const Eigen::Vector3f lit = displayed(m.with, exposure);
-    const Eigen::Vector3f unlit = displayed(m.without, exposure);
-    Eigen::Vector3f ratio{1, 1, 1};
-    for (int c = 0; c < 3; ++c)
-        if (m.without[c] > 0) ratio[c] = std::pow(m.with[c] / m.without[c], 1 / kDisplayGamma);
-    const float kept = std::min(1.0F, ratio.minCoeff());
-    for (int c = 0; c < 3; ++c) {
-        const float added = unlit[c] > 0 ? unlit[c] * (ratio[c] - kept) : lit[c];
-        out.colour[c] += m.catcherShare * std::min(added, 1.0F);
-    }
-    out.coverage += m.catcherShare * (1 - kept);
-    return out;
+void Film::remember(std::size_t pixel, const LightPixel& light) {
+    if (!placeOf(pixel)) return;
+    Pixel& p = memory(pixel);
+    if (p.picture != picture_ || light.id == 0 || p.taken > 0 || p.carried.firstCount > 0) return;
+    if (!(light.firstCount > 0 && light.secondCount > 0)) return;
+    const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
+    // A neighbourhood without change is one without change.
+    const bool untouched = light.id == kCatcherId && first.isZero(0);
+    p.carried = {first,
+                 second,
+                 squared(luminanceOf(first)) + light.firstVariance,
+                 squared(luminanceOf(second)) + light.secondVariance,
+                 untouched ? kEnough : 1,
+                 1};
+    if (untouched) p.carried.firstSquare = 0;
 }
 
-FirstHit Film::firstHit(const Pixel& p, bool changed) {
-    if (!changed) return {};
-    const bool objects = p.objectHits > 0;
-    if (p.centre.id != 0 && p.centre.id != kCatcherId) return p.centre;
-    // The catcher is nothing where objects change nothing of it.
-    if (p.catcherHits > 0 && !(p.with == p.without) && (p.centre.id == kCatcherId || !objects))
-        return p.centre.id == kCatcherId ? p.centre : p.catcher;
-    return objects ? p.nearest : FirstHit{};
-}
-
-Film::Shown Film::shown(const Pixel& p, const Exposure& exposure) {
-    if (p.objectHits == 0 && p.with == p.without) return {};
-    return shown(meansOf(p), exposure);
-}
-
-Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const {
-    const Pixel& p = at(pixel);
-    return resolved(p, shown(p, exposure));
-}
-
-Film::Resolved Film::resolvedFrom(const NoisyPixel& filtered, std::size_t pixel) const {
-    return resolved(at(pixel), Shown{filtered.value.head<3>().matrix(), filtered.value[3]});
-}
-
-Film::Resolved Film::resolved(const Pixel& p, const Shown& s) {
-    Resolved out;
-    out.colour = {quantised(s.colour.x()), quantised(s.colour.y()), quantised(s.colour.z()),
-                  quantised(s.coverage)};
-    out.hit = firstHit(p, out.colour != std::array<std::uint8_t, 4>{});
-    return out;
-}
-
-// A pixel that only one surface is in; what others see of two is an edge.
-NoisyPixel Film::noisy(std::size_t pixel, const Exposure& exposure) const {
+LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
     // Fewer samples say nothing of their spread.
-    constexpr std::uint32_t kFew = 4;
+    constexpr float kFew = 4;
+    // Noise of so few grey levels is not seen.
+    constexpr float kUnseen = 0.3F;
     const Pixel& p = at(pixel);
-    const Shown s = shown(p, exposure);
-    NoisyPixel out;
-    out.value << s.colour.array(), s.coverage;
-    const std::uint32_t n = p.taken - p.lost;
-    if (n == 0 || (p.objectHits != n && p.catcherHits != n)) return out;
-    const FirstHit hit = p.objectHits == n ? firstHit(p, true) : p.catcher;
-    const float error = this->error(pixel, exposure) / kGreyLevels;
-    out.variance = n < kFew ? -1 : error * error;
+    LightPixel out;
+    if (!isWhole(p)) return out;
+    const FirstHit hit = p.seen.hit.id != 0  ? p.seen.hit
+                         : p.object.hits > 0 ? p.nearest
+                                             : p.nearestCatcher;
+    if (hit.id == 0) return out;
+    const bool isCatcher = hit.id == kCatcherId;
+    const KnownLight known = knownOf(isCatcher ? p.catcher : p.object, p.carried);
+    const auto varianceOf = [](const Eigen::Vector3f& mean, float square, float count) {
+        return count < kFew ? -1 : squared(deviationOf(mean, square, count));
+    };
+    out.first = known.first.array();
+    out.second = known.second.array();
+    out.firstVariance = varianceOf(known.first, known.firstSquare, known.firstCount);
+    out.secondVariance = varianceOf(known.second, known.secondSquare, known.secondCount);
+    out.firstCount = known.firstCount;
+    out.secondCount = known.secondCount;
+    out.normal = p.seen.normal.array();
     out.depth = hit.depth;
     out.id = hit.id;
-    if (p.objectHits == n) out.baseColour = p.baseColour.array() / static_cast<float>(n);
     // A real surface without change stays without.
-    out.kept = p.catcherHits == n && p.with == p.without;
+    out.kept = std::min(known.firstCount, known.secondCount) >= kEnough &&
+               error(pixel, exposure) < kUnseen;
     return out;
 }
 

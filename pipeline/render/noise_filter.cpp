@@ -7,31 +7,84 @@
 namespace mfar {
 namespace {
 
-constexpr std::array<int, 3> kSteps = {1, 2, 4};         // between taps [px]
 constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};  // B1, half of it
 // Of a tap. Two, as in the paper, are twice the work and no better (measured at 1 to 64 samples).
 constexpr int kReach = 1;
-constexpr int kSpreadReach = 2;  // of the neighbours that tell an unknown variance
+// Neighbours that tell an unknown variance: where one pixel in 16 is sampled, its next ones are
+// four pixels away. And so many that are enough.
+constexpr int kSpreadReach = 2, kSpreadStep = 4;
+constexpr float kSurely = 4;
 // Differences of so many standard errors, of both pixels together, are none of noise.
 constexpr float kTolerance = 2.5F;
-constexpr float kPaintTolerance = 0.5F;  // the same of what differs by the surface's colour
-constexpr float kLeastColour = 0.01F;
-constexpr float kLeastVariance = 1e-7F;  // a tenth of a grey level
+constexpr float kLeastVariance = 1e-7F;  // a tenth of a grey level of white
 // Depth changes by no more of itself per pixel on a surface that is not seen edge on.
 constexpr float kDepthSlope = 0.01F;
 
-constexpr float kPaintGamma = 2.2F;
-
-float squaredDifference(const NoisyPixel& a, const NoisyPixel& b) {
-    return (a.value - b.value).square().mean();
+float luminanceOf(const Eigen::Array3f& rgb) {
+    return 0.2126F * rgb.x() + 0.7152F * rgb.y() + 0.0722F * rgb.z();
 }
 
-// Of what the surfaces' colours make the two differ by.
-float squaredPaintDifference(const NoisyPixel& a, const NoisyPixel& b) {
-    const Eigen::Array3f share =
-        (a.baseColour - b.baseColour) / (0.5F * (a.baseColour + b.baseColour) + kLeastColour);
-    return (share * a.value.head<3>() / kPaintGamma).square().mean();
+/// The eighth power of the cosine: a half at 24 degrees.
+float bendWeight(const Eigen::Array3f& a, const Eigen::Array3f& b) {
+    const float cosine = std::max(0.0F, (a * b).sum());
+    const float second = cosine * cosine, fourth = second * second;
+    return fourth * fourth;
 }
+
+/// A weighted mean of one part of the light.
+class LightMean {
+public:
+    LightMean(const Eigen::Array3f& centre, float variance, float count)
+        : centre_(centre), variance_(variance), isKnown_(count > 0) {}
+
+    void add(float weight, const Eigen::Array3f& light, float variance, float count) {
+        if (!(count > 0)) return;
+        if (isKnown_) {
+            const float noise = variance_ + variance + kLeastVariance;
+            const float off = luminanceOf(light - centre_);
+            const float likeness = 1 - off * off / (kTolerance * kTolerance * noise);
+            if (!(likeness > 0)) return;
+            weight *= likeness * likeness;
+        }
+        sum_ += weight * light;
+        variances_ += weight * weight * variance;
+        weights_ += weight;
+    }
+    void store(Eigen::Array3f& light, float& variance, float& count) const {
+        if (!(weights_ > 0)) return;
+        light = sum_ / weights_;
+        variance = variances_ / (weights_ * weights_);
+        count = std::max(count, 1.0F);
+    }
+
+private:
+    const Eigen::Array3f& centre_;
+    float variance_;
+    bool isKnown_;
+    Eigen::Array3f sum_{0, 0, 0};
+    float variances_ = 0, weights_ = 0;
+};
+
+/// Mean and spread of a luminance.
+struct Spread {
+    float sum = 0, squares = 0, count = 0;
+
+    void add(const Eigen::Array3f& light, float samples) {
+        if (!(samples > 0)) return;
+        const float y = luminanceOf(light);
+        sum += y;
+        squares += y * y;
+        ++count;
+    }
+    /// Of light among these, which may be a rare sample. What so few tell nothing of is taken for
+    /// as large as the light itself.
+    [[nodiscard]] float varianceOf(const Eigen::Array3f& light) const {
+        if (!(count > 0)) return 0;
+        const float mean = sum / count, off = luminanceOf(light) - mean;
+        const float spread = std::max(0.0F, squares / count - mean * mean) + off * off;
+        return count < kSurely ? spread + mean * mean : spread;
+    }
+};
 
 }  // namespace
 
@@ -46,20 +99,24 @@ void NoiseFilter::begin(Size size, const PixelRect& where) {
 }
 
 void NoiseFilter::run(int stage, int firstRow, int lastRow) {
+    const int level = stage - 2;
     for (int y = std::max(firstRow, where_.y0); y < std::min(lastRow, where_.y1); ++y)
-        for (int x = where_.x0; x < where_.x1; ++x)
-            switch (stage) {
-            case 0: spreadVariance(x, y); break;
-            case 1: meanVariance(x, y); break;
-            case 3: filter(kSteps[1], other_, pixels_, x, y); break;
-            default: filter(kSteps[stage == 2 ? 0 : 2], pixels_, other_, x, y);
-            }
+        for (int x = where_.x0; x < where_.x1; ++x) {
+            if (stage == 0)
+                spreadVariance(x, y);
+            else if (stage == 1)
+                meanVariance(x, y);
+            else if (level % 2 == 0)
+                filter(1 << level, pixels_, other_, x, y);
+            else
+                filter(1 << level, other_, pixels_, x, y);
+        }
 }
 
 template <class Use>
-void NoiseFilter::forNeighbours(std::span<const NoisyPixel> pixels, int x, int y, int reach,
+void NoiseFilter::forNeighbours(std::span<const LightPixel> pixels, int x, int y, int reach,
                                 int step, Use use) const {
-    const NoisyPixel& centre = pixels[static_cast<std::size_t>(y) * size_.width + x];
+    const LightPixel& centre = pixels[static_cast<std::size_t>(y) * size_.width + x];
     for (int dy = -reach; dy <= reach; ++dy) {
         const int v = y + dy * step;
         if (v < where_.y0 || v >= where_.y1) continue;
@@ -67,7 +124,7 @@ void NoiseFilter::forNeighbours(std::span<const NoisyPixel> pixels, int x, int y
             const int u = x + dx * step;
             if (u < where_.x0 || u >= where_.x1) continue;
             const std::size_t i = static_cast<std::size_t>(v) * size_.width + u;
-            const NoisyPixel& there = pixels[i];
+            const LightPixel& there = pixels[i];
             if (there.id != centre.id) continue;
             const auto away = static_cast<float>(step * std::max(std::abs(dx), std::abs(dy)));
             if (std::abs(there.depth - centre.depth) <= kDepthSlope * away * centre.depth)
@@ -79,53 +136,57 @@ void NoiseFilter::forNeighbours(std::span<const NoisyPixel> pixels, int x, int y
 // What is not known is what the neighbours differ by.
 void NoiseFilter::spreadVariance(int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
-    variances_[i] = pixels_[i].variance;
-    if (pixels_[i].id == 0 || variances_[i] >= 0) return;
-    Eigen::Array4f sum = Eigen::Array4f::Zero(), squares = Eigen::Array4f::Zero();
-    float count = 0;
-    forNeighbours(pixels_, x, y, kSpreadReach, 1, [&](std::size_t j, int, int) {
-        sum += pixels_[j].value;
-        squares += pixels_[j].value.square();
-        ++count;
+    const LightPixel& pixel = pixels_[i];
+    variances_[i] = {pixel.firstVariance, pixel.secondVariance};
+    if (pixel.id == 0 || (pixel.firstVariance >= 0 && pixel.secondVariance >= 0)) return;
+    Spread first, second;
+    forNeighbours(pixels_, x, y, kSpreadReach, kSpreadStep, [&](std::size_t j, int, int) {
+        first.add(pixels_[j].first, pixels_[j].firstCount);
+        second.add(pixels_[j].second, pixels_[j].secondCount);
     });
-    const Eigen::Array4f mean = sum / count;
-    variances_[i] = std::max(0.0F, (squares / count - mean.square()).mean());
+    const auto found = [](const Spread& spread, const Eigen::Array3f& light, float count) {
+        return count > 0 ? spread.varianceOf(light) : 0;
+    };
+    if (pixel.firstVariance < 0) variances_[i].first = found(first, pixel.first, pixel.firstCount);
+    if (pixel.secondVariance < 0)
+        variances_[i].second = found(second, pixel.second, pixel.secondCount);
 }
 
 // The mean of the neighbours', as estimates from few samples vary much.
 void NoiseFilter::meanVariance(int x, int y) {
-    NoisyPixel& pixel = pixels_[static_cast<std::size_t>(y) * size_.width + x];
+    LightPixel& pixel = pixels_[static_cast<std::size_t>(y) * size_.width + x];
     if (pixel.id == 0) return;
-    float sum = 0, count = 0;
+    Variances sum;
+    float firsts = 0, seconds = 0;
     forNeighbours(pixels_, x, y, 1, 1, [&](std::size_t j, int, int) {
-        sum += variances_[j];
-        ++count;
+        const bool first = pixels_[j].firstCount > 0, second = pixels_[j].secondCount > 0;
+        sum.first += first ? variances_[j].first : 0;
+        sum.second += second ? variances_[j].second : 0;
+        firsts += first ? 1 : 0;
+        seconds += second ? 1 : 0;
     });
-    pixel.variance = sum / count;
+    pixel.firstVariance = firsts > 0 ? sum.first / firsts : 0;
+    pixel.secondVariance = seconds > 0 ? sum.second / seconds : 0;
 }
 
-void NoiseFilter::filter(int step, std::span<const NoisyPixel> from, std::span<NoisyPixel> to,
+void NoiseFilter::filter(int step, std::span<const LightPixel> from, std::span<LightPixel> to,
                          int x, int y) const {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
-    const NoisyPixel& centre = from[i];
+    const LightPixel& centre = from[i];
     to[i] = centre;
     if (centre.id == 0 || centre.kept) return;
-    Eigen::Array4f sum = Eigen::Array4f::Zero();
-    float weights = 0, variance = 0;
+    LightMean first(centre.first, centre.firstVariance, centre.firstCount);
+    LightMean second(centre.second, centre.secondVariance, centre.secondCount);
     forNeighbours(from, x, y, kReach, step, [&](std::size_t j, int dx, int dy) {
-        const NoisyPixel& p = from[j];
-        const float noise = centre.variance + p.variance + kLeastVariance;
-        const float likeness =
-            1 - squaredDifference(centre, p) / (kTolerance * kTolerance * noise) -
-            squaredPaintDifference(centre, p) / (kPaintTolerance * kPaintTolerance * noise);
-        if (!(likeness > 0)) return;
-        const float weight = kSpline[std::abs(dx)] * kSpline[std::abs(dy)] * likeness * likeness;
-        sum += weight * p.value;
-        variance += weight * weight * p.variance;
-        weights += weight;
+        const LightPixel& p = from[j];
+        const float weight = kSpline[std::abs(dx)] * kSpline[std::abs(dy)] *
+                             (j == i ? 1 : bendWeight(centre.normal, p.normal));
+        if (!(weight > 0)) return;
+        first.add(weight, p.first, p.firstVariance, p.firstCount);
+        second.add(weight, p.second, p.secondVariance, p.secondCount);
     });
-    to[i].value = sum / weights;
-    to[i].variance = variance / (weights * weights);
+    first.store(to[i].first, to[i].firstVariance, to[i].firstCount);
+    second.store(to[i].second, to[i].secondVariance, to[i].secondCount);
 }
 
 }  // namespace mfar

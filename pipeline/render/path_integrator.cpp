@@ -1,5 +1,7 @@
 #include "pipeline/render/path_integrator.h"
 
+#include "pipeline/render/luminance.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +11,7 @@ namespace {
 // Pairs of random numbers of each vertex.
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
+constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;  // of the longest
 // Paths that still bring so much of the light go on for sure: what ends them adds noise that no
 // sampler makes up for.
 constexpr float kSurvives = 0.25F;
@@ -25,6 +28,11 @@ float powerWeight(float taken, float other) {
     const float ratio = other / taken;
     return 1 / (1 + ratio * ratio);
 }
+
+// Of the mean light; and of a dark scene.
+constexpr float kLeastFarShare = 0.05F, kLeastFar = 1e-6F;
+// A sun that is wider cannot be treated as one direction and a wider lobe [rad].
+constexpr float kWidestKnownSun = 0.05F;
 
 }  // namespace
 
@@ -71,89 +79,224 @@ struct PathIntegrator::Vertex {
     }
 };
 
+/// What a path lets through of the light that arrives where it is.
+struct PathIntegrator::Carried {
+    Eigen::Vector3f all{1, 1, 1}, white{0, 0, 0};  // white: none before the first bounce
+
+    void scatter(const ScatterSample& sample, bool first) {
+        all = all.cwiseProduct(sample.weight);
+        if (first)
+            white.setConstant(sample.white);
+        else
+            white = white.cwiseProduct(sample.weight);
+    }
+    /// Russian roulette; false: the path ends.
+    bool survives(float random) {
+        const float chance = std::min(1.0F, all.maxCoeff() / kSurvives);
+        if (!(random < chance)) return false;
+        all /= chance;
+        white /= chance;
+        return true;
+    }
+};
+
 PathIntegrator::PathIntegrator(const TracedScene& scene, const PathTracerOptions& options)
     : scene_(scene), options_(options), sun_(scene.scene().lighting.sun),
-      environment_(scene.scene().lighting.environment) {}
+      sunIsKnown_(sun_.angularRadius() <= kWidestKnownSun),
+      environment_(scene.scene().lighting.environment),
+      far_(environment_, scene.scene().lighting, scene.scene().catcher),
+      leastFar_(std::max(kLeastFarShare * far_.brightness(), kLeastFar)) {}
 
-Eigen::Vector3f PathIntegrator::lit(const Vertex& vertex, const LightSample& light, Weight weight,
-                                    World& world) {
-    if (!(light.density > 0) || !vertex.faces(light.direction)) return {0, 0, 0};
-    const ScatterValue f = vertex.scatter.evaluate(vertex.frame.transpose() * light.direction);
-    if (!(f.density > 0)) return {0, 0, 0};
-    if (world.blocked(vertex.point.leaving(light.direction))) return {0, 0, 0};
-    return f.value.cwiseProduct(light.radiance) *
-           (weight(light.density, f.density) / light.density);
+PathIntegrator::Arrived PathIntegrator::lit(const Vertex& vertex, Lobes lobes,
+                                            const LightSample& light, const Eigen::Vector3f& far,
+                                            Weight weight, World& world) {
+    if (!(light.density > 0)) return {};
+    const ScatterValue f =
+        vertex.scatter.evaluate(vertex.frame.transpose() * light.direction, lobes);
+    if (!(f.density > 0)) return {};
+    const float share = weight(light.density, f.density) / light.density;
+    const auto sent = [&](const Eigen::Vector3f& radiance) {
+        return Sent{f.value.cwiseProduct(radiance) * share, radiance * (f.white * share)};
+    };
+    Arrived out;
+    out.unblocked = sent(far);
+    if (vertex.faces(light.direction) && !world.blocked(vertex.point.leaving(light.direction)))
+        out.light = sent(light.radiance);
+    return out;
 }
 
-Eigen::Vector3f PathIntegrator::direct(const Vertex& vertex, const PixelSampler& sampler,
-                                       std::uint32_t pair, World& world) const {
-    Eigen::Vector3f sum{0, 0, 0};
-    if (!sun_.dark())
-        sum += lit(vertex, sun_.sample(sampler.pair(pair + kSunPair)), powerWeight, world);
-    if (environment_.sampled())
-        sum += lit(vertex, environment_.sample(sampler.pair(pair + kEnvironmentPair)),
-                   balanceWeight, world);
+PathIntegrator::Arrived PathIntegrator::direct(const Vertex& vertex, Lobes lobes,
+                                               const PixelSampler& sampler, std::uint32_t pair,
+                                               World& world) const {
+    Arrived sum;
+    const auto add = [&](const Arrived& arrived) {
+        sum.light += arrived.light;
+        sum.unblocked += arrived.unblocked;
+    };
+    if (!sun_.dark()) {
+        const LightSample light = sun_.sample(sampler.pair(pair + kSunPair));
+        const Eigen::Vector3f far = sunIsKnown_ ? light.radiance : Eigen::Vector3f(0, 0, 0);
+        add(lit(vertex, lobes, light, far, powerWeight, world));
+    }
+    if (environment_.sampled()) {
+        const LightSample light = environment_.sample(sampler.pair(pair + kEnvironmentPair));
+        add(lit(vertex, lobes, light, far_.radiance(light.direction, light.radiance), balanceWeight,
+                world));
+    }
     return sum;
 }
 
-Eigen::Vector3f PathIntegrator::escaped(const Eigen::Vector3f& direction, float density) const {
-    Eigen::Vector3f sum{0, 0, 0};
+PathIntegrator::Escaped PathIntegrator::escaped(const Eigen::Vector3f& direction,
+                                                float density) const {
+    Escaped sum;
     if (const float other = sun_.density(direction); other > 0)
-        sum += sun_.radiance(direction) * powerWeight(density, other);
-    if (!environment_.dark())
-        sum += environment_.radiance(direction) *
-               balanceWeight(density, environment_.density(direction));
+        sum.light = sun_.radiance(direction) * powerWeight(density, other);
+    if (sunIsKnown_) sum.far = sum.light;
+    const Eigen::Vector3f sky =
+        environment_.dark() ? Eigen::Vector3f(0, 0, 0) : environment_.radiance(direction);
+    const float weight = balanceWeight(density, environment_.density(direction));
+    sum.light += weight * sky;
+    sum.far += weight * far_.radiance(direction, sky);
     return sum;
 }
 
-Eigen::Vector3f PathIntegrator::limited(const Eigen::Vector3f& light, int depth) const {
-    const float most = light.maxCoeff();
-    if (depth < 2 || !(options_.fireflyClamp > 0) || !(most > options_.fireflyClamp)) return light;
-    return light * (options_.fireflyClamp / most);
+PathIntegrator::Sent PathIntegrator::known(const Vertex& vertex, const Eigen::Vector3f& wo,
+                                           Lobes lobes, bool withSun) const {
+    Sent sum = knownSky(vertex, wo, lobes);
+    if (withSun) sum += knownSun(vertex, wo, lobes);
+    return sum;
 }
 
-Eigen::Vector3f PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo,
-                                     const PixelSampler& sampler, World& world) const {
-    Eigen::Vector3f sum{0, 0, 0}, throughput{1, 1, 1};
-    for (int depth = 1;; ++depth) {
-        const std::uint32_t pair =
-            kCameraPairs + static_cast<std::uint32_t>(depth - 1) * kPairsOfVertex;
-        // What shines at the second surface is direct light of the first.
-        sum += limited(throughput.cwiseProduct(point.emission), depth - 1);
-        const Vertex vertex(point, wo);
-        sum += limited(throughput.cwiseProduct(direct(vertex, sampler, pair, world)), depth);
+PathIntegrator::Sent PathIntegrator::knownSky(const Vertex& vertex, const Eigen::Vector3f& wo,
+                                              Lobes lobes) const {
+    if (far_.dark()) return {};
+    Sent sum;
+    const SurfacePoint& point = vertex.point;
+    const Reflectance& share = vertex.scatter.reflectance();
+    if (lobes == Lobes::Mirrored) {
+        const Eigen::Vector3f towards = 2 * point.shading.dot(wo) * point.shading - wo;
+        sum.radiance = share.mirrored.cwiseProduct(far_.mirrored(towards, point.look.roughness));
+    } else {
+        const Eigen::Vector3f even = far_.diffuse(point.shading);
+        sum.white = share.white * even;
+        sum.radiance =
+            (share.white * vertex.scatter.diffuseColour() + share.manyfold).cwiseProduct(even);
+    }
+    return sum;
+}
 
-        const ScatterSample out = vertex.scatter.sample(sampler.pair(pair + kScatterPair));
-        if (!(out.density > 0)) return sum;
-        const Eigen::Vector3f direction = vertex.frame * out.wi;
-        if (!vertex.faces(direction)) return sum;
-        throughput = throughput.cwiseProduct(out.weight);
-        if (depth >= options_.rouletteDepth) {
-            const float chance = std::min(1.0F, throughput.maxCoeff() / kSurvives);
-            if (!(sampler.pair(pair + kRoulettePair).x() < chance)) return sum;
-            throughput /= chance;
-        }
+PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, const Eigen::Vector3f& wo,
+                                              Lobes lobes) const {
+    if (sun_.dark()) return {};
+    const SurfacePoint& point = vertex.point;
+    const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
+    // A lobe sharper than the sun's disc shows the disc.
+    SurfaceLook look = point.look;
+    look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
+    const ScatterValue f =
+        lobes == Lobes::Mirrored && look.roughness > point.look.roughness
+            ? SurfaceScatter(look, vertex.frame.transpose() * wo).evaluate(towards, lobes)
+            : vertex.scatter.evaluate(towards, lobes);
+    return {f.value.cwiseProduct(sun_.irradiance()), f.white * sun_.irradiance()};
+}
+
+float PathIntegrator::kept(const Eigen::Vector3f& light, int depth) const {
+    const float most = light.maxCoeff();
+    if (depth < 2 || !(options_.fireflyClamp > 0) || !(most > options_.fireflyClamp)) return 1;
+    return options_.fireflyClamp / most;
+}
+
+PathIntegrator::Sent PathIntegrator::sent(const Carried& carried, const Eigen::Vector3f& light,
+                                          int depth) const {
+    const Eigen::Vector3f all = carried.all.cwiseProduct(light);
+    const float share = kept(all, depth);
+    return {all * share, carried.white.cwiseProduct(light) * share};
+}
+
+PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f wo, Lobes lobes,
+                                           const PixelSampler& sampler, World& world) const {
+    Parts out;
+    std::uint32_t pair = kCameraPairs + (lobes == Lobes::Mirrored ? kPairsOfPath : 0);
+    Carried carried;
+    const auto add = [&](Sent& sum, const Eigen::Vector3f& light, int depth) {
+        sum += sent(carried, light, depth);
+    };
+    for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
+        const bool first = depth == 1;
+        const Lobes here = first ? lobes : Lobes::Both;
+        // What shines at the second surface is direct light of the first.
+        if (!first || lobes != Lobes::Mirrored) add(out.rest, point.emission, depth - 1);
+        const Vertex vertex(point, wo);
+        const Arrived lit = direct(vertex, here, sampler, pair, world);
+        if (first) out.direct = lit;
+        if (first && lobes != Lobes::Both) out.known = known(vertex, wo, lobes, sunIsKnown_);
+        if (!first) add(out.rest, lit.light.radiance, depth);
+        const ScatterSample scattered =
+            vertex.scatter.sample(sampler.pair(pair + kScatterPair), here);
+        if (!(scattered.density > 0)) return out;
+        const Eigen::Vector3f direction = vertex.frame * scattered.wi;
+        carried.scatter(scattered, first);
+        if (first) add(out.direct.unblocked, escaped(direction, scattered.density).far, depth);
+        if (!vertex.faces(direction)) return out;
+        if (depth >= options_.rouletteDepth &&
+            !carried.survives(sampler.pair(pair + kRoulettePair).x()))
+            return out;
         const Ray ray = point.leaving(direction);
-        if (depth == options_.maxDepth) {
-            // The lights' other half of the last vertex.
-            if (!world.blocked(ray))
-                sum += limited(throughput.cwiseProduct(escaped(direction, out.density)), depth);
-            return sum;
-        }
-        const std::optional<SurfacePoint> next = world.next(ray);
-        if (!next)
-            return sum + limited(throughput.cwiseProduct(escaped(direction, out.density)), depth);
+        const bool last = depth == options_.maxDepth;
+        std::optional<SurfacePoint> next;
+        // At the last surface the lights' other half alone counts.
+        const bool free = last ? !world.blocked(ray) : !(next = world.next(ray));
+        if (free)
+            add(first ? out.direct.light : out.rest, escaped(direction, scattered.density).light,
+                depth);
+        if (free || last) return out;
         point = *next;
         wo = -direction;
     }
+}
+
+// What objects let through of the light that is known (Heitz et al. 2018): where nothing stands
+// before the surface, no noise is left. What is known is off by some percent, so that of many
+// samples the first few alone follow it.
+PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, std::uint32_t number) {
+    constexpr std::uint32_t kTrusted = 16;
+    const Arrived& direct = parts.direct;
+    Sent out = parts.rest;
+    out += direct.light;
+    const float unblocked = luminanceOf(direct.unblocked.radiance);
+    float trust =
+        number < kTrusted ? 1.0F : static_cast<float>(kTrusted) / static_cast<float>(number);
+    if (unblocked > 0) trust *= std::min(1.0F, luminanceOf(direct.light.radiance) / unblocked);
+    out += {trust * (parts.known.radiance - direct.unblocked.radiance),
+            trust * (parts.known.white - direct.unblocked.white)};
+    return out;
 }
 
 PathIntegrator::OfObject PathIntegrator::ofObject(const RayHit& hit,
                                                   const Eigen::Vector3f& direction,
                                                   const PixelSampler& sampler) const {
     const SurfacePoint point = scene_.objectPoint(hit, direction);
+    const Eigen::Vector3f wo = -direction.normalized();
     World all{scene_, true};
-    return {walk(point, -direction.normalized(), sampler, all), point.look.baseColour};
+    Sent sent = sum(walk(point, wo, Lobes::Broad, sampler, all), sampler.number());
+    if (!point.look.matt)
+        sent += sum(walk(point, wo, Lobes::Mirrored, sampler, all), sampler.number());
+    sent.radiance = sent.radiance.cwiseMax(0.0F);
+    sent.white = sent.white.cwiseMax(0.0F);
+    const Paint paint = point.paint(direction);
+    return {sent.radiance, lightOf(sent.radiance, sent.white, paint), far(point, direction), paint};
+}
+
+SurfaceLight PathIntegrator::far(const SurfacePoint& point,
+                                 const Eigen::Vector3f& direction) const {
+    const Eigen::Vector3f wo = -direction.normalized();
+    const Vertex vertex(point, wo);
+    Sent sent = known(vertex, wo, Lobes::Broad, true);
+    if (!point.look.matt) sent += known(vertex, wo, Lobes::Mirrored, true);
+    SurfaceLight out = lightOf(sent.radiance, sent.white, point.paint(direction));
+    out.diffuse = out.diffuse.cwiseMax(leastFar_);
+    out.specular = out.specular.cwiseMax(leastFar_);
+    return out;
 }
 
 PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,
@@ -162,9 +305,13 @@ PathIntegrator::OfCatcher PathIntegrator::ofCatcher(const RayHit& hit,
     const SurfacePoint point = scene_.catcherPoint(hit, direction);
     const Eigen::Vector3f wo = -direction.normalized();
     World all{scene_, true}, real{scene_, false};
+    const auto radiance = [&](World& world) {
+        const Parts parts = walk(point, wo, Lobes::Both, sampler, world);
+        return Eigen::Vector3f(parts.direct.light.radiance + parts.rest.radiance);
+    };
     OfCatcher out;
-    out.with = walk(point, wo, sampler, all);
-    out.without = all.touched ? walk(point, wo, sampler, real) : out.with;
+    out.with = radiance(all);
+    out.without = all.touched ? radiance(real) : out.with;
     return out;
 }
 

@@ -70,11 +70,12 @@ struct PathTracer::Parts {
 /// Camera samples of one view that are traced together.
 class PathTracer::Batch {
 public:
-    Batch(const Parts& parts, const RenderView& view, Film& film)
+    Batch(const Parts& parts, const RenderView& view, Film& film, const LightHistory* history)
         : parts_(parts), lens_(parts.lensOf(view.camera)),
           rotation_(view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
           eye_(view.T_world_camera.translation.cast<float>()),
-          width_(static_cast<std::uint32_t>(view.camera.size.width)), film_(film) {}
+          width_(static_cast<std::uint32_t>(view.camera.size.width)), film_(film),
+          history_(history) {}
 
     void add(const CameraSample& sample) {
         samples_[count_] = sample;
@@ -108,18 +109,20 @@ private:
         const RayHit object = scene.shown(ray, first);
         const RayHit real =
             object.found() || scene.catcher().empty() ? RayHit{} : scene.catcher().first(ray);
+        if (sample.centre) {
+            look(sample.pixel, ray, object, real);
+            return;
+        }
         FilmSample out;
         if (object.found()) out.hit = {object.t, scene.idOf(object)};
         if (real.found()) out.hit = {real.t, kCatcherId};
-        if (sample.centre) {
-            film_.setCentre(sample.pixel, out.hit);
-            return;
-        }
         const PixelSampler sampler = samplerOf(sample);
         if (object.found()) {
             const auto light = parts_.integrator.ofObject(object, ray.direction, sampler);
             out.radiance = light.radiance;
-            out.baseColour = light.baseColour;
+            out.light = light.light;
+            out.far = light.far;
+            out.paint = light.paint;
         } else if (real.found()) {
             const auto light = parts_.integrator.ofCatcher(real, ray.direction, sampler);
             out.radiance = light.with;
@@ -128,12 +131,32 @@ private:
         film_.add(sample.pixel, out);
     }
 
+    /// Through a pixel's centre.
+    void look(std::uint32_t pixel, const Ray& ray, const RayHit& object, const RayHit& real) {
+        const TracedScene& scene = parts_.scene;
+        SeenSurface seen;
+        if (object.found()) {
+            const SurfacePoint point = scene.objectPoint(object, ray.direction);
+            seen = {{object.t, scene.idOf(object)},
+                    point.shading,
+                    point.paint(ray.direction),
+                    point.look.roughness,
+                    parts_.integrator.far(point, ray.direction)};
+        } else if (real.found()) {
+            seen = {{real.t, kCatcherId}, scene.catcherPoint(real, ray.direction).shading, {}, 1};
+        }
+        film_.setCentre(pixel, seen);
+        if (history_ != nullptr)
+            film_.carry(pixel, history_->at(seen, eye_ + seen.hit.depth * ray.direction, eye_));
+    }
+
     const Parts& parts_;
     std::shared_ptr<const LensRays> lens_;
     Eigen::Matrix3f rotation_;
     Eigen::Vector3f eye_;
     std::uint32_t width_;
     Film& film_;
+    const LightHistory* history_;
     std::size_t count_ = 0;
     std::array<CameraSample, kBatch> samples_;
     std::array<Ray, kBatch> rays_;
@@ -160,21 +183,46 @@ void requireSound(const RenderView& view) {
 }  // namespace
 
 void PathTracer::trace(const RenderView& view, std::span<const std::uint32_t> pixels, int samples,
-                       Film& film) const {
+                       Film& film, const LightHistory* history) const {
     requireSound(view);
     if (!(film.size() == view.camera.size)) throw std::invalid_argument("film: another size");
     const auto count = static_cast<std::uint32_t>(film.size().width) *
                        static_cast<std::uint32_t>(film.size().height);
     if (!std::ranges::all_of(pixels, [count](std::uint32_t p) { return p < count; }))
         throw std::invalid_argument("film: no such pixel");
-    Batch batch(*parts_, view, film);
+    Batch batch(*parts_, view, film, history);
     for (const std::uint32_t pixel : pixels) {
         const std::uint32_t taken = film.samples(pixel);
-        if (taken == 0 && samples > 0) batch.add({pixel, 0, true});
+        if (!film.isSeen(pixel)) batch.add({pixel, 0, true});
         for (int i = 0; i < samples; ++i)
             batch.add({pixel, taken + static_cast<std::uint32_t>(i), false});
     }
     batch.flush();
+}
+
+LightHistory PathTracer::historyOf(const Film& film, const RenderView& view,
+                                   float mostSamples) const {
+    return {film, view, parts_->lensOf(view.camera), mostSamples};
+}
+
+std::optional<Eigen::Vector3f> PathTracer::catcherAt(const RenderView& view,
+                                                     const Eigen::Vector2f& pixel) const {
+    const RayScene& catcher = parts_->scene.catcher();
+    if (catcher.empty()) return {};
+    const Eigen::Quaternionf turn = view.T_world_camera.rotation.cast<float>();
+    const Eigen::Vector2f ray = parts_->lensOf(view.camera)->at(pixel.x(), pixel.y());
+    const Ray look{view.T_world_camera.translation.cast<float>(), turn * ray.homogeneous().eval()};
+    const RayHit hit = catcher.first(look);
+    if (!hit.found()) return {};
+    return look.origin + hit.t * look.direction;
+}
+
+PixelRect PathTracer::objectBounds(const RenderView& view) const {
+    requireSound(view);
+    const Eigen::AlignedBox3f& box = parts_->scene.objects().box();
+    if (box.isEmpty()) return {};
+    const PixelRect seen = pixelsOfBox(box, view, *parts_->lensOf(view.camera));
+    return seen.empty() ? seen : widened(seen, 1, view.camera.size);
 }
 
 PixelRect PathTracer::bounds(const RenderView& view) const {

@@ -6,9 +6,11 @@
 namespace mfar {
 
 void PictureResolver::begin(const Film& film, const RenderView& view, const PixelRect& traced,
-                            const Exposure& exposure, bool filter, RenderedPicture& out) {
+                            const Exposure& exposure, bool filter, RenderedPicture& out,
+                            Film* memory) {
     const Size size = film.size();
     film_ = &film;
+    memory_ = filter ? memory : nullptr;
     traced_ = common(traced, {0, 0, size.width, size.height});
     if (traced_.empty()) traced_ = {};
     exposure_ = exposure;
@@ -21,6 +23,7 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     out.colour.resize(pixels);
     out.depth.resize(pixels);
     out.id.resize(pixels);
+    out.light.resize(pixels);
     taken_.assign(static_cast<std::size_t>(size.height), 0);
     seen_ = taken_;
     if (filters_) filter_.begin(size, traced_);
@@ -73,7 +76,7 @@ void PictureResolver::done(const Portion& portion) {
 void PictureResolver::prepare(int row) {
     const auto begin = static_cast<std::size_t>(row) * film_->size().width;
     for (int x = traced_.x0; x < traced_.x1; ++x)
-        filter_.pixels()[begin + x] = film_->noisy(begin + x, exposure_);
+        filter_.pixels()[begin + x] = film_->light(begin + x, exposure_);
 }
 
 void PictureResolver::write(int row) {
@@ -83,18 +86,66 @@ void PictureResolver::write(int row) {
                 std::array<std::uint8_t, 4>{});
     std::fill_n(out_->depth.begin() + static_cast<std::ptrdiff_t>(begin), width, 0.0F);
     std::fill_n(out_->id.begin() + static_cast<std::ptrdiff_t>(begin), width, std::uint8_t{0});
+    std::fill_n(out_->light.begin() + static_cast<std::ptrdiff_t>(begin), width, LightWords{});
     if (row < traced_.y0 || row >= traced_.y1) return;
     for (int x = traced_.x0; x < traced_.x1; ++x) {
         const std::size_t i = begin + x;
-        const auto [colour, hit] = filters_ ? film_->resolvedFrom(filter_.filtered()[i], i)
-                                            : film_->resolved(i, exposure_);
+        const auto [colour, hit, onObject] =
+            filters_ ? filtered(x, row) : film_->resolved(i, exposure_);
         out_->colour[i] = colour;
         out_->depth[i] = hit.depth;
+        out_->light[i] = onObject;
         out_->id[i] = hit.id;
         if (hit.id == 0) continue;
         taken_[static_cast<std::size_t>(row)] += film_->samples(i);
         seen_[static_cast<std::size_t>(row)] += 1;
     }
+}
+
+Film::Resolved PictureResolver::filtered(int x, int y) {
+    const std::size_t i = static_cast<std::size_t>(y) * film_->size().width + x;
+    LightPixel light = filter_.filtered()[i];
+    if (memory_ != nullptr) {
+        if (!film_->isSeen(i)) {
+            light = between(x, y);
+            if (light.id != 0)
+                memory_->setCentre(i, {{light.depth, light.id}, light.normal.matrix(), {}, 1});
+        }
+        memory_->remember(i, light);
+    }
+    return film_->resolvedFrom(light, i, exposure_);
+}
+
+// Of the real surface; nothing where none of the pixels around was looked at.
+LightPixel PictureResolver::between(int x, int y) const {
+    LightPixel out;
+    float count = 0, perDepth = 0;
+    for (const int v : {y - y % 2, y + y % 2})
+        for (const int u : {x - x % 2, x + x % 2}) {
+            if (u < traced_.x0 || u >= traced_.x1 || v < traced_.y0 || v >= traced_.y1) continue;
+            const LightPixel& p =
+                filter_.filtered()[static_cast<std::size_t>(v) * film_->size().width + u];
+            if (p.id != kCatcherId) continue;
+            out.first += p.first;
+            out.second += p.second;
+            out.firstVariance += p.firstVariance;
+            out.secondVariance += p.secondVariance;
+            out.firstCount += p.firstCount;
+            out.secondCount += p.secondCount;
+            out.normal = p.normal;
+            perDepth += 1 / p.depth;
+            ++count;
+        }
+    if (!(count > 0)) return out;
+    out.first /= count;
+    out.second /= count;
+    out.firstVariance /= count;
+    out.secondVariance /= count;
+    out.firstCount /= count;
+    out.secondCount /= count;
+    out.depth = count / perDepth;
+    out.id = kCatcherId;
+    return out;
 }
 
 void resolve(const Film& film, const RenderView& view, const Exposure& exposure,

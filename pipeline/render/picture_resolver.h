@@ -19,9 +19,11 @@ public:
     static constexpr int kStages = NoiseFilter::kStages + 2;
 
     /// There is something in `traced` alone. Film and picture must stay until it is complete; the
-    /// picture keeps its memory.
+    /// picture keeps its memory. `memory`, if given, is the film: its pixels carry what the filter
+    /// finds for them where nothing else is known, and the real surface's that nobody looked at
+    /// take after those of even column and row around them.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
-               const Exposure& exposure, bool filter, RenderedPicture& out);
+               const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr);
 
     struct Portion {
         int stage = 0, firstRow = 0, lastRow = 0;
@@ -44,8 +46,11 @@ private:
     [[nodiscard]] int rowsEnd() const;
     void prepare(int row);
     void write(int row);
+    [[nodiscard]] Film::Resolved filtered(int x, int y);
+    [[nodiscard]] LightPixel between(int x, int y) const;
 
     const Film* film_ = nullptr;
+    Film* memory_ = nullptr;
     PixelRect traced_;
     Exposure exposure_;
     bool filters_ = false;

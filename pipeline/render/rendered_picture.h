@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/geometry.h"
+#include "base/light_word.h"
 #include "pipeline/scene/scene.h"
 
 #include <array>
@@ -23,6 +24,8 @@ struct RenderedPicture {
     /// nearest one any sample hit where that goes by; 0 = nothing.
     std::vector<float> depth;
     std::vector<std::uint8_t> id;  ///< what `depth` belongs to: SceneObject's number, 0 = nothing
+    /// Of an object's pixels, without their paint; empty where their maker does not tell.
+    std::vector<LightWords> light;
     std::shared_ptr<const Scene> scene;  ///< what it is a picture of, where its maker says so
     double samples = 0;                  ///< in the mean over the pixels with an id
 };

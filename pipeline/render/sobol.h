@@ -64,6 +64,8 @@ public:
         : seed_(mixedBits(pixel ^ mixedBits(seed + 0x9E3779B9U))), sample_(sample),
           independent_(independent) {}
 
+    /// Of the pixel's samples, from 0.
+    [[nodiscard]] std::uint32_t number() const { return sample_; }
     /// Pair number `dimension`, in [0, 1)^2.
     [[nodiscard]] Eigen::Vector2f pair(std::uint32_t dimension) const {
         const std::uint32_t seed = mixedBits(seed_ + dimension * 0x9E3779B9U);

@@ -12,6 +12,7 @@ SunLight::SunLight(const std::optional<Sun>& sun) {
     constexpr float kPi = std::numbers::pi_v<float>;
     const float sine = std::sin(sun->angularRadius), half = std::sin(sun->angularRadius / 2);
     frame_ = frameAround(sun->towards.normalized());
+    irradiance_ = sun->irradiance;
     radiance_ = sun->irradiance / (kPi * sine * sine);
     chord2_ = 4 * half * half;
     density_ = 1 / (kPi * chord2_);  // of a cap of that chord

@@ -3,6 +3,7 @@
 #include "pipeline/render/light_sample.h"
 #include "pipeline/scene/scene.h"
 
+#include <cmath>
 #include <optional>
 
 namespace mfar {
@@ -14,6 +15,11 @@ public:
     explicit SunLight(const std::optional<Sun>& sun);
 
     [[nodiscard]] bool dark() const { return density_ == 0; }
+    [[nodiscard]] Eigen::Vector3f towards() const { return frame_.col(2); }
+    /// On a surface that faces it.
+    [[nodiscard]] const Eigen::Vector3f& irradiance() const { return irradiance_; }
+    /// [rad]
+    [[nodiscard]] float angularRadius() const { return std::sqrt(chord2_); }
     [[nodiscard]] LightSample sample(const Eigen::Vector2f& u) const;
     /// Both 0 outside the disc. `direction` of unit length.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction) const;
@@ -23,7 +29,7 @@ private:
     [[nodiscard]] bool holds(const Eigen::Vector3f& direction) const;
 
     Eigen::Matrix3f frame_ = Eigen::Matrix3f::Identity();
-    Eigen::Vector3f radiance_{0, 0, 0};
+    Eigen::Vector3f irradiance_{0, 0, 0}, radiance_{0, 0, 0};
     float chord2_ = 0;  // squared distance on the unit sphere from its centre to its rim
     float density_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "pipeline/render/surface_scatter.h"
 
+#include "base/light_word.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,7 +10,6 @@ namespace mfar {
 namespace {
 
 constexpr float kInversePi = std::numbers::inv_pi_v<float>;
-constexpr float kDielectricF0 = 0.04F;
 constexpr float kMostSpecular = 0.98F;  // of the samples
 constexpr float kLeastPassed = 1e-4F;   // below it nothing is left to divide by
 constexpr float kLeastCosine = 1e-5F;
@@ -30,24 +31,28 @@ float manyfoldShare(float f0, const SpecularAlbedo& mean) {
 SurfaceScatter::SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& wo)
     : wo_(wo), matt_(look.matt), roughness_(look.roughness), ggx_(alphaOf(look.roughness)) {
     wo_.z() = std::max(wo_.z(), kLeastCosine);
-    diffuseFactor_ = look.baseColour * kInversePi;
+    diffuseColour_ = look.baseColour;
     if (matt_) return;
     const SpecularAlbedo mean = meanSpecularAlbedo(roughness_);
     const float lost = std::max(1 - mean.full(), 0.0F);
     const float metallic = look.metallic;
-    f0_ = Eigen::Vector3f::Constant(kDielectricF0 * (1 - metallic)) + metallic * look.baseColour;
-    dielectricManyfold_ = manyfoldShare(kDielectricF0, mean);
+    f0_ = Eigen::Vector3f::Constant(kDielectricReflectance * (1 - metallic)) +
+          metallic * look.baseColour;
+    dielectricManyfold_ = manyfoldShare(kDielectricReflectance, mean);
     Eigen::Vector3f manyfold;
     for (int c = 0; c < 3; ++c)
         manyfold[c] = (1 - metallic) * dielectricManyfold_ +
                       metallic * manyfoldShare(look.baseColour[c], mean);
     if (lost > kLeastPassed) manyfoldFactor_ = manyfold * (kInversePi / lost);
     const float passedMean =
-        1 - kDielectricF0 * mean.scale - mean.offset - dielectricManyfold_ * lost;
-    diffuseFactor_ *= (1 - metallic) / std::max(passedMean, kLeastPassed);
+        1 - kDielectricReflectance * mean.scale - mean.offset - dielectricManyfold_ * lost;
+    diffuseColour_ *= 1 - metallic;
+    whiteFactor_ = kInversePi / std::max(passedMean, kLeastPassed);
     passedOut_ = passed(wo_.z());
     const SpecularAlbedo albedo = specularAlbedo(roughness_, wo_.z());
-    const float specular = f0_.mean() * albedo.scale + albedo.offset;
+    reflectance_ = {passedOut_.diffuse, passedOut_.manyfold * manyfold,
+                    (albedo.scale * f0_).array() + albedo.offset};
+    const float specular = reflectance_.mirrored.mean();
     const float wide = manyfold.mean() * passedOut_.manyfold +
                        (1 - metallic) * look.baseColour.mean() * passedOut_.diffuse;
     // A lobe hardly higher than the broad ones about it needs no samples of its own: those would be
@@ -65,42 +70,53 @@ Eigen::Vector3f SurfaceScatter::fresnel(float cosH) const {
 SurfaceScatter::Passed SurfaceScatter::passed(float mu) const {
     const SpecularAlbedo albedo = specularAlbedo(roughness_, mu);
     const float lost = std::max(1 - albedo.full(), 0.0F);
-    const float back = kDielectricF0 * albedo.scale + albedo.offset + dielectricManyfold_ * lost;
+    const float back =
+        kDielectricReflectance * albedo.scale + albedo.offset + dielectricManyfold_ * lost;
     return {std::max(1 - back, 0.0F), lost};
 }
 
-Eigen::Vector3f SurfaceScatter::broad(float mu) const {
-    if (matt_) return diffuseFactor_ * mu;
-    const Passed in = passed(mu);
-    return diffuseFactor_ * (mu * in.diffuse * passedOut_.diffuse) +
-           manyfoldFactor_ * (mu * in.manyfold * passedOut_.manyfold);
-}
-
-ScatterValue SurfaceScatter::evaluate(const Eigen::Vector3f& wi) const {
+ScatterValue SurfaceScatter::evaluate(const Eigen::Vector3f& wi, Lobes lobes) const {
     if (!(wi.z() > kLeastCosine)) return {};
-    ScatterValue out{broad(wi.z()), wi.z() * kInversePi};
-    if (matt_) return out;
+    const float mu = wi.z();
+    const float even = kInversePi * mu;
+    if (matt_) return {diffuseColour_ * even, even, even};
+    ScatterValue out;
+    out.density = even;
+    if (lobes != Lobes::Mirrored) {
+        const Passed in = passed(mu);
+        out.white = whiteFactor_ * (mu * in.diffuse * passedOut_.diffuse);
+        out.value =
+            diffuseColour_ * out.white + manyfoldFactor_ * (mu * in.manyfold * passedOut_.manyfold);
+        if (lobes == Lobes::Broad) return out;
+    }
     const Eigen::Vector3f h = (wo_ + wi).normalized();
     const float density = ggx_.density(h);
     out.value += fresnel(wo_.dot(h)) * (density * ggx_.visibility(wo_.z(), wi.z()) * wi.z());
     const float mirrored = density * ggx_.masking(wo_.z()) / (4 * wo_.z());
-    out.density += specularShare_ * (mirrored - out.density);
+    out.density += shareOf(lobes) * (mirrored - out.density);
     return out;
 }
 
-ScatterSample SurfaceScatter::sample(const Eigen::Vector2f& u) const {
+float SurfaceScatter::shareOf(Lobes lobes) const {
+    if (matt_ || lobes == Lobes::Broad) return 0;
+    return lobes == Lobes::Mirrored ? 1 : specularShare_;
+}
+
+ScatterSample SurfaceScatter::sample(const Eigen::Vector2f& u, Lobes lobes) const {
     ScatterSample out;
-    if (matt_ || u.x() >= specularShare_) {
-        const float x = matt_ ? u.x() : (u.x() - specularShare_) / (1 - specularShare_);
+    const float share = shareOf(lobes);
+    if (u.x() >= share) {
+        const float x = (u.x() - share) / (1 - share);
         out.wi = cosineDirection({std::min(x, 1 - 0x1p-24F), u.y()});
     } else {
-        const Eigen::Vector3f h = ggx_.sampleNormal(wo_, {u.x() / specularShare_, u.y()});
+        const Eigen::Vector3f h = ggx_.sampleNormal(wo_, {u.x() / share, u.y()});
         out.wi = (2 * wo_.dot(h) * h - wo_).normalized();
     }
-    const ScatterValue f = evaluate(out.wi);
+    const ScatterValue f = evaluate(out.wi, lobes);
     if (!(f.density > 0)) return out;
     out.density = f.density;
     out.weight = f.value / f.density;
+    out.white = f.white / f.density;
     return out;
 }
 

@@ -15,13 +15,26 @@ struct SurfaceLook {
 
 struct ScatterValue {
     Eigen::Vector3f value{0, 0, 0};  ///< reflectance distribution times cosine of wi [1/sr]
+    float white = 0;                 ///< its diffuse part, divided by Paint::diffuse() [1/sr]
     float density = 0;               ///< of SurfaceScatter::sample() [1/sr]
 };
 
 struct ScatterSample {
     Eigen::Vector3f wi{0, 0, 1};
     Eigen::Vector3f weight{0, 0, 0};  ///< value / density
+    float white = 0;                  ///< the value's / density
     float density = 0;                ///< 0: nothing goes anywhere
+};
+
+/// The parts of a reflection: what is scattered widely, and the lobe about the mirrored direction.
+enum class Lobes { Both, Broad, Mirrored };
+
+/// Shares of light that a surface sends to the eye: of even light over the hemisphere, and of that
+/// in the mirrored lobe.
+struct Reflectance {
+    float white = 1;                    ///< of even light, before the diffuse paint
+    Eigen::Vector3f manyfold{0, 0, 0};  ///< of even light, by several reflections
+    Eigen::Vector3f mirrored{0, 0, 0};
 };
 
 /// Reflection of glTF's metallic-roughness material seen from one direction: GGX with Schlick's
@@ -33,8 +46,12 @@ class SurfaceScatter {
 public:
     SurfaceScatter(const SurfaceLook& look, const Eigen::Vector3f& wo);
 
-    [[nodiscard]] ScatterValue evaluate(const Eigen::Vector3f& wi) const;
-    [[nodiscard]] ScatterSample sample(const Eigen::Vector2f& u) const;
+    /// The density is that of samples of these lobes.
+    [[nodiscard]] ScatterValue evaluate(const Eigen::Vector3f& wi, Lobes lobes = Lobes::Both) const;
+    [[nodiscard]] ScatterSample sample(const Eigen::Vector2f& u, Lobes lobes = Lobes::Both) const;
+    [[nodiscard]] const Reflectance& reflectance() const { return reflectance_; }
+    /// Of light in any colour; the paint of white().
+    [[nodiscard]] const Eigen::Vector3f& diffuseColour() const { return diffuseColour_; }
 
 private:
     /// What a first reflection at cosine mu leaves to the broad lobes.
@@ -44,16 +61,19 @@ private:
     };
     [[nodiscard]] Passed passed(float mu) const;
     [[nodiscard]] Eigen::Vector3f fresnel(float cosH) const;
-    [[nodiscard]] Eigen::Vector3f broad(float mu) const;
+    /// Of the samples, that go into the mirrored lobe.
+    [[nodiscard]] float shareOf(Lobes lobes) const;
 
     Eigen::Vector3f wo_;
     bool matt_;
     float roughness_;
     Ggx ggx_;
     Eigen::Vector3f f0_{0, 0, 0};
-    Eigen::Vector3f manyfoldFactor_{0, 0, 0}, diffuseFactor_{0, 0, 0};
+    Eigen::Vector3f manyfoldFactor_{0, 0, 0}, diffuseColour_{0, 0, 0};
+    float whiteFactor_ = 0;
     float dielectricManyfold_ = 0;  // share that a dielectric sends back of what hits it again
     Passed passedOut_;
+    Reflectance reflectance_;
     float specularShare_ = 0;  // of the samples
 };
 

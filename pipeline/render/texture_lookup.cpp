@@ -1,6 +1,6 @@
 #include "pipeline/render/texture_lookup.h"
 
-#include "pipeline/render/exposure.h"
+#include "base/srgb.h"
 
 #include <array>
 #include <cmath>
@@ -10,23 +10,13 @@ namespace {
 
 constexpr float kTexelSteps = 255;
 
-const std::array<float, 256>& decodedLevels() {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> out{};
-        for (std::size_t i = 0; i < out.size(); ++i)
-            out[i] = srgbDecoded(static_cast<float>(i) / kTexelSteps);
-        return out;
-    }();
-    return table;
-}
-
 Eigen::Vector4f linearTexel(const SurfaceTexture& texture, int column, int row) {
     const auto& t =
         texture
             .texels[static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.size.width) +
                     static_cast<std::size_t>(column)];
     if (!texture.srgb) return Eigen::Vector4f(t[0], t[1], t[2], t[3]) / kTexelSteps;
-    const auto& decoded = decodedLevels();
+    const auto& decoded = linearOfSrgbByte();
     return {decoded[t[0]], decoded[t[1]], decoded[t[2]], static_cast<float>(t[3]) / kTexelSteps};
 }
 

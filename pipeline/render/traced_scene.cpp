@@ -44,6 +44,11 @@ Eigen::Vector3f shownTowards(const Eigen::Vector3f& normal, const Eigen::Vector3
 
 }  // namespace
 
+Paint SurfacePoint::paint(const Eigen::Vector3f& direction) const {
+    const float cosine = std::clamp(-shading.dot(direction.normalized()), 0.0F, 1.0F);
+    return paintOf(look.baseColour, look.metallic, specularAlbedo(look.roughness, cosine));
+}
+
 Ray SurfacePoint::leaving(const Eigen::Vector3f& direction) const {
     const float offset = std::max(kStartOffset * position.cwiseAbs().maxCoeff(), kLeastOffset);
     return {position + geometric * (geometric.dot(direction) < 0 ? -offset : offset), direction};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pipeline/render/paint.h"
 #include "pipeline/render/ray_scene.h"
 #include "pipeline/render/surface_scatter.h"
 #include "pipeline/scene/scene.h"
@@ -17,6 +18,8 @@ struct SurfacePoint {
     SurfaceLook look;
     Eigen::Vector3f emission{0, 0, 0};
 
+    /// As seen along `direction`, of any length.
+    [[nodiscard]] Paint paint(const Eigen::Vector3f& direction) const;
     /// Where a ray towards `direction` starts: beside the surface by what rounding may be off.
     [[nodiscard]] Ray leaving(const Eigen::Vector3f& direction) const;
 };

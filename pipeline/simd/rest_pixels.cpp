@@ -1,5 +1,6 @@
 #include "pipeline/simd/rest_pixels.h"
 
+#include "base/srgb.h"
 #include "pipeline/render/rendered_picture.h"
 #include "pipeline/simd/surface_raster.h"
 #include "pipeline/warp/pass_params.h"
@@ -57,9 +58,29 @@ Point3 scaled(float by, const Point3& p) {
     return {by * p.x, by * p.y, by * p.z};
 }
 
+/// A channel [0, 255] of a painted surface in sums of light; the last one is its coverage.
+float lit(const PaintWords& paint, std::size_t channel, const UnpackedLight& light, float weights) {
+    if (channel == 3) return 255;
+    const auto linear = [channel](std::uint32_t word) {
+        return srgbDecoded(static_cast<float>(word >> 8 * channel & 0xFFU) / 255);
+    };
+    const float facing = linear(paint.facing), veil = light.veil / weights;
+    const float sent = linear(paint.diffuse) * light.diffuse[channel] +
+                       (facing + veil * (1 - facing)) * light.specular[channel];
+    return 255 * srgbEncoded(sent / weights);
+}
+
 std::uint32_t byteOf(float value) {
     const float above = std::clamp(value, 0.0F, 255.0F) + 0.5F;
     return static_cast<std::uint32_t>(above);
+}
+
+/// The share of objects.
+float coveredOf(const Quarters& quarters) {
+    float out = 0;
+    for (const std::uint32_t quarter : quarters)
+        out += numberOf(quarter) != 0 && numberOf(quarter) != kCatcherNumber ? 0.25F : 0;
+    return out;
 }
 
 }  // namespace
@@ -67,9 +88,13 @@ std::uint32_t byteOf(float value) {
 RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
                        const ViewLookUpInput& plain, const LensProjection& layer,
                        const RigidTransform& T_world_camera)
-    : plain_(plain), layerLens_(pointLensOf(layer)),
-      reference_{reference.surface, reference.colour, reference.camera.size,
-                 plain.toReference, &plain_.lens,     1} {
+    : plain_(plain), layerLens_(pointLensOf(layer)), reference_{reference.surface,
+                                                                reference.colour,
+                                                                reference.light,
+                                                                reference.camera.size,
+                                                                plain.toReference,
+                                                                &plain_.lens,
+                                                                1} {
     // By their places in the store: of equal shares the first is shown.
     std::array<const PatchPictures::Patch*, PatchPictures::kPatches> bySlot{};
     for (const PatchPictures::Patch& patch : input.patches.patches())
@@ -79,9 +104,13 @@ RestPixels::RestPixels(const ViewLookUp::Input& input, const WarpReference& refe
         const PatchStore::Picture& picture = input.store[patch->slot];
         if (picture.surfaces.empty()) continue;
         patches_[static_cast<std::size_t>(patchCount_++)] = {
-            picture.surfaces,  picture.colours,
-            layer.camera.size, pointTransformOf(patch->T_world_camera.inverse() * T_world_camera),
-            &layerLens_,       static_cast<float>(patch->share)};
+            picture.surfaces,
+            picture.colours,
+            picture.lights,
+            layer.camera.size,
+            pointTransformOf(patch->T_world_camera.inverse() * T_world_camera),
+            &layerLens_,
+            static_cast<float>(patch->share)};
     }
 }
 
@@ -97,41 +126,48 @@ bool RestPixels::inView(const View& view, const Point3& point, Point3& at) {
 
 /// Bilinear in those of the four texels around that show the same surface. False: too little of it
 /// is there. To the catcher, nothing at all is a surface without a shadow.
-bool RestPixels::lookUp(const View& view, const Point3& at, float id, Colour& found) {
+bool RestPixels::lookUp(const View& view, const Point3& at, const Wanted& wanted, Colour& found) {
     const float lowX = std::floor(at.x), lowY = std::floor(at.y);
     const float fx = at.x - lowX, fy = at.y - lowY;
     const int x0 = static_cast<int>(lowX), y0 = static_cast<int>(lowY);
+    const bool isLit = !view.lights.empty() && wanted.id != kCatcherId;
     Colour sum;
+    UnpackedLight light;
     float weights = 0;
     for (int i = 0; i < 4; ++i) {
         const int right = i & 1, down = i >> 1, x = x0 + right, y = y0 + down;
         if (x < 0 || y < 0 || x >= view.size.width || y >= view.size.height) continue;
         const std::size_t t = static_cast<std::size_t>(y) * view.size.width + x;
         const WarpSurface& s = view.surfaces[t];
-        const bool same =
-            s.id == id ? std::abs(s.z - at.z) < s.tolerance : s.id == 0 && id == kCatcherId;
+        const bool same = s.id == wanted.id ? std::abs(s.z - at.z) < s.tolerance
+                                            : s.id == 0 && wanted.id == kCatcherId;
         if (!same || !(s.known > 0.5F)) continue;
         const float w = (right != 0 ? fx : 1 - fx) * (down != 0 ? fy : 1 - fy);
         weights += w;
-        for (std::size_t c = 0; c < 4; ++c)
-            sum.rgba[c] += w * static_cast<float>(view.colours[t][c]);
+        if (isLit) {
+            addShare(light, w, unpackedWords(view.lights[t]));
+        } else {
+            for (std::size_t c = 0; c < 4; ++c)
+                sum.rgba[c] += w * static_cast<float>(view.colours[t][c]);
+        }
     }
     if (!(weights > params::kLeastLookUpWeight)) return false;
     for (std::size_t c = 0; c < 4; ++c)
-        found.rgba[c] = sum.rgba[c] / weights;
+        found.rgba[c] = isLit ? lit(wanted.paint, c, light, weights) : sum.rgba[c] / weights;
     return true;
 }
 
-/// How much of the colour of the surface at `point` is known.
-float RestPixels::known(const Point3& point, float id, Colour& found) const {
+/// How much of the colour of the surface is known.
+float RestPixels::known(const Wanted& wanted, Colour& found) const {
     Point3 at;
-    const bool inReference = inView(reference_, point, at);
-    if (inReference && lookUp(reference_, at, id, found)) return 1;
+    const bool inReference = inView(reference_, wanted.point, at);
+    if (inReference && lookUp(reference_, at, wanted, found)) return 1;
     float share = 0;  // that of the patch shown most: one that fades in takes nothing away
     for (int i = 0; i < patchCount_; ++i) {
         const View& patch = patches_[static_cast<std::size_t>(i)];
         Colour own;
-        if (patch.share <= share || !inView(patch, point, at) || !lookUp(patch, at, id, own))
+        if (patch.share <= share || !inView(patch, wanted.point, at) ||
+            !lookUp(patch, at, wanted, own))
             continue;
         share = patch.share;
         found = own;
@@ -139,18 +175,22 @@ float RestPixels::known(const Point3& point, float id, Colour& found) const {
     if (share > 0) return share;
     // Of the catcher, nothing is known beyond the reference, and nothing is missed.
     found = {};
-    return id == kCatcherId && !inView(reference_, point, at) ? 1.0F : 0.0F;
+    return wanted.id == kCatcherId && !inView(reference_, wanted.point, at) ? 1.0F : 0.0F;
 }
 
-RestPixel RestPixels::at(const std::uint32_t* upper, const std::uint32_t* lower, float rayX,
-                         float rayY) const {
-    const Quarters s{upper[0], upper[1], lower[0], lower[1]};
+bool RestPixels::needsPaint() const {
+    const std::span patches(patches_.data(), static_cast<std::size_t>(patchCount_));
+    return !reference_.lights.empty() ||
+           std::ranges::any_of(patches, [](const View& v) { return !v.lights.empty(); });
+}
+
+RestPixel RestPixels::at(const Asked& asked) const {
+    const float rayX = asked.rayX, rayY = asked.rayY;
+    const Quarters s{asked.upper[0], asked.upper[1], asked.lower[0], asked.lower[1]};
     const std::uint32_t id = mostOf(s);
     const Point3 object = middleOf(s, id);
     Point3 catcher = middleOf(s, kCatcherNumber);
-    float covered = 0;
-    for (const std::uint32_t quarter : s)
-        covered += numberOf(quarter) != 0 && numberOf(quarter) != kCatcherNumber ? 0.25F : 0;
+    const float covered = coveredOf(s);
     if (catcher.z == 0) catcher.z = plain_.plane.depthAlong(rayX, rayY, layerLens_.nearest);
     const float below = catcher.z > 0 ? 1 - covered : 0;
     const auto pointAt = [&](const Point3& middle) {
@@ -159,8 +199,9 @@ RestPixel RestPixels::at(const std::uint32_t* upper, const std::uint32_t* lower,
     };
     const Point3 point = pointAt(object), under = pointAt(catcher);
     Colour ofObject, ofCatcher;
-    const float objectKnown = covered > 0 ? known(point, static_cast<float>(id), ofObject) : 1;
-    const float catcherKnown = below > 0 ? known(under, kCatcherId, ofCatcher) : 1;
+    const float objectKnown =
+        covered > 0 ? known({point, static_cast<float>(id), asked.paint}, ofObject) : 1;
+    const float catcherKnown = below > 0 ? known({under, kCatcherId, 0}, ofCatcher) : 1;
     RestPixel out{};
     for (std::size_t c = 0; c < 4; ++c) {
         const float shown =

@@ -26,9 +26,15 @@ public:
                const ViewLookUpInput& plain, const LensProjection& layer,
                const RigidTransform& T_world_camera);
 
-    /// `upper`, `lower`: two words each.
-    [[nodiscard]] RestPixel at(const std::uint32_t* upper, const std::uint32_t* lower, float rayX,
-                               float rayY) const;
+    /// A pixel of the layer.
+    struct Asked {
+        const std::uint32_t *upper, *lower;  ///< two words each
+        float rayX, rayY;
+        PaintWords paint;
+    };
+    [[nodiscard]] RestPixel at(const Asked& asked) const;
+    /// Some picture knows light without paint.
+    [[nodiscard]] bool needsPaint() const;
 
 private:
     struct Colour {
@@ -38,6 +44,7 @@ private:
     struct View {
         std::span<const WarpSurface> surfaces;
         std::span<const std::array<std::uint8_t, 4>> colours;
+        std::span<const LightWords> lights;  ///< empty: colours alone are known
         Size size;
         PointTransform fromCamera;
         const PointLens* lens;
@@ -45,8 +52,14 @@ private:
     };
 
     static bool inView(const View& view, const Point3& point, Point3& at);
-    static bool lookUp(const View& view, const Point3& at, float id, Colour& found);
-    float known(const Point3& point, float id, Colour& found) const;
+    /// What of a surface is asked for.
+    struct Wanted {
+        Point3 point;
+        float id;
+        PaintWords paint;
+    };
+    static bool lookUp(const View& view, const Point3& at, const Wanted& wanted, Colour& found);
+    float known(const Wanted& wanted, Colour& found) const;
 
     const ViewLookUpInput& plain_;
     PointLens layerLens_;

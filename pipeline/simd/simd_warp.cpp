@@ -49,6 +49,7 @@ public:
         picture_ = copied<std::uint32_t>(reference.camera.size, reference.picture.data());
         depth_ = copied<float>(reference.camera.size, reference.depth.data());
     }
+    bool takesLight() const override { return true; }
     LayerPicture& reference() override {
         rendered_.colour.writtenOnHost(picture_.rows());
         rendered_.depth.writtenOnHost(depth_.rows());
@@ -61,8 +62,7 @@ public:
         if (!(around(drawn_, where) == where)) lookUp_.clear(drawn_);
         drawn_ = where;
         raster_.draw(frame.T_world_camera, where);
-        const ViewLookUp::Input input{raster_.surface(), patches_, store_,
-                                      raster_.models().plane()};
+        const ViewLookUp::Input input{raster_, patches_, store_, raster_.models().plane()};
         lookUp_.run(input, frame.T_world_camera, where);
         pyramid_.fill({lookUp_.colour(), lookUp_.state(), where}, lookUp_.holes(),
                       pushPulls(options_.filling));

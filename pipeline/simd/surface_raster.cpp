@@ -59,7 +59,7 @@ SurfaceRaster::Part::Part(const SilhouetteModels::Part& from)
 
 SurfaceRaster::SurfaceRaster(const CameraModel& layer, std::shared_ptr<Workers> workers)
     : models_(layer), lens_(pointLensOf(models_.lens())), workers_(std::move(workers)),
-      words_({2 * layer.size.width, 2 * layer.size.height}) {}
+      words_({2 * layer.size.width, 2 * layer.size.height}), indices_(words_.size()) {}
 
 void SurfaceRaster::setScene(const Scene& scene) {
     models_.setScene(scene);
@@ -67,6 +67,8 @@ void SurfaceRaster::setScene(const Scene& scene) {
     placed_.clear();
     chunks_.clear();
     batches_.clear();
+    paint_.set(models_.objects());
+    paintTriangles_.clear();
     const auto add = [&](const SilhouetteModels::Object& object, std::uint32_t word) {
         const auto [at, isNew] = parts_.try_emplace(object.shape);
         if (const auto kept = before.find(object.shape); isNew && kept != before.end())
@@ -82,14 +84,37 @@ void SurfaceRaster::setScene(const Scene& scene) {
     if (models_.catcher()) add(*models_.catcher(), kCatcherId | kBehindObjects);
 }
 
+void SurfaceRaster::paintRow(int y, int x0, int x1, PaintWords* out) const {
+    PaintInput input = paint_.input();
+    input.triangles = paintTriangles_.data();
+    const std::ptrdiff_t first = 2L * x0;
+    simd::paintRow({x0, y, x1 - x0, words_[2 * y] + first, words_[2 * y + 1] + first,
+                    indices_[2 * y] + first, indices_[2 * y + 1] + first, out},
+                   input);
+}
+
 void SurfaceRaster::place(const SilhouetteModels::Object& object, std::uint32_t word,
                           const Parts& parts) {
     for (const std::shared_ptr<const Part>& part : parts) {
         const Size corners = part->corners.size();
-        placed_.push_back({&object, word, part, AlignedRows<float>(corners), {}, false});
+        const std::size_t triangles = part->source->mesh.triangles.size();
+        placed_.push_back({&object,
+                           word,
+                           part,
+                           AlignedRows<float>(corners),
+                           {},
+                           false,
+                           static_cast<std::uint32_t>(paintTriangles_.size())});
+        if (part->source->material != nullptr) {
+            const PaintTextures::Material& m = paint_.of(*part->source);
+            PaintTriangle paint{};
+            paint.size = m.size;
+            paint.levels = m.levels;
+            paint.material = m.material;
+            paintTriangles_.insert(paintTriangles_.end(), triangles, paint);
+        }
         for (int i = 0; i < corners.width; i += kCornersAtATime)
             chunks_.push_back({&placed_.back(), i, std::min(kCornersAtATime, corners.width - i)});
-        const std::size_t triangles = part->source->mesh.triangles.size();
         for (std::size_t i = 0; i < triangles; i += kBatch)
             batches_.push_back({&placed_.back(), i, std::min(i + kBatch, triangles), {}, {}});
     }
@@ -129,6 +154,7 @@ void SurfaceRaster::draw(const RigidTransform& T_world_camera, const PixelRect& 
     forRange(bands, 1, [&](int i, int end) {
         for (; i < end; ++i)
             drawBand({words_.rows(),
+                      indices_.rows(),
                       {grid_.x0, grid_.y0 + rows * i / bands, grid_.x1,
                        grid_.y0 + rows * (i + 1) / bands}});
     });
@@ -143,18 +169,18 @@ void SurfaceRaster::drawBand(const RasterBand& band) const {
     finishBand(band);
 }
 
-void SurfaceRaster::makeReady(Batch& batch) const {
+void SurfaceRaster::makeReady(Batch& batch) {
     batch.triangles.clear();
     batch.masked.clear();
     if (!batch.placed->isInView) return;
-    const std::span triangles(batch.placed->part->source->mesh.triangles);
-    for (const auto& corners : triangles.subspan(batch.first, batch.last - batch.first))
-        addSeen(batch, corners);
+    for (std::size_t i = batch.first; i < batch.last; ++i)
+        addSeen(batch, i);
 }
 
-void SurfaceRaster::addSeen(Batch& batch, const std::array<std::uint32_t, 3>& corners) const {
+void SurfaceRaster::addSeen(Batch& batch, std::size_t triangle) {
     const AlignedRows<float>& seen = batch.placed->seen;
     const SurfaceMesh& mesh = batch.placed->part->source->mesh;
+    const auto& corners = mesh.triangles[triangle];
     RasterCorner c[3];
     int behind = 0, simple = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -166,33 +192,51 @@ void SurfaceRaster::addSeen(Batch& batch, const std::array<std::uint32_t, 3>& co
         c[i] = {x, y, 1 / z, uv[0] / z, uv[1] / z};
     }
     if (behind == 3) return;
-    if (simple == 3)
-        addTriangle(batch, c);
-    else
-        addClipped(batch, corners);
+    if (simple < 3) {
+        addClipped(batch, triangle);
+        return;
+    }
+    const auto index = batch.placed->firstTriangle + static_cast<std::uint32_t>(triangle);
+    if (addTriangle(batch, c, index)) setPaint(*batch.placed, c, index);
 }
 
-void SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3]) const {
+/// False: nothing of it is seen.
+bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
+                                std::uint32_t index) const {
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
     if (!(left < static_cast<float>(grid_.x1)) || !(right > static_cast<float>(grid_.x0)) ||
         !(top < static_cast<float>(grid_.y1)) || !(bottom > static_cast<float>(grid_.y0)))
-        return;
+        return false;
     const SilhouetteModels::Part& part = *batch.placed->part->source;
     // Clockwise in a picture whose first row is on top: what faces away.
     if (!part.bothSides &&
         (c[1].x - c[0].x) * (c[2].y - c[0].y) >= (c[2].x - c[0].x) * (c[1].y - c[0].y))
-        return;
-    const std::uint32_t word = batch.placed->word;
+        return false;
+    const RasterName name{batch.placed->word, index};
     if (part.alpha == nullptr) {
         RasterTriangle triangle;
-        if (makeTriangle(c, word, triangle)) batch.triangles.push_back(triangle);
-        return;
+        if (!makeTriangle(c, name, triangle)) return false;
+        batch.triangles.push_back(triangle);
+        return true;
     }
     MaskedTriangle triangle;
     const SurfaceTexture& alpha = *part.alpha;
-    if (makeMasked(c, word, {alpha.texels.front().data(), alpha.size, part.cutoff}, triangle))
-        batch.masked.push_back(triangle);
+    if (!makeMasked(c, name, {alpha.texels.front().data(), alpha.size, part.cutoff}, triangle))
+        return false;
+    batch.masked.push_back(triangle);
+    return true;
+}
+
+/// Of the triangle, or of a piece of it: its planes are the same.
+void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
+                             std::uint32_t index) {
+    if (placed.part->source->material == nullptr) return;  // the catcher
+    PaintTriangle& paint = paintTriangles_[index];
+    const float area = doubleArea(c);
+    paint.perZ = planeThrough(c, {c[0].perZ, c[1].perZ, c[2].perZ}, area);
+    paint.u = planeThrough(c, {c[0].u, c[1].u, c[2].u}, area);
+    paint.v = planeThrough(c, {c[0].v, c[1].v, c[2].v}, area);
 }
 
 namespace {
@@ -225,8 +269,9 @@ std::vector<ClipCorner> clipped(const std::vector<ClipCorner>& polygon, const In
 
 }  // namespace
 
-void SurfaceRaster::addClipped(Batch& batch, const std::array<std::uint32_t, 3>& corners) const {
+void SurfaceRaster::addClipped(Batch& batch, std::size_t triangle) {
     const SurfaceMesh& mesh = batch.placed->part->source->mesh;
+    const auto& corners = mesh.triangles[triangle];
     std::vector<ClipCorner> polygon;
     for (const std::uint32_t at : corners) {
         const SurfaceVertex& v = mesh.vertices[at];
@@ -243,8 +288,16 @@ void SurfaceRaster::addClipped(Batch& batch, const std::array<std::uint32_t, 3>&
     const auto corner = [](const ClipCorner& c) {
         return RasterCorner{c.x / c.w, c.y / c.w, 1 / c.w, c.u / c.w, c.v / c.w};
     };
-    for (std::size_t i = 2; i < polygon.size(); ++i)
-        addTriangle(batch, {corner(polygon[0]), corner(polygon[i - 1]), corner(polygon[i])});
+    const auto index = batch.placed->firstTriangle + static_cast<std::uint32_t>(triangle);
+    float largest = 0;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+        const RasterCorner piece[3] = {corner(polygon[0]), corner(polygon[i - 1]),
+                                       corner(polygon[i])};
+        const float area = std::abs(doubleArea(piece));
+        if (!addTriangle(batch, piece, index) || !(area > largest)) continue;
+        largest = area;
+        setPaint(*batch.placed, piece, index);
+    }
 }
 
 }  // namespace mfar::simd

@@ -2,6 +2,7 @@
 
 #include "base/rows.h"
 #include "base/workers.h"
+#include "pipeline/simd/paint_textures.h"
 #include "pipeline/simd/surface_rows.h"
 #include "pipeline/warp/silhouette_models.h"
 
@@ -17,8 +18,8 @@ namespace mfar::simd {
 
 /// What of the virtual scene a camera sees now: the models and, below them, the real surface that
 /// catches their shadows, rasterised at twice the layer's resolution, so that a pixel is covered by
-/// quarters. The lens's distortion acts on the corners. No light, no colours. ModelSilhouette on
-/// the host's lanes.
+/// quarters. The lens's distortion acts on the corners. No light; what the surfaces are painted
+/// with is looked up on demand. ModelSilhouette on the host's lanes.
 class SurfaceRaster {
 public:
     /// `layer`: the camera at the layer's resolution. Null workers: in the caller's thread alone.
@@ -32,6 +33,11 @@ public:
     /// Twice the layer's size: z and number, packed as warp_surface.glsl says; 0 = nothing. The
     /// catcher's number is seen only where no object is, nearer or not.
     [[nodiscard]] Rows<const std::uint32_t> surface() const { return words_.rows(); }
+    /// The paint of layer pixels `x0` to `x1` of row `y`, within what was drawn: factor times
+    /// texture over the pixel's footprint, averaged in linear light, as bytes of sRGB; 0 where no
+    /// object is. Of several objects in a pixel it is that of the one with most quarters, as
+    /// RestPixels looks it up. Writes up to 7 words beyond. From any thread.
+    void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:
     /// A part's corners in rows: x, y, z [m].
@@ -50,6 +56,7 @@ private:
         AlignedRows<float> seen;  // corners on the grid
         PointTransform view{};
         bool isInView = false;
+        std::uint32_t firstTriangle = 0;  // among paintTriangles_
     };
     struct Chunk {
         Placed* placed;
@@ -64,10 +71,11 @@ private:
     };
 
     void place(const SilhouetteModels::Object& object, std::uint32_t word, const Parts& parts);
-    void makeReady(Batch& batch) const;
-    void addSeen(Batch& batch, const std::array<std::uint32_t, 3>& corners) const;
-    void addClipped(Batch& batch, const std::array<std::uint32_t, 3>& corners) const;
-    void addTriangle(Batch& batch, const RasterCorner (&corners)[3]) const;
+    void makeReady(Batch& batch);
+    void addSeen(Batch& batch, std::size_t triangle);
+    void addClipped(Batch& batch, std::size_t triangle);
+    bool addTriangle(Batch& batch, const RasterCorner (&corners)[3], std::uint32_t index) const;
+    void setPaint(const Placed& placed, const RasterCorner (&corners)[3], std::uint32_t index);
     void drawBand(const RasterBand& band) const;
     void forRange(int end, int grain, const std::function<void(int, int)>& body) const;
 
@@ -79,7 +87,9 @@ private:
     std::vector<Chunk> chunks_;
     std::vector<Batch> batches_;
     PixelRect grid_;  // that is drawn
-    AlignedRows<std::uint32_t> words_;
+    AlignedRows<std::uint32_t> words_, indices_;
+    PaintTextures paint_;
+    std::vector<PaintTriangle> paintTriangles_;  // of all objects
 };
 
 [[nodiscard]] PointLens pointLensOf(const LensProjection& lens);

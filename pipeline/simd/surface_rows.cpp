@@ -62,7 +62,7 @@ void DrawTriangles(const RasterTriangle* triangles, std::size_t count, const Ras
         const int last = std::min(t.lastRow, band.where.y1);
         for (int row = std::max(t.firstRow, band.where.y0); row < last; ++row) {
             const Columns columns = ColumnsAt(t, row, band.where);
-            std::uint32_t* words = band.words[row];
+            std::uint32_t *words = band.words[row], *indices = band.indices[row];
             const float first = t.perZ.first + static_cast<float>(row) * t.perZ.perY;
             for (int x = columns.first; x < columns.last; x += lanes) {
                 const auto at = hn::Add(iota, hn::Set(d, static_cast<float>(x)));
@@ -71,12 +71,14 @@ void DrawTriangles(const RasterTriangle* triangles, std::size_t count, const Ras
                 const auto z = hn::BitCast(du, hn::Div(hn::Set(d, 1), perZ));
                 const auto word = hn::Or(hn::And(hn::Add(z, half), upper), hn::Set(du, t.word));
                 const auto before = hn::LoadU(du, words + x);
-                const auto nearer = hn::Min(before, word);
+                auto nearer = hn::Lt(word, before);
                 const auto left = static_cast<std::size_t>(columns.last - x);
-                if (left >= static_cast<std::size_t>(lanes))
-                    hn::StoreU(nearer, du, words + x);
-                else
-                    hn::StoreU(hn::IfThenElse(hn::FirstN(du, left), nearer, before), du, words + x);
+                if (left < static_cast<std::size_t>(lanes))
+                    nearer = hn::And(nearer, hn::FirstN(du, left));
+                if (hn::AllFalse(du, nearer)) continue;
+                hn::StoreU(hn::IfThenElse(nearer, word, before), du, words + x);
+                const auto other = hn::LoadU(du, indices + x);
+                hn::StoreU(hn::IfThenElse(nearer, hn::Set(du, t.index), other), du, indices + x);
             }
         }
     }
@@ -106,8 +108,10 @@ void DrawMasked(const MaskedTriangle* triangles, std::size_t count, const Raster
                 const float alpha = static_cast<float>(m.mask.rgba[4 * texel + 3]) / 255;
                 if (!(alpha >= m.mask.cutoff)) continue;
                 const auto z = std::bit_cast<std::uint32_t>(1 / perZ);
-                std::uint32_t& word = band.words[row][x];
-                word = std::min(word, ((z + 0x80) & 0xFFFFFF00U) | t.word);
+                const std::uint32_t word = ((z + 0x80) & 0xFFFFFF00U) | t.word;
+                if (word >= band.words[row][x]) continue;
+                band.words[row][x] = word;
+                band.indices[row][x] = t.index;
             }
         }
     }
@@ -139,21 +143,6 @@ HWY_EXPORT(FinishBand);
 
 namespace {
 
-/// Of values at three corners.
-RasterPlane planeThrough(const RasterCorner (&c)[3], const float (&value)[3], float area) {
-    const float x1 = c[1].x - c[0].x, y1 = c[1].y - c[0].y, x2 = c[2].x - c[0].x,
-                y2 = c[2].y - c[0].y, v1 = value[1] - value[0], v2 = value[2] - value[0];
-    RasterPlane out;
-    out.perX = (v1 * y2 - v2 * y1) / area;
-    out.perY = (v2 * x1 - v1 * x2) / area;
-    out.first = value[0] + (0.5F - c[0].x) * out.perX + (0.5F - c[0].y) * out.perY;
-    return out;
-}
-
-float areaOf(const RasterCorner (&c)[3]) {
-    return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
-}
-
 int firstRowFrom(float y) {
     return static_cast<int>(std::ceil(y - 0.5F));
 }
@@ -165,8 +154,22 @@ void projectCorners(const MeshRows& mesh, int count, const PointTransform& view,
     HWY_DYNAMIC_DISPATCH(ProjectCorners)(mesh, count, view, lens, out);
 }
 
-bool makeTriangle(const RasterCorner (&corners)[3], std::uint32_t word, RasterTriangle& out) {
-    const float area = areaOf(corners);
+RasterPlane planeThrough(const RasterCorner (&c)[3], const float (&value)[3], float doubleArea) {
+    const float x1 = c[1].x - c[0].x, y1 = c[1].y - c[0].y, x2 = c[2].x - c[0].x,
+                y2 = c[2].y - c[0].y, v1 = value[1] - value[0], v2 = value[2] - value[0];
+    RasterPlane out;
+    out.perX = (v1 * y2 - v2 * y1) / doubleArea;
+    out.perY = (v2 * x1 - v1 * x2) / doubleArea;
+    out.first = value[0] + (0.5F - c[0].x) * out.perX + (0.5F - c[0].y) * out.perY;
+    return out;
+}
+
+float doubleArea(const RasterCorner (&c)[3]) {
+    return (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
+}
+
+bool makeTriangle(const RasterCorner (&corners)[3], const RasterName& name, RasterTriangle& out) {
+    const float area = doubleArea(corners);
     if (!(std::abs(area) > 0)) return false;
     const RasterCorner *a = &corners[0], *b = &corners[1], *c = &corners[2];
     if (b->y < a->y) std::swap(a, b);
@@ -191,14 +194,15 @@ bool makeTriangle(const RasterCorner (&corners)[3], std::uint32_t word, RasterTr
     const auto [least, most] = std::minmax({corners[0].perZ, corners[1].perZ, corners[2].perZ});
     out.leastPerZ = least;
     out.mostPerZ = most;
-    out.word = word;
+    out.word = name.word;
+    out.index = name.index;
     return true;
 }
 
-bool makeMasked(const RasterCorner (&corners)[3], std::uint32_t word, const RasterMask& mask,
+bool makeMasked(const RasterCorner (&corners)[3], const RasterName& name, const RasterMask& mask,
                 MaskedTriangle& out) {
-    if (!makeTriangle(corners, word, out.triangle)) return false;
-    const float area = areaOf(corners);
+    if (!makeTriangle(corners, name, out.triangle)) return false;
+    const float area = doubleArea(corners);
     out.u = planeThrough(corners, {corners[0].u, corners[1].u, corners[2].u}, area);
     out.v = planeThrough(corners, {corners[0].v, corners[1].v, corners[2].v}, area);
     out.mask = mask;

@@ -11,7 +11,8 @@
 namespace mfar::simd {
 
 // Rasterises surfaces into words of z and number, as warp_surface.glsl packs them: the upper 24
-// bits of z [m], the number of what is seen. Lesser words are nearer; no order of drawing matters.
+// bits of z [m], the number of what is seen. Lesser words are nearer; no order of drawing matters
+// to them. Beside each word is kept which triangle it is of: of equal words the one drawn first.
 
 inline constexpr std::uint32_t kNoSurface = 0xFFFFFFFF;
 /// Behind all words without it: z has no sign.
@@ -52,7 +53,8 @@ struct RasterTriangle {
     int firstRow, lastRow;  ///< rows whose centres it covers, last excluded
     RasterPlane perZ;
     float leastPerZ, mostPerZ;
-    std::uint32_t word;  ///< number, kBehindObjects
+    std::uint32_t word;   ///< number, kBehindObjects
+    std::uint32_t index;  ///< kept beside the word
     bool longIsLeft;
 };
 
@@ -68,16 +70,28 @@ struct MaskedTriangle {
     RasterMask mask;
 };
 
+/// How a triangle is called in the words and beside them.
+struct RasterName {
+    std::uint32_t word, index;  ///< as RasterTriangle
+};
+
 /// False: it covers no row's centre, or has no area.
-[[nodiscard]] bool makeTriangle(const RasterCorner (&corners)[3], std::uint32_t word,
+[[nodiscard]] bool makeTriangle(const RasterCorner (&corners)[3], const RasterName& name,
                                 RasterTriangle& out);
 /// The same with its mask.
-[[nodiscard]] bool makeMasked(const RasterCorner (&corners)[3], std::uint32_t word,
+[[nodiscard]] bool makeMasked(const RasterCorner (&corners)[3], const RasterName& name,
                               const RasterMask& mask, MaskedTriangle& out);
+
+/// Twice the area between corners on the grid, with a sign: below 0 what faces away.
+[[nodiscard]] float doubleArea(const RasterCorner (&corners)[3]);
+/// Through values at three corners.
+[[nodiscard]] RasterPlane planeThrough(const RasterCorner (&corners)[3], const float (&value)[3],
+                                       float doubleArea);
 
 /// Part of the grid that is drawn into: rows `where.y0` to `where.y1`, the same columns of each.
 struct RasterBand {
-    Rows<std::uint32_t> words;  ///< of the whole grid
+    Rows<std::uint32_t> words;    ///< of the whole grid
+    Rows<std::uint32_t> indices;  ///< the same; valid where there is a word
     PixelRect where;
 };
 void drawTriangles(std::span<const RasterTriangle> triangles, const RasterBand& band);

@@ -32,6 +32,10 @@ void PatchStore::store(const PatchPictures::StoredRows& rows) {
     picture.surfaces.resize(pixels);
     const std::size_t first = static_cast<std::size_t>(rows.firstRow) * layer_.width;
     std::ranges::copy(rows.colours, picture.colours.begin() + static_cast<std::ptrdiff_t>(first));
+    if (!rows.lights.empty()) {
+        picture.lights.resize(pixels);
+        std::ranges::copy(rows.lights, picture.lights.begin() + static_cast<std::ptrdiff_t>(first));
+    }
     std::ranges::copy(rows.surfaces, picture.surfaces.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
@@ -39,11 +43,12 @@ ViewLookUp::ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> wor
     : layer_(layer), workers_(std::move(workers)), rayX_(layer.camera.size),
       rayY_(layer.camera.size), depth_(layer.camera.size), colour_(layer.camera.size),
       state_(layer.camera.size),
-      left_(workers_ ? workers_->count() : 1,
-            [&] {
-                return std::vector<std::uint32_t>(
-                    static_cast<std::size_t>(layer.camera.size.width) + 16);
-            }),
+      scratch_(workers_ ? workers_->count() : 1,
+               [&] {
+                   const auto words = static_cast<std::size_t>(layer.camera.size.width) + 16;
+                   return Scratch{std::vector<std::uint32_t>(words),
+                                  std::vector<PaintWords>(words)};
+               }),
       rowHoles_(static_cast<std::size_t>(layer.camera.size.height)) {
     const Size size = layer.camera.size;
     for (int y = 0; y < size.height; ++y)
@@ -75,13 +80,14 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
         reference_->camera.size,
         reference_->packed.data(),
         reinterpret_cast<const std::uint32_t*>(reference_->colour.data()),
+        reference_->light.empty() ? nullptr : &reference_->light.front().diffuse,
         planeIn(input.plane, T_world_camera),
         1 - kShadowLift};
     const RestPixels rest(input, *reference_, plain, layer_, T_world_camera);
     const auto rows = [&](int y, int end) {
-        left_.with([&](std::vector<std::uint32_t>& left) {
+        scratch_.with([&](Scratch& scratch) {
             for (; y < end; ++y)
-                runRow(input, plain, rest, where, where.y0 + y, left);
+                runRow(input, plain, rest, where, where.y0 + y, scratch);
         });
     };
     if (workers_)
@@ -94,18 +100,23 @@ void ViewLookUp::run(const Input& input, const RigidTransform& T_world_camera,
 }
 
 void ViewLookUp::runRow(const Input& input, const ViewLookUpInput& plain, const RestPixels& rest,
-                        const PixelRect& where, int y, std::vector<std::uint32_t>& left) {
-    const std::uint32_t *upper = input.surface[2 * y], *lower = input.surface[2 * y + 1];
+                        const PixelRect& where, int y, Scratch& scratch) {
+    const Rows<const std::uint32_t> surface = input.raster.surface();
+    const std::uint32_t *upper = surface[2 * y], *lower = surface[2 * y + 1];
     const int x0 = where.x0, count = where.x1 - where.x0;
+    std::uint32_t* left = scratch.left.data();
+    PaintWords* paint = scratch.paint.data();
+    if (plain.lights != nullptr || rest.needsPaint()) input.raster.paintRow(y, x0, where.x1, paint);
     const int leftCount =
-        lookUpRow({count, upper + 2L * x0, lower + 2L * x0, rayX_[y] + x0, rayY_[y] + x0,
-                   colour_[y] + x0, depth_[y] + x0, state_[y] + x0, left.data()},
+        lookUpRow({count, upper + 2L * x0, lower + 2L * x0, paint, rayX_[y] + x0, rayY_[y] + x0,
+                   colour_[y] + x0, depth_[y] + x0, state_[y] + x0, left},
                   plain);
     std::vector<Hole>& holes = rowHoles_[static_cast<std::size_t>(y)];
     holes.clear();
     for (int i = 0; i < leftCount; ++i) {
-        const int x = x0 + static_cast<int>(left[static_cast<std::size_t>(i)]);
-        const RestPixel pixel = rest.at(upper + 2L * x, lower + 2L * x, rayX_[y][x], rayY_[y][x]);
+        const int x = x0 + static_cast<int>(left[i]);
+        const RestPixel pixel =
+            rest.at({upper + 2L * x, lower + 2L * x, rayX_[y][x], rayY_[y][x], paint[left[i]]});
         colour_[y][x] = pixel.colour;
         depth_[y][x] = pixel.depth;
         state_[y][x] = pixel.state;

@@ -18,6 +18,7 @@
 namespace mfar::simd {
 
 class RestPixels;
+class SurfaceRaster;
 
 /// A pixel of which something is missing.
 struct Hole {
@@ -32,7 +33,8 @@ public:
     using Rgba = std::array<std::uint8_t, 4>;
     struct Picture {
         std::vector<Rgba> colours;
-        std::vector<WarpSurface> surfaces;  // both empty until there is a pixel
+        std::vector<LightWords> lights;     // empty where colours alone are known
+        std::vector<WarpSurface> surfaces;  // these and colours: empty until there is a pixel
     };
     explicit PatchStore(Size layer) : layer_(layer) {}
     void store(const PatchPictures::StoredRows& rows);
@@ -56,7 +58,7 @@ public:
     void setReference(const WarpReference& reference);
 
     struct Input {
-        Rows<const std::uint32_t> surface;  ///< SurfaceRaster::surface() at the current pose
+        const SurfaceRaster& raster;  ///< at the current pose
         const PatchPictures& patches;
         const PatchStore& store;
         Eigen::Vector4d plane;  ///< SilhouetteModels::plane()
@@ -74,8 +76,12 @@ public:
     [[nodiscard]] Rows<const std::uint32_t> state() const { return state_.rows(); }
 
 private:
+    struct Scratch {
+        std::vector<std::uint32_t> left;  // pixels of a row that are not plain
+        std::vector<PaintWords> paint;
+    };
     void runRow(const Input& input, const ViewLookUpInput& plain, const RestPixels& rest,
-                const PixelRect& where, int y, std::vector<std::uint32_t>& left);
+                const PixelRect& where, int y, Scratch& scratch);
 
     LensProjection layer_;
     std::shared_ptr<Workers> workers_;
@@ -83,7 +89,7 @@ private:
     PointLens referenceLens_;
     AlignedRows<float> rayX_, rayY_, depth_;
     AlignedRows<std::uint32_t> colour_, state_;
-    ScratchSlots<std::vector<std::uint32_t>> left_;  // pixels of a row that are not plain
+    ScratchSlots<Scratch> scratch_;
     std::vector<std::vector<Hole>> rowHoles_;
     std::vector<Hole> holes_;
 };

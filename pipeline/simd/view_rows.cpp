@@ -1,10 +1,13 @@
 #include "pipeline/simd/view_rows.h"
 
+#include "base/light_word.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/view_rows.cpp"
 
 #include <hwy/foreach_target.h>
 // Once for each instruction set, like this file.
+#include "pipeline/simd/display_values-inl.h"
 #include "pipeline/simd/point_lens-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -58,6 +61,83 @@ HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
     const VU redBlue = sum([&](VU t) HWY_ATTR { return hn::And(t, even); });
     const VU greenAlpha = sum([&](VU t) HWY_ATTR { return hn::And(hn::ShiftRight<8>(t), even); });
     return hn::Or(hn::And(hn::ShiftRight<8>(redBlue), even), hn::AndNot(even, greenAlpha));
+}
+
+/// Linear red, green and blue.
+using Light = Triples<V>;
+
+/// 2^exponent of light words, times the shares of each.
+HWY_INLINE V LightScale(VU words, VU share) {
+    const DU du;
+    const D d;
+    constexpr std::uint32_t kOffset = 127 - kLightBias - kLightBits;
+    const VU bits = hn::And(hn::ShiftRight<3 * kLightBits>(words), hn::Set(du, kLightExponent));
+    const VU exponent = hn::Add(bits, hn::Set(du, kOffset));
+    const V scale = hn::BitCast(d, hn::ShiftLeft<23>(exponent));
+    return hn::Mul(scale,
+                   hn::Mul(hn::ConvertTo(d, hn::BitCast(DI(), share)), hn::Set(d, 1.0F / 256)));
+}
+
+template <int kShift>
+HWY_INLINE V LightChannel(VU words) {
+    const VU bits = hn::And(hn::ShiftRight<kShift>(words), hn::Set(DU(), (1U << kLightBits) - 1));
+    return hn::ConvertTo(D(), hn::BitCast(DI(), bits));
+}
+
+/// Bilinear, of four light words.
+HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
+    Light out{hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
+    const auto add = [&](VU word, VU share) HWY_ATTR {
+        const V scale = LightScale(word, share);
+        out.x = hn::MulAdd(scale, LightChannel<0>(word), out.x);
+        out.y = hn::MulAdd(scale, LightChannel<kLightBits>(word), out.y);
+        out.z = hn::MulAdd(scale, LightChannel<2 * kLightBits>(word), out.z);
+    };
+    add(words.a, weights.a);
+    add(words.b, weights.b);
+    add(words.c, weights.c);
+    add(words.d, weights.d);
+    return out;
+}
+
+/// Bilinear, the share of specular light that no paint changes.
+HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& weights) {
+    const auto veil = [&](VU d, VU s, VU weight) HWY_ATTR {
+        const VU bits = hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)),
+                               hn::ShiftRight<kLightFreeBit>(s));
+        return hn::Mul(bits, weight);
+    };
+    const VU sum = hn::Add(
+        hn::Add(veil(diffuse.a, specular.a, weights.a), veil(diffuse.b, specular.b, weights.b)),
+        hn::Add(veil(diffuse.c, specular.c, weights.c), veil(diffuse.d, specular.d, weights.d)));
+    return hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), sum)), hn::Set(D(), 1 / (256 * kMostVeil)));
+}
+
+/// Of two vectors of PaintWords.
+struct PaintOf {
+    VU diffuse, facing;
+};
+
+/// The surface's radiance as a display's bytes.
+template <int kShift>
+HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular, V veil) {
+    const D d;
+    const auto linear = [&](VU word) HWY_ATTR {
+        const VU byte = hn::And(hn::ShiftRight<kShift>(word), hn::Set(DU(), 0xFFU));
+        return LinearOf(d, hn::ConvertTo(d, hn::BitCast(DI(), byte)));
+    };
+    const V facing = linear(paint.facing);
+    const V mirrored = hn::MulAdd(veil, hn::Sub(hn::Set(d, 1), facing), facing);
+    const V sent = hn::MulAdd(linear(paint.diffuse), diffuse, hn::Mul(mirrored, specular));
+    const VU byte = hn::BitCast(DU(), hn::NearestInt(SrgbLevel(d, sent)));
+    return hn::ShiftLeft<kShift>(byte);
+}
+
+HWY_INLINE VU Lit(const PaintOf& paint, const Light& diffuse, const Light& specular, V veil) {
+    const VU redGreen = hn::Or(LitChannel<0>(paint, diffuse.x, specular.x, veil),
+                               LitChannel<8>(paint, diffuse.y, specular.y, veil));
+    return hn::Or(hn::Or(redGreen, LitChannel<16>(paint, diffuse.z, specular.z, veil)),
+                  hn::Set(DU(), 0xFF000000U));
 }
 
 /// Shares within a pixel, of the four texels around.
@@ -147,8 +227,18 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     return {z, id, ofCatcher, empty, asked, there.z, pixel.x, pixel.y, lowX, lowY};
 }
 
+/// Each second word.
+HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
+    const DU du;
+    const VI word = hn::Add(at, at);
+    return {hn::GatherIndex(du, from, word), hn::GatherIndex(du, from + 2, word),
+            hn::GatherIndex(du, from + 2L * width, word),
+            hn::GatherIndex(du, from + 2L * width + 2, word)};
+}
+
 /// Reads the reference where `a` asks for it.
-HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, Found& out) {
+HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const PaintOf& paint,
+                              Found& out) {
     const D d;
     const DU du;
     const V width = hn::Set(d, static_cast<float>(in.reference.width));
@@ -166,9 +256,20 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, Found& 
     const M plain = hn::And(a.asked, shown);
     const M coloured = hn::AndNot(nothing, plain);
     if (!hn::AllFalse(d, coloured)) {
-        const Four colours = GatherFour(in.colours, at, in.reference.width);
-        const VU found =
-            Blend(colours, WeightsOf(hn::Sub(a.pixelX, a.lowX), hn::Sub(a.pixelY, a.lowY)));
+        const Four weights = WeightsOf(hn::Sub(a.pixelX, a.lowX), hn::Sub(a.pixelY, a.lowY));
+        VU found = hn::Zero(du);
+        const M lit = in.lights == nullptr ? hn::FirstN(d, 0) : hn::AndNot(a.ofCatcher, coloured);
+        if (!hn::AllFalse(d, hn::AndNot(lit, coloured)))
+            found = Blend(GatherFour(in.colours, at, in.reference.width), weights);
+        if (!hn::AllFalse(d, lit)) {
+            const Four diffuse = GatherLights(in.lights, at, in.reference.width);
+            const Four specular = GatherLights(in.lights + 1, at, in.reference.width);
+            const VU colour =
+                Lit(paint, BlendLight(diffuse, weights), BlendLight(specular, weights),
+                    BlendVeil(diffuse, specular, weights));
+            found =
+                hn::BitCast(du, hn::IfThenElse(lit, hn::BitCast(d, colour), hn::BitCast(d, found)));
+        }
         out.colour = hn::BitCast(du, hn::IfThenElseZero(coloured, hn::BitCast(d, found)));
         const M visible = AsFloats(hn::Gt(hn::ShiftRight<24>(out.colour), hn::Zero(du)));
         const V lifted = hn::IfThenElse(a.ofCatcher, hn::Mul(a.z, hn::Set(d, in.shownDepth)), a.z);
@@ -178,13 +279,14 @@ HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, Found& 
     out.left = hn::Or(out.left, hn::AndNot(plain, a.asked));
 }
 
-HWY_INLINE Found LookUp(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
+HWY_INLINE Found LookUp(const ViewLookUpInput& in, const Four& s, V rayX, V rayY,
+                        const PaintOf& paint) {
     const D d;
     const DU du;
     const Asked a = AskFor(in, s, rayX, rayY);
     Found out{hn::Zero(du), hn::Zero(d), hn::Zero(du),
               hn::AndNot(hn::Or(a.asked, a.empty), hn::FirstN(d, hn::Lanes(d)))};
-    if (!hn::AllFalse(d, a.asked)) ReadReference(in, a, out);
+    if (!hn::AllFalse(d, a.asked)) ReadReference(in, a, paint, out);
     return out;
 }
 
@@ -202,7 +304,11 @@ int LookUpRow(const ViewRow& row, const ViewLookUpInput& in) {
             hn::StoreU(hn::Zero(d), d, row.depth + x);
             continue;
         }
-        Found f = LookUp(in, s, hn::LoadU(d, row.rayX + x), hn::LoadU(d, row.rayY + x));
+        PaintOf paint{hn::Zero(du), hn::Zero(du)};
+        if (in.lights != nullptr)
+            hn::LoadInterleaved2(du, reinterpret_cast<const std::uint32_t*>(row.paint + x),
+                                 paint.diffuse, paint.facing);
+        Found f = LookUp(in, s, hn::LoadU(d, row.rayX + x), hn::LoadU(d, row.rayY + x), paint);
         const M within = hn::FirstN(d, static_cast<std::size_t>(row.count - x));
         // Beside the row there is nothing.
         f.colour = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.colour)));

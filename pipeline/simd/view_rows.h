@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/rows.h"
+#include "pipeline/simd/paint_words.h"
 #include "pipeline/simd/point_lens.h"
 
 #include <cstdint>
@@ -31,6 +32,7 @@ struct ViewLookUpInput {
     Size reference;                ///< [px]
     const std::uint32_t* packed;   ///< its surfaces, row-major; number 254: nothing is known
     const std::uint32_t* colours;  ///< RGBA8, row-major
+    const std::uint32_t* lights;   ///< LightWords, two words each; null: colours alone are known
     CatcherPlane plane;
     float shownDepth;  ///< of the catcher's z: 1 - kShadowLift
 };
@@ -39,6 +41,7 @@ struct ViewLookUpInput {
 struct ViewRow {
     int count;
     const std::uint32_t *upper, *lower;  ///< surfaces at twice the resolution
+    const PaintWords* paint;             ///< SurfaceRaster::paintRow(); with lights alone
     const float *rayX, *rayY;            ///< normalised
     std::uint32_t* colour;               ///< RGBA8 premultiplied
     float* depth;                        ///< z [m], 0 = nothing

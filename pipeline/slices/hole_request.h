@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/light_word.h"
 #include "pipeline/render/render_view.h"
 #include "pipeline/scene/scene.h"
 
@@ -29,6 +30,7 @@ struct HoleAnswer {
     std::vector<std::array<std::uint8_t, 4>> colour;
     std::vector<float> depth;
     std::vector<std::uint8_t> id;
+    std::vector<LightWords> light;
     int samples = 0;          ///< of each
     std::uint64_t scene = 0;  ///< the request's
     bool edges = false;       ///< the request's

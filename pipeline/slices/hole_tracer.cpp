@@ -6,6 +6,21 @@
 #include <utility>
 
 namespace mfar {
+namespace {
+
+/// The least rectangle with all pixels of a picture so wide, in rising order.
+PixelRect around(const std::vector<std::uint32_t>& pixels, int width) {
+    const auto rowOf = [width](std::uint32_t p) { return static_cast<int>(p) / width; };
+    PixelRect out{width, rowOf(pixels.front()), 0, rowOf(pixels.back()) + 1};
+    for (const std::uint32_t p : pixels) {
+        const int x = static_cast<int>(p) % width;
+        out.x0 = std::min(out.x0, x);
+        out.x1 = std::max(out.x1, x + 1);
+    }
+    return out;
+}
+
+}  // namespace
 
 void HoleTracer::take(HoleRequest& request) {
     std::swap(request_, request);
@@ -28,7 +43,8 @@ void HoleTracer::prepare() {
     while (!pixels.empty() && pixels.back() >= inside)
         pixels.pop_back();
     if (!pixels.empty() && !(film_ && film_->size() == view.camera.size))
-        film_.emplace(view.camera.size);
+        film_.emplace(view.camera.size, PixelRect{});
+    if (!pixels.empty()) film_->begin(around(pixels, view.camera.size.width));
     handed_ = done_ = 0;
     stage_ = Stage::Tracing;
 }
@@ -51,12 +67,13 @@ void HoleTracer::answer(const Exposure& exposure, HoleAnswer& out) {
     out.colour.clear();
     out.depth.clear();
     out.id.clear();
+    out.light.clear();
     for (const std::uint32_t pixel : out.pixels) {
-        const auto [colour, hit] = film_->resolved(pixel, exposure);
+        const auto [colour, hit, light] = film_->resolved(pixel, exposure);
         out.colour.push_back(colour);
         out.depth.push_back(hit.depth);
         out.id.push_back(hit.id);
-        film_->clear(pixel);
+        out.light.push_back(light);
     }
     answered_ += out.pixels.size();
     stage_ = Stage::Idle;

@@ -51,7 +51,7 @@ private:
     Stage stage_ = Stage::Idle;
     HoleRequest request_;
     std::size_t handed_ = 0, done_ = 0;
-    std::optional<Film> film_;  // of the request's size; without samples between requests
+    std::optional<Film> film_;  // of the request's size
     std::uint64_t answered_ = 0;
 };
 

@@ -6,6 +6,8 @@
 namespace mfar {
 namespace {
 
+// A camera that goes on soon gets a new picture at this share of the limit: it inherits the light.
+constexpr double kSoon = 0.25;
 // A next picture is given up when the camera has come back half of the way.
 constexpr double kBack = 0.5;
 // So many limits away from its view the picture shown is worse than a noisy one.
@@ -16,15 +18,20 @@ constexpr int kSamplesRatio = 4;
 // nothing.
 constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
 constexpr int kRestLooks = 10;
+// Light of an earlier picture counts like so many samples at most; of one in other light, so few
+// that the new samples soon outweigh it.
+constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
+constexpr int kLookTurn = 1;
 
 }  // namespace
 
-ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext) {
+ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> sinceNext,
+                       double renewed) {
     if (!sinceNext)
-        return sinceShown && *sinceShown < 1 ? ReferenceStep::Refine : ReferenceStep::Start;
+        return sinceShown && *sinceShown < renewed ? ReferenceStep::Refine : ReferenceStep::Start;
     // The very first picture is finished wherever the camera goes: it is better than none.
     if (!sinceShown) return ReferenceStep::Continue;
-    if (*sinceShown < kBack) return ReferenceStep::Drop;
+    if (*sinceShown < kBack * renewed) return ReferenceStep::Drop;
     return *sinceNext >= 1 && *sinceNext > *sinceShown ? ReferenceStep::Start
                                                        : ReferenceStep::Continue;
 }
@@ -58,9 +65,17 @@ ReferenceStep ReferencePictures::chosenStep() const {
     if (hasBegun && nextRests_ && rests) return ReferenceStep::Continue;
     const bool isElsewhere =
         sinceShown && pixelChange(pictures_[shown_].view, now_, scene_->balls) > kElsewherePixels;
-    if (!hasBegun && rests && isElsewhere) return ReferenceStep::Start;
-    return nextStep(sinceShown,
-                    hasNext_ && !toBegin_ ? changeSince(pictures_[1 - shown_]) : std::nullopt);
+    const Picture& shown = pictures_[shown_];
+    if (!hasBegun && rests && (isElsewhere || (shown.wasShown && !shown.rests)))
+        return ReferenceStep::Start;
+    const ReferenceStep step =
+        nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
+                 policy_.soon ? kSoon : 1);
+    // One that knows little yet would be inherited for nothing, as long as it serves.
+    const bool serves = sinceShown && *sinceShown < 1;
+    if (step == ReferenceStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
+        return ReferenceStep::Refine;
+    return step;
 }
 
 void ReferencePictures::look(const RenderView& now, const RenderView& predicted, Timestamp time) {
@@ -81,8 +96,31 @@ void ReferencePictures::look(const RenderView& now, const RenderView& predicted,
     }
 }
 
+// Where no object is, the real surface's light is smooth enough for a quarter of the pixels while
+// the camera moves.
+Slices::Density ReferencePictures::densityOf(const PixelRect& tile, const Picture& picture,
+                                             const PixelRect& objects) const {
+    if (!common(tile, objects).empty()) return Slices::Density::Full;
+    if (picture.history && pictures_[shown_].scene->light == picture.scene->light &&
+        showsNothing(tile, picture.view))
+        return Slices::Density::None;
+    return picture.rests || !policy_.filter ? Slices::Density::Full : Slices::Density::Quarter;
+}
+
+// As the picture shown knows.
+bool ReferencePictures::showsNothing(const PixelRect& tile, const RenderView& view) const {
+    const Eigen::Vector2f middle(0.5F * static_cast<float>(tile.x0 + tile.x1 - 1),
+                                 0.5F * static_cast<float>(tile.y0 + tile.y1 - 1));
+    const auto point = scene_->tracer->catcherAt(view, middle);
+    if (!point) return false;
+    const RenderView& before = pictures_[shown_].view;
+    const Eigen::Vector3d there = before.T_world_camera.inverse() * point->cast<double>();
+    return there.z() > 0 &&
+           pictures_[shown_].touched.isFarFrom(before.camera.project(there.hnormalized()));
+}
+
 bool ReferencePictures::toBegin() const {
-    return toBegin_ && pictures_[1 - shown_].portions == 0;
+    return toBegin_ && pictures_[0].portions == 0 && pictures_[1].portions == 0;
 }
 
 void ReferencePictures::begin() {
@@ -90,14 +128,23 @@ void ReferencePictures::begin() {
     picture.scene = scene_;
     picture.view = wanted_;
     picture.chosen = chosen_;
-    picture.shownSamples = 0;
+    picture.rests = nextRests_;
+    picture.shownSamples = picture.shownTurns = 0;
     picture.wasShown = picture.counted = false;
-    if (picture.film && picture.film->size() == wanted_.camera.size)
-        picture.film->clear();
-    else
-        picture.film = std::make_unique<Film>(wanted_.camera.size);
+    picture.history.reset();
+    const Picture& shown = pictures_[shown_];
+    if (policy_.history && shown.scene && shown.scene->objects == scene_->objects)
+        picture.history.emplace(scene_->tracer->historyOf(
+            *shown.film, shown.view,
+            shown.scene->light == scene_->light ? kMostCarried : kMostCarriedElsewhere));
+    if (!picture.film || !(picture.film->size() == wanted_.camera.size))
+        picture.film = std::make_unique<Film>(wanted_.camera.size, PixelRect{});
     picture.traced = scene_->tracer->bounds(wanted_);
-    picture.slices.begin(picture.traced, wanted_.camera.size);
+    picture.film->begin(picture.traced);
+    const PixelRect objects = scene_->tracer->objectBounds(wanted_);
+    picture.slices.begin(picture.traced, wanted_.camera.size,
+                         [&](const PixelRect& tile) { return densityOf(tile, picture, objects); });
+    picture.touched.clear();
     toBegin_ = false;
 }
 
@@ -112,18 +159,27 @@ ReferencePictures::Portion ReferencePictures::next(std::int64_t mostSamples) {
 void ReferencePictures::trace(const Portion& portion) {
     Picture& picture = pictures_[portion.picture];
     picture.scene->tracer->trace(picture.view, portion.slice.pixels, portion.slice.samples,
-                                 *picture.film);
+                                 *picture.film, picture.history ? &*picture.history : nullptr);
+}
+
+// At rest a pixel's own samples count alone: what is carried over knows no edges and no texture.
+PixelState ReferencePictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
+    const KnownLight known = rests ? KnownLight{} : film->known(pixel);
+    return {film->error(pixel, exposure),
+            std::max(std::min(known.firstCount, known.secondCount),
+                     static_cast<float>(film->samples(pixel))),
+            film->isUntouched(pixel)};
 }
 
 void ReferencePictures::done(const Portion& portion, const Exposure& exposure) {
     Picture& picture = pictures_[portion.picture];
     --picture.portions;
     picture.slices.done(portion.slice,
-                        [&](std::uint32_t pixel) { return picture.film->error(pixel, exposure); });
+                        [&](std::uint32_t pixel) { return picture.state(pixel, exposure); });
 }
 
 int ReferencePictures::leastSamples(const Picture& picture) const {
-    if (picture.wasShown) return kSamplesRatio * picture.shownSamples;
+    if (picture.wasShown) return std::max(kSamplesRatio * picture.shownSamples, 1);
     const Picture& shown = pictures_[shown_];
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
         viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
@@ -139,18 +195,30 @@ bool ReferencePictures::toShow() const {
     // Of the one whose place it takes.
     if (pictures_[1 - working()].portions > 0) return false;
     if (picture.slices.finished()) return !picture.counted;
+    if (isSparse(picture)) return picture.slices.turns() > std::max(picture.shownTurns, kLookTurn);
     return picture.slices.samples() >= leastSamples(picture);
+}
+
+// While the camera moves, a picture that knows little is better than one of another view, or none:
+// its light is filtered.
+bool ReferencePictures::isSparse(const Picture& picture) const {
+    if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
+    const Picture& shown = pictures_[shown_];
+    return &picture == &shown || !shown.scene || (policy_.soon && picture.history);
 }
 
 void ReferencePictures::beginShow(const Exposure& exposure, RenderedPicture& out) {
     const Picture& picture = pictures_[working()];
-    resolver_.begin(*picture.film, picture.view, picture.traced, exposure, policy_.filter, out);
+    resolver_.begin(*picture.film, picture.view, picture.traced, exposure, policy_.filter, out,
+                    picture.film.get());
 }
 
 void ReferencePictures::endShow(RenderedPicture& out) {
     Picture& picture = pictures_[working()];
     out.scene = picture.scene->source;
+    picture.touched.set(out);
     picture.shownSamples = picture.slices.samples();
+    picture.shownTurns = picture.slices.turns();
     picture.wasShown = true;
     if (picture.slices.finished()) {
         picture.counted = true;

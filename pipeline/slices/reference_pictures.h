@@ -3,6 +3,7 @@
 #include "pipeline/render/path_tracer.h"
 #include "pipeline/render/picture_resolver.h"
 #include "pipeline/slices/slices.h"
+#include "pipeline/slices/touched_tiles.h"
 #include "pipeline/slices/view_change.h"
 
 #include <array>
@@ -23,8 +24,9 @@ enum class ReferenceStep : unsigned char {
 
 /// The changes since the pictures' views, as of viewChange(); nothing: there is no such picture, or
 /// it is of another scene.
+/// A next picture is begun at `renewed` of the limit.
 [[nodiscard]] ReferenceStep nextStep(std::optional<double> sinceShown,
-                                     std::optional<double> sinceNext);
+                                     std::optional<double> sinceNext, double renewed);
 
 struct ReferencePolicy {
     ViewLimits limits;
@@ -32,7 +34,11 @@ struct ReferencePolicy {
     /// of other objects or hopelessly far off. Four that are filtered are as good as 16 that are
     /// not (root mean square error 3.2 and 4.4 against 3.3 and 3.1 of 255 on two scenes).
     int samplesToReplace = 4;
-    bool filter = true;  ///< of noise
+    bool filter = true;   ///< of noise
+    bool history = true;  ///< light of the picture before is carried over to the next
+    /// While the camera moves, the next picture begins long before the one shown has reached its
+    /// limits, and is shown before every pixel has a sample. For what takes light alone from it.
+    bool soon = true;
     bool operator==(const ReferencePolicy&) const = default;
 };
 
@@ -105,18 +111,27 @@ private:
         RenderView view;
         Timestamp chosen;
         std::unique_ptr<Film> film;
-        PixelRect traced;  // there is nothing elsewhere in the film
+        std::optional<LightHistory> history;  // of the picture shown before
+        PixelRect traced;                     // there is nothing elsewhere in the film
+        TouchedTiles touched;
         Slices slices;
         int portions = 0;                        // out
-        int shownSamples = 0;                    // when it was shown last
+        int shownSamples = 0, shownTurns = 0;    // when it was shown last
+        bool rests = false;                      // it is of a camera at rest
         bool wasShown = false, counted = false;  // among the finished
+
+        [[nodiscard]] PixelState state(std::uint32_t pixel, const Exposure& exposure) const;
     };
 
     [[nodiscard]] std::size_t working() const { return hasNext_ ? 1 - shown_ : shown_; }
     [[nodiscard]] std::optional<double> changeSince(const Picture& picture) const;
     [[nodiscard]] ReferenceStep chosenStep() const;
     void watchRest();
+    [[nodiscard]] Slices::Density densityOf(const PixelRect& tile, const Picture& picture,
+                                            const PixelRect& objects) const;
+    [[nodiscard]] bool showsNothing(const PixelRect& tile, const RenderView& view) const;
     [[nodiscard]] int leastSamples(const Picture& picture) const;
+    [[nodiscard]] bool isSparse(const Picture& picture) const;
 
     const SliceOptions slices_;
     const ReferencePolicy policy_;

@@ -9,6 +9,8 @@ namespace mfar {
 namespace {
 
 constexpr int kTileEdge = 8;
+// Turns of slices of time: a look, two of the first samples, and from here on all pixels.
+constexpr int kLook = 1, kFirstFull = 4;
 constexpr int kTilePixels = kTileEdge * kTileEdge;
 
 /// Puts a zero bit between all of the lower 16.
@@ -27,8 +29,20 @@ int gathered(std::uint32_t v) {
     return static_cast<int>((v | v >> 4) & 0x000000ff);
 }
 
+/// The place of a tile's pixel in Morton order that comes as number `rank`: of any 4^n that come
+/// first, each fills a square of its own. Its own inverse.
+std::uint32_t evenlySpread(std::uint32_t rank) {
+    return (rank & 0x03) << 4 | (rank & 0x0c) | (rank & 0x30) >> 4;
+}
+
 std::uint32_t mortonCode(int x, int y) {
     return spread(static_cast<std::uint32_t>(x)) | spread(static_cast<std::uint32_t>(y)) << 1;
+}
+
+/// Number in which a pixel of a picture so wide comes in its tile.
+std::uint32_t rankOf(std::uint32_t pixel, int width) {
+    const auto x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
+    return evenlySpread(mortonCode(x % kTileEdge, y % kTileEdge));
 }
 
 }  // namespace
@@ -39,7 +53,8 @@ Slices::Slices(const SliceOptions& options) : options_(options) {
     if (!(options.threshold >= 0)) throw std::invalid_argument("an error is not negative");
 }
 
-void Slices::begin(const PixelRect& bounds, Size picture) {
+void Slices::begin(const PixelRect& bounds, Size picture,
+                   const std::function<Density(const PixelRect&)>& densityOf) {
     const PixelRect r = common(bounds, {0, 0, picture.width, picture.height});
     width_ = picture.width;
     pixels_.clear();
@@ -55,95 +70,155 @@ void Slices::begin(const PixelRect& bounds, Size picture) {
         for (int column = r.x0 / kTileEdge; column * kTileEdge < r.x1; ++column)
             order_.push_back(mortonCode(column, row));
     std::sort(order_.begin(), order_.end());
-    for (const std::uint32_t code : order_)
-        addTile(gathered(code), gathered(code >> 1), r);
+    for (const std::uint32_t code : order_) {
+        const int x = kTileEdge * gathered(code), y = kTileEdge * gathered(code >> 1);
+        const PixelRect tile = common({x, y, x + kTileEdge, y + kTileEdge}, r);
+        const Density density = densityOf ? densityOf(tile) : Density::Full;
+        if (density != Density::None) addTile(tile, density);
+    }
     unfinished_ = tiles_.size();
 }
 
-void Slices::addTile(int column, int row, const PixelRect& bounds) {
+void Slices::addTile(const PixelRect& pixels, Density density) {
     Tile tile;
     tile.first = static_cast<std::uint32_t>(pixels_.size());
-    for (std::uint32_t code = 0; code < kTilePixels; ++code) {
-        const int x = column * kTileEdge + gathered(code),
-                  y = row * kTileEdge + gathered(code >> 1);
-        if (x >= bounds.x0 && x < bounds.x1 && y >= bounds.y0 && y < bounds.y1)
+    const int left = pixels.x0 - pixels.x0 % kTileEdge, top = pixels.y0 - pixels.y0 % kTileEdge;
+    // Those of even column and row come first.
+    const std::uint32_t ranks = density == Density::Full ? kTilePixels : kTilePixels / 4;
+    for (std::uint32_t rank = 0; rank < ranks; ++rank) {
+        const std::uint32_t code = evenlySpread(rank);
+        const int x = left + gathered(code), y = top + gathered(code >> 1);
+        if (x >= pixels.x0 && x < pixels.x1 && y >= pixels.y0 && y < pixels.y1)
             pixels_.push_back(static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
                               static_cast<std::uint32_t>(x));
     }
     tile.count = tile.active = static_cast<std::uint32_t>(pixels_.size()) - tile.first;
-    tiles_.push_back(tile);
+    if (tile.count > 0) tiles_.push_back(tile);
 }
 
 Slice Slices::next(std::int64_t mostSamples) {
     if (finished()) return {};
-    if (turnComplete()) beginTurn();
+    while (turnComplete())
+        beginTurn();
     return options_.slicing == Slicing::Time ? nextOfTurn(mostSamples) : nextOfTiles(mostSamples);
 }
 
+bool Slices::looks() const {
+    return options_.slicing == Slicing::Time && turn_ == kLook;
+}
+
 void Slices::beginTurn() {
-    const bool time = options_.slicing == Slicing::Time;
-    turn_ = time ? std::min(turn_ + options_.samplesPerTurn, options_.samples) : options_.samples;
+    ++turn_;
     ofTurn_ = unfinished_;
     cursor_ = 0;
+    for (Tile& tile : tiles_) {
+        if (tile.active == 0) continue;
+        tile.most = mostOfTurn(tile);
+        // A tile without pixels in a sparse turn: those that it would have are known.
+        if (tile.handed >= tile.most) --ofTurn_;
+    }
+    if (ofTurn_ == 0) samples_ = samplesOfTurn();
+}
+
+int Slices::samplesOfTurn() const {
+    if (options_.slicing == Slicing::Spatial) return options_.samples;
+    return std::min(std::max(turn_ - kFirstFull + 1, 0) * options_.samplesPerTurn,
+                    options_.samples);
+}
+
+std::uint32_t Slices::mostOfTurn(const Tile& tile) const {
+    const bool isSparse = options_.slicing == Slicing::Time && turn_ > kLook && turn_ < kFirstFull;
+    if (!isSparse) return tile.active;
+    const std::uint32_t most = turn_ == kLook + 1 ? kTilePixels / 16 : kTilePixels / 4;
+    std::uint32_t out = 0;
+    while (out < tile.active && rankOf(pixels_[tile.first + out], width_) < most)
+        ++out;
+    return out;
 }
 
 Slice Slices::nextOfTurn(std::int64_t mostSamples) {
     for (; cursor_ < tiles_.size(); ++cursor_) {
         const Tile& tile = tiles_[cursor_];
-        if (tile.samples < turn_ && tile.handed < tile.active) return part(cursor_, mostSamples);
+        if (tile.handed < tile.most) return part(cursor_, mostSamples);
     }
     return {};
 }
 
 Slice Slices::nextOfTiles(std::int64_t mostSamples) {
     for (const std::uint32_t tile : open_)
-        if (tiles_[tile].handed < tiles_[tile].active) return part(tile, mostSamples);
+        if (tiles_[tile].handed < tiles_[tile].most) return part(tile, mostSamples);
     if (cursor_ == tiles_.size()) return {};
     open_.push_back(cursor_);
     return part(cursor_++, mostSamples);
 }
 
 int Slices::step(const Tile& tile) const {
-    return std::min(options_.samplesPerTurn, options_.samples - tile.samples);
+    return looks() ? 0 : std::min(options_.samplesPerTurn, options_.samples - tile.samples);
 }
 
 Slice Slices::part(std::uint32_t index, std::int64_t mostSamples) {
     Tile& tile = tiles_[index];
-    const std::int64_t most = std::max<std::int64_t>(mostSamples / step(tile), 1);
+    const std::int64_t most = std::max<std::int64_t>(mostSamples / std::max(step(tile), 1), 1);
     const auto count =
-        static_cast<std::uint32_t>(std::min<std::int64_t>(most, tile.active - tile.handed));
+        static_cast<std::uint32_t>(std::min<std::int64_t>(most, tile.most - tile.handed));
     const std::span pixels(pixels_.data() + tile.first + tile.handed, count);
     tile.handed += count;
     ++tile.out;
     return {pixels, step(tile), index};
 }
 
-void Slices::done(const Slice& slice, const std::function<float(std::uint32_t)>& error) {
+void Slices::done(const Slice& slice, const PixelStates& states) {
     Tile& tile = tiles_[slice.tile];
     traced_ += slice.pixels.size() * static_cast<std::uint64_t>(slice.samples);
     --tile.out;
-    if (tile.out == 0 && tile.handed == tile.active) endRound(tile, error);
+    if (tile.out == 0 && tile.handed == tile.most) endRound(tile, states);
 }
 
-void Slices::endRound(Tile& tile, const std::function<float(std::uint32_t)>& error) {
-    tile.samples += step(tile);
-    tile.handed = 0;
-    const std::uint32_t before = tile.active;
-    if (tile.samples == options_.samples)
-        tile.active = 0;
-    else if (options_.threshold > 0 && tile.samples >= options_.leastSamples)
-        keepNoisy(tile, error);
-    settled_ +=
-        (before - tile.active) * static_cast<std::uint64_t>(options_.samples - tile.samples);
-    if (tile.active == 0) {
-        --unfinished_;
-        std::erase(open_, static_cast<std::uint32_t>(&tile - tiles_.data()));
+void Slices::endRound(Tile& tile, const PixelStates& states) {
+    const bool time = options_.slicing == Slicing::Time;
+    const bool adapts = options_.threshold > 0;
+    std::uint32_t kept = tile.active;
+    if (time && turn_ == kLook) {
+        if (adapts) kept = keepNoisy(tile, states);
+        tile.handed = 0;
+    } else if (tile.handed < tile.active) {
+        if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
+            kept = 0;
+            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // are traced
+        }
+    } else {
+        tile.samples += step(tile);
+        tile.handed = 0;
+        if (tile.samples == options_.samples)
+            kept = 0;
+        else if (adapts)
+            kept = keepNoisy(tile, states);
     }
-    if (tile.active == 0 || tile.samples == turn_) --ofTurn_;
-    if (ofTurn_ == 0) samples_ = turn_;
+    dropActive(tile, kept);
+    // A tile of space goes on by itself.
+    if (!time && tile.active > 0) {
+        tile.most = tile.active;
+        return;
+    }
+    tile.most = tile.handed;
+    if (--ofTurn_ == 0) samples_ = samplesOfTurn();
 }
 
-void Slices::keepNoisy(Tile& tile, const std::function<float(std::uint32_t)>& error) {
+void Slices::dropActive(Tile& tile, std::uint32_t kept) {
+    settled_ += (tile.active - kept) * static_cast<std::uint64_t>(options_.samples - tile.samples);
+    tile.active = kept;
+    if (kept > 0) return;
+    --unfinished_;
+    std::erase(open_, static_cast<std::uint32_t>(&tile - tiles_.data()));
+}
+
+bool Slices::isUntouched(const Tile& tile, const PixelStates& states) const {
+    for (std::uint32_t i = 0; i < tile.count; ++i)
+        if (!states(pixels_[tile.first + i]).untouched) return false;
+    return true;
+}
+
+std::uint32_t Slices::keepNoisy(Tile& tile, const PixelStates& states) {
     constexpr int kRow = kTileEdge + 2;  // a border without noise
     std::array<bool, kRow * kRow> noisy{};
     const auto placeOf = [&](std::uint32_t pixel) {
@@ -151,9 +226,11 @@ void Slices::keepNoisy(Tile& tile, const std::function<float(std::uint32_t)>& er
         const std::uint32_t y = pixel / static_cast<std::uint32_t>(width_);
         return (y % kTileEdge + 1) * kRow + x % kTileEdge + 1;
     };
+    const auto least = static_cast<float>(options_.leastSamples);
     for (std::uint32_t i = 0; i < tile.count; ++i) {
         const std::uint32_t pixel = pixels_[tile.first + i];
-        noisy[placeOf(pixel)] = !(error(pixel) < options_.threshold);
+        const PixelState state = states(pixel);
+        noisy[placeOf(pixel)] = !(state.samples >= least && state.error < options_.threshold);
     }
     std::uint32_t kept = 0;
     for (std::uint32_t i = 0; i < tile.active; ++i) {
@@ -164,7 +241,7 @@ void Slices::keepNoisy(Tile& tile, const std::function<float(std::uint32_t)>& er
         if (rowNoisy(at - kRow) || rowNoisy(at) || rowNoisy(at + kRow))
             std::swap(pixels_[tile.first + i], pixels_[tile.first + kept++]);
     }
-    tile.active = kept;
+    return kept;
 }
 
 bool Slices::turnComplete() const {

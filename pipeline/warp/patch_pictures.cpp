@@ -30,6 +30,7 @@ void PatchPictures::add(const HoleAnswer& answer,
     std::rotate(patches_.begin(), patches_.end() - 1, patches_.end());
     Patch& patch = patches_.front();
     PixelRect bounds;
+    if (!answer.light.empty()) lights_.resize(surfaces_.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         assert(pixels[i] < surfaces_.size());
         const auto x = static_cast<int>(pixels[i] % static_cast<unsigned>(layer_.width));
@@ -39,6 +40,7 @@ void PatchPictures::add(const HoleAnswer& answer,
         const bool object = is && answer.id[i] != kCatcherId;
         surfaces_[pixels[i]] = {is ? z : 0, is ? static_cast<float>(answer.id[i]) : 0, 0, 1};
         if (is) colours_[pixels[i]] = object ? filled(answer.colour[i]) : answer.colour[i];
+        if (object && !answer.light.empty()) lights_[pixels[i]] = answer.light[i];
         bounds = around(bounds, {x, y, x + 1, y + 1});
     }
     for (const std::uint32_t i : pixels)
@@ -50,6 +52,7 @@ void PatchPictures::add(const HoleAnswer& answer,
     for (const std::uint32_t i : pixels) {
         surfaces_[i] = {};
         colours_[i] = {};
+        if (!lights_.empty()) lights_[i] = {};
     }
     patch = {patch.slot, answer.view.T_world_camera, bounds,
              fadeFrames_ > 0 ? 1.0 / fadeFrames_ : 1};
@@ -58,7 +61,12 @@ void PatchPictures::add(const HoleAnswer& answer,
 PatchPictures::StoredRows PatchPictures::rowsOf(int slot, int firstRow, int lastRow) const {
     const std::size_t width = layer_.width;
     const std::size_t first = firstRow * width, count = (lastRow - firstRow) * width;
-    return {slot, firstRow, lastRow, std::span(colours_).subspan(first, count),
+    return {slot,
+            firstRow,
+            lastRow,
+            std::span(colours_).subspan(first, count),
+            lights_.empty() ? std::span<const LightWords>()
+                            : std::span(lights_).subspan(first, count),
             std::span(surfaces_).subspan(first, count)};
 }
 

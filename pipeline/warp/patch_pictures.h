@@ -23,6 +23,7 @@ public:
     struct StoredRows {
         int slot, firstRow, lastRow;
         std::span<const std::array<std::uint8_t, 4>> colours;  ///< RGBA8
+        std::span<const LightWords> lights;  ///< of objects; empty: colours alone are known
         std::span<const WarpSurface> surfaces;
     };
     /// Of one pixel at least, all of them in the layer. Gives `store` all rows that change: a slot
@@ -48,6 +49,7 @@ private:
     int fadeFrames_;
     std::array<Patch, kPatches> patches_;  // newest first
     std::vector<std::array<std::uint8_t, 4>> colours_;
+    std::vector<LightWords> lights_;     // empty before the first that is known
     std::vector<WarpSurface> surfaces_;  // all unknown between two calls
 };
 

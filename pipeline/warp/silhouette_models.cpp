@@ -114,8 +114,13 @@ SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
     for (const Mesh& mesh : model->meshes) {
         const Material& material = model->materials.at(static_cast<std::size_t>(mesh.material));
         const float cutoff = material.alphaCutoff / std::max(material.baseColour.w(), 1e-6F);
-        const bool masked =
-            material.alphaCutoff > 0 && material.baseColourTexture >= 0 && !mesh.uvs.empty();
+        const auto texture = [&](int index) {
+            return index < 0 || mesh.uvs.empty()
+                       ? nullptr
+                       : &model->textures.at(static_cast<std::size_t>(index));
+        };
+        const SurfaceTexture* baseColour = texture(material.baseColourTexture);
+        const bool masked = material.alphaCutoff > 0 && baseColour != nullptr;
         if (!masked && cutoff > 1) continue;  // the factor alone makes a hole of it
         SurfaceMesh surface = surfaceMesh(mesh.positions, mesh.uvs, mesh.triangles,
                                           bent ? diagonal / kModelPieces : 0);
@@ -127,11 +132,9 @@ SilhouetteModels::shapeOf(const std::shared_ptr<const Model>& model) const {
         if (surface.triangles.empty()) continue;
         shape->box.extend(boxOf(surface));
         // Simplified, a triangle may face another way than the surface does.
-        shape->parts.push_back(
-            {std::move(surface),
-             masked ? &model->textures.at(static_cast<std::size_t>(material.baseColourTexture))
-                    : nullptr,
-             cutoff, material.doubleSided || share_ < 1});
+        shape->parts.push_back({std::move(surface), masked ? baseColour : nullptr, cutoff,
+                                material.doubleSided || share_ < 1, &material, baseColour,
+                                texture(material.metallicRoughnessTexture)});
     }
     return shape;
 }
@@ -147,7 +150,7 @@ void SilhouetteModels::setCatcher(const ShadowCatcher& catcher) {
     triangles_ += surface.triangles.size();
     auto shape = std::make_shared<Shape>();
     shape->box = boxOf(surface);
-    shape->parts.push_back({std::move(surface), nullptr, 0, true});
+    shape->parts.push_back({.mesh = std::move(surface)});
     catcher_ = Object{std::move(shape), {}, 1};
 }
 

@@ -14,7 +14,7 @@
 namespace mfar {
 
 /// The models of a scene and, below them, the real surface that catches their shadows, as the
-/// silhouette draws them through a lens: triangles alone, no light, no colours.
+/// silhouette draws them through a lens: triangles and what they are painted with, no light.
 class SilhouetteModels {
 public:
     /// `layer`: the camera at the layer's resolution.
@@ -28,11 +28,14 @@ public:
         const SurfaceTexture* alpha = nullptr;  ///< of a masked surface; repeats
         float cutoff = 0;                       ///< a texel's alpha below it is a hole
         bool bothSides = true;                  ///< are seen
+        const Material* material = nullptr;     ///< none: the catcher
+        /// Of the material; none where the mesh has no uvs.
+        const SurfaceTexture *baseColour = nullptr, *metallicRoughness = nullptr;
     };
     struct Shape {
         std::vector<Part> parts;
         Eigen::AlignedBox3d box;
-        std::shared_ptr<const Model> model;  ///< owns the textures; none: the catcher
+        std::shared_ptr<const Model> model;  ///< owns materials and textures; none: the catcher
     };
     struct Object {
         std::shared_ptr<const Shape> shape;  ///< the same one for the same model of two scenes

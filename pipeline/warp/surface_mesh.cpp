@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 
 namespace mfar {
@@ -65,39 +66,93 @@ bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
 }
 
 struct Cell {
-    SurfaceVertex sum{};
+    std::array<float, 3> position{};  // sum
     float count = 0;
-    std::uint32_t vertex = 0;
 };
 
-SurfaceMesh clustered(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
+/// Vertices that edges join within a cell have their mean in common. Others there keep apart, as
+/// those of both sides of a texture's seam.
+class Groups {
+public:
+    explicit Groups(std::size_t vertices) : parents_(vertices) {
+        std::iota(parents_.begin(), parents_.end(), 0U);
+    }
+    std::uint32_t of(std::uint32_t vertex) {
+        while (parents_[vertex] != vertex)
+            vertex = parents_[vertex] = parents_[parents_[vertex]];
+        return vertex;
+    }
+    void join(std::uint32_t a, std::uint32_t b) { parents_[of(a)] = of(b); }
+
+private:
+    std::vector<std::uint32_t> parents_;
+};
+
+/// Cells with vertices, and which of them each vertex lies in.
+struct Cells {
+    std::vector<Cell> cells;
+    std::vector<std::uint32_t> of;
+};
+
+Cells cellsOf(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
     const float side = box.sizes().maxCoeff() / static_cast<float>(cells);
-    std::unordered_map<std::uint64_t, Cell> grid;
-    std::vector<std::uint64_t> keys;
-    keys.reserve(mesh.vertices.size());
+    std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+    Cells out;
+    out.of.reserve(mesh.vertices.size());
     for (const SurfaceVertex& v : mesh.vertices) {
         const Eigen::Array3f at = (positionOf(v) - box.min()).array() / side;
         const auto index = at.max(0).min(static_cast<float>(cells)).cast<std::uint64_t>().eval();
-        keys.push_back(index.x() << 40 | index.y() << 20 | index.z());
-        Cell& cell = grid[keys.back()];
-        for (int i = 0; i < 3; ++i)
-            cell.sum.position[i] += v.position[i];
-        for (int i = 0; i < 2; ++i)
-            cell.sum.uv[i] += v.uv[i];
+        const std::uint64_t key = index.x() << 40 | index.y() << 20 | index.z();
+        const auto number = static_cast<std::uint32_t>(out.cells.size());
+        const auto [place, isNew] = numbers.try_emplace(key, number);
+        if (isNew) out.cells.emplace_back();
+        out.of.push_back(place->second);
+        Cell& cell = out.cells[place->second];
+        for (std::size_t i = 0; i < 3; ++i)
+            cell.position[i] += v.position[i];
         ++cell.count;
     }
-    SurfaceMesh out;
-    for (auto& [key, cell] : grid) {
-        cell.vertex = static_cast<std::uint32_t>(out.vertices.size());
-        for (float& x : cell.sum.position)
-            x /= cell.count;
-        for (float& x : cell.sum.uv)
-            x /= cell.count;
-        out.vertices.push_back(cell.sum);
+    return out;
+}
+
+struct UvSum {
+    std::array<float, 2> uv{};
+    float count = 0;
+    std::uint32_t vertex = kNoVertex;  // of what is drawn
+    static constexpr std::uint32_t kNoVertex = 0xFFFFFFFF;
+};
+
+SurfaceMesh clustered(const SurfaceMesh& mesh, const Eigen::AlignedBox3f& box, int cells) {
+    const auto [grid, cellOf] = cellsOf(mesh, box, cells);
+    Groups groups(mesh.vertices.size());
+    for (const Triangle& t : mesh.triangles)
+        for (std::size_t i = 0; i < 3; ++i)
+            if (cellOf[t[i]] == cellOf[t[(i + 1) % 3]]) groups.join(t[i], t[(i + 1) % 3]);
+    std::vector<UvSum> sums(mesh.vertices.size());
+    for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
+        UvSum& sum = sums[groups.of(i)];
+        for (std::size_t k = 0; k < 2; ++k)
+            sum.uv[k] += mesh.vertices[i].uv[k];
+        ++sum.count;
     }
+    SurfaceMesh out;
+    const auto drawn = [&](std::uint32_t vertex) {
+        UvSum& sum = sums[groups.of(vertex)];
+        if (sum.vertex != UvSum::kNoVertex) return sum.vertex;
+        const Cell& cell = grid[cellOf[vertex]];
+        SurfaceVertex v{};
+        for (std::size_t i = 0; i < 3; ++i)
+            v.position[i] = cell.position[i] / cell.count;
+        for (std::size_t k = 0; k < 2; ++k)
+            v.uv[k] = sum.uv[k] / sum.count;
+        sum.vertex = static_cast<std::uint32_t>(out.vertices.size());
+        out.vertices.push_back(v);
+        return sum.vertex;
+    };
     for (const Triangle& t : mesh.triangles) {
-        const Triangle c{grid[keys[t[0]]].vertex, grid[keys[t[1]]].vertex, grid[keys[t[2]]].vertex};
-        if (c[0] != c[1] && c[1] != c[2] && c[2] != c[0]) out.triangles.push_back(c);
+        const std::uint32_t a = cellOf[t[0]], b = cellOf[t[1]], c = cellOf[t[2]];
+        if (a != b && b != c && c != a)
+            out.triangles.push_back({drawn(t[0]), drawn(t[1]), drawn(t[2])});
     }
     return out;
 }

@@ -160,7 +160,8 @@ void Warp::answer(const HoleAnswer& answer) {
     const Size size = lens_.camera.size;
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
     if (answer.colour.size() != pixels.size() || answer.depth.size() != pixels.size() ||
-        answer.id.size() != pixels.size())
+        answer.id.size() != pixels.size() ||
+        (!answer.light.empty() && answer.light.size() != pixels.size()))
         throw std::invalid_argument("an answer's fields are of unequal length");
     if (std::ranges::any_of(pixels, [&](std::uint32_t p) { return p >= count; }))
         throw std::invalid_argument("an answer has a pixel outside of the layer");

@@ -42,6 +42,9 @@ public:
     void setReference(WarpReference reference);
     void dropReference();
 
+    /// As of WarpStep.
+    [[nodiscard]] bool takesLight() const { return step_->takesLight(); }
+
     /// Nothing is shown without a scene, a reference, or at a pose that is not finite. Valid until
     /// the next call of any member.
     LayerPicture& run(const RigidTransform& T_world_camera);

@@ -72,10 +72,12 @@ private:
     Size size_;
 };
 
-/// Mean of the plain pixels beside it that show the same; false: there are none.
-bool fromNeighbours(const PictureGrid& grid, const WarpReference& r, int x, int y, Rgba& out) {
+/// Takes the means of the plain pixels beside it that show the same; false: there are none.
+bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> light,
+                        WarpReference& r, int x, int y) {
     const int own = grid.id(x, y);
     std::array<int, 4> sum{};
+    UnpackedLight sumOfLight;
     int count = 0;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
@@ -83,13 +85,21 @@ bool fromNeighbours(const PictureGrid& grid, const WarpReference& r, int x, int 
             const int id = grid.id(x + i, y + j);
             if ((id != own && !(id == 0 && own == kCatcherId)) || !grid.isPlain(x + i, y + j))
                 continue;
+            const std::size_t at = grid.index(x + i, y + j);
             for (std::size_t c = 0; c < 4; ++c)
-                sum[c] += r.picture[grid.index(x + i, y + j)][c];
+                sum[c] += r.picture[at][c];
+            if (!r.light.empty()) addShare(sumOfLight, 1, unpackedWords(light[at]));
             ++count;
         }
     if (count == 0) return false;
+    const std::size_t at = grid.index(x, y);
     for (std::size_t c = 0; c < 4; ++c)
-        out[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+        r.colour[at][c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+    if (!r.light.empty()) {
+        UnpackedLight mean;
+        addShare(mean, 1 / static_cast<float>(count), sumOfLight);
+        r.light[at] = packedWords(mean);
+    }
     return true;
 }
 
@@ -121,13 +131,14 @@ std::uint32_t packedSurface(const WarpSurface& s) {
            static_cast<std::uint32_t>(s.id);
 }
 
-void finishPixel(const PictureGrid& grid, WarpReference& r, int x, int y) {
+void finishPixel(const PictureGrid& grid, std::span<const LightWords> light, WarpReference& r,
+                 int x, int y) {
     const std::size_t i = grid.index(x, y);
     WarpSurface& s = r.surface[i];
     s.known = 1;
     if (s.id == 0) return;
     s.tolerance = toleranceAt(r.surface, grid.size(), x, y);
-    if (!grid.isPlain(x, y) && !fromNeighbours(grid, r, x, y, r.colour[i])) {
+    if (!grid.isPlain(x, y) && !takeFromNeighbours(grid, light, r, x, y)) {
         if (s.id == kCatcherId)
             s.known = 0;
         else
@@ -185,10 +196,18 @@ WarpReference warpReference(const RenderedPicture& picture) {
     const Size size = picture.camera.size;
     const std::size_t count = static_cast<std::size_t>(size.width) * size.height;
     if (picture.colour.size() != count || picture.depth.size() != count ||
-        picture.id.size() != count)
+        picture.id.size() != count || (!picture.light.empty() && picture.light.size() != count))
         throw std::invalid_argument("a rendered picture's fields are not of its camera's size");
-    WarpReference r{
-        picture.camera, picture.T_world_camera, picture.colour, {}, picture.colour, {}, {}, {}, {}};
+    WarpReference r{picture.camera,
+                    picture.T_world_camera,
+                    picture.colour,
+                    {},
+                    picture.colour,
+                    picture.light,
+                    {},
+                    {},
+                    {},
+                    {}};
     r.depth.resize(count);
     r.surface.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -201,7 +220,7 @@ WarpReference warpReference(const RenderedPicture& picture) {
     const PictureGrid grid(r);
     for (int y = 0; y < size.height; ++y)
         for (int x = 0; x < size.width; ++x)
-            finishPixel(grid, r, x, y);
+            finishPixel(grid, picture.light, r, x, y);
     r.packed.reserve(count);
     for (const WarpSurface& s : r.surface)
         r.packed.push_back(packedSurface(s));

@@ -33,6 +33,8 @@ struct WarpReference {
     /// Colours of single surfaces: where an edge runs through the pixel, that of the nearest pixels
     /// within. Of an object opaque, of the catcher premultiplied.
     std::vector<std::array<std::uint8_t, 4>> colour;
+    /// Of the same pixels, where an object is; empty: colours alone are known.
+    std::vector<LightWords> light;
     std::vector<WarpSurface> surface;
     /// z and number in a word, as warp_surface.glsl packs them; kUnknownId where nothing is known.
     std::vector<std::uint32_t> packed;

@@ -32,6 +32,9 @@ public:
 
     /// Borrowed until the next call. run() needs one.
     virtual void setReference(const WarpReference& reference) = 0;
+    /// Whether run() takes the light of objects alone from references, and looks their paint up;
+    /// otherwise it takes colours.
+    [[nodiscard]] virtual bool takesLight() const = 0;
     /// The reference as it was rendered.
     [[nodiscard]] virtual LayerPicture& reference() = 0;
 

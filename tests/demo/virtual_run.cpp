@@ -11,13 +11,15 @@
 #include <array>
 #include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace mfar::demo {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
-constexpr int kMostRestFrames = 20000;
+// A camera that has rested for some frames gets a picture of its very view.
+constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
     return counters.render.idle && counters.render.progress >= 1;
@@ -104,8 +106,20 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
     run.region = show.region();
     if (run.region.empty())
         throw std::runtime_error(recording.root.string() + ": no object is in view at the end");
-    for (int i = 0; i < kMostRestFrames && !(i > 10 && isSettled(show.counters())); ++i)
+    Timestamp seen = show.counters().render.frame;
+    int looks = 0;  // frames that the tracer's threads have seen: they may be slower than these
+    for (int i = 0; i < kMostRestFrames && !(looks > kLeastLooks && isSettled(show.counters()));
+         ++i) {
         show.again();
+        if (show.counters().render.frame == seen) continue;
+        seen = show.counters().render.frame;
+        ++looks;
+    }
+    // What is finished is shown by a frame after that.
+    for (int i = 0; i < 5; ++i) {
+        std::this_thread::sleep_for(kFrameInterval);
+        show.again();
+    }
     progress(all + 1, all + 1);
     run.atRest = show.picture();
     run.rested = show.counters();

@@ -12,7 +12,7 @@ namespace {
 constexpr Size kNoisySize{40, 32};
 constexpr float kSigma = 0.05F;
 
-using Pixels = std::vector<NoisyPixel>;
+using Pixels = std::vector<LightPixel>;
 
 template <class Value>
 Pixels noisyPicture(Value value, float sigma = kSigma) {
@@ -21,12 +21,14 @@ Pixels noisyPicture(Value value, float sigma = kSigma) {
     Pixels out;
     for (int y = 0; y < kNoisySize.height; ++y)
         for (int x = 0; x < kNoisySize.width; ++x) {
-            NoisyPixel p;
-            p.value = Eigen::Array4f::Constant(value(x, y) + sigma * noise(random));
-            p.variance = kSigma * kSigma;
+            LightPixel p;
+            p.first = Eigen::Array3f::Constant(value(x, y) + sigma * noise(random));
+            p.second = Eigen::Array3f::Constant(value(x, y) + sigma * noise(random));
+            p.firstVariance = p.secondVariance = kSigma * kSigma;
+            p.firstCount = p.secondCount = 4;
+            p.normal = {0, 0, -1};
             p.depth = 1;
             p.id = 1;
-            p.baseColour = Eigen::Array3f::Constant(0.5F);
             out.push_back(p);
         }
     return out;
@@ -36,11 +38,12 @@ template <class Value>
 double errorOf(const Pixels& pixels, Value value) {
     double squares = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const double off = pixels[i].value[0] - value(static_cast<int>(i % kNoisySize.width),
-                                                      static_cast<int>(i / kNoisySize.width));
-        squares += off * off;
+        const float wanted =
+            value(static_cast<int>(i % kNoisySize.width), static_cast<int>(i / kNoisySize.width));
+        for (const float found : {pixels[i].first[0], pixels[i].second[0]})
+            squares += (found - wanted) * (found - wanted);
     }
-    return std::sqrt(squares / static_cast<double>(pixels.size()));
+    return std::sqrt(squares / static_cast<double>(2 * pixels.size()));
 }
 
 /// Rows of each stage in several portions, the last ones first.
@@ -69,8 +72,8 @@ TEST(NoiseFilter, SmoothsNoise) {
 
 TEST(NoiseFilter, FindsVariancesThatAreNotKnown) {
     Pixels pixels = noisyPicture(flat);
-    for (NoisyPixel& p : pixels)
-        p.variance = -1;
+    for (LightPixel& p : pixels)
+        p.firstVariance = p.secondVariance = -1;
     pixels = filtered(kNoisySize, pixels);
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
@@ -81,8 +84,8 @@ TEST(NoiseFilter, LeavesWhatIsMoreThanNoise) {
     pixels = filtered(kNoisySize, pixels);
     EXPECT_LT(errorOf(pixels, edge), kSigma / 2);
     Pixels known = noisyPicture(flat);
-    for (NoisyPixel& p : known)
-        p.variance = 0;
+    for (LightPixel& p : known)
+        p.firstVariance = p.secondVariance = 0;
     known = filtered(kNoisySize, known);
     EXPECT_GT(errorOf(known, flat), 0.95 * kSigma);
 }
@@ -98,11 +101,11 @@ double errorAtStep(Mark mark) {
 }
 
 TEST(NoiseFilter, KeepsToItsSurface) {
-    EXPECT_GT(errorAtStep([](NoisyPixel&, bool) {}), 1e-3);
-    EXPECT_LT(errorAtStep([](NoisyPixel& p, bool left) { p.id = left ? 1 : 2; }), 1e-6);
-    EXPECT_LT(errorAtStep([](NoisyPixel& p, bool left) { p.depth = left ? 1.0F : 1.2F; }), 1e-6);
-    EXPECT_LT(errorAtStep([](NoisyPixel& p, bool left) {
-                  p.baseColour = Eigen::Array3f::Constant(left ? 0.2F : 0.5F);
+    EXPECT_GT(errorAtStep([](LightPixel&, bool) {}), 1e-3);
+    EXPECT_LT(errorAtStep([](LightPixel& p, bool left) { p.id = left ? 1 : 2; }), 1e-6);
+    EXPECT_LT(errorAtStep([](LightPixel& p, bool left) { p.depth = left ? 1.0F : 1.2F; }), 1e-6);
+    EXPECT_LT(errorAtStep([](LightPixel& p, bool left) {
+                  p.normal = left ? Eigen::Array3f(0, 0, -1) : Eigen::Array3f(1, 0, 0);
               }),
               1e-6);
 }
@@ -116,7 +119,45 @@ TEST(NoiseFilter, ChangesNothingElse) {
     const Pixels before = pixels;
     pixels = filtered(kNoisySize, pixels);
     for (std::size_t i = 0; i < pixels.size(); i += 3)
-        ASSERT_TRUE((pixels[i].value == before[i].value).all()) << i;
+        ASSERT_TRUE((pixels[i].first == before[i].first).all() &&
+                    (pixels[i].second == before[i].second).all())
+            << i;
+}
+
+// One pixel in 16 was sampled; of the second part fewer are known.
+TEST(NoiseFilter, FillsWhatNoSampleKnows) {
+    Pixels pixels = noisyPicture(flat, 0);
+    for (int y = 0; y < kNoisySize.height; ++y)
+        for (int x = 0; x < kNoisySize.width; ++x) {
+            LightPixel& p = pixels[static_cast<std::size_t>(y) * kNoisySize.width + x];
+            p.firstVariance = p.secondVariance = -1;
+            if (x % 4 != 0 || y % 4 != 0) {
+                p.first.setZero();
+                p.firstCount = 0;
+            }
+            if (x % 8 != 0 || y % 8 != 0) {
+                p.second.setZero();
+                p.secondCount = 0;
+            }
+        }
+    pixels = filtered(kNoisySize, pixels);
+    EXPECT_LT(errorOf(pixels, flat), 1e-5);
+    for (const LightPixel& p : pixels)
+        ASSERT_TRUE(p.firstCount > 0 && p.secondCount > 0);
+}
+
+// A part whose neighbours differ by more than noise does not take the other part with it.
+TEST(NoiseFilter, FiltersBothPartsApart) {
+    Pixels pixels = noisyPicture(flat);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        pixels[i].second.setConstant(static_cast<int>(i % kNoisySize.width) < 20 ? 0.1F : 0.9F);
+    const Pixels before = pixels;
+    pixels = filtered(kNoisySize, pixels);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        ASSERT_NEAR(pixels[i].second[0], before[i].second[0], 1e-5F);
+        pixels[i].second.setConstant(0.5F);
+    }
+    EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
 TEST(NoiseFilter, SeesNothingBeyondItsPixels) {
@@ -129,11 +170,11 @@ TEST(NoiseFilter, SeesNothingBeyondItsPixels) {
             if (common(where, {i % kNoisySize.width, i / kNoisySize.width, i % kNoisySize.width + 1,
                                i / kNoisySize.width + 1})
                     .empty())
-                filter.pixels()[static_cast<std::size_t>(i)].value.setConstant(outside);
+                filter.pixels()[static_cast<std::size_t>(i)].first.setConstant(outside);
         for (int stage = 0; stage < NoiseFilter::kStages; ++stage)
             filter.run(stage, 0, kNoisySize.height);
         return filter.filtered()[static_cast<std::size_t>(where.y0) * kNoisySize.width + where.x0]
-            .value[0];
+            .first[0];
     };
     EXPECT_EQ(inside(0.5F), inside(0.52F));
 }
@@ -141,14 +182,15 @@ TEST(NoiseFilter, SeesNothingBeyondItsPixels) {
 TEST(NoiseFilter, TakesAnySize) {
     for (const Size size : {Size{0, 0}, Size{1, 1}, Size{1, 9}, Size{9, 1}}) {
         Pixels pixels(static_cast<std::size_t>(size.width) * size.height);
-        for (NoisyPixel& p : pixels) {
-            p.value.setConstant(0.5F);
-            p.variance = -1;
+        for (LightPixel& p : pixels) {
+            p.first.setConstant(0.5F);
+            p.firstVariance = p.secondVariance = -1;
+            p.firstCount = 1;
             p.id = 1;
         }
         pixels = filtered(size, pixels);
-        for (const NoisyPixel& p : pixels)
-            ASSERT_NEAR(p.value[2], 0.5F, 1e-6);
+        for (const LightPixel& p : pixels)
+            ASSERT_NEAR(p.first[2], 0.5F, 1e-6);
     }
 }
 

@@ -1,85 +1,18 @@
-#include "pipeline/slices/reference_pictures.h"
-#include "tests/render/still_life.h"
+#include "tests/render/picture_driver.h"
 
 #include <gtest/gtest.h>
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
 namespace mfar {
 namespace {
 
-constexpr Size kReferenceSize{48, 36};
+using namespace reference_pictures;
+
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-std::shared_ptr<const ReferenceScene> preparedStillLife(std::uint64_t objects,
-                                                        std::uint64_t light) {
-    auto out = std::make_shared<ReferenceScene>();
-    const auto scene = render_scenes::stillLife();
-    out->tracer = std::make_shared<PathTracer>(scene);
-    out->balls = objectBalls(*scene);
-    out->objects = objects;
-    out->light = light;
-    return out;
-}
-
-/// Does one by one what the threads of a renderer do, and keeps what was shown.
-class Driver {
-public:
-    explicit Driver(const SliceOptions& slices) : pictures(slices, {{4, 0.2}, 8}) {
-        pictures.setScene(preparedStillLife(1, 1));
-    }
-
-    void look(double azimuth) {
-        const RenderView view = render_scenes::viewFrom(kReferenceSize, azimuth);
-        pictures.look(view, view, {});
-    }
-    /// True if there was something to do.
-    bool step() {
-        if (pictures.toBegin()) {
-            pictures.begin();
-            return true;
-        }
-        if (pictures.toShow()) {
-            RenderedPicture& out = shown.emplace_back();
-            pictures.beginShow({}, out);
-            while (!pictures.resolver().complete()) {
-                const PictureResolver::Portion rows = pictures.resolver().next(100);
-                pictures.resolver().run(rows);
-                pictures.resolver().done(rows);
-            }
-            pictures.endShow(out);
-            return true;
-        }
-        const ReferencePictures::Portion portion = pictures.next(1000);
-        if (portion.slice.pixels.empty()) return false;
-        pictures.trace(portion);
-        pictures.done(portion, {});
-        return true;
-    }
-    void settle() {
-        while (step()) {
-        }
-    }
-    void untilShown(std::size_t pictures) {
-        while (shown.size() < pictures)
-            ASSERT_TRUE(step());
-    }
-    /// Whether the picture shown last was made for the view.
-    [[nodiscard]] bool shows(double azimuth) const {
-        const RigidTransform there =
-            render_scenes::viewFrom(kReferenceSize, azimuth).T_world_camera;
-        return !shown.empty() && shown.back().T_world_camera.translation == there.translation;
-    }
-
-    ReferencePictures pictures;
-    std::vector<RenderedPicture> shown;
-};
-
-constexpr SliceOptions kThirtyTwo{Slicing::Time, 32, 1, 0, 2};
 
 TEST(NextStep, FollowsTheCamera) {
     using enum ReferenceStep;
@@ -90,18 +23,27 @@ TEST(NextStep, FollowsTheCamera) {
     for (const auto& [sinceShown, sinceNext, step] : std::vector<Case>{
              {{}, {}, Start},         // nothing yet
              {{}, 9.0, Continue},     // the first one, wherever the camera is
-             {0.9, {}, Refine},       // it serves
-             {1.0, {}, Start},        // it serves no longer
+             {0.2, {}, Refine},       // it is new
+             {0.3, {}, Start},        // the next one takes over its light
              {kInfinite, {}, Start},  // it never did
              {1.1, 0.9, Continue},    // on the way
              {0.6, 2.0, Start},       // the same, and the shown one serves meanwhile
-             {0.4, 0.7, Drop},        // come back
+             {0.1, 0.7, Drop},        // come back
+             {0.2, 0.7, Continue},    // not quite
              {2.0, 1.5, Continue},    // too fast, but better than what is shown
              {1.5, 2.0, Start},       // another way than was predicted
          }) {
-        EXPECT_EQ(nextStep(sinceShown, sinceNext), step)
+        EXPECT_EQ(nextStep(sinceShown, sinceNext, 0.25), step)
             << sinceShown.value_or(-1) << ' ' << sinceNext.value_or(-1);
     }
+}
+
+TEST(NextStep, ComesLaterWhereColoursAreTaken) {
+    using enum ReferenceStep;
+    EXPECT_EQ(nextStep(0.9, {}, 1), Refine);
+    EXPECT_EQ(nextStep(1.0, {}, 1), Start);
+    EXPECT_EQ(nextStep(0.4, 0.7, 1), Drop);
+    EXPECT_EQ(nextStep(0.6, 0.7, 1), Continue);
 }
 
 TEST(ReferencePictures, ACameraAtRestSeesItsPictureGetFiner) {
@@ -125,7 +67,7 @@ TEST(ReferencePictures, ACameraThatComesToRestGetsAPictureOfItsOwnView) {
     driver.settle();
     const std::size_t before = driver.shown.size();
     for (int i = 0; i < 30; ++i) {  // it still moves, and the picture serves
-        driver.look(20.5 + 0.05 * i);
+        driver.look(i % 2 == 0 ? 20.8 : 19.2);
         EXPECT_FALSE(driver.step()) << i;
     }
     for (int i = 0; i < 12; ++i)

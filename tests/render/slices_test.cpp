@@ -31,10 +31,11 @@ public:
         for (const std::uint32_t pixel : slice.pixels)
             samples_[pixel] += slice.samples;
     }
-    [[nodiscard]] float error(std::uint32_t pixel) const {
+    [[nodiscard]] PixelState state(std::uint32_t pixel) const {
         const auto found = samples_.find(pixel);
-        if (found == samples_.end()) return std::numeric_limits<float>::infinity();
-        return noise_(pixel) / std::sqrt(static_cast<float>(found->second));
+        const auto samples = static_cast<float>(found == samples_.end() ? 0 : found->second);
+        if (!(samples > 0)) return {std::numeric_limits<float>::infinity(), 0};
+        return {noise_(pixel) / std::sqrt(samples), samples};
     }
     [[nodiscard]] const std::map<std::uint32_t, int>& samples() const { return samples_; }
 
@@ -54,7 +55,7 @@ float hashedNoise(std::uint32_t pixel) {
 void traceAll(Slices& slices, NoisyPicture& picture, std::size_t workers, std::int64_t most) {
     std::mt19937 random(7);
     std::vector<Slice> out;
-    const auto error = [&](std::uint32_t pixel) { return picture.error(pixel); };
+    const auto states = [&](std::uint32_t pixel) { return picture.state(pixel); };
     while (true) {
         while (out.size() < workers) {
             const Slice slice = slices.next(most);
@@ -64,7 +65,7 @@ void traceAll(Slices& slices, NoisyPicture& picture, std::size_t workers, std::i
         if (out.empty()) return;
         std::swap(out[random() % out.size()], out.back());
         picture.trace(out.back());
-        slices.done(out.back(), error);
+        slices.done(out.back(), states);
         out.pop_back();
     }
 }
@@ -125,31 +126,118 @@ TEST(Slices, NoPixelIsOutTwice) {
             if (out.size() < 4 && !slice.pixels.empty()) continue;
             for (const std::uint32_t pixel : out.front().pixels)
                 pixels.erase(pixel);
-            slices.done(out.front(), [](std::uint32_t) { return 0.0F; });
+            slices.done(out.front(), [](std::uint32_t) { return PixelState{}; });
             out.pop_front();
         }
         EXPECT_TRUE(slices.finished());
     }
 }
 
+// A look through every pixel, and the first samples in three turns.
 TEST(Slices, TimeSlicesAreCompleteAfterEachTurn) {
     Slices slices({Slicing::Time, 8, 3, 0, 2});
-    slices.begin(kBounds, kPicture);
+    slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1.0F; });
-    std::vector<int> turns;
+    std::vector<int> turns, sampled;
     while (true) {
         const Slice slice = slices.next(100);
         if (slice.pixels.empty()) break;
         EXPECT_FALSE(slices.turnComplete());
+        EXPECT_EQ(slice.samples == 0, turns.empty()) << "the look comes first, and once";
         picture.trace(slice);
-        slices.done(slice, [](std::uint32_t) { return 1.0F; });
+        slices.done(slice, [](std::uint32_t) { return PixelState{1}; });
         if (!slices.turnComplete()) continue;
         turns.push_back(slices.samples());
+        EXPECT_EQ(slices.turns(), static_cast<int>(turns.size()));
+        const auto isSampled = [](const auto& pixel) { return pixel.second > 0; };
+        sampled.push_back(static_cast<int>(std::ranges::count_if(picture.samples(), isSampled)));
+        EXPECT_EQ(picture.samples().size(), slices.pixels()) << "each was looked at";
+        if (turns.back() == 0) continue;
         for (const auto& [pixel, samples] : picture.samples())
             EXPECT_EQ(samples, turns.back()) << pixel;
-        EXPECT_EQ(picture.samples().size(), slices.pixels());
     }
-    EXPECT_EQ(turns, (std::vector<int>{3, 6, 8}));
+    EXPECT_EQ(turns, (std::vector<int>{0, 0, 0, 3, 6, 8}));
+    EXPECT_EQ(sampled, (std::vector<int>{0, 48, 192, 768, 768, 768}));
+}
+
+// Of each 4x4, and of each 2x2 pixels, one.
+TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
+    Slices slices({Slicing::Time, 2, 1, 0, 2});
+    slices.begin({0, 0, 32, 24}, {32, 24});
+    NoisyPicture picture([](std::uint32_t) { return 1.0F; });
+    for (int edge = 8; edge > 1; edge /= 2) {
+        std::set<std::pair<int, int>> blocks;
+        do {
+            const Slice slice = slices.next(100);
+            picture.trace(slice);
+            slices.done(slice, [](std::uint32_t) { return PixelState{1}; });
+        } while (!slices.turnComplete());
+        for (const auto& [pixel, samples] : picture.samples())
+            if (samples > 0)
+                blocks.emplace(static_cast<int>(pixel) % 32 / edge,
+                               static_cast<int>(pixel) / 32 / edge);
+        if (edge < 8) {
+            EXPECT_EQ(static_cast<int>(blocks.size()), 32 * 24 / (edge * edge)) << edge;
+        }
+    }
+}
+
+TEST(Slices, WhatALookKnowsGetsNoSamples) {
+    Slices slices({Slicing::Time, 16, 4, 1, 8});
+    slices.begin({0, 0, 32, 24}, {32, 24});
+    NoisyPicture picture([](std::uint32_t) { return 1e6F; });
+    // The left half is known by an earlier picture.
+    while (true) {
+        const Slice slice = slices.next(50);
+        if (slice.pixels.empty()) break;
+        picture.trace(slice);
+        slices.done(slice, [&](std::uint32_t pixel) {
+            return pixel % 32 < 16 ? PixelState{0.1F, 64} : picture.state(pixel);
+        });
+    }
+    for (const auto& [pixel, samples] : picture.samples())
+        EXPECT_EQ(samples, pixel % 32 < 16 ? 0 : 16) << pixel;
+}
+
+TEST(Slices, UntouchedTilesGetTheSparseSamplesAlone) {
+    Slices slices({Slicing::Time, 16, 4, 1, 8});
+    slices.begin({0, 0, 32, 24}, {32, 24});
+    NoisyPicture picture([](std::uint32_t) { return 1e6F; });
+    while (true) {
+        const Slice slice = slices.next(50);
+        if (slice.pixels.empty()) break;
+        picture.trace(slice);
+        slices.done(slice, [&](std::uint32_t pixel) {
+            PixelState state = picture.state(pixel);
+            state.untouched = pixel % 32 < 16;
+            return state;
+        });
+    }
+    int sampled = 0;
+    for (const auto& [pixel, samples] : picture.samples()) {
+        if (pixel % 32 < 16)
+            sampled += samples > 0 ? 1 : 0;
+        else
+            EXPECT_EQ(samples, 16) << pixel;
+    }
+    EXPECT_EQ(sampled, 16 * 24 / 4);
+    EXPECT_DOUBLE_EQ(slices.progress(), 1);
+}
+
+TEST(Slices, DensityLeavesOutTilesAndPixels) {
+    Slices slices({Slicing::Time, 4, 2, 0, 2});
+    slices.begin({0, 0, 24, 8}, {24, 8}, [](const PixelRect& tile) {
+        if (tile.x0 == 0) return Slices::Density::None;
+        return tile.x0 == 8 ? Slices::Density::Quarter : Slices::Density::Full;
+    });
+    NoisyPicture picture([](std::uint32_t) { return 1.0F; });
+    traceAll(slices, picture, 2, 10);
+    EXPECT_EQ(picture.samples().size(), 16U + 64U);
+    for (const auto& [pixel, samples] : picture.samples()) {
+        const auto x = pixel % 24, y = pixel / 24;
+        EXPECT_TRUE(x >= 16 || (x >= 8 && x % 2 == 0 && y % 2 == 0)) << x << ' ' << y;
+        EXPECT_EQ(samples, 4);
+    }
 }
 
 TEST(Slices, SpatialSlicesFinishTileAfterTile) {
@@ -164,7 +252,7 @@ TEST(Slices, SpatialSlicesFinishTileAfterTile) {
             EXPECT_LE(pixels.size(), 64U);
         }
         EXPECT_EQ(slices.samples(), 0);
-        slices.done(slice, [](std::uint32_t) { return 1.0F; });
+        slices.done(slice, [](std::uint32_t) { return PixelState{1}; });
     }
     EXPECT_EQ(tiles.size(), 16U) << "a tile was left before it was finished";
     EXPECT_EQ(slices.samples(), 16);
@@ -174,11 +262,12 @@ TEST(Slices, TilesFollowTheMortonCurve) {
     Slices slices({Slicing::Time, 1, 1, 0, 2});
     slices.begin({0, 0, 32, 32}, {32, 32});
     std::vector<std::pair<int, int>> places;
-    for (Slice slice = slices.next(64); !slice.pixels.empty(); slice = slices.next(64)) {
+    do {
+        const Slice slice = slices.next(64);
         const int first = static_cast<int>(slice.pixels.front());
         places.emplace_back(first % 32 / 8, first / 32 / 8);
-        slices.done(slice, [](std::uint32_t) { return 1.0F; });
-    }
+        slices.done(slice, [](std::uint32_t) { return PixelState{1}; });
+    } while (!slices.turnComplete());
     const std::vector<std::pair<int, int>> curve{{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}, {3, 0}};
     ASSERT_EQ(places.size(), 16U);
     EXPECT_TRUE(std::equal(curve.begin(), curve.end(), places.begin()));
@@ -205,9 +294,11 @@ TEST(Slices, CalmPixelsGetNoMoreSamplesNoisyOnesAll) {
 TEST(Slices, AnErrorThatIsNoNumberIsNoCalm) {
     Slices slices({Slicing::Spatial, 32, 4, 1, 4});
     slices.begin({0, 0, 8, 8}, {8, 8});
-    const auto error = [](std::uint32_t) { return std::numeric_limits<float>::quiet_NaN(); };
+    const auto states = [](std::uint32_t) {
+        return PixelState{std::numeric_limits<float>::quiet_NaN(), 32};
+    };
     for (Slice slice = slices.next(1000); !slice.pixels.empty(); slice = slices.next(1000))
-        slices.done(slice, error);
+        slices.done(slice, states);
     EXPECT_EQ(slices.traced(), 64U * 32U);
 }
 
@@ -227,7 +318,7 @@ TEST(Slices, ANewPictureBeginsFromNothing) {
     Slices slices({Slicing::Spatial, 4, 2, 0, 2});
     slices.begin(kBounds, kPicture);
     const Slice slice = slices.next(10);
-    slices.done(slice, [](std::uint32_t) { return 0.0F; });
+    slices.done(slice, [](std::uint32_t) { return PixelState{}; });
     slices.begin({0, 0, 8, 8}, {8, 8});
     NoisyPicture picture(hashedNoise);
     traceAll(slices, picture, 1, 100);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 namespace mfar {
@@ -88,6 +89,34 @@ TEST(SurfaceMesh, SimplifiedStaysCloseToASmoothSurface) {
         EXPECT_NEAR(v.position[2], 0.1F * std::sin(4 * v.position[0]) * std::cos(3 * v.position[1]),
                     1e-3);
     EXPECT_EQ(simplified(whole, 80000).triangles.size(), whole.triangles.size());
+}
+
+// A pipe around which u goes from 0 to 1.
+TEST(SurfaceMesh, SimplifiedKeepsBothSidesOfASeamApart) {
+    std::vector<Vector3f> corners;
+    std::vector<Eigen::Vector2f> uvs;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    constexpr std::uint32_t kAround = 200;
+    for (std::uint32_t j = 0; j <= kAround; ++j)
+        for (std::uint32_t i = 0; i <= kAround; ++i) {
+            const float u = static_cast<float>(i) / kAround, v = static_cast<float>(j) / kAround;
+            const float angle = 2 * std::numbers::pi_v<float> * u;
+            corners.emplace_back(std::cos(angle), std::sin(angle), v);
+            uvs.emplace_back(u, v);
+            if (i == kAround || j == kAround) continue;
+            const std::uint32_t a = j * (kAround + 1) + i, below = a + kAround + 1;
+            triangles.push_back({a, a + 1, below});
+            triangles.push_back({a + 1, below + 1, below});
+        }
+    const SurfaceMesh few = simplified(surfaceMesh(corners, uvs, triangles, 0), 5000);
+    EXPECT_GT(few.triangles.size(), 1500U);
+    for (const auto& t : few.triangles) {
+        const auto [least, most] = std::minmax(
+            {few.vertices[t[0]].uv[0], few.vertices[t[1]].uv[0], few.vertices[t[2]].uv[0]});
+        ASSERT_LT(most - least, 0.05F);
+    }
+    for (const SurfaceVertex& v : few.vertices)
+        EXPECT_NEAR(std::hypot(v.position[0], v.position[1]), 1, 0.01F);
 }
 
 }  // namespace

@@ -27,15 +27,18 @@ public:
         slices.begin(scene.bounds, scene.view.camera.size);
     }
 
-    /// At most so many samples, of all pixels together; returns how many.
+    /// At most so many samples, of all pixels together; returns how many. A look through a pixel's
+    /// centre counts as one.
     std::int64_t trace(std::int64_t most) {
         const double begin = threadCpuMs();
         const Slice slice = slices.next(most);
         if (slice.pixels.empty()) return 0;
         scene_.tracer->trace(scene_.view, slice.pixels, slice.samples, film);
-        slices.done(slice, [&](std::uint32_t pixel) { return film.error(pixel); });
+        slices.done(slice, [&](std::uint32_t pixel) {
+            return PixelState{film.error(pixel), static_cast<float>(film.samples(pixel)), false};
+        });
         ms += threadCpuMs() - begin;
-        return static_cast<std::int64_t>(slice.pixels.size()) * slice.samples;
+        return static_cast<std::int64_t>(slice.pixels.size()) * std::max(slice.samples, 1);
     }
     [[nodiscard]] ErrorAt state() const {
         const auto pixels = static_cast<double>(std::max<std::size_t>(slices.pixels(), 1));
@@ -122,7 +125,9 @@ std::vector<ErrorAt> wholeErrors(const SlicedScene& scene, int samples) {
 
 std::vector<double> frameTimes(const SlicedScene& scene, const SliceOptions& options, int frames) {
     SlicedPicture picture(scene, options);
-    const auto total = static_cast<std::int64_t>(picture.slices.pixels()) * options.samples;
+    const int looks = options.slicing == Slicing::Time ? 1 : 0;
+    const auto total =
+        static_cast<std::int64_t>(picture.slices.pixels()) * (options.samples + looks);
     std::vector<double> out;
     std::int64_t traced = 0;
     for (int frame = 1; frame <= frames; ++frame) {

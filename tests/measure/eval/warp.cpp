@@ -102,12 +102,13 @@ private:
     [[nodiscard]] HoleAnswer answered(const HoleRequest& request) const {
         const RenderedPicture picture =
             tracePixels(tracer_, request.view, request.pixels, request.samples);
-        HoleAnswer out{request.view,    request.pixels, {},           {}, {},
+        HoleAnswer out{request.view,    request.pixels, {},           {}, {}, {},
                        request.samples, request.scene,  request.edges};
         for (const std::uint32_t pixel : request.pixels) {
             out.colour.push_back(picture.colour[pixel]);
             out.depth.push_back(picture.depth[pixel]);
             out.id.push_back(picture.id[pixel]);
+            out.light.push_back(picture.light[pixel]);
         }
         return out;
     }

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "pipeline/render/environment_light.h"
+#include "pipeline/scene/scene.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace mfar {
+
+/// A function of the direction, row-major on the octahedral map (Cigolle et al. 2014) with its
+/// border repeated, interpolated.
+class DirectionTable {
+public:
+    /// `edge` texels a side, at least 2.
+    explicit DirectionTable(int edge);
+
+    [[nodiscard]] int edge() const { return edge_; }
+    /// The direction at a texel, unit length.
+    [[nodiscard]] Eigen::Vector3f direction(int column, int row) const;
+    [[nodiscard]] Eigen::Vector3f& at(int column, int row) {
+        return values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(edge_) +
+                       static_cast<std::size_t>(column)];
+    }
+    [[nodiscard]] const Eigen::Vector3f& at(int column, int row) const {
+        return values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(edge_) +
+                       static_cast<std::size_t>(column)];
+    }
+    [[nodiscard]] Eigen::Vector3f operator()(const Eigen::Vector3f& direction) const;
+
+private:
+    int edge_;
+    std::vector<Eigen::Vector3f> values_;
+};
+
+/// The light that would reach a point if no object were there: the environment above the horizon
+/// and, where there is a real surface, a ground of its mean radiance below (world z is up). Without
+/// the sun. Integrals over it are tables, so that a surface's light is known without a ray; rays
+/// then measure what the objects change of it.
+class FarLight {
+public:
+    FarLight(const EnvironmentLight& environment, const Lighting& lighting,
+             const ShadowCatcher& catcher);
+
+    [[nodiscard]] bool dark() const { return dark_; }
+    /// Mean radiance over all directions and channels.
+    [[nodiscard]] float brightness() const { return brightness_; }
+    /// From a direction, given what the environment shows there.
+    [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction,
+                                           const Eigen::Vector3f& environment) const {
+        return hasGround_ && direction.z() < 0 ? ground_ : environment;
+    }
+    /// Irradiance on a surface of this normal, divided by pi.
+    [[nodiscard]] Eigen::Vector3f diffuse(const Eigen::Vector3f& normal) const {
+        return diffuse_(normal);
+    }
+    /// Mean over the lobe that a surface of this roughness reflects, seen along its normal, about
+    /// `direction` (Karis 2013). Off the normal the lobe is longer, so this is an approximation.
+    [[nodiscard]] Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, float roughness) const;
+
+private:
+    /// Light of the directions, ever coarser, of which the tables are made.
+    using Pyramid = std::vector<DirectionTable>;
+    [[nodiscard]] Pyramid pyramid() const;
+    void makeDiffuse(const Pyramid& light);
+    void makeMirrored(const Pyramid& light);
+
+    const EnvironmentLight& environment_;
+    bool dark_, hasGround_;
+    float brightness_ = 0;
+    Eigen::Vector3f ground_{0, 0, 0};
+    DirectionTable diffuse_;
+    std::vector<DirectionTable> mirrored_;  // of kRoughnesses
+};
+
+}  // namespace mfar

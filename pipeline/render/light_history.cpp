@@ -1,0 +1,86 @@
+#include "pipeline/render/light_history.h"
+
+#include "pipeline/render/microfacet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mfar {
+namespace {
+
+constexpr float kNearest = 1e-3F;  // [m]
+// A pixel beside the point shows its surface if it lies in its plane, within this share of its
+// distance, and has about its normal.
+constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
+constexpr float kLeastWeight = 0.1F;  // of the pixels about a point that show its surface
+// The specular lobe of width alpha has gone by when the eye has turned so many alphas about a
+// point: its reflection turns by twice the eye's angle.
+constexpr float kLobeTurn = 0.5F;
+
+void addShare(KnownLight& sum, float share, const KnownLight& light) {
+    sum.first += share * light.first;
+    sum.second += share * light.second;
+    sum.firstSquare += share * light.firstSquare;
+    sum.secondSquare += share * light.secondSquare;
+    sum.firstCount += share * light.firstCount;
+    sum.secondCount += share * light.secondCount;
+}
+
+}  // namespace
+
+LightHistory::LightHistory(const Film& film, const RenderView& view,
+                           std::shared_ptr<const LensRays> lens, float mostSamples)
+    : film_(film), camera_(view.camera), lens_(std::move(lens)),
+      R_world_camera_(view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
+      eye_(view.T_world_camera.translation.cast<float>()), mostSamples_(mostSamples) {}
+
+bool LightHistory::isSame(std::size_t pixel, const Eigen::Vector2f& ray, const SeenSurface& seen,
+                          const Eigen::Vector3f& point) const {
+    const SeenSurface& there = film_.centre(pixel);
+    if (there.hit.id != seen.hit.id || there.normal.dot(seen.normal) < kSameBend) return false;
+    const Eigen::Vector3f other =
+        eye_ + there.hit.depth * (R_world_camera_ * ray.homogeneous().eval());
+    return std::abs(seen.normal.dot(other - point)) < kOffPlane * there.hit.depth;
+}
+
+KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& point,
+                            const Eigen::Vector3f& eye) const {
+    if (seen.hit.id == 0) return {};
+    const Eigen::Vector3f there = R_world_camera_.transpose() * (point - eye_);
+    if (!(there.z() > kNearest)) return {};
+    const Eigen::Vector2d pixel = camera_.project(there.hnormalized().cast<double>());
+    const Size size = camera_.size;
+    if (!(pixel.x() > -1 && pixel.y() > -1 && pixel.x() < size.width && pixel.y() < size.height))
+        return {};
+    const double lowX = std::floor(pixel.x()), lowY = std::floor(pixel.y());
+    const auto fx = static_cast<float>(pixel.x() - lowX), fy = static_cast<float>(pixel.y() - lowY);
+    KnownLight sum;
+    float weights = 0;
+    for (int i = 0; i < 4; ++i) {
+        const int right = i & 1, down = i >> 1;
+        const int x = static_cast<int>(lowX) + right, y = static_cast<int>(lowY) + down;
+        const float weight = (right != 0 ? fx : 1 - fx) * (down != 0 ? fy : 1 - fy);
+        if (x < 0 || y < 0 || x >= size.width || y >= size.height || !(weight > 0)) continue;
+        const std::size_t at = static_cast<std::size_t>(y) * size.width + x;
+        if (!isSame(at, lens_->at(static_cast<float>(x), static_cast<float>(y)), seen, point))
+            continue;
+        const KnownLight known = film_.known(at);
+        if (!(known.firstCount > 0 && known.secondCount > 0)) continue;
+        weights += weight;
+        addShare(sum, weight, known);
+    }
+    if (weights < kLeastWeight) return {};
+    KnownLight out;
+    addShare(out, 1 / weights, sum);
+    out.firstCount = std::min(out.firstCount, mostSamples_);
+    out.secondCount = std::min(out.secondCount, mostSamples_);
+    if (seen.hit.id == kCatcherId) return out;
+    const float cosine = (point - eye_).normalized().dot((point - eye).normalized());
+    const float turn = std::acos(std::clamp(cosine, -1.0F, 1.0F));
+    const float lobes = turn / (kLobeTurn * alphaOf(seen.roughness));
+    out.secondCount *= std::exp(-lobes * lobes);
+    return out;
+}
+
+}  // namespace mfar

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "base/light_word.h"
+#include "pipeline/render/microfacet.h"
+
+#include <Eigen/Core>
+
+#include <array>
+
+namespace mfar {
+
+/// No paint is darker: what a metal's channel that reflects nothing has of light is not known.
+inline constexpr float kLeastPaint = 0.01F;
+
+/// The colours of a surface by which its light is multiplied, as of glTF's metallic-roughness
+/// material; linear, shares in [0, 1].
+struct Paint {
+    Eigen::Vector3f diffuse{0, 0, 0};  ///< of diffuse light
+    Eigen::Vector3f facing{0, 0, 0};   ///< of specular light along the normal
+    SpecularAlbedo albedo{};           ///< towards the eye
+
+    /// Of specular light.
+    [[nodiscard]] Eigen::Vector3f specular() const {
+        return (albedo.scale * facing).array() + albedo.offset;
+    }
+};
+
+[[nodiscard]] inline Paint paintOf(const Eigen::Vector3f& baseColour, float metallic,
+                                   const SpecularAlbedo& albedo) {
+    return {(1 - metallic) * baseColour,
+            Eigen::Vector3f::Constant((1 - metallic) * kDielectricReflectance) +
+                metallic * baseColour,
+            albedo};
+}
+
+/// What a surface sends to the eye, without its paint.
+struct SurfaceLight {
+    Eigen::Vector3f diffuse{0, 0, 0};   ///< radiance of the surface if it were white
+    Eigen::Vector3f specular{0, 0, 0};  ///< and if it reflected all light
+
+    [[nodiscard]] Eigen::Vector3f on(const Paint& paint) const {
+        return paint.diffuse.cwiseProduct(diffuse) + paint.specular().cwiseProduct(specular);
+    }
+};
+
+/// Light that is a multiple of other light, channel by channel.
+[[nodiscard]] inline SurfaceLight product(const SurfaceLight& a, const SurfaceLight& b) {
+    return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
+}
+
+/// For a surface whose paint is known by its reflectance along the normal alone.
+[[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
+                                       float exposure) {
+    const float full = paint.albedo.full();
+    const auto words = [&](const Eigen::Vector3f& rgb) {
+        return std::array<float, 3>{exposure * rgb.x(), exposure * rgb.y(), exposure * rgb.z()};
+    };
+    return packedWords({words(light.diffuse), words(full * light.specular),
+                        full > 0 ? paint.albedo.offset / full : 0});
+}
+
+/// The light of a radiance of which `white` is the diffuse part before its paint.
+[[nodiscard]] inline SurfaceLight lightOf(const Eigen::Vector3f& radiance,
+                                          const Eigen::Vector3f& white, const Paint& paint) {
+    const Eigen::Vector3f rest = radiance - paint.diffuse.cwiseProduct(white);
+    return {white, rest.cwiseMax(0.0F).cwiseQuotient(paint.specular().cwiseMax(kLeastPaint))};
+}
+
+}  // namespace mfar

@@ -1,0 +1,42 @@
+// Values of a display (sRGB) and linear ones, in lanes. Within half a byte's step of the standard.
+#if defined(MFAR_SIMD_DISPLAY_VALUES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef MFAR_SIMD_DISPLAY_VALUES_INL_H
+#undef MFAR_SIMD_DISPLAY_VALUES_INL_H
+#else
+#define MFAR_SIMD_DISPLAY_VALUES_INL_H
+#endif
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace mfar::simd::HWY_NAMESPACE {
+
+namespace hw = hwy::HWY_NAMESPACE;
+
+/// Linear value of bytes [0, 255]: a cubic of the decoding.
+template <class D>
+HWY_INLINE hw::Vec<D> LinearOf(D d, hw::Vec<D> byte) {
+    const auto x = hw::Mul(byte, hw::Set(d, 1.0F / 255));
+    const auto inner = hw::MulAdd(x, hw::Set(d, 0.305306011F), hw::Set(d, 0.682171111F));
+    return hw::Mul(x, hw::MulAdd(x, inner, hw::Set(d, 0.012522878F)));
+}
+
+/// Level [0, 255] of a linear value, which is cut to [0, 1]; not rounded.
+template <class D>
+HWY_INLINE hw::Vec<D> SrgbLevel(D d, hw::Vec<D> linear) {
+    const auto x = hw::Min(hw::Max(linear, hw::Zero(d)), hw::Set(d, 1));
+    const auto s = hw::Sqrt(x);
+    // 255 (1.055 s^(2 / 2.4) - 0.055) within 0.09 (Remez).
+    auto high = hw::MulAdd(s, hw::Set(d, 132.00984F), hw::Set(d, -414.30241F));
+    high = hw::MulAdd(s, high, hw::Set(d, 518.32418F));
+    high = hw::MulAdd(s, high, hw::Set(d, -357.82060F));
+    high = hw::MulAdd(s, high, hw::Set(d, 387.10107F));
+    high = hw::MulAdd(s, high, hw::Set(d, -10.229407F));
+    const auto low = hw::Mul(x, hw::Set(d, 12.92F * 255));
+    return hw::IfThenElse(hw::Lt(x, hw::Set(d, 0.0031308F)), low, high);
+}
+
+}  // namespace mfar::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

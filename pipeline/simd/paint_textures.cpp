@@ -1,0 +1,229 @@
+#include "pipeline/simd/paint_textures.h"
+
+#include "base/srgb.h"
+#include "pipeline/render/paint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace mfar::simd {
+namespace {
+
+constexpr int kLargestSide = 0x8000;  // texels; a side has 16 bits
+constexpr float kMost = 255;
+
+using Values = std::array<float, 4>;  // linear, [0, 1]
+
+Values linearOf(const SurfaceTexture& texture, std::size_t texel) {
+    Values out{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        const std::uint8_t byte = texture.texels[texel][c];
+        out[c] =
+            texture.srgb && c < 3 ? linearOfSrgbByte()[byte] : static_cast<float>(byte) / kMost;
+    }
+    return out;
+}
+
+/// As texture_lookup.h has it.
+Values lookedUp(const SurfaceTexture& texture, float u, float v) {
+    const auto pair = [](float share, int side, int& first, int& second) {
+        const float at = share * static_cast<float>(side) - 0.5F, low = std::floor(at);
+        first = (static_cast<int>(low) + side) % side;
+        second = (first + 1) % side;
+        return at - low;
+    };
+    int x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+    const float right = pair(u, texture.size.width, x0, x1);
+    const float below = pair(v, texture.size.height, y0, y1);
+    Values out{};
+    const auto add = [&](int x, int y, float weight) {
+        const Values texel =
+            linearOf(texture, static_cast<std::size_t>(y) * texture.size.width + x);
+        for (std::size_t c = 0; c < 4; ++c)
+            out[c] += weight * texel[c];
+    };
+    add(x0, y0, (1 - right) * (1 - below));
+    add(x1, y0, right * (1 - below));
+    add(x0, y1, (1 - right) * below);
+    add(x1, y1, right * below);
+    return out;
+}
+
+std::uint32_t nearestByte(float level) {
+    return static_cast<std::uint32_t>(level + 0.5F);
+}
+std::uint32_t rootByte(float linear) {
+    return nearestByte(kMost * std::sqrt(linear));
+}
+
+std::uint32_t rootsOf(const std::array<float, 3>& linear) {
+    return rootByte(linear[0]) | rootByte(linear[1]) << 8 | rootByte(linear[2]) << 16;
+}
+
+/// As TracedScene has it: more than all light does not come back.
+PaintWords wordsOf(const Values& base) {
+    std::array<float, 3> diffuse{}, facing{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float colour = std::clamp(base[c], 0.0F, 1.0F);
+        diffuse[c] = (1 - base[3]) * colour;
+        facing[c] = (1 - base[3]) * kDielectricReflectance + base[3] * colour;
+    }
+    return {rootsOf(diffuse), rootsOf(facing)};
+}
+
+void addSquares(std::uint32_t roots, float weight, std::array<float, 3>& sum) {
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float root = static_cast<float>(roots >> 8 * c & 0xFFU) / kMost;
+        sum[c] += weight * root * root;
+    }
+}
+
+/// Means of two by two texels; of an odd side the middle three are drawn together into one.
+void halve(const PaintWords* from, Size size, PaintWords* out, Size half) {
+    struct Taps {
+        int first, count;
+        std::array<float, 3> weights;
+    };
+    // Each texel of the half reaches over side / half of the whole's.
+    const auto taps = [](int i, int side, int halfSide) {
+        const float step = static_cast<float>(side) / static_cast<float>(halfSide);
+        const float begin = static_cast<float>(i) * step, end = begin + step;
+        Taps t{static_cast<int>(begin), 0, {}};
+        for (int k = t.first; k < side && t.count < 3; ++k) {
+            const float share =
+                std::min(end, static_cast<float>(k) + 1) - std::max(begin, static_cast<float>(k));
+            if (!(share > 1e-4F)) break;
+            t.weights[static_cast<std::size_t>(t.count++)] = share / step;
+        }
+        return t;
+    };
+    std::vector<Taps> columns;
+    for (int x = 0; x < half.width; ++x)
+        columns.push_back(taps(x, size.width, half.width));
+    for (int y = 0; y < half.height; ++y) {
+        const Taps rows = taps(y, size.height, half.height);
+        for (int x = 0; x < half.width; ++x) {
+            const Taps& c = columns[static_cast<std::size_t>(x)];
+            std::array<float, 3> diffuse{}, facing{};
+            for (int j = 0; j < rows.count; ++j)
+                for (int i = 0; i < c.count; ++i) {
+                    const PaintWords& t =
+                        from[static_cast<std::ptrdiff_t>(rows.first + j) * size.width + c.first +
+                             i];
+                    const float weight = rows.weights[static_cast<std::size_t>(j)] *
+                                         c.weights[static_cast<std::size_t>(i)];
+                    addSquares(t.diffuse, weight, diffuse);
+                    addSquares(t.facing, weight, facing);
+                }
+            out[static_cast<std::ptrdiff_t>(y) * half.width + x] = {rootsOf(diffuse),
+                                                                    rootsOf(facing)};
+        }
+    }
+}
+
+Size halfOf(Size size) {
+    return {std::max(size.width / 2, 1), std::max(size.height / 2, 1)};
+}
+std::size_t texelsOf(Size size) {
+    return static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height);
+}
+Size sizeOf(const PaintLevel& level) {
+    return {static_cast<int>(level.size & 0xFFFFU), static_cast<int>(level.size >> 16)};
+}
+
+}  // namespace
+
+PaintTextures::Source PaintTextures::sourceOf(const SilhouetteModels::Part& part) {
+    const mfar::Material& m = *part.material;
+    return {part.baseColour,
+            part.metallicRoughness,
+            {m.baseColour.x(), m.baseColour.y(), m.baseColour.z(), m.metallic}};
+}
+
+void PaintTextures::fill(const Source& source, Size size, std::span<PaintWords> out) {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const auto x = static_cast<float>(i % size.width), y = static_cast<float>(i / size.width);
+        const float u = (x + 0.5F) / static_cast<float>(size.width);
+        const float v = (y + 0.5F) / static_cast<float>(size.height);
+        const auto valueOf = [&](const SurfaceTexture& texture) {
+            return texture.size == size ? linearOf(texture, i) : lookedUp(texture, u, v);
+        };
+        Values base = source.factor;
+        if (source.colour != nullptr) {
+            const Values t = valueOf(*source.colour);
+            for (std::size_t c = 0; c < 3; ++c)
+                base[c] *= t[c];
+        }
+        if (source.metallic != nullptr) base[3] *= valueOf(*source.metallic)[2];
+        out[i] = wordsOf(base);
+    }
+}
+
+void PaintTextures::addPicture(Picture& picture, const Source& source) {
+    Size size{1, 1};
+    for (const SurfaceTexture* texture : {source.colour, source.metallic})
+        if (texture != nullptr)
+            size = {std::min(std::max(size.width, texture->size.width), kLargestSide),
+                    std::min(std::max(size.height, texture->size.height), kLargestSide)};
+    picture.levels.clear();
+    for (Size level = size;; level = halfOf(level)) {
+        const std::size_t first = texels_.size();
+        picture.levels.push_back({static_cast<std::uint32_t>(first),
+                                  static_cast<std::uint32_t>(level.width | level.height << 16)});
+        texels_.resize(first + texelsOf(level));
+        const std::span<PaintWords> out(texels_.data() + first, texelsOf(level));
+        if (picture.levels.size() > 1) {
+            const PaintLevel& finer = picture.levels[picture.levels.size() - 2];
+            halve(texels_.data() + finer.first, sizeOf(finer), out.data(), level);
+        } else {
+            fill(source, size, out);
+        }
+        if (texelsOf(level) == 1) break;
+    }
+}
+
+void PaintTextures::setPictures(std::span<const SilhouetteModels::Object> objects) {
+    Pictures now;
+    for (const SilhouetteModels::Object& object : objects)
+        for (const SilhouetteModels::Part& part : object.shape->parts)
+            now.try_emplace(sourceOf(part), Picture{object.shape->model, {}});
+    const auto isKept = [this](const auto& entry) { return pictures_.contains(entry.first); };
+    if (now.size() == pictures_.size() && std::ranges::all_of(now, isKept)) return;
+    const Pictures before = std::exchange(pictures_, std::move(now));
+    const std::vector<PaintWords> texels = std::exchange(texels_, {});
+    for (auto& [source, picture] : pictures_) {
+        if (const auto kept = before.find(source); kept != before.end()) {
+            picture = kept->second;
+            for (PaintLevel& level : picture.levels) {
+                const auto from = texels.begin() + level.first;
+                level.first = static_cast<std::uint32_t>(texels_.size());
+                texels_.insert(texels_.end(), from,
+                               from + static_cast<std::ptrdiff_t>(texelsOf(sizeOf(level))));
+            }
+        } else {
+            addPicture(picture, source);
+        }
+    }
+}
+
+void PaintTextures::set(std::span<const SilhouetteModels::Object> objects) {
+    setPictures(objects);
+    levels_.clear();
+    std::map<Source, Material> made;
+    for (const auto& [source, picture] : pictures_) {
+        const auto first = static_cast<std::uint32_t>(levels_.size());
+        const auto last = static_cast<std::uint32_t>(picture.levels.size() - 1);
+        made[source] = {picture.levels.front().size, first | last << 24,
+                        static_cast<std::uint32_t>(made.size())};
+        levels_.insert(levels_.end(), picture.levels.begin(), picture.levels.end());
+    }
+    materials_.clear();
+    for (const SilhouetteModels::Object& object : objects)
+        for (const SilhouetteModels::Part& part : object.shape->parts)
+            materials_[&part] = made.at(sourceOf(part));
+}
+
+}  // namespace mfar::simd

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "pipeline/simd/paint_rows.h"
+#include "pipeline/warp/silhouette_models.h"
+
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace mfar::simd {
+
+/// The textures of a scene's surfaces for paintRow(), all in one array: what a material's base
+/// colour and metallic make, as one picture at the larger size of both textures, in all sizes down
+/// to one texel. Equal materials have one.
+class PaintTextures {
+public:
+    /// What a part is painted with: the words of PaintTriangle.
+    struct Material {
+        std::uint32_t size, levels, material;
+    };
+
+    /// Makes pictures that the objects before did not have; keeps the others. Borrows nothing.
+    /// Takes 4 ns a texel.
+    void set(std::span<const SilhouetteModels::Object> objects);
+    /// Of a part of those objects.
+    [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {
+        return materials_.at(&part);
+    }
+    /// Without triangles. Valid until set().
+    [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
+
+private:
+    /// Textures of base colour and metallic-roughness, and what multiplies them: colour, metallic.
+    struct Source {
+        const SurfaceTexture *colour = nullptr, *metallic = nullptr;
+        std::array<float, 4> factor{};
+
+        auto operator<=>(const Source&) const = default;
+    };
+    struct Picture {
+        std::shared_ptr<const Model> model;  // owns the textures: their addresses are not used anew
+        std::vector<PaintLevel> levels;      // largest first
+    };
+    using Pictures = std::map<Source, Picture>;
+
+    static Source sourceOf(const SilhouetteModels::Part& part);
+    static void fill(const Source& source, Size size, std::span<PaintWords> out);
+    void setPictures(std::span<const SilhouetteModels::Object> objects);
+    void addPicture(Picture& picture, const Source& source);
+
+    Pictures pictures_;
+    std::vector<PaintWords> texels_;
+    std::vector<PaintLevel> levels_;
+    std::map<const SilhouetteModels::Part*, Material> materials_;
+};
+
+}  // namespace mfar::simd

@@ -1,0 +1,92 @@
+#pragma once
+
+#include "pipeline/slices/reference_pictures.h"
+#include "tests/render/still_life.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace mfar::reference_pictures {
+
+inline constexpr Size kReferenceSize{48, 36};
+
+[[nodiscard]] inline std::shared_ptr<const ReferenceScene>
+prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::uint64_t light) {
+    auto out = std::make_shared<ReferenceScene>();
+    out->tracer = std::make_shared<PathTracer>(scene);
+    out->balls = objectBalls(*scene);
+    out->objects = objects;
+    out->light = light;
+    return out;
+}
+
+[[nodiscard]] inline std::shared_ptr<const ReferenceScene> preparedStillLife(std::uint64_t objects,
+                                                                             std::uint64_t light) {
+    return prepared(render_scenes::stillLife(), objects, light);
+}
+
+/// Neither filter nor history: every pixel is sampled.
+inline constexpr ReferencePolicy kPlain{{4, 0.2}, 8, false, false};
+inline constexpr ReferencePolicy kProduct{{4, 0.2}, 8, true, true};
+
+/// Does one by one what the threads of a renderer do, and keeps what was shown.
+class Driver {
+public:
+    explicit Driver(const SliceOptions& slices, const ReferencePolicy& policy = kPlain)
+        : pictures(slices, policy) {
+        pictures.setScene(preparedStillLife(1, 1));
+    }
+
+    void look(double azimuth) {
+        const RenderView view = render_scenes::viewFrom(size, azimuth);
+        pictures.look(view, view, {});
+    }
+    /// True if there was something to do.
+    bool step() {
+        if (pictures.toBegin()) {
+            pictures.begin();
+            return true;
+        }
+        if (pictures.toShow()) {
+            RenderedPicture& out = shown.emplace_back();
+            pictures.beginShow({}, out);
+            while (!pictures.resolver().complete()) {
+                const PictureResolver::Portion rows = pictures.resolver().next(100);
+                pictures.resolver().run(rows);
+                pictures.resolver().done(rows);
+            }
+            pictures.endShow(out);
+            return true;
+        }
+        const ReferencePictures::Portion portion = pictures.next(1000);
+        if (portion.slice.pixels.empty()) return false;
+        pictures.trace(portion);
+        pictures.done(portion, {});
+        return true;
+    }
+    void settle() {
+        while (step()) {
+        }
+    }
+    void untilShown(std::size_t pictures) {
+        while (shown.size() < pictures)
+            ASSERT_TRUE(step());
+    }
+    /// Whether the picture shown last was made for the view.
+    [[nodiscard]] bool shows(double azimuth) const {
+        const RigidTransform there =
+            render_scenes::viewFrom(kReferenceSize, azimuth).T_world_camera;
+        return !shown.empty() && shown.back().T_world_camera.translation == there.translation;
+    }
+
+    Size size = kReferenceSize;
+    ReferencePictures pictures;
+    std::vector<RenderedPicture> shown;
+};
+
+inline constexpr SliceOptions kThirtyTwo{Slicing::Time, 32, 1, 0, 2};
+
+}  // namespace mfar::reference_pictures

@@ -1,0 +1,159 @@
+#include "tests/render/picture_driver.h"
+#include "tests/render/render_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace mfar {
+namespace {
+
+using namespace reference_pictures;
+
+/// Of objects' colours within their silhouettes [grey levels], root mean square, against samples
+/// without filter or history.
+double errorOf(const RenderedPicture& picture, double azimuth) {
+    Driver exact({Slicing::Time, 256, 16, 0, 16});
+    exact.look(azimuth);
+    exact.settle();
+    const RenderedPicture& truth = exact.shown.back();
+    double squares = 0;
+    int values = 0;
+    for (std::size_t i = 0; i < truth.id.size(); ++i) {
+        if (truth.id[i] == 0 || truth.id[i] == kCatcherId || truth.colour[i][3] < 255) continue;
+        for (std::size_t c = 0; c < 3; ++c)
+            squares += std::pow(double(truth.colour[i][c]) - picture.colour[i][c], 2);
+        values += 3;
+    }
+    EXPECT_GT(values, 300);
+    return std::sqrt(squares / values);
+}
+
+TEST(ReferenceLight, AFirstPictureIsShownOfOneSampleInSixteenPixels) {
+    Driver driver(kThirtyTwo, kProduct);
+    driver.look(20);
+    driver.untilShown(1);
+    EXPECT_LT(driver.shown[0].samples, 0.15);
+    driver.settle();
+    EXPECT_GT(driver.shown.size(), 4U);
+    const RenderedPicture &first = driver.shown.front(), &last = driver.shown.back();
+    for (std::size_t i = 0; i < first.id.size(); ++i) {
+        // Through a pixel's centre; later samples may find an object beside it.
+        if (first.id[i] == 0 || first.id[i] == kCatcherId || last.id[i] == kCatcherId) continue;
+        ASSERT_EQ(first.id[i], last.id[i]) << "objects are whole at once";
+    }
+    const auto objectsOf = [](const RenderedPicture& p) {
+        return std::ranges::count_if(p.id, [](int id) { return id != 0 && id != kCatcherId; });
+    };
+    EXPECT_GT(objectsOf(first), 0.85 * static_cast<double>(objectsOf(last)));
+    EXPECT_GT(errorOf(first, 20), errorOf(last, 20));
+}
+
+TEST(ReferenceLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
+    Driver fresh(kThirtyTwo, kProduct), going(kThirtyTwo, kProduct);
+    fresh.look(26);
+    fresh.untilShown(1);
+    going.look(20);
+    going.settle();
+    const std::size_t before = going.shown.size();
+    going.look(26);
+    going.untilShown(before + 1);
+    ASSERT_TRUE(going.shows(26));
+    EXPECT_LT(going.shown.back().samples, 0.1);
+    EXPECT_LT(errorOf(going.shown.back(), 26), 0.7 * errorOf(fresh.shown.back(), 26));
+}
+
+TEST(ReferenceLight, ColoursAreShownOfEnoughSamples) {
+    ReferencePolicy policy = kProduct;
+    policy.soon = false;
+    Driver driver(kThirtyTwo, policy);
+    driver.look(20);
+    driver.settle();
+    const std::size_t before = driver.shown.size();
+    driver.look(23);
+    EXPECT_FALSE(driver.step()) << "it serves";
+    driver.look(26);
+    driver.untilShown(before + 1);
+    EXPECT_GT(driver.shown.back().samples, 4) << "8 of objects, 2 of other surfaces";
+}
+
+TEST(ReferenceLight, LightOfAnotherLightIsSoonOutweighed) {
+    Driver driver(kThirtyTwo, kProduct);
+    const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
+    dark->lighting.sun->irradiance *= 0.2F;
+    driver.pictures.setScene(prepared(dark, 1, 1));
+    driver.look(20);
+    driver.settle();
+    const std::size_t before = driver.shown.size();
+    driver.pictures.setScene(preparedStillLife(1, 2));
+    driver.look(20);
+    driver.settle();
+    ASSERT_GT(driver.shown.size(), before);
+    Driver fresh(kThirtyTwo, kProduct);
+    fresh.look(20);
+    fresh.settle();
+    EXPECT_LT(errorOf(driver.shown.back(), 20), errorOf(fresh.shown.back(), 20) + 2);
+}
+
+TEST(ReferenceLight, SurfacesThatNothingChangesAreTracedOnce) {
+    Driver driver({Slicing::Time, 2, 1, 0, 2}, kProduct);
+    driver.size = {192, 144};
+    // A black ball in the sun: it has a shadow, and changes no light elsewhere.
+    const auto sunlit = std::make_shared<Scene>(*render_scenes::stillLife());
+    sunlit->lighting.environment = nullptr;
+    sunlit->objects.resize(1);
+    Model black = *sunlit->objects[0].model;
+    black.materials[0].baseColour.head<3>().setZero();
+    sunlit->objects[0].model = std::make_shared<Model>(black);
+    driver.pictures.setScene(prepared(sunlit, 1, 1));
+    driver.look(20);
+    driver.settle();
+    const std::size_t all = driver.pictures.pixels();
+    driver.look(26);
+    driver.settle();
+    EXPECT_LT(driver.pictures.pixels(), 0.9 * static_cast<double>(all));
+    driver.pictures.setScene(prepared(sunlit, 1, 2));
+    driver.look(20);
+    driver.settle();
+    EXPECT_GE(driver.pictures.pixels(), all) << "in new light any may be changed";
+}
+
+TEST(ReferenceLight, AtRestEachPixelHasItsOwnSamples) {
+    Driver driver(kThirtyTwo, kProduct);
+    driver.look(20);
+    driver.settle();
+    EXPECT_LT(driver.shown.back().samples, 32) << "of the real surface a quarter";
+    for (int i = 0; i < 12; ++i)
+        driver.look(20);
+    driver.settle();
+    EXPECT_EQ(driver.shown.back().samples, 32);
+    EXPECT_TRUE(driver.pictures.settled());
+}
+
+// Of silhouettes, where carried light knows nothing.
+TEST(ReferenceLight, AtRestSilhouettesAreAsSmoothAsWithoutHistory) {
+    Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
+    driver.look(20);
+    driver.settle();
+    for (int i = 0; i < 12; ++i)
+        driver.look(20);
+    driver.settle();
+    exact.look(20);
+    exact.settle();
+    const RenderedPicture &shown = driver.shown.back(), &truth = exact.shown.back();
+    double squares = 0;
+    int edges = 0;
+    for (std::size_t i = 0; i < truth.id.size(); ++i) {
+        if (truth.id[i] == kCatcherId || truth.colour[i][3] < 20 || truth.colour[i][3] > 235)
+            continue;
+        squares += std::pow(double(truth.colour[i][3]) - shown.colour[i][3], 2);
+        ++edges;
+    }
+    EXPECT_GT(edges, 20);
+    EXPECT_LT(std::sqrt(squares / edges), 25);
+}
+
+}  // namespace
+}  // namespace mfar
