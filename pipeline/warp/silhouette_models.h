@@ -13,45 +13,44 @@
 
 namespace mfar {
 
-/// The models of a scene and, below them, the real surface that catches their shadows, as the
-/// silhouette draws them through a lens: triangles alone, no light, no colours.
+/// The models of a scene and, below them, the real surface that catches their shadows, prepared for
+/// drawing the silhouette through a lens: only triangles, no light, no colours.
 class SilhouetteModels {
 public:
     /// `layer`: the camera at the layer's resolution.
     explicit SilhouetteModels(const CameraModel& layer);
 
-    /// Of a scene of more than 20000 triangles takes simplified ones.
+    /// Simplifies the models if the scene has more than 20000 triangles.
     void setScene(const Scene& scene);
 
     struct Part {
         SurfaceMesh mesh;
         const SurfaceTexture* alpha = nullptr;  ///< of a masked surface; repeats
-        float cutoff = 0;                       ///< a texel's alpha below it is a hole
-        bool bothSides = true;                  ///< are seen
+        float cutoff = 0;                       ///< texels with a lower alpha are holes
+        bool bothSides = true;                  ///< both sides are visible
     };
     struct Shape {
         std::vector<Part> parts;
         Eigen::AlignedBox3d box;
-        std::shared_ptr<const Model> model;  ///< owns the textures; none: the catcher
+        std::shared_ptr<const Model> model;  ///< owns the textures; null: the catcher
     };
     struct Object {
-        std::shared_ptr<const Shape> shape;  ///< the same one for the same model of two scenes
+        std::shared_ptr<const Shape> shape;  ///< shared by scenes with the same model
         RigidTransform T_world_object;
         double scale;
     };
     [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
     /// The catcher, if it has to be drawn.
     [[nodiscard]] const std::optional<Object>& catcher() const { return catcher_; }
-    /// The catcher, if it is one plane and therefore not drawn: n . point = w in the world [m].
+    /// The catcher, if it is planar and therefore not drawn: n . point = w in the world [m].
     /// Otherwise zero.
     [[nodiscard]] const Eigen::Vector4d& plane() const { return plane_; }
     [[nodiscard]] std::size_t triangles() const { return triangles_; }
     [[nodiscard]] const LensProjection& lens() const { return lens_; }
 
-    /// Layer pixels around all objects; of one that reaches before the near plane and beyond it,
-    /// all of them.
+    /// Bounds of all objects [layer px]; the whole layer for an object that crosses the near plane.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const;
-    /// The same of one.
+    /// As above, for one object.
     [[nodiscard]] PixelRect boundsOf(const Object& object,
                                      const RigidTransform& T_camera_world) const;
 
@@ -65,7 +64,7 @@ private:
     std::optional<Object> catcher_;
     Eigen::Vector4d plane_ = Eigen::Vector4d::Zero();
     std::size_t triangles_ = 0;
-    double share_ = 1;  // of the models' triangles that are drawn
+    double share_ = 1;  // share of the models' triangles that are drawn
 };
 
 }  // namespace mfar
