@@ -16,8 +16,8 @@ vec2 projectRay(Lens c, vec2 ray) {
     return vec2(c.fx, c.fy) * distortRay(c, ray) + vec2(c.cx, c.cy);
 }
 
-// Fixed-point iterations: for the lenses in use each gains a digit or more, and none can leave the
-// neighbourhood of the pixel the way a Newton step at the model's fold can.
+// Fixed-point iterations: for the lenses in use each gains a digit or more. Unlike a Newton step at the fold of the
+// lens model, they cannot leave the neighbourhood of the pixel.
 vec2 unprojectPixel(Lens c, vec2 pixel) {
     vec2 target = (pixel - vec2(c.cx, c.cy)) / vec2(c.fx, c.fy);
     vec2 ray = target;

@@ -1,4 +1,4 @@
-// What superres_vertical.frag made.
+// The result of superres_vertical.frag.
 layout(binding = 0) uniform sampler2D columns;
 
 vec4 columnAt(ivec2 p) {

@@ -1,4 +1,4 @@
-// The paper's: the still, warped, blended with the upscaled video by the eq. 2 confidence.
+// The paper's method: the warped still is blended with the upscaled video by the eq. 2 confidence.
 // Variant: #define PLAIN_TILE
 #include "tile_params.glsl"
 #include "look_up.glsl"

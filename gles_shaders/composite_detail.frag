@@ -1,7 +1,7 @@
 // out = up(video) + weight * (still - up(its mean over each video pixel)) (design: mode `detail`).
-// With LEARNED also what the learned enlarger adds, by the share that the weight leaves of one: the still knows
-// better what it shows.
-// With SECOND also LEARNED, of a second still, to be blended over the first's as far as it counts for more.
+// With LEARNED, adds the learned enlarger's residual, times 1 - weight (at least 0): the still is the better source.
+// With SECOND, as with LEARNED, but for a second still: its share of the blend rises with the excess of its weight over
+// the first still's.
 // Variant: #define PLAIN_TILE
 // Variant: #define LEARNED
 // Variant: #define SECOND
@@ -22,7 +22,7 @@ layout(binding = 1) uniform sampler2D still;  // raised luma
 #ifdef SECOND
 layout(binding = 5) uniform sampler2D newestField;
 
-// The weight of the detail that lies below.
+// The weight of the first still's detail, which is already drawn.
 float newestShare() {
     return textureLod(newestField, gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) / vec2(4 * cellCount()), 0.0).z;
 }

@@ -1,9 +1,9 @@
 // A picture on a screen: scaled into a rectangle, black around it.
-// Each pixel is the mean of the picture over its footprint, at least one pixel of the picture wide:
-// an area filter where the picture shrinks (nothing aliases), linear interpolation where it grows, a
-// copy at equal size. Two neighbours are fetched at once, weighted by where between them is sampled;
-// so the sampler must be linear and clamp to the edge. Values are averaged as they are stored.
-// PAIRS: as many pairs of texels in a row as a footprint can touch; a constant, so that loops unroll. 0: a copy.
+// Each pixel is the mean of the picture over its footprint, which is at least one pixel of the picture wide: an area
+// filter for reduction (no aliasing), linear interpolation for enlargement, a copy at equal size. One fetch reads two
+// neighbours, weighted by the sampling position between them; so the sampler must be linear and clamp to the edge.
+// Values are averaged as they are stored.
+// PAIRS: upper limit of the pairs of texels per row in a footprint; a constant, so that loops unroll. 0: a copy.
 // Variant: #define PAIRS 0
 // Variant: #define PAIRS 2
 #ifndef PAIRS
@@ -18,7 +18,7 @@ layout(std140) uniform Params {
 layout(binding = 0) uniform sampler2D picture;
 layout(location = 0) out vec4 colour;
 
-// Length of the part of [lo, hi] in the texels `first` and `first + 1`.
+// Overlap of [lo, hi] with each of the texels `first` and `first + 1`.
 vec2 overlap(float first, float lo, float hi) {
     vec2 begin = vec2(first, first + 1.0);
     return max(min(vec2(hi), begin + 1.0) - max(vec2(lo), begin), 0.0);
@@ -45,7 +45,7 @@ void main() {
             float x = first.x + float(2 * i);
             vec2 wx = overlap(x, lo.x, hi.x);
             float weightX = wx.x + wx.y;
-            // Beyond the footprint there is no weight, and any place will do.
+            // Outside the footprint the weight is zero, and the position is irrelevant.
             vec2 between = vec2(wx.y, wy.y) / max(vec2(weightX, weightY), 1.0e-6);
             vec2 at = (vec2(x, y) + 0.5 + between) * texel;
             sum += weightX * weightY * textureLod(picture, at, 0.0).rgb;

@@ -1,8 +1,8 @@
 // Filters of the learned enlarger. Needs cubic.glsl.
-// A class a row; [pair of taps][row of sub-pixels]: of four, both taps as half floats.
+// One row per class: [pair of taps][row of sub-pixels]; a texel holds four sub-pixels, each both taps as half floats.
 layout(binding = 1) uniform usampler2D filters;
 
-// Differences in luma have at most eleven bits: half floats hold them exactly, in half of the registers.
+// Differences of luma have at most eleven bits: half floats represent them exactly, in half of the registers.
 uvec2 halvesOf(vec4 v) {
     return uvec2(packHalf2x16(v.xy), packHalf2x16(v.zw));
 }
@@ -10,7 +10,7 @@ vec4 floatsOf(uvec2 v) {
     return vec4(unpackHalf2x16(v.x), unpackHalf2x16(v.y));
 }
 
-// What a pair of taps adds to four sub-pixels, by the filters of both classes.
+// Contribution of a pair of taps to four sub-pixels, summed over the filters of both classes.
 vec4 pairOf(ivec2 classes, int at, uint taps) {
     uvec4 a = texelFetch(filters, ivec2(at, classes.x), 0), b = texelFetch(filters, ivec2(at, classes.y), 0);
     vec2 steps = unpackHalf2x16(taps);
@@ -20,10 +20,10 @@ vec4 pairOf(ivec2 classes, int at, uint taps) {
                 dot(unpackHalf2x16(a.w) + unpackHalf2x16(b.w), steps));
 }
 
-// Keys' cubic at a row of sub-pixels, less the pixel: columns first. `taps`: in the order of kTapAt.
+// Keys' cubic at a row of sub-pixels, minus the pixel; columns are filtered first. Taps are in the order of kTapAt.
 vec4 cubicOf(int row, uvec4 above, uvec4 below, uvec4 beside) {
     vec4 w = cubicWeights(fract(0.625 + 0.25 * float(row)));
-    vec4 upper = row < 2 ? w : vec4(0.0, w.xyz);  // of the four rows from the first on
+    vec4 upper = row < 2 ? w : vec4(0.0, w.xyz);  // weights of the first four rows
     float lower = row < 2 ? 0.0 : w.w;
     vec4 sides = floatsOf(beside.xy), ends = floatsOf(beside.zw);
     vec4 column = upper.x * floatsOf(above.xy) + upper.y * floatsOf(above.zw) + upper.w * floatsOf(below.xy) +

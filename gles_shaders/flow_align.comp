@@ -1,8 +1,8 @@
-// Flow of every cell from a vector that is right but for a fraction of a pixel: Gauss-Newton steps on a
-// patch that bends as the field around the cell does. On a surface that the other camera sees from
-// another side, a patch that only shifts fits beside the right place.
-// In, out: two areas of patches[]. Out: flow (x, y) [px], cost, texture (energy of the patch). One
-// invocation a cell. Tiles that are not matched keep their vectors.
+// Refines the flow of every cell from a vector whose error is a fraction of a pixel: Gauss-Newton steps on a patch that
+// deforms as the flow around the cell does. On a surface that the other camera sees from another side, a rigid patch
+// would fit best at a wrong place.
+// In, out: two areas of patches[]. Out: flow (x, y) [px], cost, texture (energy of the patch). One invocation per cell.
+// Tiles that are not matched keep their vectors.
 // After: Baker and Matthews, Lucas-Kanade 20 years on, IJCV 2004, section 3.2.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
@@ -21,7 +21,7 @@ layout(std430, binding = 1) buffer Patches {
 
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // changed, matched; a workgroup each
+    uvec2 tiles[];  // changed, matched; one workgroup per tile
 };
 
 #include "patch_template.glsl"
@@ -31,8 +31,8 @@ vec2 flowAt(ivec2 c) {
     return patches[params.source + c.y * params.columns + c.x].xy;
 }
 
-// Change of the flow per pixel along `step`: the smaller one-sided difference, none where the two do not
-// agree in sign. Two cells wide, because from one to the next the noise is larger than the change.
+// Change of the flow per pixel along `step`: the smaller one-sided difference, or zero where both differ in sign. Two
+// cells wide, because between adjacent cells the noise is larger than the change.
 vec2 slopeAt(ivec2 cell, ivec2 step) {
     vec2 here = flowAt(cell);
     vec2 before = here - flowAt(cell - 2 * step), after = flowAt(cell + 2 * step) - here;
@@ -40,7 +40,7 @@ vec2 slopeAt(ivec2 cell, ivec2 step) {
     return clamp(mix(vec2(0.0), least / 8.0, greaterThan(before * after, vec2(0.0))), -kSteepestFlow, kSteepestFlow);
 }
 
-// Eight pixels of row y from a word column (margin included) on, less the first shift / 8.
+// Row y from a word column on (margin included), shifted by `shift` bits: eight pixels minus the first shift / 8.
 uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     int at = l.offset + clamp(y, 0, l.height - 1) * l.pitch + wx;
     uvec2 w = uvec2(luma[at], luma[at + 1]);
@@ -48,8 +48,8 @@ uvec2 fetchShort(LumaLevel l, int wx, int y, uint shift) {
     return uvec2((w.x >> shift) | (w.y << (32u - shift)), w.y >> shift);
 }
 
-// Four pixels of the patch from `first` on, where a flow that changes by dx and dy per pixel moves them.
-// They have one place of their own; columns stay less than half a pixel off it.
+// Four pixels of the patch, starting at `first`, at the places given by a flow that changes by dx and dy per pixel. All
+// four share a base position, from which columns deviate by less than half a pixel.
 vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     const vec4 along = vec4(-1.5, -0.5, 0.5, 1.5);
     vec2 middle = first - vec2(2.0, 3.5);
@@ -67,7 +67,7 @@ vec4 bentRow(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy, vec2 first) {
     return upper + (lower - upper) * fy;
 }
 
-// Adds four pixels b of row r: the left (0) or right (1) half.
+// Adds four pixels b of row r to the sums: the left half (side 0) or the right half (side 1).
 void addHalf(inout Sums sums, int r, int side, vec4 b) {
     int at = 3 * r + 3;
     vec4 a = unpackPixels(templateWords[at + side]);
@@ -82,10 +82,10 @@ void addHalf(inout Sums sums, int r, int side, vec4 b) {
     sums.gb += vec2(dot(gx, b), dot(gy, b));
 }
 
-// The template with a flow that changes by dx and dy per pixel over the patch.
+// Compares the template under a flow that changes by dx and dy per pixel over the patch.
 Match compareBent(LumaLevel l, ivec2 cell, vec2 u, vec2 dx, vec2 dy) {
     Sums sums = Sums(0.0, 0.0, 0.0, vec2(0.0));
-    // Half a row at a time: a whole one with its gradients takes more registers than a V3D has.
+    // Half a row at a time: a whole row with its gradients needs more registers than a V3D has.
     int end = cell.y + 2 * kRows;
     for (int i = cell.y; i < end; ++i) {
         int side = (i - cell.y) & 1, r = (i - cell.y) >> 1;
@@ -107,8 +107,8 @@ void main() {
     prepareSteps(known, cell);
     vec2 u = flowAt(cell), best = u;
     float cost = 1e9;
-    // Without leaving the loop early, which costs vector processors more than the repetition does: where
-    // nothing got better, the same place is looked at again.
+    // The loop has no early exit, which would cost vector processors more than the repetition: when the cost no longer
+    // falls, the same place is evaluated again.
     for (int k = 0; k <= params.steps; ++k) {
         Match m = compareBent(lb, cell, u, dx, dy);
         bool better = m.cost < cost;

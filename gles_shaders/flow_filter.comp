@@ -1,7 +1,6 @@
-// Robust clean-up of a cell field: the median of each component over 3x3 cells, then the plane through
-// what agrees with it in 5x5. Larger medians measured worse on photographs: they flatten slanted and
-// curved surfaces.
-// In, out: two areas of patches[]. One invocation a cell. Tiles that are not matched keep their vectors.
+// Robust clean-up of a cell field: the median of each component over 3x3 cells, then a plane through the vectors in 5x5
+// cells that agree with it. Larger medians measured worse on photographs: they flatten slanted and curved surfaces.
+// In, out: two areas of patches[]. One invocation per cell. Tiles that are not matched keep their vectors.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "pipeline/engine/params/flow.h"
 
@@ -26,8 +25,8 @@ struct Plane {
     vec2 value, dx, dy;  // flow at the cell [px], change per cell
 };
 
-// The plane through the neighbours, weighted by how well each is known and by how close it is to
-// `about`, so that the other side of a depth edge has no say.
+// Fits a plane to the neighbours, weighted by their reliability and by their distance from `about`, so that the other
+// side of a depth edge has no influence.
 Plane planeAt(ivec2 cell, Plane about, float reach) {
     float w0 = 0.0;
     vec2 wx = vec2(0.0), u0 = vec2(0.0), ux = vec2(0.0), uy = vec2(0.0);
@@ -47,7 +46,7 @@ Plane planeAt(ivec2 cell, Plane about, float reach) {
             uy += w * float(j) * d;
         }
     }
-    // Normal equations, damped on the slopes: a lone neighbour makes no plane.
+    // Normal equations, damped on the slopes: a single neighbour does not determine a plane.
     float damp = kSlopeDamping + kSlopeDampingPerWeight * w0;
     mat3 m = mat3(w0 + 1e-6, wx.x, wx.y, wx.x, wxx.x + damp, wxx.y, wx.y, wxx.y, wxx.z + damp);
     float det = determinant(m);
@@ -74,7 +73,7 @@ void main() {
     }
     vec2 v[9];
     for (int i = 0; i < 9; ++i) v[i] = cellIn(cell + ivec2(i % 3 - 1, i / 3 - 1)).xy;
-    // Sorts the columns, then takes the middle of (largest low, middle middle, smallest high).
+    // Sorts the columns, then takes the median of (largest minimum, median of the medians, smallest maximum).
     for (int c = 0; c < 3; ++c) {
         order(v[c], v[c + 3]);
         order(v[c + 3], v[c + 6]);

@@ -1,7 +1,6 @@
-// Which tiles of 16x16 pixels the epipolar lines do not explain: cells with texture that match badly
-// although the still shows the place. There something moved or came into view, or the pose is wrong.
-// In: refined forward field and its two-way errors in patches[]. Out: flags[] = 1 or 0. One invocation a
-// tile.
+// Flags the tiles of 16x16 pixels that the epipolar lines do not explain: tiles with textured cells that match badly
+// although the still shows the place. Something moved or came into view there, or the pose is wrong.
+// In: refined forward field and its two-way errors in patches[]. Out: flags[] = 1 or 0. One invocation per tile.
 // Range: flags 0..1
 #include "pipeline/engine/params/flow.h"
 

@@ -1,8 +1,8 @@
-// The groups of 4x4 cells of one pyramid level that the 2-D search of the flagged tiles needs: those
-// with a flagged tile in them or within a margin, from which the finer level takes its candidates. A tile
-// with two flagged ones beside it counts as flagged: what moves has plain parts, too.
-// In: flags[] of flow_flag.comp. Out: lists[] = packed groups of the level, commands[] = its dispatch,
-// zeroed before but for the two ones. One invocation a group.
+// Lists the groups of 4x4 cells of one pyramid level that the 2-D search of the flagged tiles needs: groups with a
+// flagged tile in them or within a margin, from which the finer level takes its candidates. A tile with two flagged
+// neighbours counts as flagged, because moving objects have areas without texture, too.
+// In: flags[] of flow_flag.comp. Out: lists[] = packed groups of the level, commands[] = its dispatch, initially zero
+// except for the two ones. One invocation per group.
 #include "tiles.glsl"
 #include "pipeline/engine/params/flow.h"
 

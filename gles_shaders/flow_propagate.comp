@@ -1,5 +1,5 @@
-// Tries each cell's four neighbours' vectors and refines the one that fits better.
-// In, out: two areas of patches[], as flow_search.comp writes them. One invocation a cell.
+// Tries the vectors of each cell's four neighbours and refines the one that fits better.
+// In, out: two areas of patches[], in the format of flow_search.comp. One invocation per cell.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
 #include "pipeline/engine/params/flow.h"
@@ -48,7 +48,7 @@ void main() {
             moved = true;
         }
     }
-    // A branch around all of it takes one register more, which a V3D does not have.
+    // A branch around the call would need one more register than a V3D has.
     refine(known, lb, cell, moved ? params.steps : -1, best, found);
     patches[params.target + cell.y * params.columns + cell.x] = vec4(best, found, momentAt(1));
 }

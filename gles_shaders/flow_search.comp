@@ -1,9 +1,10 @@
-// Flow of every cell at one pyramid level: the best of the coarser level's vectors around it and of the
-// last frame's (coarsest level: of a square of whole-pixel displacements), then Gauss-Newton steps.
-// Out: patches[] = flow (x, y) [px of this level], cost, texture (energy of the patch). One invocation a cell.
+// Flow of every cell at one pyramid level: the best candidate, then Gauss-Newton steps. Candidates are the coarser
+// level's vectors around the cell and the last frame's vector; at the coarsest level, a square of whole-pixel
+// displacements and the last frame's vector.
+// Out: patches[] = flow (x, y) [px of this level], cost, texture (energy of the patch). One invocation per cell.
 // Variant: #define LISTED
-// works on the groups of 4x4 cells in lists[] only, and turns the two-way errors of cells that leave
-// their epipolar line into what their match is worth.
+// processes only the groups of 4x4 cells in lists[], and derives the two-way errors of cells that leave their epipolar
+// line from the cost of their match.
 // After: Kroeger et al., Fast optical flow using dense inverse search, ECCV 2016, section 2.
 // Range: patches -2e4..2e4, -2e4..2e4, 0..2.02, 0..4.2e6
 #include "luma.glsl"
@@ -46,7 +47,7 @@ vec2 candidate(ivec2 cell, int k) {
     if (params.lastFrame >= 0) --k;
     if (params.coarser < 0) {
         int n = 2 * params.radius + 1;
-        k = (k + n * n / 2) % (n * n);  // no motion first: it wins where nothing tells
+        k = (k + n * n / 2) % (n * n);  // zero motion first: it wins a tie
         return vec2(k % n - params.radius, k / n - params.radius);
     }
     ivec2 c = cell >> 1;

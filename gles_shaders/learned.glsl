@@ -1,16 +1,16 @@
-// What superres_vertical.frag made with LEARNED, and second half of what the learned enlarger adds to an output
-// pixel: rows. Needs tile_params.glsl.
+// Second half (rows) of the learned enlarger's contribution to an output pixel, from the result of
+// superres_vertical.frag with LEARNED. Needs tile_params.glsl.
 #include "pipeline/engine/params/enlarge.h"
 
 layout(binding = 0) uniform isampler2D columns;
-layout(binding = 3) uniform isampler2D residuals;     // of superres_vertical.frag
-layout(binding = 4) uniform sampler2D learnedTiles;   // a texel a tile: above zero where filters are used
+layout(binding = 3) uniform isampler2D residuals;     // from superres_vertical.frag
+layout(binding = 4) uniform sampler2D learnedTiles;   // one texel per tile: above zero where filters are used
 
 vec4 columnAt(ivec2 p) {
     return vec4(texelFetch(columns, p, 0)) / (255.0 * float(kPassScale));
 }
 
-// As a colour.
+// The residual, in units of colour.
 float learned() {
     ivec2 tile = ivec2(gl_FragCoord.xy * vec2(params.scaleX, params.scaleY)) >> 4;
     if (!(texelFetch(learnedTiles, min(tile, textureSize(learnedTiles, 0) - 1), 0).r > 0.0)) return 0.0;

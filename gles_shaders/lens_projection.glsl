@@ -1,4 +1,4 @@
-// A camera's projection continued beyond the rim of its lens and behind it; twin of
+// A camera's projection, continued beyond the rim of its lens and behind it; twin of
 // pipeline/composite/lens_projection.h.
 #include "camera.glsl"
 #include "pipeline/composite/pass_params.h"

@@ -1,5 +1,5 @@
-// Where this output pixel lies in the still, and how much of that counts. Needs tile_params.glsl.
-// Composite of a plain tile: one linear function over the tile; else the field, filtered.
+// Place of this output pixel in the still, and the weight there. Needs tile_params.glsl.
+// In a plain tile the look-up is one linear function over the tile; elsewhere it is the filtered field.
 #ifdef PLAIN_TILE
 in vec4 plainLookUp;
 #else

@@ -1,4 +1,4 @@
-// Luma pyramids in one storage buffer, four 8-bit pixels a word, leftmost in the low byte. Each row has
+// Luma pyramids in one storage buffer, four 8-bit pixels per word, the leftmost in the low byte. Each row has
 // kLumaMarginWords words of replicated border on both sides.
 #include "pipeline/engine/params/luma.h"
 

@@ -1,5 +1,5 @@
-// Finest pyramid level of the still, at the video's geometry and scale: luma of the still averaged over
-// the footprint of each video pixel. In: RGBA8 still. Out: luma words. One invocation a word.
+// Finest pyramid level of the still, in the video's geometry and scale: luma of the still averaged over the footprint
+// of each video pixel. In: RGBA8 still. Out: luma words. One invocation per word.
 #include "luma.glsl"
 #include "rig.glsl"
 

@@ -1,6 +1,6 @@
 // Finest pyramid level of the video frame: its luma, smoothed by 3x3 pixels.
-// Text and weave alias at the video's resolution; unsmoothed, patches lock to whole pixels there.
-// In: RGBA8 or grey picture. Out: luma words. One invocation a word, margins included.
+// Text and fabric alias at the video's resolution; without smoothing, patches lock to whole pixels there.
+// In: RGBA8 or grey picture. Out: luma words. One invocation per word, margins included.
 #include "luma.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -12,7 +12,7 @@ layout(std430, binding = 0) writeonly buffer Luma {
     uint luma[];
 };
 
-// Column x, smoothed down the rows.
+// Luma in column x, smoothed vertically around row y.
 float column(int x, int y) {
     ivec2 last = ivec2(params.target.width, params.target.height) - 1;
     float sum = 0.0;

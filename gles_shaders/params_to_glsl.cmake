@@ -1,12 +1,12 @@
-# Translates headers of parameters from C++ into GLSL, so that shaders, engines and tests read one
-# definition. What the two languages do not share is refused, with file and line. Understood are
+# Translates headers of parameters from C++ into GLSL, so that shaders, engines and tests share one
+# definition. Reports all other constructs as errors, with file and line. Supports
 #   inline constexpr T kName = EXPR;  T: float, int, std::int32_t, std::uint32_t. EXPR: literals and
 #                                     constants of this type, + - * / and parentheses
-#   struct alignas(16) Name {         A scalar lies at a multiple of 4 bytes, a structure of 16: so
-#       T member, member;             std140 and C++ lay both out alike. An array of scalars has
-#       Name member, member[2];       other strides in std140.
+#   struct alignas(16) Name {         Scalars are aligned to 4 bytes, structures to 16, so std140
+#       T member, member;             and C++ have the same layout. Arrays of scalars have other
+#       Name member, member[2];       strides in std140 and are not supported.
 #   };
-# Left out: #pragma once, #include <...>, namespace mfar::params, static_assert, comments.
+# Ignores: #pragma once, #include <...>, namespace mfar::params, static_assert, comments.
 cmake_policy(VERSION 3.25)
 
 function(params_fault where why statement)
@@ -19,7 +19,7 @@ function(params_glsl_type type out_var)
     set(${out_var} "${type}" PARENT_SCOPE)
 endfunction()
 
-# The expression, whose parts all have this GLSL type.
+# Translates an expression whose parts all have this GLSL type.
 function(params_expression where type text out_var)
     set(literal_float "([0-9]+\\.[0-9]*|[0-9]+(\\.[0-9]*)?e-?[0-9]+)F")
     set(literal_int "([0-9]+)")

@@ -1,6 +1,6 @@
-// Patches of 8x8 pixels of a luma level, row by row. A cell is 4x4 pixels; its patch has the same centre, so it
-// starts 2 px left and above the cell.
-// Needs: `uint luma[]` and the level functions of luma.glsl.
+// Patches of 8x8 pixels of a luma level, row by row. A cell is 4x4 pixels; its patch has the same centre, so it starts
+// 2 px left of and above the cell.
+// Needs: `uint luma[]` and the functions of luma.glsl.
 
 #include "pipeline/engine/params/patch.h"
 
@@ -17,7 +17,7 @@ float sumOf(Row a) {
 float product(Row a, Row b) {
     return dot(a.left, b.left) + dot(a.right, b.right);
 }
-// First word of row y, `column` words into the level, margin not included.
+// Index of the word in row y that is `column` words into the level, not counting the margin.
 int wordAt(LumaLevel l, int column, int y) {
     return l.offset + clamp(y, 0, l.height - 1) * l.pitch + kLumaMarginWords + column;
 }
@@ -25,27 +25,27 @@ uvec3 fetchWords(int at) {
     return uvec3(luma[at], luma[at + 1], luma[at + 2]);
 }
 
-// A cell's row of eight pixels in two words, from those from two pixels left of it on.
+// A cell's row of eight pixels in two words; `w` starts four pixels left of the cell, the row two.
 uvec2 cellRow(uvec3 w) {
     return uvec2((w.x >> 16) | (w.y << 16), (w.y >> 16) | (w.z << 16));
 }
 
-// A patch between the pixels.
+// A patch at a position between the pixels.
 struct Window {
-    int first, y;   // word of the level's first row in which the patch begins; row of `above`
-    uint shift;     // bits of that word left of the patch
-    vec2 f;         // share of a pixel that the patch lies right of and below its pixels
-    uvec3 above;    // nine pixels of the row read last
+    int first, y;   // word of the level's first row where the patch begins; row of `above`
+    uint shift;     // bits of that word to the left of the patch
+    vec2 f;         // fraction of a pixel by which the patch is to the right of and below its pixels
+    uvec3 above;    // nine pixels of the last row that was read
 };
 
 uvec3 fetchPixels(LumaLevel l, Window w) {
     uvec3 words = fetchWords(w.first + clamp(w.y, 0, l.height - 1) * l.pitch);
-    uint up = 31u - w.shift;  // and one: a shift by 32 is undefined
+    uint up = 31u - w.shift;  // one less than the shift: a shift by 32 is undefined
     return uvec3((words.x >> w.shift) | (words.y << 1 << up), (words.y >> w.shift) | (words.z << 1 << up),
                  words.z >> w.shift);
 }
 
-// Displaced by u pixels. Positions outside are held at the border.
+// Starts a cell's patch, displaced by u pixels. Positions outside the level are clamped to its border.
 Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
     vec2 origin = clamp(vec2(4 * cell - 2) + u, vec2(-7.0), vec2(l.width - 2, l.height - 2));
     vec2 whole = floor(origin);
@@ -55,7 +55,7 @@ Window windowAt(LumaLevel l, ivec2 cell, vec2 u) {
     return w;
 }
 
-// The patch's next row, between two rows of pixels: first along y, so that these wait as words.
+// The patch's next row, between two rows of pixels. Interpolates along y first, so that rows are kept as words.
 Row nextRow(inout Window w, LumaLevel l) {
     ++w.y;
     uvec3 below = fetchPixels(l, w);
@@ -66,8 +66,8 @@ Row nextRow(inout Window w, LumaLevel l) {
     return Row(q0 + (vec4(q0.yzw, q1.x) - q0) * w.f.x, q1 + (vec4(q1.yzw, q2) - q1) * w.f.x);
 }
 
-// Of a cell's patch in level a and that in level b, displaced by u pixels: covariance and both variances,
-// as sums over the pixels.
+// Covariance and both variances, as sums over the pixels, of a cell's patch in level a and the patch in level b that is
+// displaced by u pixels.
 vec3 spreadOf(LumaLevel a, LumaLevel b, ivec2 cell, vec2 u) {
     Window w = windowAt(b, cell, u);
     vec2 sum = vec2(0.0);

@@ -1,10 +1,10 @@
-// A displacement made better in steps, as far as it gets, from a good one on.
+// Refines a good displacement step by step until the cost no longer falls.
 #include "patch_template.glsl"
 
-// Takes Gauss-Newton steps from `best` on as long as they lower the cost; none if `steps` is -1. The comparison
-// takes all registers of a V3D: what waits for its end waits in memory, behind the template, and what is needed
-// last is read last. Places that compilers do not know (`none` and `later` are 0) keep them from holding it or
-// reading it early.
+// Takes Gauss-Newton steps from `best` as long as they lower the cost; no step if `steps` is -1. The comparison needs
+// all registers of a V3D. Values needed after it are therefore stored in memory, after the template, and values needed
+// last are read last. Indices unknown to the compiler (`none` and `later` are always 0) prevent it from keeping values
+// in registers or reading them early.
 void refine(vec2 known, LumaLevel l, ivec2 cell, int steps, inout vec2 best, inout float cost) {
     prepareSteps(known, cell);
     vec2 u = best;

@@ -1,16 +1,16 @@
-// An 8x8 patch to be found again in another luma level, invariant to offset and gain.
+// An 8x8 patch to be found in another luma level, invariant to offset and gain.
 #include "patch.glsl"
 
-// The template: three words for each of rows -1 to kRows, its eight pixels and then those left and right
-// of them. Behind the rows nine floats: mean, variance (sum of squared deviations), sum of the gradient (x, y),
-// sum of a (less its mean) times the gradient, inverse Hessian (xx, xy, yy); then five of patch_refine.glsl.
-// No GPU has registers for all of this next to a comparison. Variable indices keep it in memory, on Mali if it
-// has more than 64 words, and loops of a length that compilers do not know, here and in what uses this, stay
-// loops with one row in registers.
+// The template: three words for each of rows -1 to kRows: two with its eight pixels, one with those to the left and
+// right of them. After the rows nine floats: mean, variance (sum of squared deviations), sum of the gradient (x, y),
+// sum of a (minus its mean) times the gradient, inverse Hessian (xx, xy, yy); then five floats of patch_refine.glsl.
+// No GPU has enough registers for all of this plus a comparison. Variable indices keep it in memory; Mali requires more
+// than 64 words for that. Loops whose length the compiler does not know, here and in the files that include this, are
+// not unrolled and keep one row in registers.
 uint templateWords[72];
 
-// Over the pixels of a patch: of the other picture, of its square, of its product with the template and
-// with twice the template's gradient.
+// Sums over the pixels of a patch: of the other picture b, of b^2, of b times the template, of b times twice the
+// template's gradient.
 struct Sums {
     float b, bb, ab;
     vec2 gb;
@@ -18,15 +18,15 @@ struct Sums {
 
 struct Match {
     float cost;
-    vec2 step;  // of Gauss-Newton on the displacement, at most a pixel long
+    vec2 step;  // Gauss-Newton step of the displacement, at most one pixel long
 };
 
-// Pixels of row r of the template, -1 to kRows.
+// Pixels of row r of the template; r from -1 to kRows.
 Row templateRow(int r) {
     int at = 3 * r + 3;
     return Row(unpackPixels(templateWords[at]), unpackPixels(templateWords[at + 1]));
 }
-// Twice its gradient along x, and along y.
+// Twice the template's gradient along x (slopeAcross) and along y (slopeDown).
 Row slopeAcross(int r, Row a) {
     uint word = templateWords[3 * r + 5];
     float before = float((word >> 8) & 255u), after = float((word >> 16) & 255u);
@@ -45,7 +45,7 @@ void setMoment(int i, float value) {
     templateWords[3 * kRows + 6 + i] = floatBitsToUint(value);
 }
 
-// Sets the rows, mean and variance. Returns both.
+// Sets the rows, mean and variance; returns the latter two.
 vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     float sum = 0.0, sumSquares = 0.0;
     for (int r = -1; r <= kRows; ++r) {
@@ -66,7 +66,7 @@ vec2 loadTemplate(LumaLevel l, ivec2 cell) {
     return vec2(mean, variance);
 }
 
-// Sets the other floats behind the rows, given mean and variance.
+// Sets the other floats after the rows; `known`: mean and variance.
 void prepareSteps(vec2 known, ivec2 cell) {
     vec2 sum = vec2(0.0), sumA = vec2(0.0);
     vec3 h = vec3(0.0);
@@ -91,8 +91,8 @@ void add(inout Sums sums, Row a, Row b) {
     sums.ab += product(a, b);
 }
 
-// 0 = alike up to gain and offset, 1 = unrelated, 2 = inverted. `known`: mean and variance of the
-// template. gain: a is about gain * b + offset.
+// 0 = equal up to gain and offset, 1 = unrelated, 2 = inverted. `known`: mean and variance of the template. gain: a is
+// about gain * b + offset.
 float costOf(vec2 known, Sums sums, out float gain) {
     float mean = sums.b / kPatchPixels;
     float variance = max(sums.bb - sums.b * mean, 0.0);

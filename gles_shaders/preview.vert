@@ -1,5 +1,5 @@
 // Vertices of a virtual object, seen through the video camera's lens. In: unit shape.
-// Out: camera frame [m], squares of the checkerboard, place on the unit shape.
+// Out: position in the camera frame [m], squares of the checkerboard, position on the unit shape.
 #include "preview_params.glsl"
 #include "lens_projection.glsl"
 
@@ -13,7 +13,7 @@ out vec3 place;
 
 void main() {
     vec3 size = vec3(params.width, params.height, params.depth);
-    // Normals stretch by the inverse of the size; times all three, so that none may be zero.
+    // Normals are divided by the size; multiplied by all three sizes instead, because one may be zero.
     vec3 n = normal * size.yzx * size.zxy;
     point = transformed(params.object, position * size);
     for (int i = 0; i < 3; ++i) {

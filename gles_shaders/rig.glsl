@@ -1,8 +1,8 @@
-// Where a video pixel at infinity lies in the still: rotation and both lenses, no parallax.
+// Place of a video pixel at infinity in the still: rotation and both lenses, no parallax.
 #include "camera.glsl"
 #include "pipeline/engine/params/luma.h"
 
-// Still pixel of a video pixel; far outside when the ray points away from the still's scene.
+// Still pixel of a video pixel; far outside if the ray points away from the still camera's view.
 vec2 stillPixel(Rig r, vec2 videoPixel) {
     vec3 p = vec3(unprojectPixel(r.video, videoPixel), 1.0);
     vec3 s;

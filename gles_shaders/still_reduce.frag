@@ -1,7 +1,7 @@
-// The still with fewer pixels, along one axis: a tent as wide as two of the result's pixels. In: RGBA8.
-// Out: RGBA8. Sharper kernels do not pay: what they keep is what is matched worst (measured on photographs,
-// 1067 of 2304 pixels across: Keys' cubic 0.2 to 1.3 dB below, Mitchell's between).
-// TAPS: pixels under the tent at most; a constant, so that the loop unrolls.
+// The still reduced along one axis, by a tent filter as wide as two pixels of the result. In: RGBA8. Out: RGBA8.
+// Sharper kernels are worse: the frequencies that they keep are matched worst (measured on photographs, 1067 of 2304
+// pixels across: Keys' cubic 0.2 to 1.3 dB below, Mitchell's between).
+// TAPS: upper limit of the pixels under the tent; a constant, so that the loop unrolls.
 // Variant: #define TAPS 8
 #ifndef TAPS
 #define TAPS 3

@@ -1,15 +1,15 @@
-// What a video pixel shows of the still. Needs tile_params.glsl.
+// Mean of the still over a video pixel. Needs tile_params.glsl.
 layout(binding = 2) uniform sampler2D lookupField;
 layout(binding = 3) uniform sampler2D still;  // raised luma
 
-// Where a place in the video lies in the still.
+// Place in the still of a place in the video.
 vec2 inStill(vec2 p) {
     vec2 scale = vec2(params.stillScaleX, params.stillScaleY) / vec2(params.scaleX, params.scaleY);
     return (p * scale + textureLod(lookupField, p / vec2(4 * cellCount()), 0.0).xy) *
            vec2(params.stillTexelX, params.stillTexelY);
 }
 
-// Mean over this pixel: 4x4 samples. Within a pixel the look-ups are bilinear.
+// Mean over this pixel: 4x4 samples. Look-ups are interpolated bilinearly within the pixel.
 float stillSeen() {
     const float reach = 0.375 * kSeen;
     vec2 first = inStill(gl_FragCoord.xy - reach), last = inStill(gl_FragCoord.xy + reach);

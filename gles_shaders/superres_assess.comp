@@ -1,9 +1,9 @@
-// How the still matches the video at each cell: what superres_weigh.comp weighs.
-// In: forward field (video -> still) and backward field, which may be of a coarser level, or two-way
-// errors in patches[], both pictures' finest luma.
-// Out: displacement image = flow (x, y) [video px], its end in the still less the scaled cell centre
-// [still px]; statistics image = covariance, variance of the video and of the still in the patch,
-// confidence; none of the first three in tiles that are not matched. Source: paper, eq. 2 with lambda(x) = min(x, 1).
+// How the still matches the video at each cell: the inputs of superres_weigh.comp.
+// In: forward field (video -> still) in patches[], with the backward field, which may be of a coarser level, or two-way
+// errors; both pictures' finest luma.
+// Out: displacement image = flow (x, y) [video px], its end in the still minus the scaled cell centre [still px];
+// statistics image = covariance, variance of the video and of the still in the patch, confidence; the first three are 0
+// in tiles that are not matched. Source: paper, eq. 2 with lambda(x) = min(x, 1).
 // Range: displacement -2e4..2e4, -2e4..2e4, -4e3..4e3, -4e3..4e3
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..1
 #include "luma.glsl"
@@ -22,7 +22,7 @@ layout(std430, binding = 1) readonly buffer Patches {
 };
 layout(std430, binding = 2) readonly buffer Tiles {
     uvec2 header;
-    uvec2 tiles[];  // changed, matched; a workgroup each
+    uvec2 tiles[];  // changed, matched; one workgroup per tile
 };
 layout(rgba32f, binding = 0) uniform writeonly highp image2D displacement;
 layout(rgba32f, binding = 1) uniform writeonly highp image2D statistics;
@@ -65,7 +65,7 @@ void main() {
 
     vec2 scale = vec2(params.scaleX, params.scaleY);
     vec2 offset = clamp(inStill - (centre + 0.5) * scale + 0.5, vec2(-kFarthestOffset), vec2(kFarthestOffset));
-    // Last: with this loop in front of the rest, Mesa 22.3's compiler for V3D never ends.
+    // Must come last: if this loop is before the rest, Mesa 22.3's compiler for V3D does not terminate.
     vec3 alike = vec3(0.0);
     if (tiles[gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x].y != 0u)
         alike = spreadOf(params.video, params.still, cell, u);

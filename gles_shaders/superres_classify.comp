@@ -1,9 +1,9 @@
 // Class of every tile and the draw lists of the frame.
-// In: change flags, cell fields of up to two stills. Out: lists[] = lists of changed tiles (all, upscaled, trusted,
-// blended; empty when the whole frame is drawn at once, the first two when it is enlarged at once; the first also has
-// the tiles around those that show detail or are enlarged by filters, which is made of what lies there; and those that
-// show some of the second still), draws[] = their indirect commands and the counts of the frame, classes[] per tile.
-// One invocation a tile; draws[] is zeroed before.
+// In: change flags, cell fields of up to two stills. Out: lists[] = five lists of changed tiles: 0 all, 1 upscaled, 2
+// trusted, 3 blended, 4 showing some of the second still. The lists are empty when the whole frame is drawn at once; 0
+// and 1 are empty when it is enlarged at once. List 0 also has the neighbours of tiles that show detail or are enlarged
+// by filters, because those tiles read their neighbours. draws[] = the lists' indirect commands and the counts of the
+// frame; classes[] per tile. One invocation per tile; draws[] is initially zero.
 // Range: classes 0..3, 0..16
 #include "tiles.glsl"
 
@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform Params {
     ClassifyTiles params;
 };
 layout(std430, binding = 0) readonly buffer Changed {
-    uvec2 header;  // whole frame drawn at once (2: with detail in listed tiles), changed tiles
+    uvec2 header;  // 1: whole frame drawn at once, 2: the same with detail in listed tiles; number of changed tiles
     uvec2 changed[];  // changed, matched
 };
 layout(std430, binding = 1) buffer Classes {
@@ -23,7 +23,7 @@ layout(std430, binding = 2) buffer Draws {
     uint counts[8];    // tiles per class, -, unexplained tiles, confidence sum * 256, tiles with the second still
 };
 layout(std430, binding = 3) buffer Lists {
-    uint lists[];  // then of each tile, when it was last listed for a neighbour
+    uint lists[];  // after the lists, per tile: frame in which it was last listed for a neighbour
 };
 layout(binding = 0) uniform sampler2D cellField;
 layout(binding = 1) uniform sampler2D weightField;
@@ -38,7 +38,7 @@ vec4 cellAt(ivec2 c) {
     return texelFetch(cellField, clamp(c, ivec2(0), lastCell()), 0);
 }
 
-// A tile is plain when one quad shows it: its flow is affine and its weight even, within tolerance.
+// A tile is plain if one quad can show it: within tolerance, its flow is affine and its weight uniform.
 uint classOf(ivec2 first) {
     vec4 low = vec4(1e9), high = vec4(-1e9);
     for (int i = 0; i < 36; ++i) {
@@ -59,12 +59,12 @@ uint classOf(ivec2 first) {
     return kTileTrusted;
 }
 
-// Does the second still count for more?
+// True if the second still has the larger weight.
 bool secondIsMore(ivec2 c) {
     return texelFetch(secondCells, c, 0).z > texelFetch(cellField, c, 0).z + kSecondFrom;
 }
 
-// As far as pixels of the tile look: between its cells and those beside it.
+// Includes the neighbouring cells, because pixels of the tile interpolate between them and its own.
 bool showsSecond(ivec2 first) {
     ivec2 low = max(first - 1, ivec2(0)), high = min(first + 4, lastCell());
     for (int y = low.y; y <= high.y; ++y)
@@ -83,7 +83,7 @@ void append(uint list, uint packedTile) {
     lists[int(list) * params.columns * params.rows + int(at)] = packedTile;
 }
 
-// Each tile once.
+// Appends each unchanged neighbour once per frame.
 void appendUnchangedAround(ivec2 tile) {
     ivec2 first = max(tile - 1, ivec2(0)), last = min(tile + 1, ivec2(params.columns, params.rows) - 1);
     for (int y = first.y; y <= last.y; ++y) {

@@ -1,9 +1,9 @@
-// What the learned enlarger adds to Keys' cubic on a grid of 4x4 sub-pixels per pixel: the mean of two
-// residuals, each a sum of the neighbours' differences to the pixel, weighed by the filter of the pixel's
-// class. For the tiles that are drawn and have structure, and for the pixels around them.
-// In: video, plan, filters of all classes. Out: residual image [1/32 grey level], four sub-pixels of a row in a
-// texel, the four rows of a pixel below each other. Source: pipeline/enlarge/filter_layout.h.
-// One workgroup is the upper or the lower half of a tile.
+// Residual of the learned enlarger relative to Keys' cubic on a grid of 4x4 sub-pixels per pixel: the mean of two
+// residuals, each a sum of the neighbours' differences to the pixel, weighted by the filter of the pixel's class.
+// Computed for the tiles that are drawn and enlarged by filters, and for the pixels around them.
+// In: video, plan, filters of all classes. Out: residual image [1/32 grey level], four sub-pixels of a row per texel,
+// the four rows of a pixel below each other. Source: pipeline/enlarge/filter_layout.h.
+// One workgroup per upper or lower half of a tile.
 #include "cubic.glsl"
 #include "luma.glsl"
 #include "pipeline/engine/params/enlarge.h"
@@ -11,7 +11,7 @@
 #include "enlarge_filters.glsl"
 
 const int kGroupWidth = 16, kGroupHeight = 8, kGroupSize = kGroupWidth * kGroupHeight;
-const int kReach = 3;  // pixels beside one that its class and its residual look at
+const int kReach = 3;  // reach of a pixel's class and residual [px]
 const int kPitch = kGroupWidth + 2 * kReach;
 const int kLumas = kPitch * (kGroupHeight + 2 * kReach);
 const int kSumPitch = kGroupWidth + 4;
@@ -29,11 +29,11 @@ layout(binding = 0) uniform sampler2D picture;
 layout(rgba16i, binding = 0) uniform writeonly highp iimage2D residual;
 
 shared float luma[kLumas];   // [1/8 grey level]
-shared float sumsXx[kSums];  // of products of the gradient, over five rows
+shared float sumsXx[kSums];  // sums of products of the gradient over five rows
 shared float sumsXy[kSums];
 shared float sumsYy[kSums];
 
-// Is a tile drawn, and enlarged by filters?
+// True if a tile is drawn and enlarged by filters.
 bool learns(ivec2 tile) {
     if (any(lessThan(tile, ivec2(0))) || any(greaterThanEqual(tile, ivec2(params.columns, params.rows))))
         return false;
@@ -41,7 +41,7 @@ bool learns(ivec2 tile) {
     return (header.x != 0u || flags.x != 0u) && flags.y != 0u;
 }
 
-// Does a tile that learns touch these pixels?
+// True if a tile that learns touches these pixels.
 bool learnsAround(ivec2 first, ivec2 last) {
     ivec2 low = (first - 1) >> 4, high = (last + 1) >> 4;
     bool any = false;
@@ -90,7 +90,7 @@ float most(vec4 v) {
     return max(max(v.x, v.y), max(v.z, v.w));
 }
 
-// Of products of the gradient, over 5x5 pixels.
+// Sums of products of the gradient over 5x5 pixels.
 vec3 sumsAround() {
     int i = int(gl_LocalInvocationID.y) * kSumPitch + int(gl_LocalInvocationID.x);
     vec3 sums = vec3(0.0);
@@ -99,7 +99,7 @@ vec3 sumsAround() {
     return sums;
 }
 
-// `at`: place of the pixel in luma[].
+// `at`: index of the pixel in luma[].
 void enlarge(ivec2 pixel, int at) {
     float here = luma[at];
     int up = at - kPitch, down = at + kPitch;

@@ -1,8 +1,8 @@
-// How the finest detail of the video and of the still vary together in each cell: see kFineRoom.
-// In: tiles, look-ups, raised luma of the still, video. Out: mean products of what pixels of the middle two rows
-// differ from the mean of their block of 2x2: video, both, still [grey levels^2]. Nothing in tiles that are not
-// matched and in cells that are not whole.
-// A workgroup each tile, an invocation each cell of a sampled row.
+// Covariance of the finest detail of the video and of the still in each cell: see kFineRoom.
+// In: tiles, look-ups, raised luma of the still, video. Out: mean products of the differences of pixels from the mean
+// of their 2x2 block, over the middle two rows: video, both, still [grey levels^2]. Zero in tiles that are not matched
+// and in incomplete cells.
+// One workgroup per tile, one invocation per cell of a sampled row.
 // Range: fineField 0..65025, -65025..65025, 0..65025, 0
 #include "luma.glsl"
 #include "still_linear.glsl"

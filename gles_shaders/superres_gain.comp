@@ -1,6 +1,6 @@
-// Photometric gain between the sensors, measured at half resolution: there the blur in which they differ
-// no longer counts. In: forward field, both pictures' second luma level. Out: covariance, variance of the
-// video and of the still per half-resolution cell (8x8 video pixels); none in tiles that are not matched.
+// Photometric gain between the sensors, measured at half resolution, where their difference in blur is negligible. In:
+// forward field, both pictures' second luma level. Out: covariance, variance of the video and of the still per
+// half-resolution cell (8x8 video pixels); zero in tiles that are not matched.
 // Range: statistics -4.2e6..4.2e6, 0..4.2e6, 0..4.2e6, 0..0
 #include "luma.glsl"
 #include "pipeline/engine/params/weigh.h"

@@ -1,5 +1,5 @@
-// What each video pixel shows of the still, as superres_seen.frag makes it, less what guidance adds and takes away
-// beyond its mean around: see kGuideReach. In and out: luma [1/64 grey level].
+// Mean of the still over each video pixel (result of superres_seen.frag), minus the guidance signal beyond its local
+// mean: see kGuideReach. In and out: luma [1/64 grey level].
 #include "tile_params.glsl"
 
 layout(binding = 1) uniform isampler2D seen;

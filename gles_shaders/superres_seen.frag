@@ -1,6 +1,6 @@
-// Where the video is enlarged by filters and not sharpened: luma that each video pixel shows of the still.
-// In: video, look-ups, raised luma of the still. Out: luma, what guidance adds and takes away [1/64 grey level],
-// and 1 where the still is trusted; elsewhere nothing is added.
+// Mean luma of the still over each video pixel, for enlargement by filters without sharpening.
+// In: video, look-ups, raised luma of the still. Out: luma; guidance signal (zero where the still is not trusted) [1/64
+// grey level]; 1 where the still is trusted, else 0.
 #include "tile_params.glsl"
 #include "still_seen.glsl"
 #include "luma.glsl"

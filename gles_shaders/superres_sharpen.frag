@@ -1,7 +1,7 @@
-// Undoes what a sensor pixel's area and the bicubic kernel together take from high frequencies, where
-// the still does not supply them: each axis, and the product of the axes' nearest taps.
-// In: video, weights, look-ups, raised luma of the still. Out: video, prefiltered for the upscaling; alpha: luma
-// that it would show of the still, which composite_detail.frag takes off.
+// Compensates the loss of high frequencies by the area of a sensor pixel and the bicubic kernel together, where the
+// still does not supply them: each axis, and the product of the axes' nearest taps.
+// In: video, weights, look-ups, raised luma of the still. Out: video, prefiltered for the upscaling; alpha: mean luma
+// of the still over the pixel, which composite_detail.frag subtracts.
 
 #include "tile_params.glsl"
 #include "still_seen.glsl"

@@ -1,6 +1,6 @@
-// Upscaling, first half: columns of four channels. In: prefiltered video. Out: video width x output height.
-// With LEARNED integers, of the video as it is and of what it shows of the still [1/64 grey level], and of the
-// residual that superres_enlarge.comp made, four sub-pixels a texel [1/64 grey level].
+// First half of the upscaling: columns of four channels. In: prefiltered video. Out: video width x output height.
+// With LEARNED, the output is integer: the video without prefilter and the mean of the still over video pixels [1/64
+// grey level], and the residual of superres_enlarge.comp, four sub-pixels per texel [1/64 grey level].
 // Variant: #define LINEAR
 // Variant: #define LEARNED
 #include "cubic.glsl"

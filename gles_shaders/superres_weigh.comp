@@ -1,14 +1,13 @@
 // How far the still is trusted at each cell, from the statistics of 3x3 cells.
-// In: images of superres_assess.comp. Out: cells image = flow (x, y) [video px], weight of the detail,
-// eq. 2 confidence; look-up image = the same with the flow as still pixels off the scaled cell centre;
+// In: images of superres_assess.comp. Out: cells image = flow (x, y) [video px], weight of the detail, eq. 2
+// confidence; look-up image = the same, but the flow as its end in the still minus the scaled cell centre [still px];
 // weights image = weight / 2, confidence, signal share (for the sharpening), unexplained.
-// Weight of the detail: the sensors' photometric gain a = cov / (var + eps), from half resolution where
-// there is contrast enough, times a trust in the match. Where the flow is even, both sensors see the
-// surface from the same side, and what they have in common at the video's resolution tells little about
-// detail that aliases there: a match good enough to be right is trusted wholly. Where the flow bends,
-// the surface is seen from another side, and trust falls with the squared share of the video's variance
-// that the still explains. Where the flow is torn, look-ups between cells lead nowhere, and nothing is
-// trusted.
+// Weight of the detail: the sensors' photometric gain a = cov / (var + eps), measured at half resolution where contrast
+// suffices, times a trust in the match. Where the flow is uniform, both sensors see the surface from the same side.
+// Their correlation at the video's resolution then says little about detail that aliases there: a match that is
+// probably correct is trusted fully. Where the flow varies, the surface is seen from another side, and trust falls with
+// the squared share of the video's variance that the still explains. Where the flow is discontinuous, look-ups between
+// cells are invalid, and nothing is trusted.
 // Range: cellField -2e4..2e4, -2e4..2e4, 0..2.31, 0..1
 // Range: lookupField -4e3..4e3, -4e3..4e3, 0..2.31, 0..1
 #include "pipeline/engine/params/weigh.h"
@@ -39,7 +38,7 @@ float bendAt(ivec2 c) {
     return sqrt(dot(dx, dx) + dot(dy, dy)) / 8.0;
 }
 
-// How much the flow's step changes at the cell [px]. Turns and zooms change the flow, but not its step.
+// Second difference of the flow at the cell [px]. Rotations and zooms change the flow, but not its first difference.
 float tearAt(ivec2 c) {
     vec2 here = 2.0 * flowAt(c);
     vec2 dx = flowAt(c + ivec2(1, 0)) + flowAt(c - ivec2(1, 0)) - here;

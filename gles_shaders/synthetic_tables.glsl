@@ -1,6 +1,5 @@
-// Tables of the synthetic world and the ray queries on them. A solid is a box, cylinder or
-// ellipsoid; rays are moved into its frame, scaled so that it becomes a unit cube, unit cylinder or
-// unit sphere.
+// Tables of the synthetic world, and ray queries on them. A solid is a box, cylinder or ellipsoid; rays are transformed
+// into its frame, scaled such that it becomes a unit cube, unit cylinder or unit sphere.
 
 struct Solid {
     vec4 x, y, z;  // rows: camera direction -> scaled frame; w: camera position there
@@ -9,7 +8,7 @@ struct Surface {
     vec4 size;        // half extents [m]; w: 0 box, 1 cylinder, 2 ellipsoid
     vec4 face;        // light map: corner of the first face, size of a face
     vec4 light;       // xyz: towards the key light, solid's frame; w: half a light map texel / face
-    ivec4 materials;  // of the x, y, z faces; w: 1 when it moves
+    ivec4 materials;  // of the x, y, z faces; w: 1 if it moves
 };
 struct Material {
     vec4 mapping;  // texture repeats per metre in u and v, offset
@@ -61,7 +60,7 @@ void castRound(int index, vec2 rays[4], inout vec4 t, inout ivec4 hit) {
         vec3 d = local(s, rays[k]);
         vec3 dk = d * keep, ok = o * keep;
         float a = dot(dk, dk), b = dot(ok, dk);
-        // The nearest point of the ray, instead of b*b - a*c: keeps its digits far away.
+        // Uses the nearest point of the ray instead of b*b - a*c, which loses precision at a distance.
         vec3 nearest = ok - dk * (b / a);
         float disc = (1.0 - dot(nearest, nearest)) / a;
         if (!(disc > 0.0)) continue;
@@ -85,7 +84,7 @@ void castRound(int index, vec2 rays[4], inout vec4 t, inout ivec4 hit) {
     }
 }
 
-// Local coordinates on a face around a point of it.
+// Local coordinates on a face around a point.
 struct Chart {
     vec2 at;       // texture position [m]
     vec3 u, v;     // directions of texture axes on the surface
@@ -123,7 +122,7 @@ Chart chart(Surface f, int axis, vec3 p) {
     return c;
 }
 
-// What a moving ball-like thing leaves of the light behind it; the light map knows only what rests.
+// Factor of the light behind a moving, roughly spherical object; the light map contains only static objects.
 float moverShade(vec3 point, vec3 middle, vec4 light) {
     vec3 v = point - middle;
     float along = dot(v, light.xyz), off = length(v - along * light.xyz);

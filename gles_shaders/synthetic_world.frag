@@ -1,7 +1,7 @@
-// The synthetic world as light on a sensor: every pixel undoes its lens, casts four rays at the
-// solids of its tile and shades what they hit.
-// in: tables of solids, surfaces and materials; bit mask of solids per tile; textures; light map
-// out: linear radiance, 1 = white paper in full light
+// The synthetic world as light on a sensor: every pixel inverts its lens distortion, casts four rays at the solids of
+// its tile and shades the hits.
+// In: tables of solids, surfaces and materials; bit mask of solids per tile; textures; light map.
+// Out: linear radiance, 1 = white paper in full light.
 #include "synthetic_tables.glsl"
 #include "hal/virtual/synthetic_params.h"
 
@@ -31,7 +31,7 @@ vec2 distort(vec2 p, out mat2 jacobian) {
                              t.x * (r2 + 2.0 * p.y * p.y) + 2.0 * t.y * p.x * p.y);
 }
 
-// Normalised ray of a pixel; the columns of `perPixel` are its change for one pixel in x and in y.
+// Normalised ray of a pixel; the columns of `perPixel` are its derivatives with respect to x and y of the pixel.
 vec2 unproject(vec2 pixel, out mat2 perPixel) {
     Lens lens = params.lens;
     vec2 target = (pixel - vec2(lens.cx, lens.cy)) / vec2(lens.fx, lens.fy);
@@ -80,7 +80,7 @@ vec3 shade(Group g, vec4 t, vec2 rays[4], mat2 perPixel) {
     vec2 scale = abs(m.mapping.xy);
     float a2 = dot(pow2(vec2(dot(across, c.u), dot(across, c.v)) * scale), vec2(1.0));
     float b2 = dot(pow2(vec2(dot(down, c.u), dot(down, c.v)) * scale), vec2(1.0));
-    // Four samples half a pixel apart: each stands for half the footprint.
+    // Four samples half a pixel apart: each covers half the footprint.
     float texels2 = 0.25 * kLayerTexels * kLayerTexels * max(min(a2, b2), 0.5 * max(a2, b2));
     float lod = max(0.0, 0.5 * log2(texels2));
 

@@ -1,4 +1,4 @@
-// What all programs that draw tiles share.
+// Parameters shared by all programs that draw tiles.
 #include "pipeline/engine/params/detail.h"
 
 layout(std140, binding = 0) uniform Params {

@@ -1,6 +1,6 @@
 // One rectangle per listed tile, at any resolution. In: packed tile (instanced). Six vertices.
-// With PLAIN_TILE also the look-up of the tile's corners, from the cells that meet there.
-// With AROUND what lies around the tile, too.
+// With PLAIN_TILE, also the look-up at the tile's corners, from the cells that meet there.
+// With AROUND, the rectangle includes a margin of kTileAround.
 // Variant: #define PLAIN_TILE
 // Variant: #define AROUND
 #include "tile_params.glsl"

@@ -1,4 +1,4 @@
-// Bicubic upscaling, second half: rows; alpha as superres_vertical.frag has it. Needs tile_params.glsl, and
+// Second half of the bicubic upscaling: rows; alpha as in superres_vertical.frag. Needs tile_params.glsl, and
 // columns.glsl or learned.glsl.
 #include "cubic.glsl"
 

@@ -1,5 +1,5 @@
-// The virtual layer at an output pixel. Needs visibility.glsl. SCALED_LAYER: it has a size of its own;
-// colours are interpolated linearly, depth is that of the nearest of the four pixels that has one.
+// The virtual layer at an output pixel. Needs visibility.glsl. SCALED_LAYER: the layer's size differs from the
+// output's; colours are interpolated linearly, and depth is that of the nearest valid pixel of the surrounding four.
 // Variant: #define SCALED_LAYER 1
 
 bool isVirtual(float z) {
@@ -22,7 +22,7 @@ vec4 layerColour(highp sampler2D colours) {
 #endif
 }
 
-// z [m]; 0: nothing is there.
+// z [m]; 0: no surface.
 float layerDepth(highp sampler2D depths) {
 #ifdef SCALED_LAYER
     ivec2 base;

@@ -1,4 +1,4 @@
-// Parameters of the occlusion's passes, and what counts as known.
+// Parameters of the occlusion passes, and the test for known samples.
 #include "pipeline/engine/params/occlusion.h"
 
 layout(std140, binding = 0) uniform Params {
@@ -11,12 +11,12 @@ ivec2 lastVideoPixel() {
 ivec2 outputSize() {
     return ivec2(params.outputWidth, params.outputHeight);
 }
-// Video pixel of the fragment; pixel centres are at integers.
+// Video pixel at the fragment; pixel centres are at integers.
 vec2 inVideo() {
     return gl_FragCoord.xy * vec2(params.scaleX, params.scaleY) - 0.5;
 }
 
-// Of a real sample: inverse depth [1/m], sigma [1/m]. False for NaN, infinity, zero and below.
+// Tests a real sample: inverse depth [1/m], sigma [1/m]. False for NaN, infinity, zero and negative values.
 bool known(vec2 real) {
     return real.x > kLeastInverseDepth && real.x < kMostInverseDepth && real.y > kLeastDepthSigma &&
            real.y < kMostInverseDepth;

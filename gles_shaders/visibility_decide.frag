@@ -1,12 +1,12 @@
-// Where a virtual pixel is surely before the real scene or behind it. In: virtual z [m], range
-// (visibility_range.frag). Out: R8, 1 or 0; fragment depth 1 where visibility_sample.frag has to weigh, 0
-// elsewhere, so that the depth test leaves out what is decided, which no branch would do on a software renderer.
+// Decides virtual pixels that are certainly in front of or behind the real scene. In: virtual z [m], range
+// (visibility_range.frag). Out: R8, 1 or 0; fragment depth 1 where visibility_sample.frag has to decide, otherwise 0.
+// The depth test then skips decided pixels, which a branch would not do on a software renderer.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
 
 layout(binding = 0) uniform sampler2D virtualDepth;
 layout(binding = 1) uniform sampler2D rangeField;
-// A vec4, as Mesa 22.3 for Mali crashes where a shader that writes the depth has a single output channel.
+// A vec4, because Mesa 22.3 for Mali crashes when a shader that writes depth has a single output channel.
 layout(location = 0) out vec4 visibility;
 
 void main() {

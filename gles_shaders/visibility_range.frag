@@ -1,6 +1,7 @@
-// For the 4x4 samples that visibility_sample.frag weighs around a position whose lower sample this is:
-// which virtual inverse depths need no weighing. In: Rg32F real inverse depth, sigma [1/m].
-// Out: all at or above x are in front of every sample; y: bound of those hidden by every sample, 0 = none.
+// Limits of the virtual inverse depths that visibility_sample.frag has to weigh, over the 4x4 samples around a position
+// whose lower sample this is. In: Rg32F real inverse depth, sigma [1/m].
+// Out: x: at or above it, a surface is in front of every sample; y: up to it, every sample hides the surface, 0 =
+// never.
 // Range: range 0..1e6, 0..1e6
 #include "visibility.glsl"
 

@@ -1,7 +1,6 @@
-// How much of a virtual pixel is in front of the real scene, [0, 1], where visibility_decide.frag leaves that open:
-// the mean over the 4x4 nearest depth
-// samples of each one's answer, weighed by distance and by likeness of the picture here to the video
-// there, so that depth edges follow image edges (joint bilateral upsampling, Kopf et al. 2007).
+// Visible share of a virtual pixel, [0, 1], where visibility_decide.frag has not decided: the mean of the visibility
+// over the 4x4 nearest depth samples, weighted by distance and by likeness of the picture at the pixel to the video at
+// the sample, so that depth edges follow image edges (joint bilateral upsampling, Kopf et al. 2007).
 // In: virtual z [m], real depth, video, picture. Out: R8.
 #include "visibility.glsl"
 #include "virtual_layer.glsl"
@@ -31,7 +30,7 @@ void main() {
         vec2 tent = 2.0 - abs(vec2(q) - at);
         q = clamp(q, ivec2(0), lastVideoPixel());
         vec3 unlike = texelFetch(videoPicture, q, 0).rgb - here;
-        // Where nothing is alike, distance decides.
+        // Where no colour is alike, distance decides.
         float w = tent.x * tent.x * tent.y * tent.y *
                   (exp(-params.likeness * dot(unlike, unlike)) + kLikenessFloor);
         sum += w * visibleOver(texelFetch(realDepth, q, 0).rg, inverse);

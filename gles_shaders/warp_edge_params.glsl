@@ -1,4 +1,4 @@
-// What is sharpened in a picture at rest.
+// Parameters of sharpening while the camera rests.
 #include "pipeline/warp/pass_params.h"
 
 layout(std140, binding = 0) uniform Params {

@@ -1,9 +1,9 @@
-// Lists the pixels in which a warped picture is least to be trusted: those with the most contrast to
-// their neighbours, where a surface's own pixels are mixtures that the look-up mixes again.
-// First (COUNT) how many there are of each level, then those of the highest levels that make up the share of the
-// objects' pixels, of the highest one at least: the same pixels whatever the order of the threads. In: colour (RGBA8
-// premultiplied) and state of the look-up. Out: count[] of each level, of the objects' pixels, of the list; list[] =
-// row-major index, colour.
+// Lists the least reliable pixels of a warped picture: those with the most contrast to their neighbours, where pixels
+// are mixtures of a surface's colours, which the look-up mixes again.
+// First pass (COUNT): number of pixels per contrast level. Second pass: lists the pixels of the highest levels, up to
+// the share of the objects' pixels, but at least the highest level; the set does not depend on the order of the
+// threads. In: colour (RGBA8 premultiplied) and state of the look-up. Out: count[] per level, of the objects' pixels,
+// of the list; list[] = row-major index, colour.
 // Variant: #define COUNT
 #include "warp_edge_params.glsl"
 
@@ -24,8 +24,8 @@ layout(std430, binding = 1) writeonly buffer List {
 shared uint least;
 #endif
 
-// The largest difference of a colour in the 3x3 pixels around p. Outlines count as little as the objects shine: the
-// silhouette knows them already.
+// The largest difference of a colour within 3x3 pixels around p. Alpha is ignored, so outlines of dark objects have
+// little contrast: the silhouette already makes outlines exact.
 uint levelAt(ivec2 p) {
     vec3 low = vec3(1.0), high = vec3(0.0);
     for (int i = 0; i < 9; ++i) {

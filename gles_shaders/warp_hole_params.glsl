@@ -1,4 +1,4 @@
-// What the passes over the holes of a warp share.
+// Parameters shared by the passes that fill holes of a warp.
 #include "pipeline/warp/pass_params.h"
 
 layout(std140, binding = 0) uniform Params {

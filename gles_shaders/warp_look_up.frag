@@ -1,7 +1,7 @@
-// The second pass of the warp for all plain pixels: those that one surface fills, which the reference shows at four
-// texels and at the same depth. All others are left to warp_rest.comp. Branches would save nothing here: a
-// software renderer executes both sides. In: silhouette at twice the resolution. Out: RGBA8
-// premultiplied; z [m], 0 = nothing; state: 0, 1 if the pixel is left, 0, number of what fills it.
+// The second pass of the warp for plain pixels: those that one surface fills and that the reference shows at four
+// texels at the same depth. All others are left to warp_rest.comp. Branches would save nothing: a software renderer
+// executes both sides. In: silhouette at twice the resolution. Out: RGBA8 premultiplied; z [m], 0 = no surface; state:
+// 0, 1 if the pixel is left to warp_rest.comp, 0, number of the surface that fills it.
 // Source: paper, eq. 5.
 // Range: depth 0..1e6
 #include "warp_view_params.glsl"
@@ -11,7 +11,7 @@
 layout(binding = 0) uniform usampler2D silhouette;
 layout(binding = 1) uniform sampler2D rays;  // normalised, of each pixel of the layer
 layout(binding = 2) uniform sampler2D colours;
-layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); number 254: nothing is known
+layout(binding = 3) uniform usampler2D surfaces;  // packed by packSurface(); number 254: unknown
 layout(location = 0) out vec4 colour;
 layout(location = 1) out float depth;
 layout(location = 2) out vec4 state;
@@ -28,7 +28,7 @@ void main() {
     id = open ? kCatcher : id;
     bool empty = open && z == 0.0;
     vec3 at = inView(0, z * vec3(ray, 1.0));
-    // The corner that the four texels share: a rounding of the filter's own must not choose others.
+    // The corner shared by the four texels: the filter's own rounding must not select others.
     vec2 corner = floor(at.xy) + 1.0;
     uvec4 t = textureGather(surfaces, corner / vec2(referenceSize()));
     vec4 off = abs(uintBitsToFloat(t & 0xffffff00u) - at.z);

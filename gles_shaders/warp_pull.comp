@@ -1,4 +1,4 @@
-// One level of the pyramid of push-pull filling from the one below it; the first from the picture.
+// Computes one level of the push-pull pyramid from the level below it, the first level from the picture.
 // In: colour and state of warp_rest.comp. Out: texels[].
 // Variant: #define FIRST_LEVEL
 #include "warp_hole_params.glsl"

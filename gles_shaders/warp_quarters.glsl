@@ -1,6 +1,6 @@
 // The quarters of a pixel, four packed surfaces in the order of textureGather. Needs warp_surface.glsl.
 
-// The object that has most of the quarters.
+// The object that covers the most quarters.
 uint mostOf(uvec4 s) {
     uint id = 0u;
     int most = 0;
@@ -15,7 +15,7 @@ uint mostOf(uvec4 s) {
     return id;
 }
 
-// The middle of those quarters that show `id`: offset [px], z [m], 0 = none.
+// Centre of the quarters that show `id`: offset [px], z [m], 0 = there are none.
 vec3 middleOf(uvec4 s, uint id) {
     vec4 own = vec4(equal(s & 0xffu, uvec4(id)));
     float count = dot(own, vec4(1.0));

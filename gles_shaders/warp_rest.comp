@@ -1,9 +1,10 @@
-// The second pass of the warp for the pixels that need more than warp_look_up.frag does: edges, covered by quarters,
-// and what the reference does not show, which the patches may. Objects and the shadow on the real surface
-// are two layers, the latter below. In: list[] of warp_rest_list.comp. Out: colour, z and state of the
-// pixels: number of what is missing and its share of the pixel, 1 where it fills the pixel and is known nowhere, number
-// of what fills the pixel alone; holes[] = pixel, bit 31: the same 1, bit 30: edge; colour so far (RGBA8). holeCommands[0] = groups of 64,
-// count; [l] = the pyramid's levels, once there is any hole.
+// The second pass of the warp for the pixels that warp_look_up.frag cannot handle: edges, covered by quarters, and
+// pixels that the reference does not show but the patches may. Objects and the shadow on the real surface are two
+// layers; the shadow is below. In: list[] of warp_rest_list.comp. Out: colour, z and state of the pixels. State: number
+// of the missing surface, its share of the pixel, 1 if it fills the pixel and no picture shows it, number of the
+// surface that fills the pixel alone. holes[] = pixel, with bit 31: no picture shows it, as in state, bit 30: edge;
+// colour so far (RGBA8). holeCommands[0] = groups of 64, count; holeCommands[l] = the pyramid's levels, as soon as
+// there is a hole.
 // Range: depth 0..1e6
 #include "warp_view_params.glsl"
 #include "warp_view.glsl"
@@ -33,9 +34,9 @@ layout(std430, binding = 3) writeonly buffer Holes {
     uvec2 holes[];
 };
 
-// Bilinear in those of the four texels around `at` (pixel, z) that show the same surface; rows of the picture
-// begin at `firstRow`. Premultiplied colour; its weight 0 where too little of the surface is there. To the
-// catcher, nothing at all is a surface without a shadow.
+// Bilinear look-up in those of the four texels around `at` (pixel, z) that show the same surface; rows of the picture
+// begin at `firstRow`. Premultiplied colour; the returned weight is 0 if too little of the surface is there. For the
+// catcher, texels without a surface count as the catcher without shadow.
 float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at, float id, out vec4 found) {
     vec2 low = floor(at.xy), f = at.xy - low;
     vec4 sum = vec4(0.0);
@@ -56,10 +57,10 @@ float lookUp(sampler2D from, sampler2D shown, ivec2 size, int firstRow, vec3 at,
     return weights > kLeastLookUpWeight ? weights : 0.0;
 }
 
-// How much of the colour of the surface at `point` is known.
+// Known share of the colour of the surface at `point`.
 float known(vec3 point, float id, out vec4 found) {
     if (lookUp(colours, surfaces, referenceSize(), 0, inView(0, point), id, found) > 0.0) return 1.0;
-    float share_ = 0.0;  // that of the patch shown most: one that fades in takes nothing away
+    float share_ = 0.0;  // share of the most visible patch: a patch that fades in does not reduce it
     for (int i = 0; i < params.patches; ++i) {
         vec4 own;
         vec3 at = inView(i + 1, point);
@@ -68,7 +69,7 @@ float known(vec3 point, float id, out vec4 found) {
         found = own;
     }
     if (share_ > 0.0) return share_;
-    // Of the catcher, nothing is known beyond the reference, and nothing is missed.
+    // Outside the reference, the catcher's colour is unknown, but it is not reported as missing.
     found = vec4(0.0);
     return id == float(kCatcher) && !(inView(0, point).z > 0.0) ? 1.0 : 0.0;
 }
@@ -100,7 +101,7 @@ void main() {
     if (below > 0.0) shown += below * catcherKnown * ofCatcher;
     bool missed = objectKnown < 1.0, hole = missed || catcherKnown < 1.0;
     bool nowhere = objectKnown == 0.0 || catcherKnown == 0.0;
-    // Rendered for itself, an edge would show a mixture: it takes after its neighbours, which are.
+    // An edge is not rendered individually, because it would show a mixture: it is filled from its neighbours.
     bool edge = (missed ? covered : below) < 1.0;
     float z = covered > 0.0 ? object.z : shown.a > 0.0 || hole ? (1.0 - kShadowLift) * catcher.z : 0.0;
     float plain = hole ? 0.0 : covered == 1.0 ? float(id) : below == 1.0 ? float(kCatcher) : 0.0;

@@ -1,6 +1,6 @@
-// Lists the pixels that warp_look_up.frag left. A square of four an invocation: mostly there is none.
-// In: its state. Out: list[] = row-major index, commands[0] = groups of 64, count. The order is not fixed, and
-// nothing depends on it.
+// Lists the pixels that warp_look_up.frag left. One invocation per 2x2 pixels, because most squares have none.
+// In: state of warp_look_up.frag. Out: list[] = row-major index, commands[0] = groups of 64, count. The order varies,
+// but no result depends on it.
 #include "warp_view_params.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -23,7 +23,7 @@ void main() {
     uint count = some.x + some.y + some.z + some.w;
     if (count == 0u) return;
     uint i = atomicAdd(commands[0].w, count);
-    // Of the groups, those that these entries begin.
+    // Number of groups that start with one of these entries.
     uint groups = (i + count + 63u) / 64u - (i + 63u) / 64u;
     if (groups > 0u) atomicAdd(commands[0].x, groups);
     uint first = uint(p.y * params.width + p.x), row = uint(params.width);

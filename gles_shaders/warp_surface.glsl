@@ -1,4 +1,4 @@
-// A surface in one word: the upper 24 bits of z [m] (2^-16 of it), the number of what it belongs to.
+// A surface in one word: the upper 24 bits of z [m] (relative precision 2^-16), the number of the object.
 #include "pipeline/warp/pass_params.h"
 
 const uint kCatcher = kCatcherNumber;

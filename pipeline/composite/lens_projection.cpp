@@ -7,7 +7,7 @@
 namespace mfar {
 namespace {
 
-// Far enough outside of the picture that the continuation bends nothing that is seen.
+// Far enough outside the picture that the continuation distorts no visible part.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

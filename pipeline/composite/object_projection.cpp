@@ -9,11 +9,11 @@ namespace mfar {
 namespace {
 
 bool isPlausible(const Eigen::Vector3d& metres) {
-    constexpr double kFarthest = 1e5;  // single precision ends in pixels beyond
+    constexpr double kFarthest = 1e5;  // beyond it, pixels exceed single precision
     return (metres.array().abs() < kFarthest).all();
 }
 
-/// Where a line crosses the near plane.
+/// Intersection of a line with the near plane.
 Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     constexpr double kNear = LensProjection::kNear;
     Eigen::Vector3d cut = a + (b - a) * ((kNear - a.z()) / (b.z() - a.z()));
@@ -21,12 +21,12 @@ Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return cut;
 }
 
-// A renderer has corners on such a grid [px]: between them, depth is off by what it changes by over
-// as much. No surface lies farther away than kFarthest [m].
+// A renderer rounds corners to this grid [px], which changes the depth between them accordingly. No
+// surface is farther away than kFarthest [m].
 constexpr double kGrid = 1.0 / 256;
 constexpr double kFarthest = 3e5;
 
-/// Corners of a triangle before the near plane, (w u, w v, w).
+/// The part of a triangle beyond the near plane, (w u, w v, w).
 struct Clipped {
     std::array<Eigen::Vector3d, 4> corners;
     std::size_t count = 0;
@@ -47,7 +47,7 @@ Clipped clipped(const std::array<Eigen::Vector3d, 3>& triangle) {
     return out;
 }
 
-/// Of a convex polygon, or less [px].
+/// A lower limit of a convex polygon's width [px].
 double leastWidth(const Clipped& polygon) {
     double area = 0, longest = 0;
     const Eigen::Vector2d origin = polygon.pixel(0);

@@ -11,29 +11,29 @@
 
 namespace mfar {
 
-/// What a piece of surface covers of the picture, and of the space before the camera.
+/// The area of the picture that a piece of surface covers, and its range of z.
 struct SurfaceExtent {
     Eigen::AlignedBox2d pixels;
     double nearest = std::numeric_limits<double>::max();  ///< z [m]
     double farthest = 0;
 
-    /// By a point before the near plane, as LensProjection gives it: (w u, w v, w).
+    /// Includes a point beyond the near plane, in the form of LensProjection: (w u, w v, w).
     void extend(const Eigen::Vector3d& point);
-    /// By the part of a straight line that lies before the near plane, as the rasteriser clips it.
-    /// Both ends likewise.
+    /// Includes the part of a straight line beyond the near plane, as the rasteriser clips it. Both
+    /// ends have the form of LensProjection.
     void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 
-/// The triangles of virtual objects as a camera sees them, on the host: where they are, not what
-/// they look like. Allocates in its constructor alone.
+/// Projects the triangles of virtual objects on the host: only their extents, not their colours.
+/// Allocates only in its constructor.
 class ObjectProjection {
 public:
     explicit ObjectProjection(const CameraModel& camera);
 
-    /// Of every triangle that reaches before the near plane, within the picture or not, with the
-    /// depth that a renderer may give its pixels: corners are rounded to 1/256 px there. Nothing
-    /// for an object with a pose or size that is not finite or above 100 km, or a negative size.
-    /// Valid until the next call.
+    /// Extents of every triangle that is at least partly beyond the near plane, inside the picture
+    /// or not. Depths include the error of a renderer, which rounds corners to 1/256 px. Empty for
+    /// an object whose pose or size is not finite or above 100 km, or whose size is negative. Valid
+    /// until the next call.
     const std::vector<SurfaceExtent>& operator()(const VirtualObject& object,
                                                  const RigidTransform& T_world_video);
 

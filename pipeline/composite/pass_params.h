@@ -5,11 +5,12 @@
 
 #include <cstdint>
 
-// Virtual objects in the picture: preview.vert, preview.frag, and what the warp shares with them.
+// Virtual objects in the picture: preview.vert, preview.frag, and definitions shared with the warp.
 // Shaders read this header, too: gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
-/// From one frame to another [m]: rows of rotation and translation; may scale first.
+/// From one frame to another [m]: rows of rotation and translation; may include a scale, applied
+/// first.
 struct alignas(16) Transform {
     Row4 rows[3];
 };
@@ -17,8 +18,8 @@ struct alignas(16) Transform {
 /// LensProjection: a lens, continued beyond its rim.
 struct alignas(16) Projection {
     Lens lens;
-    float rim;        ///< radius of the outermost ray that the lens describes
-    float rimRadial;  ///< radial factor of the distortion there
+    float rim;        ///< radius of the outermost ray for which the lens model is valid
+    float rimRadial;  ///< radial factor of the distortion at the rim
     float nearPlane;  ///< [m]
 };
 
@@ -35,13 +36,14 @@ struct alignas(16) Colour {
 struct alignas(16) PreviewObject {
     Transform object;  ///< T_video_object
     Projection projection;
-    Colour colours[2];                ///< of the squares
+    Colour colours[2];                ///< of the checkerboard
     float width, height, depth;       ///< of the object [m]
-    float squares;                    ///< along each side
+    float squares;                    ///< along each side of the shape
     float lightX, lightY, lightZ;     ///< unit vector towards the light, camera frame
     float ambient;                    ///< share of the ambient light
     float targetWidth, targetHeight;  ///< [px]
-    float reach, squaredRadius;       ///< of the unit shape: largest coordinate; of its corners
+    float reach, squaredRadius;       ///< of the unit shape: largest coordinate; squared distance
+                                      ///< of its corners from the centre
 };
 
 }  // namespace mfar::params

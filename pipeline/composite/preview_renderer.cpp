@@ -12,7 +12,7 @@ namespace {
 
 using gpu::TexelFormat;
 
-constexpr double kReach = 0.505;  // of a unit shape from its centre, with what rounding adds
+constexpr double kReach = 0.505;  // largest coordinate of a unit shape, plus rounding
 
 static_assert(sizeof(ShapeMesh::Vertex) == sizeof(gpu::MeshVertex));
 
@@ -75,7 +75,7 @@ params::PreviewObject PreviewRenderer::paramsOf(const VirtualObject& object,
 PixelRect PreviewRenderer::boundsOf(const VirtualObject& object,
                                     const RigidTransform& T_world_video) {
     const Size size = projection_.lens().camera.size;
-    // A pixel of slack, as the GPU places vertices in single precision.
+    // A margin of one pixel, because the GPU computes vertices in single precision.
     const Eigen::AlignedBox2d picture(Eigen::Vector2d(-1, -1),
                                       Eigen::Vector2d(size.width, size.height));
     Eigen::AlignedBox2d box;
@@ -108,7 +108,7 @@ const VirtualLayer& PreviewRenderer::render(std::span<const VirtualObject> objec
         const ShapeBuffers& shape = shapes_[static_cast<std::size_t>(object.shape)];
         const gpu::Scissor scissor(bounds);
         const gpu::DepthTest depthTest;
-        std::optional<gpu::InsidesCulled> culled;  // hidden anyway: a third of the time saved
+        std::optional<gpu::InsidesCulled> culled;  // invisible anyway: saves a third of the time
         if (object.shape != VirtualShape::Quad) culled.emplace();
         pass_.runMesh(paramsOf(object, T_world_video), {}, target_,
                       {shape.vertices, shape.indices, shape.indexCount});

@@ -11,22 +11,22 @@
 
 namespace mfar {
 
-/// Light on the preview, in display values.
+/// Lighting of the preview, in display values.
 struct PreviewLight {
-    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< direction to it in the world, z up; any length
-    double ambient = 0.35;                     ///< share of it that comes from everywhere, [0, 1]
+    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< towards the light in the world, z up; any length
+    double ambient = 0.35;                     ///< share of light from all directions, [0, 1]
 };
 
 /// Rasterises virtual objects as the video camera would see them: the fast preview. The lens's
-/// distortion acts on the vertices. Work is limited to the pixels where an object is or was.
-/// Needs a GL that draws into R32F, else the constructor throws GlError.
+/// distortion acts on the vertices. Processes only the pixels where an object is or was. Needs a GL
+/// that draws into R32F; otherwise the constructor throws GlError.
 class PreviewRenderer {
 public:
     /// `video`: any resolution of the camera; the layer has size `output`.
     PreviewRenderer(const CameraModel& video, Size output, const PreviewLight& light = {});
 
-    /// Solids show their outside alone: nothing to a camera within. Objects behind the camera,
-    /// outside of the picture or without a finite pose cost no drawing.
+    /// Solids show only their outside: a camera inside sees nothing. Objects behind the camera,
+    /// outside the picture or without a finite pose cost no drawing.
     const VirtualLayer& render(std::span<const VirtualObject> objects,
                                const RigidTransform& T_world_video);
 
@@ -39,7 +39,7 @@ private:
     static ShapeBuffers buffersOf(const ShapeMesh& mesh);
     [[nodiscard]] params::PreviewObject paramsOf(const VirtualObject& object,
                                                  const RigidTransform& T_world_video) const;
-    /// Pixels the object covers.
+    /// Bounds of the pixels that the object covers.
     [[nodiscard]] PixelRect boundsOf(const VirtualObject& object,
                                      const RigidTransform& T_world_video);
     void clear(const PixelRect& pixels) const;

@@ -10,14 +10,14 @@
 namespace mfar {
 namespace {
 
-// Cells along each axis of an object's own box: some 150 boxes around its surface.
+// Cells along each axis of an object's own box: about 150 boxes around its surface.
 constexpr int kCells = 6;
-// Edges of a box are projected in so many pieces, as a lens bends them.
+// Edges of a box are projected in this number of pieces, because a lens bends them.
 constexpr int kEdgePieces = 4;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Triangles go to the cell that their centre lies in.
+/// Collects triangles in the cell that contains their centre.
 class CellBoxes {
 public:
     explicit CellBoxes(const Eigen::AlignedBox3d& all) : all_(all) {}
@@ -41,7 +41,7 @@ private:
     std::unordered_map<int, Eigen::AlignedBox3d> cells_;
 };
 
-/// A triangle list and where it is in the world.
+/// A triangle list and its pose in the world.
 struct Surface {
     std::span<const Eigen::Vector3f> positions;
     std::span<const Triangle> triangles;

@@ -7,18 +7,18 @@
 
 namespace mfar {
 
-/// Boxes around the parts of a scene's surfaces: where something virtual may be in a picture, at a
-/// cost that does not depend on how many triangles there are.
+/// Boxes around the parts of a scene's surfaces. They bound where virtual surfaces are in a
+/// picture, at a cost independent of the number of triangles.
 class SceneBoxes {
 public:
-    /// None: no box.
+    /// No boxes.
     SceneBoxes() = default;
-    /// Of its objects.
+    /// Boxes around the scene's objects.
     explicit SceneBoxes(const Scene& scene);
-    /// Of the surface on which their shadows are seen.
+    /// Boxes around the surface that shows their shadows.
     explicit SceneBoxes(const ShadowCatcher& catcher);
 
-    /// What each box that reaches before the near plane covers. Valid until the next call.
+    /// Extent of each box that is at least partly beyond the near plane. Valid until the next call.
     const std::vector<SurfaceExtent>& extents(const LensProjection& lens,
                                               const RigidTransform& T_world_video);
 

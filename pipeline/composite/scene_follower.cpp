@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// A surface of fewer triangles is none.
+// A measured surface with fewer triangles is not used.
 constexpr std::size_t kLeastTriangles = 50;
 
 double knownShare(const InverseDepthField& field, const PixelRect& region) {

@@ -10,28 +10,28 @@
 
 namespace mfar {
 
-/// When the surface that catches shadows is made anew.
+/// When the surface that catches shadows is measured again.
 struct CatcherRule {
-    int settling = 12;         ///< frames before measured depth takes the plane's place
-    double leastKnown = 0.7;   ///< share of the region around the objects
-    double turn = 0.35;        ///< angle about the objects from which they are seen anew [rad]
-    double leastInterval = 4;  ///< from one to the next [s]
+    int settling = 12;         ///< frames before the measured depth replaces the plane
+    double leastKnown = 0.7;   ///< lower limit of the known share of the region around the objects
+    double turn = 0.35;        ///< rotation around the objects until the next measurement [rad]
+    double leastInterval = 4;  ///< lower limit of the time between two measurements [s]
 };
 
-/// Keeps a scene of virtual objects as the real one around it is found to be: their shadows fall
-/// onto the plane of the tag map at first, then onto the measured surface.
+/// Keeps the scene's shadow catcher up to date with the real scene: shadows of virtual objects
+/// first fall onto the plane of the tag map, later onto the measured surface.
 class SceneFollower {
 public:
     explicit SceneFollower(const CatcherRule& rule = {}) : rule_(rule) {}
 
-    /// Other objects or light; its catcher is replaced. Returns what is to be shown.
+    /// Sets other objects or light; the catcher is replaced. Returns the scene to show.
     std::shared_ptr<const Scene> set(Scene scene);
 
     /// The same scene in another light.
     std::shared_ptr<const Scene> relight(Lighting lighting);
 
-    /// After a frame: what was measured in `region` [video px] around the objects. Returns the
-    /// scene when it has changed, null otherwise.
+    /// Call after a frame with the depths measured in `region` [video px] around the objects.
+    /// Returns the scene if it has changed, otherwise null.
     std::shared_ptr<const Scene> follow(const InverseDepthField& field, const CameraModel& video,
                                         const RigidTransform& T_world_video,
                                         const PixelRect& region, Timestamp time);
@@ -43,7 +43,7 @@ private:
     Scene scene_;
     Eigen::AlignedBox3d objects_;
     int frames_ = 0;
-    std::optional<Timestamp> caught_;  // when the catcher was measured
+    std::optional<Timestamp> caught_;  // time of the catcher's measurement
     Eigen::Vector3d caughtFrom_{0, 0, 0};
 };
 

@@ -9,12 +9,12 @@ namespace {
 
 // Cells of the plane along each axis.
 constexpr int kPlaneCells = 8;
-// Video pixels from vertex to vertex: shadows are smooth, noise of the depth is not.
+// Video pixels between vertices: shadows are smooth, but noise of the depth is not.
 constexpr int kStep = 4;
-// Of the nearer depth: what is farther apart is not one surface.
+// Share of the nearer depth: larger steps separate two surfaces.
 constexpr double kJump = 0.04;
-// What a surface may be off the plane by and still be it: thickness of the paper with the tags
-// and its waves [m].
+// Surfaces within this distance of the plane belong to it: the paper with the tags has a thickness
+// and waves [m].
 constexpr double kPlaneSlack = 0.004;
 
 double radiusOf(const Eigen::AlignedBox3d& box) {
@@ -31,7 +31,7 @@ public:
         at(column, row) = static_cast<int>(out_.positions.size());
         out_.positions.push_back(p.cast<float>());
     }
-    /// The cell whose first corner this is, where it has all corners.
+    /// Adds the cell whose first corner this is, if all its corners exist.
     void addCell(int column, int row) {
         const int a = at(column, row), b = at(column + 1, row);
         const int c = at(column, row + 1), d = at(column + 1, row + 1);
@@ -55,14 +55,14 @@ private:
     ShadowCatcher out_;
 };
 
-/// Depth of the real scene at video pixels, as points of the world.
+/// Depth of the real scene at video pixels, as points in the world.
 class SeenSurface {
 public:
     SeenSurface(const InverseDepthField& field, const CameraModel& video,
                 const RigidTransform& T_world_video)
         : field_(field), video_(video), eye_(T_world_video) {}
 
-    /// 0: unknown, or too far away to be near anything.
+    /// z; 0: unknown, or too far away to be near an object.
     [[nodiscard]] double depth(int x, int y) const {
         const std::size_t i = pixel(x, y);
         return field_.isKnown(i) && field_.rho[i] > 1e-3F ? 1 / static_cast<double>(field_.rho[i])

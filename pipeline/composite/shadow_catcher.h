@@ -7,20 +7,20 @@
 
 namespace mfar {
 
-/// Box around all objects in the world, empty without any vertex.
+/// Bounds of all objects in the world, empty if there is no vertex.
 [[nodiscard]] Eigen::AlignedBox3d boundsOf(const Scene& scene);
 
-/// How far from the objects their shadows are looked for, in radii of the box around them.
+/// How far around the objects their shadows are expected, in radii of the box around them.
 inline constexpr double kShadowReach = 1;
 
 /// The plane of the tag map, z = 0 in the world, around the objects, in cells of a few centimetres
-/// or more. Empty where no object stands on it or above it, lower than kShadowReach radii.
+/// or more. Empty unless an object stands on the plane or less than kShadowReach radii above it.
 [[nodiscard]] ShadowCatcher planeCatcher(const Eigen::AlignedBox3d& objects);
 
-/// The measured surface of the real scene around the objects: a vertex every few video pixels of
-/// `where` that is known, two triangles between four of them unless depth jumps there. A vertex
-/// that the plane of the tag map cannot be told from lies in it. `field` as the camera sees it from
-/// T_world_video.
+/// The measured surface of the real scene around the objects: a vertex every few known video pixels
+/// of `where`, and two triangles between four vertices unless depth jumps there. Vertices that
+/// cannot be distinguished from the plane of the tag map are put on it. `field`: as seen by the
+/// camera from T_world_video.
 [[nodiscard]] ShadowCatcher depthCatcher(const InverseDepthField& field, const CameraModel& video,
                                          const RigidTransform& T_world_video,
                                          const PixelRect& where,

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-// What triangles leave of a sphere's and the lens's curves, and the pixel's own extent [px].
+// Deviation of triangles from a sphere's and the lens's curves, plus the pixel's own extent [px].
 constexpr double kSlack = 1;
 
 }  // namespace

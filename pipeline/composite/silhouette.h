@@ -8,24 +8,25 @@
 
 namespace mfar {
 
-/// z [m] of the virtual surfaces in and around a tile; both 0: there are none.
+/// Range of z [m] of the virtual surfaces in and around a tile; both 0: there are none.
 struct SurfaceRange {
     float nearest = 0, farthest = 0;
 };
 
-/// Where virtual objects are in the video picture, tile by tile, on the host: real depth is needed
-/// only there, and only where it can be less than the farthest surface. Conservative: a range may
-/// be too wide and a tile too many, never the other way. Allocates in its constructor alone.
+/// Finds on the host the tiles of the video picture where virtual objects are: only there real
+/// depth is needed, and only where it can be less than the farthest surface. Conservative: ranges
+/// may be too wide and there may be too many tiles, never the opposite. Allocates only in its
+/// constructor.
 class Silhouette {
 public:
-    /// `margin` [video px]: a tile counts every surface within this distance of its pixels.
+    /// `margin`: a tile includes every surface within this distance of its pixels [video px].
     Silhouette(const CameraModel& video, int margin);
 
     /// Row-major, ceil(video / kTileSize) tiles. Valid until the next run.
     const std::vector<SurfaceRange>& run(std::span<const VirtualObject> objects,
                                          const RigidTransform& T_world_video);
 
-    /// The same of a scene.
+    /// As above, for a scene.
     const std::vector<SurfaceRange>& run(SceneBoxes& scene, const RigidTransform& T_world_video);
 
     [[nodiscard]] Size tileCount() const { return tileCount_; }

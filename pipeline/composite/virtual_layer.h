@@ -6,12 +6,12 @@
 
 namespace mfar {
 
-/// Picture of the virtual objects alone, seen by the video camera at the output's resolution.
-/// Borrowed: valid until its maker's next run.
+/// Picture of the virtual objects only, seen by the video camera at the output's resolution.
+/// Borrowed: valid until the next run of the class that made it.
 struct VirtualLayer {
-    /// RGBA8, premultiplied by coverage; Filter::Linear where it is not of the output's size.
+    /// RGBA8, premultiplied by coverage; Filter::Linear if its size differs from the output's.
     const gpu::Texture* colour = nullptr;
-    /// R32F: z [m] along the camera's axis, lifted where a shadow is; 0 = nothing.
+    /// R32F: z along the camera's axis [m], reduced for shadows (kShadowLift); 0 = nothing.
     const gpu::Texture* depth = nullptr;
     PixelRect bounds;  ///< covered pixels, empty = nothing
 };

@@ -10,21 +10,21 @@
 
 namespace mfar {
 
-/// Built-in surfaces. All are centred at the origin of the object's frame.
+/// Built-in shapes, centred at the origin of the object's frame.
 enum class VirtualShape : unsigned {
     Box,
-    Sphere,  ///< an ellipsoid when the size says so
-    Quad,    ///< in the plane z = 0, seen from both sides; size z is ignored
+    Sphere,  ///< an ellipsoid if the sizes differ
+    Quad,    ///< in the plane z = 0, visible from both sides; size z is ignored
 };
 inline constexpr std::size_t kVirtualShapes = 3;
 
-/// A simple thing in the world, for the preview and until better pictures of it exist.
+/// A simple object in the world, for the preview and until path-traced pictures of the scene exist.
 struct VirtualObject {
     VirtualShape shape = VirtualShape::Box;
     Eigen::Vector3d size{1, 1, 1};  ///< extent along x, y, z [m]
     RigidTransform T_world_object;
-    /// Squares of a checkerboard over each of the six sides (a quad has one), in display values,
-    /// RGB, [0, 1]. Equal colours: plain.
+    /// Colours of a checkerboard on each of the six sides (a quad has one), in display values, RGB,
+    /// [0, 1]. Equal colours: uniform.
     std::array<Eigen::Vector3f, 2> colours{Eigen::Vector3f{0.9F, 0.9F, 0.9F},
                                            Eigen::Vector3f{0.8F, 0.2F, 0.1F}};
     int squares = 4;  ///< along each side, at least 1
@@ -40,8 +40,9 @@ struct ShapeMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Each side in kShapeSegments^2 cells of two triangles: where one fills the picture of a lens with
-/// k1 = -0.3, its edges are within 0.25 px of 2304 of their curves. A sphere is the projected box.
+/// Each side has kShapeSegments^2 cells of two triangles: even if the side fills the picture of a
+/// lens with k1 = -0.3, its edges are within 0.25 px (of 2304) of the exact curves. A sphere is the
+/// projected box.
 inline constexpr int kShapeSegments = 24;
 [[nodiscard]] ShapeMesh shapeMesh(VirtualShape shape);
 

@@ -9,15 +9,17 @@
 namespace mfar {
 namespace {
 
-// Real depth is needed where it is looked up for a pixel at the silhouette, with what snaps it to
-// the picture's edges [video px].
+// Real depth is needed for the pixels at the silhouette, including the margin that is used to align
+// it with the picture's edges [video px].
 constexpr int kMargin = 8;
-// What is known to lie behind an object is measured again after so many frames at most: something
-// may have come before it.
+// Upper limit of the consecutive frames in which known depth behind an object is not measured
+// again: something may have moved in front of it.
 constexpr int kMostRelied = 8;
-// A camera that moved the objects less has not moved [px]: tags do not know better at rest.
+// If the camera moves the objects by less than this, it is at rest [px]: poses from tags are not
+// more accurate.
 constexpr double kLeastMotion = 0.3;
-// Pixels of a tile that may be unknown within what hides an object: specks of it would be seen.
+// Upper limit of the unknown pixels in a tile that hides an object: with more, specks of the object
+// would be visible.
 constexpr int kMostGaps = 4;
 constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // pixels of a tile
 
@@ -25,22 +27,22 @@ PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
     const auto tile = [](int pixel, int from, int to) {
         return static_cast<double>(pixel) * to / from / kTileSize;
     };
-    // Colours are interpolated: a pixel is seen beyond its own borders.
+    // Colours are interpolated, so a pixel is visible beyond its own borders.
     return {static_cast<int>(std::floor(tile(pixels.x0 - 1, layer.width, video.width))),
             static_cast<int>(std::floor(tile(pixels.y0 - 1, layer.height, video.height))),
             static_cast<int>(std::ceil(tile(pixels.x1 + 1, layer.width, video.width))),
             static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
 }
 
-/// What a pixel's real surface says to a question about its tile.
+/// Result of a test on a pixel's real surface.
 enum class Surface { Unknown, Finding, Other };
 
 struct TileBounds {
     int findings, unknown;  // pixels
 };
 
-/// Whether a tile's pixels in the picture, asked one by one by their place in it, exceed one of
-/// the bounds.
+/// True when the pixels of a tile exceed one of the limits; `ask` classifies a pixel, given its
+/// index in the picture.
 template <typename Ask>
 bool holdsMore(const TileBounds& most, const PixelRect& tile, Size video, const Ask& ask) {
     TileBounds found{};
@@ -67,7 +69,7 @@ VirtualView::VirtualView(const CameraModel& video, Engine& occludes, TracedLayer
       occlusion_(occludes.occlusion(options.size)), focal_(std::max(video.fx, video.fy)) {}
 
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
-    // What is shown changes when there is a picture of it.
+    // A new scene is visible only when its first picture is finished.
     if (!scene || !scene_) changed_ = true;
     if (!scene || !scene_ || scene->objects != scene_->objects)
         boxes_ = scene ? SceneBoxes(*scene) : SceneBoxes();
@@ -121,7 +123,7 @@ void VirtualView::addTiles(const std::vector<SurfaceRange>& tiles, const Inverse
     }
 }
 
-// By three standard deviations; of what is not known it may be.
+// Within three standard deviations; unknown pixels may hide an object, too.
 bool VirtualView::mayHide(const PixelRect& tile, float farthest,
                           const InverseDepthField& known) const {
     const float behind = 1 / farthest;
@@ -132,8 +134,8 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
     });
 }
 
-// The surface that a shadow lies on is always close to it and need not be searched for anew each
-// time: that is left to things before it, and to what kShadowLift does not make up for.
+// The surface under a shadow is always close to it and need not be measured every time. Depth is
+// needed only for objects in front of it, and where its error exceeds kShadowLift.
 bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const {
     const float before = 1 / nearest;
@@ -145,7 +147,7 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// The surfaces of a tile are those around it as well, so its samples are all that decide.
+// A tile's range includes the surfaces around it, so the pixels of the tile suffice.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};
@@ -167,7 +169,7 @@ WorkPlan::Redraw VirtualView::redraw() const {
 }
 
 PixelRect VirtualView::staleTiles() const {
-    // What hides all of them may go away.
+    // When everything is hidden, the hiding objects may move away.
     const bool keepsAll = !mustRedraw() && !hidden_;
     if (keepsAll || region_.empty()) return drawn_;
     return around(drawn_, tilesAround(region_));

@@ -17,46 +17,45 @@
 
 namespace mfar {
 
-/// Virtual objects in the picture of the real scene: where real depth decides about them, and their
-/// drawing over the picture.
+/// Virtual objects in the picture of the real scene: determines where real depth is needed for
+/// them, and draws them over the picture.
 class VirtualView {
 public:
-    /// Objects are drawn by the preview renderer; `occludes` makes the step that lays them over the
-    /// picture, and where they are path traced the one that warps them. It must outlive this.
+    /// Objects are drawn by the preview renderer. `occludes` makes the occlusion step and, for
+    /// path-traced objects, the warp step; it must outlive this.
     VirtualView(const CameraModel& video, Size output, Engine& occludes);
-    /// They are path traced. Throws as TracedLayer does.
+    /// For path-traced objects. Throws as TracedLayer does.
     VirtualView(const CameraModel& video, Engine& occludes, TracedLayerOptions options);
 
-    /// Shown from the next place() on. Of a view with preview.
+    /// Takes effect with the next place(). Only with the preview.
     void setObjects(std::vector<VirtualObject> objects);
     void setSkips(const SkipOptions& skips) { skips_ = skips; }
-    /// Shown as soon as there is a picture of it. Of a view that is path traced; null: nothing.
+    /// Visible as soon as it has been rendered; null: nothing. Only with path tracing.
     void setScene(std::shared_ptr<const Scene> scene);
-    /// Null with preview.
+    /// Null with the preview.
     [[nodiscard]] TracedLayer* traced() { return traced_.get(); }
 
-    /// Where the objects are for a camera at this pose; nothing: they are not shown. Gives the
-    /// video pixels whose real depth decides what of them is seen: empty where none is in the
-    /// picture, or where all that is `known`, the real scene about as the camera sees it, surely
-    /// lies behind them. From time to time that is not relied on.
+    /// Places the objects for a camera at this pose; without a pose they are not shown. Returns the
+    /// video pixels whose real depth decides which parts are visible. Empty if no object is in the
+    /// picture, or if `known`, the approximate real scene seen by the camera, certainly lies behind
+    /// all of them; this shortcut is not taken in every frame.
     PixelRect place(const std::optional<RigidTransform>& T_world_video, Timestamp time,
                     const InverseDepthField& known);
-    /// Video pixels around all objects, as placed.
+    /// Video pixels around all placed objects.
     [[nodiscard]] const PixelRect& region() const { return region_; }
-    /// Nothing of them is seen, as placed: real things are before them everywhere. Their shadows,
-    /// where any are, do not count.
+    /// True when the real scene hides all placed objects completely. Shadows are ignored.
     [[nodiscard]] bool hidden() const { return hidden_; }
-    /// When they have to be drawn anew: always after other objects, or when there are any after
-    /// none and the other way round; with any change when the camera has moved.
+    /// When the objects have to be redrawn: always after objects were changed, appeared or
+    /// disappeared; with any other change when the camera has moved.
     [[nodiscard]] WorkPlan::Redraw redraw() const;
-    /// Tiles of the picture to draw anew before the next draw().
+    /// Tiles of the picture to redraw before the next draw().
     [[nodiscard]] PixelRect staleTiles() const;
 
-    /// Draws them, as placed, over the picture. `real` is unknown outside of `where`.
+    /// Draws the placed objects over the picture. `real` is unknown outside `where`.
     void draw(const InverseDepthField& real, const PixelRect& where, const VideoFrame& frame,
               Field<std::uint32_t>& picture);
 
-    /// Share of every output pixel that shows a virtual object, as last drawn. Waits for the GPU.
+    /// Share of virtual objects in every output pixel, as last drawn. Waits for the GPU.
     [[nodiscard]] std::vector<float> readShown(Size output) const;
 
 private:
@@ -81,15 +80,15 @@ private:
     SceneBoxes boxes_, catcherBoxes_;
     Silhouette silhouette_, catcherSilhouette_;
     std::unique_ptr<PreviewRenderer> preview_;
-    std::unique_ptr<TracedLayer> traced_;  // one of the two
+    std::unique_ptr<TracedLayer> traced_;  // either this or preview_
     std::unique_ptr<OcclusionStep> occlusion_;
     CompositeOptions hiding_;
-    double focal_, nearest_ = 0;  // [px]; of the objects' inverse depths, as placed [1/m]
+    double focal_, nearest_ = 0;  // [px]; largest inverse depth of the placed objects [1/m]
     std::optional<RigidTransform> placedPose_, drawnPose_;
-    PixelRect region_, drawn_;  // video pixels, tiles
+    PixelRect region_, drawn_;  // [video px], [tiles]
     TextureLayer previewLayer_;
     LayerPicture* layer_ = nullptr;  // as last drawn
-    int relied_ = 0;                 // frames in a row on what was known before
+    int relied_ = 0;                 // consecutive frames that relied on known depth
     bool changed_ = false, hidden_ = false, shown_ = false;
 };
 

@@ -11,15 +11,16 @@
 namespace mfar {
 namespace {
 
-constexpr float kNearestShare = 0.05F;  // [of the depth before]
-// Of inverse depth, in a second of motion without a measurement.
+constexpr float kNearestShare = 0.05F;  // least depth after a motion [share of that before]
+// Relative standard deviation that a second of motion without a measurement adds to inverse depth.
 constexpr double kDrift = 0.02;
-// The camera rested before that [s].
+// Upper limit of the time attributed to one motion [s]; before that the camera rested.
 constexpr double kMostMoving = 0.2;
-// Motions of the picture below this are added up: each time it is carried, points are rounded to
-// pixels [px].
+// Smaller motions of the picture are summed up first [px], because every carry rounds points to
+// pixels.
 constexpr float kLeastMotion = 0.25F;
-// Measurements of one still share its errors: the filter cannot know better than this part of one.
+// Measurements against one still share its errors: the variance is never below this share of one
+// measurement's.
 constexpr float kLeastShare = 0.09F;
 constexpr float kGate = 9;  // of squared deviations
 constexpr std::uint8_t kMostOutliers = 2;
@@ -70,7 +71,7 @@ bool DepthFilter::moves(const RigidTransform& T) const {
     return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
 }
 
-// Points are homogeneous, (x, y, 1, rho): what is infinitely far only turns.
+// Points are homogeneous, (x, y, 1, rho): infinitely distant points are only rotated.
 void DepthFilter::carry(const RigidTransform& T_now_before, float growth) {
     const Eigen::Matrix3d R = T_now_before.rotation.toRotationMatrix();
     simd::Motion motion{};
@@ -128,7 +129,7 @@ void DepthFilter::takeLanded(int firstRow, int lastRow) {
     }
 }
 
-// A surface that comes nearer spreads its points; between them it goes on.
+// The points of a surface that comes nearer spread: fills the cracks between them.
 void DepthFilter::closeCracks() {
     const int width = field_.size.width;
     const int columns = known_.x1 - known_.x0 - 2, rows = known_.y1 - known_.y0;

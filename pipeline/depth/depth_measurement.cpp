@@ -8,11 +8,11 @@
 namespace mfar {
 namespace {
 
-// Standard deviation of a match along its line [px], as measured against truth in smooth parts.
+// Standard deviation of a match along its line [px], measured against ground truth in smooth areas.
 constexpr float kMatchError = 0.3F;
 // Neighbours on one slanted surface that land on the same pixel differ by this much [px].
 constexpr float kSlope = 1.5F;
-// A cell's vector this close to the pixel's is that of the same surface [px].
+// A cell's value within this distance of the pixel's belongs to the same surface [px].
 constexpr double kSameSurface = 0.5;
 constexpr float kLeastDepth = 0.05F;
 constexpr float kNothing = -1e9F;
@@ -29,8 +29,7 @@ DepthMeasurement::DepthMeasurement(const CameraModel& video, EpipolarLens lens,
     s_.resize(pixels);
 }
 
-// The cells know their middles to a fraction of a pixel, the pixels on which side of an edge they
-// lie.
+// Cells are accurate to a fraction of a pixel; pixels show on which side of an edge they lie.
 void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const float> cells,
                                  const PixelRect& where) {
     const int width = lens_.size().width;
@@ -71,7 +70,7 @@ void DepthMeasurement::land(const EpipolarSearch& search, const Eigen::Matrix3f&
     findNearest(where);
 }
 
-// Each thread takes what lands in a part of the other picture.
+// Each thread handles the points that land in one part of the other picture.
 void DepthMeasurement::findNearest(const PixelRect& where) {
     const auto [width, height] = lens_.size();
     const int parts = std::min(workers_->count(), height);

@@ -13,20 +13,20 @@
 
 namespace mfar {
 
-/// What one epipolar search says of the scene's depth, with how well it can know: the standard
-/// deviation of a match through the way that a unit of inverse depth moves it.
+/// Inverse depth of the scene from one epipolar search, and its variance: the standard deviation of
+/// a match, divided by how far a unit of inverse depth moves it.
 class DepthMeasurement {
 public:
     DepthMeasurement(const CameraModel& video, std::shared_ptr<Workers> workers)
         : DepthMeasurement(video, EpipolarLens(video, 0), std::move(workers)) {}
-    /// The same with the camera's rays, which others have already.
+    /// As above, sharing the camera's rays.
     DepthMeasurement(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 
-    /// Into the pixels of `where`; unknown for what the other picture does not show: outside of it,
-    /// or behind what lands on the same place there (z-test). `where` lies in the search's area.
-    /// `R_other_video` turns rays into the other picture at the video's geometry; `unit`: the
-    /// search's unit of length [m]. `cells`: s of every cell of 4x4 pixels from a finer alignment,
-    /// taken where it agrees with the pixel's own; empty: none.
+    /// Measures the pixels of `where`, which must lie in the search's area. Pixels that the other
+    /// picture does not show become unknown: those outside of it, and those behind other points
+    /// that land on the same place (z-test). `R_other_video` rotates rays into the other picture at
+    /// the video's geometry; `unit`: the search's unit of length [m]. `cells`: s of every cell of
+    /// 4x4 pixels from a finer alignment, used where it agrees with the pixel's own; may be empty.
     void run(const EpipolarSearch& search, const Eigen::Matrix3f& R_other_video, double unit,
              std::span<const float> cells, const PixelRect& where, InverseDepthField& out);
 
@@ -40,7 +40,7 @@ private:
     float focal_;
     std::shared_ptr<Workers> workers_;
     std::vector<std::int32_t> landing_;  // pixel of the other picture, or -1
-    std::vector<float> s_, nearest_;     // s of what lands there first
+    std::vector<float> s_, nearest_;     // nearest_: s of the nearest point that lands on the pixel
 };
 
 }  // namespace mfar

@@ -8,17 +8,16 @@
 namespace mfar {
 namespace {
 
-constexpr int kSampleStep = 5;     // [px]
-constexpr int kPart = 160;         // side of the parts that choose their keyframes, at most [px]
-constexpr int kSupport = 24;       // searched around what is asked for, as neighbours decide [px]
+constexpr int kSampleStep = 5;  // [px]
+constexpr int kPart = 160;      // upper limit of a part's side; a part chooses its keyframe [px]
+constexpr int kSupport = 24;    // margin of searches, because neighbours influence the result [px]
 constexpr double kSameView = 0.3;  // [px]
 constexpr double kNearest = 0.01;  // [m]
-// A keyframe is worth a search when it sees so many times the still's parallax.
+// A keyframe is searched when its parallax exceeds this multiple of the still's.
 constexpr double kWorth = 2;
-// How far it is to the other picture must be known this well, as a share: depth is wrong by as
-// much.
+// Upper limit of the relative error of the distance to the other picture: depth has the same error.
 constexpr double kMostLengthError = 0.15;
-// A search starts from what is known when so much of the picture is.
+// A search starts from the known depths when this share of the picture has one.
 constexpr double kMostlyKnown = 0.97;
 
 double medianOf(std::vector<float>& values) {
@@ -70,7 +69,7 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     keyframes_.add(luma, pose, brightness, before.rho);
 }
 
-// The same view measured again would only make its errors look smaller.
+// Measuring the same view again would only make its errors seem smaller.
 bool DepthStage::seesMore(const Pose& pose, double rho, const PixelRect& where) const {
     if (!measuredPose_ || around(measuredWhere_, where) != measuredWhere_) return true;
     const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
@@ -78,8 +77,8 @@ bool DepthStage::seesMore(const Pose& pose, double rho, const PixelRect& where) 
     return focal_ * (turn + rho * T.translation.norm()) >= kSameView;
 }
 
-// Where a camera moves towards the scene, what lies ahead has no parallax against a frame that
-// shows the rest with much of it: each part of the picture chooses for itself.
+// When the camera moves towards the scene, the area straight ahead has no parallax against a
+// keyframe that suits the rest of the picture. So each part chooses its own keyframe.
 void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBaseline,
                            const PixelRect& where) {
     const int columns = (where.x1 - where.x0 + kPart - 1) / kPart;
@@ -102,8 +101,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
     }
 }
 
-// One search a frame: against the keyframe of the part that knows least, for all parts that chose
-// it.
+// One search per frame: against the keyframe of the part with the largest uncertainty, for all
+// parts that chose the same keyframe.
 void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };
@@ -127,8 +126,8 @@ void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose
     source_ = source_ == DepthSource::Still ? DepthSource::Both : DepthSource::Keyframe;
 }
 
-// s of every cell of the search's area as it counts it; empty when too little of `where` is known
-// to start from.
+// s of every cell of the search's area, in the search's unit; empty when too little of `where` is
+// known to start from.
 std::span<const float> DepthStage::predicted(const UnitPose& relative, const PixelRect& where) {
     const InverseDepthField& field = filter_.field();
     const PixelRect& area = search_.area();
@@ -136,7 +135,7 @@ std::span<const float> DepthStage::predicted(const UnitPose& relative, const Pix
         (relative.T_other_frame.rotation.conjugate() * relative.T_other_frame.translation).z();
     predicted_.clear();
     int inside = 0, known = 0;
-    float last = 0;  // beside what is not known
+    float last = 0;  // fills cells without known depth
     for (int y = area.y0 + kCell / 2; y < area.y1 + kCell / 2; y += kCell) {
         for (int x = area.x0 + kCell / 2; x < area.x1 + kCell / 2; x += kCell) {
             const int row = std::min(y, area.y1 - 1), column = std::min(x, area.x1 - 1);
@@ -169,7 +168,7 @@ DepthStage::Summary DepthStage::summaryOf(const PixelRect& where, const Pose& po
             shares_.push_back(std::sqrt(field.variance[i]) / field.rho[i]);
         }
     }
-    // The world's origin, where a tag is, as long as nothing is known.
+    // While nothing is known: the distance to the world's origin, where a tag is.
     out.rho = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
     if (samples_.empty()) return out;
     out.rho = medianOf(samples_);

@@ -12,9 +12,9 @@
 
 namespace mfar {
 
-/// The depth of the real scene, measured against the still (for nothing: its flow is known),
-/// against a keyframe where that promises more, and filtered over time. Runs on the host's
-/// processor; no GL.
+/// The depth of the real scene, filtered over time. Measured against the still, which costs nothing
+/// because its flow is known, and against a keyframe where that promises more accuracy. Runs on the
+/// CPU, without GL.
 class DepthStage {
 public:
     DepthStage(const CameraModel& video, std::shared_ptr<Workers> workers,
@@ -23,19 +23,19 @@ public:
     /// A search of this frame against the still.
     struct StillSearch {
         const EpipolarSearch& search;
-        const Eigen::Matrix3f& R_still_video;  ///< of rays, at the video's geometry
+        const Eigen::Matrix3f& R_still_video;  ///< rotates rays, at the video's geometry
         double unit;                           ///< [m]
-        double lengthError;                    ///< of it, UnitPose
+        double lengthError;                    ///< of `unit`, see UnitPose
         std::span<const float> cells;          ///< see DepthMeasurement::run()
     };
 
     void forget();
-    /// What is there to measure against has changed: another still.
+    /// Call when the still changes: the same view may then be measured again.
     void renew() { measuredPose_.reset(); }
-    /// A frame that changed. Measures inside of `where`, which may be empty.
+    /// Processes a changed frame. Measures inside `where`, which may be empty.
     void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
              const std::optional<StillSearch>& still, const PixelRect& where);
-    /// Something moves in these pixels: nothing is known of them.
+    /// Discards the depths of these pixels, where something moves.
     void forget(const PixelRect& where) { filter_.forget(where); }
 
     [[nodiscard]] const InverseDepthField& field() const { return filter_.field(); }
@@ -43,10 +43,10 @@ public:
 
 private:
     struct Summary {
-        double rho = 0;    ///< median of what is known [1/m]
-        double share = 1;  ///< median of its standard deviation, as a share of it
+        double rho = 0;    ///< median of the known inverse depths [1/m]
+        double share = 1;  ///< median of their relative standard deviation
     };
-    /// A part of the picture that knows too little, and the keyframe that would help it.
+    /// A part of the picture with too large an uncertainty, and the keyframe that would reduce it.
     struct Need {
         PixelRect part;
         double share;

@@ -11,14 +11,14 @@
 namespace mfar {
 namespace {
 
-constexpr int kBand = 4;         // undecided on both sides of a depth edge [px]
-constexpr int kVoteRadius = 10;  // from where surfaces are taken [px]
+constexpr int kBand = 4;         // width of the undecided band on each side of a depth edge [px]
+constexpr int kVoteRadius = 10;  // radius from which candidate surfaces are taken [px]
 constexpr int kVoters = simd::kVoterStep;
-// An edge, no slope: so much of the nearer inverse depth within 2 kBand + 1 pixels, and more than
-// noise makes.
+// An edge rather than a slope: the inverse depth changes within 2 kBand + 1 pixels by this share of
+// the larger value, and by more than noise does.
 constexpr float kJump = 0.08F, kSigmas = 3;
-constexpr float kLikeness = 12;        // colours so far apart are alike by half [grey levels]
-constexpr float kLeastWeight = 0.75F;  // of all voters, each at most one
+constexpr float kLikeness = 12;        // colour distance for a likeness of one half [grey levels]
+constexpr float kLeastWeight = 0.75F;  // sum over all voters, each at most one
 
 static_assert(kBand <= simd::kMostRange);
 
@@ -28,7 +28,7 @@ constexpr int nextVoter(int from) {
 
 using Colour = std::array<int, 3>;
 
-/// Colours of a picture of any format, each where it is asked for: few pixels are.
+/// Colours of a picture of any format. Converted on request, because only few pixels are needed.
 class Colours {
 public:
     explicit Colours(const ImageView& picture) : picture_(picture) {
@@ -44,7 +44,7 @@ public:
         switch (picture_.format) {
         case PixelFormat::Gray8: return {p[0], p[0], p[0]};
         case PixelFormat::Rgba8:
-        case PixelFormat::Bgra8: return {p[0], p[1], p[2]};  // of distances the order is nothing
+        case PixelFormat::Bgra8: return {p[0], p[1], p[2]};  // distances do not depend on the order
         case PixelFormat::Yuyv: {
             const std::uint8_t* pair = p - 2 * (x % 2);
             return rgbOf(p[0], pair[1], pair[3]);
@@ -108,7 +108,7 @@ const InverseDepthField& EdgeSnap::run(const InverseDepthField& in, const ImageV
     return out_;
 }
 
-// Ranges along rows, then along columns.
+// Range filters: first along rows, then along columns.
 void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
     if (where.empty()) return;
     const std::ptrdiff_t pitch = size_.width;

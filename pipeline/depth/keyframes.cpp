@@ -10,10 +10,9 @@
 namespace mfar {
 namespace {
 
-// A frame is taken when a typical point has moved by this much against the newest [rad].
+// A frame is kept when a typical point has moved by this angle since the newest keyframe [rad].
 constexpr double kLeastStep = 0.002;
-// A score this many frames old counts twice, one whose exposure differs by a factor of e three
-// times.
+// The score doubles at this age [frames], and triples when the exposures differ by a factor of e.
 constexpr double kAge = 60;
 constexpr double kExposure = 2;
 constexpr int kGrid = 4;  // points a side, spread over a part
@@ -45,7 +44,7 @@ void Keyframes::add(const Rows<const std::uint8_t>& luma, const Pose& pose, doub
     }
     Keyframe frame;
     if (frames_.size() >= static_cast<std::size_t>(options_.frames)) {
-        frame = std::move(frames_.back());  // its memory
+        frame = std::move(frames_.back());  // reuses its memory
         frames_.pop_back();
     }
     cut(luma, {0, 0, luma.size.width, luma.size.height}, frame.luma);

@@ -16,35 +16,35 @@ struct Keyframe {
     LumaImage luma;
     Pose pose;
     double brightness = 0;  ///< mean luma
-    long number = 0;        ///< of the frames, from the first
+    long number = 0;        ///< of the frame, counted from the first
 };
 
-/// The last frames from different places. A camera that rests keeps those it has: no other frame
-/// would add a view.
+/// The last frames from different places. While the camera rests, the kept ones stay: other frames
+/// would add no view.
 class Keyframes {
 public:
     Keyframes(const CameraModel& video, const KeyframeOptions& options);
 
     void forget();
-    /// Takes a frame, if the camera has moved by more than rounding since the newest. `rho`: of the
-    /// scene [1/m], what a typical point of it has. `brightness`: of the luma.
+    /// Keeps a frame if the camera has moved noticeably since the newest keyframe. `rho`: inverse
+    /// depth of a typical point of the scene [1/m]. `brightness`: mean luma.
     void add(const Rows<const std::uint8_t>& luma, const Pose& pose, double brightness, double rho);
 
     struct Choice {
         const Keyframe* frame;
         double angle;  ///< mean parallax [rad]
     };
-    /// For these pixels of a frame at this pose; nothing when none shows them with parallax. The
-    /// score is the error of inverse depth to be expected, sigma / (f sin(parallax)), raised with
-    /// age and difference in exposure (design, section 6). Valid until the next add().
+    /// Chooses a keyframe for these pixels of a frame at this pose; empty when none shows them with
+    /// parallax. The score is the expected error of inverse depth, sigma / (f sin(parallax)),
+    /// raised with age and difference in exposure (design, section 6). Valid until the next add().
     [[nodiscard]] std::optional<Choice> choose(const Pose& pose, double brightness,
                                                const PixelRect& part, double rho) const;
 
 private:
-    /// How a part's points of that inverse depth are seen from there.
+    /// How the keyframe there sees the points of a part, all at inverse depth rho.
     struct Relation {
         double angle = 0;    ///< mean parallax [rad]
-        double overlap = 0;  ///< share of them that is in the picture there
+        double overlap = 0;  ///< share of the points that lie in its picture
     };
     [[nodiscard]] Relation relationOf(const RigidTransform& T_key_now,
                                       std::span<const Eigen::Vector2d> rays, double rho) const;

@@ -4,17 +4,17 @@
 
 namespace mfar {
 
-// Fields of one entry per cell of 4x4 video pixels, as both engines store them: four floats each,
-// so that a GPU reads an entry as one vec4.
+// Fields with one entry per cell of 4x4 video pixels, as both engines store them: four floats per
+// entry, which a GPU reads as one vec4.
 
 /// A flow vector and how well it matches.
 struct FlowCell {
-    float x = 0, y = 0;  ///< [px of the field's pyramid level]; p looks like p + (x, y)
-    float cost = 0;      ///< 0: alike up to gain and offset, 1: unrelated, 2: inverted
+    float x = 0, y = 0;  ///< [px of the field's pyramid level]; p matches p + (x, y)
+    float cost = 0;      ///< 0: equal up to gain and offset, 1: unrelated, 2: inverted
     float texture = 0;   ///< energy of the 8x8 patch around the cell [grey levels^2]
 };
 
-/// Known two-way error of a cell (eq. 2), where a search along lines has found it.
+/// Two-way error of a cell (eq. 2), where the search along epipolar lines has determined it.
 struct ErrorCell {
     float error = 0;  ///< [px]
     float unused[3] = {};
@@ -27,14 +27,14 @@ struct WeighedCell {
     float confidence = 0;  ///< eq. 2, [0, 1]
 };
 
-/// Where an output pixel at the cell looks into the still.
+/// Where an output pixel at the cell reads the still.
 struct LookUpCell {
-    float x = 0, y = 0;  ///< end of the flow less the scaled cell centre [still px]
-    float weight = 0;    ///< as WeighedCell
+    float x = 0, y = 0;  ///< end of the flow minus the scaled cell centre [still px]
+    float weight = 0;    ///< see WeighedCell
     float confidence = 0;
 };
 
-/// What sharpening and tile classes need to know of a cell, each in [0, 1].
+/// Inputs of sharpening and of tile classes, per cell, each in [0, 1].
 struct TrustCell {
     float halfWeight = 0;   ///< half of the weight
     float confidence = 0;   ///< eq. 2

@@ -16,12 +16,12 @@ struct WarpOptions;
 
 enum class EngineKind : std::uint8_t {
     Gles,  ///< OpenGL ES 3.1 shaders
-    Simd   ///< the host's SIMD lanes
+    Simd   ///< SIMD kernels on the CPU
 };
 /// "gles", "simd".
 [[nodiscard]] std::string_view nameOf(EngineKind kind);
 
-/// Which engine does which step.
+/// The engine of each step.
 struct EngineChoice {
     EngineKind still = EngineKind::Gles;
     EngineKind pyramid = EngineKind::Gles;
@@ -33,10 +33,10 @@ struct EngineChoice {
     [[nodiscard]] static EngineChoice all(EngineKind kind) {
         return {kind, kind, kind, kind, kind, kind};
     }
-    /// All steps on the engine that the environment variable MFAR_ENGINE names, "simd" or "gles"
-    /// (default): for measuring programs and tests, which name none.
+    /// All steps on the engine named by the environment variable MFAR_ENGINE, "simd" or "gles"
+    /// (default). For benchmarks and tests, which do not choose an engine themselves.
     [[nodiscard]] static EngineChoice fromEnvironment();
-    /// Does any step run there?
+    /// True when at least one step runs on this engine.
     [[nodiscard]] bool uses(EngineKind kind) const {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||
                detail == kind || occlusion == kind;
@@ -44,16 +44,16 @@ struct EngineChoice {
     bool operator==(const EngineChoice&) const = default;
 };
 
-/// What steps are made for.
+/// Common arguments for creating steps.
 struct StepSetup {
     StereoRig rig;
-    Size output;  ///< of the picture
+    Size output;  ///< size of the output picture
     Flow2dOptions flow2d{};
     std::shared_ptr<Workers> workers{};
-    Transfers* transfers = nullptr;  ///< counts what steps move; null: not counted
+    Transfers* transfers = nullptr;  ///< counts the bytes that steps transfer; null: not counted
 };
 
-/// Makes the steps of one kind. Must outlive them.
+/// Creates the steps of one kind. Must outlive them.
 class Engine {
 public:
     virtual ~Engine() = default;
@@ -63,26 +63,28 @@ public:
     [[nodiscard]] virtual std::unique_ptr<WeighStep> weigh() = 0;
     [[nodiscard]] virtual std::unique_ptr<DetailStep> detail() = 0;
     [[nodiscard]] virtual std::unique_ptr<OcclusionStep> occlusion(Size layer) = 0;
-    /// `layer`: the camera at the layer's resolution. What it draws lies where occlusion() reads
-    /// it. Throws std::invalid_argument for an option out of range.
+    /// `layer`: the camera at the layer's resolution. The step draws into memory that occlusion()
+    /// reads directly. Throws std::invalid_argument for an option out of range.
     [[nodiscard]] virtual std::unique_ptr<WarpStep> warp(const CameraModel& layer,
                                                          const WarpOptions& options) = 0;
 
-    /// Prepares a new still for the steps that weigh and draw: frames allocate nothing for it.
+    /// Prepares a new still for the weigh and detail steps, so that frames need no allocation for
+    /// it.
     virtual void take(const StillPictures&) {}
-    /// Lets the work begin that has been asked for.
+    /// Submits the work requested so far.
     virtual void flush() {}
-    /// Waits until it is done: for measurements.
+    /// Waits until all work is done; for benchmarks.
     virtual void finish() {}
-    /// The frame's memory is no longer read after this.
+    /// Waits until the frame's memory is no longer read.
     virtual void finishReading() {}
-    /// Reads cameras' memory without a copy; null: everything is uploaded. It must outlive this.
+    /// Sets the importer that reads camera memory without a copy; null: everything is uploaded. The
+    /// importer must outlive the engine.
     virtual void setImporter(PlaneImporter*) {}
     /// Why zero-copy import failed; returned once.
     [[nodiscard]] virtual std::optional<std::string> takeImportFault() { return std::nullopt; }
 };
 
-/// Needs a current GL context for its whole life. Throws GlError.
+/// Needs a current GL context for its whole lifetime. Throws GlError.
 [[nodiscard]] std::unique_ptr<Engine> makeGlesEngine(const StepSetup& setup);
 [[nodiscard]] std::unique_ptr<Engine> makeSimdEngine(const StepSetup& setup);
 

@@ -9,12 +9,12 @@
 
 namespace mfar {
 
-/// Memory moved between host and GPU. Counts up; its reader takes differences.
+/// Bytes moved between host and GPU. Increasing counters; readers take differences.
 struct Transfers {
     std::uint64_t uploadedBytes = 0, downloadedBytes = 0;
 };
 
-/// The GPU's copy of a field. pipeline/gles implements it; nobody else knows what is behind it.
+/// The GPU's copy of a field. Implemented in pipeline/gles; other code sees only this interface.
 class DeviceCopy {
 public:
     DeviceCopy() = default;
@@ -22,19 +22,19 @@ public:
     DeviceCopy& operator=(const DeviceCopy&) = delete;
     virtual ~DeviceCopy() = default;
 
-    /// All rows; `pitch` bytes from one row to the next.
+    /// Writes all rows; `pitch`: bytes from one row to the next.
     virtual void upload(const void* data, std::ptrdiff_t pitch) = 0;
-    /// The same the other way. Waits for the GPU.
+    /// Reads all rows. Waits for the GPU.
     virtual void download(void* data, std::ptrdiff_t pitch) = 0;
 };
 
-/// The result of a step: rows of T that lie on the host, on the GPU or on both. The step that
-/// writes it says where; a reader asks for the copy that it needs, and the rows move only then. The
-/// memory of the newest copy belongs to the step, that of a moved copy to the field.
+/// The result of a step: rows of T on the host, on the GPU or on both. The step that writes it
+/// states where; a reader requests the copy that it needs, and only then are the rows moved. The
+/// newest copy's memory belongs to the step, a moved copy's memory to the field.
 template <class T>
 class Field {
 public:
-    /// `transfers` counts what moves and must outlive the field; null: not counted.
+    /// `transfers` counts the bytes moved and must outlive the field; null: not counted.
     explicit Field(Size size = {}, Transfers* transfers = nullptr)
         : size_(size), transfers_(transfers) {}
 
@@ -43,21 +43,21 @@ public:
         return sizeof(T) * static_cast<std::size_t>(size_.width) * size_.height;
     }
 
-    /// The host's rows are new. Borrowed: valid until the next writtenOn...().
+    /// Reports new rows on the host. Borrowed: valid until the next writtenOn...().
     void writtenOnHost(Rows<const T> rows) {
         host_ = rows;
         size_ = rows.size;
         device_ = nullptr;
         editable_ = {};
     }
-    /// The same for rows that steps may draw into.
+    /// As above, for rows that steps may draw into.
     void writtenOnHost(Rows<T> rows)
         requires(!std::is_const_v<T>)
     {
         writtenOnHost(Rows<const T>(rows));
         editable_ = rows;
     }
-    /// The GPU's copy is new. Borrowed likewise.
+    /// Reports a new copy on the GPU. Borrowed: valid until the next writtenOn...().
     void writtenOnDevice(DeviceCopy& copy, Size size) {
         device_ = &copy;
         size_ = size;
@@ -68,7 +68,7 @@ public:
     [[nodiscard]] bool isOnDevice() const { return device_ != nullptr; }
     [[nodiscard]] bool isEmpty() const { return !isOnHost() && !isOnDevice(); }
 
-    /// Rows on the host. Waits for the GPU where the newest copy is there.
+    /// Rows on the host. Waits for the GPU if the newest copy is there.
     [[nodiscard]] Rows<const T> host() const {
         if (!isOnHost() && isOnDevice()) {
             if (downloaded_.size() != size_) downloaded_ = AlignedRows<T>(size_);
@@ -79,15 +79,15 @@ public:
         }
         return host_;
     }
-    /// Rows on the host to draw into; they become the newest copy. Only for a field whose step gave
-    /// editable rows, or whose newest copy was on the GPU.
+    /// Rows on the host for drawing; they become the newest copy. Requires that the step gave
+    /// editable rows or that the newest copy was on the GPU.
     [[nodiscard]] Rows<T> edit() {
         (void)host();
         device_ = nullptr;
         return editable_;
     }
-    /// The GPU's copy; `make` creates one of this field's size where rows of the host have to be
-    /// uploaded for the first time.
+    /// The GPU's copy; `make` creates one of this field's size when host rows are uploaded for the
+    /// first time.
     template <class Make>
     [[nodiscard]] DeviceCopy& device(const Make& make) const {
         if (!isOnDevice()) {
@@ -105,9 +105,9 @@ public:
 private:
     Size size_;
     Transfers* transfers_;
-    // Reading moves rows, which changes no value.
-    mutable Rows<const T> host_;            // no data: older than the GPU's copy
-    mutable Rows<T> editable_;              // the same, where it may be drawn into
+    // Mutable: reading moves rows but changes no value.
+    mutable Rows<const T> host_;            // data is null: older than the GPU's copy
+    mutable Rows<T> editable_;              // the same rows, where they are editable
     mutable DeviceCopy* device_ = nullptr;  // null: older than the host's rows
     mutable AlignedRows<T> downloaded_;
     mutable std::unique_ptr<DeviceCopy> uploaded_;

@@ -18,8 +18,9 @@
 #include <string>
 #include <vector>
 
-// The steps of a frame that exist on both engines, GLES shaders and host SIMD. A step's constructor
-// allocates all that it needs; what run() returns is valid until its next run().
+// The steps of a frame that both engines implement, as GLES shaders and as SIMD kernels. A step's
+// constructor allocates all memory that it needs; the result of run() is valid until its next
+// run().
 
 namespace mfar {
 
@@ -27,37 +28,37 @@ class FilterBank;
 struct FineMatch;
 class PlaneImporter;
 
-/// A frame of the video sensor: as the camera delivered it, and its colours as planes.
+/// A frame of the video sensor as the camera delivered it, and its colours as planes.
 struct VideoFrame {
     const ImageView& view;
     const RgbPlanes& planes;
-    std::uint64_t number;  ///< a new one for each frame
+    std::uint64_t number;  ///< unique per frame
 };
 
-/// What is known of the newest still.
+/// The newest still, prepared for the other steps.
 struct StillPictures {
-    std::uint64_t number = 0;  ///< a new one for each still
-    StereoRig rig;             ///< with the still camera as the fields below have it
+    std::uint64_t number = 0;  ///< unique per still
+    StereoRig rig;             ///< with the still camera at the resolution of the fields below
     Field<std::uint8_t> luma;  ///< of the whole still
-    // Luma whose finest detail is raised, see params::kLinearLoss: as the engine reads it that made
-    // it. The other field is empty.
+    // Luma with raised finest detail, see params::kLinearLoss, in the format of the engine that
+    // produced it. The other field is empty.
     Field<std::uint8_t> raised;    ///< from the GLES engine
-    Field<std::uint16_t> pairs;    ///< from the SIMD engine; with the pixel below in the high byte
-    Field<std::uint32_t> picture;  ///< RGBA8; for SuperResMode::Blend alone
+    Field<std::uint16_t> pairs;    ///< from the SIMD engine; the high byte is the pixel below
+    Field<std::uint32_t> picture;  ///< RGBA8; only for SuperResMode::Blend
 };
 
-/// Luma pyramids of the video and of the still at the video's geometry: what flow compares.
+/// Luma pyramids of the video and of the still in the video's geometry: the inputs of flow.
 struct LumaPyramid {
     std::vector<LumaLevel> video, still;
     Field<std::uint32_t> words;  ///< one row
 };
 
-/// Flow between video and still. One row: first the forward field, then as many entries for the
-/// backward field or, as ErrorCell, for the two-way errors that were given.
+/// Flow between video and still, in one row: first the forward field, then the backward field or,
+/// as ErrorCell, the given two-way errors of the forward cells.
 struct FlowCells {
     Field<FlowCell> cells;
     Size forward, backward;  ///< columns, rows
-    int backwardLevel = 0;   ///< of the pyramid
+    int backwardLevel = 0;   ///< level of the pyramid
     bool errorsGiven = false;
 
     [[nodiscard]] std::size_t count() const {
@@ -75,16 +76,16 @@ struct CellWeights {
 class StillStep {
 public:
     virtual ~StillStep() = default;
-    /// Prepares a sound still of the still camera's size.
+    /// Prepares a valid still of the still camera's size.
     virtual const StillPictures& run(const ImageView& still, SuperResMode mode) = 0;
-    /// Adds what another mode needs of the same still.
+    /// Adds the fields of the same still that another mode needs.
     virtual void setMode(SuperResMode mode) = 0;
 };
 
 class PyramidStep {
 public:
     virtual ~PyramidStep() = default;
-    /// Does nothing where the frame matches no tile.
+    /// Does nothing if the frame matches no tile.
     virtual const LumaPyramid& video(const VideoFrame& frame, const TileWork& work) = 0;
     virtual const LumaPyramid& still(const StillPictures& still) = 0;
 };
@@ -98,14 +99,14 @@ public:
     virtual void setOptions(const Flow2dOptions& options) = 0;
     /// Searches both fields. `usePrior`: the last frame's field is a candidate everywhere.
     virtual const FlowCells& run(const LumaPyramid& luma, const TileWork& work, bool usePrior) = 0;
-    /// Refines vectors that are right but for a fraction of a pixel, one per cell; `errors`: their
-    /// two-way errors [px] in the first entry. Tiles whose vectors turn out wrong are searched.
+    /// Refines vectors whose error is a fraction of a pixel, one per cell; `errors`: their two-way
+    /// errors [px] in the first entry. Tiles with wrong vectors are searched.
     virtual const FlowCells& refine(const LumaPyramid& luma, const TileWork& work, Cells vectors,
                                     Cells errors) = 0;
     /// Tiles that the last refine() searched, row-major. May wait for the GPU.
     [[nodiscard]] virtual std::vector<bool> searchedTiles() const = 0;
     [[nodiscard]] virtual int searchedCount() const = 0;
-    /// Their number in a frame that is surely finished: the last, or on a GPU the one before.
+    /// searchedCount() of a frame that is certainly finished: the last, or on a GPU the one before.
     [[nodiscard]] virtual int finishedSearchedCount() const { return searchedCount(); }
 };
 
@@ -114,19 +115,19 @@ public:
     virtual ~WeighStep() = default;
     virtual const CellWeights& run(const LumaPyramid& luma, const FlowCells& flow,
                                    const TileWork& work) = 0;
-    /// Lowers the weights of the last run() on the same frame where the still does not show the
-    /// video's finest detail as `match` lets expect; see params::kFineRoom.
+    /// Lowers the weights of the last run() on the same frame where the still shows less of the
+    /// video's finest detail than `match` leads to expect; see params::kFineRoom.
     virtual const CellWeights& confirm(const VideoFrame& frame, const StillPictures& still,
                                        const TileWork& work, const FineMatch& match) = 0;
 };
 
-/// Counts of one frame.
+/// Statistics of one frame.
 struct TileSummary {
     std::array<int, kTileClasses> tiles{};  ///< per TileClass
     double meanConfidence = 0;              ///< [0, 1]
-    double explained = 0;  ///< share of tiles that are flat or that a still accounts for, [0, 1]
+    double explained = 0;  ///< share of tiles that are flat or explained by a still, [0, 1]
     double changed = 0;    ///< share of tiles that were drawn, [0, 1]
-    int second = 0;        ///< tiles that show some of the second still
+    int second = 0;        ///< tiles that show parts of the second still
 };
 
 struct DetailOptions {
@@ -134,31 +135,31 @@ struct DetailOptions {
     bool cubic = true;          ///< Quality::cubic
     bool upscaledTiles = true;  ///< SkipOptions::upscaledTiles
     bool plainTiles = true;     ///< SkipOptions::plainTiles
-    /// Where Quality::learned; null: not enlarged by filters.
+    /// Filters for Quality::learned; null: no enlargement by filters.
     const FilterBank* filters = nullptr;
 };
 
 class DetailStep {
 public:
-    /// A still and how it matches.
+    /// A still and its match.
     struct Matched {
         const StillPictures& still;
         const CellWeights& weights;
-        /// A second still, seen where it counts for more; null: none. In mode Detail with filters
-        /// alone.
+        /// A second still, shown where its weight is larger; may be null. Only in mode Detail with
+        /// filters.
         const Matched* second = nullptr;
     };
 
     virtual ~DetailStep() = default;
-    /// Draws the tiles that `work` asks for; the others keep their pixels. Null: only enlarges.
+    /// Draws the tiles of `work`; the others keep their pixels. `matched` null: only enlarges.
     virtual void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
                       const DetailOptions& options) = 0;
-    /// RGBA8, row 0 on top, alpha 255. What is drawn over it lasts until the next draw() of its
+    /// RGBA8, row 0 on top, alpha 255. Pixels drawn over it remain until draw() redraws their
     /// tiles.
     [[nodiscard]] virtual Field<std::uint32_t>& output() = 0;
-    /// Of the last frame. May wait for the GPU.
+    /// Summary of the last frame. May wait for the GPU.
     [[nodiscard]] virtual TileSummary summary() const = 0;
-    /// Of a frame that is surely finished: the last, or on a GPU the one before.
+    /// Summary of a frame that is certainly finished: the last, or on a GPU the one before.
     [[nodiscard]] virtual TileSummary finishedSummary() const { return summary(); }
     /// Class of every tile in the last frame, row-major. May wait for the GPU.
     [[nodiscard]] virtual std::vector<TileClass> classes() const = 0;
@@ -166,22 +167,23 @@ public:
 
 using params::kShadowLift;
 
-/// Virtual objects alone, as the video camera sees them; it may have fewer pixels than the output.
+/// The virtual objects only, as the video camera sees them; possibly at fewer pixels than the
+/// output.
 struct LayerPicture {
     Field<std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
-    Field<float> depth;           ///< z [m] along the camera's axis; 0: nothing
+    Field<float> depth;           ///< z along the camera's axis [m]; 0: no object
     PixelRect bounds;             ///< covered pixels of the layer
 };
 
 class OcclusionStep {
 public:
     virtual ~OcclusionStep() = default;
-    /// Lays the virtual objects over the picture, behind what is nearer there. `real` is unknown
-    /// outside of `where` [video px].
+    /// Draws the virtual objects over the picture, except where the real scene is nearer. `real` is
+    /// unknown outside `where` [video px].
     virtual void draw(const LayerPicture& layer, const InverseDepthField& real,
                       const PixelRect& where, const VideoFrame& frame,
                       Field<std::uint32_t>& picture) = 0;
-    /// Share of each output pixel of the layer that the last draw() showed, within its bounds. May
+    /// Visible share of each output pixel of the layer in the last draw(), within its bounds. May
     /// wait for the GPU.
     [[nodiscard]] virtual std::vector<float> visibility() const = 0;
 };

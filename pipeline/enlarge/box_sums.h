@@ -11,7 +11,7 @@ namespace mfar::enlarge {
 /// Sums of a value over squares of pixels, each in constant time.
 class BoxSums {
 public:
-    /// `valueAt(x, y)`: of a pixel.
+    /// `valueAt(x, y)`: the value of a pixel.
     template <class ValueAt>
     BoxSums(Size size, const ValueAt& valueAt)
         : size_(size), sums_(static_cast<std::size_t>(size.width + 1) * (size.height + 1)) {
@@ -23,7 +23,7 @@ public:
             }
         }
     }
-    /// Over the square that reaches so far around a pixel, as far as it is in the picture.
+    /// Sum over the square that extends `reach` pixels from (x, y), limited to the picture.
     [[nodiscard]] double around(int x, int y, int reach) const {
         const int x0 = std::max(x - reach, 0), x1 = std::min(x + reach + 1, size_.width),
                   y0 = std::max(y - reach, 0), y1 = std::min(y + reach + 1, size_.height);

@@ -7,24 +7,24 @@
 #include <cstdint>
 #include <vector>
 
-// Least squares for the filters of the learned enlarger: sums over pixels, class by class. In
-// double precision and in a fixed order: the same pixels give the same bits.
+// Least squares for the filters of the learned enlarger: sums over pixels, class by class, in
+// double precision and in a fixed order, so that the same pixels give the same bits.
 
 namespace mfar::enlarge {
 
-/// Differences of the neighbours to the pixel [grey levels], as kTapAt.
+/// Differences of the neighbours to the pixel [grey levels], in the order of kTapAt.
 using Taps = Eigen::Matrix<double, kTaps, 1>;
-/// What the cubic misses at the sub-pixels, row-major [grey levels].
+/// Residual of the cubic at the sub-pixels, row-major [grey levels].
 using Phases = Eigen::Matrix<double, kPhases, 1>;
-/// A filter, as one: not halved.
+/// Weights of a filter whose output is used alone: not halved.
 using ClassWeights = Eigen::Matrix<double, kTaps, kPhases>;
 
-/// A stored filter, and how the picture is turned to it.
+/// A stored filter, and the symmetry that maps the picture onto it.
 struct UniqueClass {
     int number;  ///< [0, kUnique)
     Symmetry same;
 };
-/// `number`: as simd::classRow() counts classes.
+/// `number`: class number of simd::classRow().
 [[nodiscard]] UniqueClass uniqueByGradient(int number);
 [[nodiscard]] UniqueClass uniqueByCurvature(int number);
 
@@ -40,11 +40,12 @@ struct ClassSums {
 
     void add(const Taps& steps, const Phases& target);
     void add(const ClassSums& other);
-    /// Counts what is there by this share from now on.
+    /// Multiplies all sums by `share`.
     void fade(double share);
-    /// With the same pictures turned by 180 degrees, which have the same classes.
+    /// The sums, plus those of the same pictures turned by 180 degrees, which have the same
+    /// classes.
     [[nodiscard]] ClassSums turnedToo() const;
-    /// Sum of squares that these weights leave, of those that were summed up.
+    /// Sum of the squared errors that these weights leave on the pixels summed up.
     [[nodiscard]] double errorOf(const ClassWeights& weights) const;
 };
 
@@ -68,7 +69,7 @@ private:
     };
     void finish(int unique) const;
 
-    // Groups that are not summed up yet are no difference to a reader.
+    // Mutable: reads finish groups that are not summed up yet.
     mutable std::vector<ClassSums> sums_;
     mutable std::vector<Group> groups_;
 };

@@ -13,24 +13,25 @@ namespace {
 
 using namespace enlarge;
 
-// Of a class: with fewer pixels to learn from, or to check on, nothing is decided.
+// Lower limit of the pixels of a class: with fewer to learn from, or to check on, nothing is
+// decided.
 constexpr double kLeastPixels = 400;
-// What a still counts once the next one has come.
+// Factor of the weight of older stills whenever a new one is learned from.
 constexpr double kForgetting = 0.95;
-// The shipped filter counts like this many pixels of the class.
+// The shipped filter has the weight of this number of pixels of the class.
 constexpr double kPriorPixels = 300;
 constexpr double kRidge = 20;  // [grey levels^2]
-// Of the picture: with less, matching has gone wrong.
+// Lower limit of the trusted share of the picture: below it, matching has failed.
 constexpr double kLeastTrusted = 0.05;
-// See TrustedPairs::sharpness().
+// Lower limit of TrustedPairs::sharpness().
 constexpr double kLeastSharpness = 1.03;
-// A tile is new where a mean of 4x4 pixels has changed by more [grey levels].
+// A tile is new when the mean of 4x4 of its pixels has changed by more than this [grey levels].
 constexpr int kNewFrom = 4;
 constexpr double kLeastNew = 0.1;  // of all tiles
-// A new filter replaces the shipped one for at least this share of the error.
+// A new filter replaces the shipped one when its error is below this share of the other's.
 constexpr double kWorthwhile = 0.998;
 
-constexpr int kBlock = 4;  // px whose mean tells whether a tile is new
+constexpr int kBlock = 4;  // side of the blocks whose means are compared to find new tiles [px]
 
 std::size_t tileOfBlock(int x, int y, Size tiles) {
     return static_cast<std::size_t>(y * kBlock / kTileSize) * tiles.width + x * kBlock / kTileSize;
@@ -44,7 +45,8 @@ EnlargerLearner::EnlargerLearner() : learned_(kUnique, false) {
     putInPlace(prior_, learned_);
 }
 
-/// By place, not by still: a part that is checked on shows the same where the camera rests.
+/// Parts are fixed in the picture rather than chosen per still: when the camera rests, a part for
+/// checks shows the same scene as before.
 EnlargerLearner::Part EnlargerLearner::partOf(int column, int row) {
     const int number = (column + 2 * row) % 5;
     return number == 0 ? Part::Check : number == 2 ? Part::Choose : Part::Learn;
@@ -167,7 +169,7 @@ EnlargerLearner::StillSums EnlargerLearner::sumsOf(const MatchedPictures& pictur
 ClassWeights EnlargerLearner::solved(int unique) const {
     const ClassSums sums = sums_[unique].turnedToo();
     const ClassWeights& prior = prior_[static_cast<std::size_t>(unique)];
-    // The prior's pixels as if their differences were independent of each other.
+    // Weighs the prior as if its pixels' differences were independent of each other.
     const Taps pull =
         (sums.taps.diagonal().array() * (kPriorPixels / sums_[unique].pixels) + kRidge).matrix();
     auto taps = sums.taps;
@@ -217,7 +219,7 @@ bool EnlargerLearner::putInPlace(const std::vector<ClassWeights>& weights,
         inPlace_ = std::make_shared<const FilterBank>(filters, guidance_.guidance(),
                                                       fineMatch_.fineMatch());
     } catch (const FilterBankError&) {
-        return false;  // weights too large for the kernels: what is in place stays
+        return false;  // weights too large for the kernels: the filters in place stay
     }
     current_ = weights;
     learned_ = learned;

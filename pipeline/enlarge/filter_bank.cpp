@@ -21,7 +21,7 @@ constexpr std::size_t kHeaderSize = kMagicSize + 4 * kHeader.size();
 constexpr std::size_t kWeightBytes = std::size_t{2} * kUnique * kFilterSize;
 constexpr std::size_t kStoredSize = kHeaderSize + kWeightBytes + 4;
 
-/// The filters of every class, from those of one quadrant.
+/// The filters of every class, derived from those of one quadrant.
 AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, int bins,
                                    int kinds) {
     AlignedRows<std::int16_t> out({kFilterSize, bins * kinds});
@@ -39,7 +39,7 @@ AlignedRows<std::int16_t> expanded(std::span<const FilterBank::Filter> unique, i
     return out;
 }
 
-/// Sums of the kernels have 32 bits: weights of a phase up to this sum fit.
+/// Upper limit of the sum of a phase's absolute weights: the kernels add in 32 bits.
 constexpr int kMostWeight = 16 * kWeightScale;
 
 bool fits(const FilterBank::Filter& filter) {

@@ -12,17 +12,17 @@
 
 namespace mfar {
 
-/// Stored filters cannot be used. The message says which and why.
+/// Stored filters are unusable. The message names them and the reason.
 class FilterBankError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// How far a still guides the finest detail that the video shows by itself, where the still is
-/// trusted; see params::kGuideReach. Both 0: not at all. They are alike where both sensors have
-/// the same exposure.
+/// How strongly a trusted still guides the finest detail of the video itself; see
+/// params::kGuideReach. Both factors 0: no guidance. Both are alike where the sensors have the same
+/// exposure.
 struct Guidance {
-    float still = 0;  ///< share of the still's detail that is put in, [0, 1]
-    float video = 0;  ///< share of the video's own that is taken away, [0, kMost]
+    float still = 0;  ///< share of the still's detail that is added, [0, 1]
+    float video = 0;  ///< share of the video's own detail that is removed, [0, kMost]
 
     static constexpr float kMost = 2;
     [[nodiscard]] bool any() const { return still > 0 || video > 0; }
@@ -32,8 +32,8 @@ struct Guidance {
     bool operator==(const Guidance&) const = default;
 };
 
-/// The variance of the video's finest detail that a correctly matched still usually does not
-/// explain, see params::kFineRoom: noise + share * that detail's variance. Noise 0: not known.
+/// The variance of the video's finest detail that a correctly matched still usually leaves
+/// unexplained, see params::kFineRoom: noise + share * that detail's variance. Noise 0: not known.
 struct FineMatch {
     float noise = 0;  ///< [grey levels^2], [0, kMostNoise]
     float share = 0;  ///< [0, 1]
@@ -46,29 +46,30 @@ struct FineMatch {
     bool operator==(const FineMatch&) const = default;
 };
 
-/// Filters of the learned enlarger, one for each class, see filter_layout.h, and how a still guides
-/// what the video shows and usually matches it, too. Immutable.
+/// Filters of the learned enlarger, one per class, see filter_layout.h; with the guidance and the
+/// usual match of a still. Immutable.
 class FilterBank {
 public:
-    /// Weights of a class, with 16384 as one, halved: the residuals of both classes are added.
+    /// Weights of a class, with 16384 as one, halved because the residuals of both classes are
+    /// added.
     using Filter = std::array<std::int16_t, enlarge::kFilterSize>;
 
-    /// `unique`: kUnique filters, those by gradient first. Throws FilterBankError.
+    /// `unique`: kUnique filters, first those of the gradient classes. Throws FilterBankError.
     explicit FilterBank(std::span<const Filter> unique, const Guidance& guidance = {},
                         const FineMatch& fineMatch = {});
-    /// What the product ships: learned by mfar-train-enlarger, part of the program.
+    /// The shipped filters: learned by mfar-train-enlarger, part of the program.
     [[nodiscard]] static const FilterBank& prior();
 
-    /// Another one than that of any other bank: tells whether a copy of this one is up to date.
+    /// Unique per bank: users compare it to see whether their copy is up to date.
     [[nodiscard]] std::uint64_t number() const { return number_; }
     /// A row per class.
     [[nodiscard]] Rows<const std::int16_t> gradient() const { return gradient_.rows(); }
     [[nodiscard]] Rows<const std::int16_t> curvature() const { return curvature_.rows(); }
-    /// None for the shipped filters: it depends on how noisy and how sharp both sensors are.
+    /// None for the shipped filters: guidance depends on the noise and sharpness of both sensors.
     [[nodiscard]] const Guidance& guidance() const { return guidance_; }
-    /// Not known of the shipped filters, for the same reason.
+    /// Unknown for the shipped filters, for the same reason.
     [[nodiscard]] const FineMatch& fineMatch() const { return fineMatch_; }
-    /// Keys' cubic on the same grid, less the pixel, as a filter: with 16384 as one, not halved.
+    /// Keys' cubic on the same grid, minus the pixel, as a filter with 16384 as one, not halved.
     [[nodiscard]] const std::int16_t* cubic() const { return cubic_[0]; }
 
 private:
@@ -78,10 +79,11 @@ private:
     AlignedRows<std::int16_t> gradient_, curvature_, cubic_;
 };
 
-/// The stored form: "mfarfilt", then little-endian 32-bit numbers: version, filters by gradient and
-/// by curvature, taps, phases; the weights, 16 bits each; the FNV-1a sum of all that.
+/// The stored form: "mfarfilt", then little-endian 32-bit numbers: version, number of gradient and
+/// of curvature filters, taps, phases; then the weights, 16 bits each; then the FNV-1a sum of all
+/// that.
 [[nodiscard]] std::vector<std::uint8_t> storedFilters(std::span<const FilterBank::Filter> unique);
-/// Reads it. `name` is for messages. Throws FilterBankError for anything that is not whole.
+/// Reads the stored form. `name` is for messages. Throws FilterBankError for incomplete data.
 [[nodiscard]] std::vector<FilterBank::Filter> readFilters(std::span<const std::uint8_t> bytes,
                                                           const std::string& name);
 

@@ -6,15 +6,16 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What the learned enlarger, its trainer and its tests have to agree on. After RAISR (Romano,
+/// Definitions shared by the learned enlarger, its trainer and its tests. After RAISR (Romano,
 /// Isidoro, Milanfar, 2017): a picture's luma on a grid of 4x4 sub-pixels per pixel is Keys' cubic
-/// plus a residual, a sum of the 24 neighbours' differences to the pixel, whose weights depend on
-/// the pixel's class. The mean of two such residuals is used, of two ways to make classes.
+/// plus a residual. The residual is a weighted sum of the 24 neighbours' differences to the pixel;
+/// the weights depend on the pixel's class. Each pixel has a class by gradient and a class by
+/// curvature; the mean of both residuals is used.
 namespace mfar::enlarge {
 
 using params::kGrid, params::kPairs, params::kLumaScale, params::kResidualScale;
 inline constexpr int kPhases = kGrid * kGrid, kTaps = 2 * kPairs;
-/// Numbers of a filter: [pair of taps][phase, row-major][tap of the pair].
+/// Numbers per filter: [pair of taps][phase, row-major][tap of the pair].
 inline constexpr int kFilterSize = kTaps * kPhases;
 [[nodiscard]] constexpr int filterIndex(int tap, int phase) {
     return (tap / 2 * kPhases + phase) * 2 + tap % 2;
@@ -24,7 +25,8 @@ struct Offset {
     int x, y;
     bool operator==(const Offset&) const = default;
 };
-/// Where the taps lie, [px]. Pairs lie side by side, but for the last two: these below each other.
+/// Places of the taps [px]. Taps of a pair are horizontal neighbours, except for the last two
+/// pairs, whose taps lie one below the other.
 inline constexpr std::array<Offset, kTaps> kTapAt{
     {{-2, -2}, {-1, -2}, {0, -2}, {1, -2}, {-2, -1}, {-1, -1}, {0, -1}, {1, -1},
      {-2, 1},  {-1, 1},  {0, 1},  {1, 1},  {-2, 2},  {-1, 2},  {0, 2},  {1, 2},
@@ -35,23 +37,25 @@ inline constexpr std::array<Offset, kTaps> kTapAt{
     return -1;
 }
 
-inline constexpr int kWeightScale = 16384;  ///< a weight of one, of the sum of both residuals
+inline constexpr int kWeightScale = 16384;  ///< a weight of one, in the sum of both residuals
 
-/// By the structure tensor, the sum of the gradient's products over 5x5 pixels: angle of its main
-/// axis, square root of the larger eigenvalue [grey levels per px], (s1 - s2) / (s1 + s2) of both
-/// roots. Class: (angle * strengths + strength) * coherences + coherence.
+/// Classes by the structure tensor, the sum of the gradient's products over 5x5 pixels: angle of
+/// its main axis, square root s1 of the larger eigenvalue [grey levels per px] (strength), and
+/// (s1 - s2) / (s1 + s2) of the roots of both eigenvalues (coherence). Class:
+/// (angle * strengths + strength) * coherences + coherence.
 struct GradientClasses {
     static constexpr int kAngles = params::kGradientAngles;
     static constexpr std::array<float, 3> kStrengthFrom{params::kWeakFrom, params::kMediumFrom,
                                                         params::kStrongFrom};
     static constexpr std::array<float, 2> kCoherenceFrom{params::kPartlyCoherentFrom,
                                                          params::kCoherentFrom};
-    static constexpr int kKinds = params::kGradientKinds;  ///< of an angle
+    static constexpr int kKinds = params::kGradientKinds;  ///< kinds per angle
     static_assert(kKinds == (kStrengthFrom.size() + 1) * (kCoherenceFrom.size() + 1));
     static constexpr int kCount = kAngles * kKinds;
 };
-/// By the second derivatives: angle of the main axis, Laplacian, difference of the eigenvalues
-/// [grey levels per px^2]. Class: (angle * Laplacians + Laplacian) * differences + difference.
+/// Classes by the second derivatives: angle of the main axis, Laplacian, difference of the
+/// eigenvalues [grey levels per px^2]. Class: (angle * Laplacians + Laplacian) * differences +
+/// difference.
 struct CurvatureClasses {
     static constexpr int kAngles = params::kCurvatureAngles;
     static constexpr std::array<float, 6> kLaplacianFrom{
@@ -64,20 +68,20 @@ struct CurvatureClasses {
     static constexpr int kCount = kAngles * kKinds;
 };
 
-/// Angles of [-pi/2, pi/2) in equal bins; those of one quadrant of the double angle are mapped onto
-/// the others by mirroring the picture, so that only their filters are stored.
+/// Angles in [-pi/2, pi/2), in equal bins. Mirroring the picture maps one quadrant of the double
+/// angle onto the others, so that only the filters of that quadrant are stored.
 struct Symmetry {
     int unique;                ///< bin within [0, bins / 4)
-    bool mirrors, transposes;  ///< turn the picture upside down first, then exchange x and y
+    bool mirrors, transposes;  ///< first turn the picture upside down, then exchange x and y
 
     [[nodiscard]] static constexpr Symmetry of(int bin, int bins) {
-        const bool lower = bin < bins / 2;  // the double angle's sine is negative
+        const bool lower = bin < bins / 2;  // sine of the double angle is negative
         const int inHalf = bin % (bins / 2);
-        const bool left = lower == (inHalf < bins / 4);  // its cosine is negative
+        const bool left = lower == (inHalf < bins / 4);  // cosine of the double angle is negative
         const bool ascends = lower == left;
         return {ascends ? inHalf : bins / 2 - 1 - inHalf, lower, left};
     }
-    /// Where something at `v` comes to lie; phases count from `last` / 2.
+    /// Position of `v` after mapping; the centre is at `last` / 2.
     [[nodiscard]] constexpr Offset map(Offset v, int last = 0) const {
         const Offset mirrored{v.x, mirrors ? last - v.y : v.y};
         return transposes ? Offset{mirrored.y, mirrored.x} : mirrored;
@@ -90,13 +94,13 @@ struct Symmetry {
         return at.y * kGrid + at.x;
     }
 };
-/// Stored filters of both kinds of classes.
+/// Number of stored filters, per kind of class and in total.
 inline constexpr int kUniqueGradient = GradientClasses::kCount / 4;
 inline constexpr int kUniqueCurvature = CurvatureClasses::kCount / 4;
 inline constexpr int kUnique = kUniqueGradient + kUniqueCurvature;
 
-/// The residual is limited so that the sum with the cubic stays in the range of the surrounding 5x5
-/// pixels, made larger on both sides by this share of it, as a power of two: a quarter.
+/// The residual is limited so that its sum with the cubic stays within the range of the surrounding
+/// 5x5 pixels, extended at both ends by this power-of-two share of the range: a quarter.
 inline constexpr int kOvershootShift = 2;
 static_assert(params::kOvershoot * (1 << kOvershootShift) == 1);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLeastCells = 200;
 constexpr double kMostStills = 8;
-// Times the noise: below this there is nothing to take a share of.
+// A cell has structure when its variance exceeds this multiple of the noise.
 constexpr double kStructureOverNoise = 4;
 
 /// Variances and covariance of a cell's finest detail [grey levels^2].
@@ -20,12 +20,12 @@ struct Sums {
     double video = 0, both = 0, still = 0;
 };
 
-/// The still at video positions, as simd::FineCheck samples it.
+/// Samples the still at video positions, as simd::FineCheck does.
 class Sampler {
 public:
     explicit Sampler(const MatchedPictures& pictures) : in_(pictures) {}
 
-    /// Mean of 2x2 samples of a pixel.
+    /// Mean of 2x2 samples within a pixel.
     [[nodiscard]] double pixel(int x, int y) const {
         double sum = 0;
         for (const double dy : {-0.25, 0.25})
@@ -96,7 +96,7 @@ double quantile(std::vector<double>& values, double share) {
     return *at;
 }
 
-/// Of cells all of whose neighbours may teach.
+/// Values of the cells whose neighbours may all teach.
 struct Unexplained {
     std::vector<double> video, rest;
 };

@@ -13,21 +13,21 @@
 namespace mfar::enlarge {
 namespace {
 
-constexpr double kForgetting = 0.95;  // as of filters
-// No guidance counts like this many pixels.
+constexpr double kForgetting = 0.95;  // as for filters
+// Weight of zero guidance as a prior, as a number of pixels.
 constexpr double kPriorPixels = 2000;
-constexpr double kLeastPixels = 0.02;  // of the picture, in the parts that are learned from
-// The guidance is used for at least this share of the error.
+constexpr double kLeastPixels = 0.02;  // of the picture, within the tiles for learning
+// Guidance is used when it removes at least this share of the squared error.
 constexpr double kWorthwhile = 0.005;
-// A new guidance replaces one that is as near as this never: pictures would change for nothing.
+// New factors this close to those in place are not used: pictures would change for no gain.
 constexpr float kSame = 0.01F;
-// Below, the factors cannot be told apart: over the product of both squares.
+// Relative to the product of both squares; below it, the two factors are not separable.
 constexpr double kLeastDeterminant = 1e-9;
-constexpr double kMostPairs = 1e15;  // which a double still counts
-// Levels between which neither sensor is saturated [1/8 grey level].
+constexpr double kMostPairs = 1e15;  // largest count that a double still increments exactly
+// Levels at which neither sensor is saturated [1/8 grey level].
 constexpr int kDarkest = 2 * kLumaScale, kBrightest = 253 * kLumaScale;
 
-/// What a frame is drawn of, at the sub-pixels of one pixel after the other.
+/// The parts from which a frame is drawn, at the sub-pixels of one pixel after the other.
 class DrawnFrame {
 public:
     DrawnFrame(const MatchedPictures& pictures, const FilterBank& filters,
@@ -51,14 +51,14 @@ public:
         compare();
     }
 
-    /// Is all known that the pixel's detail is made of?
+    /// True when all inputs of the pixel's detail are known.
     [[nodiscard]] bool knows(int x, int y) const {
         for (const int dy : {-2, 2})
             for (const int dx : {-2, 2})
                 if (!isKnown(x + dx, y + dy)) return false;
         return true;
     }
-    /// The row of the next pixels.
+    /// Starts row y.
     void begin(int y) {
         std::array<const std::int16_t*, 7> rows{};
         for (int k = 0; k < 7; ++k)
@@ -77,7 +77,7 @@ public:
     }
     struct Added {
         Phases unguided;      ///< what is added to the cubic without guidance
-        Phases still, video;  ///< what each factor of Guidance adds to that, where it is one
+        Phases still, video;  ///< what each factor of Guidance adds to that at the value one
     };
     void addedTo(int x, int y, Added& out) const {
         const Phases low = cubicOf(x, y, [&](int i, int j) { return still_.mean(i, j); });
@@ -99,8 +99,7 @@ private:
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * in_.video.width + x;
     }
-    /// What values are beyond their mean around, where the still is known; see
-    /// params::kGuideReach.
+    /// Differences of the values from their local mean over known pixels; see params::kGuideReach.
     template <class Value>
     void beyondMean(const BoxSums& counts, std::vector<float>& out, const Value& value) const {
         const BoxSums sums(in_.video,
@@ -131,7 +130,7 @@ private:
     AlignedRows<std::int16_t> range_, residual_;
 };
 
-/// In the order in which they are stored.
+/// Sums in the order in which they are stored.
 constexpr std::array kSums{&FactorSums::still2,       &FactorSums::video2,
                            &FactorSums::missing2,     &FactorSums::stillVideo,
                            &FactorSums::stillMissing, &FactorSums::videoMissing,
@@ -162,7 +161,7 @@ double FactorSums::gainOf(const Guidance& of) const {
 
 Guidance FactorSums::best(double prior) const {
     if (!(still2 > 0 && video2 > 0 && pixels > 0)) return {};
-    // What the still shows beyond the video, whatever the factor between both.
+    // The part of the still's detail that the video's detail does not explain by any factor.
     const double apart = std::max(still2 - stillVideo * stillVideo / video2, 0.0);
     const double pull = apart * prior / pixels;
     const double a2 = still2 + pull, b2 = video2 + pull;
@@ -170,7 +169,7 @@ Guidance FactorSums::best(double prior) const {
     if (!(determinant > kLeastDeterminant * a2 * b2)) return {};
     const auto stillFor = [&](double video) { return (stillMissing - video * stillVideo) / a2; };
     const auto videoFor = [&](double still) { return (videoMissing - still * stillVideo) / b2; };
-    // The free optimum, or else the best on the border that it lies beyond.
+    // The unconstrained optimum, or the best point on the border that it exceeds.
     const double free = (stillMissing * b2 - videoMissing * stillVideo) / determinant;
     double still = std::clamp(free, 0.0, 1.0);
     const double video = std::clamp(videoFor(still), 0.0, double(Guidance::kMost));
@@ -191,7 +190,7 @@ bool GuidanceLearner::add(const TrustedPairs& truth, const MatchedPictures& olde
             if (!truth.trusts(x, y) || !frame.knows(x, y) || isSaturated(older, x, y)) continue;
             frame.addedTo(x, y, added);
             const Phases missing = truth.target(x, y) - added.unguided;
-            // Every third tile is held out, by place as for filters.
+            // Every third tile is held out; the tiles are fixed, as for filters.
             FactorSums& to = (x / kTileSize + y / kTileSize) % 3 == 0 ? held : learn;
             to.add({added.still.squaredNorm(), added.video.squaredNorm(), missing.squaredNorm(),
                     added.still.dot(added.video), added.still.dot(missing),

@@ -11,44 +11,44 @@
 
 namespace mfar::enlarge {
 
-/// Least squares for two factors: products of what is missing, of what the still would add and of
-/// what taking the video's detail away would add.
+/// Least squares for two factors: products of the missing detail, the detail that the still would
+/// add, and the detail that removing the video's own would add.
 struct FactorSums {
     double still2 = 0, video2 = 0, missing2 = 0;  ///< squares
     double stillVideo = 0, stillMissing = 0, videoMissing = 0;
     double pixels = 0;
 
     void add(const FactorSums& other);
-    /// Counts what is there by this share from now on.
+    /// Multiplies all sums by `share`.
     void fade(double share);
-    /// By how much the sum of squares falls with guidance.
+    /// By how much guidance reduces the sum of squared errors.
     [[nodiscard]] double gainOf(const Guidance& of) const;
-    /// What makes it fall most, where no guidance counts like `prior` pixels.
+    /// The factors with the largest gain, with zero guidance as a prior that has the weight of
+    /// `prior` pixels.
     [[nodiscard]] Guidance best(double prior) const;
 };
 
 /// Learns FilterBank::guidance() by leaving one still out: a frame is drawn with an older still,
-/// and a new one tells what it should look like, where it matches that frame. Recursive least
-/// squares with forgetting, drawn towards none; the result is used as long as
-/// parts of the pictures that it was not learned from come nearer to the new still by it. The
-/// weight of the detail is not learned this way: a still that was warped has lost a part of its
-/// finest detail, so that one still asks for less of the other's than the scene does. On synthetic
-/// scenes that factor comes out 0.25 to 0.35 too low. Guidance comes out too low as well, but is
-/// never harmful for that.
+/// and a new still serves as ground truth where it matches that frame. Recursive least squares with
+/// forgetting and zero guidance as prior. The result is used as long as it brings held-out parts of
+/// the pictures closer to the new still. The weight of the detail is not learned this way: warping
+/// removes a part of a still's finest detail, so that one warped still asks for less of the other's
+/// detail than the scene has. On synthetic scenes that factor is 0.25 to 0.35 too low. Guidance is
+/// too low as well, but that does no harm.
 class GuidanceLearner {
 public:
     /// `truth`: the frame and the new still. `older`: the same frame and the still that it was
-    /// drawn with. `filters`: what it is enlarged by. False: nothing was learned, as too little of
-    /// both is trusted or `stop` asked for the end.
+    /// drawn with. `filters`: the enlarger's filters. False: nothing was learned, because too few
+    /// pixels are trusted in both or a stop was requested.
     bool add(const TrustedPairs& truth, const MatchedPictures& older, const FilterBank& filters,
              const std::stop_token& stop = {});
 
     [[nodiscard]] const Guidance& guidance() const { return guidance_; }
     [[nodiscard]] std::uint64_t pairs() const { return pairs_; }
-    /// Of the guidance, in the parts held out [dB].
+    /// Gain of the guidance in the held-out parts [dB].
     [[nodiscard]] double gainDb() const;
 
-    /// What is kept for a later run, and the way back. False: not numbers that stored() gives.
+    /// Numbers of stored(), for a later run, which restore() reads. False: numbers out of range.
     static constexpr std::size_t kNumbers = 17;
     [[nodiscard]] std::array<double, kNumbers> stored() const;
     [[nodiscard]] bool restore(const std::array<double, kNumbers>& numbers);

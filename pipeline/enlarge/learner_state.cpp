@@ -1,4 +1,4 @@
-// What EnlargerLearner keeps from one run to the next.
+// Stores and restores the state of EnlargerLearner between runs.
 
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/stored_numbers.h"
@@ -16,8 +16,8 @@ using namespace enlarge;
 constexpr char kMagic[] = "mfarlern";
 constexpr std::size_t kMagicSize = 8;
 constexpr std::array<std::uint64_t, 4> kHeader{4, kUnique, kTaps, kPhases};
-// Versions that are still read: without guidance, with ten numbers of a single factor, and without
-// the usual match.
+// Older versions that are still read: without guidance; with guidance of a single factor (ten
+// numbers); without the usual match.
 constexpr std::uint64_t kWithoutGuidance = 1, kOneFactor = 2, kTwoFactors = 3;
 constexpr int kOneFactorNumbers = 10;
 constexpr std::size_t kChecksumSize = 4;
@@ -74,7 +74,7 @@ public:
     }
     [[nodiscard]] std::uint64_t version() const { return version_; }
     std::uint64_t number() { return getNumber(take(8), 8); }
-    /// Neither infinite nor not a number.
+    /// A finite number.
     double real() {
         const auto out = std::bit_cast<double>(number());
         if (!std::isfinite(out)) refuse("has numbers that are not finite");
@@ -169,7 +169,7 @@ EnlargerLearner EnlargerLearner::restored(std::span<const std::uint8_t> bytes,
         out.sums_.edit(i) = in.sums();
         out.held_.edit(i) = in.sums();
     }
-    if (in.version() == kOneFactor)  // learned anew
+    if (in.version() == kOneFactor)  // skipped: guidance is learned again
         for (int i = 0; i < kOneFactorNumbers; ++i)
             (void)in.real();
     if (in.version() >= kTwoFactors &&

@@ -5,7 +5,7 @@
 
 namespace mfar::enlarge {
 
-/// The bytes of prior.filters, which the build puts into the program.
+/// The bytes of prior.filters, which the build embeds in the program.
 [[nodiscard]] std::span<const std::uint8_t> priorFilters();
 
 }  // namespace mfar::enlarge

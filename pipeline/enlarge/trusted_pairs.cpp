@@ -13,18 +13,19 @@ namespace mfar::enlarge {
 namespace {
 
 constexpr int kBorder = 8;  // video px
-// A pixel is learned from where both differ by no more than this share of the video's variance and
-// the noise. A share of 0.1 costs 0.07 dB of what is learned from photographs, as look-ups that are
-// off blur what the still shows.
+// A pixel is trusted when the mean squared difference of both pictures is at most the noise plus
+// this share of the video's variance. A share of 0.1 costs 0.07 dB of the gain on photographs,
+// because inexact look-ups blur the still.
 constexpr double kMostDifference = 0.03;
 constexpr double kLeastNoise = 1;  // variance [grey levels^2]
-constexpr int kTrustReach = 3;     // px: of 7x7
+constexpr int kTrustReach = 3;     // px: 7x7 pixels
 constexpr int kMeanReach = 8;
 constexpr double kMostShift = 0.5;  // video px
 constexpr double kStructure = 36;   // variance [grey levels^2]
 
-/// Most that noise alone makes both differ by, from the mean squares of 7x7 pixels each: those of a
-/// fifth, where nothing else does, and a half more. Less would choose pixels by their noise.
+/// Upper limit of the difference due to noise alone, from the mean squared differences over 7x7
+/// pixels: 1.5 times their 20 % quantile, where noise is the only cause. A lower limit would select
+/// pixels by their noise.
 double noiseOf(std::vector<double>& differences) {
     if (differences.empty()) return kLeastNoise;
     const auto fifth = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 5);
@@ -67,7 +68,7 @@ double TrustedPairs::videoAt(int x, int y) const {
     return in_.row(y)[x] / double(kLumaScale);
 }
 
-/// The video's level as a function of the still's: linear between the means of 16 ranges.
+/// Fits the video's level as a function of the still's: linear between the means of 16 ranges.
 void TrustedPairs::fitTone() {
     constexpr int kRanges = 16;
     struct Range {
@@ -110,8 +111,8 @@ float TrustedPairs::toneOf(float value) const {
     return tone_[level] + (value - static_cast<float>(level)) * (tone_[level + 1] - tone_[level]);
 }
 
-/// The sensors' points spread differently, everywhere alike: a symmetric kernel of 5x5 pixels is
-/// fitted, so that only what is matched wrongly counts as difference.
+/// The point spread functions of the sensors differ, uniformly over the picture: fits a symmetric
+/// kernel of 5x5 pixels, so that only wrong matches appear as differences.
 void TrustedPairs::fitBlur() {
     constexpr int kReach = 2, kWeights = 6;
     using Weights = Eigen::Matrix<double, kWeights, 1>;
@@ -154,7 +155,7 @@ void TrustedPairs::fitBlur() {
             if (isKnown(x, y)) seen_[at(x, y)] += static_cast<float>(weights.dot(around(x, y)));
 }
 
-/// What the still lacks to the video's mean over larger areas.
+/// Fits the difference of the video's mean over larger areas from the still's.
 void TrustedPairs::fitMean() {
     const auto isKnown = [&](int x, int y) { return known_[y / kCell][x / kCell] != 0; };
     const BoxSums counts(video_, [&](int x, int y) { return isKnown(x, y) ? 1.0 : 0.0; });
@@ -169,7 +170,7 @@ void TrustedPairs::fitMean() {
         }
 }
 
-/// Of each cell's pixels, what tells how far both are shifted.
+/// Per cell: sums over its pixels from which its shift is estimated.
 std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
     const auto isKnown = [&](int x, int y) { return known_[y / kCell][x / kCell] != 0; };
     std::vector<ShiftSums> out(static_cast<std::size_t>(cells_.width) * cells_.height);
@@ -187,8 +188,8 @@ std::vector<TrustedPairs::ShiftSums> TrustedPairs::shiftSums() const {
     return out;
 }
 
-/// Moves the look-ups by the fraction of a pixel that makes both alike: one step of Lucas' and
-/// Kanade's method over 12x12 pixels around each cell.
+/// Moves the look-ups by the fraction of a pixel that aligns both pictures: one Lucas-Kanade step
+/// over 12x12 pixels around each cell.
 void TrustedPairs::shift() {
     const std::vector<ShiftSums> sums = shiftSums();
     for (int y = 0; y < cells_.height; ++y)
@@ -198,7 +199,7 @@ void TrustedPairs::shift() {
             for (int j = std::max(y - 1, 0); j <= std::min(y + 1, cells_.height - 1); ++j)
                 for (int i = std::max(x - 1, 0); i <= std::min(x + 1, cells_.width - 1); ++i)
                     s.add(sums[static_cast<std::size_t>(j) * cells_.width + i]);
-            constexpr double kDamping = 400;  // [grey levels^2 / px^2]: of noise alone
+            constexpr double kDamping = 400;  // [grey levels^2 / px^2]: contribution of noise alone
             const double a = s.xx + kDamping, b = s.yy + kDamping, det = a * b - s.xy * s.xy;
             const double dx = (s.xe * b - s.ye * s.xy) / det, dy = (s.ye * a - s.xe * s.xy) / det;
             lookUps_[y][x].x +=

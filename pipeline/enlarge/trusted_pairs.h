@@ -11,28 +11,27 @@
 
 namespace mfar::enlarge {
 
-/// What the still shows at the sub-pixels of a video frame that it was matched to, as the video's
-/// sensor would show it: warped by the look-ups, shifted by the fraction of a pixel that they are
-/// off, its tone fitted to the video's, and with the video's mean over larger areas. Sensors that
-/// differ in gain and gamma leave no offset, those that differ in blur and noise do: that is to be
-/// learned.
+/// The still at the sub-pixels of a video frame that it was matched to, as the video's sensor would
+/// show it: warped by the look-ups, shifted by their sub-pixel error, with its tone and its mean
+/// over larger areas fitted to the video's. Gain and gamma of the sensors then leave no offset;
+/// their difference in blur and noise remains and is to be learned.
 class TrustedPairs {
 public:
-    /// `stop`: ends soon, without anything that is trusted.
+    /// `stop`: ends soon, without trusted pixels.
     explicit TrustedPairs(const MatchedPictures& pictures, std::stop_token stop = {});
 
     [[nodiscard]] Size size() const { return video_; }
-    /// Whether both agree around a pixel up to noise and blur.
+    /// Whether both pictures agree around a pixel, up to noise and blur.
     [[nodiscard]] bool trusts(int x, int y) const { return trusted_[y][x] != 0; }
-    /// What Keys' cubic of the video misses at the pixel's sub-pixels [grey levels].
+    /// Residual of the video's Keys' cubic at the pixel's sub-pixels [grey levels].
     [[nodiscard]] Phases target(int x, int y) const;
     [[nodiscard]] double trustedShare() const { return trustedShare_; }
-    /// Variance of the still within pixels of the video with structure, over that of the cubic: up
-    /// to one where the still is no sharper than the video.
+    /// Variance of the still within pixels of the video with structure, relative to that of the
+    /// cubic. At most one: the still is no sharper than the video.
     [[nodiscard]] double sharpness() const { return sharpness_; }
 
 private:
-    /// Products of gradients and differences, summed up.
+    /// Sums of products of gradients and differences.
     struct ShiftSums {
         double xx = 0, xy = 0, yy = 0, xe = 0, ye = 0;
         void add(const ShiftSums& other) {
@@ -43,7 +42,7 @@ private:
             ye += other.ye;
         }
     };
-    /// A value of each pixel.
+    /// One value per pixel.
     using Plane = std::vector<float>;
 
     [[nodiscard]] std::size_t at(int x, int y) const {
@@ -66,12 +65,12 @@ private:
     std::stop_token stop_;
     Size video_, cells_;
     AlignedRows<LookUpCell> lookUps_;
-    AlignedRows<std::uint8_t> known_;    // of each cell: matched
-    AlignedRows<std::uint8_t> trusted_;  // of each pixel
+    AlignedRows<std::uint8_t> known_;    // per cell: matched
+    AlignedRows<std::uint8_t> trusted_;  // per pixel
     WarpedGrid still_;
-    Plane seen_;               // its means as the video's sensor sees it, in tone and blur
-    Plane mean_;               // what that lacks over larger areas
-    std::vector<float> tone_;  // of each grey level
+    Plane seen_;               // the still's mean per pixel, in the tone and blur of the video
+    Plane mean_;               // difference of the video from seen_, mean over larger areas
+    std::vector<float> tone_;  // per grey level
     double trustedShare_ = 0, sharpness_ = 0;
 };
 

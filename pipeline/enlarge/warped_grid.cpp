@@ -9,7 +9,7 @@
 namespace mfar::enlarge {
 namespace {
 
-/// Catmull and Rom's cubic: weights of the entries at -1 to 2.
+/// Catmull-Rom cubic: weights of the entries at -1 to 2.
 std::array<float, 4> catmullRom(float t) {
     const float t2 = t * t, t3 = t2 * t;
     return {0.5F * (-t3 + 2 * t2 - t), 0.5F * (3 * t3 - 5 * t2 + 2), 0.5F * (-3 * t3 + 4 * t2 + t),
@@ -32,7 +32,7 @@ float sample(const AlignedRows<std::uint8_t>& picture, float x, float y) {
     return out;
 }
 
-/// A value between cells along one axis, of a pixel at `at` [video px].
+/// Interpolation between cells along one axis at `at` [video px].
 struct BetweenCells {
     BetweenCells(double at, int count) {
         const double cell = std::clamp((at - 1.5) / kCell, 0.0, count - 1.0);
@@ -44,7 +44,7 @@ struct BetweenCells {
     float t;
 };
 
-/// At a place in the video [px].
+/// Value at a place in the video [px].
 float between(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part, double px,
               double py) {
     const BetweenCells u(px, cells.size().width), v(py, cells.size().height);
@@ -64,7 +64,7 @@ WarpedGrid::WarpedGrid(Size video)
 
 void WarpedGrid::warp(const MatchedPictures& pictures, const AlignedRows<LookUpCell>& lookUps,
                       const AlignedRows<std::uint8_t>& known, const std::stop_token& stop) {
-    // Where a sub-pixel has several pixels of the still, it is their mean.
+    // Where several pixels of the still fall into a sub-pixel, their mean is used.
     const int samples =
         std::max(1, static_cast<int>(std::lround(pictures.scaleX * pictures.stillPerX / kGrid)));
     const int perPixel = kGrid * samples;

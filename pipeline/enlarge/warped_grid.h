@@ -15,8 +15,8 @@ class WarpedGrid {
 public:
     explicit WarpedGrid(Size video);
 
-    /// Reads the still of `pictures` where the pixels of these cells look; `known`: which cells
-    /// look anywhere. The other pixels keep their values. `stop`: ends soon.
+    /// Reads the still of `pictures` at the look-ups of the pixels of known cells; other pixels
+    /// keep their values. `known`: cells with a valid look-up. `stop`: ends soon.
     void warp(const MatchedPictures& pictures, const AlignedRows<LookUpCell>& lookUps,
               const AlignedRows<std::uint8_t>& known, const std::stop_token& stop);
 
@@ -36,11 +36,12 @@ private:
     std::vector<float> mean_;
 };
 
-/// A part of look-ups at the sub-pixels of a pixel: bilinear between cells, as detail is drawn.
+/// Values of a member of the look-ups at the sub-pixels of a pixel: bilinear between cells, as
+/// detail is drawn.
 [[nodiscard]] Phases betweenCells(const AlignedRows<LookUpCell>& cells, float LookUpCell::* part,
                                   int x, int y);
 
-/// What Keys' cubic makes of values of the pixels at the sub-pixels of one.
+/// Keys' cubic at the sub-pixels of a pixel, from the values of the pixels.
 template <class ValueAt>
 [[nodiscard]] Phases cubicOf(int x, int y, const ValueAt& valueAt) {
     const std::int16_t* cubic = FilterBank::prior().cubic();

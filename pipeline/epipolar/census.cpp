@@ -8,10 +8,11 @@ namespace mfar {
 namespace {
 
 constexpr int kRadius = simd::kCensusRadius, kSide = 2 * kRadius + 1;
-// Pixels at either end whose windows leave the picture, or all of a narrow one.
+// Upper limit of the pixels that censusAtEnd() handles: those of one end whose windows leave the
+// picture, or all of a narrow picture.
 constexpr int kMostAtEnd = 2 * kRadius;
 
-/// A few pixels from column `first` on, with the border repeated in memory of their own.
+/// Census of `count` pixels from column `first` on, from a copy of the rows with repeated border.
 void censusAtEnd(const std::uint8_t* const (&rows)[kSide], int width, int first, int count,
                  const std::uint8_t* seen, std::uint32_t* out) {
     std::array<std::array<std::uint8_t, kMostAtEnd + 2 * kRadius>, kSide> padded{};

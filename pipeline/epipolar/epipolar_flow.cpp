@@ -13,13 +13,14 @@ namespace mfar {
 namespace {
 
 constexpr float kNowhere = 1e4F;
-constexpr float kLeastWay = 0.05F;  // of a pixel, when the others' longest is one [px]
+constexpr float kLeastWay = 0.05F;  // lower limit of a pixel's motion, where the largest is 1 [px]
 // Neighbours on one slanted surface that land on the same cell differ by this much [px].
 constexpr float kSlope = 1.0F;
-// What is searched around what is asked for: room for census windows, paths, and a frame's motion.
+// Margin searched around the requested rectangle, for census windows, paths and one frame's motion.
 constexpr int kRoom = 16;  // [px]
 
-/// What is searched for `where`, in whole cells of 4x4 pixels but at the picture's end.
+/// The rectangle to search for `where`, in whole cells of 4x4 pixels except at the picture's
+/// border.
 PixelRect searchedFor(const PixelRect& where, Size video) {
     const PixelRect around = widened(where, kRoom, video);
     const auto down = [](int x) { return x / kRoom * kRoom; };
@@ -28,7 +29,7 @@ PixelRect searchedFor(const PixelRect& where, Size video) {
             up(around.y1, video.height)};
 }
 
-/// The middle two columns, or rows, of a cell, as far as the picture has them.
+/// The middle two columns (or rows) of a cell, limited to the picture.
 struct Middle {
     int first, last;
     [[nodiscard]] float middle() const { return 0.5F * static_cast<float>(first + last); }
@@ -111,7 +112,7 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
     unit_ = relative.unit;
     lengthError_ = relative.lengthError;
     search(relative, where);
-    // At the video's geometry the still keeps the video's orientation.
+    // The still is drawn in the video's geometry and orientation.
     rotation_ = (rig_.T_still_video.rotation.conjugate() * search_.pose().rotation)
                     .toRotationMatrix()
                     .cast<float>();
@@ -125,7 +126,8 @@ void EpipolarFlow::run(const Rows<const std::uint8_t>& video, const Pose& pose,
 
 void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     const PixelRect wanted = searchedFor(where, rig_.video.size);
-    // What comes into the picture, or moves by itself, is found by a search from coarse to fine.
+    // Objects that enter the picture or move by themselves are found by the search from coarse to
+    // fine.
     const bool isNew = around(search_.area(), wanted) != search_.area();
     const auto predicted = predictedFrames_ < mostPredicted_ && !isNew
                                ? prediction_.in(relative.T_other_frame, relative.unit)
@@ -135,7 +137,7 @@ void EpipolarFlow::search(const UnitPose& relative, const PixelRect& where) {
     search_.run(frame_, relative.T_other_frame, relative.covariance, ofArea(predicted));
 }
 
-// The cells of the search's area, of all.
+// The cells within the search's area, out of all cells.
 std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     if (cells.empty()) return cells;
     const PixelRect& area = search_.area();
@@ -149,7 +151,7 @@ std::span<const float> EpipolarFlow::ofArea(std::span<const float> cells) {
     return predicted_;
 }
 
-// Where nothing was searched, as beside it.
+// Outside the searched area, the value of the nearest searched pixel.
 float EpipolarFlow::nearnessAt(int x, int y) const {
     const PixelRect& area = search_.area();
     const int column = std::clamp(x, area.x0, area.x1 - 1) - area.x0;
@@ -157,8 +159,8 @@ float EpipolarFlow::nearnessAt(int x, int y) const {
     return search_.inverseDepth()[static_cast<std::size_t>(row) * (area.x1 - area.x0) + column];
 }
 
-// Where the still, at the video's geometry, shows a ray's point; far outside when it is behind, or
-// so close to beside the camera that no number of pixels means anything.
+// Where the still, at the video's geometry, shows a ray's point; far outside when the point lies
+// behind the camera, or so close to its image plane that its pixel is meaningless.
 EpipolarLens::Point EpipolarFlow::endOf(float rayX, float rayY, float s) const {
     const Eigen::Vector3f& t = search_.translation();
     const Eigen::Vector3f p = rotation_ * Eigen::Vector3f(rayX + s * (t.x() - rayX * t.z()),
@@ -193,7 +195,7 @@ simd::FlowEnds EpipolarFlow::flowEnds() const {
     return out;
 }
 
-// Rays of all cells.
+// Rays of all cells in row j.
 simd::CellRow EpipolarFlow::cellRow(int j, const float* raysX, const float* raysY) const {
     const std::size_t first = static_cast<std::size_t>(j) * cells_.width;
     return {raysX + first, raysY + first, middlesX_.data(), middlesY_[j],
@@ -208,7 +210,7 @@ const std::vector<float>& EpipolarFlow::inverseDepthOf(const Cells& flow) {
     workers_->forRange(cells_.height, 8, [&](int first, int last) {
         for (int j = first; j < last; ++j) {
             const std::size_t cell = static_cast<std::size_t>(j) * cells_.width;
-            // Both start in the middle of the cell.
+            // Both flows start in the middle of the cell.
             simd::alignCells(ends, cellRow(j, cellRays_.raysX().data(), cellRays_.raysY().data()),
                              flow.data() + cell, forward_.data() + cell, pixel, kLeastWay,
                              aligned_.data() + cell);
@@ -227,7 +229,7 @@ float EpipolarFlow::offLine(int x, int y, float flowX, float flowY) const {
     const auto pixel = static_cast<float>(1 / search_.pixelsPerUnit());
     const auto next = endOf(lens_.rayX(i), lens_.rayY(i), s + pixel);
     const float wayX = next.x - on.x, wayY = next.y - on.y, way = std::hypot(wayX, wayY);
-    // By the epipole no depth moves the pixel.
+    // Near the epipole, depth does not move the pixel.
     if (!(way > kLeastWay)) return std::hypot(dx, dy);
     return std::abs(dx * wayY - dy * wayX) / way;
 }
@@ -245,7 +247,8 @@ void EpipolarFlow::fillForward() {
     });
 }
 
-// The middle two of a cell's four central pixels: an edge between them does not pull it off.
+// Mean of the middle two of a cell's four central values: an edge between the pixels does not
+// distort it.
 float EpipolarFlow::depthOf(int i, int j) const {
     const Middle x = middleOf(i, rig_.video.size.width), y = middleOf(j, rig_.video.size.height);
     std::array<float, 4> s{nearnessAt(x.first, y.first), nearnessAt(x.last, y.first),

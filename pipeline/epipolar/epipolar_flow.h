@@ -12,8 +12,8 @@
 
 namespace mfar {
 
-/// Flow between a frame and the still from the epipolar search, ready for what works on cells of
-/// 4x4 video pixels.
+/// Flow between a frame and the still from the epipolar search, for users that work on cells of 4x4
+/// video pixels.
 class EpipolarFlow {
 public:
     /// Row-major, one entry per cell of 4x4 video pixels.
@@ -22,51 +22,51 @@ public:
     EpipolarFlow(const StereoRig& rig, std::shared_ptr<Workers> workers,
                  const EpipolarOptions& options = {});
 
-    /// As EpipolarSearch::setOptions().
+    /// See EpipolarSearch::setOptions().
     void setOptions(const EpipolarOptions& options);
 
-    /// The new reference as its sensor took it, and where the video camera was then.
+    /// Sets the new reference as its sensor took it, and the video camera's pose at that time.
     void setStill(const ImageView& still, const Pose& pose);
-    /// The same of its luma.
+    /// As above, for luma.
     void setStill(const Rows<const std::uint8_t>& still, const Pose& pose);
     void dropStill();
     [[nodiscard]] bool hasStill() const { return stillPose_.has_value(); }
 
-    /// Refines the relative pose and searches; needs a still. Then forward(), hidden() and
-    /// search() are of this frame. What is not in `where` [video px], or a little beside it, may
-    /// not be searched: it counts as far away as what is next to it and was searched. Must not
-    /// be empty.
+    /// Refines the relative pose and searches; needs a still. Afterwards forward(), hidden() and
+    /// search() hold the results of this frame. Pixels outside `where` [video px] and a margin
+    /// around it may not be searched: they take the depth of the nearest searched pixel. `where`
+    /// must not be empty.
     void run(const ImageView& video, const Pose& pose, const PixelRect& where);
     void run(const ImageView& video, const Pose& pose) {
         run(video, pose, {0, 0, rig_.video.size.width, rig_.video.size.height});
     }
-    /// The same of the frame's luma.
+    /// As above, for the frame's luma.
     void run(const Rows<const std::uint8_t>& video, const Pose& pose, const PixelRect& where);
 
     /// Video -> still: flow x, y [video px at the video's geometry], -, -.
     [[nodiscard]] const Cells& forward() const { return forward_; }
-    /// What eq. 2 calls the two-way error [px], -, -, -. From a z-test: how much less parallax a
-    /// cell has than the nearest surface that lands on the same place of the still.
+    /// The two-way error of eq. 2 [px], -, -, -. It comes from a z-test: by how much less parallax
+    /// a cell has than the nearest surface that lands on the same cell of the still.
     [[nodiscard]] const Cells& hidden() const { return hidden_; }
-    /// s of every cell, as close as its line comes to where a flow field ends, such as forward()
-    /// once it was refined in both dimensions.
+    /// Inverse depth s of every cell whose epipolar flow comes closest to `flow`, for example
+    /// forward() after its refinement in both dimensions.
     [[nodiscard]] const std::vector<float>& inverseDepthOf(const Cells& flow);
     /// Flow at every video pixel, x, y interleaved; far outside where the still cannot see it.
     [[nodiscard]] std::vector<float> flow() const;
-    /// Distance of a flow at a pixel from the pixel's epipolar line; without parallax, where the
-    /// line is a point, from that [px].
+    /// Distance of a flow at a pixel from the pixel's epipolar line [px]. Without parallax the line
+    /// is a point: the distance from that point.
     [[nodiscard]] float offLine(int x, int y, float flowX, float flowY) const;
-    /// Its unit of length is the distance between the still's camera and the frame's.
+    /// The search's unit of length is the distance between the still's camera and the frame's.
     [[nodiscard]] const EpipolarSearch& search() const { return search_; }
-    /// That unit [unit of length of the poses].
+    /// The search's unit of length [unit of length of the poses].
     [[nodiscard]] double unit() const { return unit_; }
-    /// UnitPose::lengthError of it.
+    /// See UnitPose::lengthError.
     [[nodiscard]] double lengthError() const { return lengthError_; }
-    /// Turns the frame's rays into the still at the video's geometry.
+    /// Rotates the frame's rays into the still at the video's geometry.
     [[nodiscard]] const Eigen::Matrix3f& rotation() const { return rotation_; }
-    /// Luma of the frame; valid as long as what run() was given.
+    /// Luma of the frame; valid as long as the input of run().
     [[nodiscard]] const Rows<const std::uint8_t>& luma() const { return frame_; }
-    /// Was the last frame searched around what the one before it showed?
+    /// True when the last frame was searched around the prediction from the frame before it.
     [[nodiscard]] bool predicted() const { return predictedFrames_ > 0; }
 
 private:
@@ -87,19 +87,19 @@ private:
     std::shared_ptr<Workers> workers_;
     int mostPredicted_;
     FieldPrediction prediction_;
-    int predictedFrames_ = 0;  // since the last that was searched from coarse to fine
+    int predictedFrames_ = 0;  // since the last search from coarse to fine
     EpipolarLens lens_, cellRays_;
     Eigen::Matrix3f rotation_;
     double unit_ = 1, lengthError_ = 0;
     std::optional<Pose> stillPose_;
-    LumaImage luma_;  // where run() was given another format
+    LumaImage luma_;  // filled when the input of run() has another format
     Rows<const std::uint8_t> frame_;
     Cells forward_, hidden_;
     std::vector<float> predicted_;
     std::vector<float> nearness_, aligned_,
-        nearest_;  // s per cell of the video, and landed per cell of the still
+        nearest_;  // s per cell of the video; nearest s that landed on each cell of the still
     std::vector<std::int32_t> landing_;  // cell of the still
-    // Of the four middle pixels of each cell.
+    // Rays of the four middle pixels of each cell.
     std::vector<float> middleRaysX_, middleRaysY_;
     std::vector<float> middlesX_, middlesY_;  // [px], by column and by row
 };

@@ -3,7 +3,7 @@
 namespace mfar {
 namespace {
 
-// Rays are followed beyond the picture by this factor, if the lens does not fold them back before.
+// Rays are followed beyond the picture up to this factor, unless the lens folds them back before.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace
@@ -50,7 +50,7 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level)
     const auto pixels = static_cast<std::size_t>(size_.width) * size_.height;
     rays_->x.reserve(pixels);
     rays_->y.reserve(pixels);
-    double rim = 0;  // of the picture's corners, squared
+    double rim = 0;  // largest squared radius of the picture's corners
     Eigen::Vector2d ray(0, 0);
     for (int y = 0; y < size_.height; ++y) {
         for (int x = 0; x < size_.width; ++x) {
@@ -61,7 +61,7 @@ EpipolarLens::EpipolarLens(const CameraModel& camera, int level)
             rim = std::max(rim, ray.squaredNorm());
         }
     }
-    // A picture of one pixel has one ray, which may be the axis.
+    // A picture of one pixel has one ray, which may be the optical axis.
     lens_.rim2 = std::max(
         static_cast<float>(std::pow(rimOf(camera, std::sqrt(rim), kBeyondPicture), 2)), 1e-12F);
 }
@@ -75,7 +75,7 @@ void EpipolarLens::cover(const EpipolarLens& whole, const PixelRect& pixels) {
         rays_ = whole.rays_;
         return;
     }
-    // The memory of the last part is used again, but not a table that others read.
+    // Reuses the memory of the last part, unless other copies share the table.
     if (rays_.use_count() > 1) rays_ = std::make_shared<Rays>();
     const auto take = [&](const std::vector<float>& from, std::vector<float>& to) {
         to.clear();

@@ -13,30 +13,31 @@ namespace mfar {
 /// Largest radius of the rays (x/z, y/z) through the picture's corners.
 [[nodiscard]] double cornerRadius(const CameraModel& camera);
 
-/// Largest radius of a ray that the lens's radial distortion does not fold back, from `picture`,
-/// that of the picture's corners, to `beyond` times as much.
+/// Largest radius of a ray that the lens's radial distortion does not fold back, searched from
+/// `picture`, the radius of the picture's corners, to `beyond` times that radius.
 [[nodiscard]] double rimOf(const CameraModel& camera, double picture, double beyond);
 
 /// The rays of a camera's pixels at one pyramid level, and where a translation moves them. Copies
 /// share the table of the rays.
 ///
-/// The state is s [1/unit of length], the inverse depth seen from the second view: a point at ray
-/// r = (x, y) with depth Z, seen from a camera of the same orientation that moved so that points
-/// move by t, lies at r + s (t.xy - r t.z) with s = 1 / (Z + t.z). It is linear in s, so equal
-/// steps of s are equal steps on the epipolar line; rho = s / (1 - s t.z) (Hartley and
-/// Zisserman, 9.5).
+/// The state is s [1/unit of length], the inverse depth seen from the second view. A point at ray
+/// r = (x, y) with depth Z is seen by a camera of the same orientation whose motion moves points
+/// by t. There it lies at r + s (t.xy - r t.z) with s = 1 / (Z + t.z). This is linear in s, so
+/// equal steps of s are equal steps on the epipolar line. The inverse depth in the first view is
+/// rho = s / (1 - s t.z) (Hartley and Zisserman, 9.5).
 class EpipolarLens {
 public:
-    /// `camera` of the finest level, `level` halvings; size is halved and rounded up each time.
+    /// `camera`: the camera of the finest level; `level`: number of halvings, each of which rounds
+    /// the size up.
     EpipolarLens(const CameraModel& camera, int level);
 
-    /// Becomes a lens over these pixels of `whole` alone.
+    /// Becomes a lens for these pixels of `whole` only.
     void cover(const EpipolarLens& whole, const PixelRect& pixels);
 
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] float rayX(std::size_t pixel) const { return rays_->x[pixel]; }
     [[nodiscard]] float rayY(std::size_t pixel) const { return rays_->y[pixel]; }
-    /// Of all pixels, row-major.
+    /// The rays of all pixels, row-major.
     [[nodiscard]] const std::vector<float>& raysX() const { return rays_->x; }
     [[nodiscard]] const std::vector<float>& raysY() const { return rays_->y; }
     /// For kernels.
@@ -45,10 +46,10 @@ public:
     struct Point {
         float x, y;
     };
-    /// Ray (x / z, y / z) to pixel of this level, with the lens's distortion. Rays beyond what the
-    /// lens can show are held at its rim, so that distortion never folds them back.
+    /// Ray (x / z, y / z) to pixel of this level, with the lens's distortion. Rays beyond the
+    /// lens's rim are moved to the rim, so that distortion never folds them back.
     [[nodiscard]] Point project(float x, float y) const {
-        // No branch, so that loops over pixels become vectors.
+        // No branch, so that the compiler vectorizes loops over pixels.
         const float r2 = x * x + y * y;
         const float c = std::sqrt(lens_.rim2 / std::max(r2, lens_.rim2));
         x *= c;
@@ -60,9 +61,9 @@ public:
                 lens_.fy * (y * radial + lens_.p2 * xy + lens_.p1 * (q + 2 * y * y)) + lens_.cy};
     }
 
-    /// The pixel that holds a point, row-major; -1 outside of the picture.
+    /// Row-major index of the pixel that contains a point; -1 outside the picture.
     [[nodiscard]] int pixelAt(Point p) const {
-        // Truncation, as there is no rounding instruction on the oldest x86.
+        // Truncates, because the oldest x86 has no rounding instruction.
         const float u = p.x + 0.5F, v = p.y + 0.5F;
         const bool inside = u >= 0 && v >= 0 && u < static_cast<float>(size_.width) &&
                             v < static_cast<float>(size_.height);
@@ -76,7 +77,7 @@ private:
 
     Size size_;
     simd::Lens lens_;
-    std::shared_ptr<Rays> rays_;  // written only while nobody shares it
+    std::shared_ptr<Rays> rays_;  // written only while it is not shared
 };
 
 }  // namespace mfar

@@ -1,4 +1,4 @@
-// Where labels lie on epipolar lines: what they cost there, and what lies between them.
+// Labels on epipolar lines: their matching costs, and sub-label positions.
 #include "pipeline/epipolar/epipolar_search.h"
 
 namespace mfar {

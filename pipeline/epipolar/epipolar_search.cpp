@@ -11,9 +11,9 @@
 namespace mfar {
 namespace {
 
-// The coarsest level has at least this many pixels on its short side.
+// Lower limit of the coarsest level's short side [px].
 constexpr int kCoarsest = 60;
-// Labels beyond infinity at the finest level: the slack for noise and errors of the pose.
+// Labels beyond infinity at the finest level: room for noise and errors of the pose.
 constexpr int kBeyond = 4;
 constexpr int kSmallestCanvas = 16;
 constexpr int kMostStep = 30;
@@ -26,8 +26,9 @@ Smoothness smoothnessFor(double noise, const EpipolarOptions& options) {
             .noise = 2 * noise};
 }
 
-// Weight of a neighbour before the census: nothing below one grey level of noise (smoothing costs
-// a third more bad pixels on clean pictures), the full three-pixel binomial from four on.
+// Weight of a neighbour in the smoothing before the census: zero up to a noise of one grey level
+// (smoothing increases the bad pixels of clean pictures by a third), the full three-pixel binomial
+// above a noise of about two.
 float smoothingFor(double noise) {
     return static_cast<float>(std::clamp(0.2 * (noise - 1.0), 0.0, 0.25));
 }
@@ -45,7 +46,7 @@ std::size_t pixelsOf(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-/// Vectors of labels of the whole picture, at the level that needs most.
+/// Number of label vectors of the whole picture, at the level that needs the most.
 std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     const std::size_t finest = pixelsOf(size);
     const double longest = options.longestParallax * size.width;
@@ -59,23 +60,24 @@ std::size_t mostVectors(Size size, const EpipolarOptions& options) {
     return std::max(finest, coarsest * pixelsOf(size));
 }
 
-/// A label that may be searched around; of one that is no number, infinity's.
+/// Clamps a label to the range that can be searched; NaN becomes the label beyond infinity.
 float soundLabel(float label, float longest) {
     return label > -kBeyond ? std::min(label, longest) : static_cast<float>(-kBeyond);
 }
 
-// From as many patches the median of their distances is the better guess than the pose's
-// covariance.
+// With at least this many patches, the median of their distances is a better estimate than the
+// pose's covariance.
 constexpr int kEnoughPatches = 16;
 
-/// What a pose's doubt moves the lines by [px]: its rotation, as what is far shows it.
+/// How far a pose's uncertainty shifts the lines [px]: the effect of its rotation, as on distant
+/// points.
 double normalErrorOf(const Matrix6& covariance, double focal) {
     constexpr double kNoLine = 1e6;  // [px]
     const double variance = covariance.topLeftCorner<3, 3>().trace() / 3;
     return variance > 0 ? std::min(focal * std::sqrt(variance), kNoLine) : 0;
 }
 
-// The pixel of a level in which a pixel of the finest lies.
+// Index of a level's pixel that contains a pixel of the finest level.
 std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     const double scale = 1 << level;
     const int x = std::min(static_cast<int>((pixel.x() + 0.5) / scale), size.width - 1);
@@ -83,7 +85,7 @@ std::size_t coarseIndex(const Eigen::Vector2d& pixel, Size size, int level) {
     return static_cast<std::size_t>(y) * size.width + x;
 }
 
-// The same camera with a sensor of these pixels alone.
+// The same camera with a sensor that has only these pixels.
 CameraModel partOf(CameraModel camera, const PixelRect& pixels) {
     camera.size = {pixels.x1 - pixels.x0, pixels.y1 - pixels.y0};
     camera.cx -= pixels.x0;
@@ -113,7 +115,7 @@ EpipolarSearch::EpipolarSearch(const StereoRig& rig, std::shared_ptr<Workers> wo
 }
 
 void EpipolarSearch::setArea(const PixelRect& pixels) {
-    // Of a pixel of the coarsest level, so that the levels' pixels stay where they are.
+    // One pixel of the coarsest level, so that the pixels of all levels keep their places.
     const int grid = 1 << (levels_.size() - 1);
     const auto up = [&](int x, int most) { return std::min((x + grid - 1) / grid * grid, most); };
     const PixelRect area{pixels.x0 / grid * grid, pixels.y0 / grid * grid,
@@ -156,7 +158,7 @@ bool EpipolarSearch::run(const Rows<const std::uint8_t>& video, const RigidTrans
     videoNoise_ = noiseOf(levels_[0].video);
     refinement_ = {};
     normalError_ = 0;
-    // What is predicted is searched for at one level; patches need two.
+    // A predicted field is searched at one level only; patches need two levels.
     const int all = static_cast<int>(levels_.size());
     const int searched = predicted.empty() ? all : finestLevel() + 1;
     const int drawn = covariance ? std::min(std::max(searched, 2), all) : searched;
@@ -188,8 +190,8 @@ int EpipolarSearch::finestLevel() const {
     return std::min(options_.finest, static_cast<int>(levels_.size()) - 1);
 }
 
-// A pixel takes what the one that covers it at a coarser level found: cells of 4x4 pixels take
-// their middle from four of them.
+// A pixel takes the value of the coarser pixel that covers it. For cells of 4x4 pixels half size
+// suffices: their four middle pixels lie in four different pixels of that level.
 void EpipolarSearch::readInverseDepth() {
     const int finest = finestLevel();
     const Level& level = levels_[finest];
@@ -225,8 +227,8 @@ bool EpipolarSearch::place(const RigidTransform& told, int levels) {
     return true;
 }
 
-// The coarsest level's pixels are so large that the lines of a pose yet to be refined still lead
-// past their matches; what is predicted comes from refined ones.
+// Without a prediction, the depths come from the coarsest level: its pixels are so large that the
+// lines of an unrefined pose still pass through the matches. Predictions come from refined poses.
 void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> predicted) {
     const PosePrior prior{translation_.cast<double>(), covariance};
     const Level& half = levels_[std::min<std::size_t>(1, levels_.size() - 1)];
@@ -249,8 +251,8 @@ void EpipolarSearch::refine(const Matrix6& covariance, std::span<const float> pr
                                                         : refinement_.normalAfter;
 }
 
-// The still as seen in the frame's orientation: the rotation is exact for every depth. The canvas
-// holds what of it a parallax can reach.
+// The still rotated into the frame's orientation: the rotation is exact for every depth. The canvas
+// holds the part of it that a parallax can reach.
 bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels) {
     const double beyond = options_.longestParallax * whole_.size.width / video_.size.width;
     turned_.place(video_, still_, R_still_video, beyond);
@@ -274,7 +276,7 @@ bool EpipolarSearch::turnStill(const Eigen::Matrix3d& R_still_video, int levels)
     return true;
 }
 
-// One label is one pixel where a change of s moves the picture most.
+// One label is one pixel where a change of s moves the picture the most.
 void EpipolarSearch::measureParallax() {
     const EpipolarLens& lens = levels_[0].lens;
     const Size size = lens.size();
@@ -364,7 +366,8 @@ void EpipolarSearch::match(int index, int vectors) {
         placeLabels(index);
 }
 
-// The window of a pixel covers what the coarser level found around it, with room on both sides.
+// The window of a pixel covers the labels that the coarser level found around it, with room on both
+// sides.
 void EpipolarSearch::centreWindows(const Coarser& coarse, Level& fine) {
     constexpr int kRoom = 2;
     const Size from = coarse.size, to = fine.lens.size();

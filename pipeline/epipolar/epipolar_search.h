@@ -18,13 +18,13 @@
 
 namespace mfar {
 
-/// The still camera with a sensor of about as many pixels per ray as the video camera's.
+/// The still camera, scaled to about as many pixels per ray as the video camera, or fewer.
 [[nodiscard]] CameraModel atScaleOf(const StereoRig& rig);
 
 /// Dense matching of a video frame with a still whose relative pose is known: a search along each
 /// pixel's epipolar line, coarse to fine, with a census cost and semi-global smoothness.
 ///
-/// Runs on the host's processor; no GL.
+/// Runs on the CPU, without GL.
 class EpipolarSearch {
 public:
     /// Throws std::invalid_argument for options out of range.
@@ -35,39 +35,41 @@ public:
     /// std::invalid_argument for options out of range.
     void setOptions(const EpipolarOptions& options) { options_ = changed(options_, options); }
 
-    /// The still as its sensor took it.
+    /// Sets the still as its sensor took it.
     void setStill(const ImageView& still);
-    /// The same of its luma.
+    /// As above, for the still's luma.
     void setStill(const Rows<const std::uint8_t>& still);
 
-    /// Searches for these pixels of the video alone from now on, and for what is around them up to
-    /// a grid of a few pixels. At first the area is the whole picture.
+    /// From now on, searches only these pixels of the video, widened to a grid of a few pixels.
+    /// Initially the area is the whole picture.
     void setArea(const PixelRect& pixels);
     [[nodiscard]] const PixelRect& area() const { return area_; }
-    /// Of the video's whole picture.
+    /// The lens for the video's whole picture.
     [[nodiscard]] const EpipolarLens& videoLens() const { return lenses_.front(); }
 
-    /// `T_still_video`: video camera coordinates at the frame's time to still camera coordinates at
-    /// the still's; its unit of length is free. `covariance`: of a small motion x, T_still_video *
-    /// exp(x); with it the pose is refined from the pictures first, without it taken as exact.
-    /// `predicted`: about s of every cell of 4x4 pixels of the area, row-major; the coarser levels,
-    /// which would find it, are then left out. Returns false, and a field of zeros, where nothing
-    /// of the still is in reach or the pose is none (soundMotion()). `video`: the whole picture.
+    /// `video`: the whole picture. `T_still_video`: from video camera coordinates at the frame's
+    /// time to still camera coordinates at the still's time; its unit of length is free.
+    /// `covariance`: of a small motion x with T_still_video * exp(x). If given, the pose is first
+    /// refined from the pictures; otherwise it is taken as exact. `predicted`: approximate s of
+    /// every cell of 4x4 pixels of the area, row-major; if given, the coarser levels, which would
+    /// find it, are skipped. Returns false and a field of zeros when no part of the still is in
+    /// reach or the pose is invalid (soundMotion()).
     bool run(const Rows<const std::uint8_t>& video, const RigidTransform& T_still_video,
              const std::optional<Matrix6>& covariance = std::nullopt,
              std::span<const float> predicted = {});
 
-    /// The T_still_video whose lines were searched, and what led to it.
+    /// The T_still_video whose lines were searched; refinement() describes how it was found.
     [[nodiscard]] const RigidTransform& pose() const { return pose_; }
     [[nodiscard]] const PoseRefinement& refinement() const { return refinement_; }
-    /// How far matches are to be expected beside the lines [px]; levels where that is more than
-    /// half a pixel are searched a pixel to both sides of each line as well.
+    /// Expected distance of matches from the lines [px]. Levels where it exceeds half a pixel also
+    /// search one pixel to both sides of each line.
     [[nodiscard]] double normalError() const { return normalError_; }
 
-    /// Per pixel of the area: s [1/unit of length], see EpipolarLens. Less than zero where the best
-    /// match lies beyond infinity, as noise and errors of the pose make it.
+    /// Per pixel of the area: s [1/unit of length], see EpipolarLens. Less than zero where noise or
+    /// errors of the pose put the best match beyond infinity.
     [[nodiscard]] const std::vector<float>& inverseDepth() const { return inverseDepth_; }
-    /// Longest way of a pixel per unit of s [px]; zero: no parallax, nothing was searched.
+    /// Largest motion of a pixel per unit of s [px]; zero: there is no parallax and nothing was
+    /// searched.
     [[nodiscard]] double pixelsPerUnit() const { return pixelsPerUnit_; }
     /// Translation of points from the frame to the still, in the frame's orientation.
     [[nodiscard]] const Eigen::Vector3f& translation() const { return translation_; }
@@ -77,7 +79,7 @@ public:
 private:
     struct Level {
         EpipolarLens lens;
-        PixelOffset origin;  // of the still's canvas, in pixels of the lens
+        PixelOffset origin;  // of the still's canvas [px of the lens]
         LumaImage video, still, smoothVideo, smoothStill;
         std::vector<std::uint8_t> seen;
         std::vector<std::uint32_t> videoCensus, stillCensus;
@@ -100,7 +102,7 @@ private:
     void searchAround(std::span<const float> predicted);
     void refine(const Matrix6& covariance, std::span<const float> predicted);
     void prepare(int index);
-    /// About the labels of a level at `scale` of its size, each covering 2^shift pixels.
+    /// Approximate labels from a level at `scale` of its size, each covering 2^shift pixels.
     struct Coarser {
         const std::vector<float>& labels;
         Size size;
@@ -115,13 +117,14 @@ private:
     void placeLabels(int index);
 
     EpipolarOptions options_;
-    CameraModel whole_, video_, still_;  // the area's is video_; the still's: atScaleOf()
+    CameraModel whole_, video_, still_;  // video_: the part that is the area; still_: see
+                                         // atScaleOf()
     PixelRect area_;
-    std::vector<EpipolarLens> lenses_;  // of the whole picture's levels
+    std::vector<EpipolarLens> lenses_;  // one per level, for the whole picture
     std::shared_ptr<Workers> workers_;
     TurnedPicture turned_;
     std::vector<Level> levels_;
-    LumaImage picture_;  // of the still
+    LumaImage picture_;  // the still
     SemiGlobal matcher_;
     std::vector<Valley> valleys_;
     RigidTransform pose_;  // T_still_video

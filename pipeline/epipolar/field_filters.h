@@ -7,15 +7,15 @@
 
 namespace mfar {
 
-/// Median over 3x3 values; the border repeats. `in` and `out` differ and have size's pixels.
-/// Each median is multiplied by `scale`.
+/// Median over 3x3 values, multiplied by `scale`; the border repeats. `in` and `out` must differ
+/// and have `size` pixels.
 void median3x3(const std::vector<float>& in, Size size, Workers& workers, std::vector<float>& out,
                float scale = 1);
 
-/// Least and greatest value within `radius` columns and rows of each pixel.
+/// Minimum and maximum within `radius` columns and rows of each pixel.
 struct LocalRange {
     std::vector<float> low, high;
-    std::vector<float> lowAlong, highAlong;  ///< scratch: along rows alone
+    std::vector<float> lowAlong, highAlong;  ///< scratch: extremes along rows only
 };
 void localRange(const std::vector<float>& in, Size size, int radius, LocalRange& out);
 

@@ -2,8 +2,8 @@
 
 namespace mfar {
 
-/// A ray of length-one depth that is turned into another camera's frame must be left with this much
-/// of it [share]; nearer to that camera's image plane its projection is not to be trusted.
+/// Lower limit of the depth that a ray of depth one keeps when it is rotated into another camera's
+/// frame [share]. Nearer to that camera's image plane its projection is unreliable.
 inline constexpr double kNearPlane = 0.05;
 
 }  // namespace mfar

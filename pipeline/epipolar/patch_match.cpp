@@ -9,15 +9,15 @@
 namespace mfar {
 namespace {
 
-// Structure tensors are summed in blocks of this side, a patch is two by two of them.
+// Structure tensors are summed over blocks of this side; a patch is two by two blocks.
 constexpr int kBlock = kPatch / 2;
-constexpr int kPlaces = 300;  // at least, where blocks are many
+constexpr int kPlaces = 300;  // at least, if there are enough blocks
 constexpr int kPixels = kPatch * kPatch;
-// Least correlation of a match, and how much less a place apart from it must have.
+// Lower limit of a match's correlation, and by how much a distant rival must be worse.
 constexpr double kLeastScore = 0.75;
 constexpr double kRival = 0.06;
 constexpr double kRivalDistance = 2.5;  // [px]
-// Inverse-compositional steps, and how far they may lead [px].
+// Upper limits of the inverse-compositional steps and of their total length [px].
 constexpr int kMatchSteps = 6;
 constexpr float kLongestWay = 1.5F, kShortStep = 0.01F;
 constexpr double kFar = 1e6;  // beyond any picture [px]
@@ -41,8 +41,8 @@ struct Tensor {
     }
 };
 
-/// Of central differences, which are twice the gradient. (i, j) starts at pixel 1 + kBlock (i, j),
-/// so that differences need no pixel beyond the border.
+/// Structure tensors of central differences, which are twice the gradient. Block (i, j) starts at
+/// pixel 1 + kBlock (i, j), so that differences need no pixel beyond the border.
 struct TensorField {
     int width = 0, height = 0;
     std::vector<Tensor> blocks;
@@ -90,7 +90,7 @@ public:
         : own_(picture.row(place.y) + place.x), stride_(picture.size.width),
           self_(own_, stride_, own_, stride_) {}
 
-    /// In [-1, 1]; 0 where either patch is even.
+    /// Correlation in [-1, 1]; 0 where either patch is uniform.
     [[nodiscard]] double with(const LumaImage& picture, int x, int y) const {
         const Sums sums(own_, stride_, picture.row(y) + x, picture.size.width);
         const double powers = self_.power() * sums.power();
@@ -109,7 +109,7 @@ struct Candidate {
     double score = -1;
 };
 
-/// Takes the mean away and returns the norm of what is left.
+/// Subtracts the mean and returns the norm of the rest.
 float withoutMean(Grey& values) {
     float sum = 0, squares = 0;
     for (const float v : values)
@@ -121,7 +121,8 @@ float withoutMean(Grey& values) {
     return std::sqrt(squares);
 }
 
-/// The patch and its gradient without their means, and the inverse of the gradient's tensor.
+/// The patch and its gradient without their means, and the inverse of the gradient's structure
+/// tensor.
 class Template {
 public:
     Template(const LumaImage& picture, PatchPlace place) {
@@ -143,7 +144,7 @@ public:
         if (tensor.determinant() > 1) inverse_ = tensor.inverse();
     }
 
-    /// How far a patch without its mean, of that norm, lies beyond its place [px].
+    /// Displacement from its place [px] of a patch with its mean subtracted and with norm `norm`.
     [[nodiscard]] Eigen::Vector2f step(const Grey& seen, float norm) const {
         const float gain = norm_ / norm;
         Eigen::Vector2f sum = Eigen::Vector2f::Zero();
@@ -158,7 +159,7 @@ private:
     Eigen::Matrix2f inverse_ = Eigen::Matrix2f::Zero();
 };
 
-/// The patch at a place between pixels, bilinear, without its mean; returns its norm.
+/// Samples the patch at a sub-pixel place, bilinearly; subtracts the mean and returns the norm.
 float sample(const LumaImage& picture, const Eigen::Vector2f& first, Grey& out) {
     const int x = static_cast<int>(first.x()), y = static_cast<int>(first.y());
     const float u = first.x() - static_cast<float>(x), v = first.y() - static_cast<float>(y);
@@ -181,7 +182,7 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     if (field.width < 2 || field.height < 2) return out;
     const int right = field.width - 1, bottom = field.height - 1;
     const int cell = std::max(2, static_cast<int>(std::sqrt(1.0 * right * bottom / kPlaces)));
-    // Of a central difference's square: twice the noise's variance, and what rounding adds.
+    // Twice what noise contributes to the squared central differences, plus the effect of rounding.
     const double least = kPixels * (4 * noise * noise + 8);
     for (int j0 = 0; j0 < bottom; j0 += cell) {
         for (int i0 = 0; i0 < right; i0 += cell) {
@@ -201,7 +202,8 @@ std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise) {
     return out;
 }
 
-// A pixel more than the patch, for what lies between pixels. What is seen is nearly convex.
+// One pixel more than the patch, for bilinear samples. The corners suffice: the seen area is nearly
+// convex.
 bool PatchMatcher::shows(int x, int y) const {
     const int w = to_.size.width;
     if (x < 0 || y < 0 || x + kPatch >= w || y + kPatch >= to_.size.height) return false;

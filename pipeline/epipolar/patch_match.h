@@ -23,33 +23,34 @@ struct PatchPlace {
     }
 };
 
-/// The place of most texture in each of 300 to 700 equal cells of the picture, fewer in a small
-/// one: where the smaller eigenvalue of the structure tensor is greatest. None where that is no
-/// more than what `noise`, the standard deviation of a pixel [grey levels], makes of an even
-/// picture. Source: Shi and Tomasi, CVPR 1994.
+/// The place with the most texture in each of 300 to 700 equal cells of the picture (fewer in a
+/// small picture): where the smaller eigenvalue of the structure tensor is largest. A cell has no
+/// place if that eigenvalue could be due to noise alone. `noise`: standard deviation of a pixel
+/// [grey levels]. Source: Shi and Tomasi, CVPR 1994.
 [[nodiscard]] std::vector<PatchPlace> texturedPlaces(const LumaImage& picture, double noise);
 
-/// Where to look for a patch: whole steps of one pixel about `middle`, so many to both sides.
+/// Where to look for a patch: this number of one-pixel steps from `middle` to either side.
 struct PatchWindow {
     Eigen::Vector2d middle;  ///< where the patch's middle is expected [px]
     Eigen::Vector2d along;   ///< unit vector
     int alongSteps = 0, acrossSteps = 0;
 };
 
-/// Finds patches of one picture in another, whatever the gain and offset of either. Borrows both.
+/// Finds patches of one picture in another, independent of the gain and offset of either. Borrows
+/// both.
 class PatchMatcher {
 public:
-    /// `seen`: 1 where `to` is known, a byte a pixel.
+    /// `seen`: one byte per pixel, 1 where `to` is valid.
     PatchMatcher(const LumaImage& from, const LumaImage& to, const std::vector<std::uint8_t>& seen)
         : from_(from), to_(to), seen_(seen) {}
 
-    /// The middle of the best place by zero-mean normalised correlation, to a pixel. Nothing when
-    /// none fits well, or two that lie apart fit as well.
+    /// The middle of the best place by zero-mean normalised correlation, to one pixel. Empty when
+    /// no place fits well, or when two places that lie apart fit equally well.
     [[nodiscard]] std::optional<Eigen::Vector2d> find(PatchPlace place,
                                                       const PatchWindow& window) const;
 
-    /// The same between pixels, by inverse-compositional steps from `near`; nothing when they lead
-    /// away from there. Source: Baker and Matthews, IJCV 2004.
+    /// Refines `near` to sub-pixels by inverse-compositional steps; empty when they lead too far
+    /// away. Source: Baker and Matthews, IJCV 2004.
     [[nodiscard]] std::optional<Eigen::Vector2d> polish(PatchPlace place,
                                                         const Eigen::Vector2d& near) const;
 

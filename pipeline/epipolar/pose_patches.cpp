@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-// Steps across an epipolar line, at most [px of the level that is searched].
+// Upper limit of the steps across an epipolar line [px of the level that is searched].
 constexpr int kMostSteps = 8;
 
 /// Searches the patches of one level.
@@ -29,7 +29,7 @@ public:
         if (!placed) return std::nullopt;
         Eigen::Vector2d seen = toFull(*placed + originOf(half_));
         if (scale_ > 1) {
-            // The patch of the same middle; its own texture may be too little.
+            // The full-size patch with the same middle; it may have too little texture of its own.
             const PatchPlace inner{2 * place.x + kPatch / 2, 2 * place.y + kPatch / 2};
             if (const auto finer = atFull_.polish(inner, seen - originOf(full_)))
                 seen = *finer + originOf(full_);
@@ -46,14 +46,14 @@ private:
         return ((pixel.array() + 0.5) * scale_ - 0.5).matrix();
     }
 
-    /// That of the pixel at half size in which a point lies, which is in the picture.
+    /// Ray of the half-size pixel that contains a point. The point must be in the picture.
     [[nodiscard]] Eigen::Vector2d rayNear(const Eigen::Vector2d& point) const {
         const auto pixel = static_cast<std::size_t>(point.y()) * half_.lens.size().width +
                            static_cast<std::size_t>(point.x());
         return {half_.lens.rayX(pixel), half_.lens.rayY(pixel)};
     }
 
-    /// Camera pixel at half size.
+    /// Pixel of the camera at half size.
     [[nodiscard]] Eigen::Vector2d pointAt(const Eigen::Vector2d& ray, double s) const {
         const Eigen::Vector3d& t = prior_.pose.translation;
         const Eigen::Vector2d moved = ray + s * (t.head<2>() - ray * t.z());
@@ -80,7 +80,8 @@ private:
         out.middle = expected - originOf(half_);
         const Eigen::Vector2d across(-out.along.y(), out.along.x());
         out.acrossSteps = stepsFor(across.dot(spread * across));
-        // A short way leaves the rest of the prior's error along the line to be found as well.
+        // A short search along the line does not cover the prior's error in that direction: extend
+        // it.
         if (out.alongSteps <= 1) out.alongSteps = stepsFor(out.along.dot(spread * out.along));
         return out;
     }

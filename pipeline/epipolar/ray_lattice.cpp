@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-// Points more on each side than asked for, as the next frame asks for some beside these.
+// Extra points on each side of the requested ones, because the next frame asks for some of them.
 constexpr int kRoom = 4;
 
 }  // namespace
@@ -53,7 +53,7 @@ void RayLattice::cover(const PixelRect& points) {
             }
             const Eigen::Vector2d pixel(kStep * i, kStep * j);
             const Eigen::Vector2d ray = camera_.unproject(pixel);
-            // Beyond its fold the lens shows nothing.
+            // The lens shows no ray beyond its fold.
             const bool shown = (camera_.project(ray) - pixel).squaredNorm() < 1e-2;
             constexpr float kNoRay = std::numeric_limits<float>::quiet_NaN();
             x.push_back(shown ? static_cast<float>(ray.x()) : kNoRay);

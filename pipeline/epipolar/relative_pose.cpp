@@ -19,11 +19,11 @@ constexpr int kMostSolves = 15;
 constexpr double kSettled = 0.01;  // [px]
 constexpr int kFewest = 16;
 constexpr double kFewestShare = 0.4;
-// Beyond so many standard deviations a match has no weight.
+// A match beyond this many standard deviations has no weight.
 constexpr double kTukey = 4.685;
-// Standard deviation of a good match [px]; the scale of the weights does not fall below half.
+// Standard deviation of a good match [px]; the scale of the weights is at least half of it.
 constexpr double kMatchError = 0.3;
-// A pose explains what lies no farther from its lines [px].
+// Inliers lie within this distance of their epipolar lines [px].
 constexpr double kExplained = 1;
 constexpr double kNotExplained = 1e6;  // [px]
 
@@ -33,10 +33,10 @@ struct Estimate {
     Eigen::Vector3d translation;
 };
 
-/// A match under an estimate with the inverse depth that suits it best.
+/// Residual of a match under an estimate, at the inverse depth that fits best.
 struct Residual {
     Eigen::Vector2d error;  // [rays]
-    Matrix26 jacobian;      // by rotation and translation, inverse depth eliminated
+    Matrix26 jacobian;      // with respect to rotation and translation, inverse depth eliminated
 };
 
 Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
@@ -45,8 +45,9 @@ Matrix23 rayOfPoint(const Eigen::Vector2d& ray, double z) {
     return out / z;
 }
 
-// By the epipole no depth moves the point much, and one beyond all bounds would explain anything:
-// there the depth is held with the error of a match against a parallax of one.
+// Near the epipole depth hardly moves the point, so that an unlimited depth could explain any
+// error. There the inverse depth is held near zero: a match's error is weighed against a parallax
+// of one.
 std::optional<Residual> residualOf(const RayMatch& match, const Estimate& at, double focal) {
     const double held = std::pow(kMatchError / focal, 2);
     const Eigen::Vector3d turned = at.rotation * match.video.homogeneous();
@@ -74,7 +75,7 @@ double quantileOf(std::vector<double> values, double quantile) {
     return values[place];
 }
 
-/// Gauss-Newton in the prior's units: radians, and the length of its translation.
+/// Gauss-Newton in normalised units: radians, and the length of the prior's translation.
 class Solver {
 public:
     Solver(std::span<const RayMatch> matches, const PosePrior& prior, double focal)
@@ -86,7 +87,7 @@ public:
         Vector6 scale = Vector6::Ones();
         scale.tail<3>().setConstant(1 / unit_);
         Matrix6 covariance = scale.asDiagonal() * prior.covariance * scale.asDiagonal();
-        // What is known exactly is so to a millionth.
+        // Quantities given as exact are taken as known to a millionth.
         covariance.diagonal().array() += 1e-12;
         const Eigen::LLT<Matrix6> factors(covariance);
         usable_ = covariance.allFinite() && prior.translation.allFinite() &&
@@ -115,12 +116,13 @@ public:
             const double error = r ? focal_ * r->error.norm() : kNotExplained;
             errors_.push_back(error < kNotExplained ? error : kNotExplained);
         }
-        // From fewer than half of the errors, so that it stands more than half of wrong ones.
+        // A quantile below one half, so that the scale stays right when more than half of the
+        // matches are outliers.
         constexpr double kQuantile = 0.4, kNormal = 0.5244;  // of |N(0, 1)|
         scale_ = std::clamp(quantileOf(errors_, kQuantile) / kNormal, 0.5 * kMatchError, scale_);
     }
 
-    /// False: no step is possible.
+    /// Returns false when no step is possible.
     bool step() {
         Matrix6 A = information_;
         Vector6 b = -information_ * motion_;
@@ -155,7 +157,7 @@ private:
     Vector6 motion_ = Vector6::Zero();
     std::vector<std::optional<Residual>> residuals_;
     std::vector<double> errors_;    // [px]
-    double scale_ = kNotExplained;  // standard deviation of the matches that agree [px]
+    double scale_ = kNotExplained;  // standard deviation of the inliers [px]
 };
 
 }  // namespace

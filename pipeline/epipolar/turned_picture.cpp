@@ -11,13 +11,13 @@ namespace {
 
 static_assert(TurnedPicture::kAlign == simd::kTurnedCell);
 
-// Rays flatter than this [z of a picture's ray (x, y, 1)] count as beside the camera.
+// Rays with a smaller z [z of a picture's ray (x, y, 1)] are treated as outside the camera's view.
 constexpr double kBeside = 0.2;
-// Points along each side of the picture whose hull bounds what is seen of it.
+// Points along each side of the picture; the hull of their rays bounds the visible part.
 constexpr int kSidePoints = 16;
 
-// Rays are followed to this many times the radius of the picture's corners, if the lens's model
-// does not fold them back before.
+// Rays are followed to this many times the radius of the picture's corners, unless the lens model
+// folds them back before.
 constexpr double kFarthestRay = 4;
 
 double rimOf(const CameraModel& camera) {
@@ -59,14 +59,14 @@ void TurnedPicture::know(const CameraModel& camera, const CameraModel& source) {
     }
 }
 
-/// Bounds of what the camera sees of the picture, within `whole`; empty: nothing.
+/// Bounds of the part of the picture that the camera sees, within `whole`; empty: sees nothing.
 Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_camera,
                                             const Eigen::AlignedBox2d& whole) const {
     Eigen::AlignedBox2d bounds;
     bool before = false;
     for (const Eigen::Vector2d& ray : known_.outline) {
         const Eigen::Vector3d turned = R_source_camera.transpose() * ray.homogeneous();
-        // Beside or behind the camera: whatever the canvas can hold may be seen.
+        // Beside or behind the camera: assume that the whole canvas may be visible.
         if (!(turned.z() > kBeside)) {
             bounds.extend(whole);
             continue;
@@ -75,7 +75,7 @@ Eigen::AlignedBox2d TurnedPicture::boundsOf(const Eigen::Matrix3d& R_source_came
         bounds.extend(known_.camera.project(there * std::min(1.0, known_.rim / there.norm())));
         before = true;
     }
-    // The picture's rays all lie between those of its outline.
+    // All rays of the picture lie between those of its outline.
     return before ? bounds.intersection(whole) : Eigen::AlignedBox2d();
 }
 

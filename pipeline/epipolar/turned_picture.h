@@ -13,13 +13,13 @@
 
 namespace mfar {
 
-/// A picture as another camera would show it from the same optical centre, on a canvas that may lie
-/// beside that camera's own picture.
+/// A picture as another camera would show it from the same optical centre. The canvas may extend
+/// beyond that camera's own picture.
 class TurnedPicture {
 public:
-    /// The canvas that holds what `camera` would see of a picture that `source` took, no farther
-    /// outside the camera's own frame than `beyond` times its width. `R_source_camera` turns rays.
-    /// Size 0x0 when that is nothing.
+    /// Places the canvas: it holds the part of `source`'s picture that `camera` would see, up to
+    /// `beyond` times its width outside its own frame. `R_source_camera` rotates rays. Size 0x0
+    /// when that is nothing.
     void place(const CameraModel& camera, const CameraModel& source,
                const Eigen::Matrix3d& R_source_camera, double beyond);
 
@@ -28,16 +28,16 @@ public:
     [[nodiscard]] PixelOffset origin() const { return origin_; }
     static constexpr int kAlign = RayLattice::kStep;
 
-    /// Fills the canvas from the source's picture, bilinear. `seen`: 1 where the picture is, 0
-    /// elsewhere.
+    /// Fills the canvas from the source's picture, bilinearly. `seen`: 1 where the picture covers
+    /// the canvas, else 0.
     void draw(const LumaImage& picture, Workers& workers, LumaImage& out,
               std::vector<std::uint8_t>& seen) const;
 
 private:
-    /// What a pair of cameras has in common with the pair of the last frame.
+    /// Properties of a pair of cameras, kept while the pair stays the same.
     struct Cameras {
         CameraModel camera, source;
-        double rim = 0, sourceRim = 0;         ///< radius of the rays that they can show
+        double rim = 0, sourceRim = 0;         ///< largest radius of the rays that each can show
         std::vector<Eigen::Vector2d> outline;  ///< rays of the source's border
     };
     void know(const CameraModel& camera, const CameraModel& source);

@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-// Of a pose said to be exact: what the calibration, the moments of exposure and its own rounding
-// leave [rad], [share of the translation].
+// Lower limits of the error of a pose that is reported as exact, due to the calibration, the
+// exposure times and rounding [rad], [share of the translation].
 constexpr double kLeastTurn = 2.6e-3;
 constexpr double kLeastShift = 0.01;
 constexpr double kRounding = 1e-12;

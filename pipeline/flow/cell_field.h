@@ -8,22 +8,22 @@
 
 namespace mfar {
 
-/// Side of the cells that flow is kept in [px].
+/// Side of the cells of flow fields [px].
 inline constexpr int kCell = 4;
-inline constexpr int kCellsPerTile = 4;  ///< each way; tiles are those of plan/tiles.h
+inline constexpr int kCellsPerTile = 4;  ///< in each direction; tiles are those of plan/tiles.h
 
 /// Quotient of positive numbers, rounded up.
 [[nodiscard]] constexpr int divideUp(int a, int b) {
     return (a + b - 1) / b;
 }
 
-/// Cells that cover a picture.
+/// Number of cells that cover a picture.
 [[nodiscard]] constexpr Size cellsOf(Size picture) {
     return {divideUp(picture.width, kCell), divideUp(picture.height, kCell)};
 }
 
-/// Bilinear look-up in a read-back field of 4x4-pixel cells with four channels, at pixel (x, y).
-/// Beyond the outermost cell centres the nearest cell holds.
+/// Bilinear look-up at pixel (x, y) in a field of 4x4-pixel cells with four channels that was read
+/// back. Beyond the outermost cell centres, returns the nearest cell.
 [[nodiscard]] inline float sampleCells(const std::vector<float>& cells, Size count, int channel,
                                        double x, double y) {
     const double gx = std::clamp((x + 0.5) / 4 - 0.5, 0.0, count.width - 1.0);

@@ -2,37 +2,37 @@
 
 namespace mfar {
 
-/// What the 2-D flow trades time against error by. The defaults are what measured best on
-/// llvmpipe. Cells of 4x4 pixels, patches of 8x8 and workgroups are laid out in the shaders.
+/// Options that trade run time against error in the 2-D flow. The defaults measured best on
+/// llvmpipe. The shaders fix cells of 4x4 pixels, patches of 8x8 and workgroups.
 struct Flow2dOptions {
-    int levels = 6;         ///< of the pyramid, at most those that are there; [1, 6]
+    int levels = 6;         ///< upper limit of the pyramid's levels in use; [1, 6]
     int searchRadius = 10;  ///< at the coarsest level, without the last frame's field [px]; [0, 40]
-    int candidates = 4;     ///< vectors of the coarser level each cell tries; [1, 4]
-    int steps = 4;          ///< of Gauss-Newton after the best candidate; [0, 16]
+    int candidates = 4;     ///< vectors of the coarser level that each cell tries; [1, 4]
+    int steps = 4;          ///< Gauss-Newton steps after the best candidate; [0, 16]
     int propagations = 0;   ///< rounds at the finest level, video to still; [0, 8]
     int coarsestPropagations = 4;  ///< rounds at the coarsest level; [0, 8]
-    int planeFits = 2;             ///< rounds of the clean-up after its median; [0, 2]
+    int planeFits = 2;             ///< rounds of the clean-up after its median filter; [0, 2]
 
     bool operator==(const Flow2dOptions&) const = default;
 };
 
-/// The same of the epipolar search. Its windows of 16 labels and its four paths are laid out in
-/// vectors of bytes.
+/// Options of the epipolar search. Its layout in vectors of bytes fixes windows of 16 labels and
+/// four paths.
 struct EpipolarOptions {
-    int levels = 4;                ///< at most; one has 60 px at least on its short side; [1, 4]
-    double longestParallax = 0.8;  ///< longest way sought, as a share of the width; (0, 1]
-    int windowRadius = 2;  ///< of the coarser level's labels that a window covers [px]; [0, 8]
-    int stepPenalty = 12;  ///< Smoothness::step without noise; [1, 30]
-    int jumpPenalty = 60;  ///< Smoothness::jump; [1, 60]
-    int finest = 0;  ///< level the search ends at: 1, 2: a half, a quarter of the pixels; [0, 2]
-    /// Of EpipolarFlow: frames in a row searched around what the one before showed; [0, 60].
+    int levels = 4;                ///< upper limit; short sides are at least 60 px; [1, 4]
+    double longestParallax = 0.8;  ///< upper limit of the parallax, as a share of the width; (0, 1]
+    int windowRadius = 2;          ///< coarser labels that a window covers, radius [px]; [0, 8]
+    int stepPenalty = 12;          ///< Smoothness::step without noise; [1, 30]
+    int jumpPenalty = 60;          ///< Smoothness::jump; [1, 60]
+    int finest = 0;  ///< last level of the search; 1: half size, 2: quarter size; [0, 2]
+    /// For EpipolarFlow: consecutive frames searched around the prediction from the last; [0, 60].
     int mostPredicted = 7;
 
     bool operator==(const EpipolarOptions&) const = default;
 };
 
-/// `now` with what of `wanted` may change between frames: all but what memory is laid out for
-/// (levels, longestParallax).
+/// `now` with the members of `wanted` that may change between frames: all except those that
+/// determine the memory layout (levels, longestParallax).
 [[nodiscard]] Flow2dOptions changed(const Flow2dOptions& now, const Flow2dOptions& wanted);
 [[nodiscard]] EpipolarOptions changed(const EpipolarOptions& now, const EpipolarOptions& wanted);
 
@@ -40,7 +40,7 @@ struct EpipolarOptions {
 void validate(const Flow2dOptions& options);
 void validate(const EpipolarOptions& options);
 
-/// The options, when they are valid: for initialisers.
+/// Returns the options if they are valid, else throws; for initialisers.
 template <class Options>
 [[nodiscard]] Options validated(const Options& options) {
     validate(options);

@@ -10,14 +10,14 @@
 
 namespace mfar {
 
-/// A grey picture in main memory, 8 bits a pixel, rows without gaps.
+/// A grey picture in main memory, 8 bits per pixel, rows without gaps.
 struct LumaImage {
     Size size;
     std::vector<std::uint8_t> pixels;
 
     LumaImage() = default;
     explicit LumaImage(Size s) : size(s), pixels(static_cast<std::size_t>(s.width) * s.height) {}
-    /// Keeps its memory where that is enough; the pixels are then of no picture.
+    /// Reuses the memory if it is large enough; pixel values are then undefined.
     void setSize(Size s) {
         size = s;
         pixels.resize(static_cast<std::size_t>(s.width) * s.height);
@@ -37,29 +37,31 @@ struct LumaImage {
 
 [[nodiscard]] ImageView viewOf(const LumaImage& picture);
 
-/// Luma of a picture: of RGBA and BGRA as luma.glsl computes it (Rec. 601), otherwise the camera's
-/// own Y, whatever its matrix and range. The costs of flow and pose are blind to gain and offset,
-/// so limited range (219/255 of full range's contrast) need not be stretched. `out` has its size.
+/// Luma of a picture: for RGBA and BGRA as luma.glsl computes it (Rec. 601), otherwise the camera's
+/// own Y, whatever its matrix and range. The costs of flow and pose are invariant to gain and
+/// offset, so limited range (219/255 of full range's contrast) need not be stretched. `out` gets
+/// its size.
 void lumaOf(const ImageView& picture, LumaImage& out);
 
-/// The picture's luma at another size, none larger than its own: each pixel the mean of the area
-/// that it covers.
+/// The picture's luma at a smaller or equal size: each pixel is the mean of the area that it
+/// covers.
 void shrinkLuma(const ImageView& picture, Size size, Workers& workers, LumaImage& out);
 
-/// The same of a picture's luma.
+/// As above, from a picture's luma.
 void shrinkLuma(const Rows<const std::uint8_t>& luma, Size size, Workers& workers, LumaImage& out);
 
-/// These pixels of a picture, which holds them all.
+/// Copies these pixels of a picture, which must contain them all.
 void cut(const Rows<const std::uint8_t>& picture, const PixelRect& pixels, LumaImage& out);
 
-/// Half the size, rounded up: mean of 2x2 pixels, the last column and row repeated.
+/// Half the size, rounded up: mean of 2x2 pixels; the last column and row are replicated.
 void halve(const LumaImage& fine, LumaImage& coarse);
 
-/// Three taps each way, `side` the weight of a neighbour in [0, 1/3]; `in` and `out` differ.
+/// Three-tap filter along both axes; `side`: weight of a neighbour in [0, 1/3]; `in` and `out`
+/// differ.
 void smooth(const LumaImage& in, float side, LumaImage& out);
 
-/// Standard deviation of the picture's noise [grey levels], from its quietest fifth of 8x8 blocks:
-/// what remains there of a mask that no plane, step or line along an axis passes.
+/// Standard deviation of the picture's noise [grey levels], from the quietest fifth of its 8x8
+/// blocks, filtered by a mask that suppresses planes, and steps and lines along the axes.
 /// Source: Immerkaer, Fast noise variance estimation, 1996 (the mask).
 [[nodiscard]] double noiseOf(const Rows<const std::uint8_t>& picture);
 

@@ -6,16 +6,15 @@
 namespace mfar {
 namespace {
 
-// The coarsest level keeps this many pixels on its short side: fewer would leave no patch of its
-// own.
+// Lower limit of the coarsest level's short side [px]: a smaller level would not hold a patch.
 constexpr int kShortestSide = 26;
 constexpr std::size_t kMaxLevels = 6;
-// The gain between the sensors is measured at the second.
+// The gain between the sensors is measured at the second level.
 constexpr std::size_t kMinLevels = 2;
 
 }  // namespace
 
-// A pixel has a variance of 1/12, the three taps have twice their side weight.
+// A pixel has a variance of 1/12; the three taps have twice the weight of a neighbour.
 double lumaBoxWidening() {
     return std::sqrt(1 + 12 * 2 * kLumaSmoothing);
 }

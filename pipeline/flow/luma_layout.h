@@ -12,14 +12,14 @@ using params::kLumaMarginWords;
 using params::kLumaSmoothing;
 using params::LumaLevel;
 
-/// Words behind the last level: a patch row reads three words from any column on.
+/// Words after the last level: a row of a patch reads three words from any column on.
 inline constexpr int kLumaSpareWords = 2;
 
-/// A box of this many video pixels has the variance of a pixel and the smoothing together.
+/// Width of a box [video px] with the same variance as a pixel plus the smoothing.
 [[nodiscard]] double lumaBoxWidening();
 
-/// The levels of a picture of `size`, finest first, each rounded up to half of the one before.
-/// They begin at `words`, which is moved behind them.
+/// The levels of a picture of `size`, finest first; each is half of the one before, rounded up.
+/// They begin at `words`, which is advanced past them.
 [[nodiscard]] std::vector<LumaLevel> lumaLayout(Size size, std::int32_t& words);
 
 }  // namespace mfar

@@ -9,23 +9,24 @@
 
 namespace mfar {
 
-/// Flow and luma on the GPU, as the weighing reads them.
+/// Flow and luma on the GPU, the inputs of weighing.
 struct WeighInput {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
     const gpu::Buffer& patches;
-    int first;               ///< entry of the forward field in `patches`; the other follows
+    int first;               ///< entry of the forward field in `patches`; backward follows
     Size forward, backward;  ///< [cells]
-    int backwardLevel;       ///< of the pyramid
-    bool errorsGiven;        ///< two-way errors stand in place of the backward field
+    int backwardLevel;       ///< level of the pyramid
+    bool errorsGiven;        ///< two-way errors take the place of the backward field
 };
 
-/// Weighs the still cell by cell: how well it matches, and the sensors' photometric gain.
+/// Computes, cell by cell, the weight of the still from its match, and the sensors' photometric
+/// gain.
 class CellWeigher {
 public:
     explicit CellWeigher(const StereoRig& rig);
 
-    /// Does nothing where no tile has changed.
+    /// Does nothing if no tile has changed.
     void run(const WeighInput& in, const TileBuffer& tiles);
 
     [[nodiscard]] const gpu::Texture& weighed() const { return weighed_; }  ///< Rgba32F

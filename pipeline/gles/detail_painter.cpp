@@ -83,7 +83,8 @@ DetailPainter::TileParams DetailPainter::tileParams() const {
     return p;
 }
 
-// Tiles beside those that are drawn are looked at, too: after frames without, all are made.
+// Draws read sharpened pixels of neighbouring tiles, too. So after frames without sharpening, all
+// tiles are sharpened.
 void DetailPainter::sharpen(const TileParams& params, const gpu::Texture& video,
                             const Matched& matched, const TileWork& work) {
     sharpen_.run(work.drawsWhole() || sharpenedIsOld_, params,
@@ -104,7 +105,7 @@ void DetailPainter::enlargeLearned(const TileParams& params, const gpu::Texture&
     learned_->run(video, &seen, tiles, filters, params, list(List::All));
 }
 
-// The first half of enlarging, for the composites.
+// First half of the enlargement: columns, which the composites read.
 void DetailPainter::enlargeColumns(const TileParams& params, const gpu::Texture& video,
                                    const Matched* matched, const TileBuffer& tiles,
                                    const DetailOptions& options) {
@@ -146,7 +147,7 @@ void DetailPainter::drawDetail(Composites passes, const TileParams& params, gpu:
     passes.whole.run(params, bindings, outputTarget_);
 }
 
-// The pixels of the output that show these tiles, or parts of them.
+// The output pixels that show at least a part of these tiles.
 PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
     const auto [width, height] = output_.size();
     const auto at = [](int tile, int video, int out, int rest) {
@@ -160,10 +161,10 @@ PixelRect DetailPainter::outputOf(const PixelRect& tiles) const {
 void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
                          const DetailOptions& options) {
     const TileWork& work = tiles.work();
-    // Both counts of a frame at rest are there after two of them.
+    // After two frames at rest, both buffers of counts are those of a frame at rest.
     restingFrames_ = work.changed == 0 ? restingFrames_ + 1 : 0;
     if (restingFrames_ <= 2) classify(matched, tiles, options);
-    // A draw of no tiles would have its shader compiled all the same.
+    // An empty draw would still compile its shader.
     if (restingFrames_ > 0) return;
 
     const TileParams p = tileParams();
@@ -171,7 +172,7 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
     const Composites passes = compositesFor(options);
     const bool learns = filtersOf(options) != nullptr;
     const gpu::Texture& columns = learns ? learned_->columns() : columns_;
-    // What is not there is not read.
+    // Without a still, the shaders do not read these textures.
     const gpu::Texture& still = matched != nullptr ? matched->still : blank_;
     const gpu::Texture& lookUps = matched != nullptr ? matched->lookUps : blank_;
     if (learns)
@@ -187,7 +188,7 @@ void DetailPainter::draw(const gpu::Texture& video, const Matched* matched, cons
         drawSecond(p, video, *matched, *filtersOf(options));
 }
 
-// Over the first still's detail, which fades where the second counts for more.
+// Drawn over the first still's detail, which fades where the second has more weight.
 void DetailPainter::drawSecond(const TileParams& params, const gpu::Texture& video,
                                const Matched& matched, const FilterBank& filters) {
     const Matched& second = *matched.second;

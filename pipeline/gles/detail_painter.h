@@ -14,40 +14,42 @@
 
 namespace mfar {
 
-/// Turns video, still and weights into the high-resolution picture. Only the tiles that the plan
-/// calls changed are drawn; the others keep their pixels from earlier frames.
+/// Combines video, still and weights into the high-resolution picture. Draws only the tiles that
+/// the plan marks as changed; the others keep their pixels from earlier frames.
 class DetailPainter {
 public:
-    /// `stillRig`: with the still camera as its detail and picture are.
+    /// `stillRig`: the rig with the still camera at the resolution of the still's detail and
+    /// picture.
     DetailPainter(const StereoRig& stillRig, Size output);
 
-    /// A still on the GPU, and how it matches.
+    /// A still on the GPU and its match.
     struct Matched {
         const gpu::Texture& still;    ///< raised luma, or the picture in mode Blend; linear filter
-        const gpu::Texture& weighed;  ///< Rgba32F, as the other two one texel a cell
+        const gpu::Texture& weighed;  ///< Rgba32F; like the other two, one texel per cell
         const gpu::Texture& lookUps;  ///< Rgba16F, linear filter
         const gpu::Texture& trust;    ///< Rgba8, linear filter
-        /// Seen where it counts for more; null: none. In mode Detail with filters alone.
+        /// A second still, shown where its weight is larger; may be null. Only in mode Detail with
+        /// filters.
         const Matched* second = nullptr;
     };
-    /// Sorts the changed tiles into classes and draws them. Null: only enlarges.
+    /// Classifies the changed tiles and draws them. `matched` null: only enlarges.
     void draw(const gpu::Texture& video, const Matched* matched, const TileBuffer& tiles,
               const DetailOptions& options);
 
     [[nodiscard]] const gpu::Texture& output() const { return output_; }
-    /// Draws into output(), for what comes over it.
+    /// Target that draws into output(), for overlays.
     [[nodiscard]] const gpu::Framebuffer& target() const { return outputTarget_; }
 
-    /// Counts of the frame before the last one drawn: already there, nothing waits for them.
+    /// Statistics of the frame before the last one drawn. Does not wait for the GPU.
     [[nodiscard]] TileSummary summaryBefore() const { return summary(1 - current_); }
-    /// Counts of the last frame. Waits for the GPU.
+    /// Statistics of the last frame. Waits for the GPU.
     [[nodiscard]] TileSummary summaryNow() const { return summary(current_); }
     /// Class of every tile in the last frame, row-major. Waits for the GPU.
     [[nodiscard]] std::vector<TileClass> readClasses() const;
 
 private:
     using TileParams = params::DrawTiles;
-    /// Enlarges linearly.
+    /// Programs for linear enlargement.
     struct Linear {
         Linear()
             : columns("superres_vertical.frag", "#define LINEAR\n"),
@@ -55,7 +57,7 @@ private:
 
         TilePass columns, rows;
     };
-    /// Draws tiles of one kind, or the detail of a whole frame.
+    /// Programs that draw tiles of one kind, or the detail of a whole frame.
     struct Composites {
         TilePass& enlarged;
         gpu::DrawPass<TileParams>& whole;
@@ -95,13 +97,13 @@ private:
     gpu::Buffer classes_, lists_;
     std::array<gpu::Buffer, 2> draws_;
     int current_ = 0, restingFrames_ = 0;
-    std::uint32_t classified_ = 0;  // frames
-    bool sharpenedIsOld_ = true;    // from a frame before the last
+    std::uint32_t classified_ = 0;  // number of frames classified
+    bool sharpenedIsOld_ = true;    // sharpened_ lacks the last frame
     gpu::ComputePass<params::ClassifyTiles> classify_;
     TilePass sharpen_, columnsPass_;
     DetailPasses detailPasses_;
     gpu::DrawPass<TileParams> wholeBlend_, blend_, plainBlend_;
-    // Made for the first frame that wants it.
+    // Created for the first frame that needs it.
     std::optional<Linear> linear_;
     std::optional<LearnedEnlarger> learned_;
 };

@@ -12,10 +12,10 @@
 namespace mfar {
 namespace {
 
-/// How texels of a format lie on the host and pass the GL.
+/// How texels of a format are stored on the host and passed to the GL.
 struct Layout {
     GLenum channels, type;
-    int bytes;  ///< a texel
+    int bytes;  ///< per texel
 };
 
 Layout layoutOf(gpu::TexelFormat format) {
@@ -73,7 +73,7 @@ void TextureCopy::upload(const void* data, std::ptrdiff_t pitch) {
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
 }
 
-// Four channels are what every driver reads.
+// Every driver can read four channels.
 void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
     const auto [width, height] = texture_->size();
     const Layout layout = layoutOf(texture_->format());
@@ -83,7 +83,7 @@ void TextureCopy::download(void* data, std::ptrdiff_t pitch) {
         glPixelStorei(GL_PACK_ROW_LENGTH, static_cast<GLint>(pitch / layout.bytes));
         glReadPixels(0, 0, width, height, layout.channels, layout.type, data);
         glPixelStorei(GL_PACK_ROW_LENGTH, 0);
-        gpu::checkErrors("TextureCopy");  // a lost context leaves the values as they were
+        gpu::checkErrors("TextureCopy");  // if the context is lost, the values stay unchanged
         return;
     }
     const auto row = [&](int y) { return static_cast<std::byte*>(data) + y * pitch; };

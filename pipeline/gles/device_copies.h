@@ -13,17 +13,17 @@ namespace mfar {
 /// Entries of a storage buffer as a field of one row.
 class BufferCopy final : public DeviceCopy {
 public:
-    /// Part of a step's buffer: `count` entries of `entryBytes`, from the entry `first` on.
+    /// A part of a step's buffer: `count` entries of `entryBytes`, starting at the entry `first`.
     BufferCopy(const gpu::Buffer& buffer, int first, std::size_t count, std::size_t entryBytes)
         : buffer_(&buffer), first_(first), count_(count), entryBytes_(entryBytes) {}
-    /// A buffer of its own.
+    /// Creates its own buffer.
     BufferCopy(std::size_t count, std::size_t entryBytes)
         : own_(count * entryBytes), buffer_(&*own_), count_(count), entryBytes_(entryBytes) {}
 
     [[nodiscard]] const gpu::Buffer& buffer() const { return *buffer_; }
-    [[nodiscard]] int first() const { return first_; }  ///< entry
+    [[nodiscard]] int first() const { return first_; }  ///< index of the first entry
 
-    /// Into a buffer of its own alone.
+    /// Only for a copy with its own buffer.
     void upload(const void* data, std::ptrdiff_t pitch) override;
     void download(void* data, std::ptrdiff_t pitch) override;
 
@@ -34,19 +34,20 @@ private:
     std::size_t count_, entryBytes_;
 };
 
-/// A texture as a field. A texel is on the host: R8 a byte, Rg8 two bytes, Rgba8 four, R32F a
-/// float, the formats of four channels four floats; Rgba8 as `floats`: four floats in [0, 1].
+/// A texture as a field. Texels on the host: R8 one byte, Rg8 two bytes, Rgba8 four bytes, R32F one
+/// float, other formats with four channels four floats. With `floats`, Rgba8 is four floats in
+/// [0, 1].
 class TextureCopy final : public DeviceCopy {
 public:
-    /// A step's texture.
+    /// Borrows a step's texture.
     explicit TextureCopy(const gpu::Texture& texture, bool floats = false)
         : texture_(&texture), floats_(floats) {}
-    /// A texture of its own.
+    /// Creates its own texture.
     TextureCopy(Size size, gpu::TexelFormat format, gpu::Filter filter, bool floats = false)
         : own_(std::in_place, size, format, filter), texture_(&*own_), floats_(floats) {}
 
     [[nodiscard]] const gpu::Texture& texture() const { return *texture_; }
-    /// Draws into the texture.
+    /// A target that draws into the texture.
     [[nodiscard]] const gpu::Framebuffer& target();
 
     void upload(const void* data, std::ptrdiff_t pitch) override;
@@ -69,7 +70,7 @@ template <class T>
     return static_cast<const BufferCopy&>(copy);
 }
 
-/// A field's copy in a texture, which gets this format and filter where it has to be made.
+/// A field's copy in a texture, which is created with this format and filter if necessary.
 template <class T>
 [[nodiscard]] TextureCopy& textureOf(const Field<T>& field, gpu::TexelFormat format,
                                      gpu::Filter filter = gpu::Filter::Nearest,

@@ -9,9 +9,9 @@
 namespace mfar {
 namespace {
 
-constexpr int kEdgeGroup = 8;      // each way, as in the shader
+constexpr int kEdgeGroup = 8;      // in each direction, as in the shader
 constexpr int kSharpenGroup = 64;  // as in the shader
-constexpr int kLeastContrast = 3;  // of kLevels: less is not seen to be blurred
+constexpr int kLeastContrast = 3;  // of kLevels: blur of a lower contrast is not visible
 constexpr std::size_t kListedAt = EdgeRefiner::kLevels + 1;
 
 }  // namespace

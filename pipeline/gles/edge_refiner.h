@@ -12,28 +12,28 @@
 
 namespace mfar {
 
-/// Replaces what a look-up blurs: where an older picture's pixel mixes two surfaces, or has detail
-/// as fine as a pixel, a warped picture is wrong by far the most. While the camera rests, those
-/// pixels are listed by their contrast, rendered for themselves like holes, and shown until it
-/// moves.
+/// Replaces the pixels that a look-up blurs. A warped picture has by far its largest errors where a
+/// pixel of the older picture mixes two surfaces or has detail as fine as a pixel. While the camera
+/// rests, those pixels are listed by their contrast, rendered individually like holes, and shown
+/// until the camera moves.
 class EdgeRefiner {
 public:
     static constexpr int kLevels = params::kContrastLevels;
 
-    /// See WarpOptions. Lists `most` pixels at most, unless more have the very highest contrast;
-    /// takes answers of so many.
+    /// See WarpOptions. Lists up to `most` pixels, or more if more have the very highest contrast;
+    /// accepts answers of up to `most` pixels.
     EdgeRefiner(Size layer, double share, int most, int fadeFrames);
 
-    /// Lists the pixels of a look-up's `colour` (RGBA8 premultiplied) and `state` within `where`.
-    /// Forgets the list and the answer before.
+    /// Discards the previous list and answer, then lists the pixels of a look-up's `colour` (RGBA8
+    /// premultiplied) and `state` within `where`.
     void list(const gpu::Texture& colour, const gpu::Texture& state, const PixelRect& where);
-    /// Row-major indices, ascending, once the GPU has finished them: never waits.
+    /// Row-major pixel indices, ascending, once the GPU has finished them. Never waits.
     std::optional<std::vector<std::uint32_t>> poll();
-    /// To pixels that poll() gave; others are left out.
+    /// Answers pixels that poll() returned; other pixels are ignored.
     void answer(const HoleAnswer& answer);
-    /// Replaces the pixels, a little more with each frame, in a `colour` of the same pose.
+    /// Replaces the pixels in a `colour` of the same pose, with a share that grows with each frame.
     void show(const gpu::Texture& colour);
-    /// The camera has moved, or what it sees has changed.
+    /// Call when the camera has moved or the scene has changed.
     void drop();
 
 private:
@@ -45,10 +45,10 @@ private:
     double share_, step_;
     int most_;
     gpu::Buffer counts_, list_, entries_;
-    std::optional<gpu::Fence> fence_;                   // of the list
-    std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel, colour; ascending
+    std::optional<gpu::Fence> fence_;                   // set while the list is being made
+    std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel, colour; ascending by pixel
     params::RefineEdges params_{};
-    double shown_ = 0;  // share of the answer, 0: there is none
+    double shown_ = 0;  // share of the answer; 0: there is no answer
     gpu::ComputePass<params::RefineEdges> count_, choose_, sharpen_;
 };
 

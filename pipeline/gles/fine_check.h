@@ -11,7 +11,7 @@ namespace mfar {
 /// Lowers the weights of cells where the still does not show the video's finest detail.
 class FineCheck {
 public:
-    /// `stillRig`: with the still camera as its detail is.
+    /// `stillRig`: the rig with the still camera at the resolution of its detail.
     explicit FineCheck(const StereoRig& stillRig);
 
     /// Fields of CellWeigher.

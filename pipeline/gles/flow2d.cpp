@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kGroup = 4;  // cells a workgroup and axis, as in the shaders
+constexpr int kGroup = 4;  // cells per workgroup and axis, as in the shaders
 Size cellsOf(const LumaLevel& level) {
     return cellsOf(Size{level.width, level.height});
 }
@@ -45,7 +45,7 @@ Flow2d::Flow2d(Size video, const Flow2dOptions& options)
     forward_ = {take(forwardStages_[0].cells), forwardStages_[0].cells};
     const int finest =
         std::min(params::kBackwardFinest, static_cast<int>(backwardStages_.size()) - 1);
-    // Room for refine()'s errors, one a cell of the video.
+    // Large enough for refine()'s errors, one per cell of the video.
     backward_ = {take(forward_.cells), backwardStages_[finest].cells, finest};
     seed_ = take(forward_.cells);
     patches_ = gpu::Buffer(static_cast<std::size_t>(next) * 4 * sizeof(float));
@@ -78,8 +78,8 @@ void Flow2d::refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forwar
     filter(stage, forward_, tiles);
 }
 
-// No propagation: a listed group's neighbours need not be listed. What the lines found is a
-// candidate at every level, and at the finest it stays where nothing fits better.
+// No propagation, because a listed group's neighbours may not be listed. The vectors on epipolar
+// lines are candidates at every level; at the finest they stay where no other fits better.
 void Flow2d::searchListed(const LumaOnGpu& luma) {
     const Direction way{luma.video, luma.still, forwardStages_, 0, 0, false};
     for (int level = static_cast<int>(way.stages.size()) - 1; level >= 0; --level) {
@@ -115,7 +115,7 @@ void Flow2d::search(const Direction& way, int level, int area, const LumaOnGpu& 
                 way.stages[level].groups);
 }
 
-// `prior`: first vec4 of a field of the finest level whose vectors are candidates, or -1.
+// `prior`: first vec4 of a field of the finest level with candidate vectors, or -1.
 params::SearchFlow Flow2d::searchParams(const Direction& way, int level, int area, int radius,
                                         int prior) const {
     const Stage& stage = way.stages[level];
@@ -171,7 +171,7 @@ void Flow2d::align(int in, const LumaOnGpu& luma, const TileBuffer& tiles) {
 }
 
 void Flow2d::filter(const Stage& stage, const Field& out, const TileBuffer& tiles) {
-    // The cells of a coarser level are not those of a tile.
+    // Only at the finest level is a group of cells a tile.
     filter_.run({.columns = stage.cells.width,
                  .rows = stage.cells.height,
                  .target = out.offset,

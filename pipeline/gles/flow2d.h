@@ -11,9 +11,9 @@
 
 namespace mfar {
 
-/// Dense flow between video and still without any knowledge of pose: coarse-to-fine inverse search
-/// with a gain-invariant cost on 8x8 patches every 4 pixels, propagation, Gauss-Newton refinement,
-/// robust clean-up. Both directions.
+/// Dense flow between video and still, in both directions, without knowledge of the pose:
+/// coarse-to-fine inverse search with a gain-invariant cost on 8x8 patches every 4 pixels,
+/// propagation, Gauss-Newton refinement, robust clean-up.
 /// Sources: Kroeger et al., ECCV 2016 (inverse search); Barnes et al., 2009 (propagation).
 class Flow2d {
 public:
@@ -21,7 +21,7 @@ public:
     struct Field {
         int offset = 0;  ///< first vec4 (flow x, y [px of its level], cost, texture)
         Size cells;      ///< columns, rows
-        int level = 0;   ///< of the pyramid
+        int level = 0;   ///< level of the pyramid
     };
 
     /// Throws std::invalid_argument for options out of range.
@@ -31,28 +31,28 @@ public:
     /// std::invalid_argument for options out of range.
     void setOptions(const Flow2dOptions& options) { options_ = changed(options_, options); }
 
-    /// Computes both fields; does nothing where no tile is matched. `usePrior`: the last frame's
-    /// field is a candidate everywhere (not after a new still).
+    /// Computes both fields; does nothing if no tile is matched. `usePrior`: the last frame's field
+    /// is a candidate everywhere (not after a new still).
     void run(const LumaOnGpu& luma, const TileBuffer& tiles, bool usePrior);
 
-    /// Computes the forward field from one vector per cell that is right but for a fraction of a
-    /// pixel; `errors`: what is known of the two-way error of eq. 2, in x [px]. Tiles where the
-    /// vectors turn out wrong, as nothing explains, are searched in 2-D from coarse to fine.
+    /// Computes the forward field from one vector per cell whose error is a fraction of a pixel;
+    /// `errors`: the known two-way error of eq. 2, in x [px]. Tiles that their vectors do not
+    /// explain are searched in 2-D from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const LumaOnGpu& luma, const TileBuffer& tiles, Cells forward, Cells errors);
 
-    /// The tiles that the last refine() had to search.
+    /// The tiles that the last refine() searched.
     [[nodiscard]] const TileLists& searched() const { return searched_; }
 
     [[nodiscard]] const gpu::Buffer& patches() const { return patches_; }
     [[nodiscard]] const Field& forward() const { return forward_; }  ///< video -> still
-    /// Its vectors, x, y [px], -, -. Waits for the GPU.
+    /// The forward vectors, x, y [px], -, -. Waits for the GPU.
     [[nodiscard]] std::vector<std::array<float, 4>> readForward() const {
         return patches_.read<std::array<float, 4>>(static_cast<std::size_t>(forward_.cells.width) *
                                                        forward_.cells.height,
                                                    16UL * forward_.offset);
     }
-    /// After refine(): backward() holds the two-way errors of the video's cells instead.
+    /// True after refine(): backward() then holds the two-way errors of the video's cells.
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] const Field& backward() const { return backward_; }  ///< still -> video
 
@@ -63,12 +63,12 @@ private:
         int area[2];
         gpu::Groups groups;
     };
-    /// One way to go through the levels, from coarse to fine.
+    /// A pass through the levels, from coarse to fine.
     struct Direction {
-        const std::vector<LumaLevel>& from;  ///< where the patches are taken
-        const std::vector<LumaLevel>& to;    ///< where they are sought
+        const std::vector<LumaLevel>& from;  ///< source of the patches
+        const std::vector<LumaLevel>& to;    ///< searched picture
         const std::vector<Stage>& stages;
-        int finest;  // level
+        int finest;  // last level
         int finestPropagations;
         bool usePrior;
     };
@@ -79,7 +79,7 @@ private:
     [[nodiscard]] params::SearchFlow searchParams(const Direction& way, int level, int area,
                                                   int radius, int prior) const;
     void propagate(const Direction& way, int level, int toArea, const LumaOnGpu& luma);
-    /// Lets the vectors from `in` on take Gauss-Newton steps.
+    /// Refines the vectors from `in` on by Gauss-Newton steps.
     void align(int in, const LumaOnGpu& luma, const TileBuffer& tiles);
     void filter(const Stage& stage, const Field& out, const TileBuffer& tiles);
 

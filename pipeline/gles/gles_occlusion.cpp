@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    // Rows in which something is known, or was.
+    // Uploads the rows with known depths, and the rows of the last upload.
     void upload(const InverseDepthField& real, const PixelRect& where) {
         const PixelRect rows = around(uploaded_, where);
         uploaded_ = where;

@@ -15,14 +15,14 @@
 namespace mfar::gles {
 namespace {
 
-/// Raised luma. From the other engine it comes with the pixel below in the second channel.
+/// Raised luma. From the SIMD engine it has the pixel below in the second channel.
 const gpu::Texture& raisedOf(const StillPictures& still) {
     const auto linear = gpu::Filter::Linear;
     return still.raised.isEmpty() ? textureOf(still.pairs, gpu::TexelFormat::Rg8, linear).texture()
                                   : textureOf(still.raised, gpu::TexelFormat::R8, linear).texture();
 }
 
-/// A still's texture whose rows on the host are its luma.
+/// A still's texture; its host rows are the luma.
 class StillLumaCopy final : public DeviceCopy {
 public:
     explicit StillLumaCopy(const gpu::PictureTexture& picture) : picture_(picture) {}
@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    // From the other engine it comes as luma, which samples as grey.
+    // Stills of the SIMD engine are luma, which samples as grey.
     static const gpu::Texture& lumaTexture(const StillPictures& still) {
         DeviceCopy& copy = still.luma.device([&] {
             return std::make_unique<TextureCopy>(still.luma.size(), gpu::TexelFormat::R8,
@@ -214,7 +214,7 @@ public:
     void draw(const VideoFrame& frame, const Matched* matched, const TileWork& work,
               const DetailOptions& options) override {
         const TileBuffer& tiles = frame_.tiles(work);
-        // At rest the video is not looked at.
+        // While nothing changes, the video is not read.
         const gpu::Texture& video = work.changed > 0 ? frame_.video(frame) : painter_.output();
         if (matched == nullptr) {
             painter_.draw(video, nullptr, tiles, options);

@@ -15,15 +15,15 @@
 namespace mfar::gles {
 
 /// The frame and its plan on the GPU, uploaded when the first step of a frame needs them. Shared by
-/// the engine's steps; needs a current context for its whole life.
+/// the engine's steps; needs a current context for its whole lifetime.
 class FrameOnGpu {
 public:
     explicit FrameOnGpu(Size video) : tiles_{TileBuffer(video), TileBuffer(video)} {}
 
     [[nodiscard]] const gpu::Texture& video(const VideoFrame& frame);
-    /// Two plans of a frame, one for each still, are kept.
+    /// Keeps two plans of a frame, one for each still.
     [[nodiscard]] const TileBuffer& tiles(const TileWork& work);
-    /// See gpu::PictureTexture. Of the still that came last.
+    /// The last still. See gpu::PictureTexture.
     [[nodiscard]] gpu::PictureTexture& stillPicture() { return still_; }
     void setImporter(PlaneImporter* importer);
     [[nodiscard]] std::optional<std::string> takeImportFault();
@@ -33,14 +33,14 @@ private:
     gpu::PictureTexture video_, still_{gpu::Filter::Linear};
     std::optional<std::uint64_t> number_;  // of the frame in video_
     std::array<TileBuffer, 2> tiles_;
-    std::size_t used_ = 0;  // of tiles_, last
+    std::size_t used_ = 0;  // index in tiles_ of the last one used
 };
 
 [[nodiscard]] std::unique_ptr<StillStep> makeStillStep(const StepSetup& setup, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<PyramidStep> makePyramidStep(const StepSetup& setup,
                                                            FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<FlowStep> makeFlowStep(const StepSetup& setup, FrameOnGpu& frame);
-/// `stillRig`: with the still camera as its detail and picture are.
+/// `stillRig`: the rig with the still camera at the resolution of the still's detail and picture.
 [[nodiscard]] std::unique_ptr<WeighStep>
 makeWeighStep(const StepSetup& setup, const StereoRig& stillRig, FrameOnGpu& frame);
 [[nodiscard]] std::unique_ptr<DetailStep>

@@ -14,34 +14,34 @@
 
 namespace mfar {
 
-/// Keeps the list of the pixels of which the look-up left something open, fills them from their
-/// surroundings, and lets the host read the list a frame or two later. Cracks, of which most
-/// neighbours show the same surface, are always filled; other holes by push-pull, if asked for.
+/// Lists the pixels that the look-up left at least partly open, fills them from their surroundings,
+/// and lets the host read the list a frame or two later. Cracks (most neighbours show the same
+/// surface) are always filled; other holes are filled by push-pull on request.
 class HoleFiller {
 public:
     static constexpr int kLevels = 6;
 
     explicit HoleFiller(Size layer);
 
-    /// An empty list, to be filled for the layer's pixels `where`.
+    /// Starts an empty list for the layer's pixels `where`.
     void begin(const PixelRect& where, bool pushPull);
-    /// Of the list: see warp_rest.comp.
+    /// Dispatch commands and count of the list: see warp_rest.comp.
     [[nodiscard]] const gpu::Buffer& commands() const { return lists_[current_].commands; }
     [[nodiscard]] const gpu::Buffer& entries() const { return lists_[current_].entries; }
-    /// Groups of the pyramid's dispatches, which the list's first entry opens.
+    /// Group counts of the pyramid's dispatches, which take effect with the list's first entry.
     using Command = params::DispatchGroups;
     [[nodiscard]] const std::array<Command, kLevels>& wanted() const { return wanted_; }
     [[nodiscard]] int levels() const { return params_.levelCount; }
 
-    /// `colour` (RGBA8 premultiplied) and `state` as ViewLookUp leaves them; writes into `colour`.
-    /// `wantList`: this frame's list is to be read, if none is under way.
+    /// Fills `colour` (RGBA8 premultiplied); `colour` and `state` are the results of ViewLookUp.
+    /// `wantList`: this frame's list will be read, unless another one is in transfer.
     void fill(const gpu::Texture& colour, const gpu::Texture& state, bool wantList);
 
-    /// Of the frame whose list was wanted, once the GPU has finished it: never waits.
+    /// The holes of the frame with `wantList`, once the GPU has finished it. Never waits.
     std::optional<WarpHoles> poll();
-    /// A list is under way to the host.
+    /// True while a list is in transfer to the host.
     [[nodiscard]] bool isPending() const { return fence_.has_value(); }
-    /// Forgets a list that is under way.
+    /// Discards a list that is in transfer.
     void drop() { fence_.reset(); }
 
 private:
@@ -53,9 +53,9 @@ private:
     void pull(const gpu::Texture& colour, const gpu::Texture& state);
 
     Size layer_;
-    std::array<Lists, 2> lists_;  // one may be under way to the host
+    std::array<Lists, 2> lists_;  // one may be in transfer to the host
     std::size_t current_ = 0;
-    std::optional<gpu::Fence> fence_;  // of the other one
+    std::optional<gpu::Fence> fence_;  // of the list that is in transfer
     gpu::Buffer pyramid_;
     params::FillHoles params_{};
     std::array<Command, kLevels> wanted_{};

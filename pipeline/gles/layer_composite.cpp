@@ -24,7 +24,7 @@ LayerComposite::LayerComposite(Size video, Size output, Size layer, const Compos
       samplePass_("visibility_sample.frag", layer == output ? "" : kScaled),
       blendPass_("visibility_blend.frag", layer == output ? "" : kScaled) {
     validate(options);
-    // Beside the bounds nothing is written, and a new texture may hold anything.
+    // Pixels outside the bounds are never written, and a new texture is undefined.
     constexpr std::array<GLfloat, 4> kNothing{};
     visibilityTarget_.bind();
     glClearBufferfv(GL_COLOR, 0, kNothing.data());

@@ -27,7 +27,7 @@ void setGuidance(params::DrawTiles& params, const FilterBank& filters) {
     params.guidanceVideo = filters.guidance().video;
 }
 
-/// The least rectangle that holds all tiles that are drawn by filters, and one more around it.
+/// The smallest rectangle that contains all tiles drawn by filters, widened by one tile.
 PixelRect tilesAround(const TileWork& work) {
     PixelRect out{work.tiles.width, work.tiles.height, 0, 0};
     for (int row = 0, i = 0; row < work.tiles.height; ++row)
@@ -61,7 +61,8 @@ LearnedEnlarger::LearnedEnlarger(Size video, Size output)
                             "#define AROUND\n#define LEARNED\n"),
       second_("tile_rect.vert", "composite_detail.frag", "#define SECOND\n") {}
 
-// As half floats, which shaders unpack in one instruction: a weight of one has eleven bits of 14.
+// Stored as half floats, which shaders unpack in one instruction: a weight of one keeps 11 of its
+// 14 bits.
 void LearnedEnlarger::takeFilters(const FilterBank& filters) {
     if (number_ == filters.number()) return;
     std::vector<std::uint32_t> words;
@@ -99,7 +100,8 @@ void LearnedEnlarger::fillGrid(const gpu::Texture& video, const TileBuffer& tile
                   static_cast<GLuint>(2 * (where.y1 - where.y0)), 1});
 }
 
-// Tiles beside those that are drawn are looked at, too: after frames without, all are made.
+// Passes read neighbouring tiles, too. So after frames that skipped a pass, the pass draws all
+// tiles.
 void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
                           const FilterBank& filters, params::DrawTiles params,
                           const gpu::InstanceList& list) {
@@ -116,7 +118,7 @@ void LearnedEnlarger::run(const gpu::Texture& video, const Seen* seen, const Til
             seenTarget_, list);
     if (guides)
         guide_.run(whole || guidedIsOld_, params, {gpu::sampler(1, seen_)}, guidedTarget_, list);
-    // Columns show what is seen.
+    // Columns depend on the seen and guided pictures.
     const bool allColumns =
         whole || columnsAreOld_ || (seen != nullptr && seenIsOld_) || guides == guidedIsOld_;
     enlargeColumns_.run(

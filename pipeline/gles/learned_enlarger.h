@@ -11,33 +11,33 @@
 
 namespace mfar {
 
-/// Enlarges the video by learned filters, up to the composite. Needs a current context for its
-/// whole life.
+/// Enlarges the video by learned filters, except for the final composite. Needs a current context
+/// for its whole lifetime.
 class LearnedEnlarger {
 public:
     LearnedEnlarger(Size video, Size output);
 
-    /// A still on the GPU, and where it is looked up.
+    /// A still on the GPU, and its look-ups.
     struct Seen {
         const gpu::Texture &still, &lookUps;
     };
-    /// Makes what the composites read, in the tiles of `list` or, where the plan says so, in all.
-    /// `seen` may be null.
+    /// Computes the composites' inputs in the tiles of `list`, or in all tiles if the plan requires
+    /// it. `seen` may be null.
     void run(const gpu::Texture& video, const Seen* seen, const TileBuffer& tiles,
              const FilterBank& filters, params::DrawTiles params, const gpu::InstanceList& list);
-    /// Makes what the composites read of another still in place of the last run()'s, in these tiles
-    /// and around them; the next run() makes that anew.
+    /// Replaces the composites' inputs by those of another still, in these tiles and around them;
+    /// the next run() computes the first still's again.
     void seeSecond(const gpu::Texture& video, const Seen& seen, const FilterBank& filters,
                    params::DrawTiles params, const gpu::InstanceList& list);
-    /// A frame is drawn by other passes: all tiles are made for the next.
+    /// Reports a frame drawn by other passes: the next run() computes all tiles.
     void skip() { columnsAreOld_ = seenIsOld_ = guidedIsOld_ = true; }
 
-    // What composites with LEARNED read: at bindings 0, 3 and 4.
+    // Inputs of composites with LEARNED: at bindings 0, 3 and 4.
     [[nodiscard]] const gpu::Texture& columns() const { return columns_; }
     [[nodiscard]] const gpu::Texture& residuals() const { return residuals_; }
     [[nodiscard]] const gpu::Texture& tiles() const { return learned_; }
     [[nodiscard]] DetailPasses& passes() { return passes_; }
-    /// Draws a second still over the first, whose look-ups are at binding 5.
+    /// Draws a second still over the first one; the first one's look-ups are at binding 5.
     [[nodiscard]] gpu::DrawPass<params::DrawTiles>& second() { return second_; }
 
 private:
@@ -48,7 +48,7 @@ private:
     Size video_, tiles_;
     std::uint64_t number_ = 0;                      // of the filters on the GPU
     std::vector<std::uint8_t> mask_;                // of the tiles on the GPU
-    bool columnsAreOld_ = true, seenIsOld_ = true;  // from a frame before the last
+    bool columnsAreOld_ = true, seenIsOld_ = true;  // the last frame is missing
     bool guidedIsOld_ = true;
     gpu::Texture filters_, learned_, grid_, seen_, guided_, columns_, residuals_;
     gpu::Framebuffer seenTarget_, guidedTarget_, columnsTarget_;

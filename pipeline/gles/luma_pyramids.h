@@ -12,22 +12,22 @@ namespace mfar {
 
 [[nodiscard]] params::Rig rigParams(const StereoRig& rig);
 
-/// Luma pyramids on the GPU, wherever they were made.
+/// Luma pyramids on the GPU, from either engine.
 struct LumaOnGpu {
     const std::vector<LumaLevel>&video, &still;
     const gpu::Buffer& words;
 };
 
-/// Luma pyramids of the video frame and of the still at the video's geometry (rotation and both
-/// lenses applied, no parallax), both smoothed alike, 8 bits a pixel, four pixels a word, in one
-/// storage buffer: what the flow compares.
+/// Luma pyramids of the video frame and of the still in the video's geometry (rotation and both
+/// lenses applied, no parallax), smoothed alike: 8 bits per pixel, four pixels per word, in one
+/// storage buffer. They are the inputs of flow.
 class LumaPyramids {
 public:
     explicit LumaPyramids(Size video);
 
     /// From the video frame (RGBA8 texture of the video's size).
     void buildVideo(const gpu::Texture& video);
-    /// From a still (RGBA8 texture, linear filter), through the rig. Once per still.
+    /// From a still (RGBA8 texture, linear filter), through the rig. Called once per still.
     void buildStill(const gpu::Texture& still, const StereoRig& rig);
     /// From a picture that already has the video's geometry (flow between two frames).
     void buildSecond(const gpu::Texture& picture);

@@ -24,12 +24,12 @@ gpu::Texture alphaOf(const SurfaceTexture& texture) {
     return out;
 }
 
-/// In pixels of the target.
+/// Converts layer pixels to pixels of the target, which has twice the resolution.
 PixelRect doubled(const PixelRect& r) {
     return {2 * r.x0, 2 * r.y0, 2 * r.x1, 2 * r.y1};
 }
 
-/// Leaves out what faces away: clockwise in a picture whose first row is the lowest to GL.
+/// Culls back faces. Winding is clockwise, because the picture's first row is the lowest to GL.
 class FrontFaces {
 public:
     FrontFaces() {
@@ -44,7 +44,7 @@ public:
     }
 };
 
-/// Objects before, the catcher behind all of them.
+/// Depth ranges that put all objects in front of the catcher.
 class DepthRange {
 public:
     DepthRange(float nearest, float farthest) { glDepthRangef(nearest, farthest); }

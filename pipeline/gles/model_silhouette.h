@@ -12,30 +12,29 @@
 
 namespace mfar {
 
-/// What of the virtual scene a camera sees now: the models and, below them, the real surface that
-/// catches their shadows, rasterised at twice the layer's resolution, so that a pixel is covered by
+/// The visible part of the virtual scene: the models and, below them, the real surface that catches
+/// their shadows. Rasterised at twice the layer's resolution, so that a pixel is covered in
 /// quarters. The lens's distortion acts on the vertices. No light, no colours.
 class ModelSilhouette {
 public:
     /// `layer`: the camera at the layer's resolution. Throws GlError without R32UI targets.
     explicit ModelSilhouette(const CameraModel& layer);
 
-    /// Uploads the meshes; of a scene of more than 20000 triangles simplified ones. Surfaces whose
-    /// alpha is masked have their holes.
+    /// Uploads the meshes, simplified if the scene has more than 20000 triangles. Masked surfaces
+    /// have holes according to their alpha.
     void setScene(const Scene& scene);
 
-    /// Layer pixels around all objects; of one that reaches before the near plane and beyond it,
-    /// all of them.
+    /// Bounds of all objects [layer px]; the whole layer for an object that crosses the near plane.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const {
         return models_.bounds(T_world_camera);
     }
 
-    /// Draws within `where` [layer px]; elsewhere there is nothing afterwards.
+    /// Draws within `where` [layer px]; the surface is empty elsewhere.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
 
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
-    /// R32UI, twice the layer's size: z and number, packed as warp_surface.glsl says; 0 = nothing.
-    /// The catcher's number is seen only where no object is, nearer or not.
+    /// R32UI, twice the layer's size: z and number, packed as in warp_surface.glsl; 0 = nothing.
+    /// The catcher's number appears only where there is no object, whichever is nearer.
     [[nodiscard]] const gpu::Texture& surface() const { return surface_; }
     [[nodiscard]] std::size_t triangles() const { return models_.triangles(); }
 
@@ -44,9 +43,9 @@ private:
     struct Part {
         gpu::Buffer vertices, indices;
         int indexCount;
-        std::optional<gpu::Texture> alpha;  // of masked surfaces
+        std::optional<gpu::Texture> alpha;  // for masked surfaces
         float cutoff;
-        bool bothSides;  // are seen
+        bool bothSides;  // both sides are visible
     };
     using ShapePointer = std::shared_ptr<const Models::Shape>;
     using PartsOfShapes = std::map<ShapePointer, std::shared_ptr<std::vector<Part>>>;

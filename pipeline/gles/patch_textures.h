@@ -5,8 +5,8 @@
 
 namespace mfar {
 
-/// The pixels of all patches on the GPU, one below the other: those of slot i begin at row i *
-/// layer height.
+/// The pixels of all patches on the GPU, one patch below the other: slot i begins at row i * layer
+/// height.
 class PatchTextures {
 public:
     explicit PatchTextures(Size layer);

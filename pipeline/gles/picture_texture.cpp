@@ -11,7 +11,7 @@
 namespace mfar::gpu {
 namespace {
 
-// Cameras have fewer buffers; those of one that was opened anew are others.
+// Upper limit of kept imports. A camera has fewer buffers, but a reopened camera has new ones.
 constexpr std::size_t kMostImported = 16;
 constexpr GLuint64 kLongestRead = std::chrono::nanoseconds(kLongestGpuWait).count();
 
@@ -20,7 +20,7 @@ int channelsOf(TexelFormat format) {
     return format == TexelFormat::Rg8 ? 2 : 4;
 }
 
-// Of the texture that is bound.
+// For the bound texture.
 void setSampling(GLint filter) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
@@ -117,8 +117,8 @@ std::optional<std::string> PictureTexture::takeImportFault() {
     return std::exchange(importFault_, std::nullopt);
 }
 
-// One that is refused once is not asked again: what a driver takes does not change from picture to
-// picture.
+// After a failure, no further import is tried: what a driver accepts does not change from picture
+// to picture.
 std::optional<PictureTexture::Names> PictureTexture::importPlanes(const ImageView& view) {
     if (importer_ == nullptr || view.shared == nullptr) return {};
     const auto known = std::ranges::find(imported_, view.shared->id, &Imported::id);

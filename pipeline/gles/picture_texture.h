@@ -13,41 +13,41 @@
 
 namespace mfar::gpu {
 
-/// The picture that is uploaded again and again, whatever its pixel format: grey and RGBA as they
-/// are, BGRA by the texture's swizzle, Y U V as planes that one draw turns into RGBA8. Allocates
-/// when size or format change. Needs a current context for its whole life.
+/// A picture that is uploaded repeatedly, in any pixel format: grey and RGBA unchanged, BGRA by the
+/// texture's swizzle, Y U V as planes that one draw converts to RGBA8. Allocates when size or
+/// format change. Needs a current context for its whole lifetime.
 class PictureTexture {
 public:
-    /// `filter` of texture().
+    /// `filter`: of texture().
     explicit PictureTexture(Filter filter = Filter::Nearest) : filter_(filter) {}
 
     PictureTexture(const PictureTexture&) = delete;
     PictureTexture& operator=(const PictureTexture&) = delete;
     ~PictureTexture();
 
-    /// Planes of Y U V in memory that the GPU can read are read from there, without a copy; null:
-    /// never. It must outlive this.
+    /// With an importer, Y U V planes in memory that the GPU can access are read without a copy;
+    /// null: always copied. The importer must outlive this.
     void setImporter(PlaneImporter* importer);
 
-    /// The view is sound (requireSound()). Leaves another framebuffer bound than it found.
+    /// The view must be valid (requireSound()). Changes the bound framebuffer.
     void upload(const ImageView& view);
-    /// Until this the memory of the view that was uploaded last may still be read. Waits for that.
+    /// Waits until the memory of the last uploaded view is no longer read.
     void finishReading();
-    /// Why memory that is shared is copied all the same; told once.
+    /// Why zero-copy import failed; returned once.
     [[nodiscard]] std::optional<std::string> takeImportFault();
 
-    /// As of the last upload: R8 for grey, otherwise RGBA8. Samples as R G B.
+    /// The last upload: R8 for grey, otherwise RGBA8. Samples as R G B.
     [[nodiscard]] const Texture& texture() const { return picture_; }
 
 private:
-    /// What pictures in Y U V need on their way.
+    /// Resources for converting Y U V pictures.
     struct Planes {
-        std::array<Texture, 3> textures;  // as many as the format has planes
+        std::array<Texture, 3> textures;  // one per plane of the format
         Framebuffer target;
         DrawPass<params::YuvPicture> pass;
     };
 
-    using Names = std::array<GLuint, 3>;  // of the planes' textures
+    using Names = std::array<GLuint, 3>;  // texture names of the planes
     struct Imported {
         std::uint64_t id;
         Names planes;
@@ -65,7 +65,7 @@ private:
     Texture picture_;
     std::optional<Planes> planes_;
     PlaneImporter* importer_ = nullptr;
-    std::vector<Imported> imported_;  // the one used last at the end
+    std::vector<Imported> imported_;  // most recently used last
     GLsync reading_ = nullptr;
     std::optional<std::string> importFault_;
 };

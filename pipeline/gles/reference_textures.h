@@ -11,10 +11,10 @@ namespace mfar {
 /// Normalised ray (x/z, y/z) of every pixel, Rg32F.
 [[nodiscard]] gpu::Texture rayTexture(const CameraModel& camera);
 
-/// A reference on the GPU.
+/// A warp's reference on the GPU.
 class ReferenceTextures {
 public:
-    /// Allocates where the size is another one than before.
+    /// Allocates when the size changes.
     void upload(const WarpReference& reference);
 
     /// Valid after the first upload.

@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// Stills with fewer pixels, without aliasing. Needs a current context for its whole life.
+/// Reduces stills without aliasing. Needs a current context for its whole lifetime.
 class StillReducer {
 public:
     /// `to` has at least one pixel and at most `from` in each direction.
@@ -16,7 +16,7 @@ public:
 
     /// A picture of `from` pixels.
     void run(const gpu::Texture& picture);
-    /// Of the last run. RGBA8, linear filter.
+    /// The result of the last run. RGBA8, linear filter.
     [[nodiscard]] const gpu::Texture& picture() const { return reduced_; }
 
 private:

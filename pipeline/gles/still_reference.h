@@ -11,26 +11,28 @@
 
 namespace mfar {
 
-/// The newest still and everything about it that is computed once: its picture and its luma. Where
-/// the output shows the still's pixels smaller than its own, both are reduced to the output's.
+/// The newest still and everything that is computed once from it: its picture and its luma. If the
+/// output shows the still's pixels smaller than its own, both are reduced to the output's
+/// resolution.
 class StillReference {
 public:
-    /// `output`: size of what is made of the video's whole picture. `picture` takes the stills; it
+    /// `output`: size of the output for the video's whole picture. `picture` holds the stills; it
     /// has a linear filter and must outlive this.
     StillReference(const StereoRig& rig, Size output, gpu::PictureTexture& picture);
 
     /// Size must be the still camera's; the pixel format may change from one still to the next.
     void set(const ImageView& still);
 
-    /// The rig with the still camera as picture() has it: the same lens, maybe fewer pixels.
+    /// The rig with the still camera at picture()'s resolution: the same lens, possibly fewer
+    /// pixels.
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
-    /// The picture as it came.
+    /// The picture as delivered.
     [[nodiscard]] const gpu::Texture& whole() const { return picture_.texture(); }
     [[nodiscard]] const gpu::Texture& picture() const {
         return reducer_ ? reducer_->picture() : picture_.texture();
     }
-    /// Luma of rig().still's size. Unless it was reduced, its finest detail is raised by what a
-    /// linear look-up takes from it. R8, linear filter.
+    /// Luma of rig().still's size. Unless it was reduced, its finest detail is raised to compensate
+    /// the loss in a linear look-up. R8, linear filter.
     [[nodiscard]] const gpu::Texture& raised() const { return raised_; }
 
 private:

@@ -7,7 +7,7 @@
 
 namespace mfar {
 
-/// Two textures as a layer.
+/// Presents two textures as a layer.
 class TextureLayer {
 public:
     explicit TextureLayer(Transfers* transfers = nullptr)

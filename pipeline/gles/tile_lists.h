@@ -9,34 +9,34 @@
 
 namespace mfar {
 
-/// Finds on the GPU the tiles that a field along epipolar lines does not explain, and lists them
-/// for the 2-D search, for each pyramid level what that level's search has to cover.
+/// Finds on the GPU the tiles that a flow field along epipolar lines does not explain. For each
+/// pyramid level, lists the groups of cells that the 2-D search has to cover.
 class TileLists {
 public:
-    /// A field of cells and its two-way errors, both by their first vec4 in `patches`.
+    /// A field of cells and its two-way errors, each given by its first vec4 in `patches`.
     struct Field {
         const gpu::Buffer& patches;
         int vectors, errors;
     };
 
-    /// `cells` of the finest level.
+    /// `cells`: of the finest level.
     TileLists(Size cells, int levels);
 
     void find(const Field& field, const TileBuffer& tiles);
-    /// Nothing is listed any more.
+    /// Empties the lists.
     void clear();
 
-    /// Packed groups of 4x4 cells, those of a level from first(level) on.
+    /// Packed groups of 4x4 cells; a level's list starts at first(level).
     [[nodiscard]] const gpu::Buffer& lists() const { return lists_; }
     [[nodiscard]] int first(int level) const { return levels_[level].first; }
-    /// Group counts of the dispatches, one every 16 bytes from the finest level on.
+    /// Group counts of the dispatches, one every 16 bytes, finest level first.
     [[nodiscard]] const gpu::Buffer& commands() const { return commands_; }
 
-    /// Number of listed tiles before the last find() or clear(): already there, nothing waits.
+    /// Number of listed tiles before the last find() or clear(). Does not wait for the GPU.
     [[nodiscard]] int countBefore() const { return countBefore_; }
     /// Number of listed tiles. Waits for the GPU.
     [[nodiscard]] int count() const;
-    /// Of every tile, row-major: is it listed? Waits for the GPU.
+    /// Per tile, row-major: whether it is listed. Waits for the GPU.
     [[nodiscard]] std::vector<bool> read() const;
 
 private:

@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// The same shader over the whole target and over a list of tiles.
+/// A shader for the whole target and the same for a list of tiles.
 struct TilePass {
     explicit TilePass(const char* fragment, const char* defines = "")
         : whole(fragment, defines), tiles("tile_rect.vert", fragment, defines) {}
@@ -24,7 +24,7 @@ struct TilePass {
     gpu::DrawPass<params::DrawTiles> whole, tiles;
 };
 
-/// Composites of mode Detail: enlarged video, and the same with the still's detail. `define`: one
+/// Composites of mode Detail: enlarged video, without and with the still's detail. `define`: one
 /// line, or empty.
 struct DetailPasses {
     explicit DetailPasses(const std::string& define = "")

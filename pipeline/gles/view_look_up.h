@@ -16,10 +16,10 @@
 
 namespace mfar {
 
-/// The look-up of the warp (paper, eq. 5), whose depth is that of the models, rasterised at the
-/// current pose: every pixel of the layer that shows a surface looks its colour up
-/// in the reference or, where that does not show it, in the patches. Plain pixels are done by a
-/// draw, edges and what else is not as simple by a compute shader over their list.
+/// The look-up of the warp (paper, eq. 5), with the depth of the models rasterised at the current
+/// pose: every layer pixel that shows a surface looks its colour up in the reference or, if the
+/// reference does not show the surface, in the patches. A draw handles plain pixels; a compute
+/// shader handles a list of edges and other complex pixels.
 class ViewLookUp {
 public:
     explicit ViewLookUp(const LensProjection& layer);
@@ -30,20 +30,20 @@ public:
         const RigidTransform& T_world_reference;
         const PatchPictures& patches;
         const PatchTextures& patchTextures;
-        /// The catcher, if it is one plane: n . point = w in the world [m]; zero: it is in the
-        /// silhouette, or there is none.
+        /// The catcher, if it is one plane: n . point = w in the world [m]; zero: the catcher is in
+        /// the silhouette, or there is none.
         Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     };
-    /// Writes every pixel of `where`, and no other; appends to the list that `holes` has begun.
+    /// Writes exactly the pixels of `where`; appends to the list that `holes` has started.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where,
              const HoleFiller& holes);
-    /// Nothing at all in these pixels.
+    /// Empties these pixels.
     void clear(const PixelRect& where) const;
 
     [[nodiscard]] const gpu::Texture& colour() const { return colour_; }  ///< RGBA8 premultiplied
     [[nodiscard]] const gpu::Texture& depth() const { return depth_; }    ///< R32F
-    /// RGBA8: number of what is missing, its share of the pixel, 1 where it is known nowhere,
-    /// number of what fills the pixel alone.
+    /// RGBA8: number of the missing surface, its share of the pixel, 1 where no picture shows it,
+    /// number of the surface that fills the pixel alone.
     [[nodiscard]] const gpu::Texture& state() const { return state_; }
 
 private:

@@ -15,12 +15,12 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kStep = 0.25;       // px, along the normal
-constexpr double kMostReach = 2.5;   // px to both sides of an edge: blur of up to about 1 px
-constexpr double kEnds = 0.08;       // share of an edge left out at each end: corners are round
+constexpr double kMostReach = 2.5;   // px to both sides of an edge, enough for a blur of about 1 px
+constexpr double kEnds = 0.08;       // ignored share at each end of an edge: corners are round
 constexpr double kFarthestMove = 2;  // px
-constexpr double kLeastContrast = 0.006;  // light, 1 at 255
+constexpr double kLeastContrast = 0.006;  // linear light, 1 at grey level 255
 
-/// Bilinear look-up of light; nothing outside.
+/// Bilinear look-up of linear light; empty outside the picture.
 class Light {
 public:
     Light(const ImageView& luma, const std::array<double, 256>& table)
@@ -44,11 +44,11 @@ private:
 
 struct EdgePoint {
     Vector2d pixel;
-    double weight;  ///< contrast [light]
+    double weight;  ///< contrast of the edge [light]
 };
 
-/// Where light rises fastest along `normal` (dark to bright) near `middle`: the mean of the
-/// places of the profile's rise. A second turn centres the window on what the first one found.
+/// Finds where light rises along `normal` (dark to bright) near `middle`: the mean position of the
+/// profile's rise. A second pass centres the window on the result of the first.
 std::optional<EdgePoint> findStep(const Light& light, const Vector2d& middle,
                                   const Vector2d& normal, double reach) {
     double centre = 0, contrast = 0;
@@ -77,7 +77,7 @@ struct Line {
     double d;
 };
 
-/// Total least squares through the points, done again without the ones that lie far off.
+/// Total least squares through the points, repeated without the outliers.
 std::optional<Line> fitLine(std::vector<EdgePoint> points) {
     Line line{};
     for (int turn = 0; turn < 2; ++turn) {
@@ -109,8 +109,8 @@ std::optional<Vector2d> intersect(const Line& a, const Line& b) {
     return Vector2d{(a.d * b.n.y() - b.d * a.n.y()) / det, (b.d * a.n.x() - a.d * b.n.x()) / det};
 }
 
-/// The edge from corner a to corner b as a line of normalised rays. Seen in the picture the inside
-/// of the quad is to the left of that way.
+/// The edge from corner a to corner b as a line of normalised rays. In the picture, the inside of
+/// the quad is to the left of the direction from a to b.
 std::optional<Line> measureEdge(const Light& light, const CameraModel& camera, const Vector2d& a,
                                 const Vector2d& b, const TagFamilyInfo& family) {
     const double length = (b - a).norm();

@@ -18,8 +18,9 @@ Pose poseOf(const CameraPose& solved, const Matrix6& ambiguous,
     return out;
 }
 
-/// The covariance of either solution being the true one, each as likely as its error says: the
-/// choice may be wrong along the way from one to the other, and the filter has to know.
+/// Covariance due to the choice between the two solutions: each is the true one with the
+/// probability that its error implies, so the filter must expect an error along the way from one to
+/// the other.
 Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sigma) {
     if (!poses.other) return Matrix6::Zero();
     const bool isBest = &chosen == &poses.best;
@@ -30,7 +31,7 @@ Matrix6 ambiguity(const CameraPoses& poses, const CameraPose& chosen, double sig
     return share * (1 - share) * way * way.transpose();
 }
 
-/// Mean distance of the camera to the tags in use.
+/// Mean distance of the camera to the tags that are used.
 double distanceTo(std::span<const TagObservation> tags, const std::vector<bool>& used,
                   const RigidTransform& T_world_camera) {
     double sum = 0;

@@ -9,31 +9,31 @@
 namespace mfar {
 
 struct PlanarChoiceOptions {
-    double errorSigma = 0.25;  ///< noise of a corner's coordinates that evidence is weighed by [px]
-    /// Evidence at which the other solution takes over: logarithm of how much better it explains
-    /// the corners, summed over frames.
+    double errorSigma = 0.25;  ///< assumed noise of a corner's coordinates for evidence [px]
+    /// Evidence at which the choice changes to the other solution: log likelihood ratio of the
+    /// corners, summed over frames.
     double threshold = 12;
-    double memory = 0.95;  ///< share of the evidence that a frame leaves to the next one, [0, 1)
+    double memory = 0.95;  ///< factor of the evidence from one frame to the next, [0, 1)
 };
 
-/// Decides between the two poses from which a plane of tags looks nearly the same. The one nearer
-/// to the predicted motion stands until the other has explained the corners so much better, in one
-/// frame or over many, that chance is ruled out. So noise does not flip the pose when the plane is
-/// seen from straight ahead, where the two errors are equal, and a wrong start is put right.
+/// Decides between the two poses from which a plane of tags looks nearly the same. The pose nearer
+/// to the predicted motion is kept until the other explains the corners, in one frame or over many,
+/// better than chance permits. So noise does not flip the pose when the plane is seen from straight
+/// ahead, where both errors are equal, and a wrong initial choice is corrected.
 class PlanarChoice {
 public:
     /// Throws std::invalid_argument for options out of their range.
     explicit PlanarChoice(const PlanarChoiceOptions& options = {});
 
-    /// A reference into `poses`. No prediction: the one with the smaller error.
+    /// Returns a reference into `poses`. Without a prediction: the pose with the smaller error.
     [[nodiscard]] const CameraPose& choose(const CameraPoses& poses,
                                            const std::optional<RigidTransform>& predicted);
-    /// True when the last choice took over against the prediction.
+    /// True when the last choice changed to the pose farther from the prediction.
     [[nodiscard]] bool flipped() const { return flipped_; }
 
 private:
     PlanarChoiceOptions options_;
-    double evidence_ = 0;  ///< for the solution that does not stand
+    double evidence_ = 0;  ///< for the solution that is not chosen
     bool flipped_ = false;
 };
 
@@ -43,29 +43,30 @@ struct PoseEstimatorOptions {
     PoseFilterOptions filter;
 };
 
-/// From the tags of each video frame to the camera's motion: solution, choice, filter. One thread
-/// at a time.
+/// Estimates the camera's motion from the tags of each video frame: solve, choose, filter. One
+/// thread at a time.
 class PoseEstimator {
 public:
     explicit PoseEstimator(const PoseEstimatorOptions& options = {});
 
-    /// The filtered pose at the frame's time, also when no tag was seen or what was seen is an
-    /// outlier (tags = 0 then), until the filter gives up.
+    /// The filtered pose at the frame's time. When no tag is visible or the measured pose is an
+    /// outlier, the prediction (tags = 0), until the filter's limit is reached.
     std::optional<Pose> update(std::span<const TagObservation> tags, const CameraModel& camera,
                                Timestamp time);
-    /// What the last frame's tags alone say.
+    /// The unfiltered pose from the last frame's tags.
     [[nodiscard]] const std::optional<Pose>& raw() const { return raw_; }
     [[nodiscard]] std::optional<Pose> predict(Timestamp t) const { return filter_.predict(t); }
-    /// The pose of a picture beside the video: measured, chosen by the prediction, not filtered and
-    /// of no effect on the filter. `T_camera_video`: video camera -> the picture's camera.
+    /// The pose of a picture other than a video frame: measured, chosen by the prediction, not
+    /// filtered and without effect on the filter. `T_camera_video`: video camera -> the picture's
+    /// camera.
     [[nodiscard]] std::optional<Pose> measure(std::span<const TagObservation> tags,
                                               const CameraModel& camera,
                                               const RigidTransform& T_camera_video,
                                               Timestamp time) const;
 
-    [[nodiscard]] int flips() const { return flips_; }        ///< changes between the solutions
-    [[nodiscard]] int rejected() const { return rejected_; }  ///< poses that were outliers
-    [[nodiscard]] int jumps() const { return jumps_; }        ///< new starts after outliers
+    [[nodiscard]] int flips() const { return flips_; }        ///< changes between the two solutions
+    [[nodiscard]] int rejected() const { return rejected_; }  ///< poses rejected as outliers
+    [[nodiscard]] int jumps() const { return jumps_; }        ///< restarts after outliers
 
 private:
     PoseEstimatorOptions options_;

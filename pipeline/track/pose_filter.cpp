@@ -8,7 +8,8 @@
 namespace mfar {
 namespace {
 
-// A tracked camera turns by less than a radian and moves by less than a distance a second, mostly.
+// A tracked camera mostly turns by less than a radian and moves by less than its distance per
+// second.
 constexpr double kStartRate = 1;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -132,7 +133,7 @@ void PoseFilter::reset() {
 std::optional<Pose> PoseFilter::predict(Timestamp t) const {
     if (!state_ || missed_ > options_.bridgeFrames || !reaches(*state_, t)) return std::nullopt;
     const State at = propagated(*state_, t);
-    // Of a pose whose covariance spans more than double precision does, nothing is left.
+    // Numeric failure: the covariance spans more than double precision.
     if (!isFinite(at.T_world_video) || !at.P.allFinite() || !(at.P.diagonal().minCoeff() >= 0))
         return std::nullopt;
     Pose out;

@@ -15,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
-/// Of the motion and the edge shift.
+/// For the motion and the edge shift.
 struct NormalEquations {
     Matrix7 A = Matrix7::Zero();
     Vector7 b = Vector7::Zero();
@@ -26,7 +26,7 @@ struct Estimate {
     double edgeShift = 0;
 };
 
-// A ray flatter than that is not one through a lens.
+// No lens sees a flatter ray.
 bool inFront(const Eigen::Vector3d& p) {
     return p.z() > 1e-3 * p.norm();
 }
@@ -41,8 +41,8 @@ double totalError(std::span<const CornerSet> sets, const Estimate& at, const Cam
     return sum;
 }
 
-/// Linearised in x of T_world_camera * exp(x), which moves a point p of the camera's frame by
-/// p x rotation - translation.
+/// Linearised in x of T_world_camera * exp(x), which moves a point p in the camera's frame by p x
+/// rotation - translation.
 NormalEquations linearise(std::span<const CornerSet> sets, const Estimate& at,
                           const CameraModel& camera, double shiftWeight) {
     const RigidTransform T_camera_world = at.T_world_camera.inverse();
@@ -83,7 +83,8 @@ std::array<Eigen::Vector2d, 4> outwardsOf(const std::array<Eigen::Vector2d, 4>& 
     for (int k = 0; k < 4; ++k) {
         const Eigen::Vector2d a = outwardNormal(corners[k] - corners[(k + 3) % 4]);
         const Eigen::Vector2d b = outwardNormal(corners[(k + 1) % 4] - corners[k]);
-        // Where both edges have moved by one; a corner too flat for that to mean much stays.
+        // Intersection of both edges moved out by one; a corner too flat for a stable intersection
+        // stays.
         const double flat = 1 + a.dot(b);
         out[k] = flat > 0.1 ? Eigen::Vector2d((a + b) / flat) : Eigen::Vector2d::Zero();
     }

@@ -9,15 +9,15 @@
 
 namespace mfar {
 
-/// Where in the picture the tags of the map are to be sought: a rectangle around every tag that
-/// faces the camera and whose middle is in the picture, with room for its quiet zone, for motion
-/// and for three standard deviations of the predicted pose. Rectangles that overlap are one.
+/// Where in the picture to search for the tags of the map: a rectangle around every tag that faces
+/// the camera and whose middle is in the picture, with a margin for its quiet zone, for motion and
+/// for three standard deviations of the predicted pose. Overlapping rectangles are merged.
 /// `covariance`: of T_world_camera, in the camera's own frame.
 [[nodiscard]] std::vector<PixelRect> searchRegions(const TagMap& map, const CameraModel& camera,
                                                    const RigidTransform& T_world_camera,
                                                    const Matrix6& covariance);
 
-/// [px]
+/// Total area [px].
 [[nodiscard]] double areaOf(const std::vector<PixelRect>& regions);
 
 }  // namespace mfar

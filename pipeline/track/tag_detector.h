@@ -14,11 +14,11 @@ namespace mfar {
 
 struct TagDetection {
     TagKey tag;
-    int hamming = 0;    ///< bits that had to be corrected
-    double margin = 0;  ///< mean contrast of the data bits against their threshold [grey levels]
-    /// [px], pixel centres at integers, in the whole picture. Seen from the front of an upright
-    /// tag: bottom left, bottom right, top right, top left; kTagCorners has them in the tag's
-    /// frame.
+    int hamming = 0;    ///< corrected bits
+    double margin = 0;  ///< mean contrast of the data bits to their threshold [grey levels]
+    /// [px] in the whole picture, pixel centres at integers. Order, seen from the front of an
+    /// upright tag: bottom left, bottom right, top right, top left; kTagCorners has them in the
+    /// tag's frame.
     std::array<Eigen::Vector2d, 4> corners;
 };
 
@@ -28,16 +28,16 @@ inline const std::array<Eigen::Vector2d, 4> kTagCorners{{{-1, 1}, {1, 1}, {1, -1
 
 struct DetectorOptions {
     std::vector<TagFamily> families{TagFamily::Tag36h11};
-    /// Quads are sought in a picture so many times smaller; bits and edges are read in the full
-    /// one. 1, 1.5 or a whole number up to 8.
+    /// Factor by which the picture is reduced for the search for quads; bits and edges are read in
+    /// the full picture. 1, 1.5 or a whole number up to 8.
     double decimation = 2;
     int threads = 1;     ///< 1 to 64
-    double blur = 0;     ///< Gaussian before the search for quads [px of the smaller picture], 0..5
+    double blur = 0;     ///< Gaussian before the search for quads [px of the reduced one], 0..5
     bool refine = true;  ///< snap the quad's edges to the strongest gradient
-    /// Detections with more corrected bits are dropped (0 or 1). tag16h5 is too easily found in
-    /// noise: of it only detections without any corrected bit and with twice the margin are kept.
+    /// Detections with more corrected bits are dropped (0 or 1). tag16h5 is often found in noise:
+    /// its detections must have no corrected bit and twice the margin.
     int maxHamming = 1;
-    /// Width of the black border [cells], 1 or 2. Kalibr prints its tags with 2, all others have 1.
+    /// Width of the black border [cells], 1 or 2. Kalibr prints its tags with 2; all others have 1.
     int borderCells = 1;
     double minMargin = 20;  ///< detections with less contrast are dropped [grey levels]
 };
@@ -46,16 +46,16 @@ struct DetectorOptions {
 class TagDetector {
 public:
     /// Throws std::invalid_argument for options out of their range, std::runtime_error when the
-    /// library has no memory.
+    /// library is out of memory.
     explicit TagDetector(const DetectorOptions& options);
     ~TagDetector();
     TagDetector(TagDetector&&) noexcept;
     TagDetector& operator=(TagDetector&&) noexcept;
 
     /// Tags in a Gray8 picture of up to 32767 pixels a side, sorted by tag, then from the left.
-    /// With `region` only what lies fully inside it is found; it is clipped to the picture and
-    /// grown to the library's grid of tiles, so that a tag is found there exactly as in the whole
-    /// picture. Throws std::invalid_argument for another format or size.
+    /// With `region`, only tags completely inside it are found. The region is clipped to the
+    /// picture and enlarged to the library's grid of tiles, so that a tag is found exactly as in
+    /// the whole picture. Throws std::invalid_argument for another format or size.
     [[nodiscard]] std::vector<TagDetection> detect(const ImageView& luma,
                                                    std::optional<PixelRect> region = {});
 
@@ -63,11 +63,11 @@ private:
     struct Library;
     std::unique_ptr<Library> library_;
     DetectorOptions options_;
-    std::vector<unsigned char> copy_;  ///< where the library would blur its input in place
+    std::vector<unsigned char> copy_;  ///< used where the library would blur its input in place
 };
 
-/// The black and white picture of a tag, one pixel a cell with the quiet zone around it, drawn by
-/// libapriltag: `size` x `size` values 0 or 255, row 0 at the top. `corner`: cells from the
+/// The black and white picture of a tag as drawn by libapriltag, one pixel per cell, including the
+/// quiet zone: `size` x `size` values 0 or 255, row 0 at the top. `corner`: cells from the
 /// picture's edge to the tag's corners. Throws std::invalid_argument for an id the family lacks.
 struct TagPicture {
     int size = 0;

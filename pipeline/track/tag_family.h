@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// Families of AprilTags that can be found.
+/// Supported families of AprilTags.
 enum class TagFamily : unsigned char { Tag36h11, Tag25h9, Tag16h5, TagStandard41h12 };
 
 struct TagFamilyInfo {
@@ -16,7 +16,7 @@ struct TagFamilyInfo {
     std::string_view name;  ///< as in tags.toml and in libapriltag
     int count;              ///< ids are 0 .. count - 1
     int cells;              ///< data cells along the edge between two corners
-    bool brightInside;      ///< the ring just inside the corners is white, the one outside black
+    bool brightInside;      ///< just inside the corners is a white ring, outside a black one
 };
 
 inline constexpr std::array<TagFamilyInfo, 4> kTagFamilies{{
@@ -36,7 +36,7 @@ inline constexpr std::array<TagFamilyInfo, 4> kTagFamilies{{
     return std::nullopt;
 }
 
-/// What tells a tag from every other one.
+/// Identifies a tag uniquely.
 struct TagKey {
     TagFamily family = TagFamily::Tag36h11;
     int id = 0;

@@ -12,7 +12,7 @@
 
 namespace mfar {
 
-/// A tag as a file gives it. What is wrong with the values of one tag is the same in every format.
+/// A tag as read from a file, so that all formats share the checks of a tag's values.
 struct RawTag {
     TagFamily family = TagFamily::Tag36h11;
     std::int64_t id = -1;
@@ -26,7 +26,7 @@ struct RawTag {
                                : fmt::format("{}: {}", file, what));
 }
 
-/// What is wrong with the tag, nothing when it is good. Adds it to `seen`.
+/// The fault in the tag's values; empty for a valid tag, which is then added to `seen`.
 inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>& seen) {
     const TagFamilyInfo& family = info(raw.family);
     if (raw.id < 0 || raw.id >= family.count)
@@ -42,7 +42,7 @@ inline std::optional<std::string> wrongWith(const RawTag& raw, std::set<TagKey>&
             return fmt::format("the position must be from {} to {} m, not {}",
                                plausible::kTagPosition.least, plausible::kTagPosition.most,
                                coordinate);
-    // Nine digits are written; what is off by more was no rotation.
+    // Files have nine digits; a larger error means that the values are no rotation.
     if (!(std::abs(raw.wxyz.norm() - 1) < 1e-3))
         return fmt::format("the quaternion must have length 1, not {}", raw.wxyz.norm());
     if (!seen.insert({raw.family, static_cast<int>(raw.id)}).second)

@@ -61,7 +61,7 @@ private:
     }
 
     [[nodiscard]] double number(const toml::node& node, std::string_view key) const {
-        // TOML++ gives no double for a whole number above 2^53.
+        // TOML++ returns no double for an integer above 2^53.
         const auto whole = node.value_exact<std::int64_t>();
         const auto value = whole ? static_cast<double>(*whole) : node.value_exact<double>();
         if (!value || !std::isfinite(*value))

@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-/// apriltag_ros: x right, y up, z out of the surface. Half a turn about x.
+/// The tag frame of apriltag_ros has x right, y up, z out of the surface: half a turn about x.
 const Eigen::Quaterniond kRosTagOfTag(0, 1, 0, 0);
 
 class BundleReader {

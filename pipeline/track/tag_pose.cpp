@@ -15,11 +15,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
-constexpr std::size_t kStarts = 8;   // tags whose two solutions are tried, largest first
-constexpr double kStartCutoff = 10;  // px; one tag's pose misses far ones by that much
+constexpr std::size_t kStarts = 8;   // tags, largest first, whose two solutions are tried as start
+constexpr double kStartCutoff = 10;  // px; from one tag's pose, distant tags are off by up to this
 constexpr double kSameMinimum = 0.1 * kDegree;
 
-/// A tag fit to be used, with its own two poses of the camera.
+/// A usable tag, with its own two poses of the camera.
 struct Candidate {
     std::size_t index;  ///< of the observation
     double area;        ///< [px^2]
@@ -31,7 +31,7 @@ double cross(const Vector2d& a, const Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Area of the quad [px^2]; 0 when it is no tag seen from its front or too small to be used.
+/// Area of the quad [px^2]; 0 when it is not a tag seen from its front or is too small to be used.
 double usableArea(const TagObservation& tag, const CameraModel& camera, double smallestEdge) {
     const auto& c = tag.corners;
     double area = 0;
@@ -40,7 +40,7 @@ double usableArea(const TagObservation& tag, const CameraModel& camera, double s
               c[k].y() <= camera.size.height - 0.5))
             return 0;
         const Vector2d edge = c[(k + 1) % 4] - c[k], next = c[(k + 2) % 4] - c[(k + 1) % 4];
-        // y points down: a convex quad in the order of its corners turns to negative angles.
+        // y points down, so the corners of a convex quad turn by negative angles.
         if (!(cross(edge, next) < 0) || !(edge.norm() >= smallestEdge)) return 0;
         area -= cross(c[k], c[(k + 1) % 4]) / 2;
     }
@@ -84,7 +84,8 @@ double cappedError(std::span<const CornerSet> sets, const RigidTransform& T_worl
     return sum;
 }
 
-/// The tags' own pose that suits all of them best; larger tags come first and win a tie.
+/// The pose, among the tags' own solutions, that fits all tags best; larger tags come first and win
+/// a tie.
 RigidTransform bestStart(std::span<const Candidate> tags, std::span<const CornerSet> sets,
                          const CameraModel& camera) {
     RigidTransform best = tags[0].T_world_camera[0];
@@ -100,7 +101,7 @@ RigidTransform bestStart(std::span<const Candidate> tags, std::span<const Corner
     return best;
 }
 
-/// Sets the weights to 1 or 0 by the tags' errors; false when nothing is left.
+/// Sets the weights to 1 or 0 by the tags' errors; false when all are 0.
 bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera,
                  const CameraModel& camera, double cutoff) {
     const RigidTransform inverse = T_world_camera.inverse();
@@ -112,8 +113,9 @@ bool keepFitting(std::span<CornerSet> sets, const RigidTransform& T_world_camera
     return any;
 }
 
-/// From a start that one tag gives to the minimum over all tags that agree: weights that fall with
-/// a tag's error (Geman-McClure), with a scale that narrows, then only ones and zeros.
+/// Refines a start that comes from one tag to the minimum over all tags that agree. First with
+/// weights that fall with a tag's error (Geman-McClure) at a decreasing scale, then with weights of
+/// 1 and 0.
 std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransform T,
                                           const CameraModel& camera, double farthest) {
     for (const double scale : {kStartCutoff, 0.5 * (kStartCutoff + farthest), farthest}) {
@@ -137,7 +139,7 @@ std::optional<RefinedPose> refineRobustly(std::span<CornerSet> sets, RigidTransf
     return refined;
 }
 
-/// With several tags the edge shift is set free for the last steps.
+/// Final step: with several tags, the edge shift is estimated as well.
 std::optional<CameraPose> finish(RefinedPose refined, std::span<const CornerSet> sets, int tags,
                                  const CameraModel& camera, const TagPoseOptions& options) {
     if (tags > 1) {
@@ -162,7 +164,7 @@ bool sameMinimum(const RigidTransform& a, const RigidTransform& b) {
     return a.rotation.angularDistance(b.rotation) < kSameMinimum;
 }
 
-/// The second minimum over the tags in use, from the largest one's other solution.
+/// The second minimum over the tags in use, started from the other solution of the largest one.
 std::optional<RefinedPose> otherMinimum(std::span<const Candidate> tags,
                                         std::span<const CornerSet> sets, const RefinedPose& best,
                                         const CameraModel& camera) {

@@ -10,34 +10,34 @@
 
 namespace mfar {
 
-/// Pixels rendered apart from a reference, kept as points in space: sparse pictures, each with its
-/// own pose, that are looked up like the reference is. The newest replaces the oldest.
+/// Individually rendered pixels, kept as points in space: sparse pictures, each with its own pose,
+/// used for look-ups like the reference. The newest replaces the oldest.
 class PatchPictures {
 public:
     static constexpr int kPatches = 4;
 
-    /// `fadeFrames`: after so many frames an answer is shown in full; 0: at once.
+    /// `fadeFrames`: number of frames until an answer is fully visible; 0: at once.
     PatchPictures(Size layer, int fadeFrames);
 
-    /// Whole rows from `firstRow` on, to be kept as the patch `slot` until it is replaced.
+    /// Whole rows from `firstRow` on, to be stored as the patch `slot` until it is replaced.
     struct StoredRows {
         int slot, firstRow, lastRow;
         std::span<const std::array<std::uint8_t, 4>> colours;  ///< RGBA8
         std::span<const LightWords> lights;  ///< of objects; empty: colours alone are known
         std::span<const WarpSurface> surfaces;
     };
-    /// Of one pixel at least, all of them in the layer. Gives `store` all rows that change: a slot
-    /// is empty at first.
+    /// Adds an answer of at least one pixel, all within the layer. Passes all rows that change to
+    /// `store`: initially, a slot is empty.
     void add(const HoleAnswer& answer, const std::function<void(const StoredRows&)>& store);
     void clear();
-    /// One more frame is shown.
+    /// Call once per displayed frame.
     void age();
 
-    /// From the newest to the oldest: the pose and its share in what is shown; share 0: none.
+    /// A patch's pose and its share in the displayed colour; share 0: there is no patch.
     struct Patch {
         int slot = 0;  ///< where its pixels are stored
         RigidTransform T_world_camera;
-        PixelRect bounds;  ///< around its pixels, also where its share is 0
+        PixelRect bounds;  ///< bounds of its pixels; valid even if its share is 0
         double share = 0;
     };
     [[nodiscard]] const std::array<Patch, kPatches>& patches() const { return patches_; }

@@ -12,17 +12,17 @@
 namespace mfar {
 namespace {
 
-// Pieces along the diagonal of a model, and of the catcher, which may be far larger than what is
-// seen of it: at 640 px their edges are within a third of a pixel of the lens's curves.
+// Pieces along the diagonal of a model, and of the catcher, whose visible part may be much smaller
+// than itself: at 640 px the edges of pieces are within a third of a pixel of the lens's curves.
 constexpr float kModelPieces = 16, kCatcherPieces = 32;
-// A triangle costs a software renderer 0.2 us: what a scene has beyond is simplified, each mesh in
-// proportion, but for so many.
+// A triangle costs a software renderer 0.2 us. Scenes with more triangles are simplified, each mesh
+// in proportion plus kLeastTriangles.
 constexpr double kMostTriangles = 20000;
 constexpr std::size_t kLeastTriangles = 2000;
-constexpr int kEdgePoints = 8;    // of a box, along each edge
+constexpr int kEdgePoints = 8;    // along each edge of a box
 constexpr int kBoundsMargin = 2;  // [px]
 constexpr double kFlat =
-    1e-4;  // [m]: corners of a catcher that are that close to a plane are in it
+    1e-4;  // [m]: corners of a planar catcher are within this distance of the plane
 
 bool isDistorted(const CameraModel& camera) {
     return std::ranges::any_of(camera.distortion, [](double k) { return k != 0; });
@@ -45,7 +45,7 @@ float diagonalOf(std::span<const Eigen::Vector3f> positions) {
     return box.isEmpty() ? 0 : box.diagonal().norm();
 }
 
-/// n . point = w for all triangles' corners; zero if they are in no plane, or there are none.
+/// n . point = w for all corners of triangles; zero if they are not in one plane or there are none.
 Eigen::Vector4d planeOf(const ShadowCatcher& catcher) {
     Eigen::Vector4d plane = Eigen::Vector4d::Zero();
     std::vector<Eigen::Vector3d> corners;

@@ -20,7 +20,7 @@ public:
     /// `layer`: the camera at the layer's resolution.
     explicit SilhouetteModels(const CameraModel& layer);
 
-    /// Of a scene of more than 20000 triangles takes simplified ones.
+    /// Simplifies the models if the scene has more than 20000 triangles.
     void setScene(const Scene& scene);
 
     struct Part {
@@ -38,23 +38,22 @@ public:
         std::shared_ptr<const Model> model;  ///< owns materials and textures; none: the catcher
     };
     struct Object {
-        std::shared_ptr<const Shape> shape;  ///< the same one for the same model of two scenes
+        std::shared_ptr<const Shape> shape;  ///< shared by scenes with the same model
         RigidTransform T_world_object;
         double scale;
     };
     [[nodiscard]] const std::vector<Object>& objects() const { return objects_; }
     /// The catcher, if it has to be drawn.
     [[nodiscard]] const std::optional<Object>& catcher() const { return catcher_; }
-    /// The catcher, if it is one plane and therefore not drawn: n . point = w in the world [m].
+    /// The catcher, if it is planar and therefore not drawn: n . point = w in the world [m].
     /// Otherwise zero.
     [[nodiscard]] const Eigen::Vector4d& plane() const { return plane_; }
     [[nodiscard]] std::size_t triangles() const { return triangles_; }
     [[nodiscard]] const LensProjection& lens() const { return lens_; }
 
-    /// Layer pixels around all objects; of one that reaches before the near plane and beyond it,
-    /// all of them.
+    /// Bounds of all objects [layer px]; the whole layer for an object that crosses the near plane.
     [[nodiscard]] PixelRect bounds(const RigidTransform& T_world_camera) const;
-    /// The same of one.
+    /// As above, for one object.
     [[nodiscard]] PixelRect boundsOf(const Object& object,
                                      const RigidTransform& T_camera_world) const;
 
@@ -68,7 +67,7 @@ private:
     std::optional<Object> catcher_;
     Eigen::Vector4d plane_ = Eigen::Vector4d::Zero();
     std::size_t triangles_ = 0;
-    double share_ = 1;  // of the models' triangles that are drawn
+    double share_ = 1;  // share of the models' triangles that are drawn
 };
 
 }  // namespace mfar

@@ -41,7 +41,7 @@ SurfaceMesh soundPart(std::span<const Eigen::Vector3f> positions,
     return mesh;
 }
 
-/// Longest edge first, for the best shape. False: more triangles than `most`.
+/// Cuts the longest edge first, for the best shape. False: more than `most` triangles.
 bool cut(SurfaceMesh& mesh, float longest, std::size_t most) {
     for (std::size_t i = 0; i < mesh.triangles.size();) {
         const Triangle t = mesh.triangles[i];
@@ -171,7 +171,7 @@ SurfaceMesh simplified(SurfaceMesh mesh, std::size_t mostTriangles) {
     if (mesh.triangles.size() <= mostTriangles) return mesh;
     const Eigen::AlignedBox3f box = cornersBox(mesh);
     if (!(box.sizes().maxCoeff() > 0)) return {};
-    // Corners that no triangle uses may lie anywhere, or nowhere.
+    // Corners without triangles may be anywhere or not finite.
     for (SurfaceVertex& v : mesh.vertices)
         if (!box.contains(positionOf(v))) std::copy_n(box.min().data(), 3, v.position);
     for (int cells = 256; cells > 1; cells = cells * 3 / 4) {

@@ -10,25 +10,25 @@
 namespace mfar {
 namespace {
 
-constexpr int kRestFrames = 5;      // without motion: the camera rests
-constexpr double kSamePose = 1e-3;  // [px]: rounding of a pose that is given again
+constexpr int kRestFrames = 5;      // frames without motion after which the camera is at rest
+constexpr double kSamePose = 1e-3;  // [px]: rounding of a repeated pose
 
 WarpOptions validated(const WarpOptions& options) {
     validate(options);
     return options;
 }
 
-/// Where a pixel stands in a pattern that fills a 4x4 square evenly (Bayer 1973).
+/// Rank of a pixel in a pattern that fills a 4x4 square evenly (Bayer 1973).
 unsigned orderOf(std::uint32_t pixel, unsigned width) {
     const unsigned x = pixel % width, y = pixel / width, d = x ^ y;
     return (d & 1) << 3 | (x & 1) << 2 | (d & 2) | (x & 2) >> 1;
 }
 
-/// At most `most` of them, evenly spread, ascending.
+/// Keeps at most `most` of the pixels, evenly spread, ascending.
 void thinOut(std::vector<std::uint32_t>& pixels, std::size_t most, unsigned width) {
     if (pixels.size() <= most) return;
     std::ranges::sort(pixels, {}, [&](std::uint32_t p) { return std::pair(orderOf(p, width), p); });
-    // The last square's pixels that still find room are spread, too.
+    // The pixels of the last, incomplete rank are spread evenly, too.
     std::size_t whole = most;
     while (whole > 0 && orderOf(pixels[whole - 1], width) == orderOf(pixels[most], width))
         --whole;
@@ -60,7 +60,7 @@ void Warp::setReference(WarpReference reference) {
     step_->setReference(*reference_);
 }
 
-// The patches stay: they are of the scene, and of no reference.
+// Keeps the patches: they belong to the scene, not to a reference.
 void Warp::dropReference() {
     reference_.reset();
     lastRequest_ = {};
@@ -136,7 +136,7 @@ std::optional<HoleRequest> Warp::request(std::vector<std::uint32_t> pixels, bool
     return out;
 }
 
-/// No point of the reference moves by leastMotion or more.
+/// True when no point of the reference moves by leastMotion or more.
 bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const {
     const RigidTransform T = from.inverse() * to;
     float nearest = kFarthestSurface;
@@ -147,7 +147,8 @@ bool Warp::isUnmoved(const RigidTransform& from, const RigidTransform& to) const
            std::max(options_.leastMotion, kSamePose);
 }
 
-// What was rendered for this very view and still is open will not be known by rendering it again.
+// Pixels that are still open after they were rendered for this view would stay open: do not ask
+// again.
 void Warp::dropRefused(std::vector<std::uint32_t>& pixels) const {
     if (!isUnmoved(lastRequest_.view.T_world_camera, listPose_)) return;
     std::erase_if(pixels, [&](std::uint32_t p) {

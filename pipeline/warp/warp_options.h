@@ -2,32 +2,33 @@
 
 namespace mfar {
 
-/// What is done about pixels of a model that no picture shows. Cracks a pixel wide are always
+/// What to do with pixels of a model that no picture shows. Cracks one pixel wide are always
 /// closed.
 enum class HoleFilling {
-    None,      ///< they show nothing
+    None,      ///< they remain empty
     PushPull,  ///< filled from their surroundings
-    Rerender,  ///< rendered for themselves, nothing until they arrive
-    Both,      ///< rendered for themselves, filled until they arrive
+    Rerender,  ///< rendered individually, empty until then
+    Both,      ///< rendered individually, filled from their surroundings until then
 };
 
 struct WarpOptions {
     HoleFilling filling = HoleFilling::Both;
-    /// Pixels rendered for themselves at a time, at most, from 1 on: 5 % of 640x480.
+    /// Upper limit of the pixels in one request, at least 1: 5 % of 640x480.
     int mostRequested = 15360;
-    int holeSamples = 4;  ///< of each of them, [1, 4096]
-    /// While the camera rests, this share of the objects' pixels is rendered for itself: those at
+    int holeSamples = 4;  ///< per pixel, [1, 4096]
+    /// Share of the objects' pixels that is rendered individually while the camera rests: those at
     /// edges, which the warp blurs; [0, 1], 0: none.
     double sharpenShare = 0.4;
-    int sharpenSamples = 40;  ///< of each of them, [1, 4096]
-    /// What was rendered appears over so many frames, [0, 100].
+    int sharpenSamples = 40;  ///< per pixel, [1, 4096]
+    /// Number of frames over which rendered pixels fade in, [0, 100].
     int fadeFrames = 4;
-    /// A pose that moves nothing of the reference by so much shows it as it is [px], [0, 10].
+    /// The reference is shown unchanged when the pose moves all of its points by less than this
+    /// [px], [0, 10].
     double leastMotion = 0.1;
     bool operator==(const WarpOptions&) const = default;
 };
 
-/// Whether pixels are rendered for themselves.
+/// Whether pixels are rendered individually.
 [[nodiscard]] inline bool rerenders(HoleFilling filling) {
     return filling == HoleFilling::Rerender || filling == HoleFilling::Both;
 }

@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// Pixels of a picture within `margin` px of a box; not of a picture beside it.
+/// Pixels of a picture within `margin` px of a box; empty if the box is outside the picture.
 [[nodiscard]] PixelRect pixelsAround(const Eigen::AlignedBox2d& box, int margin, Size picture);
 
 }  // namespace mfar

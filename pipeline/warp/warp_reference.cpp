@@ -17,10 +17,11 @@ using Rgba = std::array<std::uint8_t, 4>;
 
 constexpr int kMostSide = 16384;
 constexpr int kReferenceTile = 16;  // [px]
-// A pixel of an object as good as whole: what a few samples beside it change is not seen.
+// Lower limit of the alpha of a fully covered object pixel: a few missing samples are not visible.
 constexpr int kWhole = 250;
-// Of z: what two exact hits of a smooth surface differ by, beyond its slope. Above, another
-// surface; and how far the slope may be from the one measured.
+// Tolerances, relative to z. Two hits on one smooth surface differ by at most kDepthShare of z plus
+// kSlopes times the steps of z to neighbours (kUnknownSlope without neighbours), and at most by
+// kMostShare.
 constexpr float kDepthShare = 0.002F, kSlopes = 1.5F, kUnknownSlope = 0.01F, kMostShare = 0.05F;
 
 void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
@@ -33,7 +34,7 @@ void requireFiniteCamera(const CameraModel& c, const RigidTransform& T) {
         throw std::invalid_argument("a rendered picture's camera or pose is not finite");
 }
 
-/// The picture as a grid with nothing around it.
+/// The picture as a grid; pixels outside are empty.
 class PictureGrid {
 public:
     explicit PictureGrid(WarpReference& reference) : r_(reference), size_(reference.camera.size) {}
@@ -53,7 +54,7 @@ public:
         const int own = id(x, y);
         return own != 0 && own != kCatcherId;
     }
-    /// Whether the pixel's colour is of its own surface alone.
+    /// True when the pixel's colour comes from its own surface only.
     [[nodiscard]] bool isPlain(int x, int y) const {
         const int own = id(x, y);
         if (own == 0) return true;
@@ -103,7 +104,7 @@ bool takeFromNeighbours(const PictureGrid& grid, std::span<const LightWords> lig
     return true;
 }
 
-/// The lesser step to a neighbour of the same surface along one axis.
+/// The smaller step of z to a neighbour on the same surface along one axis.
 float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, int dx, int dy) {
     const auto at = [&](int i, int j) -> const WarpSurface& {
         return surface[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.width) +
@@ -123,7 +124,7 @@ float slopeAlong(std::span<const WarpSurface> surface, Size size, int x, int y, 
     return least;
 }
 
-// As warp_surface.glsl does it.
+// Packed as in warp_surface.glsl.
 std::uint32_t packedSurface(const WarpSurface& s) {
     if (!(s.known > 0)) return kUnknownId;
     if (s.id == 0) return 0;

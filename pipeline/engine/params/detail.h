@@ -13,51 +13,52 @@ inline constexpr std::uint32_t kTileUpscaled = 1U;
 inline constexpr std::uint32_t kTileTrusted = 2U;
 inline constexpr std::uint32_t kTileBlended = 3U;
 
-/// Below this weight the detail changes no pixel by a grey level.
+/// Below this weight the detail changes no pixel by as much as a grey level.
 inline constexpr float kLeastDetailWeight = 0.02F;
-/// Spread of the flow [video px] and of the weight within which a tile is drawn as one quad; 0.08
-/// px are 0.3 px of the output.
+/// Upper limits of the spread of the flow [video px] and of the weight for tiles that are drawn as
+/// one quad; 0.08 px are 0.3 px of the output.
 inline constexpr float kPlainFlow = 0.08F;
 inline constexpr float kPlainWeight = 0.25F;
-/// By how much the second still's share must be above the first's to be seen at all; to be seen
-/// alone. In between it fades in, so that no seam shows.
+/// Excess of the second still's share over the first's above which the second is visible, and above
+/// which it alone is. In between it fades in, to avoid a seam.
 inline constexpr float kSecondFrom = 0.05F;
 inline constexpr float kSecondAlone = 0.15F;
-/// Unexplained cells, of 16, of an unexplained tile.
+/// Lower limit of the unexplained cells, of 16, of an unexplained tile.
 inline constexpr std::uint32_t kUnexplainedCells = 8U;
 
-/// Of Keys' cubic, the kernel of the enlargement.
+/// Parameter of Keys' cubic, the kernel of the enlargement.
 inline constexpr float kCubicSlope = -0.75F;
 
-/// The first two taps of the inverse of (Keys' cubic averaged over a pixel), which has 1.207,
-/// -0.141, 0.044, -0.008, ...; the second stands for all further ones, so that the filter keeps its
-/// centre and a sum of one.
+/// The first two taps of the inverse of (Keys' cubic averaged over a pixel). The inverse is 1.207,
+/// -0.141, 0.044, -0.008, ...; the second tap stands for all further ones, so that the filter keeps
+/// its centre and a sum of one.
 inline constexpr float kSharpenNear = -0.14123F;
 inline constexpr float kSharpenFar = 0.0385F;
 
-/// Width of what a video pixel sees of the still, in its pitch: 4x4 samples a quarter of this apart
-/// (1.08 is as good on photographs, and worse where a still was reduced).
+/// Width of a video pixel's footprint in the still, relative to the pixel pitch: 4x4 samples a
+/// quarter of this apart (1.08 is as good on photographs, and worse where a still was reduced).
 inline constexpr float kSeen = 1.0F;
 
-/// A still guides the video's finest detail: the difference of what both show, less its mean over
-/// the trusted pixels of a square that reaches so far around a pixel [video px]. Differences in
-/// exposure are in the mean. A reach of 1 gained 0.08 to 0.1 dB less on synthetic scenes.
+/// A still guides the video's finest detail: the difference of both pictures, minus its mean over
+/// the trusted pixels within this reach of a pixel [video px]. The mean contains differences in
+/// exposure. A reach of 1 gained 0.08 to 0.1 dB less on synthetic scenes.
 inline constexpr int kGuideReach = 2;
-/// Room around a tile, beyond what its detail needs: what the video shows of a still [video px].
+/// Margin around a tile in which the still is reduced to the video's resolution; the tile's detail
+/// needs less [video px].
 inline constexpr int kTileAround = 8;
 
 struct alignas(16) ClassifyTiles {
     std::int32_t columns, rows;  ///< of tiles
     std::int32_t cellColumns, cellRows;
-    float leastWeight;          ///< kLeastDetailWeight, or -1: no tile is only enlarged
-    float plainFlow;            ///< kPlainFlow, or 0: no tile is plain [video px]
-    std::int32_t stillGiven;    ///< 0: the fields are blank
-    std::uint32_t detailFrame;  ///< other than in earlier frames; 0: nothing depends on neighbours
-    std::int32_t learns;        ///< matched tiles are enlarged by filters
-    std::int32_t secondGiven;   ///< 0: its fields are blank
+    float leastWeight;          ///< kLeastDetailWeight, or -1: no tile is only upscaled
+    float plainFlow;            ///< kPlainFlow, or 0: plain tiles do not occur [video px]
+    std::int32_t stillGiven;    ///< 0: there is no still, the fields are blank
+    std::uint32_t detailFrame;  ///< unique per frame; 0: no tile depends on its neighbours
+    std::int32_t learns;        ///< 1: matched tiles are enlarged by learned filters
+    std::int32_t secondGiven;   ///< 0: there is no second still, its fields are blank
 };
 
-/// Of all programs that draw tiles.
+/// For all programs that draw tiles.
 struct alignas(16) DrawTiles {
     std::int32_t videoWidth, videoHeight;  ///< [px]
     std::int32_t cellColumns, cellRows;

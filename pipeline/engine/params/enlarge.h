@@ -14,7 +14,7 @@ inline constexpr int kPairs = 12;  ///< pairs of taps of a filter
 
 inline constexpr int kLumaScale = 8;       ///< luma in steps of 1/8 grey level
 inline constexpr int kResidualScale = 32;  ///< residuals in steps of 1/32 grey level
-/// Colours and luma that shaders keep between passes, in steps of 1/64 grey level.
+/// Colours and luma that shaders store between passes, in steps of 1/64 grey level.
 inline constexpr int kPassScale = 64;
 
 /// Thresholds of GradientClasses: strength [grey levels per px] and coherence.
@@ -23,12 +23,12 @@ inline constexpr float kMediumFrom = 6.0F;
 inline constexpr float kStrongFrom = 16.0F;
 inline constexpr float kPartlyCoherentFrom = 0.25F;
 inline constexpr float kCoherentFrom = 0.5F;
-/// Classes of an angle.
+/// Number of classes per angle.
 inline constexpr int kGradientKinds = 12;
 inline constexpr int kGradientAngles = 16;
 
-/// Thresholds of CurvatureClasses [grey levels per px^2]: Laplacian of either sign, difference of
-/// the eigenvalues.
+/// Thresholds of CurvatureClasses [grey levels per px^2]: absolute Laplacian, difference of the
+/// eigenvalues.
 inline constexpr float kLowLaplacian = 2.5F;
 inline constexpr float kMediumLaplacian = 8.0F;
 inline constexpr float kHighLaplacian = 24.0F;
@@ -38,18 +38,18 @@ inline constexpr float kHighDifference = 25.0F;
 inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
-/// Tangents of 22.5 and 67.5 degrees, between bins of the double angle.
+/// Tangents of 22.5 and 67.5 degrees, the borders between bins of the double angle.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 
-/// The residual is limited so that the sum with the cubic stays in the range of the surrounding 5x5
-/// pixels, made larger on both sides by this share of it.
+/// The residual is limited so that its sum with the cubic stays within the range of the surrounding
+/// 5x5 pixels, extended at both ends by this share of the range.
 inline constexpr float kOvershoot = 0.25F;
 
 struct alignas(16) EnlargeTiles {
     std::int32_t videoWidth, videoHeight;  ///< [px]
     std::int32_t columns, rows;            ///< of tiles
-    std::int32_t firstColumn, firstRow;    ///< tile where the dispatch begins
+    std::int32_t firstColumn, firstRow;    ///< tile where the dispatch starts
 };
 
 }  // namespace mfar::params

@@ -6,15 +6,15 @@
 // this header, too: gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
-/// Inverse depth and sigma of a real sample that is known, both ends excluded [1/m]. Denormal
-/// sigmas are zero to some GPUs.
+/// Limits of the inverse depth and sigma of a known real sample, both excluded [1/m]. Some GPUs
+/// flush denormal sigmas to zero.
 inline constexpr float kLeastInverseDepth = 1e-6F;
 inline constexpr float kMostInverseDepth = 1e6F;
 inline constexpr float kLeastDepthSigma = 1e-20F;
-/// z of a virtual pixel that is drawn, both ends excluded [m].
+/// Limits of the z of a drawn virtual pixel, both excluded [m].
 inline constexpr float kLeastVirtualDepth = 1e-4F;
 inline constexpr float kMostVirtualDepth = 1e6F;
-/// Likeness that is added to each sample's: where nothing is alike, distance decides.
+/// Added to the likeness of each sample: where no colour is alike, distance decides.
 inline constexpr float kLikenessFloor = 1e-3F;
 
 struct alignas(16) Visibility {

@@ -5,11 +5,12 @@
 namespace mfar::params {
 
 inline constexpr float kPatchPixels = 64.0F;
-/// Energy of noise in a patch [grey levels^2]: below it a patch counts as flat.
+/// Noise energy of a patch [grey levels^2]: a patch with less energy is flat.
 inline constexpr float kPatchNoise = 128.0F;
-/// Added to the diagonal of the Hessian: keeps steps finite where there is no gradient.
+/// Added to the diagonal of the Hessian: limits steps where there is no gradient.
 inline constexpr float kPatchDamping = 64.0F;
-/// Squared length [px^2] below which a step ends the search, and two candidates are one.
+/// Squared length [px^2] below which a step ends the search, and below which two candidates are
+/// equal.
 inline constexpr float kShortestStep = 2.5e-5F;
 inline constexpr float kSameCandidate = 0.25F;
 

@@ -6,8 +6,8 @@
 // read this header, too: gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
-/// Neighbours' share that makes up for what a linear filter takes from the finest detail of a still
-/// that was not reduced; see still_raise.frag.
+/// Share of the neighbours in the filter that compensates the loss of the finest detail by linear
+/// filtering, for a still that was not reduced; see still_raise.frag.
 inline constexpr float kLinearLoss = 0.08F;
 
 struct alignas(16) ReduceStill {

@@ -10,57 +10,59 @@
 // gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
-/// Two-way error from which on nothing is trusted: eq. 2's alpha [video px].
+/// Two-way error above which the confidence is zero: eq. 2's alpha [video px].
 inline constexpr float kTwoWayAlpha = 2.0F;
-/// Farthest offset that is stored [still px].
+/// Upper limit of stored offsets [still px].
 inline constexpr float kFarthestOffset = 4e3F;
 
-/// Variance of 8-bit steps [grey levels^2].
+/// Variance of rounding to 8 bits [grey levels^2].
 inline constexpr float kByteVariance = 0.083F;
-/// Variance at half resolution, times that of the noise, that counts half.
+/// Ratio of variance to noise variance at which the half resolution has half of its full weight.
 inline constexpr float kLowContrast = 8.0F;
 inline constexpr float kLargestGain = 2.0F;
-/// What the bilinear look-up takes from the finest detail.
+/// Compensates the loss of the finest detail in bilinear look-ups.
 inline constexpr float kLookUpLoss = 1.15F;
-/// Squared correlation of patches that surely differ, and that surely match.
+/// Squared correlation up to which patches certainly differ, and from which they certainly match.
 inline constexpr float kUnlikePatches = 0.2F;
 inline constexpr float kAlikePatches = 0.6F;
-/// Change of the flow per pixel that noise explains, and that makes another view of it.
+/// Change of the flow per pixel that noise explains, and from which the surface is seen from
+/// another side.
 inline constexpr float kEvenFlow = 0.015F;
 inline constexpr float kBentFlow = 0.07F;
-/// Change of the flow's step from one cell to the next that a surface may show, and that means two
-/// things at different places: between them look-ups lead nowhere [video px].
+/// Second difference of the flow from cell to cell that a surface may have, and from which two
+/// cells show different objects, so that look-ups between them are invalid [video px].
 inline constexpr float kSmoothStep = 1.0F;
 inline constexpr float kTornStep = 4.0F;
-/// Weights below change nothing that is seen.
+/// Smaller weights have no visible effect.
 inline constexpr float kSmallestWeight = 0.004F;
-/// Variance of a textured patch: times that of the noise and of one grey level.
+/// Lower limit of a textured patch's variance, as a multiple of the variance of noise plus one grey
+/// level.
 inline constexpr float kTexturedContrast = 8.0F;
-/// Squared correlation times confidence of a textured cell that the still does not explain.
+/// A textured cell is unexplained up to this squared correlation times confidence.
 inline constexpr float kUnexplainedMatch = 0.25F;
 
-/// The finest detail is what pixels differ from the mean of their block of 2x2. That of the video
-/// is compared with the still's at the same place: only there look-ups that are off by a part of a
-/// pixel can be told. A cell keeps its weight as long as the variance that the still leaves
-/// unexplained is at most kFineRoom times the usual noise and kFineShareRoom times the usual share
-/// of the detail's variance (FineMatch); beyond that it keeps allowed / unexplained of it. 4 is
-/// twice the usual deviation; the share gets less, because edges that the still alone shows would
-/// pass with it.
+/// The finest detail is the difference of pixels from the mean of their 2x2 block. The video's is
+/// compared with the still's at the same place, because only there look-up errors of a fraction of
+/// a pixel are visible. A cell keeps its weight while the variance that the still leaves
+/// unexplained is at most kFineRoom times the usual noise plus kFineShareRoom times the usual share
+/// of the detail's variance (FineMatch). Above that, the weight is multiplied by allowed /
+/// unexplained. 4 is twice the usual deviation; the factor of the share is smaller, because
+/// otherwise edges that only the still shows would pass.
 inline constexpr float kFineRoom = 4.0F;
 inline constexpr float kFineShareRoom = 3.0F;
-/// Rows of cells are sampled in these steps; cells between two of them take the mean of both.
+/// Step between sampled rows of cells; the rows between take the mean of both neighbours.
 inline constexpr int kFineStep = 2;
-/// Variance below all that counts [grey levels^2].
+/// Lower limit of variances that are taken into account [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
 
 struct alignas(16) AssessCells {
     Rig rig;
-    LumaLevel video, still;  ///< finest levels, both at the video's geometry
+    LumaLevel video, still;  ///< finest levels, both in the video's geometry
     std::int32_t columns, rows;
     std::int32_t backwardColumns, backwardRows;  ///< of the backward field
-    std::int32_t forward, backward;              ///< first cells of the fields in patches[]
-    std::int32_t errorsGiven;                    ///< 1: two-way errors stand for the backward field
-    std::int32_t backwardScale;     ///< video pixels a pixel of the backward field's level
+    std::int32_t forward, backward;              ///< first cells of both fields in patches[]
+    std::int32_t errorsGiven;                    ///< 1: errors replace the backward field
+    std::int32_t backwardScale;     ///< video pixels per pixel of the backward field's level
     float stillWidth, stillHeight;  ///< [px]
     float scaleX, scaleY;           ///< still pixels per video pixel
 };
@@ -76,7 +78,7 @@ struct alignas(16) MeasureGain {
 struct alignas(16) WeighCells {
     std::int32_t columns, rows;
     std::int32_t halfColumns, halfRows;  ///< of half-resolution cells
-    float noise;                         ///< standard deviation of the video's [grey levels]
+    float noise;                         ///< standard deviation of the video's noise [grey levels]
 };
 
 struct alignas(16) SumFine {
