@@ -8,20 +8,20 @@
 
 namespace mfar {
 
-/// All bytes of a regular file. A device or a named pipe is refused without being waited for, and a
-/// file that is too large before memory is taken for it. Throws std::runtime_error whose message
-/// says what is wrong without naming the file: "is missing", "is not a regular file", "cannot be
+/// Returns all bytes of a regular file. Refuses a device or a named pipe without waiting for it,
+/// and a file that is too large before allocating memory. Throws std::runtime_error whose message
+/// states the fault without naming the file: "is missing", "is not a regular file", "cannot be
 /// opened: reason", "has 9 bytes, at most 8 are read".
 [[nodiscard]] std::vector<std::uint8_t> boundedFile(const std::filesystem::path& file,
                                                     std::size_t most);
 
 enum class FileTrust {
     Any,
-    OwnFile,  ///< this user's, and its name no symbolic link: "is a symbolic link", "is another
-              ///< user's"
+    OwnFile,  ///< owned by this user and not a symbolic link, or throws "is a symbolic link" or "is
+              ///< another user's"
 };
 
-/// The same as text.
+/// As boundedFile(), returned as text.
 [[nodiscard]] std::string boundedText(const std::filesystem::path& file, std::size_t most,
                                       FileTrust trust = FileTrust::Any);
 
