@@ -4,7 +4,7 @@
 
 namespace mfar {
 
-/// What an sRGB byte stands for, [0, 1] linear (IEC 61966-2-1).
+/// Linear value of each sRGB byte, [0, 1] (IEC 61966-2-1).
 [[nodiscard]] const std::array<float, 256>& linearOfSrgbByte();
 
 }  // namespace mfar
