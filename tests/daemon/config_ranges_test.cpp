@@ -27,11 +27,11 @@ using range::ConfigRange;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// What the default configuration says of a key: its line, with the lines of comment before it.
+/// The default configuration's text about a key: its line and the comment lines before it.
 std::string shown(const ConfigRange& range) {
     std::ifstream in(MFAR_DEFAULT_CONFIG);
     std::string comment, section;
-    // Keys of sections that may be absent are comments themselves.
+    // Keys of optional sections are comments themselves.
     const std::string isKey = fmt::format("{} = ", range.name), isCommented = "# " + isKey;
     for (std::string line; std::getline(in, line);) {
         const std::string bare = line.starts_with("# [") ? line.substr(2) : line;
@@ -40,7 +40,7 @@ std::string shown(const ConfigRange& range) {
                             section == fmt::format("[[{}]]", range.section);
         if (isHere && line.starts_with(isCommented)) return line;
         if (isHere && line.starts_with(isKey)) return comment + line;
-        // Keys that follow each other share a comment.
+        // Consecutive keys share a comment.
         if (line.empty()) comment.clear();
         if (line.starts_with("#")) comment += line.substr(1);
     }
