@@ -28,7 +28,7 @@ struct CameraWish {
 /// Index of the chosen camera. An empty name orders the cameras by picture size, then id; `largest`
 /// takes the last, otherwise the first is taken, so that of two cameras each choice gets another
 /// one. Throws std::runtime_error that lists the cameras when no camera or several have the name,
-/// or when the name is empty and there is only one camera, which then belongs to the other choice.
+/// or when no camera is left: `except` is the only one, or `largest` would take the only camera.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);
 
