@@ -124,9 +124,9 @@ public:
     // Read-backs for tests, evaluation and the preview. They wait for the GPU.
     /// Numbers of the last run; FrameResult::stats is one frame behind to avoid waiting.
     [[nodiscard]] FrameStats readStats() const;
-    /// Flow at every video pixel (x, y interleaved), bilinear between cells. With poses, each pixel
-    /// has its epipolar search's vector if the cells do not confirm that vector to a pixel, unless
-    /// they left the lines. Empty without still.
+    /// Flow at every video pixel (x, y interleaved), bilinear between cells. With poses, a pixel
+    /// gets its epipolar search's vector where the cells differ from it by at least half a pixel
+    /// and have not left the lines. Empty without still.
     [[nodiscard]] std::vector<float> readFlow() const;
     /// Eq. 2 confidence at every video pixel, [0, 1]. Empty without still.
     [[nodiscard]] std::vector<float> readConfidence() const;

@@ -21,8 +21,8 @@ constexpr Size kMap{32, 16};
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
 /// Weight of the prior per degree: variance of seen light around nine harmonics (objects of about
-/// 0.25 sr with half or twice the brightness), divided by the variance of light between places (3,
-/// 1.5 and 0.7 times the mean).
+/// 0.25 sr with half or twice the brightness), divided by the variance of light between places
+/// (standard deviations of 3, 1.5 and 0.7 times the mean).
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;
