@@ -21,14 +21,14 @@ namespace {
 
 template <class Bytes>
 Bytes read(const std::filesystem::path& file, std::size_t most, FileTrust trust) {
-    // Not blocking: to open a pipe that nobody writes would wait.
+    // O_NONBLOCK: opening a named pipe without a writer would block.
     const int links = trust == FileTrust::OwnFile ? O_NOFOLLOW : 0;
     const OwnedFd fd(open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY | links));
     if (fd.get() < 0 && errno == ELOOP && links != 0)
         throw std::runtime_error("is a symbolic link");
     if (fd.get() < 0 && (errno == ENOENT || errno == ENOTDIR))
         throw std::runtime_error("is missing");
-    // A socket or a device without a driver.
+    // ENXIO, ENODEV: a socket, or a device without a driver.
     if (fd.get() < 0 && (errno == ENXIO || errno == ENODEV))
         throw std::runtime_error("is not a regular file");
     if (fd.get() < 0) fail("cannot be opened");

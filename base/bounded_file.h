@@ -17,11 +17,11 @@ namespace mfar {
 
 enum class FileTrust {
     Any,
-    OwnFile,  ///< this user's, and its name no symbolic link: "is a symbolic link", "is another
-              ///< user's"
+    OwnFile,  ///< owned by this user and not a symbolic link, or throws "is a symbolic link" or "is
+              ///< another user's"
 };
 
-/// The same as text.
+/// As boundedFile(), returned as text.
 [[nodiscard]] std::string boundedText(const std::filesystem::path& file, std::size_t most,
                                       FileTrust trust = FileTrust::Any);
 

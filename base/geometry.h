@@ -19,19 +19,19 @@ struct PixelRect {
     bool operator==(const PixelRect&) const = default;
 };
 
-/// The least rectangle with both in it; an empty one adds nothing.
+/// The smallest rectangle that contains both; an empty one is ignored.
 [[nodiscard]] inline PixelRect around(const PixelRect& a, const PixelRect& b) {
     if (a.empty()) return b;
     if (b.empty()) return a;
     return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-/// What both hold, which may be nothing.
+/// The intersection, which may be empty.
 [[nodiscard]] inline PixelRect common(const PixelRect& a, const PixelRect& b) {
     return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
-/// The same rectangle with `margin` more on each side, as far as there are pixels.
+/// The rectangle widened by `margin` on each side and clipped to the picture.
 [[nodiscard]] inline PixelRect widened(const PixelRect& r, int margin, Size picture) {
     return common({r.x0 - margin, r.y0 - margin, r.x1 + margin, r.y1 + margin},
                   {0, 0, picture.width, picture.height});
@@ -52,7 +52,7 @@ struct CameraModel {
     /// Pixel to normalised ray; Newton iterations undo the distortion. Far outside the lens's valid
     /// circle, where the model folds over, the result is the ray of the nearest valid radius.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel) const;
-    /// The same, sooner where a ray is known that is close, such as that of the pixel beside it.
+    /// As above, but faster where the ray of a near pixel is known, such as its neighbour's.
     [[nodiscard]] Eigen::Vector2d unproject(const Eigen::Vector2d& pixel,
                                             const Eigen::Vector2d& close) const;
     /// The same lens in front of a sensor of another resolution: c -> (c + 0.5) s - 0.5.
@@ -76,21 +76,21 @@ struct RigidTransform {
     }
 };
 
-/// The two sensors of the board and how they stand to each other.
+/// The two sensors of the board and their relative pose.
 struct StereoRig {
     CameraModel video;
     CameraModel still;
     RigidTransform T_still_video;  ///< video camera coordinates -> still camera coordinates
 };
 
-/// Where the video camera was. `T_world_video` maps video camera coordinates to world (tag map).
+/// The video camera's pose. `T_world_video` maps video camera coordinates to world (tag map).
 struct Pose {
     Timestamp time;
     RigidTransform T_world_video;
-    /// Of a small motion in the video camera's own frame, T_world_video * exp(rotation [rad],
-    /// translation [m]). Zero: taken as exact, as recorded poses are.
+    /// Covariance of a small motion in the video camera's own frame, T_world_video * exp(rotation
+    /// [rad], translation [m]). Zero: the pose counts as exact, as recorded poses do.
     Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-    int tags = 0;                  ///< tags it was measured from; 0: predicted or recorded
+    int tags = 0;  ///< number of tags it was measured from; 0: predicted or recorded
     double reprojectionError = 0;  ///< root mean square over the tags' corners [px]
 };
 

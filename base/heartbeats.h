@@ -16,11 +16,11 @@ namespace mfar {
 
 /// A thread's role decides what happens when it hangs.
 enum class ThreadRole {
-    Vital,   ///< the picture or the way out need it: the process has to be started again
-    Helper,  ///< files, configuration: the picture goes on, and the fault is reported
+    Vital,   ///< the picture or the output needs it: the process has to be restarted
+    Helper,  ///< files, configuration: the picture continues, and the fault is reported
 };
 
-/// The heartbeats of all threads, which one of them looks at. Thread-safe. See Heartbeat.
+/// The heartbeats of all threads; one thread checks them. Thread-safe. See Heartbeat.
 class Heartbeats {
 public:
     using Clock = std::function<Timestamp()>;
@@ -32,10 +32,10 @@ public:
     struct Late {
         std::string thread;
         ThreadRole role = ThreadRole::Vital;
-        std::chrono::nanoseconds since{0};  ///< its last beat
+        std::chrono::nanoseconds since{0};  ///< time of its last beat
     };
-    /// The threads that work and have not beaten for longer than `patience` times their budget, the
-    /// one that is silent for longest first.
+    /// The working threads whose last beat is older than `patience` times their budget, longest
+    /// silence first.
     [[nodiscard]] std::vector<Late> late(int patience = 1) const;
 
     struct Waiting {
@@ -44,7 +44,8 @@ public:
         std::string what;
         std::chrono::nanoseconds since{0};
     };
-    /// The thread that has waited longest for something that it has named; nothing where none does.
+    /// The thread that has waited longest for something that it has named with restFor(); empty if
+    /// no thread has.
     [[nodiscard]] std::optional<Waiting> waiting() const;
 
 private:
@@ -53,8 +54,8 @@ private:
         std::string thread;
         std::chrono::nanoseconds budget;
         ThreadRole role;
-        std::atomic<std::int64_t> at;  ///< of the last beat, or of the begin of a wait
-        std::atomic<const char*> waitsFor{nullptr};  ///< null: it works
+        std::atomic<std::int64_t> at;  ///< time of the last beat, or of the start of a wait
+        std::atomic<const char*> waitsFor{nullptr};  ///< null: the thread works
     };
 
     const Clock clock_;
@@ -62,38 +63,38 @@ private:
     std::list<Slot> slots_;
 };
 
-/// Tells a class how to watch the threads that it starts. The class uses `all` as long as it lives.
+/// How a class registers the threads that it starts. The class uses `all` as long as it lives.
 struct WatchedThread {
-    Heartbeats* all = nullptr;  ///< null: nobody watches
+    Heartbeats* all = nullptr;  ///< null: the thread is not watched
     std::string name{};
     std::chrono::nanoseconds budget{0};
     ThreadRole role = ThreadRole::Vital;
 };
 
-/// One thread says that it is alive: beat() in each round of its loop, before anything that may
-/// hang, and rest() before it waits for work, as waiting is no fault. The thread counts as working
-/// from the construction on and is no longer watched after the destruction. Costs one look at the
-/// clock and two stores; used by one thread.
+/// The heartbeat of one thread. The thread calls beat() in each round of its loop, before anything
+/// that may hang, and rest() before it waits for work, as waiting is not a fault. The thread counts
+/// as working from construction on and is no longer watched after destruction. Costs one clock
+/// reading and two stores; used by one thread.
 class Heartbeat {
 public:
-    /// `budget`: the longest time from one beat to the next. `all` must outlive this.
+    /// `budget`: upper limit of the time from one beat to the next. `all` must outlive this.
     Heartbeat(Heartbeats& all, std::string thread, std::chrono::nanoseconds budget,
               ThreadRole role = ThreadRole::Vital);
-    /// Does nothing where nobody watches.
+    /// Without `as.all`, does nothing.
     explicit Heartbeat(const WatchedThread& as);
     Heartbeat(const Heartbeat&) = delete;
     Heartbeat& operator=(const Heartbeat&) = delete;
     ~Heartbeat();
 
     void beat();
-    /// It waits for work until the next beat().
+    /// The thread waits for work until the next beat().
     void rest() { restFor(""); }
-    /// The same where somebody else is to do something, which people want to know: "the reader of
-    /// the pipe". The text must outlive this.
+    /// As rest(), but the thread waits for a named party whose absence is worth reporting: "the
+    /// reader of the pipe". The text must outlive this.
     void restFor(const char* what);
 
 private:
-    Heartbeats* all_;  ///< null: nobody watches
+    Heartbeats* all_;  ///< null: the thread is not watched
     std::list<Heartbeats::Slot>::iterator slot_;
 };
 

@@ -22,7 +22,7 @@ enum class PixelFormat : std::uint8_t {
     Yuv420,  ///< 4:2:0, planes of Y, of U and of V; even width and height
 };
 
-/// Of the first (or only) plane.
+/// Size of a pixel in the first (or only) plane [bytes].
 [[nodiscard]] constexpr int bytesPerPixel(PixelFormat format) {
     switch (format) {
     case PixelFormat::Rgba8:
@@ -35,7 +35,7 @@ enum class PixelFormat : std::uint8_t {
     return 1;
 }
 
-/// How Y U V become R G B. ITU-R BT.601 or BT.709.
+/// Conversion from Y U V to R G B: ITU-R BT.601 or BT.709.
 enum class YuvMatrix : std::uint8_t { Bt601, Bt709 };
 /// Y in 16..235 and U, V in 16..240 (limited), or all three in 0..255 (full, as in JPEG).
 enum class YuvRange : std::uint8_t { Limited, Full };
@@ -48,14 +48,14 @@ struct PlaneView {
 
 /// Where the planes of a picture lie in memory that other devices can read as well (dma-buf).
 struct SharedMemory {
-    std::uint64_t id = 0;  ///< of this memory, never another's
+    std::uint64_t id = 0;  ///< identifies this memory; never reused
     struct Plane {
         int fd = -1;
-        std::size_t offset = 0;  ///< bytes from the begin of the buffer
+        std::size_t offset = 0;  ///< bytes from the start of the buffer
     };
     std::array<Plane, 3> planes{};
 };
-/// One that nobody has had in this process. Any thread.
+/// An id that is new in this process. Callable from any thread.
 [[nodiscard]] std::uint64_t newSharedMemoryId();
 
 /// Borrowed, read-only pixels. Origin top left, row 0 first. Never owns.
@@ -67,7 +67,7 @@ struct ImageView {
     std::array<PlaneView, 2> chroma{};  ///< Nv12: U V in [0]; Yuv420: U in [0], V in [1]
     YuvMatrix matrix = YuvMatrix::Bt601;
     YuvRange range = YuvRange::Limited;
-    const SharedMemory* shared = nullptr;  ///< where the same planes are; none: here alone
+    const SharedMemory* shared = nullptr;  ///< where the same planes are shared; null: not shared
 };
 
 }  // namespace mfar

@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// An open file descriptor, closed with its owner; negative: none. Move-only.
+/// An open file descriptor, closed at destruction; negative: no file. Move-only.
 class OwnedFd {
 public:
     OwnedFd() = default;

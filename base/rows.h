@@ -27,8 +27,8 @@ struct Rows {
     }
 };
 
-/// Rows that own their memory, see ZeroedArray: each begins on a cache line and has at least
-/// kPadding bytes behind it that may be read and written, so that vectors need no scalar rest.
+/// Rows that own their memory, see ZeroedArray: each begins on a cache line and is followed by at
+/// least kPadding bytes that may be read and written, so that SIMD loops need no scalar tail.
 template <class T>
 class AlignedRows {
 public:
@@ -58,7 +58,7 @@ private:
     static std::ptrdiff_t pitchFor(int width) {
         const std::size_t bytes = static_cast<std::size_t>(width) * sizeof(T) + kPadding;
         const std::size_t lines = (bytes + kAlignment - 1) / kAlignment;
-        // Elements whose size divides no cache line give up the alignment of later rows.
+        // If sizeof(T) does not divide a cache line, later rows are not aligned.
         return static_cast<std::ptrdiff_t>((lines * kAlignment + sizeof(T) - 1) / sizeof(T));
     }
 

@@ -5,8 +5,8 @@
 namespace mfar {
 namespace {
 
-/// The coefficients of V = I + a [w] + b [w]^2 at angle t; below 1e-4 their series are exact to
-/// the last bit.
+/// The coefficients of V = I + a [w] + b [w]^2 at angle t; below 1e-4 their series are exact to the
+/// last bit.
 struct VCoefficients {
     double a, b;
 };

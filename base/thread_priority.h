@@ -2,8 +2,8 @@
 
 namespace mfar {
 
-/// Gives the calling thread less of the processor than others have: SCHED_BATCH, whose threads do
-/// not interrupt any that wake up, and nice +10. False if the system refuses either.
+/// Lowers the calling thread's priority: SCHED_BATCH, whose threads do not preempt waking threads,
+/// and nice +10. False if the system refuses either.
 bool lowerThreadPriority();
 
 /// Processor time of the calling thread [ms].

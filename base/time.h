@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// A point in time on CLOCK_MONOTONIC, in nanoseconds. Recordings keep their own epoch: the numbers
-/// in their files are used as they stand, and only differences are ever interpreted.
+/// A point in time on CLOCK_MONOTONIC, in nanoseconds. Recordings keep their own epoch: times in
+/// their files are used unchanged, and only differences are interpreted.
 struct Timestamp {
     std::int64_t ns = 0;
 

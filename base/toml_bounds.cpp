@@ -7,7 +7,7 @@
 namespace mfar {
 namespace {
 
-/// Reads a text only so far as to know what is a string or a comment.
+/// Scans a text only far enough to recognise strings and comments.
 class TomlScanner {
 public:
     explicit TomlScanner(std::string_view text) : text_(text) {}
@@ -43,7 +43,7 @@ private:
         ++at_;
     }
 
-    /// To behind its end; one line of text for a string that has none.
+    /// Moves behind the string's end, or to the end of the line for an unterminated short string.
     void skipString() {
         const char quote = text_[at_];
         const bool isLong = text_.substr(at_, 3) == std::string(3, quote);

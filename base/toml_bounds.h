@@ -7,19 +7,19 @@
 
 namespace mfar {
 
-/// More than any file of ours has. A parser recurses and takes memory as deep and as long as its
-/// text goes on.
-inline constexpr std::size_t kDeepestToml = 32;  ///< brackets in brackets, parts of a key
+/// Limits that no file of this project exceeds. A parser's recursion and memory grow with the depth
+/// and length of its text.
+inline constexpr std::size_t kDeepestToml = 32;  ///< nested brackets, or parts of a key
 inline constexpr std::size_t kMostTomlValues = 100'000;
 
-/// A place in a text, counted from 1, and what is wrong there.
+/// A place in a text, counted from 1, and the fault there.
 struct TomlExcess {
     std::size_t line, column;
     std::string what;
 };
 
-/// The first place at which a TOML text goes beyond these bounds; nothing when it does not. To be
-/// called before the text is parsed. Whether it is TOML at all is the parser's to say.
+/// The first place at which a TOML text exceeds the limits; empty when it does not. To be called
+/// before parsing. Does not check whether the text is valid TOML.
 [[nodiscard]] std::optional<TomlExcess> tomlExcess(std::string_view text);
 
 }  // namespace mfar

@@ -6,7 +6,7 @@ namespace mfar {
 namespace {
 
 constexpr int kMostThreads = 4;
-// Parts per thread: enough that a thread which was interrupted holds nobody up for long.
+// Parts per thread: enough that an interrupted thread does not delay the others for long.
 constexpr int kPartsPerThread = 4;
 
 }  // namespace

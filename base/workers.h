@@ -8,10 +8,11 @@
 
 namespace mfar {
 
-/// A few threads that share one loop at a time with their caller. Made once, idle between loops.
+/// A few threads that execute one loop at a time together with the caller. Created once, idle
+/// between loops.
 class Workers {
 public:
-    /// `threads` in all, the caller among them; 0 = one per processor, at most four.
+    /// `threads`: number including the caller; 0 = one per processor, at most four.
     explicit Workers(int threads = 0);
     ~Workers();
     Workers(const Workers&) = delete;
@@ -32,7 +33,7 @@ private:
     std::condition_variable done_;
     const std::function<void(int, int)>* body_ = nullptr;
     int next_ = 0, end_ = 0, step_ = 1, running_ = 0;
-    std::vector<std::jthread> threads_;  // last: they use what is above
+    std::vector<std::jthread> threads_;  // last member: the threads use the members above
 };
 
 }  // namespace mfar

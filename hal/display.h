@@ -23,34 +23,34 @@ struct ScreenPicture {
     }
 };
 
-/// Where finished pictures go. Called on one thread; where pictures are textures, or the display
-/// draws with GL, that is the GL thread with the pipeline's context current. Pictures on the host
-/// that go to a display which is written by the CPU take no GL: there need be no context.
+/// The target of finished pictures. Called on one thread. If pictures are textures or the display
+/// draws with GL, this is the GL thread with the pipeline's context current. Pictures on the host
+/// for a display that the CPU writes need no GL context.
 class Display {
 public:
     virtual ~Display() = default;
 
-    /// Shows the picture (or queues it for that). May wait for the device's pace; must not keep a
-    /// texture after returning. Throws std::runtime_error when the device is lost, GlError where
-    /// the GPU is.
+    /// Shows the picture or queues it. May wait for the device's rate; must not keep a texture
+    /// after returning. Throws std::runtime_error when the device is lost, GlError when the GPU is
+    /// lost.
     virtual void show(const Picture& picture, Timestamp time) = 0;
-    /// The same where the picture is the last one, to the bit: a screen that shows it needs
-    /// nothing.
+    /// As show(), for a picture identical to the last one: a screen that already shows it need not
+    /// do anything.
     virtual void showAgain(const Picture& picture, Timestamp time) { show(picture, time); }
-    /// Lets go of all that it has on the GL context, which ends after this: the next picture comes
-    /// with another one, or lies on the host.
+    /// Releases everything in the GL context, which ends afterwards: the next picture uses another
+    /// context or lies on the host.
     virtual void releaseGl() {}
-    /// Blocks until everything shown is out (files written). Throws like show().
+    /// Waits until everything shown has been output (files written). Throws like show().
     virtual void finish() = 0;
-    /// What the last show() sent to a screen, screen-sized. Nothing where there is no screen. Waits
-    /// for the GPU. Pixels on the host that it got must still be there.
+    /// The picture that the last show() sent to a screen, screen-sized. Empty without a screen.
+    /// Waits for the GPU. Pixels on the host passed to show() must still be valid.
     [[nodiscard]] virtual std::optional<ScreenPicture> lastShown() const { return std::nullopt; }
-    /// Of the screen that pictures go to, looked for if need be; nothing where there is none now.
+    /// Size of the current screen, looked for if necessary; empty without a screen.
     [[nodiscard]] virtual std::optional<Size> screenSize() { return std::nullopt; }
-    /// Why not every picture is seen or written at present, for people; nothing when all is well.
-    /// To be asked on the thread of show().
+    /// Message why some pictures are currently not shown or written; empty when there is no fault.
+    /// Call on the thread of show().
     [[nodiscard]] virtual std::optional<std::string> fault() const { return std::nullopt; }
-    /// Pictures that came too fast and were left out, so far.
+    /// Number of pictures skipped because they came too fast.
     [[nodiscard]] virtual std::uint64_t leftOut() const { return 0; }
     [[nodiscard]] virtual std::string name() const = 0;
 };

@@ -17,8 +17,8 @@
 
 namespace mfar {
 
-/// A picture on loan from a camera: move-only, gives its buffer back when destroyed. May be handed
-/// from the capture thread to another; at most one thread touches it at a time.
+/// A picture lent by a camera: move-only, returns its buffer when destroyed. May be moved from the
+/// capture thread to another; at most one thread uses it at a time.
 class Frame {
 public:
     Frame(ImageView view, Timestamp time, std::function<void()> giveBack)
@@ -44,7 +44,7 @@ public:
     /// Middle of the exposure, CLOCK_MONOTONIC (recordings: the file's own epoch).
     [[nodiscard]] Timestamp time() const { return time_; }
 
-    /// To another clock.
+    /// Converts the time to another clock.
     void shift(std::chrono::nanoseconds by) { time_ = time_ + by; }
 
     std::chrono::nanoseconds exposure{0};  ///< 0 = unknown
@@ -55,15 +55,15 @@ private:
     std::function<void()> giveBack_;
 };
 
-/// A fixed set of equal buffers, allocated once, lent out as Frames; one that is never lent takes
-/// no memory. Thread-safe. The pool may be
-/// destroyed before its frames: the memory lives until the last loan is back. Planes follow each
-/// other and rows have no padding (packedView() in image_layout.h).
+/// A fixed set of equal buffers, allocated once and lent as Frames; a buffer that is never lent
+/// takes no memory. Thread-safe. The pool may be destroyed before its frames: the memory lives
+/// until the last frame is returned. Planes follow each other and rows have no padding
+/// (packedView() in image_layout.h).
 class FramePool {
 public:
     FramePool(Size size, PixelFormat format, int count);
 
-    /// A buffer to fill and then send; nothing when all are out after `timeout`.
+    /// A buffer to be filled and then lent; empty when all are lent after `timeout`.
     struct Slot {
         std::uint8_t* data;
         std::size_t stride;
@@ -72,7 +72,7 @@ public:
     [[nodiscard]] std::optional<Slot> acquire(std::chrono::milliseconds timeout);
     /// Turns a filled slot into a frame whose destruction returns the buffer.
     [[nodiscard]] Frame lend(const Slot& slot, Timestamp time) const;
-    /// The same, seen in another way that fits into the slot's memory.
+    /// As above, with another view of the slot's memory, in which it must fit.
     [[nodiscard]] Frame lend(const Slot& slot, const ImageView& view, Timestamp time) const;
     /// Returns a slot that was acquired but will not be lent.
     void giveBack(const Slot& slot) const;

@@ -8,9 +8,10 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kNeeded = 8;
-/// A longer silence is a camera that stood still, not one that dropped frames.
+/// A longer silence means that the camera was stopped, not that it dropped frames.
 constexpr double kMostMissing = 1000;
-/// More numbers left out are a count that began anew; also so many times more than times say.
+/// A larger gap means that the numbering restarted, as does one above kDoubtful times the gap in
+/// time.
 constexpr std::uint32_t kMostNumbers = 10000;
 constexpr int kDoubtful = 8;
 
@@ -21,7 +22,7 @@ std::optional<std::chrono::nanoseconds> FrameDrops::period() const {
     std::array<std::int64_t, kKept> sorted = intervals_;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(known_ / 2);
     std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(known_));
-    // The jitter of times that follow each other cancels in the mean, not in the median.
+    // Consecutive timestamps' jitter cancels in the mean, but not in the median.
     std::int64_t sum = 0;
     std::int64_t usual = 0;
     for (std::size_t i = 0; i < known_; ++i) {
@@ -38,7 +39,7 @@ int FrameDrops::missingByTime(Timestamp time) {
     if (!last || time <= *last) return 0;
     const std::int64_t interval = (time - *last).count();
     const auto usual = period();
-    // Frames without a time lie within the interval.
+    // Frames without a time lie within this interval.
     intervals_[next_] = interval / (1 + untimed_);
     next_ = (next_ + 1) % kKept;
     known_ = std::min(known_ + 1, kKept);
@@ -52,7 +53,7 @@ std::optional<int> FrameDrops::missingByNumber(std::optional<std::uint32_t> numb
     const std::optional<std::uint32_t> last = lastNumber_;
     lastNumber_ = number;
     if (!number || !last) return std::nullopt;
-    const std::uint32_t step = *number - *last;  // wraps as the driver's count does
+    const std::uint32_t step = *number - *last;  // wraps like the driver's counter
     if (step == 0 || step > kMostNumbers) return std::nullopt;
     return static_cast<int>(step) - 1;
 }

@@ -10,25 +10,24 @@
 
 namespace mfar {
 
-/// Counts frames that a camera has not delivered: by the numbers that its driver gives frames,
-/// where it gives some, otherwise by the times of those that came. Numbers may wrap at 32 bits,
-/// begin anew, stand still or be missing, for which times stand in. The period is the mean of the
-/// last intervals that are near their median, so that neither gaps nor jitter nor a change of the
-/// rate matter for long.
+/// Counts frames that a camera has not delivered: from the driver's frame numbers if there are any,
+/// otherwise from the times of delivered frames. Numbers may wrap at 32 bits, restart, stand still
+/// or be missing; times are used then. The period is the mean of the last intervals near their
+/// median, so that gaps, jitter and rate changes have only a short effect.
 class FrameDrops {
 public:
-    /// A frame. Returns how many are missing between the last one and this one. By times: none
-    /// while the period is not known (the first eight intervals), nor when the time does not rise.
+    /// Adds a frame. Returns the number of frames missing since the previous one. From times: 0
+    /// while the period is unknown (the first eight intervals) or when the time does not increase.
     int add(Timestamp time, std::optional<std::uint32_t> number = std::nullopt);
-    /// A frame that came, but whose time means nothing: it is broken, or was triggered.
+    /// Adds a frame whose time is meaningless: it is broken, or was triggered.
     int addUntimed(std::optional<std::uint32_t> number);
-    /// A frame that had come is lost after all.
+    /// Counts a delivered frame as dropped after all.
     void lose() { ++dropped_; }
-    /// The next interval is none: the camera has been stopped.
+    /// Ignores the next interval: the camera has been stopped.
     void pause();
 
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
-    /// Nothing while it is not known.
+    /// Empty while unknown.
     [[nodiscard]] std::optional<std::chrono::nanoseconds> period() const;
 
 private:
@@ -38,13 +37,13 @@ private:
 
     static constexpr std::size_t kKept = 31;
 
-    std::array<std::int64_t, kKept> intervals_{};  ///< [ns], a ring
+    std::array<std::int64_t, kKept> intervals_{};  ///< [ns], a ring buffer
     std::size_t known_ = 0;
     std::size_t next_ = 0;
     std::optional<Timestamp> last_;
     std::optional<std::uint32_t> lastNumber_;
     int untimed_ = 0;  ///< frames since the last time
-    int counted_ = 0;  ///< missing ones since then
+    int counted_ = 0;  ///< missing frames counted since the last time
     std::uint64_t dropped_ = 0;
 };
 

@@ -14,10 +14,11 @@ namespace mfar {
 namespace {
 
 constexpr std::int64_t kMostProgressive = 1 << 24;  // [px]
-constexpr std::size_t kMostHeader = 4096;           // of a PNG file, generously [bytes]
+// Generous limit for the header of a PNG file [bytes].
+constexpr std::size_t kMostHeader = 4096;
 
-// libpng reports errors through a function that must not return. It jumps back into a function
-// without objects to destroy, which then returns false.
+// libpng reports errors through a function that must not return. It jumps back (longjmp) into a
+// function without objects to destroy, which then returns false.
 struct PngError {
     std::jmp_buf back;
     std::string text;
@@ -113,7 +114,8 @@ void decodePng(std::span<const std::uint8_t> file, const TargetOf& targetOf, Ima
     if (!readRows(reader, rows.data())) throw std::runtime_error(reader.error.text);
 }
 
-/// Its coefficients are in memory as a whole, six bytes a pixel (ITU T.81, frames SOF2 and others).
+/// True for a progressive JPEG, whose decoder holds all coefficients in memory, six bytes a pixel
+/// (ITU T.81, frames SOF2 and others).
 bool isProgressive(std::span<const std::uint8_t> file) {
     constexpr std::uint8_t kStartOfScan = 0xda;
     for (std::size_t at = 2; at + 4 <= file.size() && file[at] == 0xff;) {
@@ -136,14 +138,14 @@ void decodeJpeg(std::span<const std::uint8_t> file, const TargetOf& targetOf) {
     if (std::int64_t{size.width} * size.height > kMostProgressive && isProgressive(file))
         throw std::runtime_error("a progressive JPEG of more than 16 million pixels");
     const PixelTarget target = targetOf(size);
-    // A warning stands for data that are damaged or missing.
+    // Warnings count as errors: data are damaged or missing.
     if (tjDecompress2(decoder.get(), file.data(), file.size(), target.rgba, size.width,
                       static_cast<int>(target.stride), size.height, TJPF_RGBA,
                       TJFLAG_LIMITSCANS) != 0)
         throw std::runtime_error(tjGetErrorStr2(decoder.get()));
 }
 
-// One filter and run lengths only: 8 ms for 648x432, where level 1 of zlib takes 22 ms and saves
+// One filter and run-length coding only: 8 ms for 648x432; zlib's level 1 takes 22 ms and saves
 // nothing on photographs.
 bool write(PngWriter& writer, Size size, PngPixels format, png_bytepp rows,
            std::vector<std::uint8_t>& out) {
@@ -178,8 +180,8 @@ void decodeImage(std::span<const std::uint8_t> file, const TargetOf& targetOf, I
 void encodePng(const std::uint8_t* pixels, std::size_t stride, Size size, PngPixels format,
                std::vector<std::uint8_t>& out) {
     out.clear();
-    // More than any picture takes: growing would copy it a few times. Pages that stay unused cost
-    // nothing.
+    // Reserves more than any picture needs: growing would copy the data several times. Unused pages
+    // cost nothing.
     out.reserve(std::size_t{4} * size.width * size.height + kMostHeader);
     PngWriter writer;
     std::vector<png_bytep> rows = rowsOf(pixels, stride, size.height);

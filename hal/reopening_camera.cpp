@@ -26,8 +26,8 @@ void ReopeningCamera::start() {
     opener_ = std::thread([this] { keepOpen(); });
 }
 
-// A device can be opened once at a time: first closed, then opened again. Both may take long and
-// are done here, not where others wait for pictures.
+// A device can be opened only once at a time: the lost one is closed before it is opened again.
+// Both may take long and are done in this thread, so that nobody who waits for pictures is blocked.
 void ReopeningCamera::keepOpen() {
     Heartbeat heart(options_.opener);
     heart.rest();
@@ -63,11 +63,11 @@ void ReopeningCamera::keepOpen() {
             rest();
         changed_.wait(lock, [&] { return stopped_ || !camera_; });
     }
-    // Here, as stop() is not to wait for the driver.
+    // Stopped here, because stop() must not wait for the driver.
     if (const std::shared_ptr<Camera> camera = camera_) work([&] { camera->stop(); });
 }
 
-/// With the mutex held.
+/// Call with the mutex held.
 void ReopeningCamera::take(std::shared_ptr<Camera> camera) {
     for (std::string& text : camera->takeWarnings())
         warnings_.push_back(std::move(text));
@@ -130,12 +130,12 @@ void ReopeningCamera::sent() {
 }
 
 bool ReopeningCamera::hasStalled() {
-    // Asked before the lock is taken, as the other one may ask us.
+    // Called before locking the mutex, because the other camera may call this one.
     const bool isExcused = options_.busyElsewhere && options_.busyElsewhere();
     const std::lock_guard lock(mutex_);
     answer_.reset();
     if (options_.silent.count() == 0) {
-        fault_.reset();  // it is there, and that is all that can be known
+        fault_.reset();  // the device is present; more cannot be known
         return false;
     }
     return Timestamp::now() - lastFrame_ >= (isExcused ? options_.excused : options_.stalled);
@@ -162,7 +162,7 @@ void ReopeningCamera::stop() {
     changed_.notify_all();
 }
 
-/// With the mutex held.
+/// Call with the mutex held.
 bool ReopeningCamera::hangs() const {
     const Timestamp now = Timestamp::now();
     return (answer_ && now - *answer_ >= options_.stalled) ||

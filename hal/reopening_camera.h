@@ -17,55 +17,55 @@
 namespace mfar {
 
 struct ReopeningOptions {
-    /// A camera that sends nothing for this long is called silent. 0: one that sends on trigger
-    /// only, whose silence says nothing.
+    /// A camera that sends nothing for this long is reported as silent. 0: a triggered camera,
+    /// whose silence is normal.
     std::chrono::milliseconds silent{150};
     /// A camera that is silent for this long is closed and opened again.
     std::chrono::milliseconds stalled{2000};
-    /// Pause between two attempts to open it; doubles from the first to the second. A camera that
-    /// is plugged in again is to be back within 3 s, of which some libraries take two to find it.
-    /// After a device that was lost at once, before it had sent anything, as well.
+    /// Pause between two attempts to open the device; doubles from the first value to the second. A
+    /// camera that is plugged in again should work within 3 s, of which some libraries need two to
+    /// find it. Also used after a device that was lost before it had sent anything.
     std::chrono::milliseconds firstPause{100}, longestPause{500};
-    /// Says that frames may be late for a reason that is not this device's: libcamera looks at a
-    /// device that was plugged in from the thread that delivers every camera's frames. Meanwhile
-    /// `excused` stands for `stalled`. Empty: there is no such reason. Any thread.
+    /// True while frames may be late for a reason other than this device: libcamera probes a newly
+    /// plugged device in the thread that delivers every camera's frames. Meanwhile `excused`
+    /// replaces `stalled`. Empty: there is no such reason. Any thread.
     std::function<bool()> busyElsewhere{};
     std::chrono::milliseconds excused{6000};
-    /// The thread that opens, stops and closes the device. Its budget is for one such call: a
-    /// driver that does not return from it can only be left with the process.
+    /// The thread that opens, stops and closes the device. Its budget is for one such call: if a
+    /// driver never returns from it, only ending the process helps.
     WatchedThread opener{};
 };
 
-/// A camera that outlives its device: it is opened, stopped and closed by a thread of its own,
-/// again whenever it is lost, so that whoever asks for frames never waits for a device that is not
-/// there. next() is called from one thread, the rest from any; of a driver that hangs only next()
-/// and the destructor wait, and fault() says so.
+/// A camera that outlives its device: a thread of its own opens, stops and closes the device, and
+/// opens it again whenever it is lost, so that callers of next() never wait for a missing device.
+/// next() is called from one thread, the rest from any. A driver that hangs blocks only next() and
+/// the destructor; fault() reports it.
 class ReopeningCamera final : public Camera {
 public:
-    /// Opens the device and throws std::exception when it cannot be had.
+    /// Opens the device; throws std::exception if that fails.
     using Open = std::function<std::unique_ptr<Camera>()>;
 
-    /// `info`: what the camera is to be; a device that is something else counts as not there.
+    /// `info`: the expected camera; a different device counts as missing.
     ReopeningCamera(CameraInfo info, Open open, const ReopeningOptions& options);
     ReopeningCamera(const ReopeningCamera&) = delete;
     ReopeningCamera& operator=(const ReopeningCamera&) = delete;
     ~ReopeningCamera() override;
 
     [[nodiscard]] CameraInfo info() const override { return info_; }
-    /// Begins to open the device. Never throws for a device that is not there.
+    /// Begins to open the device. Never throws for a missing device.
     void start() override;
-    /// Never throws: a camera that fails is closed and opened again.
+    /// Never throws: a failed camera is closed and opened again.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Why there are no frames, for people; nothing as long as there are.
+    /// Message why there are no frames; empty while there are frames.
     [[nodiscard]] std::optional<std::string> fault() const;
-    /// There is no open device at present.
+    /// True while no device is open.
     [[nodiscard]] bool absent() const;
-    /// How often it was lost since the start.
+    /// Number of losses since the start.
     [[nodiscard]] std::uint64_t losses() const;
-    /// Of all devices that it was, one after the other.
+    /// Sums over all devices opened so far.
     [[nodiscard]] CameraCounters cameraCounters() const override;
     [[nodiscard]] std::vector<std::string> takeWarnings() override;
 
@@ -84,16 +84,16 @@ private:
     const ReopeningOptions options_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::shared_ptr<Camera> camera_;    ///< also held by a next() that waits for it
-    std::optional<std::string> fault_;  ///< why there is none
-    Timestamp opened_, lastFrame_;      ///< the latter as the former until there is one
+    std::shared_ptr<Camera> camera_;    ///< also held by a next() that waits in it
+    std::optional<std::string> fault_;  ///< why there are no frames
+    Timestamp opened_, lastFrame_;      ///< lastFrame_ = opened_ until there is a frame
     std::uint64_t losses_ = 0;
-    CameraCounters before_;  ///< of the devices that were lost
+    CameraCounters before_;  ///< sum over lost devices
     std::vector<std::string> warnings_;
-    std::shared_ptr<Camera> lost_;     ///< to be closed
-    std::optional<Timestamp> answer_;  ///< when next() was to have its frame; nothing: nobody asks
-    std::optional<Timestamp> busy_;    ///< since when it is being opened or closed
-    bool hasSent_ = false;             ///< the one that is open, or was last
+    std::shared_ptr<Camera> lost_;     ///< has to be closed
+    std::optional<Timestamp> answer_;  ///< deadline of the current next(); empty: no call
+    std::optional<Timestamp> busy_;    ///< start of the current opening or closing
+    bool hasSent_ = false;             ///< whether the current or last device has sent a frame
     bool stopped_ = false;
     std::thread opener_;
 };

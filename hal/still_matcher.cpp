@@ -9,9 +9,9 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// Far more than can be waiting; a still that comes after so many later pulses is not wanted.
+/// Far more than can be waiting; a still that arrives after this number of later pulses is ignored.
 constexpr std::size_t kRemembered = 64;
-/// Misses that agree with each other are a step of the clock, not jitter.
+/// This number of misses that agree with each other indicates a clock step, not jitter.
 constexpr std::size_t kStepEvidence = 5;
 constexpr nanoseconds kLongest = std::chrono::hours(1);
 
@@ -65,7 +65,7 @@ nanoseconds StillMatcher::constant() const {
     return nanoseconds{median(samples_)};
 }
 
-/// Nothing when the time is so far off that it cannot be a still's.
+/// Empty when the time is too far off to be a still's time.
 std::optional<StillMatcher::Nearest> StillMatcher::nearest(Timestamp exposed) const {
     std::optional<Nearest> best;
     for (std::size_t i = 0; i < pulses_.size(); ++i) {

@@ -8,31 +8,31 @@
 
 namespace mfar {
 
-/// The trigger cannot fire now because its last pulse is still on; a moment later it can.
+/// The trigger cannot fire because its last pulse is still active; it can a moment later.
 class TriggerBusy : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// The line that makes the still sensor expose one picture.
+/// The line that triggers one exposure of the still sensor.
 class Trigger {
 public:
     virtual ~Trigger() = default;
 
-    /// Fires one pulse and returns the time of its leading edge. Never waits for the still; the
-    /// picture arrives later through the still camera. Throws std::runtime_error when the line
-    /// cannot be driven, TriggerBusy when it can later.
+    /// Fires one pulse and returns the time of its leading edge. Never waits for the still, which
+    /// the still camera delivers later. Throws TriggerBusy during a pulse, std::runtime_error when
+    /// the line cannot be driven.
     virtual Timestamp fire() = 0;
-    /// Takes the line, at its level at rest, where that has not been done or could not be; called
-    /// again and again while the camera runs. Never throws.
+    /// Requests the line at its inactive level if it is not held yet; called repeatedly while the
+    /// camera runs. Never throws.
     virtual void rest() {}
-    /// Ends a pulse that is on at once: the line is inactive when this returns. May be called from
-    /// any thread, and where no line is driven it does nothing. Never throws; a line that cannot be
-    /// driven is reported by the next fire().
+    /// Ends an active pulse at once: the line is inactive when this returns. Does nothing without a
+    /// line. Callable from any thread. Never throws; the next fire() reports a line that cannot be
+    /// driven.
     virtual void endPulse() {}
     [[nodiscard]] virtual std::string name() const = 0;
-    /// Pulses whose edges were looked for on the line and not both seen: when and how long the
-    /// sensor exposed is not verified. Any thread.
+    /// Pulses for which not both edges were seen on the line: time and length of the exposure are
+    /// not verified. Any thread.
     [[nodiscard]] virtual std::uint64_t missedEdges() const { return 0; }
 };
 

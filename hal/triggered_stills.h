@@ -17,30 +17,30 @@ namespace mfar {
 
 struct TriggeredStillOptions {
     StillMatcherOptions matching;
-    /// Of stills whose camera does not say it: the pulse, where that makes the exposure. 0:
-    /// unknown.
+    /// Exposure of stills for which the camera does not report it: the pulse length, if that sets
+    /// the exposure. 0: unknown.
     std::chrono::nanoseconds exposure{0};
 };
 
-/// The still camera and its trigger as one: lets only stills through that belong to a pulse, each
-/// once and in the order of their times, and fires once more for a pulse whose still did not come.
+/// Combines the still camera and its trigger: delivers only stills that match a pulse, each once
+/// and in the order of their times, and fires again once for a pulse without a still.
 ///
 /// A still's time is its pulse + the learned constant + half the exposure. The constant is the
-/// median of twenty of the camera's own times, so it has their mean and none of their jitter; the
-/// pulse is timed to microseconds. `fire` and `counters` may be called from any thread.
+/// median over twenty of the camera's times, which removes their jitter; the pulse is timed to
+/// microseconds. `fire` and `counters` may be called from any thread.
 class TriggeredStillCamera final : public Camera, public Trigger {
 public:
     /// Throws std::invalid_argument, see StillMatcher.
     TriggeredStillCamera(std::unique_ptr<Camera> camera, std::unique_ptr<Trigger> trigger,
                          const TriggeredStillOptions& options);
 
-    /// The camera's, with rate 0.
+    /// The camera's info with rate 0.
     [[nodiscard]] CameraInfo info() const override;
     void start() override;
-    /// Throws what the camera throws, and what the trigger throws for a repetition. Lost pulses are
-    /// found and repeated here, so it must be called now and then, if with timeout 0.
+    /// Throws what the camera throws, and what the trigger throws for a repetition. Also finds and
+    /// repeats lost pulses, so it must be called regularly, e.g. with timeout 0.
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout) override;
-    /// Of both: the line becomes inactive first, and until start() fire() throws TriggerBusy.
+    /// Stops both: the line becomes inactive first, and fire() throws TriggerBusy until start().
     void stop() override;
     [[nodiscard]] bool ended() const override { return camera_->ended(); }
 
@@ -68,7 +68,7 @@ private:
     std::atomic<bool> stopped_{false};
 
     mutable std::mutex
-        mutex_;  ///< also keeps a still from being looked at before its pulse is known
+        mutex_;  ///< also keeps a still from being matched before its pulse is registered
     StillMatcher matcher_;
     std::optional<Timestamp> newest_;
     std::uint64_t overtaken_ = 0;

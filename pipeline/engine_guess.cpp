@@ -6,9 +6,9 @@
 namespace mfar {
 namespace {
 
-/// A moving frame on a board, by placement [ms].
+/// Predicted time of a moving frame on a board for each placement [ms].
 struct Prediction {
-    std::string_view gpu;  ///< part of the driver's description
+    std::string_view gpu;  ///< substring of the driver's description
     double simd, matchSimdDrawGles, matchGlesDrawSimd, gles;
 };
 
@@ -27,7 +27,7 @@ struct Candidate {
     double Prediction::* frame;
 };
 
-/// Most boards' order: the SIMD engine needs no shader to be compiled.
+/// The order for most boards: the SIMD engine needs no shader compilation.
 std::array<Candidate, 4> candidates() {
     constexpr auto kSimd = EngineKind::Simd, kGles = EngineKind::Gles;
     return {{{placed(kSimd, kSimd), &Prediction::simd},

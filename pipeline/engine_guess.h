@@ -7,12 +7,13 @@
 
 namespace mfar {
 
-/// A placement whose frame takes longer is hopeless: times the fastest's.
+/// A placement is hopeless if its frame takes longer than this factor times the fastest one's.
 inline constexpr double kHopelessFrame = 2;
 
-/// The placements that can pay on moving pictures, the most promising first: all steps on one
-/// engine, or matching (pyramid, flow, weigh) on the other than drawing (still, detail, occlusion).
-/// Those that `./run board-report` predicts to be hopeless on this GPU are left out; its
+/// Placements that may be the fastest for moving pictures, the most promising first: all steps on
+/// one engine, or matching (pyramid, flow, weigh) on one engine and drawing (still, detail,
+/// occlusion) on the other. Excludes those that `./run board-report` predicts to be hopeless on
+/// this GPU; its predictions may be off by a factor of two. `driver`: GlContext::description().
 /// predictions may be off by a factor of two. `driver`: GlContext::description().
 [[nodiscard]] std::vector<EngineChoice> promisingEngines(std::string_view driver);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr int kWarmUp = 2, kFrames = 5;
 constexpr int kShift = 3;  // px from frame to frame
 
-/// A texture of patches of three sizes, so that every pyramid level has structure.
+/// A texture of cells of three sizes, so that every pyramid level has structure.
 std::uint8_t greyAt(int x, int y) {
     unsigned sum = 0;
     for (const int side : {2, 9, 40}) {
@@ -25,7 +25,7 @@ std::uint8_t greyAt(int x, int y) {
     return static_cast<std::uint8_t>(sum);
 }
 
-/// The texture as a picture of this size, whose pixels are `scale` texels wide.
+/// The texture as a picture of this size, with pixels `scale` texels wide.
 std::vector<std::uint8_t> pictureOf(Size size, double scale, int shift) {
     std::vector<std::uint8_t> rgba;
     rgba.reserve(4UL * size.width * size.height);
@@ -42,7 +42,7 @@ ImageView viewOf(const std::vector<std::uint8_t>& rgba, Size size) {
     return {rgba.data(), size, 4UL * size.width, PixelFormat::Rgba8};
 }
 
-/// The first frame's time instead where that exceeds `most` [ms].
+/// Median time of a frame [ms]; the first frame's time if that exceeds `most` [ms].
 double medianFrame(const EngineChoice& engines, const StereoRig& rig, Size output,
                    EngineKind shownFrom, double most) {
     using Clock = std::chrono::steady_clock;

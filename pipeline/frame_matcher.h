@@ -9,13 +9,14 @@
 
 namespace mfar {
 
-/// Matches a frame to a still beside the frame path: on the host, in the caller's thread alone, in
-/// both dimensions, without what earlier frames tell. Allocates in the constructor.
+/// Matches a frame with a still outside of the frame path: on the host, only in the caller's
+/// thread, in both dimensions, without predictions from earlier frames. Allocates in the
+/// constructor.
 class FrameMatcher {
 public:
     explicit FrameMatcher(const StereoRig& rig);
 
-    /// `still`: luma of the rig's still.
+    /// `still`: luma of the rig's still picture.
     void match(const RgbPlanes& video, Rows<const std::uint8_t> still, MatchedPictures& out);
 
 private:

@@ -1,4 +1,4 @@
-// What Pipeline does about real depth and virtual objects.
+// The parts of Pipeline for real depth and virtual objects.
 
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/pipeline_state.h"
@@ -90,8 +90,8 @@ PixelRect Pipeline::State::placeObjects(const std::optional<Pose>& pose, Timesta
     if (objects) {
         where = objects->place(pose ? std::optional(pose->T_world_video) : std::nullopt, time,
                                depth->stage.field());
-        // Two engines keep a picture each: any drawing by one leaves out what the other has laid
-        // over it.
+        // With two engines there are two pictures: when one engine draws, the other engine's
+        // drawing over the picture is lost.
         const bool apart = options.engines.detail != options.engines.occlusion;
         const WorkPlan::Redraw redrawn = objects->redraw();
         plan.drawnOver(objects->staleTiles(), apart && redrawn == WorkPlan::Redraw::WithThem
@@ -142,7 +142,7 @@ void Pipeline::State::measureDepth(const VideoFrame& frame, const Pose& pose,
     lap("depth");
 }
 
-// Where the flow leaves the epipolar lines, the scene is not at rest.
+// Where the flow leaves the epipolar lines, objects move: their depth is discarded.
 void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     const Size tiles = plan.tileCount();
     for (int t = 0; t < tiles.width * tiles.height; ++t) {
@@ -153,7 +153,7 @@ void Pipeline::State::forgetMoving(const DepthMatches& matches) {
     }
 }
 
-// A quarter of the tile's cells at least.
+// True if at least a quarter of the tile's cells are off their lines.
 bool Pipeline::State::leavesLines(const PixelRect& tile, const EpipolarFlow::Cells& vectors) const {
     const int columns = cellsOf(rig.video.size).width;
     int off = 0, all = 0;

@@ -16,25 +16,26 @@
 
 namespace mfar {
 
-/// A flow vector so far from its pixel's epipolar line is not that of a point at rest [px].
+/// A flow vector at least this far from its pixel's epipolar line cannot belong to a static point
+/// [px].
 inline constexpr float kOffLine = 3;
 
-/// What Pipeline keeps from frame to frame; shared by pipeline.cpp (the frame path),
-/// pipeline_objects.cpp and readback.cpp. What lives for one frame is passed and returned.
+/// State that Pipeline keeps between frames; shared by pipeline.cpp (the frame path),
+/// pipeline_objects.cpp and readback.cpp. Data of a single frame is passed and returned instead.
 struct Pipeline::State {
     State(const StereoRig& rig, const PipelineOptions& options);
 
-    /// What depth takes from a frame's flow.
+    /// Data of a frame's flow that depth needs.
     struct DepthMatches {
         EpipolarFlow::Cells vectors;
-        std::vector<bool> searched2d;  ///< tiles
+        std::vector<bool> searched2d;  ///< by tile
     };
-    /// Real depth of one frame.
+    /// Depth measurement of one frame.
     struct DepthTask {
         PixelRect where;  ///< where it is needed [video px]
         bool measures = false;
-        std::optional<DepthMatches> matches;  ///< found along lines
-        bool isDue = false;                   ///< measured anew, not carried on
+        std::optional<DepthMatches> matches;  ///< found along epipolar lines
+        bool isDue = false;                   ///< measured again instead of carried on
     };
     struct RealDepth {
         RealDepth(const CameraModel& video, const std::shared_ptr<Workers>& workers,
@@ -43,48 +44,48 @@ struct Pipeline::State {
 
         DepthStage stage;
         EdgeSnap snap;
-        LumaImage luma;  // of a frame without a search along lines
+        LumaImage luma;  // luma of frames without an epipolar search
     };
-    /// How the still matches a frame.
+    /// A frame's match with the still.
     struct Match {
         const FlowCells& flow;
         const CellWeights& weights;
-        const CellWeights* second = nullptr;  ///< of the second still, where that is used
+        const CellWeights* second = nullptr;  ///< for the second still, if used
     };
 
-    /// Begins to make what searches along lines, in a thread of its own: the first picture does not
-    /// wait for it, and the still that needs it comes later.
+    /// Starts creating the epipolar search in a thread, so that the first picture does not wait for
+    /// it; the still that needs it comes later.
     void beginEpipolar();
-    /// Makes it, or waits for what was begun.
+    /// Creates the epipolar search, or waits for the thread that creates it.
     EpipolarFlow& needEpipolar();
-    /// Allocates what measures real depth.
+    /// Allocates depth measurement.
     void needDepth();
     /// Where real depth is needed in this frame [video px].
     PixelRect placeObjects(const std::optional<Pose>& pose, Timestamp time);
     const TileWork& planFrame(const VideoFrame& frame);
-    /// Along epipolar lines where a pose is given, else in both dimensions.
+    /// Searches along epipolar lines if a pose is given, otherwise in both dimensions.
     Match matchStill(const VideoFrame& frame, const TileWork& work, const std::optional<Pose>& pose,
                      const PixelRect& forDepth);
-    /// How far a still is trusted.
+    /// The weight of each cell of a still.
     const CellWeights& weighed(const Reference& still, const VideoFrame& frame,
                                const LumaPyramid& pyramids, const FlowCells& flow,
                                const TileWork& work);
-    /// Before a new still comes: keeps the newest as the second, where that is worth more.
+    /// Called before a new still is taken: keeps the newest as the second if it is worth more.
     void retireNewest();
-    /// Matches the second still with the tiles that the newest does not show; null where there are
-    /// none. After matchStill().
+    /// Matches the second still in the tiles that the newest does not show; null without such
+    /// tiles. Call after matchStill().
     const CellWeights* matchSecond(const VideoFrame& frame, const TileWork& work);
-    /// Decides whether depth is measured, and takes from the flow what that needs: a read after the
+    /// Decides whether depth is measured, and reads what it needs from the flow: a read after the
     /// frame's drawing has begun would wait for the drawing.
     DepthTask prepareDepth(const PixelRect& where, bool hasPose, const FlowCells* alongLines);
     void listen(const CellWeights& weights);
-    /// Before a new still comes: tells the listener how the newest was matched.
+    /// Called before a new still is taken: reports to the listener how the newest was matched.
     void tellReplaced();
     [[nodiscard]] MatchedPictures::LookedUp lookedUp() const;
     void drawDetail(const VideoFrame& frame, const TileWork& work, const Match* match);
     void measureDepth(const VideoFrame& frame, const Pose& pose, const DepthTask& task);
     void showObjects(const VideoFrame& frame);
-    /// For the next frame: what this one has shown of the real scene around the objects.
+    /// For the next frame: records what this frame shows of the real scene around the objects.
     void followScene(const VideoFrame& frame, const std::optional<Pose>& pose, Timestamp time);
     void publish(const TileWork& work, bool usedStill, bool usedPose);
 
@@ -101,37 +102,37 @@ struct Pipeline::State {
     [[nodiscard]] const FilterBank* filterBank() const {
         return filters ? filters.get() : &FilterBank::prior();
     }
-    /// Closes a stage of the frame.
+    /// Ends a stage of the frame.
     void lap(const char* stage);
 
     [[nodiscard]] Reference makeReference();
-    /// The size asked for, or the full one.
+    /// The wanted size, or the full size for 0x0.
     static Size outputSize(const StereoRig& rig, Size wanted);
 
     StereoRig rig;
     PipelineOptions options;
     Size output;
     std::shared_ptr<Workers> workers;
-    Transfers transfers, transfersBefore;  // in all
-    std::unique_ptr<Engine> gles, simd;    // as far as the choice needs them
+    Transfers transfers, transfersBefore;  // running totals
+    std::unique_ptr<Engine> gles, simd;    // only those that the choice needs
     Reference newest, second;
     std::unique_ptr<DetailStep> detail;
-    RgbPlanes now, drawn;  // the frame, and what each tile was last drawn from
+    RgbPlanes now, drawn;  // the current frame, and the video that each tile was last drawn from
     WorkPlan plan;
     SecondTiles secondTiles;
-    std::unique_ptr<EpipolarFlow> epipolar;  // since the first still with a pose
+    std::unique_ptr<EpipolarFlow> epipolar;  // set from the first still with a pose on
     std::future<std::unique_ptr<EpipolarFlow>> comingEpipolar;
-    std::optional<RealDepth> depth;  // since it is needed for the first time
+    std::optional<RealDepth> depth;  // set when first needed
     std::optional<VirtualView> objects;
-    TracedLayerOptions traced;  // of path traced objects
+    TracedLayerOptions traced;  // for path traced objects
     std::optional<SceneFollower> sceneFollower;
     std::optional<LightFollower> lightFollower;
     Quality quality;
-    std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the shipped ones
+    std::shared_ptr<const FilterBank> filters, nextFilters;  // null: the built-in filters
     MatchListener* matchListener = nullptr;
-    bool isNewStill = false;  // no frame was matched to it
-    bool redraw = true;       // nothing of the last output may stay
-    int depthAge = 0;         // frames since depth was measured
+    bool isNewStill = false;  // no frame has been matched to it
+    bool redraw = true;       // no tile of the last output may be kept
+    int depthAge = 0;         // frames since depth was last measured
     std::uint64_t frames = 0;
     StageClock clock;
     FrameResult result;

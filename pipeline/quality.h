@@ -5,31 +5,31 @@
 namespace mfar {
 
 enum class SuperResMode {
-    Off,     ///< bicubically upscaled video
-    Blend,   ///< the paper's: warped still blended by confidence
-    Detail,  ///< the still's fine detail, as far as the video confirms it
+    Off,     ///< video enlarged by bicubic interpolation
+    Blend,   ///< the paper's method: warped still blended by confidence
+    Detail,  ///< the still's fine detail, where the video confirms it
 };
 
-/// What trades the time of a frame against its error and may be another for each frame, at no cost
-/// of changing it. The defaults are the most accurate.
+/// Settings that trade a frame's time against its error; they may change for each frame at no cost.
+/// The defaults are the most accurate.
 struct Quality {
     SuperResMode mode = SuperResMode::Detail;
-    /// Enlarges with Keys' cubic; false, and in mode Off alone: linearly, from half the samples.
+    /// Enlarges with Keys' cubic; if false, and only in mode Off: linearly, from half the samples.
     bool cubic = true;
     /// Mode Detail enlarges by learned filters.
     bool learned = true;
-    /// Off: matched in both dimensions though the poses are known.
+    /// False: matches in both dimensions even though the poses are known.
     bool alongLines = true;
-    Flow2dOptions flow2d{};      ///< but for what changed() in flow_options.h leaves
+    Flow2dOptions flow2d{};      ///< only those that changed() in flow_options.h accepts
     EpipolarOptions epipolar{};  ///< likewise
-    /// Tiles that are matched with the still, at most, as a share of all; (0, 1]. Those with the
-    /// least structure are enlarged alone. Not in mode Blend, which fades all of the still over.
+    /// Upper limit of the share of tiles that are matched with the still; (0, 1]. Tiles with the
+    /// least structure are only enlarged. Not in mode Blend, which blends the whole still.
     double detailShare = 1;
-    /// Tiles that are matched with a second, older still, where the newest does not show them, at
-    /// most, as a share of all; [0, 1], 0: none is kept. Where tiles are enlarged by learned
-    /// filters alone.
+    /// Upper limit of the share of tiles that are matched with a second, older still because the
+    /// newest does not show them; [0, 1], 0: no second still is kept. Only where learned filters
+    /// enlarge tiles.
     double secondShare = 0.25;
-    /// Real depth is measured in one of so many frames, and carried on in between; [1, 60].
+    /// Real depth is measured in one of this number of frames and carried on in between; [1, 60].
     int depthEvery = 1;
 
     bool operator==(const Quality&) const = default;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr float kSameSurface = 0.5F;  // [px]
 
-/// One channel of the weighed cells at every video pixel.
+/// Interpolates one channel of the weighed cells at every video pixel.
 void channelInto(std::vector<float>& out, int stride, int at, const CellWeights& weights,
                  int channel, Size video) {
     const Rows<const WeighedCell> rows = weights.weighed.host();
@@ -50,8 +50,8 @@ std::vector<float> Pipeline::readFlow() const {
     for (int channel = 0; channel < 2; ++channel)
         channelInto(out, 2, channel, *s.newest.lastWeights, channel, video);
     if (!s.newest.lastFlow->errorsGiven) return out;
-    // The cells' vectors are refined to a fraction of a pixel, the lines' are those of the pixels:
-    // they say on which side of an edge a pixel lies.
+    // Cells' vectors are accurate to a fraction of a pixel; the lines' vectors belong to single
+    // pixels and show on which side of an edge a pixel lies.
     const std::vector<bool> searched = readSearchedTiles();
     const std::vector<float> alongLines = s.epipolar->flow();
     for (int y = 0; y < video.height; ++y)

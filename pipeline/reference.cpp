@@ -7,9 +7,9 @@
 namespace mfar {
 namespace {
 
-constexpr double kFollows = 1.0 / 8;  // how fast Reference::shows follows what a frame shows
-// Half a tile: views that are nearer to each other hide the same and end at the same borders, but
-// for parts of a tile.
+constexpr double kFollows = 1.0 / 8;  // weight of a new frame in Reference::shows
+// Half a tile: views closer than this have the same occlusions and the same borders, except for
+// parts of a tile.
 constexpr double kSameView = 0.5 * kTileSize;  // [video px]
 
 }  // namespace

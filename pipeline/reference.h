@@ -8,36 +8,36 @@
 
 namespace mfar {
 
-/// A still and the steps that match frames with it. What steps return is valid until their next
-/// run: each still that is kept has steps of its own.
+/// A still and the steps that match frames with it. Results of a step are valid until its next run,
+/// so each kept still has its own steps.
 struct Reference {
     std::unique_ptr<StillStep> still;
     std::unique_ptr<PyramidStep> pyramid;
     std::unique_ptr<FlowStep> flow;
     std::unique_ptr<WeighStep> weigh;
-    const StillPictures* pictures = nullptr;  // null: there is no still
-    Timestamp time{};                         ///< of the still
-    const FlowCells* lastFlow = nullptr;      // belongs to that still
+    const StillPictures* pictures = nullptr;  // null: no still
+    Timestamp time{};                         ///< time of the still
+    const FlowCells* lastFlow = nullptr;      // flow of the last frame, for this still
     const CellWeights* lastWeights = nullptr;
-    /// Of the tiles that were to be matched with it, the share that it showed, over some frames.
+    /// Share of the tiles matched with this still that it showed, averaged over recent frames.
     double shows = 1;
-    std::vector<WeighedCell> first{};  ///< as of the first frame; empty: there was none
+    std::vector<WeighedCell> first{};  ///< of the first frame; empty: no frame yet
 
     void take(const ImageView& picture, Timestamp taken, SuperResMode mode);
     void drop();
-    /// A frame's tiles that were to be matched, and those that the still showed.
+    /// Updates `shows` with a frame's numbers of tiles matched and tiles that the still showed.
     void count(int tiles, int shown);
     /// Keeps the weighed cells of the still's first frame.
     void keepFirst();
-    /// How far cells have moved in the mean since the still's first frame [video px]: 0 before any,
-    /// infinite where none is matched any more.
+    /// Mean motion of cells since the still's first frame [video px]: 0 without a frame, infinite
+    /// if no cell is matched any more.
     [[nodiscard]] double moved() const;
 };
 
-/// Is the older of two stills to be kept beside a new one, and not the one that was the newest
-/// until now? The one is kept that is expected to show more of what the new one misses: as much as
-/// it showed of what it was matched for. Nothing where the camera has hardly moved since the newest
-/// was new: a still from the same place as the new one misses the same.
+/// Decides which still is kept next to a new one: true for the older of the two, false for the
+/// newest so far. Keeps the one that is expected to show more of what the new still misses, judged
+/// by the share that it showed so far. The older one is also kept if the camera has hardly moved
+/// since the newest was taken: a still from the same place as the new one misses the same areas.
 [[nodiscard]] bool keepsOlder(const Reference& older, const Reference& newest);
 
 }  // namespace mfar

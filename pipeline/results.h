@@ -13,36 +13,38 @@ namespace mfar {
 /// Numbers of one frame for status, trigger and summary. Zero before the second frame.
 struct FrameStats {
     std::array<int, kTileClasses> tiles{};  ///< count per TileClass
-    double meanConfidence = 0;              ///< of eq. 2 over the frame, [0, 1]
-    double explained = 0;  ///< share of tiles that are flat or that a still accounts for, [0, 1]
-    double changed = 0;    ///< share of tiles whose video differs from when they were last drawn
+    double meanConfidence = 0;              ///< mean of eq. 2 over the frame, [0, 1]
+    double explained = 0;  ///< share of tiles that are flat or explained by a still, [0, 1]
+    /// Share of tiles whose video differs from the video they were last drawn from.
+    double changed = 0;
     bool usedStill = false;
-    bool usedPose = false;     ///< matched along epipolar lines, as the poses of both were known
-    bool predicted = false;    ///< searched around what the frame before showed
-    bool refinedPose = false;  ///< the pictures said more of the relative pose than both poses
-    int posePatches = 0;       ///< patches that were there to tell; below, zero without any
-    double epipolarError = 0;  ///< their median distance from the lines that were searched [px]
-    /// Tiles that those lines did not explain (something moves there, or a pose is wrong), which
-    /// were searched in both dimensions. Without poses all changed tiles are, and none counted.
+    bool usedPose = false;     ///< matched along epipolar lines, because both poses were known
+    bool predicted = false;    ///< search started from the last frame's result
+    bool refinedPose = false;  ///< the pictures gave a better relative pose than the two poses
+    int posePatches = 0;       ///< patches available for that; without any, the following are zero
+    double epipolarError = 0;  ///< the patches' median distance from the searched lines [px]
+    /// Tiles that the epipolar lines did not explain (a moving object, or a wrong pose) and that
+    /// were therefore searched in both dimensions. Without poses all changed tiles are searched so,
+    /// and 0 is reported.
     int searched2d = 0;
-    /// Tiles that the newest still does not show and that were matched with a second one; those of
-    /// them and beside them that show some of it.
+    /// Tiles matched with a second still because the newest does not show them; and those of them
+    /// and next to them that show some of the second still.
     int matchedSecond = 0, showSecond = 0;
-    /// Tiles in which real depth was measured, as a virtual object may be hidden there.
+    /// Tiles in which real depth was measured, because a virtual object may be occluded there.
     int depthTiles = 0;
-    /// Tiles under a virtual object in which real depth was not measured, as it is known to lie
-    /// behind that.
+    /// Tiles under a virtual object in which real depth was not measured, because the surface is
+    /// known to lie behind the object.
     int depthTilesSkipped = 0;
     bool objectsInView = false;  ///< a virtual object is within the picture's borders
-    bool objectsHidden = false;  ///< and real things are before all of them: nothing was drawn
+    bool objectsHidden = false;  ///< all of them are occluded by real things: nothing was drawn
     DepthSource depth = DepthSource::None;
     Transfers transfers{};  ///< between host and GPU, in this frame
 };
 
-/// What Pipeline::run gives back. Valid until the next run.
+/// Result of Pipeline::run. Valid until the next run.
 struct FrameResult {
-    Picture picture;         ///< where the engine left it, alpha 255
-    bool unchanged = false;  ///< the image is that of the run before, to the bit
+    Picture picture;         ///< stored where the engine left it, alpha 255
+    bool unchanged = false;  ///< the picture is identical to that of the last run
     FrameStats stats;
 };
 

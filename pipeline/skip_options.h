@@ -7,15 +7,16 @@ namespace mfar {
 /// PipelineOptions::skipUnchanged and depthEverywhere, EpipolarOptions::mostPredicted,
 /// KeyframeOptions and DepthOptions.
 struct SkipOptions {
-    bool upscaledTiles = true;  ///< tiles to which the still adds nothing are enlarged alone
-    bool smoothTiles = true;    ///< tiles without structure are not matched, but enlarged alone
-    bool plainTiles = true;     ///< tiles of one smooth flow are drawn with a quad's corners
-    bool tileLists = true;      ///< the whole picture is drawn only when most tiles changed
-    bool knownFlow = true;      ///< the 2-D flow starts from the last frame's
-    bool knownBehind = true;    ///< depth of tiles known to lie behind an object
-    bool objectsAtRest = true;  ///< objects over which nothing changed stay as drawn
-    bool hiddenObjects = true;  ///< objects wholly behind real things are not drawn
-    bool objectBounds = true;   ///< objects are laid over the picture where they are alone
+    bool upscaledTiles = true;  ///< tiles to which the still adds nothing are only enlarged
+    bool smoothTiles = true;    ///< tiles without structure are not matched, but only enlarged
+    /// Tiles with nearly constant flow and weight are drawn as one quad.
+    bool plainTiles = true;
+    bool tileLists = true;      ///< the whole picture is drawn only if most tiles changed
+    bool knownFlow = true;      ///< the 2-D flow search starts from the last frame's flow
+    bool knownBehind = true;    ///< no depth measurement in tiles known to lie behind an object
+    bool objectsAtRest = true;  ///< objects over unchanged tiles are not drawn again
+    bool hiddenObjects = true;  ///< objects completely behind real things are not drawn
+    bool objectBounds = true;   ///< objects are composited only within their bounds
 };
 
 }  // namespace mfar

@@ -11,7 +11,7 @@ struct StageTime {
     double ms;
 };
 
-/// Times of a frame's stages, one after the other.
+/// Times of a frame's consecutive stages.
 class StageClock {
 public:
     StageClock() { times_.reserve(kMostStages); }
@@ -20,7 +20,7 @@ public:
         times_.clear();
         last_ = Clock::now();
     }
-    /// The time since the last call belongs to this stage.
+    /// Assigns the time since the last call to this stage.
     void lap(const char* stage) {
         const auto now = Clock::now();
         times_.push_back({stage, std::chrono::duration<double, std::milli>(now - last_).count()});
@@ -32,7 +32,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::size_t kMostStages = 12;  // so that no frame allocates
+    static constexpr std::size_t kMostStages = 12;  // reserved, so that no frame allocates
 
     std::vector<StageTime> times_;
     Clock::time_point last_;

@@ -20,12 +20,12 @@ struct TracedLayer::State {
         return out;
     }
 
-    /// Pictures of another scene come with their models.
+    /// If the picture shows another scene, the warp gets the scene's models, too.
     void take(const RenderedPicture& picture) {
         if (picture.scene != scene) {
             const bool sameModels = scene && sameObjects(*scene, *picture.scene);
             scene = picture.scene;
-            if (!sameModels) warp.setScene(*scene);  // another light moves no silhouette
+            if (!sameModels) warp.setScene(*scene);  // another light does not change silhouettes
         }
         warp.setReference(warpReference(picture));
         shown = &picture;
@@ -36,9 +36,10 @@ struct TracedLayer::State {
     Warp warp;
     ReferenceRenderer renderer;
     int fadeFrames;
-    std::shared_ptr<const Scene> scene;      // of the picture shown
-    const RenderedPicture* shown = nullptr;  // only to be told from the next
-    int changing = 0;                        // frames in which the layer still changes by itself
+    std::shared_ptr<const Scene> scene;      // scene of the shown picture
+    const RenderedPicture* shown = nullptr;  // only compared with the next picture's address
+    // Frames for which the layer still changes without camera motion.
+    int changing = 0;
 };
 
 bool TracedLayer::isAvailable() {

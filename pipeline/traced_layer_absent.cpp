@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-// Builds without Embree.
+// For builds without Embree.
 namespace mfar {
 
 struct TracedLayer::State {};
@@ -17,7 +17,7 @@ TracedLayer::TracedLayer(const CameraModel&, Engine&, const TracedLayerOptions&)
 }
 TracedLayer::~TracedLayer() = default;
 
-// There is no object whose members could be called.
+// Never called: no TracedLayer can be constructed.
 void TracedLayer::setScene(std::shared_ptr<const Scene>) {}
 void TracedLayer::update(const RigidTransform&, Timestamp) {}
 bool TracedLayer::isStale() const {

@@ -7,12 +7,12 @@
 namespace mfar {
 
 /// A calibration cannot be used. The message begins with "file:line: " (or "file: " where no line
-/// is to blame) and says what is wrong in one line.
+/// is at fault) and states the fault in one line.
 class CalibrationError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Throws CalibrationError; line 0: none.
+/// Throws CalibrationError; line 0: no line is at fault.
 [[noreturn]] void calibrationFault(const std::filesystem::path& file, int line,
                                    std::string_view what);
 

@@ -10,8 +10,8 @@
 namespace mfar::rig_formats {
 namespace {
 
-// Names in use: OpenCV's own samples (M1 D1), its interactive tools and what people write.
-// {} is 1 for the video, 2 for the still.
+// Key names in use: those of OpenCV's samples (M1 D1), of its interactive tools, and common ones.
+// {} is 1 for the video camera, 2 for the still camera.
 constexpr std::array kMatrixKeys{"M{}", "K{}", "camera_matrix{}", "camera_matrix_{}",
                                  "cameraMatrix{}"};
 constexpr std::array kDistortionKeys{"D{}",
@@ -39,7 +39,7 @@ YAML::Node need(const YamlReader& in, const std::array<const char*, N>& keys, in
     in.fail("has no " + fmt::format(fmt::runtime(keys[0]), camera));
 }
 
-/// One key for both cameras or one for each; nothing where the file has no size.
+/// From one key for both cameras or one key each; empty where the file has no size.
 std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Size> wanted) {
     std::optional<YAML::Node> node = find(in, kSizeKeys, camera);
     for (const char* const key : {"image_size", "imageSize", "size"})
@@ -55,7 +55,7 @@ std::optional<Size> readSize(const YamlReader& in, int camera, std::optional<Siz
                            in.number(height, "image_height"), wanted);
 }
 
-/// A matrix that was made for another size has its principal point far from the middle.
+/// In a matrix made for another picture size, the principal point is far from the centre.
 void checkGuessedSize(const YamlReader& in, const YAML::Node& node, const CameraModel& c) {
     const auto central = [](double at, int side) { return at > 0.3 * side && at < 0.7 * side; };
     if (!central(c.cx, c.size.width) || !central(c.cy, c.size.height))

@@ -13,17 +13,17 @@
 namespace mfar::plausible {
 namespace {
 
-constexpr double kRotationTolerance = 1e-3;  // files print as few as four digits
+constexpr double kRotationTolerance = 1e-3;  // some files print only four digits
 constexpr double kMaxFoldError = 0.5;        // [px]
 
-/// A range as messages give it.
+/// The range as messages print it.
 std::string text(const Range& range) {
     const bool hasUnit = std::string_view(range.unit) != "1";
     return fmt::format("{} to {}{}{}", range.least, range.most, hasUnit ? " " : "",
                        hasUnit ? range.unit : "");
 }
 
-/// A lens model that folds over before the picture's edge maps several rays to one pixel.
+/// True when the lens model folds over inside the picture: several rays would map to one pixel.
 bool foldsInside(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const std::array<Eigen::Vector2d, 4> edges{
@@ -33,7 +33,8 @@ bool foldsInside(const CameraModel& c) {
     return false;
 }
 
-/// Radius with distortion over radius without, at the corner where this ratio is farthest from 1.
+/// Ratio of the radius with distortion to the radius without, at the corner where it is farthest
+/// from 1.
 double mostUnlikelyCorner(const CameraModel& c) {
     const double right = c.size.width - 1, bottom = c.size.height - 1;
     const Eigen::Vector2d centre(c.cx, c.cy);

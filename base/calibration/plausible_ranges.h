@@ -16,18 +16,18 @@ struct Range {
     }
 };
 
-/// No texture is larger.
+/// Textures cannot be larger.
 inline constexpr Range kSide{"width and height", "px", 1, 16384};
-/// From a field of view of 169 degrees to one of half a degree.
+/// Fields of view from 169 down to half a degree.
 inline constexpr Range kFocal{"focal length", "picture widths", 0.05, 100};
 inline constexpr Range kPrincipal{"principal point", "picture widths and heights", -1, 2};
 inline constexpr Range kCoefficient{"distortion coefficient", "1", -1000, 1000};
-/// Barrel distortion of 150 degrees has 0.35.
+/// Barrel distortion at 150 degrees reaches 0.35.
 inline constexpr Range kCorner{"radius of a corner with distortion to that without", "1", 0.25,
                                1.5};
 inline constexpr Range kBaseline{"distance of the sensors", "m", 0, 2};
 inline constexpr Range kTimeOffset{"time offset of the stills", "s", -10, 10};
-/// A sensor that takes pictures on trigger only has rate 0 instead.
+/// Does not hold for a sensor that takes pictures on trigger only, whose rate is 0.
 inline constexpr Range kRate{"rate", "Hz", 0.01, 10000};
 
 inline constexpr Range kTagSize{"edge of a tag", "m", 0.001, 100};

@@ -16,7 +16,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kRigFile = "rig.yaml";
 
-/// A file that rig.yaml names stands beside it: a calibration must not reach out of its folder.
+/// Path of a file that rig.yaml names. It must be in the same folder: a calibration must not refer
+/// to files outside of its folder.
 fs::path neighbour(const YamlReader& in, const char* key) {
     const YAML::Node node = in.at(key);
     const fs::path name = in.word(node, key);
@@ -83,7 +84,7 @@ RigCalibration readTwo(const fs::path& first, const fs::path& second, const Want
     return euroc ? readEuroc(first, second, wanted) : out;
 }
 
-/// XML is not YAML, and the message of a YAML parser would not help.
+/// Refuses XML with a message of its own: the YAML parser's message would not help.
 void refuseXml(const fs::path& file) {
     std::ifstream in(file);
     if (in.peek() == '<')

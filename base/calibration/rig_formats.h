@@ -3,7 +3,7 @@
 #include "base/calibration/rig_files.h"
 #include "base/calibration/yaml_reader.h"
 
-/// The formats that loadRig() tells apart. All throw CalibrationError.
+/// Readers of the formats that loadRig() distinguishes. All throw CalibrationError.
 namespace mfar::rig_formats {
 
 [[nodiscard]] RigCalibration kalibr(const YamlReader& in, const WantedSizes& wanted);

@@ -17,13 +17,13 @@ struct SensorYaml {
     double rateHz = 0;             ///< 0: on trigger only
 };
 
-/// Reads and validates: pinhole model, finite and plausible numbers, a T_BS that is a rotation and
-/// a translation, the wanted size if there is one. Throws CalibrationError.
+/// Reads and validates: pinhole model, finite and plausible numbers, T_BS a rotation and a
+/// translation, `wanted` size if given. Throws CalibrationError.
 [[nodiscard]] SensorYaml readSensorYaml(const std::filesystem::path& file,
                                         std::optional<Size> wanted = {});
 
-/// The text of a sensor.yaml that readSensorYaml() reads back to the last bit but rounding of the
-/// rotation.
+/// The text of a sensor.yaml from which readSensorYaml() gets the same numbers to the last bit,
+/// except for rounding of the rotation.
 [[nodiscard]] std::string sensorYamlText(const SensorYaml& sensor, std::string_view comment);
 
 }  // namespace mfar

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-/// Sees a text go by and stops the parser where it goes beyond the bounds.
+/// Receives the parser's events and stops the parser where the text exceeds the limits.
 class Bounds final : public YAML::EventHandler {
 public:
     void OnDocumentStart(const YAML::Mark& /*mark*/) override {}

@@ -6,9 +6,9 @@
 
 namespace mfar {
 
-/// The tree of a YAML text. Throws YAML::Exception for what the library finds wrong, and for more
-/// than any file of ours has: aliases, values in values deeper than 16, more than 100000 values.
-/// All of it is found before a tree is built.
+/// Parses a YAML text. Throws YAML::Exception for errors that the library finds and for aliases,
+/// nesting deeper than 16 or more than 100000 values, which no file of this project has. All limits
+/// are checked before the tree is built.
 [[nodiscard]] YAML::Node boundedYaml(const std::string& text);
 
 }  // namespace mfar

@@ -12,14 +12,14 @@
 
 namespace mfar {
 
-/// Values of one YAML file; every failure is a CalibrationError with the line of the value. Also
-/// reads what OpenCV's FileStorage writes as YAML.
+/// Reads values of one YAML file; every failure is a CalibrationError with the line of the value.
+/// Also reads YAML that OpenCV's FileStorage wrote.
 class YamlReader {
 public:
     [[nodiscard]] const YAML::Node& root() const { return root_; }
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] bool has(const char* key) const { return root_[key].IsDefined(); }
-    /// A value that has to be there.
+    /// A required value.
     [[nodiscard]] YAML::Node at(const char* key) const { return at(root_, key); }
     [[nodiscard]] YAML::Node at(const YAML::Node& map, const char* key) const;
     /// Finite numbers; `what` names the value in messages.
@@ -32,7 +32,7 @@ public:
     [[nodiscard]] Eigen::MatrixXd matrix(const YAML::Node& node, int rows, int columns,
                                          const char* what) const;
     [[noreturn]] void fail(const YAML::Node& node, const std::string& what) const;
-    /// The whole file is to blame.
+    /// Throws a CalibrationError about the whole file.
     [[noreturn]] void fail(const std::string& what) const;
 
 private:
@@ -44,8 +44,8 @@ private:
     YAML::Node root_;
 };
 
-/// Opens a file and lets `read` look its values up. Throws CalibrationError, also for what the YAML
-/// library finds wrong.
+/// Opens a file and calls `read` with its reader. Throws CalibrationError, also for errors that the
+/// YAML library finds.
 void readYaml(const std::filesystem::path& file,
               const std::function<void(const YamlReader&)>& read);
 

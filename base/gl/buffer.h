@@ -14,7 +14,7 @@ namespace mfar::gpu {
 class Buffer {
 public:
     Buffer() = default;
-    /// Zero-filled.
+    /// The buffer is filled with zeros.
     explicit Buffer(std::size_t bytes);
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
@@ -30,7 +30,8 @@ public:
         static_assert(std::is_trivially_copyable_v<T>);
         writeBytes(values.data(), values.size_bytes(), offsetBytes);
     }
-    /// Waits for the GPU: not for the frame path, unless its writer finished a frame ago.
+    /// Waits for the GPU: do not use in the frame path unless the pass that writes the buffer
+    /// finished a frame ago.
     template <class T>
     [[nodiscard]] std::vector<T> read(std::size_t count, std::size_t offsetBytes = 0) const {
         static_assert(std::is_trivially_copyable_v<T>);

@@ -7,7 +7,7 @@
 
 namespace mfar::gpu {
 
-/// A working GPU never takes this long: the kernel resets it before.
+/// A working GPU never needs this long: the kernel resets it earlier.
 inline constexpr std::chrono::milliseconds kLongestGpuWait{500};
 
 /// A point in the stream of GL commands. Move-only.
@@ -25,8 +25,8 @@ public:
         if (sync_ != nullptr) glDeleteSync(sync_);
     }
 
-    /// True when the GPU has passed the fence. Waits for `limit` at most. Never true once the
-    /// context is lost.
+    /// True when the GPU has passed the fence. Waits at most `limit`. Always false once the context
+    /// is lost.
     [[nodiscard]] bool passed(std::chrono::nanoseconds limit = std::chrono::nanoseconds{0}) const {
         const GLenum status = glClientWaitSync(sync_, GL_SYNC_FLUSH_COMMANDS_BIT,
                                                static_cast<GLuint64>(limit.count()));
@@ -37,7 +37,7 @@ private:
     GLsync sync_;
 };
 
-/// Waits as glFinish() does, but not for ever: false where the GPU hangs or the context is lost.
+/// As glFinish(), but bounded: false when the GPU hangs or the context is lost.
 [[nodiscard]] inline bool finishWithin(std::chrono::nanoseconds limit = kLongestGpuWait) {
     return Fence().passed(limit);
 }

@@ -17,15 +17,15 @@ class GlError : public std::runtime_error {
 /// GL_CONTEXT_LOST of OpenGL ES 3.2 and GL_KHR_robustness.
 inline constexpr GLenum kContextLost = 0x0507;
 
-/// The first error that the context has recorded since the last call, GL_NO_ERROR for none. A lost
-/// context may report that for ever.
+/// The first error that the context has recorded since the last call, or GL_NO_ERROR. A lost
+/// context may report kContextLost on every call.
 [[nodiscard]] inline GLenum takeError() {
     const GLenum first = glGetError();
     for (GLenum next = first; next != GL_NO_ERROR && next != kContextLost;)
         next = glGetError();
     return first;
 }
-/// "0x0502"
+/// As hexadecimal text: "0x0502".
 [[nodiscard]] inline std::string errorCode(GLenum error) {
     std::array<char, 16> code{};
     std::snprintf(code.data(), code.size(), "0x%04x", error);

@@ -37,7 +37,7 @@ std::string shaderPreamble(std::string_view defines) {
            "precision highp uimage2D;\nprecision highp iimage2D;\n#line 1\n";
 }
 
-/// Owns a program of the context.
+/// Owns a program of the GL context.
 class LinkedProgram {
 public:
     LinkedProgram() : id_(glCreateProgram()) {}
@@ -67,7 +67,7 @@ void finishLink(GLuint program, const std::string& name, std::size_t paramsBytes
         throw GlError("shader " + name + " has no active uniform block Params");
     GLint bytes = 0;
     glGetActiveUniformBlockiv(program, block, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
-    // Drivers may report the size with or without the trailing padding of the last vec4.
+    // Drivers report the size with or without the trailing padding of the last vec4.
     if ((static_cast<std::size_t>(bytes) + 15) / 16 * 16 != paramsBytes)
         throw GlError("shader " + name + ": block Params has " + std::to_string(bytes) +
                       " bytes, the program expects " + std::to_string(paramsBytes));

@@ -40,12 +40,12 @@ class Program;
 class ProgramCache;
 class Validation;
 namespace detail {
-/// The cache that this thread uses; null: programs are not shared.
+/// The cache that this thread uses; null: its programs are not shared.
 inline constinit thread_local ProgramCache* programs = nullptr;
-/// The Validation of this thread.
+/// The Validation that this thread uses; null: none.
 inline constinit thread_local Validation* validation = nullptr;
 void validate(const Program& program, Bindings bindings, const Framebuffer* target);
-/// After each pass.
+/// Called after each pass.
 inline void ran(const Program& program, Bindings bindings, const Framebuffer* target = nullptr) {
     if (validation != nullptr) validate(program, bindings, target);
 }
@@ -59,13 +59,14 @@ struct Groups {
     return static_cast<GLuint>((items + perGroup - 1) / perGroup);
 }
 
-/// What stands before the text of every shader: version, `defines`, highp everywhere.
+/// The text placed in front of every shader: version, `defines`, highp as default precision.
 [[nodiscard]] std::string shaderPreamble(std::string_view defines);
 
 class LinkedProgram;
 
-/// Programs that passes share. While a Use lives, passes of its thread that are made of the same
-/// text get the same program, which is compiled once. Of one context; destroyed with it current.
+/// Programs that several passes share. While a Use exists, passes of its thread with the same
+/// shader text share one program, which is compiled once. Belongs to one context, which must be
+/// current at destruction.
 class ProgramCache {
 public:
     ProgramCache() = default;
@@ -86,11 +87,11 @@ private:
     std::map<std::string, std::shared_ptr<const LinkedProgram>> linked_;
 };
 
-/// A linked program and the uniform block `Params` (binding 0) it declares. Untyped base of the two
-/// passes. Throws GlError with the shader's name and the compiler's text.
+/// A linked program and the uniform block `Params` (binding 0) that it declares. Untyped base of
+/// ComputePass and DrawPass. Throws GlError with the shader's name and the compiler's message.
 class Program {
 public:
-    /// `defines`: lines put below #version, e.g. "#define TWO_WAY 1\n".
+    /// `defines`: lines placed below #version, e.g. "#define TWO_WAY 1\n".
     Program(std::string_view computeShader, std::string_view defines, std::size_t paramsBytes);
     Program(std::string_view vertexShader, std::string_view fragmentShader,
             std::string_view defines, std::size_t paramsBytes);
@@ -98,7 +99,7 @@ public:
     /// Activates the program with its parameters and bindings.
     void use(const void* params, std::size_t bytes, Bindings bindings);
     [[nodiscard]] GLuint id() const;
-    /// Of the compute or the fragment shader.
+    /// File name of the compute or fragment shader.
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
@@ -113,16 +114,16 @@ private:
 
 /// The tiles of an instanced draw, written by a compute pass.
 struct InstanceList {
-    const Buffer& commands;  ///< one DrawArraysIndirect command at `commandOffset`
+    const Buffer& commands;  ///< contains one DrawArraysIndirect command at `commandOffset`
     std::size_t commandOffset;
-    const Buffer& instances;  ///< uint per instance, attribute location 0
+    const Buffer& instances;  ///< one uint per instance, attribute location 0
     std::size_t instanceOffset = 0;
 };
 
 /// Indexed triangles.
 struct Mesh {
     const Buffer& vertices;  ///< MeshVertex, attribute locations 0 (position), 1 (normal), 2 (uv)
-    const Buffer& indices;   ///< uint, three a triangle
+    const Buffer& indices;   ///< three uints per triangle
     int indexCount;
 };
 struct MeshVertex {
@@ -135,8 +136,9 @@ void drawFullScreen();
 void drawTiles(const InstanceList& tiles);
 }  // namespace detail
 
-/// A compute shader with its parameter block. `P` mirrors the std140 block `Params`; its size is
-/// checked against the program at construction. Issues the barriers its readers need.
+/// A compute shader with its parameter block. `P` mirrors the std140 block `Params`; the
+/// constructor checks its size against the program. run() issues the barriers that readers of its
+/// outputs need.
 template <class P>
 class ComputePass {
     static_assert(std::is_trivially_copyable_v<P> && sizeof(P) % 16 == 0, "std140 block");
@@ -151,7 +153,7 @@ public:
         glMemoryBarrier(kBarriers);
         detail::ran(program_, bindings);
     }
-    /// The group counts come from three uints in `commands` at `offset` bytes.
+    /// The group counts are three uints in `commands` at `offset` [bytes].
     void runIndirect(const P& params, Bindings bindings, const Buffer& commands,
                      std::size_t offset) {
         program_.use(&params, sizeof(P), bindings);
@@ -169,13 +171,13 @@ private:
     Program program_;
 };
 
-/// A fragment shader over the whole target, over a list of tiles, or over a mesh.
+/// A fragment shader that draws over the whole target, a list of tiles, or a mesh.
 template <class P>
 class DrawPass {
     static_assert(std::is_trivially_copyable_v<P> && sizeof(P) % 16 == 0, "std140 block");
 
 public:
-    /// Full-screen triangle in front of `fragment`.
+    /// `fragment` runs on a full-screen triangle.
     explicit DrawPass(std::string_view fragment, std::string_view defines = {})
         : DrawPass("fullscreen.vert", fragment, defines) {}
     DrawPass(std::string_view vertex, std::string_view fragment, std::string_view defines)

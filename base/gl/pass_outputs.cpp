@@ -9,7 +9,7 @@ namespace {
 
 struct ValueType {
     bool isFloat;
-    int components;  // 0: not one that is checked
+    int components;  // 0: the type is not checked
 };
 
 ValueType valueTypeOf(GLint type) {
@@ -40,7 +40,7 @@ std::array<GLint, N> propertiesOf(GLuint program, GLenum interface, GLuint index
     return out;
 }
 
-/// Without block, array index and what else the driver adds.
+/// The variable's name without block name, array index and other additions of the driver.
 std::string nameOf(GLuint program, GLenum interface, GLuint index) {
     std::array<char, 128> raw{};
     glGetProgramResourceName(program, interface, index, raw.size(), nullptr, raw.data());

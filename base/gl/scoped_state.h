@@ -5,7 +5,7 @@
 
 namespace mfar::gpu {
 
-/// A capability of the context that is on for the life of the object and off outside of it.
+/// Enables a capability of the context while the object exists.
 template <GLenum Capability>
 class Enabled {
 public:
@@ -15,7 +15,7 @@ public:
     ~Enabled() { glDisable(Capability); }
 };
 
-/// Draws and clears touch these pixels of the target alone. The rectangle must not be empty.
+/// Limits draws and clears to these pixels of the target. The rectangle must not be empty.
 class Scissor {
 public:
     explicit Scissor(const PixelRect& r) { glScissor(r.x0, r.y0, r.x1 - r.x0, r.y1 - r.y0); }
@@ -24,7 +24,7 @@ private:
     Enabled<GL_SCISSOR_TEST> test_;
 };
 
-/// Nearest surface wins; the depth of window coordinates.
+/// Keeps the nearest surface, by window depth.
 class DepthTest {
 public:
     DepthTest() { glDepthFunc(GL_LESS); }
@@ -33,7 +33,7 @@ private:
     Enabled<GL_DEPTH_TEST> test_;
 };
 
-/// Whatever is drawn leaves its depth.
+/// Every fragment drawn writes its depth, without a test.
 class DepthWritten {
 public:
     DepthWritten() { glDepthFunc(GL_ALWAYS); }
@@ -42,8 +42,8 @@ private:
     Enabled<GL_DEPTH_TEST> test_;
 };
 
-/// Triangles whose corners run counter-clockwise in a picture with row 0 on top, as those of a
-/// solid do where its inside is seen, are not drawn.
+/// Triangles whose corners run counter-clockwise in a picture with row 0 on top are not drawn: a
+/// solid's faces seen from the inside.
 class InsidesCulled {
 public:
     InsidesCulled() {

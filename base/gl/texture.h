@@ -10,7 +10,7 @@
 namespace mfar::gpu {
 
 /// Storage formats in use, each allowed as an image or a texture by the portable floor. Drawing
-/// into a float format needs EXT_color_buffer_float or OpenGL ES 3.2: Framebuffer throws without.
+/// into a float format needs EXT_color_buffer_float or OpenGL ES 3.2, or Framebuffer throws.
 enum class TexelFormat : GLenum {
     R8 = GL_R8,
     Rg8 = GL_RG8,
@@ -46,15 +46,15 @@ public:
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] TexelFormat format() const { return format_; }
 
-    /// Replaces level 0 of an R8, Rg8 or Rgba8 texture; rows of its width. Slow where the
-    /// stride is no multiple of the texel. Asserts the format.
+    /// Replaces level 0 of an R8, Rg8 or Rgba8 texture; `rows` has the texture's size. Slow where
+    /// the stride is not a multiple of the texel's size. Asserts the format.
     void upload(const PlaneView& rows);
-    /// Replaces level 0 of an R32F, Rg32F or Rgba32F texture from a row on: one, two or four floats
-    /// a texel, rows without padding. Asserts format and that they are whole rows of it.
+    /// Replaces rows of level 0 of an R32F, Rg32F or Rgba32F texture, beginning at `firstRow`: one,
+    /// two or four floats a texel, rows without padding. Asserts the format and whole rows.
     void upload(std::span<const float> values, int firstRow = 0);
-    /// Replaces level 0 of an Rgba8 texture from a row on: rows without padding. Asserts as above.
+    /// As above, for an Rgba8 texture.
     void uploadRows(std::span<const std::array<std::uint8_t, 4>> texels, int firstRow = 0);
-    /// The same of an R32Ui or Rgba32Ui texture, all of it: one or four numbers a texel.
+    /// Replaces level 0 of an R32Ui or Rgba32Ui texture: one or four numbers a texel.
     void upload(std::span<const std::uint32_t> values);
     /// Reads level 0 back as RGBA8, row 0 first. Waits for the GPU: not for the frame path.
     [[nodiscard]] std::vector<std::uint8_t> readRgba8() const;
@@ -79,7 +79,7 @@ public:
     Framebuffer& operator=(const Framebuffer&) = delete;
     ~Framebuffer();
 
-    /// Makes it the target of the following draws, with a viewport over all of it.
+    /// Makes it the target of the following draws and sets the viewport to all of it.
     void bind() const;
     [[nodiscard]] GLuint id() const { return id_; }
     [[nodiscard]] Size size() const { return size_; }

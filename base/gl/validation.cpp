@@ -13,7 +13,7 @@
 namespace mfar::gpu {
 namespace {
 
-/// The framebuffer that pixels are read from; what was bound before is bound again.
+/// Binds the framebuffer to read pixels from; restores the previous binding.
 class ReadFrom {
 public:
     explicit ReadFrom(GLuint framebuffer) {
@@ -163,7 +163,7 @@ void Validation::checkImage(const std::string& pass, const PassOutput& output, G
     glDeleteFramebuffers(1, &framebuffer);
 }
 
-// What lies outside of the scissor was not written by this pass.
+// Checks only pixels inside the scissor: this pass did not write the others.
 void Validation::checkColour(const std::string& pass, const PassOutput& output,
                              const Framebuffer& target) {
     std::array<GLint, 4> box{0, 0, target.size().width, target.size().height};

@@ -14,22 +14,23 @@ class Framebuffer;
 class Program;
 struct Binding;
 
-/// A value that a pass must not write: NaN, infinite, or out of the range that its shader states.
+/// A value that a pass must not write: NaN, infinite, or outside of the range that its shader
+/// states.
 struct ValidationFault {
     std::string pass;    ///< shader, e.g. "flow_search.comp"
-    std::string output;  ///< variable of it, or "guard": a write behind the end of a buffer
-    int x = 0, y = 0;    ///< texel; of a buffer x is the element
+    std::string output;  ///< the shader's variable, or "guard": a write beyond the end of a buffer
+    int x = 0, y = 0;    ///< texel; in a buffer, x is the element
     int component = 0;
     double value = 0;
-    ValueRange range{};  ///< zero where only finite values are asked for
-    long frame = 0;      ///< of nextFrame()
+    ValueRange range{};  ///< zero where only finite values are required
+    long frame = 0;      ///< number that nextFrame() counts
 };
 [[nodiscard]] std::string describe(const ValidationFault& fault);
 
-/// While one lives, everything that passes of its thread write is read back and checked, and every
-/// Buffer made meanwhile is followed by guard bytes (NaN as floats), which nothing may change. What
-/// is off costs a look at a pointer a pass; what is on is ten times as slow. Needs the context that
-/// the passes need. One at a time a thread; leaves the GL's state as it was.
+/// While an object exists, everything that passes of its thread write is read back and checked, and
+/// every Buffer created in that time is followed by guard bytes (NaN as floats) that must not
+/// change. Without an object, a pass tests one pointer; with one, it is ten times as slow. Needs
+/// the passes' context. One object a thread at a time; restores the GL state.
 ///
 ///     gpu::Validation validation;     // before the Pipeline is made
 ///     ... frames ...
@@ -41,24 +42,25 @@ public:
     Validation& operator=(const Validation&) = delete;
     ~Validation();
 
-    /// The first bad value of each output since the last call; each only once a pass and output.
+    /// The first bad value of each output since the last call; each output of a pass is reported
+    /// once.
     [[nodiscard]] std::vector<ValidationFault> takeFaults();
-    /// Faults carry the number of the frame.
+    /// Increments the frame number that faults carry.
     void nextFrame() { ++frame_; }
 
     struct Count {
         long runs = 0;
-        long values = 0;  ///< texels and elements of buffers that were checked
-        long pixels = 0;  ///< drawn into, or written to images
+        long values = 0;  ///< checked texels and elements of buffers
+        long pixels = 0;  ///< pixels drawn or written to images
     };
-    /// By the name of the shader.
+    /// Keyed by the shader's name.
     [[nodiscard]] const std::map<std::string, Count>& counts() const { return counts_; }
 
     static constexpr std::size_t kGuardBytes = 256;
 
-    // For Buffer and the passes.
+    // Called by Buffer and the passes.
     static Validation* active();
-    /// The guard of a buffer of these bytes.
+    /// Registers a buffer of this size, which guard bytes follow.
     void guard(GLuint buffer, std::size_t bytes) { guarded_[buffer] = bytes; }
     void check(const Program& program, std::initializer_list<Binding> bindings,
                const Framebuffer* target);
@@ -73,15 +75,15 @@ private:
     void checkImage(const std::string& pass, const PassOutput& output, GLuint texture);
     void checkColour(const std::string& pass, const PassOutput& output, const Framebuffer& target);
     void checkPixels(const std::string& pass, const PassOutput& output, const Area& area);
-    /// Reports the first of count elements that is not sound.
+    /// Reports the first of `count` elements that is invalid.
     void checkValues(const std::string& pass, const PassOutput& output, const std::uint8_t* first,
                      std::size_t count, const Area& area);
     void report(ValidationFault fault);
 
     std::map<std::string, Count> counts_;
-    std::map<std::string, std::vector<PassOutput>> outputs_;  // by shader
+    std::map<std::string, std::vector<PassOutput>> outputs_;  // key: shader
     std::map<GLuint, std::size_t> guarded_;
-    std::map<std::string, bool> reported_;  // by pass and output
+    std::map<std::string, bool> reported_;  // key: pass and output
     std::vector<ValidationFault> faults_;
     long frame_ = 0;
 };

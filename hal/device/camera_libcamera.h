@@ -15,47 +15,48 @@ namespace mfar {
 
 struct LibcameraOptions {
     CameraWish camera;
-    Size size;  ///< exactly
-    /// Frames per second, asked for where the camera can be told (FrameDurationLimits), otherwise
-    /// as its driver does. 0: on trigger only, then no drops are counted.
+    Size size;  ///< exact size
+    /// Frames per second, requested where the camera supports it (FrameDurationLimits), otherwise
+    /// the driver's rate. 0: on trigger only; then no drops are counted.
     double rateHz = 30;
-    std::optional<double> exposureUs;     ///< fixed, instead of automatic
-    std::optional<double> gain;           ///< fixed, 1 = none
-    std::optional<double> focusDioptres;  ///< fixed, 0 = infinity
-    /// Further controls by the name libcamera knows them by, vendors' ones too; see
+    std::optional<double> exposureUs;     ///< fixed exposure; empty: automatic
+    std::optional<double> gain;           ///< fixed gain, 1 = no gain; empty: automatic
+    std::optional<double> focusDioptres;  ///< fixed focus, 0 = infinity
+    /// Further controls by their names in libcamera, including vendors' controls; see
     /// parseControls().
     std::vector<std::pair<std::string, std::string>> controls;
-    bool still = false;      ///< prepare for single pictures rather than for video
-    bool allowCrop = false;  ///< accept a sensor mode that shows a part of the field of view
-    unsigned buffers = 6;    ///< asked for; the driver may give others
+    bool still = false;      ///< configure for single pictures instead of video
+    bool allowCrop = false;  ///< accept a sensor mode that shows only a part of the field of view
+    unsigned buffers = 6;    ///< number requested; the driver may grant another
 };
 
 struct LibcameraCounters {
-    std::uint64_t frames = 0;     ///< given out or ready to be
-    std::uint64_t dropped = 0;    ///< see FrameDrops
-    std::uint64_t broken = 0;     ///< with an error or too few bytes, never shown
-    std::uint64_t startup = 0;    ///< from before the sensor had settled, never shown
-    std::uint64_t badTimes = 0;   ///< of the future, the distant past, or not after the one before
-    std::uint64_t untimed = 0;    ///< without a time: that of their arrival is used
-    std::uint64_t restarted = 0;  ///< times that it had given up waiting for its sensor
-    SensorClock::Kind clock = SensorClock::Kind::Monotonic;  ///< which the driver has used
+    std::uint64_t frames = 0;   ///< delivered or ready to be delivered
+    std::uint64_t dropped = 0;  ///< see FrameDrops
+    std::uint64_t broken = 0;   ///< marked as broken or with too few bytes; never delivered
+    std::uint64_t startup = 0;  ///< from before the sensor had settled; never delivered
+    /// In the future, in the distant past, or not after the previous frame.
+    std::uint64_t badTimes = 0;
+    std::uint64_t untimed = 0;    ///< without a timestamp; their arrival time is used
+    std::uint64_t restarted = 0;  ///< restarts after the stream had given up waiting for its sensor
+    SensorClock::Kind clock = SensorClock::Kind::Monotonic;  ///< the clock that the driver has used
 };
 
-/// A camera of libcamera 0.0.3 to 0.7. Several of them share one libcamera in the process. Picture
-/// formats by preference, which is the order of their bytes per pixel: NV12, YUV420, YUYV,
-/// XRGB8888, XBGR8888. MJPEG is for the V4L2 camera.
+/// A camera of libcamera 0.0.3 to 0.7. Several cameras share one libcamera in the process. Picture
+/// formats in order of preference, fewest bytes per pixel first: NV12, YUV420, YUYV, XRGB8888,
+/// XBGR8888. MJPEG needs the V4L2 camera.
 ///
-/// The sensor's smallest mode is chosen that shows its whole field of view, is not below the size
-/// and reaches the rate, where libcamera lets it be chosen (0.2 on); in any case the constructor,
-/// or next() where it is only told with frames, throws for a picture that shows a part of it.
+/// Chooses the sensor's smallest mode that shows its whole field of view, is not below the size and
+/// reaches the rate, if libcamera supports the choice (since 0.2). A picture that shows only a part
+/// of the field makes the constructor throw, or next() if only the frames report it.
 ///
-/// A frame's time is libcamera's SensorTimestamp, by its documentation the start of the exposure of
-/// the first row, + half the exposure where the camera tells that; a driver that takes the time
-/// elsewhere is off by a constant, which calibration finds. Frames whose time cannot be true are
+/// A frame's time is libcamera's SensorTimestamp (documented as the start of the first row's
+/// exposure) + half the exposure where the camera reports it. A driver that takes the timestamp
+/// elsewhere causes a constant offset, which calibration finds. Frames with an implausible time are
 /// never delivered. Frames may outlive the camera.
 class LibcameraCamera final : public Camera {
 public:
-    /// Throws std::runtime_error that says what there is instead.
+    /// Throws std::runtime_error; the message lists the available cameras or formats.
     explicit LibcameraCamera(const LibcameraOptions& options);
     LibcameraCamera(const LibcameraCamera&) = delete;
     LibcameraCamera& operator=(const LibcameraCamera&) = delete;
@@ -67,7 +68,7 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// Any thread.
+    /// Callable from any thread.
     [[nodiscard]] LibcameraCounters counters() const;
     [[nodiscard]] CameraCounters cameraCounters() const override;
 
@@ -76,7 +77,7 @@ private:
     std::shared_ptr<Stream> stream_;
 };
 
-/// The cameras that libcamera finds now. Throws std::runtime_error.
+/// The cameras that libcamera currently finds. Throws std::runtime_error.
 [[nodiscard]] std::vector<ListedCamera> listLibcameras();
 
 }  // namespace mfar

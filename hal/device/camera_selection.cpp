@@ -18,7 +18,8 @@ std::string describe(const ListedCamera& camera) {
                        camera.location.empty() ? "unknown" : camera.location);
 }
 
-/// Those of an id, where there is none of a location, where there is none of a model.
+/// Indices of the cameras with this id; if there are none, with this location; if none, with this
+/// model.
 std::vector<std::size_t> named(const std::vector<ListedCamera>& cameras, std::string_view name) {
     std::vector<std::size_t> found;
     for (const auto key : {&ListedCamera::id, &ListedCamera::location, &ListedCamera::model}) {

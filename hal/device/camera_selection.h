@@ -6,28 +6,29 @@
 
 namespace mfar {
 
-/// A camera as a library names it.
+/// A camera's names, as a library reports them.
 struct ListedCamera {
     std::string id;           ///< unique, stable over restarts
-    std::string model;        ///< may be shared
+    std::string model;        ///< not unique
     std::string location;     ///< "front", "back", "external" or empty
-    std::int64_t pixels = 0;  ///< of its largest pictures
+    std::int64_t pixels = 0;  ///< number of pixels of its largest picture
 };
 
-/// Which of several cameras is meant.
+/// Selects one of several cameras.
 struct CameraWish {
-    std::string name{};    ///< id, otherwise location, otherwise model; empty: any
-    std::string except{};  ///< never the one of this name
-    bool largest = false;  ///< of any: the one with the largest pictures, not the smallest
+    std::string name{};    ///< id, else location, else model; empty: any camera
+    std::string except{};  ///< never choose the camera of this name
+    /// If `name` is empty: choose the largest pictures instead of the smallest.
+    bool largest = false;
 };
 
-/// One line for messages: "'ID' (model M, location L)", all of them comma-separated.
+/// One line for messages: "'ID' (model M, location L)" of each camera, separated by commas.
 [[nodiscard]] std::string describe(const std::vector<ListedCamera>& cameras);
 
-/// Index of the camera that is meant. Of any, those with equal pictures go by id, the smallest
-/// first: what one asks for with `largest` and what another asks for without are two cameras
-/// wherever there are two. Throws std::runtime_error that lists the cameras when the name is none's
-/// or several's, or when any is meant and there is one alone, which is then the other's.
+/// Index of the chosen camera. An empty name orders the cameras by picture size, then id; `largest`
+/// takes the last, otherwise the first is taken, so that of two cameras each choice gets another
+/// one. Throws std::runtime_error that lists the cameras when no camera or several have the name,
+/// or when no camera is left: `except` is the only one, or `largest` would take the only camera.
 [[nodiscard]] std::size_t chooseCamera(const std::vector<ListedCamera>& cameras,
                                        const CameraWish& wish);
 

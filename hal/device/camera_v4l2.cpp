@@ -21,15 +21,15 @@ namespace {
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-// A stamp may be so much ahead of now (its clock was read on another core), or so old (nobody
-// called next()).
+// Plausible timestamps: at most kAhead in the future (its clock was read on another core) and at
+// most kOldest in the past (nobody called next()).
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// Fewer, and a driver may find none to fill while pictures are held.
+/// With fewer buffers a driver may find none to fill while pictures are held.
 constexpr int kEnoughBuffers = 4;
 
-/// A filled buffer, which goes back with the last of those that hold it.
+/// A filled buffer, returned when its last holder releases it.
 class Loan {
 public:
     Loan(std::shared_ptr<V4l2Stream> stream, int index)
@@ -94,7 +94,7 @@ void CameraV4l2::start() {
 void CameraV4l2::stop() {
     running_ = false;
     constexpr std::uint64_t kOne = 1;
-    // Before the stream ends: who wakes by that must find it said.
+    // Before the stream ends: a thread that wakes must find the stop request.
     static_cast<void>(!write(wake_.get(), &kOne, sizeof kOne));
     stream_->stop();
 }
@@ -110,12 +110,12 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
         const auto filled = stream_->take();
         if (filled) {
             if (auto frame = frameOf(*filled)) return frame;
-            // What waits is looked through, but a driver may give broken pictures as fast as they
-            // are taken.
+            // All waiting buffers are tried, but a driver may deliver broken pictures as fast as
+            // they are taken: stop at the timeout.
             if (++broken >= stream_->buffers() && steady_clock::now() >= until) return std::nullopt;
         } else if (waited == Wait::Trouble) {
-            // A lost device would have said so. The kernel also reports this while every buffer is
-            // lent since the start.
+            // A lost device would have made take() throw. POLLERR is also set while all buffers
+            // have been lent since the start.
             if (steady_clock::now() >= until) return std::nullopt;
             std::this_thread::sleep_for(kTroublePause);
         }
@@ -124,14 +124,16 @@ std::optional<Frame> CameraV4l2::next(std::chrono::milliseconds timeout) {
 }
 
 CameraV4l2::Wait CameraV4l2::wait(steady_clock::time_point until) const {
-    // The device first: it is in trouble once stopped, and then the other already says why.
+    // The device comes first: after stop() it reports an error, but then wake_ already ends the
+    // wait.
     std::array<pollfd, 3> fds{pollfd{stream_->device().fd(), POLLIN, 0},
                               pollfd{wake_.get(), POLLIN, 0},
                               pollfd{stream_->givenBack(), POLLIN, 0}};
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
     const int ready =
         poll(fds.data(), fds.size(), static_cast<int>(std::max<std::int64_t>(left.count(), 0)));
-    if (ready < 0 && errno == EINTR) return Wait::Picture;  // take() will find what there is
+    // take() finds out whether there is a picture.
+    if (ready < 0 && errno == EINTR) return Wait::Picture;
     if (ready <= 0 || fds[1].revents != 0) return Wait::Nothing;
     if (fds[0].revents == 0) return Wait::Buffer;
     return (fds[0].revents & (POLLERR | POLLHUP | POLLNVAL)) != 0 ? Wait::Trouble : Wait::Picture;
@@ -141,7 +143,7 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
     const auto loan = std::make_shared<Loan>(stream_, filled.index);
     const bool whole = isWhole(filled);
     const auto time = timeOf(filled);
-    // One on trigger has no rate that times could tell.
+    // A triggered camera has no rate from which times could show drops.
     if (whole && time && options_.wish.rateHz > 0)
         drops_.add(*time, filled.sequence);
     else
@@ -163,7 +165,7 @@ std::optional<Frame> CameraV4l2::frameOf(const V4l2Filled& filled) {
         else
             out.emplace(view, *time, [loan] {});
     }
-    if (!out && copies_) {  // all copies are held
+    if (!out && copies_) {  // all buffers for copies are lent
         drops_.lose();
         return refuse(nullptr);
     }
@@ -186,7 +188,7 @@ bool CameraV4l2::isWhole(const V4l2Filled& filled) const {
     if ((filled.flags & V4L2_BUF_FLAG_ERROR) != 0) return false;
     for (int p = 0; p < layout_.memoryPlanes; ++p) {
         const auto i = static_cast<std::size_t>(p);
-        // V4L2 counts the offset as used.
+        // V4L2's bytesused includes the data offset.
         const std::size_t room = stream_->memoryBytes(filled.index, p);
         if (filled.bytes[i] > room || filled.offset[i] >= filled.bytes[i] ||
             filled.bytes[i] - filled.offset[i] < layout_.bytes[i])
@@ -210,7 +212,7 @@ std::optional<Timestamp> CameraV4l2::timeOf(const V4l2Filled& filled) {
     return out;
 }
 
-// In units of 100 us; V4L2 has two names for it and for its automatic.
+// V4L2 uses units of 100 us, and two names for the exposure and its automatic mode.
 nanoseconds CameraV4l2::manualExposure() const {
     constexpr std::int64_t kMost = 100'000;
     for (const char* automatic : {"auto_exposure", "exposure_auto"})

@@ -19,33 +19,34 @@
 namespace mfar {
 
 struct CameraV4l2Options {
-    CameraWish device;  ///< by path ("/dev/video0"), card or bus
-    V4l2Wish wish;      ///< exactly this size; format and rate as far as they are given
-    /// Of the driver, 2 to 32; one more than pictures are held at a time.
+    CameraWish device;  ///< by path ("/dev/video0"), card name or bus
+    V4l2Wish wish;      ///< exactly this size; format and rate if given
+    /// Number of driver buffers, 2 to 32; one more than the pictures held at a time.
     int buffers = 6;
     /// Added to the driver's timestamps, e.g. minus the sensor's readout time where the driver
     /// stamps the end of the frame.
     std::chrono::nanoseconds timeOffset{0};
-    /// Set in this order before streaming: name and value, see V4l2Controls::set().
+    /// Name and value, set in this order before streaming, see V4l2Controls::set().
     std::vector<std::pair<std::string, std::string>> controls{};
 };
 
-/// A camera straight on V4L2: USB cameras, vivid, and boards that libcamera does not serve.
+/// A camera driven through V4L2 directly: USB cameras, vivid, and boards without libcamera support.
 ///
 ///     CameraV4l2 camera({.device = {"/dev/video0"}, .wish = {{640, 480}, 30}});
 ///     camera.start();
 ///     while (auto frame = camera.next(500ms)) ...
 ///
-/// Pictures are lent from the driver's own buffers without a copy (JPEG is decoded into buffers of
-/// its own; a driver that grants fewer than four gets each back at once, for a copy) and may
-/// outlive the camera; a buffer that is given back goes to the driver with the next next().
-/// Frame::time() is the driver's stamp, moved by half the exposure where that is known (a manual
-/// exposure_time_absolute): later where the driver stamps the start of the exposure, earlier where
-/// it stamps the end of the frame; plus timeOffset. Buffers that the driver marks as broken, that
-/// are not full, or whose stamp cannot be true are counted and never delivered.
+/// Pictures are lent from the driver's buffers without a copy and may outlive the camera.
+/// Exceptions: JPEG is decoded into separate buffers, and with fewer than four driver buffers each
+/// picture is copied. A returned buffer goes back to the driver with the next call of next().
+/// Frame::time() is the driver's timestamp, moved by half the exposure if known (a manual
+/// exposure_time_absolute): later if the driver stamps the start of the exposure, earlier if it
+/// stamps the end of the frame; plus timeOffset. Buffers that the driver marks as broken, that are
+/// not full, or that have an implausible timestamp are counted and never delivered.
 ///
-/// The constructor throws std::runtime_error with one sentence (no such camera, busy, size not
-/// offered and what is, a control refused); next() throws DeviceLost once the device has gone: make
+/// The constructor throws std::runtime_error with one sentence (camera not found, busy, size not
+/// offered and the offered ones, a control refused); next() throws DeviceLost when the device is
+/// gone: create a new camera then.
 /// a new camera then.
 class CameraV4l2 final : public Camera {
 public:
@@ -60,7 +61,7 @@ public:
     void stop() override;
     [[nodiscard]] bool ended() const override { return false; }
 
-    /// While the camera lives.
+    /// Valid while the camera lives.
     [[nodiscard]] const V4l2Controls& controls() const { return *controls_; }
     [[nodiscard]] CameraCounters cameraCounters() const override;
     [[nodiscard]] std::vector<std::string> takeWarnings() override;
@@ -81,14 +82,14 @@ private:
     CameraInfo info_;
     std::shared_ptr<V4l2Stream> stream_;
     std::unique_ptr<V4l2Controls> controls_;
-    std::unique_ptr<JpegDecoder> decoder_;  // where pictures come as JPEG
-    std::optional<FramePool> copies_;       // where the driver grants too few buffers
-    OwnedFd wake_;                          // eventfd, readable once stopped
+    std::unique_ptr<JpegDecoder> decoder_;  // if pictures arrive as JPEG
+    std::optional<FramePool> copies_;       // if the driver grants too few buffers
+    OwnedFd wake_;                          // eventfd, readable after stop()
     std::atomic<bool> running_{false};
     std::chrono::nanoseconds exposure_{0};
     std::optional<Timestamp> last_;
     FrameDrops drops_;
-    mutable std::mutex countsMutex_;  ///< of what follows
+    mutable std::mutex countsMutex_;  ///< guards the following members
     CameraCounters counts_;
     std::vector<std::string> warnings_;
 };

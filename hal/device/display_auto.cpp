@@ -13,10 +13,10 @@
 namespace mfar {
 namespace {
 
-// A device that appears between two looks is shown within this and one frame.
+// A device that appears between two checks is in use after this time and one frame.
 constexpr std::chrono::milliseconds kLookEvery{500};
-// The first picture sets the mode, and the third waits for the second: only then it has been seen
-// to change.
+// The first picture sets the mode; the third waits until the second is shown: only then the screen
+// has been seen to change.
 constexpr int kProven = 3;
 
 }  // namespace
@@ -50,7 +50,7 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
     if (active_ == nullptr) {
         if (picture.isOnHost()) return;
         if (scaler_) scaler_->warmUp(picture.image());
-        // Without a screen nothing else would hold the renderer back.
+        // Without a screen nothing else would limit the renderer.
         (void)gpu::finishWithin();
         return;
     }
@@ -60,13 +60,13 @@ void ScreenDisplay::show(const Picture& picture, Timestamp) {
         failed_ = nullptr;
         if (shown_ == kProven) fault_.clear();
     } catch (const gpu::GlError&) {
-        throw;  // not of the screen
+        throw;  // not a fault of the screen
     } catch (const std::runtime_error& error) {
         lose(error.what());
     }
 }
 
-// The first pictures prove the screen, see kProven.
+// A repeated picture is still shown until kProven pictures have proved the screen.
 void ScreenDisplay::showAgain(const Picture& picture, Timestamp time) {
     refresh();
     if (active_ == nullptr || shown_ < kProven) show(picture, time);
@@ -86,8 +86,8 @@ void ScreenDisplay::lose(const std::string& why) {
     active_ = nullptr;
 }
 
-// A screen that shows is asked alone, unless something has changed: asking the others opens
-// devices.
+// While a screen works and nothing has changed, only this screen is checked: checking others opens
+// their devices.
 Screen* ScreenDisplay::look(bool changed) {
     if (active_ != nullptr && !changed && active_->look(false) == Screen::Presence::Ready)
         return active_;
@@ -99,7 +99,8 @@ Screen* ScreenDisplay::look(bool changed) {
         if (presence != Screen::Presence::Absent) holder = &screen;
         if (presence == Screen::Presence::Ready) ready = &screen;
     };
-    // A device that waits for its monitor is held: those after it would show behind its back.
+    // A device that waits for its monitor is held open; the devices after it are not checked: they
+    // would show pictures unnoticed.
     for (const auto& screen : screens_)
         if (holder == nullptr && screen.get() != failed_) ask(*screen);
     if (holder == nullptr && failed_ != nullptr) ask(*failed_);
@@ -129,7 +130,8 @@ std::optional<ScreenPicture> ScreenDisplay::lastShown() const {
 
 std::unique_ptr<ScreenDisplay> openScreen(std::string_view spec) {
     const ScreenSpec words = parseScreenSpec(spec);
-    // Made once, as compiling its shader is slow: a screen that appears is to be shown at once.
+    // Created once for all screens, because compiling its shader is slow: a new screen should show
+    // at once.
     auto scaler = std::make_unique<ScreenScaler>();
     std::vector<std::unique_ptr<Screen>> screens;
     if (words.kind != ScreenSpec::Kind::Fbdev)

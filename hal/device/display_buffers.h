@@ -8,49 +8,51 @@
 
 namespace mfar {
 
-/// How the pixels get to the screen.
+/// How pixels reach the screen.
 enum class ScanoutMethod {
-    GbmFenced,  ///< GPU draws into the screen's memory, the kernel waits for a fence of it
-    Gbm,        ///< the same, this process waits for the GPU
-    Dumb,       ///< the CPU copies it, after the GPU has drawn it into a texture if need be
+    GbmFenced,  ///< the GPU draws into the screen's memory; the kernel waits for its fence
+    Gbm,        ///< the GPU draws into the screen's memory; this process waits for the GPU
+    Dumb,       ///< the CPU copies the picture, which the GPU may have drawn into a texture before
 };
 [[nodiscard]] const char* name(ScanoutMethod method);
 
-/// Buffers of a screen's size in the screen's memory, drawn into in turn. Used from one thread;
-/// pictures go begin(), complete(), and on the screen before the next complete().
+/// Screen-sized buffers in the screen's memory, used in turn. Used from one thread; each picture
+/// goes through begin() and complete() and must be on the screen before the next complete().
 class ScanoutBuffers {
 public:
     struct Ready {
         std::uint32_t framebuffer;  ///< DRM framebuffer id
-        OwnedFd fence;              ///< signalled when the GPU has drawn; may be none: it has
+        /// Signalled when the GPU has drawn; invalid: it has drawn already.
+        OwnedFd fence;
     };
 
     virtual ~ScanoutBuffers() = default;
 
-    /// Starts drawing. The picture before may still be on its way to the screen.
+    /// Starts drawing. The previous picture may not be on the screen yet.
     virtual void begin(const Picture& picture) = 0;
-    /// The picture begun. The one before must be on the screen by now.
+    /// Completes the picture begun. The previous picture must be on the screen.
     [[nodiscard]] virtual Ready complete() = 0;
-    /// See Display::releaseGl(). Nothing more is drawn into them; what the screen shows stays.
+    /// See Display::releaseGl(). Nothing more is drawn into the buffers; the screen keeps its
+    /// picture.
     virtual void releaseGl() = 0;
-    /// The picture begun last, as it is sent to the screen.
+    /// The last picture begun, as sent to the screen.
     [[nodiscard]] virtual ScreenPicture last() const = 0;
 };
 
-/// Throws std::runtime_error when this card, or the context that is current, cannot do it so.
+/// Throws std::runtime_error when this card or the current context does not support the method.
 /// `scaler` must outlive the buffers.
 [[nodiscard]] std::unique_ptr<ScanoutBuffers>
 makeScanoutBuffers(const DrmCard& card, Size size, ScanoutMethod method, ScreenScaler& scaler);
 
-/// Two buffers in memory that any driver offers.
+/// Two buffers in dumb memory, which every driver offers.
 [[nodiscard]] std::unique_ptr<ScanoutBuffers> makeDumbBuffers(const DrmCard& card, Size size,
                                                               ScreenScaler& scaler);
-/// Three buffers from GBM, imported into the EGL display of the current context. The card that
-/// shows and the GPU that draws may be two devices.
+/// Three GBM buffers, imported into the EGL display of the current context. The card that shows and
+/// the GPU that draws may be different devices.
 [[nodiscard]] std::unique_ptr<ScanoutBuffers> makeGbmBuffers(const DrmCard& card, Size size,
                                                              bool fences, ScreenScaler& scaler);
 
-/// A DRM framebuffer of one linear XRGB8888 plane. Removed at the end.
+/// A DRM framebuffer of one linear XRGB8888 plane. Removed at destruction.
 class DrmFramebuffer {
 public:
     /// Throws std::runtime_error when the driver refuses.

@@ -17,19 +17,19 @@
 
 namespace mfar {
 
-/// Pictures per second, of the timing rather than of the rounded number beside it. 0: impossible.
+/// Refresh rate [Hz], from the mode's timing instead of its rounded number. 0: invalid timing.
 [[nodiscard]] double refreshHz(const drmModeModeInfo& mode);
 
-/// The mode of a connector to use. Wanted and offered (the rate to 0.5 Hz): that one, the highest
-/// rate where none is wanted, progressive before interlaced. Otherwise the preferred one, or the
-/// first. Nothing when no mode has sides of 1 to 16384 pixels and a rate.
+/// Chooses a connector's mode. The wanted mode if offered (rate to 0.5 Hz; without a wanted rate
+/// the highest; progressive before interlaced); otherwise the preferred mode, or the first. Empty
+/// when no mode has sides of 1 to 16384 pixels and a rate.
 [[nodiscard]] std::optional<drmModeModeInfo> chooseMode(std::span<const drmModeModeInfo> modes,
                                                         const std::optional<ModeWish>& wish);
 [[nodiscard]] bool fulfils(const drmModeModeInfo& mode, const ModeWish& wish);
 
-/// Waits until the picture of the last commit is on the screen: the event of that commit, which was
-/// given the address of `pending`, makes it false. False when that takes longer than `limit` or
-/// the device is lost.
+/// Waits until the picture of the last commit is on the screen; the event of that commit, which got
+/// the address of `pending`, sets it to false. False when this takes longer than `limit` or the
+/// device is lost.
 [[nodiscard]] bool waitForFlip(int fd, bool& pending, std::chrono::milliseconds limit);
 
 /// The properties of one KMS object, by name.
@@ -45,7 +45,7 @@ private:
     std::map<std::string, std::uint32_t, std::less<>> ids_;
 };
 
-/// A way from a plane to a monitor, complete and unused by others.
+/// A complete path from a plane to a monitor that nobody else uses.
 struct DrmOutput {
     std::string connectorName;
     drmModeModeInfo mode{};
@@ -54,19 +54,19 @@ struct DrmOutput {
     [[nodiscard]] Size size() const { return {mode.hdisplay, mode.vdisplay}; }
 };
 
-/// A DRM device that has connectors, atomic mode setting, and obeys this process (DRM master).
+/// A DRM device with connectors and atomic mode setting, of which this process is DRM master.
 class DrmCard {
 public:
-    /// Throws std::runtime_error that says why this device cannot be used.
+    /// Throws std::runtime_error with the reason when this device cannot be used.
     explicit DrmCard(const std::string& path);
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    /// The wanted connector, or the first that is connected, with its mode. `probe`: has the driver
-    /// ask the monitor, which may take tens of milliseconds; otherwise what the driver knows.
-    /// Nothing when no screen is connected; throws std::runtime_error when the device is gone.
+    /// The wanted connector, or the first connected one, with its mode. `probe`: the driver queries
+    /// the monitor, which may take tens of milliseconds; otherwise the driver's last knowledge is
+    /// used. Empty when no screen is connected; throws std::runtime_error when the device is gone.
     [[nodiscard]] std::optional<DrmOutput> findOutput(const ScreenSpec& spec, bool probe) const;
-    /// The connectors and what is known of them: "HDMI-A-1 disconnected, ..."
+    /// The connectors and their states: "HDMI-A-1 disconnected, ..."
     [[nodiscard]] std::string connectors() const;
 
 private:

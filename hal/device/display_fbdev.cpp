@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kDevices = 32;  // as many as the kernel has (FB_MAX)
+constexpr int kDevices = 32;  // the kernel's limit (FB_MAX)
 
 std::string framebufferFault(const std::string& path) {
     if (errno == EACCES) return path + ": no permission, the user must be in group video";
@@ -27,7 +27,7 @@ bool readInfo(int fd, fb_var_screeninfo& var, fb_fix_screeninfo& fix) {
 }
 
 PixelChannel channel(const fb_bitfield& field) {
-    // Beyond a byte nothing is valid(), and a narrowing must not make it so.
+    // Values above a byte are never valid(); narrowing must not make them valid.
     const auto bounded = [](std::uint32_t bits) { return static_cast<int>(std::min(bits, 255U)); };
     return {field.msb_right == 0 ? bounded(field.offset) : -1, bounded(field.length)};
 }
@@ -66,7 +66,7 @@ FbGeometry checkedGeometry(const fb_var_screeninfo& var, const fb_fix_screeninfo
     const auto holds = [&](std::size_t rows) {
         return rows <= var.yres_virtual && rows * g.stride <= g.bytes;
     };
-    // Panning between two pages needs whole steps.
+    // Panning between two pages needs whole pan steps.
     if (fix.ypanstep > 0 && var.yres % fix.ypanstep == 0 && holds(std::size_t{2} * var.yres))
         g.pages = 2;
     g.visible = var.yoffset * g.stride + var.xoffset * layout.bytes();
@@ -112,14 +112,14 @@ void FbdevScreen::open(const std::string& path) {
     }
     fd_ = std::move(fd);
     path_ = path;
-    // Some drivers promise to pan and refuse.
+    // Some drivers report panning but refuse it.
     pans_ = geometry_.pages == 2 && ioctl(fd_.get(), FBIOPAN_DISPLAY, &var_) == 0;
     page_ = 0;
     blankTold_ = true;
     shown_ = false;
 }
 
-// The same device behind the name, with the same geometry.
+// True when the name still belongs to the same device with the same geometry.
 bool FbdevScreen::unchanged() const {
     struct stat byName{}, byFd{};
     if (stat(path_.c_str(), &byName) != 0 || fstat(fd_.get(), &byFd) != 0 ||
@@ -128,12 +128,12 @@ bool FbdevScreen::unchanged() const {
     fb_var_screeninfo var{};
     fb_fix_screeninfo fix{};
     if (!readInfo(fd_.get(), var, fix)) return false;
-    // Where it pans to is our own doing.
+    // Ignore the pan offset: this object changes it.
     var.yoffset = var_.yoffset;
     try {
         return checkedGeometry(var, fix) == geometry_;
     } catch (const std::runtime_error&) {
-        return false;  // look() opens it anew and tells what is wrong
+        return false;  // look() opens the device again and reports the fault
     }
 }
 
@@ -166,7 +166,7 @@ void FbdevScreen::show(const Picture& picture) {
     if (!shown_) before_.assign(mapping_->data(), mapping_->data() + geometry_.bytes);
     shown_ = true;
     reader_->begin(picture);
-    // Where it pans: the last pan has taken effect, the other page is hidden now.
+    // With panning: the last pan has taken effect, so the other page is hidden now.
     waitForBlank();
     page_ = 1 - page_;
     const std::size_t page = geometry_.page0 + static_cast<std::size_t>(page_) * geometry_.stride *

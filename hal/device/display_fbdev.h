@@ -12,31 +12,32 @@
 
 namespace mfar {
 
-/// A framebuffer device's memory, checked: every row of every page lies inside it.
+/// Validated layout of a framebuffer device's memory: every row of every page lies inside.
 struct FbGeometry {
     Size size;
     PixelLayout layout;
     std::size_t stride = 0;   ///< bytes from one row to the next
-    std::size_t bytes = 0;    ///< of the whole memory
-    std::size_t visible = 0;  ///< bytes from the memory's begin to the first visible pixel
-    std::size_t page0 = 0;    ///< the same once panned to the top
-    int pages = 1;            ///< 2: there is a second screen below the first
+    std::size_t bytes = 0;    ///< size of the whole memory
+    std::size_t visible = 0;  ///< bytes from the memory's start to the first visible pixel
+    /// Bytes from the memory's start to the first pixel after panning to the top.
+    std::size_t page0 = 0;
+    int pages = 1;  ///< 2: a second page lies below the first
     bool operator==(const FbGeometry&) const = default;
 };
 
-/// What a driver says of its memory. Throws std::runtime_error for a format that is not 16, 24 or
-/// 32 bit true colour and for numbers that contradict each other.
+/// Validates the driver's description of its memory. Throws std::runtime_error for a format other
+/// than 16, 24 or 32 bit true colour and for contradictory numbers.
 [[nodiscard]] FbGeometry checkedGeometry(const fb_var_screeninfo& var,
                                          const fb_fix_screeninfo& fix);
 
-/// A Linux framebuffer, /dev/fbN. The picture is scaled where it is and copied by the CPU, into the
-/// hidden page where the driver pans, after the vertical blank where the driver tells it. What was
-/// on the screen is put back at close(). The text cursor of a console on the same screen is not
-/// hidden: that takes rights this program does without (kernel option vt.global_cursor_default=0).
+/// A Linux framebuffer, /dev/fbN. The picture is scaled by GPU or host, depending on where it is,
+/// and copied by the CPU: into the hidden page if the driver can pan, after the vertical blank if
+/// the driver reports it. close() restores the previous content. A console's text cursor on the
+/// same screen is not hidden: that needs privileges which this program does not ask for (kernel
+/// option vt.global_cursor_default=0).
 class FbdevScreen final : public Screen {
 public:
-    /// `path`: "/dev/fb0"; empty: the first that can be used. `scaler` must
-    /// outlive it.
+    /// `path`: "/dev/fb0"; empty: the first usable device. `scaler` must outlive it.
     FbdevScreen(std::string path, ScreenScaler& scaler);
     ~FbdevScreen() override;
 
@@ -70,12 +71,12 @@ private:
     std::string wanted_;
     ScreenScaler& scaler_;
     std::string fault_;
-    std::string path_;  // of the open device
+    std::string path_;  // path of the open device
     OwnedFd fd_;
     fb_var_screeninfo var_{};
     FbGeometry geometry_;
     std::unique_ptr<Mapping> mapping_;
-    std::vector<std::uint8_t> before_;  // the memory as it was found
+    std::vector<std::uint8_t> before_;  // the previous content of the memory
     std::unique_ptr<ScreenReader> reader_;
     int page_ = 0;
     bool pans_ = false;

@@ -10,32 +10,33 @@
 
 namespace mfar {
 
-/// Scales pictures on the host as ScreenScaler does on the GPU: aspect kept (letterbox()), black
-/// around them; the mean over each pixel's footprint where they shrink, linear interpolation where
-/// they grow, exact at equal size. Starts threads when it first has to scale.
+/// Scales pictures on the host as ScreenScaler does on the GPU: keeps the aspect (letterbox()),
+/// black borders; area average when shrinking, linear interpolation when enlarging, exact at equal
+/// size. Starts threads at the first scaling.
 class HostScaler {
 public:
     explicit HostScaler(Size screen) : screen_(screen) {}
 
-    /// Rows of the screen's size, alpha undefined; valid until the next call, or, where the picture
-    /// has that size already, as long as the picture's, which they are. Sizes must be positive.
+    /// Rows of the screen's size, alpha undefined; valid until the next call. A picture of the
+    /// screen's size is returned as it is. Sizes must be positive.
     [[nodiscard]] Rows<const std::uint32_t> scaled(const Rows<const std::uint32_t>& picture);
 
 private:
-    /// Which pixels of the picture a row or column of the screen is the mean of.
+    /// The pixels of the picture that one row or column of the screen averages.
     struct Footprint {
-        int first = 0;        ///< pixel
-        int taps = 0;         ///< pixels, all inside the picture
-        std::size_t begin{};  ///< of their weights
+        int first = 0;        ///< first pixel
+        int taps = 0;         ///< number of pixels, all inside the picture
+        std::size_t begin{};  ///< index of their first weight
     };
     struct Axis {
         Axis() = default;
         Axis(int from, int to);
         std::vector<Footprint> footprints;
-        std::vector<float> weights;        ///< of each footprint, sum 1
-        std::vector<std::uint16_t> fixed;  ///< the same, sum 65535
+        /// Of all footprints; each footprint's weights add up to 1.
+        std::vector<float> weights;
+        std::vector<std::uint16_t> fixed;  ///< the weights as integers, sum 65535
     };
-    /// What one of the threads needs for a row.
+    /// Scratch memory of one thread for a row.
     struct Line {
         explicit Line(int width)
             : fixed(static_cast<std::size_t>(width) * 4),

@@ -5,13 +5,13 @@
 
 namespace mfar {
 
-/// A monitor on an atomic DRM/KMS driver. One picture in flight: show() waits until the picture
-/// before is on the screen, which is the pace of the vertical blank. Pixels take the first
-/// ScanoutMethod that the driver accepts. What the screen showed before comes back at close().
+/// A monitor on an atomic DRM/KMS driver. One picture in flight: show() waits until the previous
+/// picture is on the screen, so its pace is the vertical blank. Uses the first ScanoutMethod that
+/// the driver accepts. close() restores the screen's previous picture.
 class KmsScreen final : public Screen {
 public:
-    /// `spec.device` empty: the first card that can be used, one with a screen before others.
-    /// `scaler` must outlive it.
+    /// Empty `spec.device`: the first usable card, cards with a connected screen first. `scaler`
+    /// must outlive it.
     KmsScreen(ScreenSpec spec, ScreenScaler& scaler);
     KmsScreen(const KmsScreen&) = delete;
     KmsScreen& operator=(const KmsScreen&) = delete;
@@ -47,7 +47,8 @@ private:
     Properties properties_;
     SavedCrtc saved_;
     std::unique_ptr<ScanoutBuffers> buffers_;
-    std::unique_ptr<ScanoutBuffers> left_;  ///< shown until buffers_ are
+    /// Shown until buffers_ have their first picture on the screen.
+    std::unique_ptr<ScanoutBuffers> left_;
     ScanoutMethod method_ = ScanoutMethod::Dumb;
     bool flipPending_ = false;
 };

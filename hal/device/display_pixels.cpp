@@ -10,9 +10,9 @@ constexpr std::uint32_t ones(int bits) {
     return bits >= 32 ? ~0U : (1U << bits) - 1;
 }
 
-/// How a colour gets from a pixel of 8 bits each into the word of the screen.
+/// Moves one colour from an 8-bit-per-colour pixel into the screen's word.
 struct Move {
-    int from, drop, to;  ///< bits to shift right, of the colour to leave out, to shift left
+    int from, drop, to;  ///< bits: shift right, drop from the colour, shift left
 
     Move(int offset, PixelChannel channel)
         : from(offset), drop(8 - channel.length), to(channel.offset) {}
@@ -21,7 +21,7 @@ struct Move {
     }
 };
 
-/// Writes the lower `Bytes` of a word. Of 2 or 4 bytes, loops over it become vectors.
+/// Writes the lower `Bytes` of a word. For 2 or 4 bytes, compilers vectorise loops over it.
 template <std::size_t Bytes>
 void store(std::uint32_t word, std::uint8_t* out) {
     if constexpr (Bytes == 2) {
@@ -46,7 +46,7 @@ void packRow(const std::uint8_t* __restrict pixels, int width, const PixelLayout
     }
 }
 
-// Bytes B G R 255, from R G B and anything.
+// Writes bytes B G R 255 from pixels R G B X.
 void swapRow(const std::uint8_t* __restrict rgba, int width, std::uint8_t* __restrict out) {
     for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {
         std::uint32_t pixel = 0;
@@ -56,7 +56,7 @@ void swapRow(const std::uint8_t* __restrict rgba, int width, std::uint8_t* __res
     }
 }
 
-// As the GPU has written it.
+// True for the layout in which the GPU writes pixels.
 bool isBgra(const PixelLayout& layout) {
     return layout.bits == 32 && layout.red == PixelChannel{16, 8} &&
            layout.green == PixelChannel{8, 8} && layout.blue == PixelChannel{0, 8};

@@ -36,8 +36,8 @@ ScalePicture scaleParams(Size picture, Size screen, ScreenScaler::Order order) {
             .blueFirst = order == ScreenScaler::Order::Bgra ? 1 : 0};
 }
 
-// A footprint that is no whole number begins and ends inside a texel. A picture of the screen's
-// size is copied.
+// Pairs of texels per footprint: a fractional footprint begins and ends inside a texel. 0 for a
+// picture of the screen's size, which is copied.
 int pairsFor(const ScalePicture& p) {
     if (p.width == p.pictureWidth && p.height == p.pictureHeight) return 0;
     const float footprint = std::max(p.footprintX, p.footprintY);
@@ -130,7 +130,7 @@ GlImage ScreenScaler::uploaded(const Rows<const std::uint32_t>& rows) {
     return {upload_.id(), rows.size};
 }
 
-// The renderer compiles with the first use, for which a few pixels will do.
+// Mesa compiles at the first use, for which a few pixels suffice.
 void ScreenScaler::warmUp(const GlImage& picture) {
     if (copy_ || picture.size.width < 1 || picture.size.height < 1) return;
     const KeptTarget kept;
@@ -143,7 +143,7 @@ void ScreenScaler::warmUp(const GlImage& picture) {
     glFinish();
 }
 
-// Into what is bound.
+// Draws into the bound framebuffer.
 void ScreenScaler::render(const GlImage& picture, Size screen, Order order) {
     if (sampler_ == 0) sampler_ = linearSampler();
     const ScalePicture params = scaleParams(picture.size, screen, order);

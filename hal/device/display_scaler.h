@@ -11,8 +11,8 @@
 
 namespace mfar {
 
-/// Gives the caller of a display back its targets: framebuffers, viewport, pack buffer. What else
-/// the classes below bind, every pass of the pipeline binds anew.
+/// Restores the caller's framebuffers, viewport and pack buffer. Other bindings are not restored:
+/// every pass of the pipeline sets them.
 class KeptTarget {
 public:
     KeptTarget();
@@ -25,10 +25,10 @@ private:
     std::array<GLint, 4> viewport_{};
 };
 
-/// Draws pictures screen-sized: aspect kept (letterbox()), black around them; an area filter where
-/// they shrink, linear interpolation where they grow, exact at equal size. What it draws depends on
-/// nothing but the picture and the two sizes. A picture on the host is uploaded first. Needs the
-/// context from the first picture on for its whole life.
+/// Draws pictures screen-sized: keeps the aspect (letterbox()), black borders; area filter when
+/// shrinking, linear interpolation when enlarging, exact at equal size. The result depends only on
+/// the picture and the two sizes. A picture on the host is uploaded first. Needs the context from
+/// the first picture on.
 class ScreenScaler {
 public:
     enum class Order { Rgba, Bgra };
@@ -38,13 +38,13 @@ public:
     ScreenScaler& operator=(const ScreenScaler&) = delete;
     ~ScreenScaler();
 
-    /// Fills `framebuffer` (row 0 = top row), of `screen` pixels, and leaves it bound. Throws
-    /// std::runtime_error for a picture without pixels.
+    /// Draws the picture over all of `framebuffer` (row 0 = top row; size `screen`) and leaves it
+    /// bound. Throws std::runtime_error for an empty picture.
     void draw(const Picture& picture, GLuint framebuffer, Size screen, Order order);
     /// See Display::releaseGl().
     void releaseGl();
-    /// Compiles what a screen of 1280x720 to 1920x1080 will most likely need, unless something has
-    /// been compiled already, so that its first picture does not wait for it.
+    /// Compiles the most likely shaders for screens of 1280x720 to 1920x1080 unless one has been
+    /// compiled already, so that the first picture is not delayed.
     void warmUp(const GlImage& picture);
 
 private:
@@ -52,17 +52,17 @@ private:
     void render(const GlImage& picture, Size screen, Order order);
     [[nodiscard]] gpu::Program& programFor(int pairs);
 
-    // Of pictures of the screen's size; for footprints that touch up to `pairs_` pairs of texels in
-    // a row.
+    // copy_: for pictures of the screen's size; scale_: for footprints of up to `pairs_` pairs of
+    // texels in a row.
     std::optional<gpu::Program> copy_, scale_;
     int pairs_ = 0;
     GLuint sampler_ = 0;
     gpu::Texture upload_;
 };
 
-/// Pictures scaled for a screen that is written by the CPU: a texture on the GPU, from where it is
-/// read back; rows of the host on the host, without GL. Gives the caller's targets back. Needs the
-/// context from the first texture on for its whole life.
+/// Scales pictures for a screen that the CPU writes: a texture is scaled on the GPU and read back;
+/// rows on the host are scaled on the host, without GL. Restores the caller's targets. Needs the
+/// context from the first texture on.
 class ScreenReader {
 public:
     /// `scaler` must outlive it.
@@ -71,11 +71,11 @@ public:
     ScreenReader& operator=(const ScreenReader&) = delete;
     ~ScreenReader();
 
-    /// Starts drawing and reading a texture back, waits for nothing; scales rows of the host.
-    /// Throws std::runtime_error for a picture without pixels.
+    /// Starts drawing and reading back a texture without waiting; scales rows on the host. Throws
+    /// std::runtime_error for an empty picture.
     void begin(const Picture& picture);
-    /// The pixels of the last begin(), Bgra8 with alpha 255 or Rgba8: waits for the GPU, calls
-    /// `take(const ImageView&)`, whose pixels are gone when it returns and which must not throw.
+    /// Waits for the GPU and calls `take(const ImageView&)` with the pixels of the last begin(),
+    /// Bgra8 with alpha 255 or Rgba8. They are valid only during the call. `take` must not throw.
     template <class Take>
     void finish(Take take) {
         if (onHost_) {
@@ -86,7 +86,7 @@ public:
         take(map());
         unmap();
     }
-    /// See Display::releaseGl(). There is no last picture then, unless it is on the host.
+    /// See Display::releaseGl(). Afterwards there is no last picture unless it is on the host.
     void releaseGl() { target_.reset(); }
     /// A copy of the last picture begun, alpha 255.
     [[nodiscard]] ScreenPicture last() const;
@@ -107,12 +107,12 @@ private:
 
     Size screen_;
     ScreenScaler& scaler_;
-    std::optional<Target> target_;  ///< once there has been a texture
+    std::optional<Target> target_;  ///< after the first texture
     HostScaler hostScaler_;
-    std::optional<Rows<const std::uint32_t>> onHost_;  ///< the picture begun, where it is there
+    std::optional<Rows<const std::uint32_t>> onHost_;  ///< the picture begun if it is on the host
 };
 
-/// The pixels of a framebuffer as they are stored. Waits for the GPU.
+/// The pixels of a framebuffer as stored. Waits for the GPU.
 [[nodiscard]] ScreenPicture readFramebuffer(GLuint framebuffer, Size size, PixelFormat format);
 
 }  // namespace mfar

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMaxRateHz = 1000;
 
-// The whole text as a number, nothing when it is anything else.
+// The whole text as a number; empty if it is not a number.
 template <class T>
 std::optional<T> number(std::string_view text) {
     T value{};

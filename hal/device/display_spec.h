@@ -8,35 +8,35 @@
 
 namespace mfar {
 
-inline constexpr int kMaxScreenSide = 16384;  ///< [px]; a larger screen is taken for a fault
+inline constexpr int kMaxScreenSide = 16384;  ///< [px]; a larger screen counts as a fault
 
-/// The mode somebody wants on a screen.
+/// A wanted screen mode.
 struct ModeWish {
     Size size;
-    std::optional<double> rateHz;  ///< nothing: the highest of that size
+    std::optional<double> rateHz;  ///< empty: the highest rate of that size
     bool operator==(const ModeWish&) const = default;
 };
 
-/// Which screen to use: the words of openScreen(), taken apart.
+/// Selects a screen: the parsed text of openScreen().
 struct ScreenSpec {
     enum class Kind { Auto, Kms, Fbdev };
     Kind kind = Kind::Auto;
-    std::string device;  ///< "/dev/dri/card0", "/dev/fb0"; empty: the first that serves
+    std::string device;  ///< "/dev/dri/card0", "/dev/fb0"; empty: the first usable device
     std::string
         connector;  ///< kms only: "HDMI-A-1" as in /sys/class/drm; empty: the first connected
-    std::optional<ModeWish> mode;  ///< kms only; nothing: the preferred one
+    std::optional<ModeWish> mode;  ///< kms only; empty: the preferred mode
     bool operator==(const ScreenSpec&) const = default;
 };
 
-/// "auto", "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or "fbdev[:/dev/fbN]".
-/// Throws std::runtime_error that names the word it does not understand.
+/// Parses "auto", "kms[:cardN][,CONNECTOR][,WxH[@Hz]]" or "fbdev[:/dev/fbN]". Throws
+/// std::runtime_error that names the faulty part.
 [[nodiscard]] ScreenSpec parseScreenSpec(std::string_view spec);
-/// What is wrong with such words; nothing when parseScreenSpec() takes them.
+/// The fault in such a text; empty if parseScreenSpec() accepts it.
 [[nodiscard]] std::optional<std::string> screenFault(std::string_view spec);
 
-/// Where a picture goes on a screen.
+/// Position of a picture on a screen.
 struct ScreenRect {
-    int x = 0, y = 0;  ///< [px] of the top left pixel
+    int x = 0, y = 0;  ///< [px], top left pixel
     Size size;
     bool operator==(const ScreenRect&) const = default;
 };

@@ -10,7 +10,7 @@
 namespace mfar {
 namespace {
 
-// The kernel tells of a device first, udev once this process may open it.
+// The kernel reports a device first, udev when this process may open it.
 constexpr unsigned kKernelGroup = 1, kUdevGroup = 2;
 
 // "ACTION=change\0SUBSYSTEM=drm\0..."
@@ -37,7 +37,8 @@ bool DisplayEvents::changed() {
     std::array<char, 8192> message{};
     while (socket_) {
         const ssize_t bytes = recv(socket_.get(), message.data(), message.size(), 0);
-        const bool lost = bytes < 0 && errno == ENOBUFS;  // and one of them may have been ours
+        // A lost message may have concerned a display.
+        const bool lost = bytes < 0 && errno == ENOBUFS;
         if (bytes <= 0 && !lost) break;
         if (lost || concernsDisplays({message.data(), static_cast<std::size_t>(bytes)})) any = true;
     }

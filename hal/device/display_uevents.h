@@ -4,12 +4,12 @@
 
 namespace mfar {
 
-/// The kernel's messages about displays that come, go or change, from the uevent socket itself.
-/// Without the right to such a socket (AF_NETLINK) there are none.
+/// Reports displays that appear, disappear or change, from the kernel's uevent socket. Without
+/// permission for such a socket (AF_NETLINK) it never reports anything.
 class DisplayEvents {
 public:
     DisplayEvents();
-    /// True when a display has come, gone or changed since the last call. Never waits.
+    /// True when a display appeared, disappeared or changed since the last call. Never waits.
     [[nodiscard]] bool changed();
 
 private:

@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// Nothing where display or context lacks what it takes: EGL_EXT_image_dma_buf_import,
-/// GL_OES_EGL_image. Context current.
+/// Empty if the display or context lacks EGL_EXT_image_dma_buf_import or GL_OES_EGL_image. Needs
+/// the current context.
 [[nodiscard]] std::unique_ptr<PlaneImporter> createPlaneImporter(EGLDisplay display);
 
 }  // namespace mfar

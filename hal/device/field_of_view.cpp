@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-/// Modes of whole sensors leave out a few pixels for their alignment.
+/// Tolerance: full sensor modes leave out a few pixels for alignment.
 constexpr double kAlike = 0.98;
 
 bool isPositive(Size size) {

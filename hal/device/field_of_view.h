@@ -4,9 +4,9 @@
 
 namespace mfar {
 
-/// True when a part `crop` of the pixels `active` of a sensor is all that a picture with the shape
-/// of `output` can show of it, to 2 %: cropped at most left and right, or above and below, to get
-/// the shape. False when a size is not positive.
+/// True when a picture of the shape of `output` cannot show more of the sensor's `active` pixels
+/// than `crop` does, to 2 %: cropped only left and right, or only above and below, to get the
+/// shape. False when a size is not positive.
 [[nodiscard]] bool showsWholeField(Size crop, Size active, Size output);
 
 }  // namespace mfar

@@ -2,9 +2,9 @@ cmake_minimum_required(VERSION 3.25)
 
 # cmake -DHEADER=/usr/include/GLES3/gl31.h -DINCLUDE=GLES3/gl31.h -DMACRO=GL_APICALL -DNAME=Gles
 #       -DOUT=file.cpp [-DVISIBILITY=default] -P forwarders.cmake
-# Writes C++ that defines every function which a Khronos header declares, each a jump to where a
-# table says, and connectNAME(), which fills the table. The header is the one that is compiled
-# against, of this machine or of a sysroot: Khronos makes it from a registry, one prototype a line:
+# Writes C++ that defines every function which a Khronos header declares, each as a jump through a
+# table, and connectNAME(), which fills the table. The header is the one that the sources are
+# compiled with (host or sysroot). Khronos generates it with one prototype a line:
 #   GL_APICALL void GL_APIENTRY glUniform1fv (GLint location, GLsizei count, const GLfloat *value);
 
 cmake_policy(VERSION 3.25)
@@ -26,7 +26,7 @@ function(parameter_names parameters out_var)
 endfunction()
 
 file(READ "${HEADER}" text)
-string(REPLACE ";" "\n" text "${text}") # which separates the elements of a list here
+string(REPLACE ";" "\n" text "${text}") # semicolons separate the elements of a list here
 string(REGEX MATCHALL "\n${MACRO} [^\n]*" lines "${text}")
 set(table "")
 set(connections "")
@@ -49,7 +49,7 @@ if(functions STREQUAL "")
 endif()
 
 if(NOT VISIBILITY)
-    set(VISIBILITY hidden) # for this program alone: libraries that are loaded later use their own
+    set(VISIBILITY hidden) # visible only in this program: libraries loaded later use their own
 endif()
 file(WRITE "${OUT}" "// Made by forwarders.cmake. NOLINTBEGIN
 #define ${MACRO} __attribute__((visibility(\"${VISIBILITY}\")))

@@ -36,7 +36,7 @@ struct OpenedDisplay {
     const char* how;
 };
 
-// Of GL_KHR_robustness, which GL_EXT_robustness shares.
+// Values of GL_KHR_robustness, equal to GL_EXT_robustness.
 constexpr GLenum kGuiltyReset = 0x8253, kInnocentReset = 0x8254;
 using ResetStatus = GLenum(GL_APIENTRYP)();
 
@@ -50,7 +50,7 @@ ResetStatus resetStatusOf(std::string_view version, const char* glExtensions) {
     return nullptr;
 }
 
-// As of boards whose GPU is older than OpenGL ES 3.1: lima, vc4, etnaviv.
+// Message for boards whose GPU is older than OpenGL ES 3.1: lima, vc4, etnaviv.
 std::string tooOld(EGLDisplay display) {
     const char* name = nullptr;
     if (hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_MESA_query_driver"))
@@ -60,8 +60,8 @@ std::string tooOld(EGLDisplay display) {
            " has no OpenGL ES 3.1; use the SIMD engine (engine.use = \"simd\")";
 }
 
-// One that is told of resets, where the driver knows such. For OpenGL ES the extension's attribute
-// is older than that of EGL 1.5, and some drivers know one of them alone.
+// A context that reports GPU resets, if the driver supports it. For OpenGL ES the extension's
+// attribute is older than EGL 1.5's, and some drivers know only one of them.
 EGLContext createContext(EGLDisplay display, EGLConfig config) {
     const auto create = [&](EGLint attribute, EGLint value) {
         const std::array<EGLint, 7> wanted{
@@ -78,8 +78,8 @@ EGLContext createContext(EGLDisplay display, EGLConfig config) {
     return context != EGL_NO_CONTEXT ? context : create(EGL_NONE, EGL_NONE);
 }
 
-// A device without EGL_MESA_device_software is a GPU; the surfaceless platform is the software
-// fall-back (it may still pick a GPU by itself where the device extensions are missing).
+// A device without EGL_MESA_device_software is a GPU. The surfaceless platform is the software
+// fallback (it may still choose a GPU if the device extensions are missing).
 OpenedDisplay openDisplay(bool software) {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto platformDisplay =
@@ -111,8 +111,8 @@ OpenedDisplay openDisplay(bool software) {
         "installed, and may this user read and write /dev/dri/renderD*?");
 }
 
-// EGL displays are shared by all contexts of the process and are never terminated: a context may
-// be created while another thread still uses the display.
+// All contexts of the process share the EGL displays, which are never terminated: another thread
+// may still use a display while a context is created.
 OpenedDisplay sharedDisplay(GlDevice device) {
     static std::mutex mutex;
     static std::array<OpenedDisplay, 2> all{{{EGL_NO_DISPLAY, ""}, {EGL_NO_DISPLAY, ""}}};

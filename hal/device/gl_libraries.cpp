@@ -32,12 +32,13 @@ Function findIn(void* library, const char* name) {
 void loadGlLibraries(const GlLibraryNames& names) {
     void* egl = opened(names.egl);
     void* gles = opened(names.gles);
-    // Old versions lack functions that are not called; this one all others are asked for.
+    // Old versions lack functions that are never called; eglGetProcAddress, which finds all others,
+    // is required.
     gl_libraries::connectEgl([egl](const char* name) { return findIn(egl, name); });
     if (findIn(egl, "eglGetProcAddress") == nullptr)
         throw std::runtime_error(names.egl + " has no eglGetProcAddress" + kAdvice);
-    // EGL before 1.5 need not know the functions of GLES, and GLES libraries of some vendors export
-    // those of 2.0 alone.
+    // eglGetProcAddress before EGL 1.5 need not find GLES functions, and some vendors' GLES
+    // libraries export only those of 2.0: both are asked.
     const std::string missing = gl_libraries::connectGles([gles](const char* name) {
         const Function function = findIn(gles, name);
         return function != nullptr ? function : eglGetProcAddress(name);

@@ -8,15 +8,15 @@
 #include <string>
 #include <vector>
 
-/// What the trigger needs of a GPIO library, and no more: two sources implement it, for libgpiod
-/// 1.6 and 2.x, a third one in the tests does without lines.
+/// The subset of a GPIO library that the trigger needs. Implemented for libgpiod 1.6, for 2.x, and
+/// in the tests without lines.
 
 namespace mfar {
 
 struct GpioLine {
     unsigned offset = 0;
-    std::string name;      ///< empty: the board gives it none
-    std::string consumer;  ///< who has it, as far as the kernel knows
+    std::string name;      ///< empty: the board gives it no name
+    std::string consumer;  ///< its user, if the kernel knows it
     bool used = false;
 };
 
@@ -25,19 +25,20 @@ struct GpioChip {
     std::string name;   ///< "gpiochip0"
     std::string label;  ///< "pinctrl-bcm2711"
     std::vector<GpioLine> lines;
-    int error = 0;  ///< errno when the chip could not be opened; then label and lines are empty
+    int error = 0;  ///< errno when the chip could not be opened; label and lines are then empty
 };
 
-/// Where a line is, and what to call it in messages.
+/// Address of a line, and its name in messages.
 struct GpioAddress {
     std::string path;
     unsigned offset = 0;
     bool activeLow = false;
-    std::string text;      ///< "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
-    std::string consumer;  ///< who had it when it was looked up; empty: nobody, or nobody named
+    std::string text;  ///< "line 7 'TRIGGER' of gpiochip0 (9030000.pl061)"
+    /// Its user when it was looked up; empty: unused, or the user has no name.
+    std::string consumer;
 };
 
-/// A line that is driven. Levels are logical: active-low is done below this.
+/// An output line. Levels are logical: the implementation handles active-low lines.
 class OutputLine {
 public:
     virtual ~OutputLine() = default;
@@ -49,17 +50,17 @@ public:
 class EdgeInput {
 public:
     virtual ~EdgeInput() = default;
-    /// Time (CLOCK_MONOTONIC) of the oldest edge not yet read, waiting for one up to `timeout`.
-    /// Throws std::runtime_error.
+    /// Time (CLOCK_MONOTONIC) of the oldest unread edge, waiting for one up to `timeout`. Throws
+    /// std::runtime_error.
     [[nodiscard]] virtual std::optional<Timestamp> next(std::chrono::microseconds timeout) = 0;
 };
 
-/// All chips of this machine in the order of their numbers.
+/// All chips of this machine, ordered by number.
 [[nodiscard]] std::vector<GpioChip> listGpioChips();
-/// Takes the line as an output at its inactive level. It keeps its level when this object ends.
-/// Throws std::runtime_error.
+/// Requests the line as an output at its inactive level. The line keeps its level when this object
+/// is destroyed. Throws std::runtime_error.
 [[nodiscard]] std::unique_ptr<OutputLine> requestOutput(const GpioAddress& line);
-/// Takes the line as an input with events on both edges. Throws std::runtime_error.
+/// Requests the line as an input with events on both edges. Throws std::runtime_error.
 [[nodiscard]] std::unique_ptr<EdgeInput> requestEdges(const GpioAddress& line);
 
 }  // namespace mfar

@@ -9,7 +9,7 @@
 namespace mfar {
 namespace {
 
-/// The mean of each two rows, in place.
+/// Averages each pair of rows, in place.
 void halveRows(std::uint8_t* plane, std::size_t rowBytes, int rows) {
     for (int y = 0; y < rows; ++y) {
         std::uint8_t* to = plane + y * rowBytes;
@@ -19,7 +19,7 @@ void halveRows(std::uint8_t* plane, std::size_t rowBytes, int rows) {
     }
 }
 
-// Many cameras fill up a packet before the end marker; every pixel is there all the same.
+// Many cameras pad a packet before the end marker; all pixels are there.
 bool harmless(void* handle) {
     return std::string_view(tjGetErrorStr2(handle)).find("before marker 0xd9") !=
            std::string_view::npos;
@@ -41,13 +41,13 @@ JpegDecoder::JpegDecoder(Size size, int buffers) : pool_(size, PixelFormat::Yuyv
     renew();
 }
 
-// After an error the library's decoder may stand in the middle of a picture.
+// After an error the library's decoder may be in the middle of a picture: replace it.
 void JpegDecoder::renew() {
     handle_.reset(tjInitDecompress());
     if (!handle_) throw std::runtime_error("the JPEG decoder cannot be set up");
 }
 
-/// Nothing for a picture that is not to be decoded.
+/// Empty for a picture that must not be decoded.
 std::optional<int> JpegDecoder::subsamplingOf(std::span<const std::uint8_t> jpeg) {
     Size size;
     int subsampling = 0, colours = 0;

@@ -11,15 +11,15 @@
 
 namespace mfar {
 
-/// Decodes the pictures of a camera that sends JPEG, into planes, without a detour over RGB. One
-/// thread at a time; the frames may go anywhere.
+/// Decodes the pictures of a JPEG camera into planes, without converting to RGB. One thread at a
+/// time; any thread may use the frames.
 class JpegDecoder {
 public:
-    /// Even width and height. Throws std::invalid_argument, std::runtime_error.
+    /// `size` must be even. Throws std::invalid_argument, std::runtime_error.
     JpegDecoder(Size size, int buffers);
 
-    /// YUV420, full range BT.601 (JFIF), chroma of 4:2:2 averaged over two rows; or grey. Nothing
-    /// for what is damaged, has another size or another subsampling, and when all buffers are lent.
+    /// YUV420, full range BT.601 (JFIF), chroma of 4:2:2 averaged over two rows; or grey. Empty for
+    /// a damaged picture, another size or subsampling, and when all buffers are lent.
     [[nodiscard]] std::optional<Frame> decode(std::span<const std::uint8_t> jpeg, Timestamp time);
 
 private:
@@ -32,7 +32,7 @@ private:
         void operator()(void* handle) const;
     };
     std::unique_ptr<void, Close> handle_;
-    FramePool pool_;  // of 2 bytes a pixel, what 4:2:2 needs
+    FramePool pool_;  // 2 bytes a pixel, as 4:2:2 needs
 };
 
 }  // namespace mfar

@@ -54,7 +54,8 @@ void MappedPicture::map(const libcamera::FrameBuffer& buffer) {
     }
 }
 
-// Planes may begin anywhere in the camera's: those of the picture's are found by their addresses.
+// Planes may begin anywhere in the camera's files: the picture's planes are found by their
+// addresses.
 void MappedPicture::share() {
     shared_.id = newSharedMemoryId();
     const std::array<const std::uint8_t*, 3> begins{view_.data, view_.chroma[0].data,
@@ -84,7 +85,7 @@ void MappedPicture::endRead() const {
 
 void MappedPicture::synchronize(std::uint64_t flags) const {
     const dma_buf_sync sync{flags};
-    // Fails for memory that is no dma-buf, which is coherent.
+    // Fails for memory that is not a dma-buf; such memory is coherent.
     for (const File& file : files_)
         ioctl(file.fd.get(), DMA_BUF_IOCTL_SYNC, &sync);
 }

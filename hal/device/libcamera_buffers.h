@@ -8,8 +8,8 @@
 
 namespace mfar {
 
-/// One of a camera's buffers in this process's memory, mapped once. Outlives the camera. Planes may
-/// share a file with different offsets.
+/// One of a camera's buffers, mapped once into this process's memory. May outlive the camera.
+/// Planes may share a file with different offsets.
 class MappedPicture {
 public:
     /// Throws std::runtime_error when the memory cannot be mapped or does not hold the picture.
@@ -19,7 +19,7 @@ public:
     ~MappedPicture();
 
     [[nodiscard]] const ImageView& view() const { return view_; }
-    /// Around each time the memory is read: devices need not be coherent with the CPU's caches.
+    /// To be called before and after each read: devices need not be coherent with the CPU's caches.
     void beginRead() const;
     void endRead() const;
 

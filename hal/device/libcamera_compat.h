@@ -6,9 +6,8 @@
 #include <string>
 #include <string_view>
 
-/// The differences between libcamera 0.0.3 (Debian 12), 0.4.0 (Debian 13) and 0.7, and the only
-/// place of them. What a version has is asked of its types, in templates, because `requires` may
-/// only fail there.
+/// All differences between libcamera 0.0.3 (Debian 12), 0.4.0 (Debian 13) and 0.7. They are
+/// detected from its types, in templates, because a failing `requires` is allowed only there.
 namespace mfar::libcamera_compat {
 
 /// The sensor's mode can be chosen (since 0.2.0).
@@ -26,7 +25,7 @@ void setSensorMode(Configuration& configuration, libcamera::Size size, unsigned 
     }
 }
 
-/// Frames of a sensor that has not settled are marked since 0.5.2.
+/// True for frames of a sensor that has not settled; marked since 0.5.2.
 template <typename Metadata>
 [[nodiscard]] bool isStartup(const Metadata& metadata) {
     if constexpr (requires { Metadata::FrameStartup; })
@@ -35,7 +34,7 @@ template <typename Metadata>
         return false;
 }
 
-/// Values of a control have names since 0.4.0.
+/// Looks up a value's name; controls have named values since 0.4.0.
 template <typename Id>
 [[nodiscard]] std::optional<std::int32_t> enumerator(const Id& control, std::string_view name) {
     if constexpr (requires { control.enumerators(); }) {
@@ -45,7 +44,8 @@ template <typename Id>
     return std::nullopt;
 }
 
-/// Since 0.4.0 a control says that it takes several values; before, only one is known that does.
+/// True for a control with several values. Reported since 0.4.0; before, only one such control is
+/// known.
 template <typename Id>
 [[nodiscard]] bool isArray(const Id& control) {
     if constexpr (requires { control.isArray(); })
@@ -54,13 +54,13 @@ template <typename Id>
         return control.name() == "FrameDurationLimits";
 }
 
-/// libcamera has controls of this C++ type: 16 and 32 bit unsigned ones since 0.4.0.
+/// True if libcamera has controls of this C++ type: 16 and 32 bit unsigned ones since 0.4.0.
 template <typename T>
 [[nodiscard]] constexpr bool hasControlType() {
     return requires { libcamera::details::control_type<T>::value; };
 }
 
-/// A text property; a view since 0.6.0.
+/// A text property; a string view since 0.6.0.
 template <typename Text>
 [[nodiscard]] std::string text(const std::optional<Text>& property) {
     return property ? std::string(*property) : std::string();

@@ -57,7 +57,8 @@ std::optional<T> element(const ControlId& id, std::string_view text) {
 template <typename T>
 std::optional<ControlValue> several(const ControlId& id, std::string_view text) {
     const auto count = static_cast<std::size_t>(std::ranges::count(text, ',')) + 1;
-    const auto values = std::make_unique<T[]>(count);  // std::vector<bool> has no array inside
+    // Not std::vector, as vector<bool> contains no array of bool.
+    const auto values = std::make_unique<T[]>(count);
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t comma = text.find(',');
         const auto value = element<T>(id, text.substr(0, comma));
@@ -68,7 +69,7 @@ std::optional<ControlValue> several(const ControlId& id, std::string_view text) 
     return ControlValue(libcamera::Span<const T>(values.get(), count));
 }
 
-/// False for a value beyond the range that the camera gives for single values of this type.
+/// False for a value outside the camera's range; only for single values of this type.
 template <typename T>
 bool isWithin(const ControlInfo& info, T value) {
     const auto type = libcamera::details::control_type<T>::value;
@@ -88,7 +89,7 @@ std::optional<ControlValue> parseAs(const ControlId& id, const ControlInfo& info
     return ControlValue(*value);
 }
 
-/// Tries each C++ type that the installed libcamera has controls of.
+/// Tries each C++ type for which the installed libcamera has controls.
 template <typename T, typename... Others>
 std::optional<ControlValue> parse(const ControlId& id, const ControlInfo& info,
                                   std::string_view text) {

@@ -12,7 +12,7 @@ namespace {
 using libcamera::Camera;
 using libcamera::CameraManager;
 
-/// A second manager ends the process, so a new one waits until the last one is really gone.
+/// A second manager would end the process, so a new one waits until the last one is destroyed.
 struct OnlyOne {
     std::mutex mutex;
     std::condition_variable gone;
@@ -36,7 +36,7 @@ void end(CameraManager* manager) {
     one.gone.notify_all();
 }
 
-/// Pixels of the largest picture that it offers; 0 where it does not say.
+/// Number of pixels of the camera's largest picture; 0 if it does not report sizes.
 std::int64_t largestPicture(Camera& camera) {
     std::int64_t most = 0;
     const auto configuration = camera.generateConfiguration({libcamera::StreamRole::StillCapture});
@@ -88,7 +88,7 @@ std::vector<ListedCamera> listCameras(const std::vector<std::shared_ptr<Camera>>
 std::shared_ptr<Camera> findLibcamera(const CameraManager& manager, const CameraWish& wish) {
     const std::vector<std::shared_ptr<Camera>> cameras = manager.cameras();
     std::vector<ListedCamera> listed = listCameras(cameras);
-    // To ask takes time: only where it decides.
+    // Asking a camera takes time: only if the size decides.
     for (std::size_t i = 0; i < cameras.size() && wish.name.empty() && cameras.size() > 1; ++i)
         listed[i].pixels = largestPicture(*cameras[i]);
     return cameras[chooseCamera(listed, wish)];

@@ -8,11 +8,11 @@
 
 namespace mfar {
 
-/// libcamera allows one manager in a process. It lives as long as somebody holds it, and keeps its
-/// list of cameras by itself while they come and go. Throws std::runtime_error.
+/// The process's only libcamera manager (libcamera allows just one). It lives while somebody holds
+/// it and updates its list of cameras itself. Throws std::runtime_error.
 [[nodiscard]] std::shared_ptr<libcamera::CameraManager> libcameraManager();
 
-/// As ListedCamera, in the order of the manager.
+/// The manager's cameras as ListedCamera, in its order.
 [[nodiscard]] std::vector<ListedCamera>
 listCameras(const std::vector<std::shared_ptr<libcamera::Camera>>& cameras);
 

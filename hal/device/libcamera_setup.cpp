@@ -22,7 +22,7 @@ struct Offer {
     PixelFormat ours;
 };
 
-// libcamera names the bytes of RGB formats from the last to the first.
+// libcamera names the bytes of RGB formats from last to first.
 const std::array<Offer, 5> kPreferred{{{libcamera::formats::NV12, PixelFormat::Nv12},
                                        {libcamera::formats::YUV420, PixelFormat::Yuv420},
                                        {libcamera::formats::YUYV, PixelFormat::Yuyv},
@@ -71,8 +71,8 @@ struct Chosen {
     PixelFormat format = PixelFormat::Nv12;
 };
 
-/// One valid configuration at exactly the size, in the most preferred format. Nothing when the
-/// sensor mode makes that impossible; without one it throws.
+/// A valid configuration of exactly this size in the most preferred format. If there is none: empty
+/// with a sensor mode, otherwise throws.
 std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& options,
                              const std::optional<SensorMode>& mode) {
     Chosen chosen{generate(camera, options), {}};
@@ -100,7 +100,7 @@ std::optional<Chosen> choose(libcamera::Camera& camera, const LibcameraOptions& 
     failOnFormat(camera, options, configuration.at(0), became);
 }
 
-/// Of what a sensor gives, "SRGGB10_CSI2P" or "R10": 10. Of anything else 0.
+/// Bit depth of a raw format: 10 for "SRGGB10_CSI2P" or "R10"; 0 for other formats.
 unsigned bitDepth(const std::string& format) {
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
     const bool bayer = format.starts_with('S');
@@ -112,7 +112,7 @@ unsigned bitDepth(const std::string& format) {
     return depth;
 }
 
-/// Those not below the size, the smallest first. None where they cannot be chosen.
+/// Sensor modes not below the size, smallest first. Empty where modes cannot be chosen.
 std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
     std::vector<SensorMode> modes;
     if constexpr (!libcamera_compat::hasSensorConfiguration()) return modes;
@@ -126,7 +126,7 @@ std::vector<SensorMode> sensorModes(libcamera::Camera& camera, Size size) {
                 mode.height >= static_cast<unsigned>(size.height))
                 modes.push_back({mode, depth});
     }
-    // Of equal sizes the deepest, which is the slowest, first.
+    // Of equal sizes, the greatest bit depth (the slowest) first.
     std::ranges::sort(modes, {}, [](const SensorMode& mode) {
         return std::pair(std::uint64_t{mode.size.width} * mode.size.height, 64 - mode.bitDepth);
     });
@@ -154,7 +154,8 @@ void apply(libcamera::Camera& camera, CameraConfiguration& configuration) {
             fmt::format("camera '{}' cannot be configured (error {})", camera.id(), -error));
 }
 
-/// With the first sensor mode that shows everything, or as libcamera likes it.
+/// Uses the first sensor mode that shows the whole field and reaches the rate; otherwise
+/// libcamera's choice.
 Chosen chooseMode(libcamera::Camera& camera, const LibcameraOptions& options) {
     for (const SensorMode& mode : sensorModes(camera, options.size)) {
         auto chosen = choose(camera, options, mode);
@@ -199,7 +200,8 @@ ControlValues controlsFor(const libcamera::Camera& camera, const LibcameraOption
         wanted.emplace_back("FrameDurationLimits", fmt::format("{},{}", us, us));
     }
     if (options.exposureUs) {
-        // 0.5 splits the automatic exposure in two; the old switch is for what came before.
+        // libcamera 0.5 splits the automatic exposure into two controls; AeEnable is for older
+        // versions.
         if (hasControl(known, "ExposureTimeMode"))
             manual("ExposureTimeMode", "1");
         else

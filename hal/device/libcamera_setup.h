@@ -11,7 +11,7 @@
 namespace mfar {
 
 struct ConfiguredCamera {
-    std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< one stream
+    std::unique_ptr<libcamera::CameraConfiguration> configuration;  ///< has one stream
     PictureLayout layout;
 };
 
@@ -19,15 +19,15 @@ struct ConfiguredCamera {
 [[nodiscard]] ConfiguredCamera configureLibcamera(libcamera::Camera& camera,
                                                   const LibcameraOptions& options);
 
-/// The options' controls as values for this camera. Throws std::runtime_error.
+/// The options as control values for this camera. Throws std::runtime_error.
 [[nodiscard]] ControlValues controlsFor(const libcamera::Camera& camera,
                                         const LibcameraOptions& options);
 
-/// The pixels of the sensor that can see; nothing when the camera does not tell.
+/// The sensor's active pixels; empty when the camera does not report them.
 [[nodiscard]] std::optional<Size> activePixels(const libcamera::Camera& camera);
 
-/// What is wrong with showing `crop` of the sensor in pictures of `output`, for messages; nothing
-/// when it is the whole field, the camera does not tell, or the options allow it.
+/// Message that `crop` shows only a part of the sensor's field in pictures of size `output`; empty
+/// for the whole field, if the camera does not report it, or if the options allow it.
 [[nodiscard]] std::optional<std::string> cropFault(const libcamera::Camera& camera,
                                                    const std::optional<libcamera::Rectangle>& crop,
                                                    const LibcameraOptions& options);

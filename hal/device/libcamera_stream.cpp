@@ -14,11 +14,12 @@
 namespace mfar {
 namespace {
 
-/// One with the camera, one with the user.
+/// One for the camera, one for the user.
 constexpr std::size_t kLeastBuffers = 2;
-/// For libcamera to learn that a device is gone, on a board that has no time for udev.
+/// Upper limit until libcamera learns from udev, on a busy board, that a device is gone.
 constexpr std::chrono::seconds kUdevTime{30};
-constexpr std::chrono::milliseconds kNodeLook{100};  ///< between two looks at the nodes meanwhile
+/// Interval between two checks of the nodes meanwhile.
+constexpr std::chrono::milliseconds kNodeLook{100};
 
 void check(const LibcameraOptions& options) {
     const auto sound = [](const std::optional<double>& value, double least, double most) {
@@ -36,11 +37,12 @@ void check(const LibcameraOptions& options) {
         throw std::runtime_error("a camera takes 2 to 64 buffers");
 }
 
-/// Does this process hold a video device whose node is gone? The kernel takes that away with the
-/// device, before anyone is told.
+/// True if this process holds a video device whose node is gone. The kernel removes the node with
+/// the device, before anybody is notified.
 bool hasLostVideoNode() {
     namespace fs = std::filesystem;
-    std::error_code ended, closed;  // nothing throws, as this is part of a destructor
+    // Error codes, because a destructor calls this: nothing may throw.
+    std::error_code ended, closed;
     for (fs::directory_iterator fd("/proc/self/fd", ended);
          !ended && fd != fs::directory_iterator(); fd.increment(ended)) {
         const std::string file = fs::read_symlink(fd->path(), closed).string();
@@ -102,7 +104,8 @@ void LibcameraCamera::Stream::close() {
     camera_->requestCompleted.disconnect(this);
     camera_->disconnected.disconnect(this);
     cycle_.close();
-    // Requests belong to the camera and buffers to the allocator: both go before what they know.
+    // Requests belong to the camera and buffers to the allocator: both are destroyed before their
+    // owners.
     slots_.clear();
     allocator_.reset();
     configured_.configuration.reset();
@@ -132,16 +135,16 @@ void LibcameraCamera::Stream::start() {
 int LibcameraCamera::Stream::queue(std::size_t slot) {
     libcamera::Request& request = *slots_[slot].request;
     request.reuse(libcamera::Request::ReuseBuffers);
-    // Some drivers (uvcvideo) look at controls in requests alone.
+    // Some drivers (uvcvideo) read controls only from requests.
     for (const auto& [id, value] : controlsDue_ ? controls_ : ControlValues{})
         request.controls().set(id, value);
     controlsDue_ = false;
     return camera_->queueRequest(&request);
 }
 
-// A device that was unplugged while it runs libcamera learns late, from udev. To stop it with
-// requests in it ends the process; once libcamera knows, stopping does nothing. The lost node may
-// be another camera's, which goes with it.
+// libcamera learns late, from udev, that a running device was unplugged. Stopping it before, with
+// requests queued, ends the process; afterwards stopping is harmless. The lost node may belong to
+// another camera; this one then waits as well.
 void LibcameraCamera::Stream::prepareStop() {
     const auto end = std::chrono::steady_clock::now() + kUdevTime;
     while (hasLostVideoNode() && std::chrono::steady_clock::now() < end)
@@ -152,13 +155,13 @@ void LibcameraCamera::Stream::stop() {
     camera_->stop();
 }
 
-/// In libcamera's thread.
+/// Called in libcamera's thread.
 void LibcameraCamera::Stream::disconnected() {
     unplugged_ = true;
     cycle_.lose(fmt::format("camera '{}' has been unplugged", id_));
 }
 
-/// In libcamera's thread.
+/// Called in libcamera's thread.
 void LibcameraCamera::Stream::completed(libcamera::Request* request) {
     const auto slot = static_cast<std::size_t>(request->cookie());
     if (request->status() == libcamera::Request::RequestCancelled) return cycle_.cancelled(slot);
@@ -188,7 +191,7 @@ bool LibcameraCamera::Stream::isSound(const libcamera::FrameMetadata& metadata) 
     return sound;
 }
 
-/// Nothing for a frame whose time cannot be true.
+/// Empty for a frame with an implausible time.
 std::optional<RequestCycle::Done>
 LibcameraCamera::Stream::describe(std::size_t slot, libcamera::Request& request,
                                   const libcamera::FrameMetadata& metadata) {

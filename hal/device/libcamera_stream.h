@@ -15,16 +15,16 @@
 
 namespace mfar {
 
-/// The stream of a LibcameraCamera: owns the requests and their memory, and checks the pictures
-/// that the driver completes. Frames hold it weakly, and their memory strongly.
+/// The stream of a LibcameraCamera: owns the requests and their memory, and checks completed
+/// pictures. Frames hold a weak reference to the stream and a strong one to its memory.
 class LibcameraCamera::Stream : public std::enable_shared_from_this<Stream>, private RequestDriver {
 public:
     explicit Stream(const LibcameraOptions& options);
     Stream(const Stream&) = delete;
     Stream& operator=(const Stream&) = delete;
     ~Stream() override = default;
-    /// Lets the device go, once. A frame that is given back at this moment may hold the object a
-    /// little longer, which must not make it the one to do this.
+    /// Releases the device, once. A frame that is returned at this moment may keep the object alive
+    /// a little longer; the destructor must not release the device then, so close() does.
     void close();
 
     [[nodiscard]] CameraInfo info() const;
@@ -58,23 +58,23 @@ private:
     LibcameraOptions options_;
     std::shared_ptr<libcamera::CameraManager> manager_;
     std::shared_ptr<libcamera::Camera> camera_;
-    std::string id_;  ///< of the camera
+    std::string id_;  ///< the camera's id
     ConfiguredCamera configured_;
     ControlValues controls_;
     std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
     libcamera::Stream* stream_ = nullptr;
     std::vector<Slot> slots_;
     RequestCycle cycle_{*this};
-    bool controlsDue_ = false;  ///< with the next request
+    bool controlsDue_ = false;  ///< controls are sent with the next request
     std::atomic<bool> unplugged_{false};
 
-    mutable std::mutex mutex_;  ///< taken after the cycle's
+    mutable std::mutex mutex_;  ///< locked after the cycle's mutex
     bool viewChecked_ = false;
-    std::string viewFault_;  ///< frames show a part of the field
+    std::string viewFault_;  ///< set when frames show only a part of the field
     LibcameraCounters counters_;
     FrameDrops drops_;
     SensorClock clock_;
-    std::optional<Timestamp> last_;  ///< of the frames that were delivered
+    std::optional<Timestamp> last_;  ///< time of the last delivered frame
 };
 
 }  // namespace mfar

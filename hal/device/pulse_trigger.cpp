@@ -11,11 +11,11 @@ namespace {
 using std::chrono::microseconds;
 
 constexpr microseconds kLongest{10'000'000};
-/// Up to here waking another thread would cost more accuracy than the wait costs time.
+/// For pulses up to this length the caller waits: waking another thread would cost accuracy.
 constexpr microseconds kInCaller{1000};
-/// A sleeping thread wakes this much late at most, on a machine that is not overloaded.
+/// Upper limit of a sleeping thread's wake-up delay on a machine that is not overloaded.
 constexpr microseconds kWakeUp{100};
-/// An edge comes back within microseconds or not at all.
+/// An edge is reported within microseconds or not at all.
 constexpr microseconds kEdgeWait{1000};
 
 std::chrono::steady_clock::time_point steady(Timestamp time) {
@@ -47,7 +47,7 @@ PulseTrigger::~PulseTrigger() {
     try {
         line_->set(false);
     } catch (const std::runtime_error&) {
-        // The chip is gone; there is nobody left to tell and nothing left to drive.
+        // The chip is gone: there is no line to drive and nobody to report to.
     }
 }
 
@@ -85,7 +85,7 @@ void PulseTrigger::endPulse() {
 void PulseTrigger::endLater(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     while (wake_.wait(lock, stop, [this] { return running_; })) {
-        // Ended early by another, it may be followed by a pulse with another end.
+        // The pulse may be ended early by endPulse() and followed by one with another end.
         const Timestamp due = due_;
         const auto isOver = [&] { return !running_ || due_ != due; };
         if (wake_.wait_until(lock, stop, steady(due - kWakeUp), isOver)) continue;
@@ -108,18 +108,18 @@ void PulseTrigger::end() {
 std::optional<Timestamp> PulseTrigger::edgeSince(Timestamp earliest) {
     while (loopback_) {
         const std::optional<Timestamp> edge = loopback_->next(kEdgeWait);
-        // A clock other than CLOCK_MONOTONIC (kernels before 5.7) shows itself as the future.
+        // Timestamps of a clock other than CLOCK_MONOTONIC (kernels before 5.7) lie in the future.
         if (!edge || *edge > Timestamp::now()) return std::nullopt;
         if (*edge >= earliest) return edge;
     }
     return std::nullopt;
 }
 
-/// The time tells the edges apart, not their kind: of a short pulse the kernel reads the level,
-/// from which it takes the kind, when the pulse is over.
+/// Distinguishes the edges by time, not by kind: the kernel reads the level to report the kind, and
+/// a short pulse is over by then.
 void PulseTrigger::measure(Timestamp endDriven) {
     if (!leading_) leading_ = edgeSince(begun_);
-    if (leading_ && *leading_ >= endDriven) leading_.reset();  // it was the trailing one
+    if (leading_ && *leading_ >= endDriven) leading_.reset();  // it was the trailing edge
     const std::optional<Timestamp> trailing =
         leading_ ? edgeSince(endDriven) : std::optional<Timestamp>{};
     if (trailing)

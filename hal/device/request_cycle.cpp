@@ -30,7 +30,7 @@ void RequestCycle::close() {
     requests_.clear();
 }
 
-/// In the thread of next(): the driver's thread serves other cameras, too.
+/// Called in the thread of next(), because the driver's thread serves other cameras, too.
 void RequestCycle::restart() {
     const std::lock_guard life(lifecycle_);
     {
@@ -42,7 +42,7 @@ void RequestCycle::restart() {
     begin();
 }
 
-/// With the life cycle held.
+/// Call with lifecycle_ held.
 void RequestCycle::begin() {
     {
         const std::lock_guard lock(mutex_);
@@ -57,7 +57,7 @@ void RequestCycle::begin() {
     queueIdle();
 }
 
-/// With the life cycle held.
+/// Call with lifecycle_ held.
 void RequestCycle::halt() {
     driver_.prepareStop();
     {
@@ -66,7 +66,7 @@ void RequestCycle::halt() {
         running_ = false;
     }
     changed_.notify_all();
-    driver_.stop();  // completes what is queued, so without the mutex
+    driver_.stop();  // completes queued requests, whose callbacks lock the mutex
     const std::lock_guard lock(mutex_);
     ready_.clear();
     for (State& state : requests_)
@@ -77,7 +77,7 @@ bool RequestCycle::anyQueued() const {
     return std::ranges::find(requests_, State::Queued) != requests_.end();
 }
 
-/// With the mutex held.
+/// Call with the mutex held.
 void RequestCycle::queue(std::size_t request) {
     requests_[request] = State::Queued;
     const int error = driver_.queue(request);
@@ -86,7 +86,7 @@ void RequestCycle::queue(std::size_t request) {
     loseLocked(fmt::format("{} takes no more requests (error {})", name_, -error));
 }
 
-/// With the mutex held.
+/// Call with the mutex held.
 void RequestCycle::queueIdle() {
     for (std::size_t i = 0; i < requests_.size() && lost_.empty(); ++i)
         if (requests_[i] == State::Idle) queue(i);
@@ -120,7 +120,7 @@ void RequestCycle::completed(std::size_t request, const Judge& judge) {
         ready_.push_back(*done);
         ++delivered_;
     }
-    // The stream runs: it can have those back that were cancelled singly.
+    // The stream runs: queue requests again that were cancelled singly.
     queueIdle();
 }
 
@@ -132,7 +132,7 @@ void RequestCycle::cancelled(std::size_t request) {
     if (running_ && !anyQueued()) planRestart();
 }
 
-/// With the mutex held. What users give back until the restart is given back unfilled as well.
+/// Call with the mutex held. Requests that users return before the restart are cancelled, too.
 void RequestCycle::planRestart() {
     if (restartAt_) return;
     const Timestamp now = clock_();

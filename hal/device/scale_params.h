@@ -2,12 +2,12 @@
 
 #include <cstdint>
 
-// A picture on a screen: display_scale.frag. Shaders read this header, too:
-// gles_shaders/params_to_glsl.cmake.
+// Parameters of display_scale.frag, which draws a picture on a screen. Shaders read this header,
+// too: gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
 struct alignas(16) ScalePicture {
-    std::int32_t left, top, width, height;     ///< of the rectangle [px of the screen]
+    std::int32_t left, top, width, height;     ///< picture's rectangle [px of the screen]
     float scaleX, scaleY;                      ///< pixels of the picture per pixel of the screen
     float footprintX, footprintY;              ///< [px of the picture], at least 1
     std::int32_t pictureWidth, pictureHeight;  ///< [px]

@@ -7,10 +7,10 @@
 
 namespace mfar {
 
-/// Brings a camera's timestamps to CLOCK_MONOTONIC. libcamera documents them as CLOCK_BOOTTIME,
-/// its drivers use CLOCK_MONOTONIC; the two differ by the time the machine has slept. Each frame of
-/// the first eight is compared to both clocks: a frame that would be of the future on
-/// CLOCK_MONOTONIC but not on CLOCK_BOOTTIME decides for this one, otherwise it is CLOCK_MONOTONIC.
+/// Converts a camera's timestamps to CLOCK_MONOTONIC. libcamera documents them as CLOCK_BOOTTIME,
+/// but its drivers use CLOCK_MONOTONIC; the two differ by the machine's suspend time. Each of the
+/// first eight frames is compared to both clocks: a time in the future on CLOCK_MONOTONIC but not
+/// on CLOCK_BOOTTIME selects CLOCK_BOOTTIME; otherwise CLOCK_MONOTONIC is used.
 class SensorClock {
 public:
     enum class Kind : std::uint8_t { Monotonic, Boottime };
@@ -22,7 +22,7 @@ public:
         [[nodiscard]] static Now read();
     };
 
-    /// Nothing when the time is plausible on neither clock: of the future, or above ten seconds
+    /// Empty when the time is implausible on both clocks: in the future, or more than ten seconds
     /// old.
     [[nodiscard]] std::optional<Timestamp> toMonotonic(Timestamp stamp, const Now& now);
     [[nodiscard]] Kind kind() const { return kind_; }

@@ -14,11 +14,11 @@ struct TriggerOptions {
     bool activeLow = false;
     std::chrono::microseconds pulse{1000};  ///< 1 us to 10 s
     std::string loopbackChip;               ///< empty: `chip`
-    std::string loopback;  ///< input wired to `line`, number or name; empty: there is none
+    std::string loopback;  ///< input wired to `line`, number or name; empty: no loopback
 };
 
-/// Takes the line, at its inactive level, and the loopback. Throws std::runtime_error that says
-/// what there is instead, who has the line, or which group is missing.
+/// Requests the line, at its inactive level, and the loopback. Throws std::runtime_error that lists
+/// what is available, or names the line's user or the missing group.
 [[nodiscard]] std::unique_ptr<PulseTrigger> openGpioTrigger(const TriggerOptions& options);
 
 }  // namespace mfar

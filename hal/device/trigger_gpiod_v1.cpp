@@ -1,4 +1,4 @@
-// The lines of gpio_lines.h on libgpiod 1.x (Debian 12).
+// Implements gpio_lines.h with libgpiod 1.x (Debian 12).
 
 #include "hal/device/gpio_selection.h"
 
@@ -27,7 +27,7 @@ std::string text(const char* nullable) {
     return nullable ? nullable : "";
 }
 
-/// A line on loan from its chip, which must stay open. Closing the chip gives the line back.
+/// A line requested from its chip, which must stay open. Closing the chip releases the line.
 struct Requested {
     Chip chip;
     gpiod_line* line = nullptr;
@@ -68,7 +68,7 @@ public:
         : text_(address.text), taken_(request(address, GPIOD_LINE_REQUEST_EVENT_BOTH_EDGES)) {}
 
     std::optional<Timestamp> next(std::chrono::microseconds timeout) override {
-        // Both fields are narrower on 32 bits.
+        // Both fields are narrower on 32-bit systems.
         timespec wait{};
         wait.tv_sec = static_cast<time_t>(timeout.count() / 1'000'000);
         wait.tv_nsec = static_cast<decltype(wait.tv_nsec)>(timeout.count() % 1'000'000 * 1000);
@@ -98,7 +98,7 @@ GpioChip describe(const std::string& path) {
     for (unsigned i = 0; i < gpiod_chip_num_lines(chip.get()); ++i) {
         gpiod_line* line = gpiod_chip_get_line(chip.get(), i);
         if (!line) {
-            found.error = errno;  // later kernels may know the newer way of asking alone
+            found.error = errno;  // later kernels may support only the newer interface
             continue;
         }
         found.lines.push_back({i, text(gpiod_line_name(line)), text(gpiod_line_consumer(line)),

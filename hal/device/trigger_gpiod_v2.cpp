@@ -1,4 +1,4 @@
-// The lines of gpio_lines.h on libgpiod 2.x (Debian 13).
+// Implements gpio_lines.h with libgpiod 2.x (Debian 13).
 
 #include "hal/device/gpio_selection.h"
 

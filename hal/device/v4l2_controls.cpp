@@ -20,12 +20,12 @@ namespace {
 
 using Kind = V4l2Control::Kind;
 
-constexpr int kMostControls = 4096;  // a driver whose list goes on and on is not believed
+constexpr int kMostControls = 4096;  // limit for a driver whose list does not end
 constexpr std::int64_t kMostEntries = 1024;
 constexpr int kTries = 3;
 constexpr std::chrono::milliseconds kBetweenTries{20};
 
-// A device may accept a moment later what it refuses with these: it is in use, or its bus was.
+// True for errors after which a retry may succeed: the device was busy, or its bus failed.
 bool mayPassLater(int error) {
     return error == EBUSY || error == EIO || error == EAGAIN || error == ETIMEDOUT ||
            error == EPROTO || error == EPIPE;
@@ -54,7 +54,7 @@ V4l2Control controlOf(const v4l2_query_ext_ctrl& query) {
     out.maximum = query.maximum;
     out.step = static_cast<std::int64_t>(query.step);
     out.standard = query.default_value;
-    if (query.type == V4L2_CTRL_TYPE_BITMASK) {  // its bounds are of 32 bits without sign
+    if (query.type == V4L2_CTRL_TYPE_BITMASK) {  // its bounds are unsigned 32-bit numbers
         out.minimum = 0;
         out.maximum &= 0xffffffff;
     }
@@ -147,7 +147,7 @@ V4l2Controls::V4l2Controls(const V4l2Device& device) : device_(&device) {
     }
 }
 
-// Menus may have gaps.
+// Menus may have missing entries.
 std::vector<V4l2Control::Entry> V4l2Controls::entriesOf(const V4l2Control& control,
                                                         bool numbers) const {
     std::vector<V4l2Control::Entry> out;

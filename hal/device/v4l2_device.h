@@ -14,24 +14,24 @@
 
 namespace mfar {
 
-/// The calls into the kernel that have to do with the driver: the seam at which tests put a driver
-/// of their own. All return as the system calls do, with errno.
+/// The kernel calls to the driver; tests replace them with a driver of their own. All return as the
+/// system calls do, with errno.
 class V4l2Api {
 public:
     virtual ~V4l2Api() = default;
 
-    /// Paths of the video device nodes of this machine, sorted.
+    /// Sorted paths of this machine's video device nodes.
     [[nodiscard]] virtual std::vector<std::string> nodes() = 0;
     [[nodiscard]] virtual int open(const char* path) = 0;
     virtual int ioctl(int fd, unsigned long request, void* argument) = 0;
-    /// Shared, readable and writable; unmapped by munmap().
+    /// Maps shared, readable and writable memory, to be unmapped with munmap().
     [[nodiscard]] virtual void* map(int fd, std::size_t length, std::int64_t offset) = 0;
 };
 
-/// The kernel's V4L2.
+/// The kernel's V4L2 calls.
 [[nodiscard]] V4l2Api& kernelV4l2();
 
-/// A device call failed. The message names the device, what was tried and why it failed.
+/// A device call failed. The message names the device, the action and the reason.
 class V4l2Error : public std::runtime_error {
 public:
     V4l2Error(const std::string& message, int errorNumber)
@@ -42,17 +42,17 @@ private:
     int errorNumber_;
 };
 
-/// An open V4L2 device node. Calls may come from several threads.
+/// An open V4L2 device node. Thread-safe.
 class V4l2Device {
 public:
-    /// Throws V4l2Error when the node cannot be opened or is none of V4L2's.
+    /// Throws V4l2Error when the node cannot be opened or is not a V4L2 node.
     V4l2Device(V4l2Api& api, const std::string& path);
 
-    /// 0, or the error's number. Interrupted calls are repeated.
+    /// Returns 0 or the error number. Interrupted calls are repeated.
     [[nodiscard]] int tryCall(unsigned long request, void* argument) const;
-    /// Throws DeviceLost when the device has gone, V4l2Error "PATH: WHAT: why" otherwise.
+    /// Throws DeviceLost when the device is gone, otherwise V4l2Error "PATH: WHAT: reason".
     void call(unsigned long request, void* argument, std::string_view what) const;
-    /// The error as call() throws it.
+    /// Throws the error as call() does.
     [[noreturn]] void fail(std::string_view what, int errorNumber) const;
 
     struct Unmap {
@@ -64,11 +64,13 @@ public:
 
     [[nodiscard]] int fd() const { return fd_.get(); }
     [[nodiscard]] const std::string& path() const { return path_; }
-    [[nodiscard]] const std::string& card() const { return card_; }  ///< the driver's name for it
-    [[nodiscard]] const std::string& bus() const { return bus_; }    ///< where it is plugged in
+    /// The driver's name for the device.
+    [[nodiscard]] const std::string& card() const { return card_; }
+    /// Where the device is plugged in.
+    [[nodiscard]] const std::string& bus() const { return bus_; }
     [[nodiscard]] std::uint32_t capabilities() const { return capabilities_; }  ///< of this node
     [[nodiscard]] bool captures() const;     ///< delivers pictures through buffers
-    [[nodiscard]] bool multiPlanar() const;  ///< through the multi-planar API alone
+    [[nodiscard]] bool multiPlanar() const;  ///< only through the multi-planar API
 
 private:
     V4l2Api* api_;
@@ -77,7 +79,7 @@ private:
     OwnedFd fd_;
 };
 
-/// The text of a fixed field of a driver, which need not end in a zero.
+/// The text of a driver's fixed-size field, which need not end with a zero.
 [[nodiscard]] std::string fieldText(const void* field, std::size_t bytes);
 
 }  // namespace mfar

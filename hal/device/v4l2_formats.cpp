@@ -9,9 +9,10 @@
 namespace mfar {
 namespace {
 
-constexpr std::size_t kMostStride = std::size_t{1} << 20;  // bytes; a driver that says more errs
+// [bytes]; a larger value is a driver fault.
+constexpr std::size_t kMostStride = std::size_t{1} << 20;
 
-/// What both APIs say of a format.
+/// A format as both APIs report it.
 struct Answer {
     std::uint32_t fourcc = 0, colorspace = 0, matrix = 0, range = 0;
     Size size;
@@ -81,8 +82,8 @@ void setColours(const Answer& answer, V4l2Layout& out) {
                     : YuvRange::Limited;
 }
 
-/// The planes of a picture that lie in one piece of memory, each after the other: the stride of
-/// chroma follows from that of luma.
+/// Places all planes in one piece of memory, one after the other: the stride of chroma follows from
+/// the stride of luma.
 void placeInOnePiece(std::size_t stride, V4l2Layout& out) {
     std::size_t offset = 0;
     for (int i = 0; i < planeCount(out.format.picture); ++i) {

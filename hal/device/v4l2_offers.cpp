@@ -10,8 +10,8 @@
 namespace mfar {
 namespace {
 
-constexpr std::uint32_t kMostSide = 65535;  // [px]; more is taken for that
-constexpr int kMostOffers = 512;            // a driver whose list goes on and on is not believed
+constexpr std::uint32_t kMostSide = 65535;  // [px]; upper limit for reported sides
+constexpr int kMostOffers = 512;            // limit for a driver whose list does not end
 
 constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_NV12, PixelFormat::Nv12},
@@ -27,12 +27,12 @@ constexpr std::array kUsable{
     V4l2PixelFormat{V4L2_PIX_FMT_GREY, PixelFormat::Gray8},
 };
 
-/// What the driver says of one format.
+/// The driver's offer of one format.
 struct Offer {
     std::uint32_t fourcc = 0;
-    bool hasSize = false;  ///< the wanted one
-    double fastest = 0;    ///< at that size [Hz]; 0: unknown
-    std::string sizes;     ///< for people
+    bool hasSize = false;  ///< offers the wanted size
+    double fastest = 0;    ///< highest rate at that size [Hz]; 0: unknown
+    std::string sizes;     ///< list for messages
 };
 
 double rateOf(const v4l2_fract& interval) {
@@ -65,7 +65,7 @@ bool contains(const v4l2_frmsize_stepwise& s, Size size) {
            fits(static_cast<std::uint32_t>(size.height), s.min_height, s.max_height, s.step_height);
 }
 
-// Drivers that list no sizes say by setFormat() what they can do.
+// Drivers that list no sizes count as offering every size; setFormat() finds out.
 void askSizes(const V4l2Device& device, Size wanted, Offer& offer) {
     for (int i = 0; i < kMostOffers; ++i) {
         v4l2_frmsizeenum query{};
@@ -141,7 +141,7 @@ std::string fourccText(std::uint32_t fourcc) {
 
 V4l2PixelFormat chooseFormat(const V4l2Device& device, const V4l2Wish& wish) {
     const std::vector<Offer> offers = offersOf(device, wish.size);
-    // Drivers round intervals to microseconds or less.
+    // Drivers round intervals to microseconds or coarser.
     const double enough = wish.rateHz * 0.999;
     for (const bool inTime : {true, false})
         for (const V4l2PixelFormat& format : kUsable) {

@@ -14,10 +14,10 @@
 namespace mfar {
 namespace {
 
-/// The devices that deliver pictures.
+/// The capture devices of this machine.
 struct Captures {
     std::vector<V4l2Device> devices;
-    std::string listed;  ///< for people, with those that cannot be opened
+    std::string listed;  ///< list for messages, including devices that cannot be opened
 };
 
 std::string lineOf(const V4l2Device& device) {

@@ -5,9 +5,9 @@
 
 namespace mfar {
 
-/// Opens a capture device of this machine by its path, or the card or bus of one node; without a
-/// name as chooseCamera() does, by path where it says id. Throws std::runtime_error that lists what
-/// there is when none or several fit.
+/// Opens a capture device by its path, or by a card or bus name that belongs to one node; an empty
+/// name works as in chooseCamera(), with the path as id. Throws std::runtime_error that lists the
+/// devices when none or several match.
 [[nodiscard]] V4l2Device openCapture(V4l2Api& api, const CameraWish& wish);
 
 }  // namespace mfar

@@ -52,8 +52,8 @@ std::optional<std::string> BackgroundWriter::error() const {
 }
 
 void BackgroundWriter::work(const WatchedThread& watched) {
-    // With SIGPIPE blocked here, a pipe whose reader has gone is an error of write() instead of the
-    // end of the process.
+    // With SIGPIPE blocked in this thread, a pipe without a reader makes write() fail instead of
+    // ending the process.
     sigset_t brokenPipe;
     sigemptyset(&brokenPipe);
     sigaddset(&brokenPipe, SIGPIPE);
@@ -77,7 +77,8 @@ void BackgroundWriter::work(const WatchedThread& watched) {
         } catch (const std::exception& e) {
             failure = e.what();
         }
-        job = nullptr;  // gives its buffer back before the queue may look idle
+        // Destroys the job, which returns its buffer, before the queue may look idle.
+        job = nullptr;
         lock.lock();
         if (failure && !error_) error_ = std::move(failure);
         if (--running_ == 0 && jobs_.empty()) idle_.notify_all();

@@ -14,24 +14,24 @@
 
 namespace mfar {
 
-/// Threads that write files for a caller who must not wait for the disk. Jobs start in the order
-/// they were posted. The queue has no limit of its own: what a job carries (a buffer of a pool)
-/// bounds it. After the first job that throws, the others are dropped unrun: a full disk gives one
-/// error, not thousands.
+/// Threads that write files for a caller that must not wait for the disk. Jobs start in the order
+/// in which they were posted. The queue is not limited by itself: the buffers that jobs hold limit
+/// it. After the first job that throws, all others are dropped: a full disk gives one error, not
+/// thousands.
 class BackgroundWriter {
 public:
-    /// Each thread is watched as `watched`, whose budget is for one job.
+    /// Heartbeats of each thread use `watched`, whose budget is for one job.
     explicit BackgroundWriter(int threads, const WatchedThread& watched = {});
     BackgroundWriter(const BackgroundWriter&) = delete;
     BackgroundWriter& operator=(const BackgroundWriter&) = delete;
-    /// Waits for the posted jobs; their errors are lost, see drain().
+    /// Waits for the posted jobs; ignores their errors, see drain().
     ~BackgroundWriter();
 
     /// Thread-safe, never waits for a job.
     void post(std::function<void()> job);
     /// Waits until every posted job is done. Throws std::runtime_error with the first failure.
     void drain();
-    /// The same for at most `limit`; false when that was too short.
+    /// As drain(), for at most `limit`; false at the limit.
     [[nodiscard]] bool drainWithin(std::chrono::milliseconds limit);
     /// The first failure, without waiting. Thread-safe.
     [[nodiscard]] std::optional<std::string> error() const;

@@ -6,9 +6,9 @@
 
 namespace mfar {
 
-/// A sound picture (requireSound()) of any format as OpenCV writes it to files: B G R, or one
-/// channel of a grey one. Chroma is interpolated as picture_from_yuv.frag does it, so that a
-/// recording shows what the pipeline saw. A grey one is the picture's own memory.
+/// Converts a valid picture (requireSound()) of any format for OpenCV's file writers: B G R, or one
+/// channel if grey. Chroma is interpolated as in picture_from_yuv.frag, so that a recording shows
+/// what the pipeline saw. A grey result shares the picture's memory.
 [[nodiscard]] cv::Mat bgrPicture(const ImageView& picture);
 
 }  // namespace mfar

@@ -32,9 +32,9 @@ constexpr std::chrono::milliseconds kErrorPoll{100};
 
 class NoDisplay final : public Display {
 public:
-    // Without this a renderer may queue frames without end, and no frame rate would be true.
+    // Without this wait a renderer may queue any number of frames, and no frame rate would be true.
     void show(const Picture& picture, Timestamp) override {
-        // What hangs is noticed before the next picture.
+        // A GPU that hangs is detected before the next picture.
         if (!picture.isOnHost()) (void)gpu::finishWithin();
     }
     void finish() override {}
@@ -58,7 +58,7 @@ public:
         if (!slot) return;
         auto loan = std::make_shared<Frame>(pool_->lend(*slot, time));
         copyPicture(picture, slot->data, slot->stride);
-        // A lost context leaves the pixels as they were.
+        // A lost context leaves the pixels unchanged.
         if (!picture.isOnHost() && gpu::takeError() != GL_NO_ERROR)
             throw gpu::GlError("the picture cannot be read back from GL");
         {
@@ -81,28 +81,28 @@ public:
     }
 
 protected:
-    /// Called on the thread of show() before the first picture of a size. Throws when it cannot be
-    /// taken.
+    /// Called on the thread of show() before the first picture of a size. Throws when the size is
+    /// not supported.
     virtual void checkSize(Size size) = 0;
     /// Called on a writer thread.
     virtual void write(const Frame& picture) = 0;
-    /// What is waited for, for people.
+    /// Who is waited for, for messages.
     [[nodiscard]] virtual const char* consumer() const = 0;
-    /// Ends waiting for a reader.
+    /// Requests the end of waiting for a reader.
     [[nodiscard]] std::stop_token cancelled() const { return cancel_.get_token(); }
-    /// Destructors of derived classes call this: the writer uses them.
+    /// Destructors of derived classes must call this: the writer's jobs use those classes.
     void finishQuietly() noexcept {
         try {
-            // What the time is too short for is given up, as far as that is possible.
+            // Pictures that take longer than policy_.finish are given up, as far as possible.
             if (policy_.isLive && !drainWhileWriting()) cancel_.request_stop();
             writer_.drain();
         } catch (const std::exception&) {
-            // finish() reports errors; here nobody is left to hear of one.
+            // finish() reports errors; here nobody can receive them.
         }
     }
 
 private:
-    /// Tells that and for what it waits, from its first call of begin() to its end.
+    /// Calls the policy's `waiting` at the start and the end of a wait.
     class Waits {
     public:
         explicit Waits(const FileDisplay& of) : of_(of) {
@@ -122,13 +122,13 @@ private:
         return fmt::format("{}: {} takes nothing", name(), consumer());
     }
 
-    // One picture has been written for so long.
+    // True when one picture has been writing for longer than this.
     [[nodiscard]] bool writesFor(std::chrono::milliseconds time) const {
         const std::lock_guard lock(mutex_);
         return !writing_.empty() && Timestamp::now() - *writing_.begin() > time;
     }
 
-    // False when what is written does not come to an end.
+    // False when a write does not end in time.
     [[nodiscard]] bool drainWhileWriting() {
         while (!writer_.drainWithin(kErrorPoll))
             if (writesFor(policy_.finish)) return false;
@@ -150,7 +150,7 @@ private:
         }
     }
 
-    // Nothing where all buffers are being written: the picture is left out.
+    // Empty when all buffers are being written: the picture is skipped.
     std::optional<FramePool::Slot> freeBuffer() {
         throwError();
         if (const auto slot = pool_->acquire(std::chrono::milliseconds(0))) return slot;
@@ -171,7 +171,7 @@ private:
         std::shared_ptr<Frame> picture;
         {
             const std::lock_guard lock(mutex_);
-            if (waiting_.empty()) return;  // it was left out
+            if (waiting_.empty()) return;  // the picture was skipped
             picture = std::move(waiting_.front());
             waiting_.pop_front();
             writing_.insert(begun);
@@ -188,10 +188,10 @@ private:
     std::optional<FramePool> pool_;
     std::atomic<std::uint64_t> leftOut_{0};
     mutable std::mutex mutex_;
-    std::deque<std::shared_ptr<Frame>> waiting_;  ///< for the writer
-    std::multiset<Timestamp> writing_;            ///< since when pictures are
+    std::deque<std::shared_ptr<Frame>> waiting_;  ///< not yet written
+    std::multiset<Timestamp> writing_;            ///< start times of the writes in progress
     std::stop_callback<std::function<void()>> onCancel_;
-    BackgroundWriter writer_;  // last: its threads use all of the above
+    BackgroundWriter writer_;  // last member: its threads use all others
 };
 
 class PngDisplay final : public FileDisplay {

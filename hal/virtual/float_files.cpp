@@ -50,7 +50,7 @@ std::size_t pixelCount(Size size) {
     return static_cast<std::size_t>(size.width) * size.height;
 }
 
-/// The header words of a PFM file: magic, width, height, scale, then one white space.
+/// Parses the header of a PFM file: magic, width, height, scale, then one white space.
 class PfmHeader {
 public:
     PfmHeader(const fs::path& file, std::string_view text) : file_(file), text_(text) {
@@ -70,7 +70,7 @@ public:
     }
 
     Size size;
-    double scale = 0;  ///< negative: little endian
+    double scale = 0;  ///< negative: little-endian data
 
 private:
     static bool isSpace(char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; }
@@ -121,7 +121,7 @@ FloatImage loadPfm(const fs::path& file) {
     checkBytes(file, bytes.size(), pixelCount(header.size) * sizeof(float));
     FloatImage out{header.size, std::vector<float>(pixelCount(header.size))};
     const char* p = bytes.data();
-    for (int y = header.size.height - 1; y >= 0; --y)  // a PFM file begins with the bottom row
+    for (int y = header.size.height - 1; y >= 0; --y)  // PFM files begin with the bottom row
         for (int x = 0; x < header.size.width; ++x, p += sizeof(float)) {
             const float v = readFloat(p, header.scale > 0);
             out.at(x, y) = std::isfinite(v) ? v : kNaN;

@@ -39,7 +39,7 @@ public:
     ~OsMesaContext() override { OSMesaDestroyContext(context_); }
 
     void makeCurrent() override {
-        // OSMesa insists on a window buffer; all drawing goes to framebuffer objects.
+        // OSMesa requires a window buffer; all drawing goes to framebuffer objects.
         if (OSMesaMakeCurrent(context_, window_.data(), GL_UNSIGNED_BYTE, 4, 4) != GL_TRUE)
             throw std::runtime_error("OSMesa: the context cannot be made current");
     }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// More than the pixels themselves take is no picture of that size.
+/// Upper limit of a file's size: a larger file cannot be a picture of that size.
 std::size_t mostBytes(Size size) {
     constexpr std::size_t kBytesPerPixel = 8, kHeader = 1 << 20;
     return kBytesPerPixel * size.width * size.height + kHeader;

@@ -12,7 +12,7 @@
 
 namespace mfar {
 
-/// An image file cannot be read or written. The message is "file: what is wrong".
+/// An image file cannot be read or written. The message is "file: fault".
 class ImageFileError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -20,7 +20,7 @@ public:
         : std::runtime_error(file.string().append(": ").append(what)) {}
 };
 
-inline constexpr int kMaxImageSide = 16384;  ///< [px]; a file that says more is refused
+inline constexpr int kMaxImageSide = 16384;  ///< [px]; larger pictures are refused
 
 /// A picture in memory, rows without padding, row 0 on top.
 struct StoredImage {
@@ -34,18 +34,18 @@ struct StoredImage {
     }
 };
 
-/// Reads a PNG or JPEG file (colour or grey, 8 or 16 bits) as RGBA8, alpha 255, pixels in the
-/// order they are stored in (a camera's orientation tag is not obeyed). Throws ImageFileError.
+/// Reads a PNG or JPEG file (colour or grey, 8 or 16 bits) as RGBA8, alpha 255, pixels in storage
+/// order (a camera's orientation tag is ignored). Throws ImageFileError.
 [[nodiscard]] StoredImage loadImage(const std::filesystem::path& file);
-/// The same into a buffer of the caller; a picture of another size is an error.
+/// As loadImage(), into the caller's buffer; throws for a picture of another size.
 void loadImageInto(const std::filesystem::path& file, Size expected, std::uint8_t* rgba,
                    std::size_t stride);
 
-/// Encodes a picture of any format as PNG, quickly rather than small: RGB without alpha, or grey.
-/// `out` is reused. Throws std::invalid_argument for a view that is not sound (requireSound()).
+/// Encodes a picture of any format as PNG (RGB without alpha, or grey); optimised for speed, not
+/// size. `out` is reused. Throws std::invalid_argument for an invalid view (requireSound()).
 void encodePng(const ImageView& image, std::vector<std::uint8_t>& out);
-/// Writes a PNG file, complete or not at all (Durability::WithSync). Throws ImageFileError, and as
-/// encodePng() does.
+/// Writes a PNG file completely or not at all (Durability::WithSync). Throws ImageFileError, and
+/// like encodePng().
 void savePng(const std::filesystem::path& file, const ImageView& image);
 
 /// One number per pixel, row 0 on top, rows without padding. NaN = unknown.
@@ -65,7 +65,7 @@ private:
 /// Portable float map, one channel ("Pf"), either byte order. Infinities, which some sources use
 /// for unknown, are read as NaN. Throws ImageFileError.
 [[nodiscard]] FloatImage loadPfm(const std::filesystem::path& file);
-/// Written little endian; what is not finite is written as NaN. Throws ImageFileError.
+/// Written as little endian; non-finite values become NaN. Throws ImageFileError.
 void savePfm(const std::filesystem::path& file, const FloatImage& image);
 
 /// One vector (x, y) [px] per pixel, row 0 on top, rows without padding. NaN = unknown.
@@ -84,8 +84,8 @@ private:
     }
 };
 
-/// Middlebury .flo. A vector with a component that is not finite or beyond 1e9 in size is unknown
-/// and is read as (NaN, NaN). Throws ImageFileError.
+/// Middlebury .flo. A vector with a component that is not finite or above 1e9 is unknown and read
+/// as (NaN, NaN). Throws ImageFileError.
 [[nodiscard]] FlowImage loadFlo(const std::filesystem::path& file);
 /// Unknown vectors are written as (1e10, 1e10). Throws ImageFileError.
 void saveFlo(const std::filesystem::path& file, const FlowImage& image);

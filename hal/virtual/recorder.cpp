@@ -68,7 +68,7 @@ bool Recorder::picture(PictureStream& stream, const ImageView& image, Timestamp 
         return false;
     }
     stream.last = time;
-    // An RGBA buffer is large enough for every format; the writer's thread makes RGB of it.
+    // An RGBA buffer is large enough for every format; the writer's thread converts to RGB.
     const ImageView copy = packInto(slot->data, image);
     const auto loan = std::make_shared<Frame>(stream.pool.lend(*slot, time));
     writer_.post([this, &stream, loan, copy] { writePicture(stream, copy, loan->time()); });
@@ -82,7 +82,7 @@ void Recorder::writePicture(PictureStream& stream, const ImageView& picture, Tim
         checkSpace(picture.stride * picture.size.height);
         savePng(file, picture);
     } catch (const std::runtime_error&) {
-        sync();  // nothing more is written, and what there is must have its name
+        sync();  // nothing more will be written; list the pictures written so far
         throw;
     }
     std::error_code ignored;
@@ -99,7 +99,7 @@ void Recorder::syncWhenDue() {
     if (!isSyncing_ && isDue()) sync();
 }
 
-// In a thread of its own: a slow disk takes longer than there are buffers for pictures.
+// Runs in a thread of its own: a slow disk would exhaust the picture buffers.
 void Recorder::sync() {
     synced_ = std::chrono::steady_clock::now();
     isSyncing_ = true;
@@ -113,7 +113,7 @@ void Recorder::sync() {
         if (rows.empty()) return;
         for (const auto& [file, text] : rows)
             appendToFile(file, text);
-        syncFileSystem(root_);  // or the names would be lost until the next of these points
+        syncFileSystem(root_);  // or the list entries could be lost until the next sync
     });
 }
 

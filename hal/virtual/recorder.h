@@ -16,31 +16,31 @@
 namespace mfar {
 
 struct RecorderOptions {
-    int videoBuffers = 16;  ///< video pictures copied and not yet written, at most
-    int stillBuffers = 3;   ///< the same for stills
-    int poses = 256;        ///< poses taken and not yet written, at most
-    /// So much stays free on the disk: a recording that would need it ends with an error.
+    int videoBuffers = 16;  ///< upper limit of video pictures copied and not yet written
+    int stillBuffers = 3;   ///< upper limit of stills copied and not yet written
+    int poses = 256;        ///< upper limit of poses not yet written
+    /// Disk space that stays free: a recording that would need it ends with an error.
     std::uint64_t leastFreeBytes = 64U << 20;
-    std::uint64_t mostBytes = 0;  ///< the same for a recording that becomes longer; 0: no limit
-    WatchedThread writer{};       ///< which writes; its budget is for one picture
-    /// What was written is made safe from a cut of power with the first picture, and then when so
-    /// much time has passed since the last time, with the next picture or pose.
+    std::uint64_t mostBytes = 0;  ///< upper limit of a recording's size; 0: no limit
+    WatchedThread writer{};       ///< the writing thread; its budget is for one picture
+    /// Interval between syncs to the disk, which protect against a power cut: the first picture
+    /// triggers one, later the first picture or pose after this time.
     std::chrono::milliseconds syncEvery{1000};
 };
 
-/// Writes a recording while the frames it is made of are in use. video(), still() and pose() copy
-/// and return at once, whatever the disk does: when their buffers are full the picture is dropped
-/// and counted. A data.csv names a picture only after its file is on the disk: at finish() and
-/// every `syncEvery` the file system is synchronised, what was written since is named, and the
-/// names are synchronised, too. So a recording that was cut off at any moment, also by a cut of
-/// power, can be loaded, and lacks at most what came after the last of these points. The body frame
+/// Writes a recording while its frames are in use. video(), still() and pose() copy and return at
+/// once, regardless of the disk: when their buffers are full the picture is dropped and counted.
+/// data.csv lists a picture only after its file is on the disk: at finish() and every `syncEvery`
+/// the file system is synchronised, the new pictures are listed, and the lists are synchronised,
+/// too. So a recording that was interrupted at any moment, also by a power cut, can be loaded and
+/// lacks at most what came after the last sync. The recording's body frame B is the video camera.
 /// B of the recording is the video camera.
 ///
-/// video() is called from one thread, and so are still() and pose(); the three may be different
-/// ones. Returned false = not recorded: buffers full, time not after that of the previous picture,
-/// another size than the rig's, a pose that is not finite, or an earlier write error.
-/// Pictures of any format are taken as they are and become RGB in the writer's thread. A view that
-/// is not sound (requireSound()) throws std::invalid_argument.
+/// video() is called from one thread, still() and pose() likewise; these may be three threads. They
+/// return false for what is not recorded: buffers full, time not after the previous picture's, size
+/// different from the rig's, a pose that is not finite, or an earlier write error. Pictures of any
+/// format are accepted and converted to RGB in the writer's thread. An invalid view
+/// (requireSound()) throws std::invalid_argument.
 class Recorder {
 public:
     struct Counts {
@@ -48,20 +48,20 @@ public:
         std::uint64_t dropped = 0;
     };
 
-    /// Creates the folder (or takes an empty one) and writes the calibration. Throws
-    /// std::runtime_error when the folder holds anything or cannot be written.
+    /// Creates the folder (or uses an empty one) and writes the calibration. Throws
+    /// std::runtime_error when the folder is not empty or cannot be written.
     Recorder(const std::filesystem::path& root, const StereoRig& rig, double videoRateHz,
              const RecorderOptions& options = {});
-    /// Like finish(), but errors are lost.
+    /// Like finish(), but ignores errors.
     ~Recorder();
 
     bool video(const ImageView& image, Timestamp time) { return picture(video_, image, time); }
     bool still(const ImageView& image, Timestamp time) { return picture(still_, image, time); }
     bool pose(const Pose& pose);
-    /// A further file of the recording; in place of what it held.
+    /// Writes a further file of the recording, replacing its content.
     void addFile(std::string_view name, std::string_view text);
 
-    /// Waits until all that was taken is written. Throws std::runtime_error with the first write
+    /// Waits until everything accepted is written. Throws std::runtime_error with the first write
     /// error of the recording (disk full, folder gone). May be called more than once.
     void finish();
     /// The first write error so far. Thread-safe, never waits.
@@ -78,7 +78,7 @@ private:
         std::optional<Timestamp> last{};
         std::atomic<std::uint64_t> written{0};
         std::atomic<std::uint64_t> dropped{0};
-        std::string rows{};  ///< not yet in its data.csv; of the writer's thread
+        std::string rows{};  ///< rows not yet in data.csv; used by the writer's thread
 
         [[nodiscard]] Counts counts() const { return {written.load(), dropped.load()}; }
     };
@@ -93,22 +93,22 @@ private:
     void writePicture(PictureStream& stream, const ImageView& picture, Timestamp time);
     void writePose(const Pose& pose);
     void syncWhenDue();
-    /// Makes all files safe, names them, and makes the names safe.
+    /// Synchronises all files, lists them, and synchronises the lists.
     void sync();
-    /// Throws std::runtime_error where no further picture may be written.
+    /// Throws std::runtime_error when no further picture may be written.
     void checkSpace(std::uintmax_t bytes);
 
     std::filesystem::path root_;
     RecorderOptions options_;
-    std::uintmax_t bytes_ = 0;  // of all pictures; of the writer's thread, as the next
-    std::optional<std::chrono::steady_clock::time_point> synced_;  // nothing: not yet
+    std::uintmax_t bytes_ = 0;  // sum over all pictures; used by the writer's thread, as synced_
+    std::optional<std::chrono::steady_clock::time_point> synced_;  // empty: not yet
     PictureStream video_;
     PictureStream still_;
     Stream poses_;
     std::atomic<int> pendingPoses_{0};
     std::atomic<bool> isSyncing_{false};
-    BackgroundWriter syncer_;  // before the other, whose thread posts to it
-    BackgroundWriter writer_;  // last: its thread uses all of the above
+    BackgroundWriter syncer_;  // declared before writer_, whose thread posts to it
+    BackgroundWriter writer_;  // last member: its thread uses all others
 };
 
 }  // namespace mfar

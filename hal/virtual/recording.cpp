@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::int64_t kLongestPoseGap =
-    250'000'000;                         // [ns]: a hand-held camera has turned by then
-constexpr double kUnitTolerance = 1e-3;  // ground truth is printed with as few as four digits
+    250'000'000;                         // [ns]: in longer gaps a hand-held camera may have turned
+constexpr double kUnitTolerance = 1e-3;  // some ground truth is printed with only four digits
 
 /// Of a vector that has just grown, and of a file's name and its parts.
 constexpr std::size_t kBytesPerPicture = 2 * sizeof(RecordedImage) + 400,
@@ -44,7 +44,8 @@ void checkIncreasing(const CsvRow& row, Timestamp previous, Timestamp t) {
         row.fail(fmt::format("timestamp {} comes after {}: not sorted", t.ns, previous.ns));
 }
 
-// Only files beside the list may be named: a recording from elsewhere must not reach out of itself.
+// Only files next to the list may be named: a foreign recording must not refer to files outside of
+// its folder.
 bool isPlainName(std::string_view name) {
     return !name.empty() && name != "." && name != ".." && name.find('/') == name.npos &&
            name.find('\\') == name.npos && name.find('\0') == name.npos;
@@ -69,7 +70,7 @@ RecordedImage readImageRow(const CsvRow& row, const fs::path& folder, Size expec
     return image;
 }
 
-/// A last row that is torn and makes no sense ends the list: power was cut as it was written.
+/// Ignores an invalid last row that is torn: power was cut while it was written.
 void forEachWholeRow(const fs::path& file, const std::function<void(const CsvRow&)>& visit) {
     forEachCsvRow(file, [&](const CsvRow& row) {
         try {
@@ -109,7 +110,7 @@ std::vector<Pose> readPoses(const fs::path& folder, const RigidTransform& T_body
     std::vector<Pose> poses;
     if (!fs::exists(folder)) return poses;
     forEachWholeRow(folder / "data.csv", [&](const CsvRow& row) {
-        if (row.isTorn()) return;  // a part of a number is a number
+        if (row.isTorn()) return;  // a truncated number would still be a valid number
         const Pose pose = readPoseRow(row, T_body_video);
         if (!poses.empty()) checkIncreasing(row, poses.back().time, pose.time);
         memory.take(kBytesPerPose, row);

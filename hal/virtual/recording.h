@@ -13,8 +13,8 @@
 
 namespace mfar {
 
-/// A recording is broken. The message begins with "file:line: " (or "file: " where no line is to
-/// blame) and says what is wrong in one line.
+/// A recording is invalid. The message begins with "file:line: " (or "file: " where no line is at
+/// fault) and states the fault in one line.
 class RecordingError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -25,7 +25,7 @@ struct RecordedImage {
 };
 
 /// A recording in the EuRoC layout: cam0 = video, cam1 = stills, both with sensor.yaml and
-/// data.csv. Everything here has been validated; pixel data is read later, one picture at a time.
+/// data.csv. All fields are validated; pixels are read later, one picture at a time.
 struct Recording {
     std::filesystem::path root;
     StereoRig rig;
@@ -34,10 +34,10 @@ struct Recording {
     std::vector<RecordedImage> stills;  ///< strictly increasing in time, may be empty
     std::vector<Pose> poses;            ///< strictly increasing in time, may be empty
 
-    /// Pose at exactly t or interpolated between its neighbours; nothing outside the covered span
-    /// and in gaps of more than a quarter of a second.
+    /// Pose at exactly t or interpolated between its neighbours; empty outside the covered span and
+    /// in gaps of more than a quarter of a second.
     [[nodiscard]] std::optional<Pose> poseAt(Timestamp t) const;
-    /// Files of truth/, nothing when absent.
+    /// Files in truth/; empty when missing.
     [[nodiscard]] std::optional<std::filesystem::path> truthHighRes(Timestamp t) const;
     [[nodiscard]] std::optional<std::filesystem::path> truthInverseDepth(Timestamp t) const;
     [[nodiscard]] std::optional<std::filesystem::path> truthFlow(Timestamp from,

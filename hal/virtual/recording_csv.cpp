@@ -13,7 +13,7 @@ namespace mfar {
 namespace {
 
 constexpr std::size_t kLongestLine = 4096;
-constexpr int kMostLines = 1'000'000;  // nine hours of video
+constexpr int kMostLines = 1'000'000;  // equals nine hours of video
 constexpr std::int64_t kTimeLimit = std::int64_t{1} << 62;
 
 std::string_view trimmed(std::string_view s) {
@@ -23,11 +23,11 @@ std::string_view trimmed(std::string_view s) {
     return s.substr(first, s.find_last_not_of(kSpace) - first + 1);
 }
 
-// Broken files hold anything: keep the message one printable line.
+// Keeps the message on one printable line: broken files may contain anything.
 std::string quoted(std::string_view s) {
     std::string out = "'";
     for (const char c : s.substr(0, 60)) {
-        const auto byte = static_cast<unsigned char>(c);  // char has no sign on ARM
+        const auto byte = static_cast<unsigned char>(c);  // char is unsigned on ARM
         out += byte < 32 || byte == 127 ? '?' : c;
     }
     return out + (s.size() > 60 ? "...'" : "'");
@@ -78,7 +78,7 @@ void CsvRow::fail(std::string_view what) const {
 
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit) {
-    // To open a pipe would wait.
+    // Opening a pipe would block.
     if (!std::filesystem::is_regular_file(file)) recordingFault(file, 0, "is missing");
     std::ifstream in(file);
     if (!in) recordingFault(file, 0, "cannot be read");
@@ -87,7 +87,7 @@ void forEachCsvRow(const std::filesystem::path& file,
         if (line > kMostLines)
             recordingFault(file, line, fmt::format("more than {} lines", kMostLines));
         std::string_view row(text.data(), static_cast<std::size_t>(in.gcount()));
-        if (row.ends_with('\0')) row.remove_suffix(1);  // in place of the line end
+        if (row.ends_with('\0')) row.remove_suffix(1);  // a zero instead of the line end
         if (line == 1 && row.starts_with("\xEF\xBB\xBF")) row.remove_prefix(3);
         const bool isTorn = in.eof();
         row = trimmed(row.substr(0, row.find('\0')));

@@ -11,22 +11,22 @@
 
 namespace mfar {
 
-/// Throws RecordingError with the message "file:line: what", or "file: what" for line 0.
+/// Throws RecordingError with the message "file:line: fault", or "file: fault" for line 0.
 [[noreturn]] void recordingFault(const std::filesystem::path& file, int line,
                                  std::string_view what);
 
-/// One data row of a CSV file. The fields are trimmed and live only while the row is visited.
+/// One data row of a CSV file. The fields are trimmed and valid only while the row is visited.
 class CsvRow {
 public:
     CsvRow(const std::filesystem::path& file, int line, std::string_view text, bool isTorn);
 
-    /// The last row of a file, without a line end or with zeros in it: a cut of power may have left
-    /// a part of it.
+    /// True for a last row without a line end or with zeros in it: a power cut may have truncated
+    /// it.
     [[nodiscard]] bool isTorn() const { return isTorn_; }
     [[nodiscard]] std::size_t size() const { return fields_.size(); }
     [[nodiscard]] std::string_view text(std::size_t i) const { return fields_.at(i); }
-    /// Field i as a timestamp in nanoseconds, 0 <= t < 2^62 so that differences and repeated
-    /// playing cannot overflow. Throws RecordingError.
+    /// Field i as a timestamp in nanoseconds, 0 <= t < 2^62, so that differences and loops cannot
+    /// overflow. Throws RecordingError.
     [[nodiscard]] Timestamp time(std::size_t i) const;
     /// Field i as a finite number. Throws RecordingError.
     [[nodiscard]] double number(std::size_t i) const;
@@ -40,8 +40,8 @@ private:
     std::vector<std::string_view> fields_;
 };
 
-/// Visits the rows of a CSV file in order; blank lines, lines that begin with '#', a byte order
-/// mark and carriage returns are passed over. Throws RecordingError when it cannot be read.
+/// Visits the rows of a CSV file in order; skips blank lines, lines that begin with '#', a byte
+/// order mark and carriage returns. Throws RecordingError when the file cannot be read.
 void forEachCsvRow(const std::filesystem::path& file,
                    const std::function<void(const CsvRow&)>& visit);
 

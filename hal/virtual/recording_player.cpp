@@ -23,24 +23,24 @@ constexpr std::chrono::milliseconds kBufferPoll{20};
 
 }  // namespace
 
-/// What both streams share. All but the constants is guarded by the mutex.
+/// State that both streams share. The mutex guards all but the constants.
 struct RecordingPlayer::Timeline {
     Pace pace = Pace::Realtime;
     bool loop = false;
     bool asksVideoFirst = false;
-    Timestamp first;                  ///< of the whole recording
-    std::chrono::nanoseconds lap{0};  ///< from one beginning of a loop to the next
+    Timestamp first;                  ///< time of the recording's first picture
+    std::chrono::nanoseconds lap{0};  ///< time from the start of one loop to the start of the next
 
     mutable std::mutex mutex;
     std::condition_variable changed;
     std::optional<Clock::time_point> begin;
-    Timestamp nextVideo;    ///< of the video frame to be given next, kNever after the last
-    Timestamp newestVideo;  ///< of the video frame given last
+    Timestamp nextVideo;    ///< time of the next video frame, kNever after the last
+    Timestamp newestVideo;  ///< time of the last delivered video frame
 
     [[nodiscard]] Clock::time_point due(Timestamp t) const { return *begin + (t - first); }
 };
 
-/// One of the two cameras. Pictures are numbered through all laps of a loop: `number`.
+/// One of the two cameras. `number` counts pictures through all loops.
 class RecordingPlayer::Stream final : public Camera {
 public:
     Stream(Timeline& timeline, const std::vector<RecordedImage>& images, CameraInfo info,
@@ -88,7 +88,7 @@ private:
     FramePool pool_;
     std::size_t ahead_;
 
-    // Guarded by the timeline's mutex.
+    // The timeline's mutex guards the following.
     std::deque<Decoded> ready_;
     std::size_t toGive_ = 0;
     std::uint64_t skipped_ = 0;
@@ -104,7 +104,7 @@ Timestamp RecordingPlayer::Stream::timeOf(std::size_t number) const {
     return images_[number % images_.size()].time + laps * timeline_.lap;
 }
 
-// May the picture of time t be given now?
+// True when the picture of time t may be delivered now.
 bool RecordingPlayer::Stream::isOpen(Timestamp t) const {
     if (timeline_.pace == Pace::Consumer) {
         const bool follows = timeline_.asksVideoFirst && timeline_.nextVideo != kNever;

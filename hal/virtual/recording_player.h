@@ -14,19 +14,20 @@
 namespace mfar {
 
 enum class Pace {
-    Realtime,  ///< a picture comes as long after start() as it came after the recording's first
-    Consumer,  ///< a picture comes as soon as it is asked for; none is ever left out
+    /// A picture is due as long after start() as it came after the recording's first picture.
+    Realtime,
+    Consumer,  ///< a picture is delivered as soon as it is requested; none is skipped
 };
 
 struct PlayerOptions {
     Pace pace = Pace::Realtime;
-    bool loop = false;     ///< begin again at the end; times go on rising, see recordedTime()
-    int videoBuffers = 8;  ///< pictures lent out and decoded ahead together, at least 2
-    int stillBuffers = 4;  ///< the same for stills
-    bool asksVideoFirst = false;  ///< of Pace::Consumer
+    bool loop = false;            ///< restart at the end; times keep increasing, see recordedTime()
+    int videoBuffers = 8;         ///< pictures lent and decoded ahead together, at least 2
+    int stillBuffers = 4;         ///< as videoBuffers, for stills
+    bool asksVideoFirst = false;  ///< only for Pace::Consumer
 };
 
-/// A recorded still is one that somebody triggered then: firing counts and does nothing else.
+/// Trigger of a recording, whose stills were triggered when it was made: only counts.
 class RecordedTrigger final : public Trigger {
 public:
     explicit RecordedTrigger(std::function<Timestamp()> now) : now_(std::move(now)) {}
@@ -46,21 +47,21 @@ private:
 };
 
 /// Plays a recording through two cameras, each with a thread that decodes a few pictures ahead.
-/// Frames carry the times of the recording. The cameras live as long as the player and each can
-/// be started once; frames may outlive the player. next() throws RecordingError for a picture that
-/// cannot be decoded; the call after it goes on with the following picture.
+/// Frames carry the recording's times. The cameras live as long as the player and each can be
+/// started once; frames may outlive the player. next() throws RecordingError for a picture that
+/// cannot be decoded; the next call continues with the following picture.
 ///
-/// Pace::Realtime: both cameras share one clock, which begins with the first start(). When
-/// decoding or the consumer is so late that a later video picture is due already, the older one is
-/// left out and counted, as a sensor overwrites what nobody fetched. Stills are never left out.
+/// Pace::Realtime: both cameras share one clock, which begins with the first start(). When decoding
+/// or the consumer is so late that a later video picture is already due, the older one is skipped
+/// and counted, as a sensor overwrites unread pictures. Stills are never skipped.
 ///
-/// Pace::Consumer: stills().next() has a still exactly when its time is at or before the time of
-/// the video picture that video().next() gives next (any still once all video is out). So one
-/// thread that asks for a still, then for a video picture, in turn, sees all pictures in the order
-/// of their times, stills first at equal times, in every run. With `asksVideoFirst` it has a still
-/// at or before the picture that video().next() gave last: for a thread that asks for a video
-/// picture, then for the stills that belong to it, and is not to wait for later ones. Waiting for
-/// the decoder doesn't count as timeout here; waiting for a buffer that the consumer holds does.
+/// Pace::Consumer: stills().next() returns a still exactly when its time is at or before that of
+/// the video picture that video().next() returns next (any still once the video has ended). So a
+/// thread that alternately requests a still and a video picture gets all pictures in the order of
+/// their times, stills first at equal times, in every run. With `asksVideoFirst`, a still is
+/// returned at or before the last picture that video().next() returned: for a thread that requests
+/// a video picture and then its stills, without waiting for later ones. Waiting for the decoder
+/// does not count for the timeout; waiting for a buffer that the consumer holds does.
 class RecordingPlayer {
 public:
     /// Throws std::invalid_argument when the options are impossible.
@@ -74,11 +75,11 @@ public:
     [[nodiscard]] RecordedTrigger& trigger() { return trigger_; }
     [[nodiscard]] const Recording& recording() const { return recording_; }
 
-    /// The time in the recording's files that a played time stands for; differs only in a loop.
+    /// Converts a played time to the time in the recording's files; they differ only in a loop.
     [[nodiscard]] Timestamp recordedTime(Timestamp played) const;
-    /// How far playing has come, in played time: by the clock or by the newest video frame given.
+    /// Current played time: from the clock or from the newest delivered video frame.
     [[nodiscard]] Timestamp now() const;
-    /// Video pictures left out because they were late.
+    /// Number of late video pictures that were skipped.
     [[nodiscard]] std::uint64_t skipped() const;
 
 private:

@@ -7,14 +7,14 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr double kPlateCells = kTagCells + 2;  // a white rim of one cell
+constexpr double kPlateCells = kTagCells + 2;  // with a white rim of one cell
 constexpr double kPlateThickness = 0.004;
 
 Eigen::Quaterniond aboutZ(double yaw) {
     return Eigen::Quaterniond(Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()));
 }
 
-/// Columns: tag x, y, z axes in the plate's frame.
+/// Rotation whose columns are the tag's x, y, z axes in the plate's frame.
 Eigen::Quaterniond axes(const Eigen::Vector3d& x, const Eigen::Vector3d& y) {
     Eigen::Matrix3d m;
     m << x, y, x.cross(y);
@@ -35,7 +35,7 @@ int Builder::sheet(Layer layer, double width, double height, const Eigen::Vector
 
 int Builder::tiled(Layer layer, double perMetre, const Eigen::Vector3d& tint, double variation,
                    double gloss) {
-    // Every material starts elsewhere in its texture, so that no two surfaces look alike.
+    // Each material has its own texture offset, so that no two surfaces look alike.
     const double shift = 0.37 * static_cast<double>(world.materials.size());
     return material({layer, {perMetre, perMetre}, {shift, 0.7 * shift}, tint, variation, gloss});
 }

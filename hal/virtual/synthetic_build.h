@@ -7,14 +7,14 @@
 
 namespace mfar::synthetic {
 
-/// Puts a world together. All positions [m] in the world, angles [rad] about the world's z axis.
+/// Assembles a world. Positions [m] in the world, angles [rad] about the world's z axis.
 class Builder {
 public:
     World world;
 
     /// Adds a material and returns its index.
     int material(const Material& m);
-    /// One sheet that fills a face of the given extents once, seen on +x, -y and +z faces.
+    /// Material whose texture fills a face of this size once, for +x, -y and +z faces.
     int sheet(Layer layer, double width, double height, const Eigen::Vector3d& tint,
               double gloss = 0);
     /// A material that repeats `perMetre` times.

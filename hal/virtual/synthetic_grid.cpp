@@ -18,8 +18,8 @@ constexpr std::array<std::uint64_t, 36> kTagCodes{
     0xe2cfda160ULL, 0x2ff497c63ULL, 0x47240671bULL, 0x5047a2e55ULL, 0x635ca87c7ULL, 0x691254166ULL};
 static_assert(kTagCodes.size() == static_cast<std::size_t>(kGridTags) * kGridTags);
 
-// The layer is a grid of cells, all of them whole texels down to the fourth mipmap, so that no edge
-// is off its place in a picture: white rim, then squares and tags in turns.
+// The layer is a grid of cells that are whole texels down to the fourth mipmap, so that edges are
+// exactly placed: a white rim, then squares and tags alternately.
 constexpr int kGapCells = 2, kPitch = kTagCells + kGapCells;
 constexpr int kRim = 1;
 constexpr int kLayerCells = 2 * kRim + kGridTags * kPitch + kGapCells;
@@ -28,10 +28,10 @@ static_assert(kGapCells == kTagCells * kGridSpacing);
 
 constexpr double kCell = kGridTagSize / kTagCells;  // [m]
 constexpr double kPlate = kLayerCells * kCell;      // [m]
-const V kMiddle{0, 0.3, 0.46};                      // of the plate's front
+const V kMiddle{0, 0.3, 0.46};                      // centre of the plate's front
 constexpr double kThickness = 0.01;
 
-/// Is the cell, counted from the outermost squares, white?
+/// True for a white cell; cells are counted from the outermost squares.
 bool isWhite(int column, int row) {
     const int right = column % kPitch - kGapCells, down = row % kPitch - kGapCells;
     if (right < 0 || down < 0) return !(right < 0 && down < 0);
@@ -39,7 +39,7 @@ bool isWhite(int column, int row) {
     return tagCells(id)[down][right];
 }
 
-/// Tag of a column, from the left, and a row, from below.
+/// Tag in a column (from the left) and a row (from below).
 Tag gridTag(int column, int row) {
     const auto place = [](int i) { return (i - 0.5 * (kGridTags - 1)) * kPitch * kCell; };
     Eigen::Matrix3d turn;  // columns: tag x, y, z
@@ -51,7 +51,7 @@ Tag gridTag(int column, int row) {
 
 }  // namespace
 
-// The 36 bits go round in four quarter turns of nine.
+// The 36 bits fill four quarters, nine bits each, turned by 90 degrees.
 TagCells tagCells(int id) {
     constexpr std::array<std::array<int, 2>, 9> kFirst{
         {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}, {2, 2}, {3, 2}, {4, 2}, {3, 3}}};
@@ -69,7 +69,7 @@ TagCells tagCells(int id) {
 }
 
 cv::Mat4b aprilGrid(std::uint64_t seed) {
-    constexpr int kTexels = kLayerSize / kLayerCells;  // of a cell
+    constexpr int kTexels = kLayerSize / kLayerCells;  // texels per cell
     const cv::Mat1f grain = fractal(seed, 200, 200, 2, 0.7F);
     cv::Mat1b white(kLayerCells, kLayerCells, 255);
     for (int y = kRim; y < kLayerCells - kRim; ++y)

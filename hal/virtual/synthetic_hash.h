@@ -16,12 +16,12 @@ namespace mfar::synthetic {
     return mix(mix(seed ^ mix(static_cast<std::uint64_t>(a))) ^ static_cast<std::uint64_t>(b));
 }
 
-/// To [0, 1).
+/// Maps to [0, 1).
 [[nodiscard]] constexpr double hashUnit(std::uint64_t h) {
     return static_cast<double>(h >> 11) * 0x1p-53;
 }
 
-/// A stream of repeatable random numbers.
+/// A sequence of reproducible random numbers.
 class Random {
 public:
     explicit constexpr Random(std::uint64_t seed) : state_(mix(seed)) {}

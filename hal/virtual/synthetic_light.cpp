@@ -15,9 +15,10 @@
 namespace mfar::synthetic {
 namespace {
 
-constexpr int kAtlas = 1024;                 // texels
-constexpr double kSlack = 1e-3;              // of spheres around solids, for rounding [m]
-constexpr int kKeyRays = 12, kSkyRays = 16;  // per texel; neighbours differ and are smoothed after
+constexpr int kAtlas = 1024;     // texels
+constexpr double kSlack = 1e-3;  // margin around bounding spheres, for rounding [m]
+// Rays per texel; neighbours use different ones and are smoothed.
+constexpr int kKeyRays = 12, kSkyRays = 16;
 
 struct SurfacePoint {
     Eigen::Vector3d position, normal;  ///< primitive's frame
@@ -62,7 +63,7 @@ public:
                 light(j, i) = cv::Vec3f(cv::Vec3d(e.x(), e.y(), e.z()));
             }
         }
-        // Removes the sampling noise, not the shadows.
+        // Removes sampling noise, but not the shadows.
         if (n >= 12) cv::GaussianBlur(light, light, {0, 0}, 0.9, 0.9, cv::BORDER_REPLICATE);
         cv::Mat4b out = map_.texels(area);
         eachPixel(out, [&](cv::Vec4b& o, const int* q) {
@@ -72,7 +73,7 @@ public:
     }
 
 private:
-    /// What moves neither shades nor reflects.
+    /// The world without its moving objects: they neither cast shadows nor reflect light.
     static World still(const World& world) {
         World out = world;
         for (Primitive& p : out.primitives)
@@ -101,7 +102,7 @@ private:
         return light.key * key + skyAt(index, origin, normal, turn, shift);
     }
 
-    /// Cosine-weighted look at the surroundings; near solids send back a part of their colour.
+    /// Cosine-weighted light from the surroundings; near solids reflect a part of their colour.
     Eigen::Vector3d skyAt(int index, const Eigen::Vector3d& origin, const Eigen::Vector3d& normal,
                           double turn, double shift) const {
         const Eigen::Vector3d side = normal.unitOrthogonal(), up = normal.cross(side);
@@ -125,8 +126,8 @@ private:
         return sum / kSkyRays;
     }
 
-    /// The solids that may hide some of the light from a point: their bounding spheres meet the
-    /// cone of rays towards it.
+    /// Solids that may hide a part of the light from a point: their bounding spheres meet the cone
+    /// of rays towards the light.
     std::vector<int> towardsLight(const Eigen::Vector3d& point) const {
         std::vector<int> out;
         for (int i = 0; i < solids_.size(); ++i) {
@@ -139,7 +140,7 @@ private:
         return out;
     }
 
-    /// The solids that the sky's rays from a point of a surface may hit.
+    /// Solids that rays from a surface point to the sky may hit.
     std::vector<int> withinReach(const Eigen::Vector3d& point,
                                  const Eigen::Vector3d& normal) const {
         std::vector<int> out;
@@ -151,7 +152,7 @@ private:
         return out;
     }
 
-    /// Farther solids count as sky, or closed rooms would be dark.
+    /// Upper limit of distance; farther solids count as sky, or closed rooms would be dark.
     double reach() const { return 0.45 * (world_.target - world_.eye).norm(); }
 
     const World& world_;
@@ -160,7 +161,7 @@ private:
     Eigen::Vector3d side_, up_;
 };
 
-/// Places the 3 x 2 faces of every primitive, in rows.
+/// Rectangles of the 3 x 2 faces of every primitive, placed in rows.
 std::vector<cv::Rect> layOut(const World& world) {
     std::vector<cv::Rect> out;
     int x = 0, y = 0, rowHeight = 0;

@@ -13,13 +13,13 @@ namespace mfar::synthetic {
 /// bounce, ray traced once for the world at time 0.
 struct LightMap {
     /// Irradiance / kFullScale per channel. Each primitive has 3 x 2 faces (axis, sign) side by
-    /// side; what moves casts no shadow here.
+    /// side; moving objects cast no shadow here.
     cv::Mat4b texels;
     /// Per primitive, in texture coordinates: x, y of its first face, width and height of a face.
     std::vector<Eigen::Vector4f> faces;
 
     static constexpr double kFullScale = 1.6;
-    /// Half a texel of a face's edge, as a share of the face: bilinear look-ups stay inside.
+    /// Half a texel as a fraction of a face: keeps bilinear look-ups inside the face.
     [[nodiscard]] static double inset(int lightTexels) { return 0.5 / lightTexels; }
 };
 

@@ -4,14 +4,14 @@
 
 #include <cstdint>
 
-// The synthetic board: synthetic_world.frag, synthetic_sensor.frag. Shaders read this header, too:
+// Parameters of synthetic_world.frag and synthetic_sensor.frag. Shaders read this header, too:
 // gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
-/// Side of the tiles that solids are listed for [px].
+/// Side of the tiles for which solids are listed [px].
 inline constexpr int kSyntheticTile = 16;
 
-/// One bit of 128 solids each.
+/// One bit for each of 128 solids.
 struct alignas(16) SolidMask {
     std::uint32_t first, second, third, fourth;
 };
@@ -20,7 +20,7 @@ struct alignas(16) SyntheticWorld {
     Lens lens;
     SolidMask boxes;               ///< which solids are boxes
     float lightX, lightY, lightZ;  ///< unit vector towards the key light, camera frame
-    float moverX, moverY, moverZ;  ///< middle of the moving object, camera frame [m]
+    float moverX, moverY, moverZ;  ///< centre of the moving object, camera frame [m]
     float moverRadius;             ///< [m]
     float red, green, blue;        ///< radiance of the background
     std::uint32_t tileColumns;
@@ -30,9 +30,10 @@ struct alignas(16) SyntheticWorld {
 struct alignas(16) SyntheticSensor {
     float redGain, greenGain, blueGain;
     float inverseGamma;  ///< 1 / gamma
-    std::int32_t blurs;  ///< 1: by the weights of the pixel, its sides and its corners
+    std::int32_t blurs;  ///< 1: 3x3 blur with weights for the centre, sides and corners
     float centreWeight, sideWeight, cornerWeight;
-    std::int32_t noisy;                   ///< 1: with noise of the variance perSignal x + constant
+    /// 1: add noise of variance noisePerSignal x + noiseConstant.
+    std::int32_t noisy;
     float noisePerSignal, noiseConstant;  ///< linear units
     std::uint32_t seed, channelSeed;
 };

@@ -39,7 +39,7 @@ Eigen::Quaterniond tilt(double pitch, double yaw, double roll) {
            Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ());
 }
 
-/// `amount` 1 = a person who tries to hold still.
+/// Hand shake; `amount` 1 = a person who tries to hold still.
 RigidTransform shake(std::uint64_t seed, double t, double amount) {
     const double metres = 0.005 * amount, angle = 1.1 * kDegree * amount;
     return {
@@ -48,8 +48,8 @@ RigidTransform shake(std::uint64_t seed, double t, double amount) {
         {metres * wobble(seed, 0, t), metres * wobble(seed, 1, t), metres * wobble(seed, 2, t)}};
 }
 
-/// Round a target in front of `eye`: near and far, from all sides, turned, and with the target in
-/// every part of the picture. What a person does to calibrate a camera.
+/// Moves around a target in front of `eye`, as a person does for a calibration: near and far, from
+/// all sides, rotated, and with the target in every part of the picture.
 RigidTransform survey(const World& world, double t) {
     const auto swing = [t](double amplitude, double period, double phase) {
         return amplitude * std::sin(2 * std::numbers::pi * (t / period + phase));

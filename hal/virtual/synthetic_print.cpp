@@ -14,7 +14,7 @@ namespace {
 
 // A printed sheet is drawn as ink coverage at more than twice the layer's resolution and in the
 // proportions of A4, then reduced to the square layer.
-constexpr int kInkWidth = 2100, kInkHeight = 2970;  // ten to the millimetre
+constexpr int kInkWidth = 2100, kInkHeight = 2970;  // ten pixels per millimetre
 constexpr unsigned char kNoInk = 0;
 
 std::string word(Random& random) {
@@ -29,8 +29,8 @@ std::string word(Random& random) {
 
 struct Column {
     int left, right, top, bottom;  ///< [ink pixels]
-    double scale;                  ///< of the stroke font
-    int pitch;                     ///< line to line
+    double scale;                  ///< scale of the stroke font
+    int pitch;                     ///< distance of lines
 };
 
 /// Fills a column with words in paragraphs.
@@ -87,7 +87,7 @@ void drawDiagram(cv::Mat1b& ink, Random& random, cv::Rect box) {
     }
 }
 
-/// Ink on paper, reduced to the layer.
+/// Ink on paper, reduced to the layer's size.
 cv::Mat4b pressed(const cv::Mat1b& ink, std::uint64_t seed, cv::Vec3f inkColour) {
     cv::Mat1b small;
     cv::resize(ink, small, {kLayerSize, kLayerSize}, 0, 0, cv::INTER_AREA);
@@ -192,7 +192,7 @@ cv::Mat4b edges(std::uint64_t seed) {
 }
 
 cv::Mat4b tags(std::uint64_t seed) {
-    constexpr int kHalf = kLayerSize / 2;  // texels of one tag
+    constexpr int kHalf = kLayerSize / 2;  // texels per tag
     const cv::Mat1f grain = fractal(seed, 200, 200, 2, 0.7F);
     cv::Mat3f colour(kLayerSize, kLayerSize);
     std::array<TagCells, 4> cells{};

@@ -31,7 +31,7 @@ void clipSlab(Interval& in, double o, double d, int axis) {
     in.clip(middle - half, middle + half, axis);
 }
 
-/// Unit circle (z ignored) or unit sphere.
+/// Clips to the unit circle (z ignored) or unit sphere.
 void clipRound(Interval& in, Eigen::Vector3d o, Eigen::Vector3d d, bool sphere) {
     if (!sphere) o.z() = d.z() = 0;
     const double a = d.squaredNorm(), b = o.dot(d), c = o.squaredNorm() - 1;

@@ -21,7 +21,7 @@ Four four(const Eigen::Vector3d& v, double w) {
             static_cast<float>(w)};
 }
 
-// Mirrors of the structures in synthetic_tables.glsl.
+// Mirror the structures in synthetic_tables.glsl.
 struct SolidEntry {
     std::array<Four, 3> rows;
 };
@@ -34,8 +34,8 @@ gpu::Binding uniform(GLuint index, const gpu::Buffer& b) {
     return {gpu::Binding::Kind::Uniform, index, b.id()};
 }
 
-/// Where a solid can be seen: bounds of its box, cut at a near plane, in normalised coordinates.
-/// Nothing visible gives an empty range (left > right).
+/// Visible range of a solid: bounds of its box, cut at a near plane, in normalised coordinates. An
+/// empty range (left > right) if it is not visible.
 template <class Rect>
 Rect boundsOf(const RigidTransform& T_camera_prim, const Eigen::Vector3d& half) {
     constexpr double kNear = 0.01;
@@ -77,7 +77,8 @@ SensorView::SensorView(WorldGl& world, const CameraModel& camera, const SensorLo
 }
 
 void SensorView::findTiles() {
-    constexpr double kMargin = 2;  // pixels; covers sub-pixel rays and the lens between the samples
+    // [px]; covers sub-pixel rays and lens distortion between the samples.
+    constexpr double kMargin = 2;
     constexpr int kSamples = 4;
     for (int ty = 0; ty < tilesY_; ++ty) {
         for (int tx = 0; tx < tilesX_; ++tx) {
@@ -180,7 +181,7 @@ bool SensorView::step() {
                            gpu::storage(0, tiles_)},
                           radianceTarget_);
     glDisable(GL_SCISSOR_TEST);
-    // Bounds what is queued: whoever stops the board waits for one step, not for a picture.
+    // Limits the queued work: stopping the board waits for one step, not for a whole picture.
     glFinish();
     row_ = until;
     return complete();

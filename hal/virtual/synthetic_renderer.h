@@ -16,16 +16,16 @@
 
 namespace mfar::synthetic {
 
-/// How a sensor turns light into numbers.
+/// A sensor's response, blur and noise.
 struct SensorLook {
     Eigen::Vector3f gain{1, 1, 1};
     float gamma = 2.2F;
-    float blurSigma = 0;  ///< [px], 0: none
+    float blurSigma = 0;  ///< [px], 0: no blur
     float shotNoise = 0;  ///< variance per unit of signal (linear, 1 = white)
     float readNoise = 0;  ///< constant variance (linear)
 };
 
-/// What all views of a world share: its textures, light map, materials and programs. Needs a
+/// Resources shared by all views of a world: textures, light map, materials and programs. Needs a
 /// current GL context for its whole life. Throws GlError.
 class WorldGl {
 public:
@@ -50,16 +50,16 @@ private:
     gpu::DrawPass<params::SyntheticSensor> sensorPass_;
 };
 
-/// One sensor's pictures of a world. The world and this object live in the same GL context.
-/// A picture is made in steps of at most a few ten thousand pixels, so that other work of the same
-/// thread need not wait for a large one.
+/// One sensor's pictures of a world. The WorldGl and this object use the same GL context. A picture
+/// is rendered in steps of at most one video frame's pixels, so that other work of the same thread
+/// need not wait for a large picture.
 class SensorView {
 public:
     SensorView(WorldGl& world, const CameraModel& camera, const SensorLook& look);
 
-    /// Begins a picture taken at time t [s] from a pose; `noiseSeed` 0 leaves the noise out.
+    /// Begins a picture at time t [s] from a pose; `noiseSeed` 0: without noise.
     void begin(const RigidTransform& T_world_camera, double t, std::uint64_t noiseSeed);
-    /// Renders some more; true when the picture is complete.
+    /// Renders the next step; true when the picture is complete.
     bool step();
     [[nodiscard]] bool complete() const { return row_ == camera_.size.height; }
     /// Writes the complete picture, RGBA8, row 0 first, rows without padding.
@@ -68,7 +68,7 @@ public:
     [[nodiscard]] Size size() const { return camera_.size; }
 
 private:
-    struct Rect {  ///< of normalised rays
+    struct Rect {  ///< in normalised ray coordinates
         double left, top, right, bottom;
     };
 

@@ -19,7 +19,7 @@ namespace mfar::synthetic {
 enum class Scene { Office, Shelf, Outdoor, Flat, Moving, Still, Calibration };
 enum class Path { Handheld, Pan, Orbit, Forward, Rotate, Rest, Survey };
 
-/// Name as on the command line, and back. Unknown names give nothing.
+/// Conversion to and from the command line's name. Unknown names give an empty result.
 [[nodiscard]] std::string_view name(Scene scene);
 [[nodiscard]] std::string_view name(Path path);
 [[nodiscard]] std::optional<Scene> sceneNamed(std::string_view name);
@@ -30,7 +30,7 @@ enum class Layer : std::uint8_t {
     Paper,    ///< page of running text
     Article,  ///< page with two columns, a heading and a diagram
     Cover,    ///< book cover: printed title on linen
-    Spine,    ///< back of a book: lettering that runs downwards
+    Spine,    ///< spine of a book: lettering that runs downwards
     Label,    ///< bottle label
     Edges,    ///< stacked sheets seen from the side
     Wood,
@@ -42,7 +42,7 @@ enum class Layer : std::uint8_t {
     Gravel,
     Forest,     ///< distant tree line under a sky
     Enamel,     ///< smooth surface with fine specks
-    Clouds,     ///< low-frequency variation that breaks the repetition of the others
+    Clouds,     ///< low-frequency variation that hides the other layers' repetition
     Tags,       ///< 2 x 2 AprilTags 36h11, see kTagIds
     AprilGrid,  ///< calibration target, see kGridTags
     Count
@@ -59,17 +59,17 @@ struct Material {
 
 enum class Shape : std::uint8_t { Box, Cylinder, Ellipsoid };
 
-/// A convex solid around its own origin. Cylinders stand along their z axis.
+/// A convex solid centred on its own origin. A cylinder's axis is z.
 struct Primitive {
     Shape shape = Shape::Box;
     RigidTransform T_world_prim;     ///< at time 0
     Eigen::Vector3d half;            ///< half extents [m]
-    std::array<int, 3> materials{};  ///< of the +-x, +-y and +-z faces; cylinder side: x
+    std::array<int, 3> materials{};  ///< for the +-x, +-y and +-z faces; cylinder side: x
     int lightTexels = 12;            ///< light map resolution of one face
     bool moves = false;              ///< follows World::moverPose
 };
 
-/// A tag of family 36h11 in the world. Tag frame as libapriltag's: origin in the middle, x right,
+/// A tag of family 36h11 in the world. Tag frame as in libapriltag: origin in the centre, x right,
 /// y down, z into the surface, seen from the front.
 struct Tag {
     int id = 0;
@@ -82,12 +82,12 @@ struct Tag {
 struct Hit {
     double distance = 0;
     int primitive = 0;
-    int axis = 0;  ///< of the face that was hit; ellipsoid: dominant axis
+    int axis = 0;  ///< axis of the hit face; ellipsoid: dominant axis
     bool positive = false;
     Eigen::Vector3d local;  ///< point in the primitive's frame [m]
 };
 
-/// A directed light of finite angular size plus the sky's ambient.
+/// A directed light of finite angular size plus the sky's ambient light.
 struct Lighting {
     Eigen::Vector3d towards{0.3, -0.3, 0.9};  ///< unit, towards the light
     double spread = 0.1;                      ///< radius of the light [tan of angle]
@@ -101,25 +101,27 @@ struct World {
     std::vector<Primitive> primitives;
     std::vector<Tag> tags;
     Lighting light;
-    Eigen::Vector3d eye;                                   ///< nominal camera position
-    Eigen::Vector3d target;                                ///< nominal look-at point
-    Eigen::Vector3d moverPivot = Eigen::Vector3d::Zero();  ///< middle of what moves, at time 0
-    double moverRadius = 0;                                ///< of what moves [m]; 0: nothing does
+    Eigen::Vector3d eye;     ///< nominal camera position
+    Eigen::Vector3d target;  ///< nominal look-at point
+    /// Centre of the moving object at time 0.
+    Eigen::Vector3d moverPivot = Eigen::Vector3d::Zero();
+    /// Radius of the moving object [m]; 0: no moving object.
+    double moverRadius = 0;
 
-    /// Where a primitive is at time t.
+    /// Pose of a primitive at time t.
     [[nodiscard]] RigidTransform primitivePose(int index, double t) const;
-    /// What the own motion adds in front of T_world_prim at time t.
+    /// Motion of the moving object at time t, to be multiplied in front of T_world_prim.
     [[nodiscard]] RigidTransform moverPose(double t) const;
 };
 
-/// Most primitives one world may have; the renderer's tables are of this size.
+/// Upper limit of a world's primitives; the renderer's tables have this size.
 inline constexpr int kMaxPrimitives = 128;
 /// Tags on the Tags layer, row by row.
 inline constexpr std::array<int, 4> kTagIds{0, 1, 2, 3};
 
 /// The target of scene Calibration as Kalibr describes it: 6 x 6 tags of family 36h11, id 0 at the
 /// bottom left, ids rising to the right and then upwards, a black square at every corner.
-inline constexpr int kGridTags = 6;            ///< a side
+inline constexpr int kGridTags = 6;            ///< tags per side
 inline constexpr double kGridTagSize = 0.064;  ///< edge of a black square with its tag [m]
 inline constexpr double kGridSpacing = 0.25;   ///< gap between tags / kGridTagSize
 

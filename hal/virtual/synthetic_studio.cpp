@@ -95,7 +95,7 @@ void SyntheticStudio::startVideo() {
     const std::lock_guard lock(mutex_);
     if (videoOn_) return;
     videoOn_ = true;
-    // Real time: frame times go on from now; a stopped camera leaves a gap.
+    // Real time: frame times start at the first start(); a stopped camera leaves a gap.
     if (options_.pace == Pace::Realtime && nextIndex_ == 0) start_ = Timestamp::now();
     changed_.notify_all();
 }
@@ -160,7 +160,7 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     std::unique_lock lock(mutex_);
     const auto ready = [&] {
         if (video_.empty()) return false;
-        // Stills that are due before this frame must be there first, in every run.
+        // Stills due before this frame must be complete first, in every run.
         const Timestamp time = video_.front().time();
         return options_.pace == Pace::Realtime || std::ranges::all_of(stills_, [&](const Still& s) {
                    return s.frame || s.available > time;
@@ -181,8 +181,8 @@ std::optional<Frame> SyntheticStudio::nextVideo(std::chrono::milliseconds timeou
     return frame;
 }
 
-// After the video's end only a caller who waits lets the remaining latency pass: a poll would see
-// what the renderer happens to have finished.
+// After the video's end, only a caller with a timeout skips the remaining latency: otherwise the
+// result of polling would depend on the renderer's speed.
 bool SyntheticStudio::stillReady(bool mayWait) const {
     if (stills_.empty() || !stills_.front().frame) return false;
     return now() >= stills_.front().available ||
@@ -197,7 +197,7 @@ std::optional<Frame> SyntheticStudio::nextStill(std::chrono::milliseconds timeou
         if (!stillsOn_ || (videoDone() && stills_.empty())) return std::nullopt;
         const auto left = deadline - std::chrono::steady_clock::now();
         if (left <= 0ns) return std::nullopt;
-        // A finished still waits for its latency, which nobody announces.
+        // A finished still waits for its latency, whose end is not signalled.
         const bool latent = !stills_.empty() && stills_.front().frame;
         changed_.wait_for(lock, latent ? std::min<std::chrono::nanoseconds>(left, 2ms) : left);
     }

@@ -16,8 +16,8 @@
 
 namespace mfar {
 
-/// The thread behind a SyntheticBoard: owns a GL context, makes the pictures both cameras hand out
-/// and keeps the simulated time. All functions may be called from any thread.
+/// The thread behind a SyntheticBoard: owns a GL context, renders the pictures of both cameras and
+/// keeps the simulated time. Thread-safe.
 class SyntheticStudio {
 public:
     SyntheticStudio(const SyntheticOptions& options, const synthetic::World& world,
@@ -36,8 +36,8 @@ public:
     [[nodiscard]] bool stillsEnded() const;
     Timestamp fire();
 
-    /// The video sensor's view without noise, at its own resolution with its blur, or at the
-    /// still's resolution without. Waits for the studio's thread.
+    /// The video sensor's view without noise: at its own resolution with blur, or at the still's
+    /// resolution without blur. Waits for the studio's thread.
     [[nodiscard]] StoredImage cleanVideo(Timestamp t);
     [[nodiscard]] StoredImage highRes(Timestamp t);
 
@@ -46,10 +46,10 @@ public:
     [[nodiscard]] Pose pose(Timestamp t) const;
 
 private:
-    struct Views;  ///< everything that lives in the GL context
+    struct Views;  ///< all objects of the GL context
     struct Still {
         Timestamp time;       ///< middle of the exposure
-        Timestamp available;  ///< when it leaves the sensor
+        Timestamp available;  ///< when the sensor delivers it
         std::optional<Frame> frame{};
     };
     enum class Work { Request, Video, Still, Quit };
@@ -79,18 +79,19 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     bool quit_ = false, videoOn_ = false, stillsOn_ = false;
-    bool starved_ = false;     ///< the consumer holds every buffer
-    bool stillsTurn_ = false;  ///< real time: video and a still's steps alternate when both wait
-    Timestamp start_;          ///< of the video, index 0
-    long long nextIndex_ = 0;  ///< of the next video frame on the grid of the rate
+    bool starved_ = false;  ///< the consumer holds every buffer
+    /// Real time: a still's steps and video frames alternate when both are due.
+    bool stillsTurn_ = false;
+    Timestamp start_;          ///< time of video index 0
+    long long nextIndex_ = 0;  ///< index of the next video frame on the rate's time grid
     int videoMade_ = 0;
-    std::optional<Timestamp> handed_;  ///< newest video frame that was given out
+    std::optional<Timestamp> handed_;  ///< newest delivered video frame
     std::optional<Timestamp> lastFire_;
     std::deque<Frame> video_;   ///< finished, oldest first
-    std::deque<Still> stills_;  ///< exposed and not yet given out, oldest first
+    std::deque<Still> stills_;  ///< exposed and not yet delivered, oldest first
     std::deque<std::packaged_task<StoredImage(Views&)>> requests_;
     std::exception_ptr failure_;
-    std::optional<Timestamp> rendering_;  ///< still whose steps are under way; studio thread only
+    std::optional<Timestamp> rendering_;  ///< still that is being rendered; studio thread only
     std::thread thread_;
 };
 

@@ -101,7 +101,7 @@ cv::Mat1f noise(std::uint64_t seed, int cellsX, int cellsY) {
             grid(y, x) = static_cast<float>(hashUnit(hash(seed, x, y)));
     cv::Mat1f padded;
     cv::copyMakeBorder(grid, padded, kPad, kPad, kPad, kPad, cv::BORDER_WRAP);
-    // A warp instead of cv::resize: the cells need not divide the layer evenly.
+    // warpAffine instead of cv::resize: the cells need not divide the layer evenly.
     const double sx = 1. * cellsX / kLayerSize, sy = 1. * cellsY / kLayerSize;
     const cv::Matx23d toGrid{sx, 0, kPad + 0.5 * sx - 0.5, 0, sy, kPad + 0.5 * sy - 0.5};
     cv::Mat1f out;
@@ -120,7 +120,7 @@ cv::Mat1f fractal(std::uint64_t seed, int cellsX, int cellsY, int octaves, float
         eachPixel(sum, [&](float& v, const int* at) { v += weight * (octave(at) - 0.5F); });
         total += weight;
     }
-    // Octaves are independent, so their sum is narrower than each: stretch it back.
+    // A sum of independent octaves has a smaller spread than each octave: stretch it back.
     eachPixel(sum, [&](float& v, const int*) { v = v * 1.5F / total + 0.5F; });
     return sum;
 }

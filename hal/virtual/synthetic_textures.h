@@ -13,11 +13,11 @@ namespace mfar::synthetic {
 inline constexpr int kLayerSize = 1024;
 
 /// Generates one layer, kLayerSize squared: linear reflectance in RGB, highlight mask in A. All but
-/// Paper, Article, Cover, Label, Forest and Tags repeat without a seam.
+/// Paper, Article, Cover, Label, Forest and Tags tile without a seam.
 [[nodiscard]] cv::Mat4b makeLayer(Layer layer, std::uint64_t seed);
 
-/// Calls paint(pixel, {row, column}) for every pixel. OpenCV's own forEach hands the pixels to a
-/// thread pool that race detectors cannot see into.
+/// Calls paint(pixel, {row, column}) for every pixel. Not OpenCV's forEach: its thread pool is
+/// invisible to race detectors.
 template <class T, class Paint>
 void eachPixel(cv::Mat_<T>& image, const Paint& paint) {
     for (int y = 0; y < image.rows; ++y) {
@@ -28,16 +28,16 @@ void eachPixel(cv::Mat_<T>& image, const Paint& paint) {
     }
 }
 
-// Building blocks, shared by the files that paint the layers.
+// Functions shared by the files that paint layers.
 
-/// Smooth noise of about 0..1 with `cellsX` by `cellsY` random values; repeats without a seam.
+/// Smooth noise of about 0..1 from `cellsX` by `cellsY` random values; tiles without a seam.
 [[nodiscard]] cv::Mat1f noise(std::uint64_t seed, int cellsX, int cellsY);
 /// Sum of octaves of noise, each twice as fine and `gain` as strong; about 0..1.
 [[nodiscard]] cv::Mat1f fractal(std::uint64_t seed, int cellsX, int cellsY, int octaves,
                                 float gain = 0.5F);
-/// Brightness of a height field lit from the upper left, 1 where it is level.
+/// Brightness of a height field lit from the upper left; 1 where it is level.
 [[nodiscard]] cv::Mat1f relief(const cv::Mat1f& height, float strength);
-/// Reflectance and mask to bytes.
+/// Converts reflectance and mask to bytes.
 [[nodiscard]] cv::Mat4b toBytes(const cv::Mat3f& colour, const cv::Mat1f& gloss);
 
 inline constexpr int kTagCells = 8;  ///< along a side of a tag's black square
@@ -46,8 +46,8 @@ inline constexpr int kTagCells = 8;  ///< along a side of a tag's black square
 using TagCells = std::array<std::array<bool, kTagCells>, kTagCells>;
 [[nodiscard]] TagCells tagCells(int id);
 
-/// The printed layers (synthetic_print.cpp), one of them in a file of its own (synthetic_grid.cpp),
-/// and the grown ones (synthetic_nature.cpp).
+/// Printed layers (synthetic_print.cpp), the calibration grid (synthetic_grid.cpp) and natural
+/// layers (synthetic_nature.cpp).
 [[nodiscard]] cv::Mat4b makePrint(Layer layer, std::uint64_t seed);
 [[nodiscard]] cv::Mat4b aprilGrid(std::uint64_t seed);
 [[nodiscard]] cv::Mat4b makeNature(Layer layer, std::uint64_t seed);

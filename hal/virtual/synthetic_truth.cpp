@@ -32,11 +32,11 @@ Ray pixelRay(const Viewpoint& view, int x, int y) {
             view.T_world_camera.rotation * Eigen::Vector3d(ray.x(), ray.y(), 1)};
 }
 
-/// Pixel of a world point, when it lies in front, inside the picture and nothing is before it.
+/// Pixel of a world point; empty when it is behind the camera, outside the picture or occluded.
 std::optional<Eigen::Vector2d> visiblePixel(const Snapshot& solids, const Viewpoint& view,
                                             const RigidTransform& T_camera_world,
                                             const Eigen::Vector3d& point) {
-    constexpr double kReach = 1 - 1e-4;  // short of the point itself
+    constexpr double kReach = 1 - 1e-4;  // ends just before the point itself
     const Eigen::Vector3d inCamera = T_camera_world * point;
     if (!(inCamera.z() > 1e-6)) return std::nullopt;
     Eigen::Vector2d pixel =

@@ -4,11 +4,11 @@
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/synthetic_scene.h"
 
-/// What can be known exactly about a view of the world: rays cast in double precision through the
-/// exact lens, not rendered pictures.
+/// Exact ground truth of a view of the world: rays cast in double precision through the exact lens,
+/// not rendered pictures.
 namespace mfar::synthetic {
 
-/// A camera somewhere at one instant.
+/// A camera's pose and lens at one instant.
 struct Viewpoint {
     CameraModel camera;
     RigidTransform T_world_camera;
@@ -18,8 +18,8 @@ struct Viewpoint {
 /// 1 / z per pixel [1/m], z along the optical axis. 0 where the ray hits nothing.
 [[nodiscard]] FloatImage inverseDepth(const World& world, const Viewpoint& view);
 
-/// Where the point seen by each pixel of `from` appears in `to`, as an offset [px]; things that
-/// move by themselves are followed. Unknown (NaN) where it is hidden or outside the picture there.
+/// Position in `to` of the point seen by each pixel of `from`, as an offset [px]; follows moving
+/// objects. NaN where the point is occluded or outside the picture in `to`.
 [[nodiscard]] FlowImage flowBetween(const World& world, const Viewpoint& from, const Viewpoint& to);
 
 }  // namespace mfar::synthetic

@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// Everything of a studio that lives in its GL context; made and used on its thread alone.
+/// All objects of a studio in its GL context; created and used only on its thread.
 struct SyntheticStudio::Views {
     Views(const SyntheticOptions& options, const synthetic::World& world, const StereoRig& rig);
 

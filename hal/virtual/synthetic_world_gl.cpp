@@ -12,12 +12,12 @@ namespace {
 constexpr int kLevels = 11;  // 1024 down to 1
 static_assert(1 << (kLevels - 1) == kLayerSize);
 
-/// Mirror of the structure in synthetic_tables.glsl.
+/// Mirrors the structure in synthetic_tables.glsl.
 struct MaterialEntry {
     std::array<float, 4> mapping, tint, look;
 };
 
-/// Two layers at a time.
+/// Paints two layers at a time.
 std::vector<cv::Mat4b> paintLayers(const std::vector<Layer>& layers, std::uint64_t seed) {
     std::vector<cv::Mat4b> out(layers.size());
     const auto paintEvery = [&](std::size_t first, std::size_t step) {

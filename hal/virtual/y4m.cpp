@@ -83,8 +83,8 @@ int ByteSink::open(const char* path) const {
 void ByteSink::write(std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
         if (isPipe_) waitForReader();
-        // A pipe that polls as writable takes this much without blocking, also where the pipe is
-        // shared and must not be made non-blocking (standard output).
+        // A pipe that polls as writable accepts this number of bytes without blocking, even if the
+        // pipe is shared and must not be made non-blocking (standard output).
         const std::size_t chunk =
             isPipe_ ? std::min<std::size_t>(bytes.size(), PIPE_BUF) : bytes.size();
         const ssize_t n = ::write(fd_.get(), bytes.data(), chunk);

@@ -13,15 +13,15 @@
 
 namespace mfar {
 
-/// "YUV4MPEG2 ..." with the newline. Rates are given as a fraction of at most 1001 in the
-/// denominator.
+/// The line "YUV4MPEG2 ..." with its newline. Rates are written as a fraction with a denominator of
+/// at most 1001.
 [[nodiscard]] std::string y4mHeader(Size size, double rateHz);
 
 /// Appends "FRAME" and the three planes of an RGBA8 picture (4:2:0, chroma in the centre, BT.601
-/// limited range). An odd side has its last chroma sample from a repeated row or column.
+/// limited range). At an odd side, the last chroma sample repeats the last row or column.
 void appendY4mFrame(const ImageView& rgba, std::vector<std::uint8_t>& out);
 
-/// A file, FIFO or standard output ("-") that bytes are streamed to. Used by one thread at a time.
+/// A file, FIFO or standard output ("-") to which bytes are streamed. Used by one thread at a time.
 /// The calling thread must have SIGPIPE blocked or ignored.
 class ByteSink {
 public:
@@ -30,7 +30,7 @@ public:
     ByteSink(const ByteSink&) = delete;
     ByteSink& operator=(const ByteSink&) = delete;
 
-    /// Writes all of it, waiting for a pipe's reader as long as `cancel` is not requested. Throws
+    /// Writes all bytes, waiting for a pipe's reader until `cancel` is requested. Throws
     /// std::runtime_error "target: reason".
     void write(std::span<const std::uint8_t> bytes);
     [[nodiscard]] const std::string& name() const { return name_; }

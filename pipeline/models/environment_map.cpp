@@ -29,7 +29,7 @@ void requireLatLong(Size size, int mostWidth) {
                                              size.width, size.height));
 }
 
-/// Of the picture as it is decoded, and of the environment it becomes.
+/// Throws if the decoded picture and the resulting environment need more memory.
 void requireMemory(Size size, std::size_t memory) {
     const std::size_t pixels = static_cast<std::size_t>(size.width) * size.height;
     const std::size_t kept =
@@ -41,7 +41,7 @@ void requireMemory(Size size, std::size_t memory) {
                                              memory >> 20U));
 }
 
-/// Averages rows as they come, so that a large picture is never in memory as a whole.
+/// Averages rows as they arrive, so that a large picture is never completely in memory.
 class RowAverage {
 public:
     explicit RowAverage(Size from) : from_(from) {

@@ -13,7 +13,7 @@ namespace {
 
 using Accessor = tinygltf::Accessor;
 
-/// Elements in a bufferView, where each stands and how one is made.
+/// Elements in a bufferView: their position and type.
 struct ElementView {
     std::span<const std::uint8_t> bytes;
     std::size_t stride = 0, count = 0;
@@ -61,7 +61,7 @@ std::uint32_t unsignedAt(const std::uint8_t* p, int componentType) {
     }
 }
 
-/// glTF 2.0, 3.6.2.2: normalised integers.
+/// Converts normalised integers (glTF 2.0, 3.6.2.2).
 float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     const auto scaled = [&](auto value) {
         constexpr auto kMost = static_cast<float>(std::numeric_limits<decltype(value)>::max());
@@ -78,7 +78,7 @@ float floatAt(const std::uint8_t* p, int componentType, bool normalized) {
     }
 }
 
-/// `wanted` says type and count; its bytes and stride are found. `stride` 0: tightly packed.
+/// `wanted` contains type and count; bytes and stride are added. `stride` 0: tightly packed.
 ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64_t offset,
                        std::size_t stride, ElementView wanted, std::string_view place) {
     const std::size_t one = bytesOf(wanted.componentType) * wanted.components;
@@ -87,7 +87,7 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     if (wanted.stride < one)
         document.refuse(place, fmt::format("stride {} of elements of {} bytes", stride, one));
     const std::uint64_t left = offset > view.size() ? 0 : view.size() - offset;
-    // Sizes and counts are below 2^32 and 2^8: no product overflows.
+    // Counts and sizes are below 2^32 and 2^8: the product cannot overflow.
     const std::uint64_t needed = std::uint64_t{wanted.count - 1} * wanted.stride + one;
     if (needed > left)
         document.refuse(place, fmt::format("needs {} bytes from {} of bufferView {}, which has {}",
@@ -96,7 +96,7 @@ ElementView elementsIn(const GltfDocument& document, int bufferView, std::uint64
     return wanted;
 }
 
-/// The accessor when its type is as `components` says and its count is sound.
+/// The accessor; refused unless it has this number of components and a valid count.
 const Accessor& checkedAccessor(const GltfDocument& document, int index, int components,
                                 std::size_t most, std::string_view place) {
     const Accessor& accessor = document.at(document.gltf.accessors, index, place);
@@ -129,7 +129,7 @@ void copyFloats(const ElementView& from, bool normalized, std::size_t element, f
         to[i] = floatAt(p, from.componentType, normalized);
 }
 
-/// glTF 2.0, 3.6.2.3: some elements stand elsewhere.
+/// Replaces single elements by values stored elsewhere (glTF 2.0, 3.6.2.3).
 void replaceSparse(const GltfDocument& document, const Accessor& accessor, int components,
                    std::string_view place, std::vector<float>& out) {
     const auto& sparse = accessor.sparse;

@@ -8,14 +8,14 @@
 
 namespace mfar {
 
-/// Numbers of an accessor, `components` of them (1 to 4) an element, one element after the other.
-/// Normalised integers become [0, 1] or [-1, 1]. Sparse elements are put in. Refuses an index, type
-/// or range that is not sound, more than `most` elements, and numbers that are not finite.
+/// Reads an accessor's numbers, `components` (1 to 4) per element, one element after the other.
+/// Normalised integers become [0, 1] or [-1, 1]. Sparse elements are replaced. Refuses an invalid
+/// index, type or range, more than `most` elements, and numbers that are not finite.
 [[nodiscard]] std::vector<float> accessorFloats(const GltfDocument& document, int accessor,
                                                 int components, std::size_t most,
                                                 std::string_view place);
 
-/// Unsigned integers of an accessor, one an element. Refuses likewise.
+/// Reads an accessor's unsigned integers, one per element. Refuses the same faults.
 [[nodiscard]] std::vector<std::uint32_t> accessorIndices(const GltfDocument& document, int accessor,
                                                          std::size_t most, std::string_view place);
 

@@ -11,17 +11,18 @@
 
 namespace mfar {
 
-/// What a glTF file says. All bufferViews lie in their buffers; other indices and numbers are as
-/// they stand in the file.
+/// The content of a glTF file. All bufferViews are inside their buffers; other indices and numbers
+/// are not validated.
 struct GltfDocument {
     tinygltf::Model gltf;
-    std::string name;              ///< for messages
-    std::filesystem::path folder;  ///< of files it names; empty: it may name none
+    std::string name;  ///< for messages
+    /// Folder of files that it refers to; empty: it may not refer to files.
+    std::filesystem::path folder;
     ModelLimits limits;
 
-    /// Throws ModelError "name: place: what".
+    /// Throws ModelError "name: place: fault".
     [[noreturn]] void refuse(std::string_view place, std::string_view what) const;
-    /// What a list holds at an index. Refuses one that is out of range.
+    /// The list's element at an index. Refuses an index out of range.
     template <class T>
     [[nodiscard]] const T& at(const std::vector<T>& list, int index, std::string_view place) const {
         if (index < 0 || static_cast<std::size_t>(index) >= list.size())
@@ -38,9 +39,9 @@ struct GltfDocument {
                                         const std::filesystem::path& folder,
                                         const ModelLimits& limits);
 
-/// Looks through the JSON of a document before tinygltf does: it trusts ranges of images, copies a
-/// buffer's bytes for each that says so, and follows `extras` as deep as they go. Throws
-/// std::runtime_error "place: what is wrong".
+/// Validates the JSON of a document before tinygltf reads it: tinygltf trusts the ranges of images,
+/// copies a buffer's bytes for each reference, and follows `extras` to any depth. Throws
+/// std::runtime_error "place: fault".
 void requireSoundJson(std::string_view text, const ModelLimits& limits);
 
 }  // namespace mfar

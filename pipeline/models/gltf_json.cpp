@@ -34,7 +34,8 @@ json parseBounded(std::string_view text, std::size_t most) {
     }
 }
 
-/// A number of bytes, or `missing` when there is none. A double that large would be no index.
+/// A number of bytes, or `missing` without such a key. Refuses floating-point numbers, which could
+/// be too large.
 std::uint64_t bytesAt(const json& object, const char* key, std::uint64_t missing,
                       std::string_view place) {
     const auto it = object.find(key);
@@ -49,7 +50,7 @@ const json& listOf(const json& root, const char* key) {
     return it == root.end() ? kNone : *it;
 }
 
-/// Each list is one of objects, and not endless.
+/// Checks that each list contains only objects and is not too long.
 void checkLists(const json& root, const ModelLimits& limits) {
     constexpr std::array kLists = {"accessors", "animations", "buffers", "bufferViews", "cameras",
                                    "images",    "materials",  "meshes",  "nodes",       "samplers",
@@ -93,7 +94,7 @@ void checkViews(const json& views, const json& buffers) {
     }
 }
 
-/// A sparse accessor's offsets: releases of tinygltf differ in what they make of a negative one.
+/// Checks a sparse accessor's offsets: tinygltf's releases treat negative ones differently.
 void checkSparse(const json& accessors) {
     for (std::size_t i = 0; i < accessors.size(); ++i) {
         const auto sparse = accessors[i].find("sparse");

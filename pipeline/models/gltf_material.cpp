@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-/// A number that glTF wants in [least, most]; rounding by the writer is forgiven.
+/// A number that glTF limits to [least, most]; tolerates the writer's rounding.
 float rangedFactor(const GltfDocument& document, double value, float least, float most,
                    const std::string& place) {
     constexpr double kRounding = 1e-3;
@@ -21,7 +21,7 @@ float rangedFactor(const GltfDocument& document, double value, float least, floa
     return std::clamp(static_cast<float>(value), least, most);
 }
 
-/// A member of an extension's object, when there is one.
+/// A member of an extension's object; empty if missing.
 std::optional<double> numberIn(const tinygltf::Value& object, const std::string& key) {
     if (!object.IsObject() || !object.Has(key) || !object.Get(key).IsNumber()) return std::nullopt;
     return object.Get(key).GetNumberAsDouble();
@@ -81,7 +81,7 @@ Eigen::Vector3f emissionOf(const GltfDocument& document, const tinygltf::Materia
     return emission * rangedFactor(document, strength, 0, kStrongest, place + ".emissiveStrength");
 }
 
-/// The same fields in another structure of tinygltf's.
+/// Copies the fields into tinygltf's general structure.
 tinygltf::TextureInfo plainInfo(const tinygltf::NormalTextureInfo& info) {
     tinygltf::TextureInfo out;
     out.index = info.index;
@@ -92,8 +92,8 @@ tinygltf::TextureInfo plainInfo(const tinygltf::NormalTextureInfo& info) {
 
 }  // namespace
 
-// The rotation is that of the specification's example and of three.js; the GLSL of its first drafts
-// turned the other way.
+// The rotation follows the specification's example and three.js; the GLSL of the specification's
+// first drafts rotated in the other direction.
 Eigen::Vector2f TextureMapping::operator()(const Eigen::Vector2f& uv) const {
     const Eigen::Vector2f scaled = scale.cwiseProduct(uv);
     const float c = std::cos(rotation), s = std::sin(rotation);

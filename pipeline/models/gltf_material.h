@@ -10,8 +10,8 @@
 
 namespace mfar {
 
-/// Which texture coordinates a material's textures take, and what becomes of them first:
-/// KHR_texture_transform, uv' = offset + R(rotation) (scale uv).
+/// The texture coordinate set of a material's textures and its transform: KHR_texture_transform,
+/// uv' = offset + R(rotation) (scale uv).
 struct TextureMapping {
     int set = 0;  ///< TEXCOORD_n
     Eigen::Vector2f offset{0, 0}, scale{1, 1};
@@ -21,13 +21,14 @@ struct TextureMapping {
     [[nodiscard]] Eigen::Vector2f operator()(const Eigen::Vector2f& uv) const;
 };
 
-/// Materials of a document with their textures, each decoded when first needed. Refuses what is out
+/// Materials of a document with their textures, each decoded when first needed. Refuses values out
 /// of range.
 class GltfMaterials {
 public:
     explicit GltfMaterials(const GltfDocument& document) : document_(document) {}
 
-    /// Of glTF's material; -1: the default one. The result's number, and what its textures take.
+    /// Reads glTF's material (-1: the default one). Returns its number here and its texture
+    /// mapping.
     std::pair<int, TextureMapping> use(int material);
 
     [[nodiscard]] const Material& operator[](int number) const { return materials_[number]; }
@@ -43,10 +44,10 @@ private:
 
     const GltfDocument& document_;
     std::map<int, std::pair<int, TextureMapping>> used_;
-    std::map<std::pair<int, bool>, int> pictures_;  ///< by image and whether it is sRGB
+    std::map<std::pair<int, bool>, int> pictures_;  ///< key: image, and whether it is sRGB
     std::vector<Material> materials_;
     std::vector<SurfaceTexture> textures_;
-    std::optional<TextureMapping> mapping_;  ///< of the material that is being read
+    std::optional<TextureMapping> mapping_;  ///< for the material that is being read
     std::size_t texels_ = 0, bytes_ = 0;
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-constexpr float kShortestUnit = 1e-6F;  ///< of a vector that should be a unit vector
+/// Lower limit of the length of a vector that should be a unit vector.
+constexpr float kShortestUnit = 1e-6F;
 
 std::optional<int> attribute(const tinygltf::Primitive& primitive, const std::string& name) {
     const auto it = primitive.attributes.find(name);
@@ -34,12 +35,12 @@ vectorsOf(const GltfDocument& document, const PrimitiveSource& source, const std
     return out;
 }
 
-/// glTF 2.0, 3.7.2.1: strips and fans.
+/// Triangles of lists, strips and fans (glTF 2.0, 3.7.2.1).
 std::vector<Triangle> trianglesOf(int mode, const std::vector<std::uint32_t>& indices) {
     std::vector<Triangle> out;
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         const Triangle t{indices[a], indices[b], indices[c]};
-        // Strips are stitched together with triangles of no area.
+        // Triangles without area only connect strips.
         if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) out.push_back(t);
     };
     const std::size_t count = indices.size();
@@ -115,7 +116,7 @@ void readFrames(const GltfDocument& document, const PrimitiveSource& source, Mes
     requireSameCount(document, source, mesh.normals.size(), mesh.positions.size(), "normals");
     normalize(mesh.normals);
     if (!source.bumpy) return;
-    // Without normals given tangents do not count (glTF 2.0, 3.7.2.1).
+    // Without normals, tangents must be ignored (glTF 2.0, 3.7.2.1).
     if (!mesh.normals.empty()) mesh.tangents = vectorsOf<4>(document, source, "TANGENT");
     requireSameCount(document, source, mesh.tangents.size(), mesh.positions.size(), "tangents");
     normalize(mesh.tangents, mesh.normals);
@@ -147,12 +148,12 @@ Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh) {
     const bool mirrors = linear.determinant() < 0;
     for (Eigen::Vector3f& p : out.positions)
         p = (T_model_mesh * p.cast<double>()).cast<float>();
-    // Normals go with the matrix of cofactors: it exists where the inverse does not.
+    // Normals are transformed by the cofactor matrix, which exists even if the inverse does not.
     Eigen::Matrix3d cofactors;
     for (int i = 0; i < 3; ++i)
         cofactors.col(i) = linear.col((i + 1) % 3).cross(linear.col((i + 2) % 3));
     if (mirrors) cofactors = -cofactors;
-    // Its entries are squares of the scale: no float for a thing of micrometres.
+    // Normalised, because the entries are squares of the scale: too small for float at micrometres.
     const double scale = cofactors.cwiseAbs().maxCoeff();
     if (scale > 0) cofactors /= scale;
     for (Eigen::Vector3f& n : out.normals)

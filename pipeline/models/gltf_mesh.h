@@ -7,9 +7,9 @@
 
 namespace mfar {
 
-/// One primitive of a mesh in glTF's own frame, with normals and tangents where its material has a
-/// normal texture. Material::material is left at 0. Nothing for points and lines. Refuses what is
-/// not sound, and more than so many vertices or triangles.
+/// One primitive of a mesh in glTF's own frame, with normals, and with tangents if its material has
+/// a normal texture. Mesh::material is left at 0. Empty for points and lines. Refuses invalid data
+/// and more than the given numbers of vertices or triangles.
 struct PrimitiveSource {
     const tinygltf::Primitive& primitive;
     TextureMapping mapping;
@@ -19,7 +19,7 @@ struct PrimitiveSource {
 [[nodiscard]] std::optional<Mesh> readPrimitive(const GltfDocument& document,
                                                 const PrimitiveSource& source);
 
-/// The mesh moved by a node. A mirroring transform turns its triangles round.
+/// The mesh transformed by a node. A mirroring transform reverses its triangles.
 [[nodiscard]] Mesh transformed(const Mesh& mesh, const Eigen::Affine3d& T_model_mesh);
 
 }  // namespace mfar

@@ -17,19 +17,20 @@ namespace {
 
 constexpr Size kMap{32, 16};
 
-// Of harmonics of degree 0 and 1.
+// Constants of harmonics of degree 0 and 1.
 constexpr float kY0 = 0.282095F, kY1 = 0.488603F;
 
-/// How sure the prior is, per degree: what a coefficient of seen light departs from nine harmonics
-/// (objects of about 0.25 sr that are half as bright or twice), over how much light varies from
-/// place to place (3, 1.5 and 0.7 times the mean).
+/// Weight of the prior per degree: variance of seen light around nine harmonics (objects of about
+/// 0.25 sr with half or twice the brightness), divided by the variance of light between places
+/// (standard deviations of 3, 1.5 and 0.7 times the mean).
 Eigen::Vector<double, 9> priorInformation() {
     Eigen::Vector<double, 9> out;
     out << 0.007, 0.03, 0.03, 0.03, 0.13, 0.13, 0.13, 0.13, 0.13;
     return out;
 }
 
-/// A surface of mean radiance below, the light that makes it so above.
+/// Prior: a surface of this mean radiance below, and above it the light that gives it this
+/// radiance.
 Eigen::Matrix<double, 9, 3> priorLight(const Eigen::Vector3d& mean, double albedo) {
     constexpr double kPi = std::numbers::pi;
     Eigen::Matrix<double, 9, 3> out = Eigen::Matrix<double, 9, 3>::Zero();
@@ -42,7 +43,7 @@ float luminanceOf(const Eigen::Vector3f& rgb) {
     return rgb.dot(Eigen::Vector3f(0.2126F, 0.7152F, 0.0722F));
 }
 
-/// Of a map in the layout of Environment.
+/// Texel of a direction in a map with Environment's layout.
 std::size_t texelOf(const Eigen::Vector3f& direction) {
     constexpr float kTurn = 2 * std::numbers::pi_v<float>;
     const float u = std::atan2(direction.y(), direction.x()) / kTurn + 0.5F,
@@ -80,20 +81,22 @@ LightEstimate estimateOf(const SphericalLight& radiance) {
                                  luminanceOf(radiance.row(2)));
     const float length = linear.norm(), level = luminanceOf(radiance.row(0));
     if (length > 0) out.mainDirection = linear / length;
-    // Light from one direction alone has linear coefficients sqrt(3) times the constant one.
+    // For light from a single direction, the linear coefficients are sqrt(3) times the constant
+    // one.
     if (level > 0) out.directionality = std::min(length / level * kY0 / kY1, 1.0F);
     return out;
 }
 
-/// What of the light is a sun: all of it where it comes from one direction, little where it hardly
-/// has one.
+/// The part of the light that a sun represents: all light if it comes from one direction, little if
+/// the direction is weak.
 std::optional<Sun> sunOf(const LightEstimate& estimate) {
     constexpr float kLeastDirectionality = 0.12F, kLeastElevation = 0.2F, kSoftness = 0.12F;
     if (!(estimate.directionality > kLeastDirectionality) ||
         !(estimate.mainDirection.z() > kLeastElevation))
         return std::nullopt;
     const Eigen::Vector3f& d = estimate.mainDirection;
-    // Per channel the light along that direction: a sun of irradiance E has E Y(d) in each.
+    // Linear coefficients along that direction, per channel: a sun of irradiance E contributes E
+    // Y(d).
     const Eigen::Vector3f along =
         (estimate.radiance.row(3) * d.x() + estimate.radiance.row(1) * d.y() +
          estimate.radiance.row(2) * d.z())
@@ -123,7 +126,7 @@ void LightEstimator::add(const ImageView& frame, const CameraModel& camera,
         sums[texelOf(seen.direction)] += part;
         all += part;
     }
-    // Black: the lens is covered, which says nothing about the light.
+    // A black picture means a covered lens: it contains no information about the light.
     constexpr float kBlack = 0.002F;
     if (!(all.head<3>().maxCoeff() > kBlack * all.w())) return;
     for (std::size_t i = 0; i < map_.size(); ++i) {
@@ -164,7 +167,7 @@ Lighting lightingOf(const LightEstimate& estimate) {
     SphericalLight rest = estimate.radiance;
     if (sun) rest -= harmonicsAt(sun->towards) * sun->irradiance.transpose();
     const auto radiance = [&](const Eigen::Vector3f& direction) -> Eigen::Vector3f {
-        // Nine harmonics overshoot below zero opposite to a lamp.
+        // The nine harmonics become negative opposite to a lamp.
         return radianceOf(rest, direction).cwiseMax(0.0F);
     };
     return {std::make_shared<const Environment>(environmentOf(kMap, radiance)), sun};

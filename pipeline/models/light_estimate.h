@@ -9,26 +9,29 @@
 
 namespace mfar {
 
-/// The light of a place as far as a camera could tell.
+/// The light at a place, as estimated from the camera.
 struct LightEstimate {
-    SphericalLight radiance;  ///< world; 1 is the video's white
-    /// World, unit length, where most light comes from: of the linear part of the luminance.
+    SphericalLight radiance;  ///< in world axes; 1 is the video's white
+    /// Unit vector to where most light comes from, world: direction of the luminance's linear part.
     Eigen::Vector3f mainDirection{0, 0, 1};
-    float directionality = 0;  ///< [0, 1]: 0 no direction is brighter, 1 one alone
+    /// [0, 1]: 0 all directions are equally bright, 1 light from one direction only.
+    float directionality = 0;
 };
 
 struct LightEstimatorOptions {
-    double smoothingS = 3;  ///< a change of light is followed to 1 - 1/e in this time, above 0 [s]
-    double memoryS = 120;   ///< what is out of view counts 1/e after this time, above 0 [s]
-    float surfaceAlbedo = 0.5F;  ///< of what is seen, in the mean: how much brighter its light is
+    /// [s], above 0: in this time, 1 - 1/e of a change of light is followed.
+    double smoothingS = 3;
+    /// [s], above 0: after this time, the weight of light out of view has fallen to 1/e.
+    double memoryS = 120;
+    float surfaceAlbedo = 0.5F;  ///< mean albedo of seen surfaces: how much brighter their light is
 };
 
-/// Estimates the light around from where a camera looks. Seen radiance is kept in a coarse map of
-/// all directions, smoothed over time, so that a flash or a hand in front of the lens moves it
-/// little. A camera mostly sees surfaces that are lit, seldom lamps: what was not seen is taken for
-/// the light that makes the seen surfaces as bright as they are, from above (prior), and the nine
-/// coefficients are the ridge regression of the map, weighted by solid angle and age, towards that
-/// prior. Lamps that the video clips are too dim.
+/// Estimates the surrounding light from the camera's pictures. Seen radiance is kept in a coarse
+/// map of all directions, smoothed over time, so that a flash or a hand in front of the lens has
+/// little effect. A camera mostly sees lit surfaces, seldom lamps. So the prior for unseen
+/// directions is light from above that gives the seen surfaces their brightness. The nine
+/// coefficients are a ridge regression of the map towards this prior, weighted by solid angle and
+/// age. Lamps that the video clips are underestimated.
 /// Source: Ramamoorthi, Hanrahan 2001 (nine coefficients); Sloan, Stupid Spherical Harmonics
 /// Tricks, GDC 2008 (main direction).
 class LightEstimator {
@@ -36,12 +39,12 @@ public:
     /// Throws std::invalid_argument for options out of range.
     explicit LightEstimator(const LightEstimatorOptions& options = {});
 
-    /// Takes a video frame. One that is black, whose pose is not finite, or that is not newer than
-    /// the last is left out. Throws std::invalid_argument for a view that is not sound.
+    /// Adds a video frame. Ignores a frame that is black, whose pose is not finite, or that is not
+    /// newer than the last. Throws std::invalid_argument for an invalid view.
     void add(const ImageView& frame, const CameraModel& camera,
              const RigidTransform& T_world_camera, Timestamp time);
 
-    /// Nothing before the first frame.
+    /// Empty before the first frame.
     [[nodiscard]] std::optional<LightEstimate> estimate() const;
 
 private:
@@ -52,12 +55,12 @@ private:
 
     LightEstimatorOptions options_;
     std::optional<Timestamp> last_;
-    std::vector<Seen> map_;            ///< as an Environment
-    std::vector<SeenRadiance> frame_;  ///< of the newest frame
+    std::vector<Seen> map_;            ///< in Environment's layout
+    std::vector<SeenRadiance> frame_;  ///< radiance of the newest frame
 };
 
-/// The estimate as light of a scene: where one direction stands out and is above the horizon, a sun
-/// there with soft shadows, and the rest as a low-resolution environment.
+/// Converts the estimate to a scene's lighting: a sun with soft shadows if one direction above the
+/// horizon stands out, and the rest as a low-resolution environment.
 [[nodiscard]] Lighting lightingOf(const LightEstimate& estimate);
 
 }  // namespace mfar

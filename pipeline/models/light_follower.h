@@ -6,13 +6,13 @@
 
 namespace mfar {
 
-/// Keeps a scene's light as the camera's pictures show it, twice a second.
+/// Updates a scene's light from the camera's pictures, twice a second.
 class LightFollower {
 public:
-    /// `sun`: stays, whatever the pictures say.
+    /// `sun`: if set, it is always used instead of an estimated one.
     explicit LightFollower(const std::optional<Sun>& sun) : sun_(sun) {}
 
-    /// Takes a frame as LightEstimator::add() does. Returns the light when it has changed.
+    /// Adds a frame as LightEstimator::add() does. Returns the light if it has changed.
     std::optional<Lighting> follow(const ImageView& frame, const CameraModel& camera,
                                    const RigidTransform& T_world_camera, Timestamp time);
 

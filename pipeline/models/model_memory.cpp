@@ -5,9 +5,9 @@
 namespace mfar {
 namespace {
 
-// Each part of a model may take a quarter while it is read.
+// While a model is read, each of its four parts may take a quarter of the memory.
 constexpr std::size_t kParts = 4;
-constexpr std::size_t kBytesPerJsonValue = 500;  // in nlohmann's tree, then in tinygltf's
+constexpr std::size_t kBytesPerJsonValue = 500;  // in nlohmann's tree, then in tinygltf's tree
 constexpr std::size_t kBytesPerTexel = 4;
 constexpr std::size_t kBytesPerVertex =
     2 * (2 * sizeof(Eigen::Vector3f) + sizeof(Eigen::Vector2f) + sizeof(Eigen::Vector4f));

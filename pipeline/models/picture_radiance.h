@@ -14,7 +14,7 @@ struct SeenRadiance {
 };
 
 /// A picture's radiance in a grid of cells, each the mean of a few of its pixels. The picture must
-/// be sound (requireSound()); of any format, sRGB. `out` is replaced.
+/// be valid (requireSound()), of any format, sRGB. `out` is replaced.
 void seenRadiance(const ImageView& picture, const CameraModel& camera,
                   const RigidTransform& T_world_camera, std::vector<SeenRadiance>& out);
 

@@ -10,12 +10,12 @@
 
 namespace mfar {
 
-/// Whether the bytes begin like a Radiance picture.
+/// True if the bytes begin like a Radiance picture.
 [[nodiscard]] bool isRadianceHdr(std::span<const std::uint8_t> bytes);
 
-/// Reads a Radiance picture (RGBE, plain or either kind of run lengths, -Y +X order): first
-/// `size`, which may throw, then each row from the top. Values are not negative and finite; the
-/// header's EXPOSURE is undone. Throws std::runtime_error that says what is wrong.
+/// Reads a Radiance picture (RGBE, plain or with either run-length coding, -Y +X order): calls
+/// first `size`, which may throw, then `row` for each row from the top. Values are finite and not
+/// negative; the header's EXPOSURE is undone. Throws std::runtime_error with the fault.
 /// Source: Ward, Real Pixels, Graphics Gems II, 1991; Radiance's color.c.
 void readRadianceHdr(std::span<const std::uint8_t> bytes, const std::function<void(Size)>& size,
                      const std::function<void(int, std::span<const Eigen::Vector3f>)>& row);

@@ -18,13 +18,13 @@ float step(float from, float to, float x) {
     return t * t * (3 - 2 * t);
 }
 
-/// 1 on a line of this half width at zero, softly 0 beyond.
+/// 1 at distance zero, falling smoothly to 0 at about this half width.
 float line(float distance, float half) {
     return 1 - step(0.6F * half, 1.4F * half, std::abs(distance));
 }
 
-/// Overlapping scales with two arcs each (seigaiha): 1 on a line. A scale is 1 wide, rows 1/4
-/// apart; a lower row lies over the one above it.
+/// Overlapping scales with arcs inside (seigaiha): 1 on an arc's line. A scale is 1 wide, rows are
+/// 1/4 apart; a lower row covers the one above it.
 float scales(float x, float y) {
     constexpr float kRadius = 0.5F, kRow = 0.25F;
     const int lowest = static_cast<int>(std::floor((y - kRadius) / kRow)) + 1;
@@ -40,7 +40,7 @@ float scales(float x, float y) {
 }
 
 float gildingAt(float u, float height) {
-    constexpr float kHeightOfScale = 0.0098F;  // As wide as high on the shoulder.
+    constexpr float kHeightOfScale = 0.0098F;  // makes scales as high as wide at the shoulder
     const float edges =
         std::max({line(height - kBandLow, 0.00042F), line(height - kBandHigh, 0.00042F),
                   line(height - 0.0864F, 0.00016F), line(height - 0.1009F, 0.00016F),
@@ -65,7 +65,7 @@ PaintedPoint glazeAt(float u, float height) {
     const float angle = u * kCircle;
     const Eigen::Vector3f place(std::cos(angle), std::sin(angle), height * 22);
     const float cloud = fractalNoise(place * 2.2F, 4);
-    // Glaze runs down and gathers: dark at the foot, the shoulder and in the grooves.
+    // Glaze runs down and collects: dark at the foot, the shoulder and in the grooves.
     const float belly = step(0.03F, 0.058F, height + 0.006F * cloud) *
                         (1 - step(0.066F, 0.086F, height + 0.004F * cloud));
     const float thin =
@@ -87,7 +87,7 @@ PaintedPoint walnutAt(const Eigen::Vector3f& place) {
         place + 0.0035F * Eigen::Vector3f(0, fractalNoise(place * 38, 3),
                                           fractalNoise(place * 38 + Eigen::Vector3f(7, 3, 1), 3));
     const float ring = std::hypot(bent.y() + 0.021F, bent.z() + 0.034F) / kRing;
-    // Wood grows lighter in spring, darker towards autumn, and stops in winter.
+    // Wood is light in spring, gets darker towards autumn, and stops growing in winter.
     const float season = ring - std::floor(ring);
     const float late = season * season * (1 - step(0.93F, 1, season));
     // Fibres and pores run along the log.

@@ -5,14 +5,15 @@
 
 namespace mfar {
 
-/// Blue glaze over the jar's body, gilded where `height` [m] is in the shoulder's band.
-/// `height`: of the body's profile at v.
+/// Blue glaze on the jar's body, gilded where `height` [m], the profile's height at v, is inside
+/// the shoulder's band.
 [[nodiscard]] PaintedPoint glazeAt(float u, float height);
 
-/// Walnut, cut out of a log that lies along x: a place in it [m].
+/// Walnut, cut from a log along x, at a point in the log [m].
 [[nodiscard]] PaintedPoint walnutAt(const Eigen::Vector3f& place);
 
-/// How deep the twisted flutes are at an angle [rad] and height [m]: 0 outside them, 1 in a groove.
+/// Depth of the twisted flutes at an angle [rad] and height [m]: 0 outside of flutes, 1 in a
+/// groove.
 [[nodiscard]] float fluteAt(float angle, float height);
 
 }  // namespace mfar

@@ -10,7 +10,7 @@ namespace mfar {
 /// SIGGRAPH 2001, eq. 3.
 [[nodiscard]] Eigen::Vector<float, 9> harmonicsAt(const Eigen::Vector3f& direction);
 
-/// Radiance from all around as nine coefficients a channel.
+/// Radiance from all directions as nine coefficients per channel.
 using SphericalLight = Eigen::Matrix<float, 9, 3>;
 
 [[nodiscard]] inline Eigen::Vector3f radianceOf(const SphericalLight& light,

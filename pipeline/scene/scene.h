@@ -12,7 +12,7 @@
 
 namespace mfar {
 
-/// A picture laid over a surface. Row 0 is v = 0, texel centres at half-integers; it repeats in u
+/// A picture mapped onto a surface. Row 0 is v = 0, texel centres at half-integers; it repeats in u
 /// and v. Values as in glTF: colours are sRGB, data linear.
 struct SurfaceTexture {
     Size size;  ///< at least 1x1
@@ -20,49 +20,51 @@ struct SurfaceTexture {
     std::vector<std::array<std::uint8_t, 4>> texels;  ///< RGBA, row-major
 };
 
-/// Metallic-roughness material of glTF 2.0. Factors are linear; a texture index of -1 is none,
-/// others index Model::textures and multiply their factor.
+/// Metallic-roughness material of glTF 2.0. Factors are linear. A texture index refers to
+/// Model::textures, whose values multiply the factor; -1: no texture.
 struct Material {
     Eigen::Vector4f baseColour{1, 1, 1, 1};
     float metallic = 1, roughness = 1;  ///< [0, 1]
     Eigen::Vector3f emission{0, 0, 0};  ///< radiance, finite, not negative
     float normalScale = 1;
-    float alphaCutoff = 0;  ///< base colour alpha below it is a hole; 0: opaque
+    /// Where the base colour's alpha is below it, the surface has a hole; 0: opaque.
+    float alphaCutoff = 0;
     bool doubleSided = false;
     int baseColourTexture = -1, metallicRoughnessTexture = -1;  ///< the latter: G rough, B metallic
     int normalTexture = -1, emissionTexture = -1;
 };
 
-/// Triangles of one material. Vertex arrays have one length; an empty one is absent.
+/// Triangles of one material. All vertex arrays have the same length or are empty (absent).
 struct Mesh {
     std::vector<Eigen::Vector3f> positions;  ///< [m], in the model's frame
-    std::vector<Eigen::Vector3f> normals;    ///< unit length; absent: the triangles' own
+    std::vector<Eigen::Vector3f> normals;    ///< unit length; empty: the triangles' normals
     std::vector<Eigen::Vector2f> uvs;
     std::vector<Eigen::Vector4f> tangents;  ///< xyz unit length, w = +-1: the bitangent's sign
     std::vector<std::array<std::uint32_t, 3>> triangles;
     int material = 0;
 };
 
-/// A thing to be shown, at rest in its own frame: z up, metres, nodes' transforms applied. Sound:
-/// all numbers finite, all indices in range.
+/// An object at rest in its own frame: z up, metres, nodes' transforms applied. Validated: all
+/// numbers finite, all indices in range.
 struct Model {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  ///< at least one
     std::vector<SurfaceTexture> textures;
 };
 
-/// Light from all around, far away. Latitude-longitude: row 0 is up (world +z), column 0 is
-/// world -x, longitude grows towards +y at three quarters of the width. Linear RGB radiance.
+/// Distant light from all directions. Latitude-longitude: row 0 is up (world +z), column 0 is world
+/// -x, longitude grows towards +y at three quarters of the width. Linear RGB radiance.
 struct Environment {
     Size size;
     std::vector<Eigen::Vector3f> radiance;  ///< row-major, finite, not negative
 };
 
-/// A disc of light, far away.
+/// A distant disc of light.
 struct Sun {
-    Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};  ///< world direction to it, unit length
-    Eigen::Vector3f irradiance{1, 1, 1};                     ///< on a surface that faces it
-    float angularRadius = 0.02F;                             ///< [rad], above 0
+    /// World direction to the sun, unit length.
+    Eigen::Vector3f towards{0.40562F, -0.30421F, 0.86194F};
+    Eigen::Vector3f irradiance{1, 1, 1};  ///< on a surface that faces the sun
+    float angularRadius = 0.02F;          ///< [rad], above 0
 };
 
 struct Lighting {
@@ -70,13 +72,13 @@ struct Lighting {
     std::optional<Sun> sun;
 };
 
-/// A model in the world. Its number in pictures is its index in Scene::objects plus 1.
+/// A model in the world. Its number in rendered pictures is its index in Scene::objects + 1.
 struct SceneObject {
     std::shared_ptr<const Model> model;
     RigidTransform T_world_object;
     float scale = 1;  ///< above 0
 
-    /// The same model at the same place, to the bit.
+    /// True for the same model with an identical placement.
     friend bool operator==(const SceneObject& a, const SceneObject& b) {
         return a.model == b.model && a.scale == b.scale &&
                a.T_world_object.rotation == b.T_world_object.rotation &&
@@ -84,8 +86,8 @@ struct SceneObject {
     }
 };
 
-/// The real surface that catches shadows and bounced light: triangles in the world, diffuse.
-/// Unseen itself: only how the objects change its light is.
+/// The real surface that receives shadows and bounced light: triangles in the world, diffuse.
+/// Invisible itself: only the objects' change of its light is shown.
 struct ShadowCatcher {
     std::vector<Eigen::Vector3f> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;

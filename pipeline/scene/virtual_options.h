@@ -12,16 +12,16 @@
 
 namespace mfar {
 
-/// One thing to be shown, as it was configured.
+/// An object from the configuration.
 struct PlacedObject {
-    /// What it is. Null: the simple shape.
+    /// The model. Null: use the simple shape.
     std::shared_ptr<const Model> model;
     std::string modelName;  ///< "showpiece" or a file, for messages; empty for a shape
-    VirtualObject shape;    ///< its T_world_object is not used
-    float scale = 1;        ///< of a model, above 0
+    VirtualObject shape;    ///< its T_world_object is ignored
+    float scale = 1;        ///< of a model only, above 0
     RigidTransform T_anchor_object;
-    /// What it stands on. Nothing: the world of the tag map. A tag: its middle, x to the right and
-    /// y up in its print, z out of it.
+    /// The frame it is placed in. Empty: the tag map's world. A tag: origin in the tag's centre, x
+    /// to the right and y up in its print, z out of it.
     std::optional<TagKey> tag;
 };
 
@@ -34,26 +34,27 @@ enum class LightSource : unsigned char {
 
 struct LightOptions {
     LightSource source = LightSource::Studio;
-    std::shared_ptr<const Environment> environment;  ///< of a file; null for other sources
+    std::shared_ptr<const Environment> environment;  ///< for File; null for other sources
     std::string file;                                ///< for messages
-    /// Light beside the environment; the camera's own estimate of one gives way to it.
+    /// Light in addition to the environment; replaces the camera's own estimate of a sun.
     std::optional<Sun> sun;
-    float exposure = 1;  ///< radiance 1 / exposure is white; above 0
+    float exposure = 1;  ///< white has radiance 1 / exposure; above 0
 };
 
 enum class VirtualRendering : unsigned char { PathTraced, Preview };
 
-/// How the virtual layer is made.
+/// Settings of the virtual layer.
 struct VirtualOptions {
     VirtualRendering rendering = VirtualRendering::PathTraced;
-    double budgetMs = 8;  ///< of the path tracer in each frame [ms]
+    double budgetMs = 8;  ///< path tracing time per frame [ms]
     Slicing slicing = Slicing::Time;
-    int samples = 64;          ///< a pixel of a finished picture
-    double resolution = 0.28;  ///< side of a path-traced picture, as a share of the still's
+    int samples = 64;          ///< samples per pixel of a finished picture
+    double resolution = 0.28;  ///< side of a path-traced picture as a fraction of the still's
     HoleFilling holes = HoleFilling::Both;
-    int threads = 1;     ///< of the path tracer
+    int threads = 1;     ///< threads of the path tracer
     bool filter = true;  ///< smooths the noise of pictures with few samples
-    double turnDeg = 4;  ///< view angle after which a new picture is made at the latest [degrees]
+    /// [degrees]: upper limit of the view angle between two reference pictures.
+    double turnDeg = 4;
 
     bool operator==(const VirtualOptions&) const = default;
 };

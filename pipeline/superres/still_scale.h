@@ -7,8 +7,8 @@ namespace mfar {
 
 using params::kLinearLoss;
 
-/// The rig with a still camera that has no more pixels than an output of this size has a use for:
-/// the same lens, maybe fewer pixels.
+/// The rig with its still camera reduced to the resolution that an output of this size can use: the
+/// same lens, perhaps fewer pixels.
 [[nodiscard]] StereoRig stillFor(Size output, StereoRig rig);
 
 }  // namespace mfar

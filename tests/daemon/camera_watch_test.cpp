@@ -14,7 +14,7 @@ using testing::IsEmpty;
 
 constexpr Size kSize{40, 64};
 
-/// A camera whose pictures are sent by hand, on a clock of its own.
+/// A camera whose pictures the test sends, on a simulated clock.
 struct Watched {
     explicit Watched(CameraKind kind, double rateHz = 30)
         : watch({"video camera", kSize, PixelFormat::Gray8, rateHz}, kind),
@@ -115,7 +115,7 @@ TEST(CameraWatch, EverySumKnowsEachByteOfItsRows) {
     const std::uint64_t before = sparseChecksum(view);
     EXPECT_EQ(sparseChecksum(view), before);
     for (std::size_t x = 0; x < 37; ++x) {
-        pixels[2 * 40 + x] ^= 1;  // the first row that is looked at
+        pixels[2 * 40 + x] ^= 1;  // the first row that is compared
         EXPECT_NE(sparseChecksum(view), before) << x;
         pixels[2 * 40 + x] ^= 1;
     }

@@ -21,7 +21,7 @@ PoseConfig noPoses() {
     return config;
 }
 
-/// The capture of two fake cameras, without poses.
+/// The capture thread with two fake cameras, without poses.
 struct Capture {
     explicit Capture(HandOver handOver, bool sensors = false)
         : source(new FakeSource(handOver, sensors)), rig(std::unique_ptr<RigSource>(source)),
@@ -30,10 +30,10 @@ struct Capture {
 
     FakeCamera& video() { return source->videoCamera; }
     FakeCamera& still() { return source->stillCamera; }
-    /// The next frame; nothing after 20 s or at the end.
+    /// The next frame; empty after 20 s or at the end.
     std::optional<CapturedFrame> take() { return mailbox.takeWithin(20s); }
 
-    FakeSource* source;  ///< the rig's
+    FakeSource* source;  ///< owned by the rig
     Rig rig;
     Stats stats;
     PoseFinder poses;
@@ -48,10 +48,10 @@ bool becomesTrue(const std::function<bool()>& condition) {
     return false;
 }
 
-/// What ends the capture.
+/// The fault with which the capture ends.
 std::string endOf(Capture& capture) {
     const auto isOver = [&] {
-        (void)capture.mailbox.tryTake();  // a frame may have come before the fault was noticed
+        (void)capture.mailbox.tryTake();  // a frame may have arrived before the fault was noticed
         return capture.mailbox.over();
     };
     if (!becomesTrue(isOver)) return "it does not end";
@@ -75,7 +75,7 @@ TEST(CaptureThread, TheVideoGoesOnWhileTheStillCameraHangs) {
         EXPECT_EQ(frame->video.time(), Timestamp::fromSeconds(i));
         EXPECT_FALSE(frame->still);
     }
-    // Neither the end of the run waits for it.
+    // The end of the run does not wait for the still camera either.
     auto ended = std::async(std::launch::async, [&] {
         capture.thread->stop();
         capture.thread->join();
@@ -104,7 +104,7 @@ TEST(CaptureThread, LiveStillsComeWithTheFirstFrameThatIsNotOlder) {
     EXPECT_FALSE(capture.take()->still);
     std::optional<CapturedFrame> with;
     double time = 2;
-    ASSERT_TRUE(becomesTrue([&] {  // the thread may still be on its way to the box
+    ASSERT_TRUE(becomesTrue([&] {  // the thread may not be waiting yet
         capture.video().send(time++);
         with = capture.take();
         return with && with->still;
@@ -212,7 +212,7 @@ TEST(CaptureThread, AStillPictureIsWatchedForOfSensorsAlone) {
 
 TEST(CaptureThread, ASourceThatLosesNothingIsReadByOneThreadInOrder) {
     Capture capture(HandOver::Lossless);
-    // All that the still camera has goes with the frame, as nobody else fetches it.
+    // All waiting stills are delivered with the frame, as no other thread fetches them.
     for (int i = 1; i <= 4; ++i)
         capture.still().send(i);
     for (int i = 1; i <= 4; ++i)

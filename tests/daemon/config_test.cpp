@@ -178,7 +178,7 @@ TEST(Config, ATextWithoutEndIsRefusedBeforeItIsParsed) {
     EXPECT_EQ(configFaults(dots + " = 1\n"), "test.toml:1:69: a key has more than 32 parts");
     EXPECT_EQ(configFaults("pace = \"auto\"\n[" + dots + "]\n"),
               "test.toml:2:70: a key has more than 32 parts");
-    // Quotes do not hide it, and what is in them does not count.
+    // Text in quotes neither hides the key nor counts.
     EXPECT_THAT(configFaults("a = [\"\"\"x\"\"\"\", {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_THAT(configFaults("a = ['''x'''', {" + dots + " = 1}]\n"), HasSubstr("32 parts"));
     EXPECT_EQ(configFaults("# " + dots + "\nrecording = \"" + dots + "\"\n"), "");

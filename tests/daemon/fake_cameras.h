@@ -21,7 +21,7 @@
 
 namespace mfar::test {
 
-/// A camera that gives what it is told to. Every part may be used by any thread.
+/// A camera that delivers what the test tells it to. Thread-safe.
 class FakeCamera final : public Camera {
 public:
     FakeCamera(std::string name, Size size, double rateHz)
@@ -62,7 +62,7 @@ public:
         return std::exchange(warnings_, {});
     }
 
-    /// What it says of itself.
+    /// Sets the counters that it reports.
     void count(const CameraCounters& counters) {
         const std::lock_guard lock(mutex_);
         counters_ = counters;
@@ -71,7 +71,7 @@ public:
         const std::lock_guard lock(mutex_);
         warnings_.push_back(text);
     }
-    /// A picture of `level`, exposed at `seconds`.
+    /// Sends a picture of `level`, exposed at `seconds`.
     void send(double seconds, std::uint8_t level = 0, std::optional<Size> size = std::nullopt) {
         const Size picture = size.value_or(info_.size);
         auto pixels = std::make_shared<std::vector<std::uint8_t>>(
@@ -82,25 +82,25 @@ public:
         waiting_.emplace_back(view, Timestamp::fromSeconds(seconds), [pixels] {});
         changed_.notify_all();
     }
-    /// No further picture will come.
+    /// Reports the end: no further picture comes.
     void end() {
         const std::lock_guard lock(mutex_);
         ends_ = true;
         changed_.notify_all();
     }
-    /// next() throws this.
+    /// Makes next() throw this.
     void fail(const std::string& why) {
         const std::lock_guard lock(mutex_);
         broken_ = why;
         changed_.notify_all();
     }
-    /// next() does not return as long as this is wanted.
+    /// Makes next() hang while `wanted`.
     void hang(bool wanted) {
         const std::lock_guard lock(mutex_);
         hangs_ = wanted;
         changed_.notify_all();
     }
-    /// Waits until somebody hangs in next(); false after 20 s.
+    /// Waits until a thread hangs in next(); false after 20 s.
     [[nodiscard]] bool isHung() {
         std::unique_lock lock(mutex_);
         return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return hung_; });

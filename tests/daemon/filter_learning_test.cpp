@@ -21,7 +21,7 @@ using testing::IsEmpty;
 struct FilterLearningTest : testing::Test {
     ~FilterLearningTest() override { std::filesystem::remove(options.file); }
 
-    /// Shows stills that differ, and waits.
+    /// Shows different stills, one after the other, and waits until they are processed.
     static void show(FilterLearning& learning, int first, int last) {
         for (int i = first; i <= last; ++i) {
             const twin::Grey sharp = sharpDiscs(i);
@@ -30,7 +30,7 @@ struct FilterLearningTest : testing::Test {
         }
     }
 
-    // Tests run at the same time, each in a process of its own.
+    // Tests run concurrently, each in a process of its own.
     FilterLearningOptions options{std::filesystem::path(testing::TempDir()) /
                                       ("mfar-filters-" + std::to_string(::getpid()) + ".learned"),
                                   "video, still", true};
@@ -55,7 +55,7 @@ StereoRig discsRig() {
     return rig;
 }
 
-/// A still is replaced by another one of the same view, with a video that is noisy.
+/// Replaces a still by another one of the same view, with a noisy video.
 void replace(FilterLearning& learning, unsigned seed) {
     const twin::Grey sharp = sharpDiscs(seed);
     const SensorPair noisy{.videoNoise = 4, .seed = seed};

@@ -18,7 +18,7 @@ std::vector<QualityLevel> fourLevels() {
     return out;
 }
 
-/// A machine on which frames of a level take so long.
+/// A machine with a given frame time for each level.
 class Machine {
 public:
     using Cost = std::function<double(std::size_t level)>;
@@ -27,7 +27,7 @@ public:
         : governor_(fourLevels(), deadlineMs), cost_(std::move(cost)) {}
 
     void setCost(Cost cost) { cost_ = std::move(cost); }
-    /// Share of late frames among these. Times vary by 4 % (standard deviation).
+    /// Runs frames and returns the share of late ones. Times vary by 4 % (standard deviation).
     double run(int frames, double changed = 1) {
         int late = 0;
         for (int i = 0; i < frames; ++i) {
@@ -51,7 +51,7 @@ private:
     std::normal_distribution<double> noise_;
 };
 
-/// The table's times, all scaled.
+/// The table's times, all multiplied by a factor.
 Machine::Cost scaled(double factor) {
     return [factor](std::size_t level) { return factor * fourLevels()[level].ms; };
 }

@@ -10,7 +10,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// A daemon whose threads, pictures and devices do what the test says.
+/// A daemon whose threads, pictures and devices are simulated.
 struct HealthTest : testing::Test {
     [[nodiscard]] Health look() {
         Observed seen{now};
@@ -45,7 +45,7 @@ TEST_F(HealthTest, FreshPicturesAreOk) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// Pictures come, and all are the same one.
+// Pictures arrive, but all are the same.
 TEST_F(HealthTest, OnePictureForEverIsDegraded) {
     repeats = now;
     pass(seconds(4));
@@ -57,7 +57,8 @@ TEST_F(HealthTest, OnePictureForEverIsDegraded) {
     EXPECT_TRUE(health.isAlive());
 }
 
-// The field's worst fault: the driver's dequeue hangs, and the banner is drawn again and again.
+// The worst fault in the field: the driver's dequeue call hangs while the banner is drawn
+// repeatedly.
 TEST_F(HealthTest, BannerOfADriverThatHangsIsNotAlive) {
     const Heartbeat capture(hearts, "capture", budget::kCapture);
     picture = now;

@@ -20,7 +20,7 @@ namespace {
 using testing::IsSupersetOf;
 using testing::UnorderedElementsAre;
 
-/// What a log writes into a pipe.
+/// The text that a log writes into a pipe.
 std::string written(Log::Style style, const std::function<void(Log&)>& talk) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) return "no pipe";
@@ -72,7 +72,7 @@ TEST(Log, StatusLineNeverWraps) {
     EXPECT_EQ(out, "\r\x1b[K" + std::string(79, 'x'));
 }
 
-// A pipe stands for standard error and the test for the clock.
+// A pipe replaces standard error and the test sets the clock.
 TEST(Log, EventsThatRepeatAreSaidWithTheirCount) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);
@@ -155,7 +155,7 @@ TEST(Log, MessagesThatNobodyTakesDoNotHangAThread) {
     const std::string part(4096, 'x');
     while (write(ends[1], part.data(), part.size()) > 0) {
     }
-    fcntl(ends[1], F_SETFL, 0);  // blocks from here on
+    fcntl(ends[1], F_SETFL, 0);  // blocking from now on
     Log log(ends[1], Log::Style::Plain);
     for (int i = 0; i < 20; ++i)
         log.notice("lost");

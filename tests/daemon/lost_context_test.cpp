@@ -1,5 +1,5 @@
-// A context that is lost at any moment of a frame is made anew, and the pictures are those of a run
-// without a loss. By a libGLESv2 that loses it, see tests/device/faulty_moments.h.
+// A context that is lost at any moment of a frame is created again, and the pictures equal those of
+// a run without a loss. Uses a libGLESv2 that loses contexts, see tests/device/faulty_moments.h.
 
 #include "daemon/session.h"
 #include "hal/virtual/recorder.h"
@@ -27,12 +27,12 @@ namespace mfar {
 namespace {
 
 constexpr int kFrames = 6;
-/// A still of the time of a frame, seen from a place beside it.
+/// A still at the time of a frame, seen from a position to the side.
 struct StillAt {
     int frame;
     double aside;  ///< [m]
 };
-// Each shows a border of the picture that the other does not.
+// Each still shows a border of the picture that the other does not show.
 constexpr std::array kStills{StillAt{1, 0.08}, StillAt{3, -0.08}};
 constexpr Size kVideo{160, 120}, kStill{320, 240};
 
@@ -99,7 +99,7 @@ protected:
     struct Ran {
         ScreenPicture last;
         Counted counted;
-        std::vector<std::string> moments;  ///< different ones, after the start
+        std::vector<std::string> moments;  ///< without duplicates, after the start
     };
 
     void SetUp() override {
@@ -107,7 +107,7 @@ protected:
             GTEST_SKIP() << "LD_LIBRARY_PATH does not name the libGLESv2 that fails";
     }
 
-    /// `virtualLayer`: keys of the section.
+    /// `virtualLayer`: keys of the [virtual] section.
     void play(int frames, const std::string& virtualLayer) {
         record(folder_ / "recording", frames);
         config_ = parseConfig("[pose]\nsource = \"recorded\"\n[engine]\nuse = \"gles\"\n"
@@ -120,8 +120,8 @@ protected:
         config_.display = "none";
     }
 
-    /// A run that loses its context at this moment of a frame, null: never. It ends with the
-    /// recording, or early some pictures after the loss.
+    /// Runs a session that loses its context at this moment of a frame; null: never. It ends with
+    /// the recording, or, with `early`, a few pictures after the loss.
     Ran run(const char* moment, bool early = false) {
         Stats stats;
         Mailbox<Tunables> changes(HandOver::NewestWins);
@@ -146,7 +146,7 @@ protected:
         return {session.snapshot(false), stats.count(), {moments.begin(), moments.end()}};
     }
 
-    /// Loses the context at those moments of a run that `isOne` is true for.
+    /// Loses the context once at each moment for which `isOne` returns true.
     void loseAtAll(const std::function<bool(std::string_view)>& isOne) {
         play(kFrames, "rendering = \"preview\"");
         const Ran whole = run(nullptr);
@@ -169,7 +169,7 @@ protected:
     Config config_;
 };
 
-// One for each step, and for each shader of it.
+// One moment for each step and for each of its shaders.
 TEST_F(LostContext, RecoversInEveryShader) {
     loseAtAll([](std::string_view moment) { return moment.starts_with("glUseProgram"); });
 }
@@ -182,7 +182,7 @@ TEST_F(LostContext, RecoversInEveryTransfer) {
     });
 }
 
-// They are warped once the path tracer has a picture of them.
+// Warping starts when the path tracer has a picture of the objects.
 TEST_F(LostContext, RecoversWhileTracedObjectsAreWarped) {
     constexpr int kSeconds = 12;
     play(30 * kSeconds,

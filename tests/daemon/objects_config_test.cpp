@@ -127,7 +127,8 @@ TEST(ObjectsConfig, ModelsThatCannotBeReadHaveTheirPlace) {
                 HasSubstr("must be one of \"tag36h11\""));
 }
 
-// The tag hangs on a wall that faces the world's -y: its x is the world's, its y the world's -z.
+// The tag is on a wall that faces the world's -y: its x axis is the world's x, its y axis the
+// world's -z.
 TEST(ObjectsConfig, ATagCarriesWhatStandsOnIt) {
     const TagKey key{TagFamily::Tag36h11, 5};
     Eigen::Matrix3d R_world_tag;
@@ -139,7 +140,7 @@ TEST(ObjectsConfig, ATagCarriesWhatStandsOnIt) {
     EXPECT_EQ(worldPlace(object, map).value().translation, Eigen::Vector3d(0.1, 0.2, 0.3));
     object.tag = key;
     const RigidTransform T = worldPlace(object, map).value();
-    // Right along the wall, up it, and out of it.
+    // To the right along the wall, upwards, and out of it.
     EXPECT_LT((T.translation - Eigen::Vector3d(1.1, 1.7, 3.2)).norm(), 1e-9);
     EXPECT_LT((T.rotation * Eigen::Vector3d::UnitZ() - Eigen::Vector3d(0, -1, 0)).norm(), 1e-9);
     ASSERT_EQ(placedShapes({object}, map).size(), 1U);

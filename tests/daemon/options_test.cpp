@@ -18,7 +18,7 @@ CommandLine parse(std::vector<const char*> arguments) {
     return parseCommandLine(static_cast<int>(arguments.size()), arguments.data());
 }
 
-/// What the program says against these arguments.
+/// The program's error message for these arguments.
 std::string usageFault(std::vector<const char*> arguments) {
     try {
         (void)parse(std::move(arguments));

@@ -27,7 +27,7 @@ Timestamp frameTime(double frame) {
     return Timestamp::fromSeconds(2 + frame / 30);
 }
 
-/// Lends a picture of the tag, or of nothing, taken that many frames after the start.
+/// A lent picture with or without the tag, `at` frames after the start.
 struct Shot {
     Shot(const CameraModel& camera, double at, bool withTag)
         : picture(withTag ? renderTags(camera, view(at), {kPlacedTag})

@@ -11,7 +11,7 @@ namespace {
 using std::chrono::seconds;
 
 struct RestartPauseTest : testing::Test {
-    /// A process that runs for a while and fails; how long it then waits.
+    /// A process runs for `ran` and fails; returns the pause before its restart.
     RestartPause::Next fail(seconds ran = seconds(1)) {
         const Timestamp started = now;
         now = now + ran;

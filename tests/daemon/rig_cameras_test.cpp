@@ -1,4 +1,4 @@
-// The cameras of a rig on the calls of a V4L2 driver, which is pretended_v4l2.cpp.
+// The cameras of a rig with a simulated V4L2 driver, pretended_v4l2.cpp.
 #include "daemon/budgets.h"
 #include "daemon/rig.h"
 #include "tests/unit/temp_folder.h"
@@ -41,7 +41,7 @@ protected:
         out.rateHz = rateHz;
         return out;
     }
-    /// What is wrong with a device from now on.
+    /// Sets the faults of a device from now on.
     void says(const std::string& device, const std::string& words) const {
         const std::filesystem::path next = folder_.path() / "next";
         std::ofstream(next) << words;
@@ -59,7 +59,7 @@ bool becomesTrue(const std::function<bool()>& condition) {
     return false;
 }
 
-// A data.csv that is a pipe without a reader is opened for ever.
+// Opening a data.csv that is a pipe without a reader never returns.
 TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
     says("video90", "");
     std::atomic<std::int64_t> passed{0};
@@ -83,7 +83,7 @@ TEST_F(RigOfCameras, RecorderWhoseDiskHangsIsOverItsBudget) {
     EXPECT_TRUE(becomesTrue([&] { return hearts.late().empty(); })) << "it waits for work";
 }
 
-/// Of this process: open files, threads, and bytes that were allocated and not given back.
+/// Resources of this process: open files, threads, allocated bytes.
 struct Used {
     static long entries(const char* folder) {
         return std::distance(std::filesystem::directory_iterator(folder), {});

@@ -15,7 +15,7 @@
 namespace mfar {
 namespace {
 
-/// The service manager's end of the socket.
+/// The service manager's end of the notification socket.
 class Manager {
 public:
     Manager() : fd_(socket(AF_UNIX, SOCK_DGRAM, 0)) {
@@ -70,7 +70,7 @@ TEST(Service, FeedsTheWatchdogTwiceAsOftenAsAsked) {
     EXPECT_EQ(manager.heard(), "WATCHDOG_USEC=18000000");
     Service().watchdogPatience(1);
     EXPECT_EQ(manager.heard(), "WATCHDOG_USEC=3000000");
-    setenv("WATCHDOG_PID", "1", 1);  // another process
+    setenv("WATCHDOG_PID", "1", 1);  // names another process
     EXPECT_EQ(Service().watchdogPeriod(), std::nullopt);
     setenv("WATCHDOG_USEC", "soon", 1);
     EXPECT_EQ(Service().watchdogPeriod(), std::nullopt);

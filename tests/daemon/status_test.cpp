@@ -14,7 +14,8 @@ using testing::Not;
 
 const std::vector<StageTime> kStages = {{"flow", 30}, {"superres", 10}};
 
-/// A second of pictures, 50 ms apart, each 20 ms after its frame. The 21st is shown at 11.02 s.
+/// Pictures for one second, 50 ms apart, each shown 20 ms after its frame. The 21st is shown at
+/// 11.02 s.
 void showPictures(Stats& stats, int count) {
     for (int i = 0; i < count; ++i) {
         FrameStats frame;
@@ -59,7 +60,7 @@ TEST(Stats, RecentRateFallsWhenPicturesStop) {
     EXPECT_LT(fpsAt(1000), 0.01);
 }
 
-// Asked more often than pictures are made, it said 0.
+// Regression: the rate was 0 when it was queried more often than pictures were made.
 TEST(Stats, RecentRateOfSlowPicturesIsTrueWheneverItIsAsked) {
     Stats stats;
     for (int i = 0; i < 4; ++i) {
@@ -206,7 +207,7 @@ Pose fromTags(int tags, double errorPx) {
     return pose;
 }
 
-/// Three frames: seen, predicted, lost; two stills: seen, and placed between frames.
+/// Three frames: measured, predicted, lost; two stills: measured, and placed between frames.
 void findPoses(Stats& stats) {
     TrackStats tracker{.frames = 3, .fullSearches = 1, .roiSearches = 2, .flips = 4, .lastMs = 2};
     stats.framePose(fromTags(6, 0.25), tracker);
@@ -242,8 +243,8 @@ TEST(Status, SummaryTellsHowPosesWereFound) {
     EXPECT_NEAR(pose["still_track_ms"]["median"].get<double>(), 8, 0.1);
 }
 
-/// Two frames along epipolar lines, the first's pose refined, the second predicted; before them one
-/// with nothing to tell.
+/// Two frames matched along epipolar lines, the first with a refined, the second with a predicted
+/// pose; before them a frame without such data.
 void showLines(Stats& stats) {
     FrameStats frame;
     frame.usedStill = frame.usedPose = true;

@@ -44,7 +44,7 @@ public:
 
     StillPolicy policy;
     double now = 100;
-    double delay = 0;  ///< of the numbers behind their frame
+    double delay = 0;  ///< by how much the numbers lag behind their frame
     double latency = 0.2;
     bool answers = true;
     std::optional<double> answerAt;
@@ -77,7 +77,7 @@ TEST(StillPolicy, CameraAtRestFiresOnceEvenWhereTheStillExplainsNothing) {
     EXPECT_EQ(board.run(600, frame(0, 0.01)), 1);
 }
 
-// The numbers of the first frame, where everything is new, come after the trigger it caused.
+// Numbers of the first frame, in which everything is new, arrive after the trigger that it caused.
 TEST(StillPolicy, NumbersFromBeforeTheTriggerAreNoMotion) {
     Simulation board({});
     board.delay = kFrame;
@@ -85,7 +85,7 @@ TEST(StillPolicy, NumbersFromBeforeTheTriggerAreNoMotion) {
     EXPECT_EQ(board.run(60, frame(0.1, 0)), 0);
 }
 
-// The pipeline draws every tile anew when it gets a still, also where nothing moves.
+// The pipeline draws every tile again for a new still, even if nothing moves.
 TEST(StillPolicy, TheRedrawForANewStillIsNoMotion) {
     TriggerConfig config;
     config.maxAgeS = 0.5;
@@ -128,7 +128,7 @@ TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
     EXPECT_EQ(board.run(0.5, kMovingExplained), 1);
 }
 
-// A sensor's noise has to be learnt first, so that the first frames seem to change.
+// A sensor's noise must be learned first, so the first frames appear to change.
 TEST(StillPolicy, ChangesBeforeAStillIsInUseDoNotMakeItAge) {
     TriggerConfig config;
     config.maxAgeS = 5;
@@ -138,7 +138,7 @@ TEST(StillPolicy, ChangesBeforeAStillIsInUseDoNotMakeItAge) {
     EXPECT_EQ(board.run(60, kRest), 0);
 }
 
-// The camera swings and stops while the still is on its way, which then shows the wrong view.
+// The camera turns and stops while the still is pending, which then shows the wrong view.
 TEST(StillPolicy, AStillOutrunByTheMotionIsReplaced) {
     Simulation board({});
     board.latency = 0.4;

@@ -140,7 +140,7 @@ TEST(CameraV4l2, WithoutANameItIsAnyButTheOther) {
     EXPECT_EQ(
         errorOf([&] { CameraV4l2(options, fake); }),
         "there is no camera beside the other one among\n  /dev/video0: 'Fake Camera' at fake:1");
-    fake.secondPath = "/dev/video2";  // the same pictures: by path
+    fake.secondPath = "/dev/video2";  // equal picture sizes: ordered by path
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video2)");
     options.device.except = "/dev/video2";
     EXPECT_EQ(CameraV4l2(options, fake).info().name, "Fake Camera (/dev/video0)");
@@ -237,7 +237,7 @@ TEST(CameraV4l2, RunsAgainAfterStop) {
     fake.deliver({.ageMs = 30});
     auto held = camera.next(1s);
     ASSERT_TRUE(held.has_value());
-    fake.deliver({.ageMs = 20, .level = 5});  // stays in the queue that stop() empties
+    fake.deliver({.ageMs = 20, .level = 5});  // stays in the queue, which stop() empties
     camera.stop();
     camera.start();
     EXPECT_EQ(fake.queued(), 3) << "all but the one that is held";
@@ -279,7 +279,7 @@ TEST(CameraV4l2, AnUnpluggedDeviceIsLost) {
     EXPECT_THROW(camera.start(), DeviceLost);
 }
 
-// With vb2, poll() reports an error as long as no buffer was handed in since the start.
+// With vb2, poll() reports an error until a buffer has been queued since the start.
 TEST(CameraV4l2, AnErrorOfPollAloneIsNoLoss) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);

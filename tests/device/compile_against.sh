@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Compiles the sources that depend on the version of a device library inside another Debian's root,
-# and runs their tests there: what CMake chooses here by version is thereby seen in both.
-# Usage: compile_against.sh CACHE SUITE   (bookworm, trixie, sid). Needs root and mmdebstrap; the root is kept
-# in CACHE for a week; two minutes to make.
+# Compiles the sources that depend on a device library's version inside another Debian's root and
+# runs their tests there: so both of CMake's choices by version are tested. Usage:
+# compile_against.sh CACHE SUITE   (bookworm, trixie, sid). Needs root and mmdebstrap; the root is
+# kept in CACHE for a week; creating it takes two minutes.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 # shellcheck source=toolchains/debian.sh
@@ -27,7 +27,7 @@ work=$(mktemp -d -p "$root/tmp" mfar.XXXXXX)
 trap 'rm -rf "$work"' EXIT
 tar -cf - hal tests/device tests/unit/*.h | tar -xf - -C "$work"
 
-# Expanded and run in the root. Arguments: folder.
+# Expanded and executed in the root. Arguments: folder.
 # shellcheck disable=SC2016
 inside='
 set -eu
@@ -35,7 +35,7 @@ cd "$1"
 version() { pkg-config --modversion "$1"; }
 warnings="-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Werror"
 objects() { # PACKAGES SOURCES...: compiles each into the folder
-    # System headers: their warnings are not ours.
+    # As system headers, whose warnings are ignored.
     flags=$(pkg-config --cflags "$1" | sed "s/-I/-isystem /g")
     shift
     for source; do
@@ -64,7 +64,7 @@ objects libcamera hal/frame.cpp base/image_layout.cpp $(printf "hal/device/%s.cp
 parts="frame image_layout $parts"
 link camera-tests libcamera $parts libcamera_test $(printf "%s_test " $tested)
 link probe libcamera $parts libcamera_probe
-# libcamera says with every start who it is, and what a chroot lacks.
+# libcamera logs its version at every start, and what is missing in a chroot.
 export LIBCAMERA_LOG_LEVELS="*:FATAL"
 ./camera-tests --gtest_brief=1
 ./probe

@@ -12,11 +12,11 @@ namespace {
 using Presence = Screen::Presence;
 using testing::HasSubstr;
 
-// What a test knows and decides about a device.
+// State of a simulated device, and its counters.
 struct Device {
     Presence presence = Presence::Absent;
     bool refuses = false;        // show() throws
-    int refusesAfter = 1000000;  // pictures
+    int refusesAfter = 1000000;  // number of pictures after which show() throws
     int shown = 0, looks = 0, thoroughLooks = 0, released = 0;
     bool held = false;
     Size size{640, 400};
@@ -64,7 +64,7 @@ protected:
             nullptr, std::move(screens), [this] { return now_; },
             [this] { return std::exchange(changed_, false); });
     }
-    // Pictures at 20 Hz for a time; gives the pictures that were shown by either.
+    // Shows pictures at 20 Hz; returns the number that either screen showed.
     int run(std::chrono::milliseconds duration) {
         const int before = kms_.shown + fbdev_.shown;
         for (const Timestamp end = now_ + duration; now_ < end;
@@ -169,7 +169,7 @@ TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
     EXPECT_EQ(display_->name(), "no screen yet (kms missing; fbdev missing)");
 }
 
-// As one whose flips do not complete, which is noticed with the third picture, again and again.
+// Such a screen: its flips do not complete, which is noticed at every third picture.
 TEST_F(AutoDisplay, AScreenThatIsLostAgainAndAgainStaysAFault) {
     kms_.presence = Presence::Ready;
     run(kSecond);
@@ -204,7 +204,7 @@ TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsRefused) {
 
 TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsNeverFollowedByAnother) {
     kms_.presence = fbdev_.presence = Presence::Ready;
-    kms_.refusesAfter = 2;  // as a flip that does not happen is noticed with the third
+    kms_.refusesAfter = 2;  // a missing flip is noticed at the third picture
     EXPECT_GE(run(kSecond), 8);
     EXPECT_EQ(display_->name(), "fbdev held");
     EXPECT_EQ(kms_.shown, 2);

@@ -13,7 +13,7 @@ struct Info {
     fb_fix_screeninfo fix{};
 };
 
-// 800x480 of 16 bits in rows of 1664 bytes, room for two screens.
+// 800x480, 16 bits, rows of 1664 bytes, memory for two screens.
 Info good() {
     Info i;
     i.var.xres = i.var.xres_virtual = 800;
@@ -73,7 +73,7 @@ TEST(FbGeometry, NumbersThatLeaveTheMemoryAreRefused) {
         [](Info& i) { i.var.xoffset = 1; },
         [](Info& i) { i.var.xoffset = 0xffffffff; },
         [](Info& i) { i.var.yoffset = 481; },
-        [](Info& i) { i.var.yoffset = 0xfffffe20; },  // + 480 wraps to 0
+        [](Info& i) { i.var.yoffset = 0xfffffe20; },  // + 480 overflows to 0
         [](Info& i) { i.var.yres_virtual = 479; },
         [](Info& i) { i.fix.smem_len = 1664 * 480 - 1; },
         [](Info& i) { i.fix.smem_len = 0; },

@@ -14,7 +14,7 @@ const PixelLayout kBgr888{24, {0, 8}, {8, 8}, {16, 8}, {0, 0}};
 const PixelLayout kRgb565{16, {11, 5}, {5, 6}, {0, 5}, {0, 0}};
 const PixelLayout kArgb1555{16, {10, 5}, {5, 5}, {0, 5}, {15, 1}};
 
-// Two rows of two pixels, packed into rows of `stride` bytes.
+// Packs two rows of two pixels into rows of `stride` bytes.
 std::vector<std::uint8_t> packed(const PixelLayout& layout, std::size_t stride) {
     const std::vector<std::uint8_t> bgra{0x12, 0x34, 0x56, 0xff, 0xff, 0x00, 0x80, 0xff,  //
                                          0x00, 0xff, 0x00, 0xff, 0x07, 0x03, 0xf8, 0xff};
@@ -43,11 +43,12 @@ TEST(PixelLayout, SixteenBitsKeepTheUppermostBits) {
     // 0x56 0x34 0x12 -> 01010 001101 00010; 0x80 0x00 0xff -> 10000 000000 11111
     EXPECT_EQ(packed(kRgb565, 5), (Bytes{0xa2, 0x51, 0x1f, 0x80, 0xee,  //
                                          0xe0, 0x07, 0x00, 0xf8, 0xee}));
-    // alpha, where there is a bit for it, is opaque
+    // a one-bit alpha is opaque
     EXPECT_EQ(packed(kArgb1555, 4), (Bytes{0xc2, 0xa8, 0x1f, 0xc0, 0xe0, 0x83, 0x00, 0xfc}));
 }
 
-// As of a GPU's picture, also where a row is no whole number of vectors; alpha means nothing.
+// Rows on the host are packed like a GPU's picture, also at widths that do not fill vectors; alpha
+// is ignored.
 TEST(PixelLayout, RowsOfTheHostBecomeTheSame) {
     constexpr Size kSize{37, 3};
     Bytes bgra(4UL * kSize.width * kSize.height, 255), rgba(bgra.size());

@@ -16,20 +16,20 @@ using Colour = std::array<int, 3>;
 
 class DisplayScaler : public GlTest {
 protected:
-    // A texture with colours given by a function of the pixel.
+    // A texture whose pixels get their colours from a function.
     static gpu::Texture picture(Size size, const std::function<Colour(int, int)>& colour) {
         std::vector<std::uint8_t> pixels;
         for (int y = 0; y < size.height; ++y)
             for (int x = 0; x < size.width; ++x) {
                 for (const int value : colour(x, y))
                     pixels.push_back(static_cast<std::uint8_t>(value));
-                pixels.push_back(7);  // alpha means nothing
+                pixels.push_back(7);  // alpha is ignored
             }
         gpu::Texture texture(size, gpu::TexelFormat::Rgba8);
         texture.upload({pixels.data(), static_cast<std::size_t>(size.width) * 4});
         return texture;
     }
-    // What ScreenReader shows of it, as R G B.
+    // The output of ScreenReader, as R G B.
     static std::vector<Colour> shown(const gpu::Texture& picture, Size screen) {
         ScreenScaler scaler;
         return shown(scaler, picture, screen);
@@ -88,8 +88,8 @@ TEST_F(DisplayScaler, EveryPixelIsTheMeanOfItsFootprint) {
                 for (std::size_t k = 0; k < 3; ++k)
                     worst = std::max(worst, std::abs(got[k] - mean[k]));
             }
-        // A linear sampler has at least 8 bits between two pixels, cut off along x and along y;
-        // and half a level of rounding.
+        // A linear sampler interpolates with at least 8 bits, truncated along x and along y; plus
+        // half a level of rounding.
         EXPECT_LE(worst, 2.5) << from.width << "x" << from.height;
     }
 }
@@ -111,9 +111,8 @@ TEST_F(DisplayScaler, BesideThePictureIsBlack) {
         }
 }
 
-// A zone plate runs through all frequencies. Where it is finer than the screen can show, nothing
-// but grey may be left: sampled without a filter, it would come back as false rings of full
-// contrast.
+// A zone plate contains all frequencies. Where it is finer than the screen, only grey may remain:
+// without a filter, sampling would show false rings of full contrast.
 TEST_F(DisplayScaler, WhatIsFinerThanTheScreenBecomesGrey) {
     const Size from{2304, 1728}, screen{1280, 720};
     const auto stripes = [](int x, int) {
@@ -130,8 +129,8 @@ TEST_F(DisplayScaler, WhatIsFinerThanTheScreenBecomesGrey) {
         }
         return high - low;
     };
-    EXPECT_GE(contrast(160, 400), 240);  // up to 0.3 cycles a screen pixel: kept
-    EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles a screen pixel: at most a quarter
+    EXPECT_GE(contrast(160, 400), 240);  // up to 0.3 cycles per screen pixel: kept
+    EXPECT_LE(contrast(960, 1120), 64);  // 1 to 1.2 cycles per screen pixel: at most a quarter
 }
 
 TEST_F(DisplayScaler, WarmUpChangesNothingThatIsShown) {

@@ -1,5 +1,5 @@
-// Displays that a CPU writes, given rows of the host: no GL function is called, whether or not
-// there is a GL.
+// Displays that the CPU writes, with pictures on the host: no GL function is called, with or
+// without a loaded GL.
 #include "hal/device/display_auto.h"
 #include "hal/device/gl_libraries.h"
 #include "hal/virtual/display_files.h"
@@ -24,7 +24,7 @@ protected:
     }
     [[nodiscard]] Picture picture() const { return rows_.rows(); }
 
-    /// Calls of a GL that is loaded; the action must work before that, too.
+    /// Number of GL calls while a GL is loaded; the action must work before loading, too.
     static int callsOf(const std::function<void()>& action) {
         action();
         loadGlLibraries({MFAR_FAKE_GL, MFAR_FAKE_GL});

@@ -6,7 +6,7 @@
 
 namespace mfar::test {
 
-/// What the action throws as std::runtime_error, "no error" when it does not.
+/// The message of the std::runtime_error that the action throws; "no error" if it throws none.
 [[nodiscard]] inline std::string errorOf(const std::function<void()>& action) {
     try {
         action();

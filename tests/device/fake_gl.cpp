@@ -1,5 +1,5 @@
-// A library in the place of both libEGL and libGLESv2. Like old ones of vendors it exports few
-// functions; for the others there is eglGetProcAddress().
+// Replaces both libEGL and libGLESv2. Like vendors' old libraries it exports few functions; the
+// others are found through eglGetProcAddress().
 #include "tests/device/fake_gl.h"
 
 #include <EGL/egl.h>

@@ -5,12 +5,12 @@
 
 namespace mfar {
 
-/// What the tests and the library in fake_gl.cpp, which exports fakeGl(), know of each other.
+/// State shared by the tests and the library in fake_gl.cpp, which exports fakeGl().
 struct FakeGl {
-    std::string unknown{};        ///< function that eglGetProcAddress() does not find
+    std::string unknown{};        ///< name for which eglGetProcAddress() returns null
     int others = 0;               ///< calls of functions that are not exported
-    float depth = 0;              ///< of glClearDepthf()
-    std::vector<int> integers{};  ///< of glTexSubImage3D(), in order
+    float depth = 0;              ///< argument of glClearDepthf()
+    std::vector<int> integers{};  ///< arguments of glTexSubImage3D(), in order
     const void* pixels = nullptr;
 };
 

@@ -20,7 +20,7 @@ namespace mfar::test {
 
 struct FakeFormat {
     std::uint32_t fourcc;
-    std::vector<Size> sizes;  ///< empty: not listed
+    std::vector<Size> sizes;  ///< empty: the driver does not list sizes
     double fastest = 30;      ///< [Hz]
 };
 
@@ -31,26 +31,26 @@ struct FakeControl {
     std::int64_t minimum, maximum, step, value;
     std::vector<std::string> menu{};
     std::uint32_t flags = 0;
-    int refusals = 0;   ///< so many times it is busy
-    int error = EBUSY;  ///< with this
+    int refusals = 0;   ///< number of settings that fail with `error`
+    int error = EBUSY;  ///< error of these refusals
 };
 
-/// What the driver says of the next picture, where that is not what it is.
+/// The driver's description of the next picture, where it differs from the truth.
 struct FakePicture {
     std::uint32_t flags = 0;
     std::size_t missingBytes = 0;
     std::int64_t ageMs = 1;
-    int skipped = 0;           ///< pictures lost before it
-    std::uint8_t level = 100;  ///< of all its bytes
+    int skipped = 0;           ///< pictures lost before this one
+    std::uint8_t level = 100;  ///< value of all its bytes
     std::span<const std::uint8_t> jpeg{};
 };
 
-/// Text into a fixed field, which need not end in a zero.
+/// Writes text into a fixed-size field, which need not end with a zero.
 void putText(void* field, std::size_t bytes, const std::string& text);
 
-/// A capture device as the kernel's documentation describes one: one node that captures, one beside
-/// it that does not. A pipe stands for its descriptor, so that poll() and close() are the real
-/// ones, a memory file for its buffers.
+/// A capture device as described in the kernel's documentation: one node that captures and another
+/// one that does not. A pipe replaces its descriptor, so that poll() and close() are the real ones;
+/// a memory file replaces its buffers.
 class FakeV4l2 final : public V4l2Api {
 public:
     FakeV4l2();
@@ -63,29 +63,30 @@ public:
     int ioctl(int fd, unsigned long request, void* argument) override;
     [[nodiscard]] void* map(int fd, std::size_t length, std::int64_t offset) override;
 
-    /// Fills a buffer; false when the camera has handed in none.
+    /// Fills a buffer; false if the camera has queued none.
     bool deliver(const FakePicture& picture = {});
     void unplug();
-    /// poll() reports an error, while calls still work.
+    /// poll() reports an error, but calls still work.
     void hangUp();
-    /// From now on the driver's calls that move buffers do not return, until they may again.
+    /// Makes the driver's calls that move buffers hang while `wanted`.
     void hang(bool wanted);
-    [[nodiscard]] bool hangs();  ///< a call is inside it
-    /// How many buffers wait to be filled.
+    [[nodiscard]] bool hangs();  ///< a call is hanging
+    /// Number of buffers that wait to be filled.
     [[nodiscard]] int queued();
-    [[nodiscard]] bool released();  ///< the buffers were given up
+    [[nodiscard]] bool released();  ///< the buffers were released
     [[nodiscard]] std::int64_t control(const std::string& name);
 
-    // What it is; to be changed before it is opened.
-    std::string card = "Fake Camera", secondPath;  ///< secondPath: a further node that captures
+    // Properties; to be changed before the device is opened.
+    std::string card = "Fake Camera", secondPath;  ///< secondPath: another capture node
     bool multiPlanar = false;
-    bool busy = false;    ///< another program has the buffers
-    bool rounds = false;  ///< answers S_FMT with another size
+    bool busy = false;    ///< another program uses the buffers
+    bool rounds = false;  ///< answers S_FMT with a different size
     std::uint32_t clock = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
-    std::size_t padding = 0;  ///< of rows [bytes]
+    std::size_t padding = 0;  ///< padding of rows [bytes]
     std::uint32_t mostBuffers = 16;
-    bool refusesMore = false;  ///< has no memory for more than that, instead of granting fewer
-    int sizeFault = 0;         ///< added to the size it says a picture has
+    /// Requests above mostBuffers fail for lack of memory instead of granting fewer.
+    bool refusesMore = false;
+    int sizeFault = 0;  ///< added to the reported picture size
     std::uint32_t colorspace = V4L2_COLORSPACE_SRGB, quantization = V4L2_QUANTIZATION_DEFAULT;
     std::vector<FakeFormat> formats{{V4L2_PIX_FMT_YUYV, {{32, 24}, {64, 48}}}};
     std::vector<FakeControl> controls{};
@@ -116,7 +117,7 @@ private:
     int inside_ = 0;
     int memory_ = -1;
     std::uint8_t* bytes_ = nullptr;
-    int pictureEnd_ = -1, readEnd_ = -1;  // of the pipe: deliver() writes, the camera polls
+    int pictureEnd_ = -1, readEnd_ = -1;  // ends of the pipe: deliver() writes, the camera polls
     std::set<int> plain_;                 // descriptors of the node that does not capture
     bool gone_ = false, running_ = false, released_ = false;
     std::uint32_t fourcc_ = 0;

@@ -1,11 +1,12 @@
-// A libGLESv2.so.2 to be found before the real one (LD_LIBRARY_PATH), whose functions it uses by
-// libEGL. The words of the file MFAR_FAULTY_GL say what is wrong, from now on:
-//   never      no fence is signalled, and what waits for the GPU does not return
+// A libGLESv2.so.2 that is found before the real one (LD_LIBRARY_PATH) and uses the real one's
+// functions through libEGL. Words in the file MFAR_FAULTY_GL select faults; they may change at any
+// time:
+//   never      no fence is signalled, and waiting for the GPU does not return
 //   hang       drawing does not return
-//   lost WORD  the context that is current is lost when these words come: all it is asked for does
-//              nothing and returns zero; the next context works
+//   lost WORD  the current context is lost when these words appear: its calls do nothing and
+//              return zero; the next context works
 //   broken     every context is lost as soon as it is made
-// A test in the same process may lose contexts as well, see faulty_moments.h.
+// A test in the same process may lose contexts, too, see faulty_moments.h.
 
 #include "hal/device/gl_libraries.h"
 #include "tests/device/faulty_moments.h"
@@ -55,7 +56,7 @@ F real(const char* name) {
     return reinterpret_cast<F>(find(name));
 }
 
-// Of a function with any arguments, by all calling conventions in use.
+// Replaces a function with any arguments, in all calling conventions in use.
 std::uintptr_t nothing() {
     return 0;
 }
@@ -63,7 +64,8 @@ std::uintptr_t nothing() {
 Function workingOr(const char* name);
 Function lostOr(const char* name);
 
-/// Which context is lost: it has a buffer that another one has not, whatever its address.
+/// Identifies the lost context: only this context has this buffer, whatever the contexts'
+/// addresses.
 GLuint mark = 0;
 
 void lose() {
@@ -94,7 +96,7 @@ bool loseNow(const char* function) {
     return mark != 0;
 }
 
-// A moment at which the context may be lost, then the function.
+// Loses the context if this call is the selected moment, otherwise calls the function.
 template <class F, class... Arguments>
 auto moment(const char* function, Arguments... arguments) {
     using Result = decltype(std::declval<F*>()(arguments...));
@@ -166,7 +168,7 @@ GLenum getError() {
     return isLost() ? kContextLost : real<decltype(&glGetError)>("glGetError")();
 }
 
-// Of a renderer that is no software. The first thing that a context is asked for.
+// Reports a renderer that is not software. This is the first call on a context.
 const GLubyte* getString(GLenum name) {
     if (isLost()) return nullptr;
     constexpr const char* kRenderer = "pretended GPU";

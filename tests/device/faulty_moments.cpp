@@ -10,8 +10,9 @@
 namespace mfar::faulty {
 namespace {
 
-bool isAsked = false;  // by a test: mfard alone must not grow by this library
-std::string loseAt;    // empty: at none
+// Set by a test only, as mfard's memory must not grow because of this library.
+bool isAsked = false;
+std::string loseAt;  // empty: never
 std::vector<std::string> moments;
 std::map<unsigned, std::string> shaders, programs;  // names
 std::string current;
@@ -31,7 +32,7 @@ void sourceOf(unsigned shader, const char* text) {
         if (one.text == text) shaders[shader] = one.name;
 }
 
-// Of a program that draws, the fragment shader is the last one.
+// In a program that draws, the fragment shader is attached last.
 void attached(unsigned program, unsigned shader) {
     programs[program] = shaders[shader];
 }

@@ -16,7 +16,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr Size kJpegSize{64, 48};
 
-/// Colour that changes slowly across the picture.
+/// Colours that change slowly across the picture.
 Bytes rgbRamp() {
     Bytes out;
     for (int y = 0; y < kJpegSize.height; ++y)
@@ -40,7 +40,7 @@ Bytes encoded(int subsampling) {
     return out;
 }
 
-/// As many cameras send it: they leave out the tables that the standard suggests.
+/// As sent by many cameras: without the tables that the standard suggests.
 Bytes withoutHuffmanTables(const Bytes& jpeg) {
     Bytes out(jpeg.begin(), jpeg.begin() + 2);
     std::size_t i = 2;
@@ -55,7 +55,7 @@ Bytes withoutHuffmanTables(const Bytes& jpeg) {
     return out;
 }
 
-/// BT.601 full range, the centre of each 2x2 pixels for chroma.
+/// BT.601 full range; chroma from the centre of each 2x2 pixels.
 void expectRamp(const ImageView& view) {
     ASSERT_EQ(view.size, kJpegSize);
     ASSERT_EQ(view.format, PixelFormat::Yuv420);

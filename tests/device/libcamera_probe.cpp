@@ -38,7 +38,7 @@ const char* nameOf(PixelFormat format) {
     return "?";
 }
 
-/// Mean of the first channel: luma, or green for RGB.
+/// Mean of the first channel: luma, or green in RGB pictures.
 double meanLuma(const ImageView& view) {
     const int step = bytesPerPixel(view.format);
     const int channel = step == 4 ? 1 : 0;

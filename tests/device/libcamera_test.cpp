@@ -23,7 +23,7 @@ LibcameraOptions unknown() {
     return options;
 }
 
-// True on every machine, with cameras or without.
+// Holds on every machine, with or without cameras.
 TEST(Libcamera, UnknownCameraIsRefusedWithWhatThereIs) {
     const std::vector<ListedCamera> cameras = listLibcameras();
     const std::string expected = cameras.empty() ? "finds no camera" : cameras[0].id;

@@ -34,7 +34,7 @@ inline void sleepMs(double ms) {
     std::this_thread::sleep_for(std::chrono::duration<double, std::milli>(ms));
 }
 
-/// A V4L2 camera, open once, whose faults are the words of a file: see pretended_v4l2.cpp.
+/// A simulated V4L2 camera, open once, whose faults are words in a file: see pretended_v4l2.cpp.
 class Device {
 public:
     Device(std::string file, std::string name)
@@ -109,7 +109,7 @@ private:
         return 0;
     }
 
-    /// Its only control.
+    /// Describes its only control.
     static int describe(v4l2_query_ext_ctrl& control) {
         constexpr std::uint32_t kNext = V4L2_CTRL_FLAG_NEXT_CTRL | V4L2_CTRL_FLAG_NEXT_COMPOUND;
         if ((control.id & ~kNext) >= V4L2_CID_GAIN) return EINVAL;
@@ -160,7 +160,7 @@ private:
         request.count = std::min(request.count, static_cast<std::uint32_t>(most));
         room_ = (bytes_ + 4095) / 4096 * 4096;
         buffers_.assign(request.count, {});
-        // What is mapped stays, as a driver's does, until the program has unmapped it.
+        // As with a driver, mapped memory stays until the program unmaps it.
         const auto bytes = static_cast<off_t>(room_ * buffers_.size());
         if (bytes <= mapped_) return 0;
         mapped_ = bytes;
@@ -220,7 +220,7 @@ private:
                 due - steady_clock::now(), std::chrono::milliseconds(20)));
     }
 
-    /// False after some time without one: what is wrong with the camera may have changed.
+    /// False if no pulse comes for some time: the camera's faults may have changed by then.
     bool awaitPulse() {
         constexpr int kLooks = 20;
         for (int i = 0; i < kLooks && running_; ++i) {
@@ -257,7 +257,7 @@ private:
         }
     }
 
-    /// Whoever waits for pictures wakes up and finds the error.
+    /// Wakes programs that wait for pictures; they get the error.
     void lose(int error) {
         lostError_ = error;
         isLost_ = true;
@@ -265,7 +265,7 @@ private:
         static_cast<void>(!write(fd_, &one, sizeof one));
     }
 
-    /// `us`: its time. False without a free buffer.
+    /// Fills a buffer; `us`: the picture's time. False without a free buffer.
     bool fill(const Words& wrong, std::uint64_t i, std::uint32_t number, std::int64_t us) {
         const std::lock_guard lock(mutex_);
         if (free_.empty() || wrong.contains("hang")) return false;
@@ -307,15 +307,15 @@ private:
 
     const WordFile words_;
     const std::string name_;
-    const double plug_;  ///< the word "unplug" when it was opened
-    const int fd_;       ///< readable as often as there are filled buffers; closed by the program
+    const double plug_;  ///< number of the word "unplug" at opening
+    const int fd_;       ///< readable while there are filled buffers; closed by the program
     const int memory_;
     std::atomic<double> rateHz_{30};
     std::size_t bytes_ = 0, room_ = 0;
-    std::int64_t pulse_ = 0;  ///< the last one that it has seen [us]
-    off_t mapped_ = 0;        ///< the length of the memory
+    std::int64_t pulse_ = 0;  ///< last pulse that the camera has noticed [us]
+    off_t mapped_ = 0;        ///< length of the mapped memory
     int width_ = 0;
-    int refused_ = 0;  ///< settings of the control
+    int refused_ = 0;  ///< refused settings of the control
     std::atomic<bool> running_{false}, isLost_{false};
     std::atomic<int> lostError_{0};
     std::thread maker_;

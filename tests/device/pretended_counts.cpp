@@ -1,7 +1,7 @@
 #include "tests/device/pretended_counts.h"
 
-/// For another library in the same program: what the program should have refused, the gain that it
-/// has set, and what it has taken before.
+/// For another library in the same program: pictures that the program should have refused, the gain
+/// that it set, and the pictures that it took before setting the gain.
 // NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void mfar_pretended_known(const char* camera, std::uint64_t* broken,
                                      std::uint64_t* badTimes, std::int64_t* gain,

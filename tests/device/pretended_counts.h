@@ -11,13 +11,13 @@
 
 namespace mfar::pretended {
 
-/// What a camera knows of the program that uses it.
+/// A camera's observations of the program that uses it.
 struct KnownOfCamera {
-    // Pictures that the program has taken and has to refuse.
-    std::uint64_t broken = 0;    ///< flagged or short
-    std::uint64_t badTimes = 0;  ///< ahead of now, of long ago, or not after the one before
-    std::int64_t gain = 0;       ///< as it was set last since the camera was opened
-    std::uint64_t ungained = 0;  ///< pictures that it has taken before that
+    // Pictures that the program took and must refuse.
+    std::uint64_t broken = 0;    ///< marked as broken, or too short
+    std::uint64_t badTimes = 0;  ///< in the future, too old, or not after the previous one
+    std::int64_t gain = 0;       ///< last setting since the camera was opened
+    std::uint64_t ungained = 0;  ///< pictures taken before the gain was set
 };
 
 inline std::int64_t microsecondsNow() {
@@ -30,7 +30,7 @@ inline std::int64_t microseconds(const timeval& t) {
     return t.tv_sec * 1'000'000LL + t.tv_usec;
 }
 
-/// Of all cameras by their names, over all times that they were opened. Thread-safe.
+/// Observations by camera name, over all times that it was opened. Thread-safe.
 class Known {
 public:
     static Known& get() {
@@ -45,7 +45,7 @@ public:
         const std::lock_guard lock(mutex_);
         counts_[camera].gain = value;
     }
-    /// `lastGood`: the time of the last that need not be refused, since the camera was opened.
+    /// `lastGood`: time of the last picture that need not be refused, since the camera was opened.
     void add(const std::string& camera, const v4l2_buffer& taken, std::size_t whole,
              std::optional<std::int64_t>& lastGood) {
         constexpr std::int64_t kAhead = 50'000, kOldest = 10'000'000;

@@ -25,16 +25,16 @@
 
 namespace mfar::pretended {
 
-/// When the trigger's line became active last [us], for cameras that wait for it; 0: never yet.
+/// Time of the trigger line's last activation [us], for cameras that wait for it; 0: none yet.
 inline std::atomic<std::int64_t>& lastPulse() {
     static std::atomic<std::int64_t> us{0};
     return us;
 }
 
-/// A GPIO chip whose line 5 is "TRIGGER", as the kernel's first interface has it, which libgpiod 1
-/// uses. It is there where the folder MFAR_PRETENDED_V4L2 has a file "gpiochip0", whose words say
-/// what is wrong with it: see pretended_v4l2.cpp. The file "line" of that folder has the level, 0
-/// or 1, which outlives the program as a real line's does. Thread-safe.
+/// A GPIO chip with the line 5 "TRIGGER", with the kernel's first interface, which libgpiod 1 uses.
+/// It exists if the folder MFAR_PRETENDED_V4L2 contains a file "gpiochip0", whose words select
+/// faults: see pretended_v4l2.cpp. The file "line" in this folder contains the level, 0 or 1, which
+/// outlives the program as a real line's level does. Thread-safe.
 class GpioChip {
 public:
     static constexpr std::string_view kPath = "/dev/gpiochip0",
@@ -51,7 +51,7 @@ public:
     [[nodiscard]] std::string file(const char* name) const { return folder_ + "/" + name; }
     [[nodiscard]] const std::string& folder() const { return folder_; }
 
-    /// What stat() says of it.
+    /// The result of stat() for the chip.
     static int describe(struct stat* out) {
         *out = {};
         out->st_mode = S_IFCHR | 0660;
@@ -59,7 +59,7 @@ public:
         return 0;
     }
 
-    /// Its descriptor, or that of the file with its numbers; -1 with errno.
+    /// A descriptor of the chip or of the file with its device numbers; -1 with errno.
     int open(std::string_view path) {
         if (path == kNumbers) return numbers();
         if (words_.now().contains("gone")) {
@@ -77,7 +77,7 @@ public:
         files_.erase(fd);
     }
 
-    /// 0 or an error of errno.h.
+    /// Returns 0 or an error of errno.h.
     int call(int fd, unsigned long request, void* argument) {
         const Words wrong = words_.now();
         if (wrong.contains("gone")) return ENODEV;

@@ -1,34 +1,34 @@
-// A library to be loaded before a program (LD_PRELOAD): V4L2 cameras that the machine does not
-// have, on the program's own calls of open(), ioctl() and mmap(), and a trigger's line. The devices
-// are the files of the folder MFAR_PRETENDED_V4L2, each "/dev/NAME" a camera that gives YUYV of any
-// size. The file's words say what is wrong with it, and may change at any time, by renaming another
-// file onto it:
+// A library that is loaded before a program (LD_PRELOAD). It simulates V4L2 cameras behind the
+// program's calls of open(), ioctl() and mmap(), and a trigger line. The devices are the files in
+// the folder MFAR_PRETENDED_V4L2: each file NAME makes "/dev/NAME" a camera that offers YUYV of any
+// size. The words in the file select faults; they may change at any time, by renaming another file
+// onto it:
 //   hang          the calls that move buffers do not return
-//   hang-open     opening it does not return, and
-//   hang-close    neither does closing it
-//   slow MS       opening takes so long
-//   gone          it is unplugged: what is open fails, nothing can be opened
-//   unplug N      the device is lost that was opened at another N
-//   refuse N      the first N settings of its control, "gain", since it was opened are refused
-//   eio           taking a picture fails, until the camera is opened anew
-//   silent        no further picture
-//   repeat        the same picture again and again
-//   rate HZ       other than was asked for
-//   buffers N     grants no more, to the next who asks
-//   error N       one of N pictures has the error flag
-//   short N       one of N pictures lacks its end
-//   backward N    one of N pictures is stamped before the one before
-//   future N      one of N pictures is stamped in an hour
-//   skip N        with each word's first sight, N numbers are left out
-//   restart       with each word's first sight, numbers begin at 0
-//   plain         nothing wrong, but pictures without their time
-//   triggered     nothing wrong, a picture for each pulse of the line
+//   hang-open     opening does not return
+//   hang-close    closing does not return
+//   slow MS       opening takes this time
+//   gone          unplugged: open descriptors fail, nothing can be opened
+//   unplug N      devices opened with another N are lost
+//   refuse N      the first N settings of its control "gain" after opening are refused
+//   eio           taking a picture fails until the camera is opened again
+//   silent        no further pictures
+//   repeat        always the same picture
+//   rate HZ       this rate instead of the requested one
+//   buffers N     grants at most N to the next request
+//   error N       every N-th picture has the error flag
+//   short N       every N-th picture is truncated
+//   backward N    every N-th picture's time is before the previous one's
+//   future N      every N-th picture's time is one hour ahead
+//   skip N        N numbers are skipped when this word first appears
+//   restart       numbers restart at 0 when this word first appears
+//   plain         no fault, but pictures without time stamp
+//   triggered     no fault; one picture for each pulse of the line
 // The file "gpiochip0" is a GPIO chip with the line TRIGGER:
-//   gone          it is unplugged
-//   busy          somebody else has the line
-//   eio           the line cannot be set
-// Pictures are noise over a gray, with their time across the upper half, see pretended_picture.h.
-// One that finds no buffer has no number.
+//   gone          unplugged
+//   busy          another program uses the line
+//   eio           setting the line fails
+// Pictures are noise on grey, with their time across the upper half, see pretended_picture.h. A
+// picture without a free buffer gets no number.
 
 #include "tests/device/pretended_camera.h"
 #include "tests/device/pretended_gpio.h"
@@ -68,7 +68,7 @@ std::shared_ptr<Device> deviceOf(int fd) {
     return at == devices().end() ? nullptr : at->second;
 }
 
-/// Its descriptor, -1 with errno for one that cannot be opened; nothing for any other file.
+/// A descriptor of the device; -1 with errno if it cannot be opened; empty for other files.
 std::optional<int> openDevice(const char* path) {
     const char* folder = std::getenv("MFAR_PRETENDED_V4L2");
     if (folder == nullptr || std::strncmp(path, "/dev/", 5) != 0) return std::nullopt;
@@ -123,7 +123,7 @@ int open64(const char* path, int flags, ...) {
     return openFile(path, flags | O_LARGEFILE, mode);
 }
 
-// Who looks for chips in /dev finds those that are pretended.
+// A search for chips in /dev finds the simulated ones.
 int openat(int folder, const char* path, int flags, ...) {
     va_list rest;
     va_start(rest, flags);
@@ -174,7 +174,7 @@ void* mmap64(void* at, std::size_t length, int protection, int flags, int fd,
     return mapFile(at, length, protection, flags, fd, offset);
 }
 
-// A descriptor that is closed may come back as any other file.
+// A closed descriptor's number may be reused for another file.
 int close(int fd) {
     std::shared_ptr<Device> closed;
     {

@@ -10,10 +10,10 @@
 
 namespace mfar::pretended {
 
-/// The words of a file, each with its number, 1 where there is none.
+/// The words of a file, each with its number; 1 if it has none.
 using Words = std::map<std::string, double>;
 
-/// A file of words that others replace while it is being used. Thread-safe.
+/// A file of words that may be replaced at any time. Thread-safe.
 class WordFile {
 public:
     explicit WordFile(std::string file) : file_(std::move(file)) {}
@@ -27,7 +27,7 @@ public:
                           there.st_ctim.tv_nsec == read_.st_ctim.tv_nsec;
         std::ifstream in;
         if (!same) in.open(file_);
-        // Where no descriptor is left, the next look is as good.
+        // Without a free descriptor, try again at the next call.
         if (in.is_open()) {
             words_ = parsed(in);
             read_ = there;

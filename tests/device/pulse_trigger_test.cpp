@@ -24,12 +24,12 @@ struct Level {
     Timestamp time;
 };
 
-/// A wire with two ends: what is driven is seen by the loopback a little later.
+/// A wire: the loopback sees the driven level a little later.
 struct Wire {
     std::mutex mutex;
     std::vector<Level> history;
     std::deque<Timestamp> edges;
-    std::chrono::nanoseconds clockOffset{0};  ///< of the loopback
+    std::chrono::nanoseconds clockOffset{0};  ///< of the loopback's clock
     int edgesToLose = 0;
     int setsToFail = 0;
 
@@ -208,7 +208,7 @@ TEST(PulseTrigger, MissedEdgesAreCountedAndNeverTakenForOthers) {
 
 TEST(PulseTrigger, LoopbackOnAnotherClockIsNotBelieved) {
     const auto wire = std::make_shared<Wire>();
-    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // CLOCK_REALTIME
+    wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // as CLOCK_REALTIME
     const auto trigger = triggerOn(wire, 50us, true);
     const Timestamp edge = trigger->fire();
     EXPECT_LE(edge, Timestamp::now());

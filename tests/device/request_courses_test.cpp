@@ -1,5 +1,5 @@
-// Random courses of a camera's requests on a simulated clock, against a model that knows where each
-// request has to be, next to a second camera that nothing may disturb.
+// Random sequences of a camera's requests on a simulated clock, compared with a model that knows
+// where each request must be, next to a second camera that must not be disturbed.
 #include "hal/device/request_cycle.h"
 
 #include <gtest/gtest.h>
@@ -23,11 +23,12 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t kSeeds = 200;
 constexpr int kSteps = 200;
 constexpr milliseconds kEarly{500};
-/// Before a restart, by the early ends in a row; after as many ends the device is lost.
+/// Pause before a restart, indexed by the number of early ends in a row; after the last one the
+/// device is lost.
 constexpr std::array<milliseconds, 5> kPauses = {milliseconds(0), milliseconds(0), milliseconds(50),
                                                  milliseconds(100), milliseconds(200)};
 
-/// The time and the draws of a course.
+/// Random numbers and time of a sequence.
 struct Chance {
     explicit Chance(std::uint32_t seed) : random(seed) {}
 
@@ -40,7 +41,7 @@ struct Chance {
     Timestamp now{1'000'000'000};
 };
 
-/// A driver and the user of its pictures. Each call checks what the cycle does against the model.
+/// A driver and the user of its pictures. Each call compares the cycle with the model.
 class ModelledCamera final : public RequestDriver {
 public:
     explicit ModelledCamera(Chance& chance)
@@ -82,7 +83,7 @@ public:
             at_[request] = At::Cycle;
     }
 
-    /// Completes a request that the driver has.
+    /// Completes one of the driver's requests.
     void fill(bool sound) {
         const auto request = take(At::Driver);
         if (!request) return;
@@ -124,7 +125,7 @@ public:
         if (!request) return;
         cycle.giveBack(*request);
     }
-    /// Returns whether the camera is to be started again meanwhile.
+    /// True if next() must restart the camera.
     [[nodiscard]] bool restartIsDue() const {
         return running_ && !isLost && ready_.empty() && restartAt && chance_.now >= *restartAt;
     }
@@ -148,7 +149,7 @@ public:
         }
         EXPECT_TRUE(isLost || starts_ - before == (restarts ? 1 : 0));
     }
-    /// Within a restart: by another thread, which has to wait for its end.
+    /// Stops during a restart, from another thread, which has to wait for its end.
     void stopInThread() {
         if (stopper_.joinable()) return;
         stopper_ = std::thread([this] { cycle.stop(); });
@@ -172,7 +173,7 @@ public:
         EXPECT_FALSE(has(At::Driver));
     }
 
-    /// Requests that nobody has are lost, but for those of a stream that has ended.
+    /// Requests that nobody holds are lost, except cancelled ones.
     void check() const {
         EXPECT_EQ(cycle.restarts(), restarts_);
         EXPECT_EQ(cycle.delivered(), delivered_);
@@ -191,11 +192,11 @@ public:
 
     static constexpr std::size_t kRequests = 4;
     RequestCycle cycle;
-    std::function<void()> meanwhile = [] {};  ///< while it starts and stops
+    std::function<void()> meanwhile = [] {};  ///< called while the driver starts or stops
     bool startFails = false;
     bool isLost = false;
     std::optional<Timestamp> restartAt;
-    std::array<int, kPauses.size()> pauses{};  ///< how often each was planned
+    std::array<int, kPauses.size()> pauses{};  ///< how often each pause was planned
     int threadedStops = 0;
 
 private:
@@ -212,7 +213,7 @@ private:
         return cycle.next(milliseconds(0));
     }
     [[nodiscard]] bool has(At where) const { return std::ranges::find(at_, where) != at_.end(); }
-    /// One of those that are there, which goes to the cycle.
+    /// A random request in this place, which is handed to the cycle.
     std::optional<std::size_t> take(At where) {
         std::vector<std::size_t> those;
         for (std::size_t i = 0; i < kRequests; ++i)
@@ -226,16 +227,16 @@ private:
     Chance& chance_;
     std::thread stopper_;
     std::array<At, kRequests> at_{};
-    std::array<bool, kRequests> isCancelled_{};  ///< since the last completion
+    std::array<bool, kRequests> isCancelled_{};  ///< since the last completed request
     std::deque<std::size_t> ready_;
     bool running_ = false;
     Timestamp begun_;
-    std::size_t ends_ = 0;  ///< early, in a row
+    std::size_t ends_ = 0;  ///< early ends in a row
     int starts_ = 0;
     std::uint64_t delivered_ = 0, restarts_ = 0;
 };
 
-/// Totals over all courses.
+/// Totals over all sequences.
 struct Seen {
     std::array<int, kPauses.size()> pauses{};
     int lost = 0, failedStarts = 0, stopsInRestarts = 0;
@@ -305,7 +306,7 @@ private:
         restarts_ = false;
     }
 
-    /// While the ill camera starts or stops, in the thread that does so.
+    /// Called while the faulty camera starts or stops, in the thread that does it.
     void happenMeanwhile() {
         serveOther();
         if (chance_.oneIn(4)) ill_.giveBack();
@@ -323,7 +324,7 @@ private:
 
     Chance chance_;
     ModelledCamera ill_, sound_;
-    std::uint32_t cancelsAll_ = 0;  ///< one in so many steps
+    std::uint32_t cancelsAll_ = 0;  ///< cancels all requests in one of this number of steps
     bool restarts_ = false;
     std::uint64_t served_ = 0;
 };

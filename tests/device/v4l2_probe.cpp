@@ -1,9 +1,10 @@
-// Captures from a V4L2 device, for machines that have one: lists its controls, sets those given,
+// Captures from a V4L2 device, for machines that have one: lists its controls, sets the given ones,
 // prints a line for each frame.
 //
 //   v4l2-probe DEVICE WIDTHxHEIGHT FRAMES [--format FOURCC] [--rate HZ] [NAME=VALUE]...
 //
-// Exit status: 0 all frames came, 1 some did not, 2 the device refused or was lost, 64 wrong usage.
+// Exit status: 0 all frames arrived, 1 some did not, 2 the device refused or was lost, 64 wrong
+// usage.
 #include "base/image_layout.h"
 #include "hal/device/camera_v4l2.h"
 
@@ -25,7 +26,7 @@ double meanLuma(const mfar::ImageView& view) {
     for (int y = 0; y < view.size.height; ++y) {
         const std::uint8_t* p = view.data + static_cast<std::size_t>(y) * view.stride;
         for (int x = 0; x < view.size.width; ++x, p += step)
-            sum += colour ? (p[0] + 2 * p[1] + p[2]) / 4.0 : p[0];  // green has half the weight
+            sum += colour ? (p[0] + 2 * p[1] + p[2]) / 4.0 : p[0];  // green has half of the weight
     }
     return sum / view.size.width / view.size.height;
 }

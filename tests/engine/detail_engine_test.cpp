@@ -8,7 +8,7 @@ namespace {
 
 using simd::DetailCase;
 
-/// The detail step of either engine with a still from either engine.
+/// The engine of the detail step and the engine that prepares the still.
 struct StepEngines {
     EngineKind detail, still;
 };
@@ -24,7 +24,8 @@ INSTANTIATE_TEST_SUITE_P(Engines, DetailEngineTest,
                                     std::string(nameOf(tested.param.still));
                          });
 
-/// Shaders clamp what they keep between passes: leaves room for what sharpening overshoots.
+/// Reduces contrast: shaders clamp values between passes, so overshoot of the sharpening needs
+/// room.
 DetailCase withRoom(DetailCase frame) {
     for (std::vector<std::uint8_t>* pixels : {&frame.videoPixels, &frame.stillPixels})
         for (std::uint8_t& byte : *pixels)
@@ -33,7 +34,7 @@ DetailCase withRoom(DetailCase frame) {
     return frame;
 }
 
-/// One engine's detail step, the still of another, frames one after the other.
+/// Draws consecutive frames with one engine's detail step and another's still.
 class Drawing {
 public:
     Drawing(const StepEngines& engines, const DetailCase& first, Size output)
@@ -47,7 +48,7 @@ public:
         const DetailStep::Matched matched{pictures_, weights};
         return draw(frame, &matched, filters);
     }
-    /// With a second still, and as that matches.
+    /// Draws with a second still, matched as `second` says.
     Rows<const std::uint32_t> drawBoth(const DetailCase& frame, const DetailCase& second,
                                        const FilterBank* filters) {
         if (!secondStill_) secondStill_ = stillEngine_->still();
@@ -61,7 +62,7 @@ public:
     Rows<const std::uint32_t> drawWithoutStill(const DetailCase& frame, const FilterBank* filters) {
         return draw(frame, nullptr, filters);
     }
-    /// Its raised luma.
+    /// The still's luma with raised detail.
     [[nodiscard]] twin::Grey luma() const {
         if (!pictures_.raised.isEmpty()) {
             const Rows<const std::uint8_t> raised = pictures_.raised.host();
@@ -140,7 +141,7 @@ TEST_P(DetailEngineTest, WholeFrameIsTheOraclesAtAnySize) {
     }
 }
 
-/// Errors of a picture, all channels, where `of` says what they are compared with.
+/// Error statistics of a picture over all channels; `of` gives the wanted values.
 template <class F>
 void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
     for (int y = 0; y < drawn.size.height; ++y)
@@ -150,13 +151,14 @@ void expectPicture(Rows<const std::uint32_t> drawn, F&& of, double most) {
                     << drawn.size.width << ": " << x << " " << y << " " << c;
 }
 
-constexpr double kLearnedError = 1.3;  // luma is in 1/8 grey level, limits in quarters of that
+// Luma has units of 1/8 grey level, limits of a quarter of that.
+constexpr double kLearnedError = 1.3;
 
 TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
     const bool shaders = GetParam().detail == EngineKind::Gles;
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false, &simd::evenBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
-        if (output.width > 1000) continue;  // slow, and its video is small
+        if (output.width > 1000) continue;  // slow, and the video is small
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing drawing(GetParam(), frame, output);
         simd::Wanted alone(frame, output, options, false), wanted(frame, output, options, true);
@@ -165,7 +167,7 @@ TEST_P(DetailEngineTest, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
             drawing.drawWithoutStill(frame, options.learned),
             [&](int x, int y, int c) { return alone.enlarged(x, y, c); }, kLearnedError);
         const twin::Grey still = drawing.luma();
-        // Shaders read the still with weights of 8 bits at places in half precision.
+        // Shaders read the still with 8-bit weights at half-precision positions.
         expectPicture(
             drawing.draw(frame, options.learned),
             [&](int x, int y, int c) { return wanted.withStill(x, y, c, still); },
@@ -178,7 +180,7 @@ TEST_P(DetailEngineTest, GuidedFramesAreTheOracles) {
     const simd::DetailOptions options{SuperResMode::Detail, true, false, false,
                                       &simd::guidedBank()};
     for (const auto& [video, stillSize, output] : simd::kSizes) {
-        if (output.width > 1000) continue;  // slow, and its video is small
+        if (output.width > 1000) continue;  // slow, and the video is small
         const DetailCase frame = withRoom(DetailCase(video, stillSize));
         Drawing drawing(GetParam(), frame, output);
         simd::Wanted wanted(frame, output, options, true);
@@ -226,8 +228,8 @@ TEST_P(DetailEngineTest, NewFiltersAndNoneShowInTheNextFrame) {
     }
 }
 
-// Look-ups move everywhere, but only some tiles are drawn: their detail is made of what lies around
-// them, too.
+// All look-ups move, but only some tiles are drawn, although their detail also depends on their
+// surroundings.
 void expectOnlyChangedTiles(const StepEngines& engines, const simd::Sizes& sizes,
                             const FilterBank* filters) {
     const auto& [video, stillSize, output] = sizes;
@@ -275,7 +277,8 @@ TEST_P(DetailEngineTest, OnlyChangedTilesAreGuided) {
         expectOnlyChangedTiles(GetParam(), sizes, &simd::guidedBank());
 }
 
-/// Another still of the same video: darker, matched elsewhere, and trusted where the first is not.
+/// Another still for the same video: darker, with other look-ups, and trusted where the first is
+/// not.
 DetailCase secondOf(DetailCase frame) {
     for (std::uint8_t& byte : frame.stillPixels)
         byte = static_cast<std::uint8_t>(byte * 4 / 5);
@@ -316,14 +319,14 @@ TEST_P(DetailEngineTest, OnlyChangedTilesShowASecondStill) {
         EXPECT_GT(differs, output.width * output.height / 10) << "the second still shows nothing";
         EXPECT_GT(some.summary().second, 0);
         EXPECT_LT(some.summary().second, all.summary().second);
-        // Nothing of the second stays where the next frame shows one alone.
+        // Where only one still is used in the next frame, the second must leave nothing behind.
         EXPECT_EQ(copyOf(some.draw(whole, filters)), one);
     }
 }
 
 using DetailEngines = GlTest;
 
-/// `most` and `rms`: of a channel's differences.
+/// `most` and `rms`: upper limits of the channels' differences.
 void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double most, double rms) {
     double squares = 0;
     for (int y = 0; y < a.size.height; ++y)
@@ -336,7 +339,7 @@ void expectNear(Rows<const std::uint32_t> a, Rows<const std::uint32_t> b, double
     EXPECT_LE(std::sqrt(squares / (3.0 * a.size.width * a.size.height)), rms) << a.size.width;
 }
 
-// The kernels take the mean of the warped still, which has to be finer than the video for it.
+// The kernels average the warped still, which must be finer than the video for this.
 void expectTheSamePicture(const FilterBank* filters, double most, double rms) {
     for (const auto& [video, stillSize, output] : simd::kSizes) {
         if (2 * output.width < 3 * video.width) continue;
@@ -367,7 +370,7 @@ TEST_F(DetailEngines, ShowTheSameOfASecondStill) {
         for (const EngineKind still : {EngineKind::Gles, EngineKind::Simd}) {
             Drawing gles({EngineKind::Gles, still}, frame, output),
                 simd({EngineKind::Simd, still}, frame, output);
-            // Unchanged tiles keep what the frame before shows.
+            // Unchanged tiles keep the content of the last frame.
             (void)gles.draw(whole, &simd::guidedBank());
             (void)simd.draw(whole, &simd::guidedBank());
             expectNear(gles.drawBoth(frame, secondOf(frame), &simd::guidedBank()),

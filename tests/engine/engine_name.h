@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// How a test with an engine as its parameter is called.
+/// Name of a test parametrised by an engine.
 inline std::string engineOfTest(const testing::TestParamInfo<EngineKind>& engine) {
     return std::string(nameOf(engine.param));
 }

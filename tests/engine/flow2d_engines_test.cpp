@@ -1,4 +1,4 @@
-// The host's pyramids and 2-D flow against those of the shaders.
+// Compares the host's pyramids and 2-D flow with those of the shaders.
 
 #include "pipeline/gles/flow2d.h"
 #include "pipeline/gles/luma_pyramids.h"
@@ -19,7 +19,7 @@ namespace {
 using Flow2dEngines = GlTest;
 using Cell = std::array<float, 4>;
 
-/// Both engines on the same pictures.
+/// Both engines with the same pictures.
 class Engines {
 public:
     Engines(const TestPicture& now, const TestPicture& then)
@@ -30,7 +30,7 @@ public:
         glPyramids_.buildSecond(uploaded(then));
     }
 
-    /// Lets the host's flow read the shaders' pyramids: the same bytes for both.
+    /// Gives the shaders' pyramids to the host's flow: both use the same bytes.
     void sharePyramids() {
         const auto words = glPyramids_.words().read<std::uint32_t>(pyramids_.words().size());
         std::ranges::copy(words, pyramids_.words().begin());
@@ -94,8 +94,8 @@ Difference differenceOf(const std::vector<Cell>& gl, Rows<const FlowCell> host) 
     return d;
 }
 
-// Where a step hardly changes the cost, a rounding decides whether it is taken: some cells end
-// elsewhere at the same cost.
+// Where a step hardly changes the cost, rounding decides whether it is taken: some cells end at
+// other vectors with the same cost.
 void expectAlike(const Difference& d, double leastClose) {
     EXPECT_GT(d.close, leastClose);
     EXPECT_LT(d.median, 0.003);

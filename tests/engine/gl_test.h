@@ -9,8 +9,8 @@
 
 namespace mfar {
 
-/// The GL context that all tests of a program share. It is closed after the last test: while the
-/// process exits, a layer of the driver may already have ended.
+/// The GL context that all tests of a program share. Closed after the last test: while the process
+/// exits, a layer of the driver may already be destroyed.
 class SharedContext final : public testing::Environment {
 public:
     GlContext& context() {
@@ -23,15 +23,15 @@ private:
     std::unique_ptr<GlContext> context_;
 };
 
-/// GoogleTest owns it.
+/// Owned by GoogleTest.
 inline SharedContext* const kSharedContext = [] {
     auto* out = new SharedContext;
     testing::AddGlobalTestEnvironment(out);
     return out;
 }();
 
-/// A test with the shared context current. Every test ends with a look at the error state, so that
-/// no GL error goes unnoticed.
+/// A test with the shared context current. The error state is checked after every test, so that no
+/// GL error is missed.
 class GlTest : public testing::Test {
 protected:
     static GlContext& context() { return kSharedContext->context(); }

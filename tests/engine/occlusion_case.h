@@ -12,7 +12,7 @@
 
 namespace mfar {
 
-/// A layer of virtual objects: one colour and a depth for each pixel.
+/// A layer of virtual objects: a colour and a depth for each pixel.
 struct LaidLayer {
     Size size;
     std::function<std::array<std::uint8_t, 4>(int, int)> colour = [](int, int) {
@@ -22,16 +22,16 @@ struct LaidLayer {
     PixelRect bounds{0, 0, 5000, 5000};
 };
 
-/// What an engine makes of a frame with a layer over it.
+/// An engine's result for a frame with a layer.
 struct LaidOver {
     Size output;
     std::vector<std::uint8_t> shown;       ///< RGBA8
-    std::vector<std::uint8_t> visibility;  ///< share of each output pixel [1/255]
+    std::vector<std::uint8_t> visibility;  ///< visible share in each output pixel [1/255]
 
     [[nodiscard]] double visibleAt(int x, int y) const {
         return visibility[static_cast<std::size_t>(y) * output.width + x] / 255.0;
     }
-    /// The same everywhere, or -1.
+    /// The visibility if all pixels have the same, or -1.
     [[nodiscard]] double visibleEverywhere() const {
         for (const std::uint8_t share : visibility)
             if (share != visibility[0]) return -1;
@@ -42,13 +42,13 @@ struct LaidOver {
     }
 };
 
-/// A test of what the occlusion of both engines has to do.
+/// Base of tests of both engines' occlusion step.
 class OcclusionCase : public GlTest {
 protected:
     static constexpr Size kCoarse{53, 37};
     static constexpr Size kFine{191, 133};
 
-    /// Noise, the same real depth everywhere.
+    /// Noise pictures with constant real depth.
     static twin::Scene plainScene(const twin::RealSample& real);
     static LaidOver laidOver(EngineKind engine, const twin::Scene& scene, const LaidLayer& layer,
                              const CompositeOptions& options = {});
@@ -62,7 +62,7 @@ protected:
     }
 };
 
-/// Shares of visibility to rounding, everywhere.
+/// Compares the visibility with the oracle's, to rounding, everywhere.
 void expectOracles(const LaidOver& got, twin::Scene scene, const LaidLayer& layer,
                    const CompositeOptions& options = {});
 

@@ -13,7 +13,7 @@ using gpu::TexelFormat;
 
 constexpr Size kVideoSize{160, 120}, kOutputSize{576, 432};
 
-/// A disc of a virtual thing behind a real one with a ragged edge, over noise.
+/// A virtual disc behind a real object with a ragged edge, over noise.
 struct EngineScene {
     explicit EngineScene(Size layer)
         : layerSize(layer), colour(layer), z(static_cast<std::size_t>(layer.width) * layer.height),
@@ -50,7 +50,7 @@ struct EngineScene {
 };
 
 struct Shown {
-    std::vector<std::uint8_t> picture, visibility;  // RGBA8; a byte a pixel
+    std::vector<std::uint8_t> picture, visibility;  // picture: RGBA8; visibility: a byte per pixel
 };
 
 Shown onGpu(const EngineScene& s) {

@@ -21,7 +21,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 INSTANTIATE_TEST_SUITE_P(Engines, OcclusionTest,
                          testing::Values(EngineKind::Gles, EngineKind::Simd), engineOfTest);
 
-/// Layer of one depth.
+/// A layer of constant depth.
 LaidLayer layerAt(double z) {
     LaidLayer layer;
     layer.z = [z](int, int) { return z; };
@@ -63,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{17, 31}, {601, 40}}, Sides{{64, 48}, {33, 21}},
                                      Sides{{40, 30}, {160, 120}})));
 
-// A real step, so that most pixels need no weighing, and all answers occur.
+// A step in real depth: most pixels need no weights, and all answers occur.
 TEST_P(OcclusionTest, EarlyAnswersAreThoseOfTheWeights) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
@@ -141,7 +141,7 @@ TEST_P(OcclusionTest, BlendIsOverByVisibility) {
         }
 }
 
-// One that is not premultiplied cannot overflow.
+// A colour that is not premultiplied must not overflow.
 TEST_P(OcclusionTest, OpaqueLayersReplaceThePicture) {
     const twin::Scene scene = plainScene({0.1, 0.01});
     for (const std::array<std::uint8_t, 4>& colour :
@@ -195,13 +195,13 @@ TEST_P(OcclusionTest, OptionsOutOfRangeAreRefused) {
     }
 }
 
-/// A near thing to the left of a straight edge, which runs through (26.3, 18) at an angle.
+/// A near object to the left of a straight edge, which runs through (26.3, 18) at an angle.
 struct EdgeScene {
     double degrees;
     double contrast = 90;  ///< [grey levels]
     Size coarse, fine;
 
-    /// Signed distance to the right of the edge, position and result in video px.
+    /// Signed distance to the right of the edge [video px]; u, v in video px, too.
     [[nodiscard]] double beyond(double u, double v) const {
         const double a = degrees * std::numbers::pi / 180;
         return (u - 26.3) * std::cos(a) + (v - 18) * std::sin(a);
@@ -231,8 +231,8 @@ struct EdgeScene {
                 s.real.push_back({beyond(x, y) < 0 ? 1.0 : 0.25, 0.01});
         return s;
     }
-    /// Mean distance of visibility's half from the edge [video px]: the area between both, over
-    /// the length of the edge.
+    /// Mean distance between the line of half visibility and the edge [video px]: the area between
+    /// both, divided by the edge's length.
     [[nodiscard]] double errorOf(const LaidOver& got) const {
         const double step = static_cast<double>(coarse.width) / fine.width;
         double wrong = 0;
@@ -254,7 +254,7 @@ TEST_P(OcclusionTest, HalfHiddenThingEndsAtTheImageEdge) {
         }
 }
 
-/// A layer of a size of its own, over black, with nothing real that hides it.
+/// A layer with its own size, over black, without real occluders.
 class ScaledLayer : public OcclusionTest {
 protected:
     static constexpr Size kVideo{40, 30}, kOutput{160, 120};
@@ -270,7 +270,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, ScaledLayer, testing::Values(EngineKind::Gles,
 
 TEST_P(ScaledLayer, ColoursAreLinearBetweenItsPixels) {
     constexpr Size kHalf{80, 60};
-    // Weights of 8 bits in texture units of software renderers.
+    // Texture units of software renderers have 8-bit weights.
     const double most = GetParam() == EngineKind::Gles ? 1.01 : 0.53;
     LaidLayer layer{kHalf};
     layer.colour = [](int x, int y) {
@@ -295,7 +295,8 @@ TEST_P(ScaledLayer, EdgeTakesDepthOfThePixelThatHasOne) {
         layer.z = [&](int x, int) { return x == 20 ? 2 : nothing; };
         layer.bounds = {20, 0, 21, kQuarter.height};
         const LaidOver got = runOverBlack(layer);
-        // Pixel 20 is centred at output 81.5; its tent reaches four output pixels to both sides.
+        // The centre of pixel 20 is at output 81.5; its tent reaches four output pixels to both
+        // sides.
         for (int x = 0; x < kOutput.width; ++x) {
             const double tent = std::max(1 - std::abs(x - 81.5) / 4, 0.0);
             ASSERT_NEAR(got.at(x, 60, 0), 200 * tent, 1.01) << x;

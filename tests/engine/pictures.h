@@ -13,8 +13,8 @@
 
 namespace mfar {
 
-/// How a picture is taken from a pattern: pixel (x, y) shows the pattern around
-/// ((x, y) + 0.5) step - 0.5 + shift, averaged over a square of `footprint` pattern units.
+/// Sampling of a pattern: pixel (x, y) shows the pattern around ((x, y) + 0.5) step - 0.5 + shift,
+/// averaged over a square of `footprint` pattern units.
 struct Shot {
     double step = 1;
     Eigen::Vector2d shift{0, 0};
@@ -23,8 +23,8 @@ struct Shot {
     PixelFormat format = PixelFormat::Rgba8;
 };
 
-/// A random pattern that is known at every position: a sum of plane waves, in grey levels. The
-/// wavelengths are spread evenly in their logarithm.
+/// A random pattern with known values at every position: a sum of plane waves, in grey levels.
+/// Wavelengths are distributed uniformly in the logarithm.
 class Waves {
 public:
     /// Wavelengths in pattern units; contrast = standard deviation [grey levels].
@@ -40,23 +40,23 @@ private:
 
 [[nodiscard]] TestPicture randomPicture(Size size, unsigned seed,
                                         PixelFormat f = PixelFormat::Rgba8);
-/// One pixel black, one white.
+/// Alternating black and white pixels.
 [[nodiscard]] TestPicture checkerboard(Size size);
 /// Adds the same Gaussian noise to all channels of each pixel.
 void addNoise(TestPicture& picture, double sigma, unsigned seed);
-/// Root of the mean squared difference, turned into decibels against 255.
+/// Peak signal-to-noise ratio [dB] for a peak of 255.
 [[nodiscard]] double psnr(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 
-/// Two ideal cameras at the same place: the still is the video's view at another resolution.
+/// Two ideal cameras at the same place: the still shows the video's view at another resolution.
 [[nodiscard]] StereoRig plainRig(Size video, Size still);
-/// Two different lenses, rotated by some degrees against each other.
+/// Two different lenses, rotated by some degrees relative to each other.
 [[nodiscard]] StereoRig bentRig(Size video, Size still);
 
 [[nodiscard]] gpu::Texture uploaded(const TestPicture& p, gpu::Filter f = gpu::Filter::Nearest);
 [[nodiscard]] RgbPlanes planesOf(const TestPicture& p);
-/// What shaders sample, swizzled as it is: RGBA8.
+/// The values that shaders sample, including the swizzle: RGBA8.
 [[nodiscard]] std::vector<std::uint8_t> sampled(const gpu::Texture& texture);
-/// Four floats a texel.
+/// A texture from four floats a texel.
 [[nodiscard]] gpu::Texture floatTexture(Size size, gpu::TexelFormat format,
                                         const std::vector<float>& values,
                                         gpu::Filter f = gpu::Filter::Nearest);

@@ -8,10 +8,10 @@
 namespace mfar {
 namespace {
 
-// 8-bit steps, and single precision where a value lies between two of them.
+// Half an 8-bit step, plus single precision for values between two steps.
 constexpr double kToABit = 0.501;
 
-/// What the steps of both engines have to do, through the interface that the pipeline sees.
+/// Requirements on the steps of both engines, tested through the pipeline's interface.
 class StepsTest : public GlTest, public testing::WithParamInterface<EngineKind> {
 protected:
     static std::unique_ptr<Engine> engineFor(const StereoRig& rig, Size output = {64, 48}) {
@@ -23,7 +23,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(Engines, StepsTest, testing::Values(EngineKind::Gles, EngineKind::Simd),
                          engineOfTest);
 
-/// All tiles changed and matched.
+/// Work with all tiles changed and matched.
 TileWork everything(Size video) {
     TileWork work;
     work.tiles = tilesOf(video);
@@ -33,10 +33,10 @@ TileWork everything(Size video) {
     return work;
 }
 
-/// A level as it is stored, its margin checked to repeat the border.
+/// A level as stored; checks that its margin repeats the border.
 twin::Grey levelOf(const LumaPyramid& pyramid, const LumaLevel& level) {
     const std::uint32_t* words = pyramid.words.host().data + level.offset;
-    const auto stored = [&](int x, int y) {  // x from -8 on
+    const auto stored = [&](int x, int y) {  // columns begin at x = -8
         const std::uint32_t word =
             words[static_cast<std::ptrdiff_t>(y) * level.pitch + (x + 8) / 4];
         return static_cast<double>((word >> (8 * (x & 3))) & 255U);
@@ -86,7 +86,7 @@ TEST_P(StepsTest, PyramidOfTheStillIsSeenThroughTheRig) {
         const auto prepare = engine->still();
         const auto step = engine->pyramid();
         const LumaPyramid& pyramid = step->still(prepare->run(still.view(), SuperResMode::Detail));
-        // A filter of 8-bit weights, or luma that is rounded before.
+        // The shaders' filter has 8-bit weights; the kernels round luma before.
         EXPECT_LE(worstOf(levelOf(pyramid, pyramid.still[0]),
                           twin::lumaFromStill(twin::luma(still.view()), rig)),
                   kToABit + 1);
@@ -108,7 +108,7 @@ TEST_P(StepsTest, PyramidsKeepTheRange) {
     }
 }
 
-/// Its raised luma as the engine that made it reads it.
+/// The luma with raised detail, as the engine that made it reads it.
 twin::Grey raisedOf(const StillPictures& still) {
     EXPECT_NE(still.raised.isEmpty(), still.pairs.isEmpty());
     if (still.pairs.isEmpty()) {
@@ -162,11 +162,12 @@ TEST_P(StepsTest, WithoutAStillTheVideoIsEnlarged) {
     for (const Size output : {Size{191, 133}, Size{61, 140}, Size{424, 296}})
         for (const bool cubic : {true, false}) {
             const auto engine = engineFor(plainRig(video, output), output);
-            // Columns in 8 bits, or rows in 1/64 grey level and products in 1/32.
+            // Shaders round columns to 8 bits; kernels have rows in 1/64 grey level and products in
+            // 1/32.
             const double gain = cubic ? twin::kCubicGain : 1;
             const double most = isGles() ? 0.51 * (1 + gain) : 0.65;
             expectEnlarged(*engine, Waves(1, 3, 40, 20).shoot(video, {}), output, cubic, most);
-            // The shaders clamp columns that leave the range of a byte, the kernels no rows.
+            // Shaders clamp columns that leave a byte's range; kernels do not clamp rows.
             if (isGles()) continue;
             expectEnlarged(*engine, randomPicture(video, 2), output, cubic, most);
             expectEnlarged(*engine, checkerboard(video), output, cubic, most);

@@ -23,17 +23,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What the product promises, see daemon/budgets.h and the service's unit.
+// The product's promises, see daemon/budgets.h and the service's unit.
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kPicture = 2000 * kMs;
-constexpr Ns kRepeats = 200 * kMs;  ///< some pictures
-constexpr Ns kLookTime = kSecond;   ///< how often mfard looks at its threads
+constexpr Ns kRepeats = 200 * kMs;  ///< the time of some pictures
+constexpr Ns kLookTime = kSecond;   ///< interval in which mfard checks its threads
 constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
-/// Of measuring: pictures have periods, answers take time.
+/// Tolerance of measurements: pictures have periods, and answers take time.
 constexpr Ns kSlack = 100 * kMs;
-constexpr Ns kOnScreen = 500 * kMs;  ///< the age of a picture while all is well
+constexpr Ns kOnScreen = 500 * kMs;  ///< upper limit of a picture's age without faults
 constexpr Ns kAnswer = kSecond;
 
 std::string seconds(Ns time) {
@@ -49,11 +49,11 @@ std::uint64_t entries(const char* folder) {
         std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-/// What each descriptor is open on.
+/// The files that the descriptors refer to.
 std::multiset<std::string> openFiles() {
     std::multiset<std::string> out;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        std::error_code error;  // the folder's own is closed by now
+        std::error_code error;  // the directory's own descriptor is closed by now
         out.insert(std::filesystem::read_symlink(entry.path(), error).string());
     }
     return out;
@@ -115,7 +115,7 @@ void Judge::change(const Fault& fault, int by) {
 }
 
 void Judge::begins(const Fault& fault) {
-    // One that is not open hangs its opener, which may take far longer.
+    // If the device is not open, opening it hangs, which may take far longer.
     const bool wasSound = calm_[VideoDevice].lasts(kBack, now());
     const int before = calm_[VideoDevice].active;
     change(fault, 1);
@@ -137,19 +137,19 @@ void Judge::shows(Ns taken) {
     shown_ = taken;
 }
 
-// Before the first picture there is none that could be stale.
+// 0 before the first picture, when no picture can be stale.
 Ns Judge::age(Ns at) const {
     return shown_ ? at - *shown_ : 0;
 }
 
-/// For how long the video camera has sent nothing, because of its fault.
+/// How long the video camera has sent nothing because of its fault.
 Ns Judge::missing(Ns at) const {
     const Calm& device = calm_[VideoDevice];
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
-/// For how long the GPU has finished no picture, because of its fault. Those that come first have
-/// more time, nothing is drawn without a camera, and a GPU that was given up draws nothing.
+/// How long the GPU has finished no picture because of its fault. 0 during the first pictures,
+/// which may take longer, without a camera, and after the GPU was given up, when it draws nothing.
 Ns Judge::unfinished(Watched gpu, Ns at) const {
     if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
     if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
@@ -171,15 +171,15 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the processor draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
-    // A pipe that is not read takes some pictures, and then one for as long as a writer may need.
+    // A pipe without a reader takes some pictures; then one may wait for the writer's whole budget.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
-    // That a camera repeats itself is known after some pictures.
+    // A repeated picture is recognised only after some pictures.
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
     const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
     if (age(asked) > kStale + kSlack && isFine && isKnown)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
-    // Cameras are looked at between pictures.
+    // Cameras are checked between pictures.
     if (missing(asked) > kMarked + kSlack && isFine && calm_[Drawing].lasts(kMarked, asked))
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
              ", status says ok");
@@ -187,7 +187,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
         fail("the GPU has finished no picture for " + seconds(unfinished(Gpu, asked)) +
              ", status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
-    // A GPU that has failed is named for a minute, or for ever.
+    // The status names a failed GPU for a minute, or permanently.
     const bool namesGpu = hadGpuFaults_ && cause.find("the GPU failed") != cause.npos;
     if (!isFine && !namesGpu)
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
@@ -198,7 +198,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
              ", the screen's picture is " + seconds(age(asked)) + " old");
 }
 
-// One camera's fault is none of the other.
+// A camera's fault must not be attributed to the other one.
 void Judge::judgeBlame(const std::string& fault, Ns asked) {
     if (!calm_[Slow].lasts(kBack, asked)) return;
     const bool video = calm_[Video].lasts(kBack + kSlack, asked);
@@ -245,14 +245,14 @@ void Judge::fed() {
         fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
 }
 
-// What is said because somebody asked is said each time.
+// Answers to requests are logged each time.
 void Judge::logSays(std::string_view text) {
     logBytes_ += text.size();
     std::string all(text.substr(0, text.find_last_not_of('\n') + 1));
     note("log: " + std::regex_replace(all, std::regex("\n"), "\n             log: "));
-    // At the end, what was kept back is said.
+    // At the end, suppressed messages are logged.
     if (isEnding() || all.find("mfard.toml") != all.npos) return;
-    // Without how long it has lasted, and that it has been kept back.
+    // The text without duration and number of suppressed messages.
     const std::string event =
         std::regex_replace(all, std::regex(R"( \((degraded|stalled|once)[^)]*\))"), "");
     const auto before = logged_.find(event);

@@ -15,32 +15,33 @@
 
 namespace mfar::faults {
 
-/// Holds what mfard says of itself against what is so. Each rule that is broken is a line of the
-/// report. Its functions are called by one thread at a time, see Scheduler.
+/// Compares what mfard reports with the facts. Each violated rule is a line in the report. Only one
+/// thread at a time calls it, see Scheduler.
 class Judge {
 public:
-    /// The process's own; writes to the file that MFAR_FAULTS_REPORT names.
+    /// The process's judge, which writes to the file named by MFAR_FAULTS_REPORT.
     static Judge& get();
 
-    // What is so.
+    // The facts.
     void begins(const Fault& fault);
     void ends(const Fault& fault);
-    /// The screen shows a picture, taken at this time.
+    /// The screen shows a picture that was taken at this time.
     void shows(Ns taken);
 
-    // What mfard does and says.
+    // Actions and messages of mfard.
     void serviceHears(std::string_view text);
     void logSays(std::string_view text);
     void status(const nlohmann::ordered_json& said, Ns asked);
     void answersNot(const std::string& why, Ns asked);
-    void terminated();  ///< it has been asked to end
+    void terminated();  ///< mfard was asked to end
     void ended(int code, bool inTime);
-    /// While nothing is wrong: what cameras have sent that is to be refused, as stats has it.
+    /// Without faults: compares the counts of invalid pictures in `stats` with those that cameras
+    /// sent.
     void stats(const nlohmann::ordered_json& said);
-    /// A recording that has ended can be read.
+    /// Checks that a finished recording can be read.
     void recording(const std::string& folder);
-    /// Memory, descriptors and threads while nothing is wrong; the first call says what may be.
-    /// False where there is more: what is still being answered may end soon.
+    /// Checks memory, descriptors and threads without faults; the first call sets the reference.
+    /// False if there is more than that: requests in progress may end soon.
     [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
 
     void note(const std::string& text);
@@ -52,7 +53,7 @@ public:
     [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
 private:
-    /// Since when there has been no such fault; nothing while there is one.
+    /// Time since the last such fault ended.
     struct Calm {
         int active = 0;
         Ns since = 0;
@@ -78,14 +79,13 @@ private:
     int report_ = 2;
     std::array<Calm, WatchedCount> calm_{};
     std::optional<Ns> ready_, terminated_, shown_, fed_;
-    std::optional<Ns>
-        hangs_;  ///< since when the video driver does, while nothing else is wrong with it
+    std::optional<Ns> hangs_;  ///< since when the video driver hangs, without another fault of it
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;
     bool hadGpuFaults_ = false, isGpuGivenUp_ = false;
     struct Held {
-        std::multiset<std::string> files;  ///< what descriptors are open on
+        std::multiset<std::string> files;  ///< files that descriptors refer to
         std::uint64_t threads = 0, bytes = 0;
     };
     std::optional<Held> first_;

@@ -18,12 +18,13 @@ namespace mfar::faults {
 
 struct Scheduler::Task {
     std::atomic<int> turn{0};
-    const void* key = nullptr;  ///< it waits for this, or its files; null: it is ready
+    /// The task waits for this key, or for its files; null: it is ready.
+    const void* key = nullptr;
     pollfd* files = nullptr;
     nfds_t fileCount = 0;
     int filesReady = 0;
     Ns deadline = kNever;
-    std::uint64_t order = 0;  ///< since when
+    std::uint64_t order = 0;  ///< order in which tasks began to wait
     bool woken = false;
     void* (*start)(void*) = nullptr;
     void* argument = nullptr;
@@ -34,7 +35,8 @@ struct Scheduler::Task {
 
 namespace {
 
-constexpr std::uint64_t kFileTurns = 16;  // how often files are looked at while others are ready
+// Files are checked once in this number of turns while tasks are ready.
+constexpr std::uint64_t kFileTurns = 16;
 constexpr std::uint64_t kLocksPerYield = 16;
 constexpr int kIdleMs = 100, kMostIdle = 100;
 
@@ -115,7 +117,7 @@ void Scheduler::checkFiles() {
     }
 }
 
-// To the next deadline. Without one only somebody outside can help.
+// Jumps to the next deadline. Without one, only another process can wake a task.
 void Scheduler::advance() {
     Ns first = kNever;
     for (const Task* task : tasks_)
@@ -219,7 +221,7 @@ void* Scheduler::begin(void* argument) {
     return task->start(task->argument);
 }
 
-// Destructors of what belongs to the thread may lock: the last round is ours.
+// Destructors of thread-local data may lock: this must be the last round.
 void Scheduler::end(void* argument) {
     auto* task = static_cast<Task*>(argument);
     if (++task->cleanUps < PTHREAD_DESTRUCTOR_ITERATIONS) {

@@ -14,47 +14,49 @@ using Ns = std::int64_t;
 constexpr Ns kNever = std::numeric_limits<Ns>::max();
 constexpr Ns kMs = 1'000'000, kSecond = 1'000'000'000;
 
-/// Runs the threads of this process one at a time, on a clock of its own: it passes a little with
-/// each look at it, and jumps to the next deadline when every thread waits. So an hour of waiting
-/// costs nothing, and as the next thread to run is drawn from a seed, a run can be repeated.
+/// Runs the threads of this process one at a time on a simulated clock, which advances a little
+/// with each reading and jumps to the next deadline when every thread waits. So an hour of waiting
+/// costs nothing; and as the next thread is drawn from a seed, a run can be repeated.
 ///
-/// A thread gives its turn away where it waits (see calls.cpp), and now and then where it locks.
-/// All functions belong to the thread whose turn it is, so nothing here is locked.
+/// A thread gives up its turn where it waits (see calls.cpp), and sometimes where it locks. Only
+/// the thread with the turn calls these functions, so nothing here is locked.
 class Scheduler {
 public:
-    /// Made with the first call; never destroyed, as threads outlive main().
+    /// Created by the first call; never destroyed, as threads outlive main().
     static Scheduler& get();
 
-    /// False in a thread that has given up its turn for ever, within the C library's last clean-up.
+    /// False in a thread that has given up its turn permanently, during the C library's last
+    /// clean-up.
     [[nodiscard]] bool hasTurn() const;
 
     [[nodiscard]] Ns now() const { return now_; }
-    /// The time, after what the look costs.
+    /// Reads the clock, after advancing it by the cost of a reading.
     [[nodiscard]] Ns look() { return now_ += cost_; }
     void setCost(Ns cost) { cost_ = cost; }
-    /// Of CLOCK_REALTIME, before that of the other clocks.
+    /// Offset of CLOCK_REALTIME from the other clocks.
     [[nodiscard]] Ns wallOffset() const { return wallOffset_; }
     void stepWall(Ns by) { wallOffset_ += by; }
 
-    /// Waits until wake() with this key, false when the time is over.
+    /// Waits for a wake() with this key; false at the deadline.
     bool waitFor(const void* key, Ns deadline = kNever);
-    /// The first of those that wait, at most `count`; returns how many.
+    /// Wakes the first `count` waiting tasks; returns their number.
     int wake(const void* key, int count = std::numeric_limits<int>::max());
-    /// As poll(), -1 with errno included.
+    /// As poll(), including -1 with errno.
     int waitForFiles(pollfd* fds, nfds_t count, Ns deadline);
-    /// Others may go first.
+    /// Gives other tasks a turn.
     void yield();
-    /// The same now and then.
+    /// Yields at some of the calls.
     void maybeYield();
 
-    /// A timer's descriptor becomes readable at `first`, then every `period`; 0: never, once.
+    /// Makes a timer's descriptor readable at `first` (0: never), then every `period` (0: only
+    /// once).
     void setTimer(int fd, Ns first, Ns period);
     void addTimer(int fd) { timers_.push_back({fd, 0, 0}); }
 
-    // The life of a thread.
+    // Start and end of threads.
     int create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                void* argument);
-    /// Returns when the thread does nothing of ours any more.
+    /// Returns when the thread executes no more code of this process.
     void waitForEnd(pthread_t thread);
 
     [[nodiscard]] std::uint64_t random() { return random_(); }

@@ -9,8 +9,8 @@
 
 namespace mfar::twin {
 
-/// The mean of a picture's colours, `colour(x, y)` with three of them, over [lo, hi) in x and y;
-/// pixels beyond the edge repeat it.
+/// The mean of a picture's colours, `colour(x, y)` with three channels, over [lo, hi) in x and y;
+/// pixels outside repeat the edge.
 template <class Colour>
 std::array<double, 3> areaMean(Size size, Colour colour, std::array<double, 2> lo,
                                std::array<double, 2> hi) {
@@ -29,7 +29,8 @@ std::array<double, 3> areaMean(Size size, Colour colour, std::array<double, 2> l
     return sum;
 }
 
-/// display_scale.frag: pixel (x, y) of the rectangle `to` that a picture of this size fills.
+/// As display_scale.frag: pixel (x, y) of the rectangle `to` that is filled by a picture of this
+/// size.
 template <class Colour>
 std::array<double, 3> scaledPixel(Size size, Colour colour, const ScreenRect& to, int x, int y) {
     const double sx = double(size.width) / to.size.width;

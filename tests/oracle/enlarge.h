@@ -9,10 +9,10 @@
 #include <numbers>
 
 /// The learned enlarger in double precision: classes, the residual on the grid of sub-pixels, and
-/// the residual at another size. Pictures of luma in grey levels.
+/// the residual at another size. Luma pictures in grey levels.
 namespace mfar::twin {
 
-/// A class, and how close the picture is to another's: 0 on the border between both.
+/// A class and the distance to the nearest border of classes: 0 on the border.
 struct Classified {
     int number;
     double margin;
@@ -30,7 +30,7 @@ public:
         }
         return out;
     }
-    /// Bin of the angle of half of atan2(sine, cosine) among equal ones from -pi/2 on.
+    /// Bin of half the angle atan2(sine, cosine), among `bins` equal ones from -pi/2 on.
     int bin(double cosine, double sine, int bins) {
         const double at = (std::atan2(sine, cosine) / (2 * std::numbers::pi) + 0.5) * bins;
         margin_ = std::min(margin_, std::abs(at - std::round(at)));
@@ -75,7 +75,7 @@ inline Classified curvatureClass(const Grey& g, int x, int y) {
     return {(bin * 7 + laplacian) * 4 + difference, t.margin()};
 }
 
-/// Smallest and largest of the 5x5 pixels around one.
+/// Smallest and largest of the 5x5 pixels around a pixel.
 inline std::array<double, 2> rangeAround(const Grey& g, int x, int y) {
     std::array<double, 2> out{1e9, -1e9};
     for (int j = -2; j <= 2; ++j)
@@ -84,7 +84,7 @@ inline std::array<double, 2> rangeAround(const Grey& g, int x, int y) {
     return out;
 }
 
-/// What is added to the cubic at a sub-pixel of a pixel of these classes.
+/// The residual added to the cubic at a sub-pixel of a pixel of these classes.
 inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, int curvature,
                          const FilterBank& bank) {
     const auto scale = double(enlarge::kWeightScale);
@@ -101,7 +101,7 @@ inline double residualAt(const Grey& g, int x, int y, int phase, int gradient, i
     return std::clamp(sum + up, low - more - here, high + more - here) - up;
 }
 
-/// The grid of 4x4 sub-pixels per pixel.
+/// The residual on the grid of 4x4 sub-pixels per pixel.
 inline Grey residualGrid(const Grey& g, const FilterBank& bank) {
     constexpr int kGrid = enlarge::kGrid;
     Grey out{{kGrid * g.size.width, kGrid * g.size.height}, {}};
@@ -117,7 +117,7 @@ inline Grey residualGrid(const Grey& g, const FilterBank& bank) {
     return out;
 }
 
-/// Linear between sub-pixels.
+/// The residual at another size: linear between sub-pixels.
 inline Grey learnedResidual(const Grey& g, Size to, const FilterBank& bank) {
     return enlarged(residualGrid(g, bank), to, true);
 }

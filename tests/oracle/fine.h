@@ -10,17 +10,17 @@
 #include <functional>
 #include <vector>
 
-/// Scalar twin of what compares the finest detail of the video with a still's.
+/// Scalar twin of the comparison of the video's finest detail with a still's.
 namespace mfar::twin {
 
 struct FineCase {
     Grey video;
-    /// The still where a place of the video looks [video px].
+    /// The still's value where a position of the video looks it up [video px].
     std::function<double(double x, double y)> still;
-    std::function<bool(int x, int y)> isMatched;  ///< of a cell
+    std::function<bool(int x, int y)> isMatched;  ///< by cell
 };
 
-/// Variance of the video, covariance, variance of the still: blocks of 2x2 pixels in the middle
+/// Variance of the video, covariance, variance of the still: in blocks of 2x2 pixels in the middle
 /// rows of a cell.
 inline Eigen::Vector3d fineSums(const FineCase& in, int cellX, int cellY) {
     Eigen::Vector3d out = Eigen::Vector3d::Zero();
@@ -53,7 +53,7 @@ inline std::vector<double> fineShares(const FineCase& in, Size cells, const Fine
     for (int y = 0; y < cells.height; ++y)
         for (int x = 0; x < cells.width; ++x) {
             Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-            // Even rows are sampled; an odd one is between two.
+            // Only even rows of cells are sampled; an odd row uses the two next to it.
             const int above = y - y % 2, below = std::min(y + y % 2, (cells.height - 1) / 2 * 2);
             for (int i = x - 1; i <= x + 1; ++i)
                 for (const int j : {above, below})

@@ -11,13 +11,13 @@
 /// Scalar twins of the luma passes, in double precision.
 namespace mfar::twin {
 
-// Of the finest level: weight of each side's neighbour; the box that has the variance of a pixel
-// and of this smoothing together.
+// Finest level: kSmoothing is the weight of each side's neighbour; kBoxWidening widens a pixel's
+// box to the variance of the box and this smoothing together.
 inline constexpr double kSmoothing = params::kLumaSmoothing;
 inline const double kBoxWidening = std::sqrt(1 + 12 * 2 * kSmoothing);
 using params::kFootprintTaps;
 
-/// One channel; positions outside are held at the border.
+/// One channel; positions outside repeat the border.
 struct Grey {
     Size size;
     std::vector<double> values;
@@ -43,12 +43,12 @@ Grey greyOf(Size size, F valueAt) {
     return out;
 }
 
-/// Position of a pixel of a picture of another size: both have their centres at the same places.
+/// Position of a pixel in a picture of another size, so that pixel centres map to the same places.
 inline double centre(int x, int from, int to) {
     return (x + 0.5) * from / to - 0.5;
 }
 
-/// Greatest difference to rows of bytes, which hold no more than [0, 255].
+/// Largest difference from rows of bytes; wanted values are clamped to [0, 255].
 template <class Row>
 double worst(const Grey& wanted, const Row& rows) {
     double out = 0;
@@ -58,7 +58,7 @@ double worst(const Grey& wanted, const Row& rows) {
     return out;
 }
 
-/// Rec. 601, unrounded grey levels.
+/// Rec. 601 luma, unrounded grey levels.
 inline Grey luma(const ImageView& v) {
     return greyOf(v.size, [&](int x, int y) {
         const std::uint8_t* p = v.data + y * v.stride + 1UL * x * bytesPerPixel(v.format);
@@ -88,14 +88,14 @@ inline Grey halved(const Grey& g) {
     });
 }
 
-/// Where a video pixel at infinity lies in the still.
+/// Position in the still of a video pixel at infinite depth.
 inline Eigen::Vector2d stillPixel(const StereoRig& rig, const Eigen::Vector2d& videoPixel) {
     const Eigen::Vector3d ray =
         rig.T_still_video.rotation * rig.video.unproject(videoPixel).homogeneous();
     return rig.still.project(ray.hnormalized());
 }
 
-/// The still at the video's geometry: mean over a video pixel's footprint, widened.
+/// The still in the video's geometry: mean over a video pixel's footprint, widened by kBoxWidening.
 inline Grey lumaFromStill(const Grey& still, const StereoRig& rig) {
     const double footprint = kBoxWidening * rig.still.fx / rig.video.fx;
     return greyOf(rig.video.size, [&](int x, int y) {

@@ -5,17 +5,17 @@
 
 #include <Eigen/Dense>
 
-/// Comparison of 8x8 patches, of patch.glsl and of the kernels, in double precision.
+/// Comparison of 8x8 patches as in patch.glsl and the kernels, in double precision.
 namespace mfar::twin {
 
 struct PatchMatch {
     double cost, gain, covariance, varianceA, varianceB;
-    Eigen::Vector2d step;  ///< Gauss-Newton, at most a pixel long
+    Eigen::Vector2d step;  ///< Gauss-Newton step, at most one pixel long
 };
 
 using Patch = Eigen::Matrix<double, 64, 1>;
 
-/// The 8x8 patch around cell (cx, cy) of `a` against the pixels `vb` of the other picture.
+/// Compares the 8x8 patch around cell (cx, cy) of `a` with the other picture's pixels `vb`.
 inline PatchMatch matchPatch(const Grey& a, int cx, int cy, Patch vb) {
     const int x0 = 4 * cx - 2, y0 = 4 * cy - 2;
     Patch va;
@@ -43,7 +43,7 @@ inline PatchMatch matchPatch(const Grey& a, int cx, int cy, Patch vb) {
     return m;
 }
 
-/// The same against `b`, displaced by u.
+/// As matchPatch(), with the patch of `b` displaced by u.
 inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eigen::Vector2d u) {
     const double bx = std::clamp(4 * cx - 2 + u.x(), -7.0, b.size.width - 2.0);
     const double by = std::clamp(4 * cy - 2 + u.y(), -7.0, b.size.height - 2.0);
@@ -55,8 +55,8 @@ inline PatchMatch comparePatch(const Grey& a, const Grey& b, int cx, int cy, Eig
     return matchPatch(a, cx, cy, vb);
 }
 
-/// The same with a flow that changes by dx, dy per pixel: `span` pixels of a row share the pixels
-/// between which they lie.
+/// As comparePatch(), with a flow that changes by dx, dy per pixel; groups of `span` pixels in a
+/// row share one sub-pixel position.
 inline PatchMatch compareBentPatch(const Grey& a, const Grey& b, int cx, int cy,
                                    const Eigen::Vector2d& u, const Eigen::Vector2d& dx,
                                    const Eigen::Vector2d& dy, int span = 4) {

@@ -13,31 +13,31 @@
 namespace mfar::twin {
 
 struct TileChange {
-    /// Of the tile's cells, row-major, the largest over the channels: mean difference, mean
-    /// absolute difference.
+    /// Per cell of the tile, row-major, maximum over the channels: mean difference, mean absolute
+    /// difference.
     std::array<double, 16> mean{}, absolute{};
-    double cellNoise = 0;  ///< variance of such a mean in the noisiest channel
+    double cellNoise = 0;  ///< variance of a cell's mean in the noisiest channel
     double noise = 0;      ///< [grey levels]
-    /// Mean and slopes of the difference, squared, over their variance: of the worst channel.
+    /// Squared mean and slopes of the difference, divided by their variance; of the worst channel.
     double moments = 0;
-    /// Of the luma's difference: mean squares of its pixels' twist, of 2x2 means, of their twist;
-    /// of white noise all the variance of a pixel.
+    /// Mean squares of the luma's difference: twist of pixels, 2x2 means, twist of 2x2 means. For
+    /// white noise, each is the full variance of a pixel.
     std::array<double, 3> energy{};
-    /// What planes through 8x8 pixels leave of the luma's 2x2 means: mean sum of squares.
+    /// Mean sum of squares of the luma's 2x2 means after subtraction of planes through 8x8 pixels.
     double structure = 0;
 };
 
-/// Difference of two pictures, none beyond their border.
+/// Difference of two pictures; 0 outside of them.
 struct Difference {
     const TestPicture &now, &drawn;
 
-    /// Of red, green or blue.
+    /// Difference of red, green or blue.
     [[nodiscard]] double of(int x, int y, int colour) const {
         if (x >= now.size.width || y >= now.size.height) return 0;
         const std::size_t i = 4 * (static_cast<std::size_t>(y) * now.size.width + x) + colour;
         return double(now.bytes[i]) - drawn.bytes[i];
     }
-    /// Of red, luma or blue.
+    /// Difference of red, luma or blue.
     [[nodiscard]] double at(int x, int y, int channel) const {
         if (channel != 1) return of(x, y, channel);
         return double{params::kLumaRed} * of(x, y, 0) + double{params::kLumaGreen} * of(x, y, 1) +
@@ -50,7 +50,7 @@ struct Difference {
             sum += at(x + i % size, y + i / size, channel);
         return sum / (size * size);
     }
-    /// Of 2x2 means of size x size pixels.
+    /// Twist of 2x2 blocks, each the mean of size x size pixels.
     [[nodiscard]] double twist(int x, int y, int size, int channel) const {
         return (mean(x, y, size, channel) - mean(x + size, y, size, channel) -
                 mean(x, y + size, size, channel) + mean(x + size, y + size, size, channel)) /
@@ -83,7 +83,7 @@ inline void driftOf(const Difference& d, int x0, int y0, double grain, TileChang
         out.energy[2] += 4 * std::pow(d.twist(x0 + 4 * (i % 4), y0 + 4 * (i / 4), 2, 1), 2) / 16;
 }
 
-/// By plain least squares on 4x4 means.
+/// Residual of a plane fitted to 4x4 means, by plain least squares.
 inline double besidePlane(const std::array<double, 16>& v) {
     double mean = 0, dx = 0, dy = 0, out = 0;
     for (int i = 0; i < 16; ++i) {
@@ -138,11 +138,11 @@ inline TileChange tileChange(const TestPicture& now, const TestPicture& drawn, c
                                       grey.at(x + 1, y + 1)) /
                              2 / 64;
     }
-    out.noise *= 1.2533;  // mean absolute value of a Gaussian to its deviation
+    out.noise *= 1.2533;  // from a Gaussian's mean absolute value to its standard deviation
     return out;
 }
 
-/// What tells the tiles of a picture apart: bounds of a cell's mean and mean absolute difference.
+/// Thresholds for changed tiles: bounds of a cell's mean and mean absolute difference.
 struct ChangeBounds {
     double mean, absolute;
     static constexpr double kMoments = 40, kCell = 30;
@@ -167,8 +167,8 @@ struct ChangeBounds {
     }
 };
 
-/// Energies of tiles that did not surely change, summed, against what noise explains: above 0 they
-/// did change.
+/// Sums the energies of tiles without a sure change and compares them with the noise's: above 0,
+/// the tiles changed.
 class Drift {
 public:
     void add(const TileChange& t) {
@@ -186,7 +186,7 @@ private:
     double pixels_ = 0, means_ = 0;
 };
 
-/// Is a cell of tile (x, y) beside tile (i, j) among those that surely changed?
+/// True if a surely changed cell of tile (x, y) is next to tile (i, j).
 inline bool reaches(const TileChange& t, const ChangeBounds& bounds, int x, int y, int i, int j) {
     for (int cell = 0; cell < 16; ++cell) {
         const int column = 4 * x + cell % 4, row = 4 * y + cell / 4;
@@ -197,7 +197,7 @@ inline bool reaches(const TileChange& t, const ChangeBounds& bounds, int x, int 
     return false;
 }
 
-/// Which tiles changed, row-major; nothing where rounding decides.
+/// For each tile, row-major, whether it changed; empty where rounding decides.
 inline std::vector<std::optional<bool>> changedTiles(const std::vector<TileChange>& tiles,
                                                      int columns, const ChangeBounds& bounds) {
     constexpr int kBlock = 8;

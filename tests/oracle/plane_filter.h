@@ -10,7 +10,7 @@
 
 namespace mfar::twin {
 
-/// A cell field, border repeated: flow (x, y), cost, texture.
+/// A cell field with repeated border: flow (x, y), cost, texture.
 struct FlowCells {
     const std::vector<std::array<float, 4>>& values;
     int width, height;
@@ -34,7 +34,7 @@ inline Eigen::Vector2d medianAround(const FlowCells& cells, int x, int y) {
     return out;
 }
 
-/// Value, change per column and per row, by column of the matrix.
+/// Columns: value, change per column, change per row.
 using Plane = Eigen::Matrix<double, 2, 3>;
 
 inline Plane fitPlane(const FlowCells& cells, int x, int y, const Plane& about, double reach) {

@@ -7,10 +7,10 @@
 #include <optional>
 #include <vector>
 
-/// Virtual objects as exact surfaces, pixel by pixel through the lens.
+/// Virtual objects as exact surfaces, computed per pixel through the lens.
 namespace mfar::twin {
 
-/// Distance along the ray, in units of its direction, where it first meets the object's surface
+/// Distance along the ray, in units of its direction, to its first intersection with the object
 /// beyond `least`.
 inline std::optional<double> hit(const VirtualObject& o, const Eigen::Vector3d& origin,
                                  const Eigen::Vector3d& direction, double least) {
@@ -39,7 +39,7 @@ inline std::optional<double> hit(const VirtualObject& o, const Eigen::Vector3d& 
     return {};
 }
 
-/// z [m] at each pixel, 0 = nothing.
+/// z [m] per pixel, 0 = no surface.
 struct DepthPicture {
     Size size;
     std::vector<double> z;
@@ -49,7 +49,7 @@ struct DepthPicture {
         y = std::clamp(y, 0, size.height - 1);
         return z[static_cast<std::size_t>(y) * size.width + x];
     }
-    /// The nearest and the farthest of the pixel and its eight neighbours.
+    /// Minimum and maximum of the pixel and its eight neighbours.
     [[nodiscard]] std::array<double, 2> around(int x, int y) const {
         std::array<double, 2> range{at(x, y), at(x, y)};
         for (int i = 0; i < 9; ++i) {

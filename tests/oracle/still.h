@@ -2,12 +2,11 @@
 
 #include "tests/oracle/upscale.h"
 
-/// What a still is made into before it is used, and what it adds to a frame; in double precision
-/// and grey levels.
+/// Preparation of a still, and its contribution to a frame; in double precision and grey levels.
 namespace mfar::twin {
 
-/// What pixels of a grid see: means of 4x4 samples a quarter of `footprint` pixels apart. `at`: of
-/// a place, where the centre of the first pixel is (0.5, 0.5).
+/// Values that a grid's pixels see: means of 4x4 samples a quarter of `footprint` pixels apart.
+/// `at(x, y)` gives the value at a position, where (0.5, 0.5) is the centre of the first pixel.
 template <class At>
 Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
           double footprintY = params::kSeen) {
@@ -22,8 +21,8 @@ Grey seen(Size grid, const At& at, double footprintX = params::kSeen,
     });
 }
 
-/// The same of a warped still at the output's size, whose linear look-ups widen what is seen: its
-/// variance is kept.
+/// As seen(), for a warped still at the output's size. Its linear look-ups widen the footprint,
+/// which is reduced to keep the same variance.
 inline Grey seenOf(const Grey& warped, Size video) {
     const double stepX = static_cast<double>(warped.size.width) / video.width,
                  stepY = static_cast<double>(warped.size.height) / video.height;
@@ -38,7 +37,7 @@ inline Grey seenOf(const Grey& warped, Size video) {
         footprint(stepX), footprint(stepY));
 }
 
-/// Luma with its finest detail raised; `neighbours`: weight of the four of a pixel.
+/// Luma with raised finest detail; `neighbours`: weight of each of the pixel's four neighbours.
 inline Grey raised(const Grey& luma, double neighbours) {
     return greyOf(luma.size, [&](int x, int y) {
         const double beside =
@@ -47,7 +46,7 @@ inline Grey raised(const Grey& luma, double neighbours) {
     });
 }
 
-/// Tent filter along both axes, as wide as two pixels of the result.
+/// Tent filter along both axes, two result pixels wide.
 inline Grey reduced(const Grey& g, Size to) {
     const auto along = [](int from, int wanted, int i, const auto& valueAt) {
         const double scale = static_cast<double>(from) / wanted, at = centre(i, from, wanted);

@@ -8,10 +8,10 @@
 
 #include <array>
 
-/// Scalar twins of the passes that weigh the still and sort the tiles.
+/// Scalar twins of the passes that weigh the still and classify tiles.
 namespace mfar::twin {
 
-/// A field of cells with four channels; cells outside are held at the border.
+/// A field of cells with four channels; cells outside repeat the border.
 struct Cells {
     Size size;
     std::vector<float> values;
@@ -39,14 +39,14 @@ struct Weight {
     double weight, confidence, signal, unexplained;
 };
 
-/// How much the flow changes around a cell [px per px].
+/// Change of the flow around a cell [px per px].
 inline double bendAt(const Cells& flow, int x, int y) {
     const Eigen::Vector4d dx = flow.at(x + 1, y) - flow.at(x - 1, y);
     const Eigen::Vector4d dy = flow.at(x, y + 1) - flow.at(x, y - 1);
     return std::sqrt(dx.head<2>().squaredNorm() + dy.head<2>().squaredNorm()) / 8;
 }
 
-/// How much the flow's step from cell to cell changes at one [px].
+/// Second difference of the flow at a cell [px].
 inline double tearAt(const Cells& flow, int x, int y) {
     const Eigen::Vector4d here = 2 * flow.at(x, y);
     const Eigen::Vector4d dx = flow.at(x + 1, y) + flow.at(x - 1, y) - here;
@@ -59,7 +59,7 @@ inline double smoothstep(double low, double high, double v) {
     return t * t * (3 - 2 * t);
 }
 
-/// statistics: covariance, variance of the video, of the still, confidence.
+/// `statistics`: covariance, variance of the video, variance of the still, confidence.
 inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& half, int x, int y,
                     double sigma) {
     Eigen::Vector4d s = Eigen::Vector4d::Zero(), h = Eigen::Vector4d::Zero();
@@ -90,7 +90,8 @@ inline Weight weigh(const Cells& flow, const Cells& statistics, const Cells& hal
             textured && ncc2 * conf <= params::kUnexplainedMatch ? 1.0 : 0.0};
 }
 
-/// 1 upscaled, 2 trusted (affine flow, even weight), 3 blended; over the tile and a ring of cells.
+/// Class of a tile, from its cells and a ring around them: 1 upscaled, 2 trusted (affine flow,
+/// uniform weight), 3 blended.
 inline unsigned tileClass(const Cells& field, int tileX, int tileY) {
     const int x0 = 4 * tileX, y0 = 4 * tileY;
     const Eigen::Vector4d origin = field.at(x0, y0);

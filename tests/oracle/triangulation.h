@@ -13,7 +13,7 @@ inline double cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Two views of a scene at rest.
+/// Two views of a static scene.
 struct TwoViews {
     CameraModel a, b;
     RigidTransform T_b_a;
@@ -27,18 +27,19 @@ struct TwoViews {
             T_b_a.rotation.conjugate() * b.unproject(pixel).homogeneous().eval();
         return ray / ray.z();
     }
-    /// Where b shows the point that a shows at `pixel` with inverse depth `rho`, less the pixel.
+    /// Flow of the point that a shows at `pixel` with inverse depth `rho`: its position in b minus
+    /// the pixel.
     [[nodiscard]] Eigen::Vector2d flow(const Eigen::Vector2d& pixel, double rho) const {
         const Eigen::Vector3d point =
             T_b_a.rotation * rayA(pixel).homogeneous().eval() + rho * T_b_a.translation;
         return b.project(point.hnormalized()) - pixel;
     }
-    /// The translation after the rotation is removed.
+    /// The translation after removal of the rotation.
     [[nodiscard]] Eigen::Vector3d baseline() const {
         return T_b_a.rotation.conjugate() * T_b_a.translation;
     }
-    /// The direction of the epipolar line, towards nearer points; as long as the baseline across
-    /// the ray.
+    /// Direction of the epipolar line, towards nearer points; its length is that of the baseline
+    /// across the ray.
     [[nodiscard]] Eigen::Vector2d line(const Eigen::Vector2d& pixel) const {
         const Eigen::Vector3d t = baseline();
         return t.head<2>() - rayA(pixel) * t.z();
@@ -49,7 +50,7 @@ struct FlowDepth {
     double inverseDepth, sigma, residual;
 };
 
-/// rho = (u . e) / (|e|^2 - b_z (u . e)), its change with the flow along e, the flow normal to it.
+/// rho = (u . e) / (|e|^2 - b_z (u . e)), its standard deviation, and the flow normal to e.
 inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pixel,
                                const Eigen::Vector2d& flow, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
@@ -62,10 +63,10 @@ inline FlowDepth depthFromFlow(const TwoViews& views, const Eigen::Vector2d& pix
 
 struct Midpoint {
     double inverseDepth, rayDistance;
-    bool ahead;  ///< of both cameras
+    bool ahead;  ///< in front of both cameras
 };
 
-/// The paper's: the shortest line between lambda Q_a^-1 m_a and c + lambda Q_b^-1 m_b.
+/// The paper's method: the shortest line between lambda Q_a^-1 m_a and c + lambda Q_b^-1 m_b.
 inline Midpoint midpoint(const TwoViews& views, const Eigen::Vector2d& pixel,
                          const Eigen::Vector2d& flow) {
     const Eigen::Vector3d c = views.T_b_a.inverse().translation;

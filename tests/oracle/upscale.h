@@ -6,8 +6,8 @@
 
 #include <array>
 
-/// What draws the enlarged video, in double precision: one channel, grey levels, nothing rounded
-/// and nothing clamped.
+/// Enlarging of the video in double precision: one channel, grey levels, neither rounded nor
+/// clamped.
 namespace mfar::twin {
 
 /// Keys' cubic with a = -0.75: weights of the four samples around a fraction t.
@@ -21,14 +21,14 @@ inline std::array<double, 4> cubic(double t) {
     return {w(1 + t), w(t), w(1 - t), w(2 - t)};
 }
 
-/// Of Keys' cubic or, with the outer two zero, linear.
+/// Weights of Keys' cubic or, with the outer two zero, of linear interpolation.
 inline std::array<double, 4> enlargingWeights(double t, bool linear) {
     if (linear) return {0, 1 - t, t, 0};
     return cubic(t);
 }
 
-/// Most that the weights of a cubic add up to without their signs: what an error of each sample
-/// grows by along one axis.
+/// Upper limit of the sum of a cubic's absolute weights: the factor by which an error of each
+/// sample grows along one axis.
 inline constexpr double kCubicGain = 1.375;
 
 inline Grey enlargedColumns(const Grey& g, int height, bool linear = false) {
@@ -57,8 +57,8 @@ inline Grey enlarged(const Grey& g, Size to, bool linear = false) {
 
 inline constexpr double kNearTap = params::kSharpenNear, kFarTap = params::kSharpenFar;
 
-/// The prefilter along both axes, with the product of the nearest taps across. `strengthAt`: of a
-/// pixel.
+/// The prefilter along both axes, with the product of the nearest taps diagonally. `strengthAt(x,
+/// y)`: strength at a pixel.
 template <class F>
 Grey sharpened(const Grey& g, F strengthAt) {
     return greyOf(g.size, [&](int x, int y) {

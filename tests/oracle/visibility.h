@@ -10,15 +10,15 @@
 #include <cmath>
 #include <vector>
 
-/// Scalar twin of the composite: who is in front.
+/// Scalar twin of the composite's occlusion.
 namespace mfar::twin {
 
 struct RealSample {
     double rho, sigma;  ///< [1/m]
 };
 
-/// A video pixel's part in what hides a virtual surface of inverse depth `inverse`; unknown hides
-/// nothing.
+/// Visibility of a virtual surface of inverse depth `inverse` behind a real sample; an unknown
+/// sample occludes nothing.
 inline double visibleOver(const RealSample& real, double inverse, const CompositeOptions& o) {
     const bool known =
         real.rho > params::kLeastInverseDepth && real.rho < params::kMostInverseDepth &&
@@ -29,7 +29,7 @@ inline double visibleOver(const RealSample& real, double inverse, const Composit
     return 1 - t * t * (3 - 2 * t);
 }
 
-/// What both pictures and the real depth say of output pixel (x, y).
+/// Both pictures and the real depth, for the visibility at output pixel (x, y).
 struct Scene {
     TestPicture video, picture;
     std::vector<RealSample> real;

@@ -6,10 +6,11 @@
 #include <array>
 #include <cmath>
 
-/// Scalar twin of picture_from_yuv.frag, in double precision, with the printed coefficients.
+/// Scalar twin of picture_from_yuv.frag, in double precision, with the standards' printed
+/// coefficients.
 namespace mfar::twin {
 
-/// One channel of one plane: `step` bytes from a sample to the next.
+/// One channel of one plane: samples are `step` bytes apart.
 struct Samples {
     const std::uint8_t* data;
     std::size_t stride;
@@ -55,8 +56,8 @@ inline std::array<double, 3> rgbOfYuv(double y, double u, double v, const ImageV
     return {y + k[1] * v, y + k[2] * u + k[3] * v, y + k[4] * u};
 }
 
-/// Colour of a pixel of any format, [0, 255], unrounded. Chroma lies in the middle of the pixels
-/// that share it and is interpolated.
+/// Colour of a pixel of any format, [0, 255], unrounded. Chroma samples are in the centre of the
+/// pixels that share them and are interpolated.
 inline std::array<double, 3> rgbAt(const ImageView& picture, int x, int y) {
     const std::uint8_t* p =
         picture.data + y * picture.stride + 1UL * x * bytesPerPixel(picture.format);

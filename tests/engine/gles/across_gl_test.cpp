@@ -11,8 +11,8 @@ namespace {
 
 using AcrossGl = GlTest;
 
-// The share of bytes that may differ by more than one grey level, and the most they may differ by:
-// the renderers round alike, but need not order their sums alike.
+// Share of bytes that may differ by more than one grey level, and the largest difference allowed:
+// the renderers round alike, but may add in another order.
 constexpr double kDifferentShare = 1e-4;
 constexpr int kLargest = 4;
 
@@ -30,7 +30,7 @@ std::vector<std::uint8_t> pipelinePictures() {
     return out;
 }
 
-/// Run twice by CTest: on the first GL it writes MFAR_PICTURES_OUT, on the other it reads
+/// CTest runs this twice: with the first GL it writes MFAR_PICTURES_OUT, with the other it reads
 /// MFAR_PICTURES_IN.
 TEST_F(AcrossGl, BothDrawTheSamePictures) {
     const char* out = std::getenv("MFAR_PICTURES_OUT");

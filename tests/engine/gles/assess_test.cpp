@@ -15,11 +15,11 @@ constexpr Size kStill{220, 163};
 constexpr Size kGrid{16, 12};
 constexpr int kGridArea = 16 * 12;
 constexpr double kAlpha = params::kTwoWayAlpha;
-// Single precision sums of 64 products of up to 255^2.
+// For sums of 64 products of up to 255^2 in single precision.
 constexpr double kRelative = 1e-3, kAbsolute = 2;
-constexpr double kPixel = 0.01;  // single precision unprojection, in still pixels
+constexpr double kPixel = 0.01;  // [still px], for unprojection in single precision
 
-/// Flow vectors both ways, row-major; backward in pixels of `scale` video pixels.
+/// Flow vectors in both directions, row-major; backward in pixels of `scale` video pixels.
 struct Fields {
     std::vector<std::array<float, 4>> forward, backward;
     int scale = 1;

@@ -1,4 +1,4 @@
-// Does not compile: mfar-compile-shaders has to find out.
+// Must not compile: tests that mfar-compile-shaders detects it.
 layout(local_size_x = 1) in;
 void main() {
     int whole = 1.0;

@@ -15,9 +15,9 @@ using gpu::TexelFormat;
 constexpr Size kSmallVideo{53, 37};  // 4x3 tiles, 14x10 cells
 constexpr Size kOutput{191, 133};
 constexpr Size kSmallStill{200, 140};
-// A result that is rounded, and one of columns that are kept in 8 bits.
+// Errors of a rounded result, and of a result from columns that were rounded to 8 bits.
 constexpr double kOnce = 0.51, kTwice = 0.51 * (1 + twin::kCubicGain);
-// A bilinear look-up with 8-bit weights and half-precision positions on top.
+// As kTwice, plus a bilinear look-up with 8-bit weights and half-precision positions.
 constexpr double kLookUp = kTwice + 1.2;
 
 double worst(const twin::Grey& a, const twin::Grey& b) {
@@ -35,7 +35,7 @@ gpu::Texture cellTexture(std::array<float, 4> value, TexelFormat format) {
     return floatTexture({14, 10}, format, values, Filter::Linear);
 }
 
-/// Weights image: half the detail's weight, confidence, signal share, unexplained; bytes.
+/// Image of weights: half the detail's weight, confidence, signal share, unexplained share; bytes.
 gpu::Texture weights(std::uint8_t half, std::uint8_t signal) {
     TestPicture p({14, 10});
     for (std::size_t i = 0; i < p.bytes.size(); i += 4) {
@@ -119,7 +119,7 @@ TEST_F(Draw, UpscalingIsOpenCvsBicubic) {
     EXPECT_LE(cv::norm(mine, peer, cv::NORM_INF), 1);
 }
 
-/// A look-up moved by a constant offset [still px].
+/// A still that is looked up with a constant offset [still px].
 struct LookUp {
     double x, y;
     double weight, confidence;
@@ -136,7 +136,7 @@ gpu::Texture lookUpTexture(const LookUp& l) {
                        TexelFormat::Rgba16F);
 }
 
-/// Video as it is, with what it would show of the still in alpha.
+/// The video with the still's value, as the video would see it, in alpha.
 gpu::Texture withStill(const TestPicture& video, const gpu::Texture& still, const LookUp& l) {
     return drawn("superres_sharpen.frag", tileParams(kSmallVideo, kSmallStill, kOutput),
                  {gpu::sampler(0, uploaded(video)), gpu::sampler(1, weights(0, 255)),
@@ -144,7 +144,7 @@ gpu::Texture withStill(const TestPicture& video, const gpu::Texture& still, cons
                  kSmallVideo);
 }
 
-/// Mean of the still over each pixel of the video.
+/// Mean of the still over each video pixel.
 twin::Grey seen(const twin::Grey& still, const LookUp& l) {
     return twin::seen(kSmallVideo, [&](double x, double y) {
         return still.bilinear(x * kSmallStill.width / kSmallVideo.width + l.x - 0.5,
@@ -187,7 +187,8 @@ TEST_F(Draw, DetailIsAddedByItsWeight) {
         const twin::Grey wanted = twin::greyOf(kOutput, [&](int x, int y) {
             return up.at(x, y) + l.weight * (stillAt(s, x, y, l) - low.at(x, y));
         });
-        // The mean is rounded, enlarged along columns and rounded again; see kLookUp, too.
+        // The mean is rounded, enlarged along columns and rounded again; plus the look-up's error,
+        // see kLookUp.
         EXPECT_LE(worst(channelOf(out, 0), wanted), kTwice + l.weight * (kTwice + 1.2)) << l.x;
     }
 }
@@ -213,7 +214,7 @@ TEST_F(Draw, BlendMixesByConfidence) {
     }
 }
 
-/// All tiles by tile_rect.vert instead of one triangle.
+/// Draws all tiles with tile_rect.vert instead of one triangle.
 gpu::Texture drawnByTiles(const char* shader, const char* defines, const TileParams& params,
                           gpu::Bindings bindings) {
     const std::uint32_t tiles = 4 * 3;

@@ -14,7 +14,7 @@ using twin::Grey;
 
 const std::vector<Size> kSizes{{1, 1}, {3, 5}, {16, 9}, {33, 12}, {97, 41}};
 
-/// Grey edges of several angles and strengths with texture over them.
+/// Grey edges of several angles and contrasts, overlaid with texture.
 TestPicture texturedPicture(Size size, unsigned seed) {
     std::mt19937 random(seed);
     TestPicture out(size);
@@ -39,13 +39,13 @@ FilterBank randomBank(int most, unsigned seed) {
     return FilterBank(unique);
 }
 
-/// A list of tiles that no pass reads.
+/// A list of tiles that no pass uses.
 struct NoTiles {
     gpu::Buffer commands{16}, tiles{4};
     [[nodiscard]] gpu::InstanceList list() const { return {commands, 0, tiles}; }
 };
 
-/// Four integers a texel.
+/// Reads four integers per texel.
 std::vector<std::array<GLint, 4>> integersOf(const gpu::Texture& texture) {
     const auto [width, height] = texture.size();
     std::vector<std::array<GLint, 4>> out(static_cast<std::size_t>(width) * height);
@@ -55,7 +55,7 @@ std::vector<std::array<GLint, 4>> integersOf(const gpu::Texture& texture) {
     return out;
 }
 
-/// The residual on the grid of sub-pixels [grey levels]: at four times the video's size rows and
+/// The residual on the grid of sub-pixels [grey levels]: at four times the video's size, rows and
 /// columns of the result are those of the grid.
 Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWork& work) {
     const Size video = picture.size;
@@ -74,7 +74,8 @@ Grey residualOf(const TestPicture& picture, const FilterBank& bank, const TileWo
     });
 }
 
-/// What is neither on the border between two classes nor off it by an error of single precision.
+/// Number of compared pixels; pixels so close to the border between two classes that single
+/// precision decides are not compared.
 struct Compared {
     int pixels = 0, all = 0;
 };
@@ -87,7 +88,7 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
     if (!(gradient.margin > 1e-3 && curvature.margin > 1e-3)) return;
     ++compared.pixels;
     for (int phase = 0; phase < enlarge::kPhases; ++phase)
-        // A quarter of the range is in whole eighths; weights have eleven bits.
+        // The quarter of the range is computed in whole eighths; weights have eleven bits.
         ASSERT_NEAR(residual.at(4 * x + phase % 4, 4 * y + phase / 4),
                     twin::residualAt(luma, x, y, phase, gradient.number, curvature.number, bank),
                     0.32)
@@ -95,7 +96,7 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
 }
 
 TEST_F(Enlarge, ResidualIsTheOraclesOfTheSameClasses) {
-    // Small weights, and such that the limits decide.
+    // Small weights, and weights so large that the limits take effect.
     for (const int most : {500, 8000}) {
         const FilterBank bank = randomBank(most, 11);
         Compared compared;

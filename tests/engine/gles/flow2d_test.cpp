@@ -18,7 +18,7 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors of a constant flow, where the whole patch and its goal lie `border` px inside.
+/// Errors against a constant flow, where the pixel and its target are at least `border` px inside.
 Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth, int border) {
     Errors e;
     int n = 0;
@@ -40,7 +40,7 @@ Errors errorsOf(const std::vector<float>& flow, Size size, const Vector2d& truth
     return e;
 }
 
-/// `a` at rest against the same pattern moved by `truth`.
+/// Errors between a pattern and the same pattern moved by `truth`.
 Errors shiftErrors(const Waves& waves, Size size, const Vector2d& truth, int border,
                    double gain = 1, double offset = 0) {
     const TestPicture a = waves.shoot(size, {});

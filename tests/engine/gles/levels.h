@@ -9,11 +9,11 @@
 
 namespace mfar {
 
-/// One level of a pyramid read back: all pixels, its margin checked to repeat the border.
+/// Reads back one level of a pyramid: all pixels; checks that its margin repeats the border.
 inline twin::Grey readLevel(const LumaPyramids& pyramids, const LumaLevel& level) {
     const auto words = pyramids.words().read<std::uint32_t>(
         static_cast<std::size_t>(level.pitch) * level.height, 4UL * level.offset);
-    const auto stored = [&](int x, int y) {  // x from -8 on
+    const auto stored = [&](int x, int y) {  // columns begin at x = -8
         const std::uint32_t word = words[static_cast<std::size_t>(y) * level.pitch + (x + 8) / 4];
         return static_cast<double>((word >> (8 * (x & 3))) & 255U);
     };

@@ -6,7 +6,7 @@ namespace {
 
 using Luma = GlTest;
 
-// 8-bit steps, and single precision where a value lies between two of them.
+// Half an 8-bit step, plus single precision for values between two steps.
 constexpr double kRounding = 0.501;
 
 void expectNear(const twin::Grey& gpu, const twin::Grey& twin, double tolerance) {

@@ -20,9 +20,9 @@ using test::PaddedPicture;
 using PictureTexture = GlTest;
 
 constexpr Size kEvenSize{54, 38};
-// Of a result in 8 bits.
+// Rounding to 8 bits.
 constexpr double kConverted = 0.501;
-// A grey level that a bilinear filter of 8-bit weights may lose in both chroma channels.
+// A bilinear filter with 8-bit weights may lose one grey level in each chroma channel.
 constexpr double kChroma = kConverted + 2.2;
 
 void expectTwin(const gpu::PictureTexture& picture, const ImageView& view, double tolerance) {
@@ -66,7 +66,7 @@ TEST_F(PictureTexture, RowsMayHaveAnyNumberOfBytes) {
     }
 }
 
-// Constant chroma needs no filter, so that nothing hides behind its tolerance.
+// Constant chroma needs no filter, so its tolerance can hide no error.
 TEST_F(PictureTexture, LumaIsExact) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         PaddedPicture source(format, kEvenSize, 4);
@@ -105,7 +105,7 @@ TEST_F(PictureTexture, ThePictureOfEachUploadIsTheNewOne) {
     }
 }
 
-/// As a driver that reads memory of others, by copying it.
+/// Acts like a driver that imports memory, but copies it.
 class FakeImporter final : public PlaneImporter {
 public:
     unsigned import(const SharedPlane& plane) override {
@@ -132,14 +132,14 @@ public:
         EXPECT_EQ(alive.erase(texture), 1U);
     }
 
-    std::vector<const std::uint8_t*> memory;  ///< by descriptor
+    std::vector<const std::uint8_t*> memory;  ///< index: descriptor
     std::set<unsigned> alive;
     int imports = 0;
     bool refuses = false;
 };
 
-/// A picture whose planes are in the importer's memory alone: what the CPU could read is another
-/// one.
+/// A picture whose planes are only in the importer's memory: the memory that the CPU can read
+/// contains another picture.
 struct SharedPicture {
     SharedPicture(PixelFormat format, FakeImporter& importer, std::uint64_t id)
         : real(format, kEvenSize, 4), other(format, kEvenSize, 4), view(real.view()),
@@ -149,7 +149,7 @@ struct SharedPicture {
         memory.id = id;
         for (std::size_t i = 0; i < static_cast<std::size_t>(planeCount(format)); ++i) {
             const std::uint8_t* begin = i == 0 ? view.data : view.chroma[i - 1].data;
-            // Planes begin somewhere in their buffers.
+            // Planes may begin anywhere in their buffers.
             memory.planes[i] = {static_cast<int>(importer.memory.size()), 4 * i};
             importer.memory.push_back(begin - 4 * i);
         }

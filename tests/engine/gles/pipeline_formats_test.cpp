@@ -10,7 +10,7 @@ namespace {
 using PipelineFormats = GlTest;
 using test::PaddedPicture;
 
-/// The grey picture in another format: its levels as luma, no colour.
+/// Writes the grey picture in another format: its levels as luma, without colour.
 void paint(const TestPicture& grey, YuvRange range, PaddedPicture& out) {
     const ImageView view = out.view();
     const int step = bytesPerPixel(view.format);

@@ -26,7 +26,7 @@ TEST_F(PipelineInputs, FramesOfAnotherSizeAreRefused) {
         EXPECT_THROW(p.run(TestPicture(wrong).view(), {}), std::invalid_argument);
     EXPECT_THROW(p.run({}, {}), std::invalid_argument);
     EXPECT_THROW(p.setStill(c.video().view(), {}), std::invalid_argument);
-    p.run(c.video().view(), {});  // and nothing is broken afterwards
+    p.run(c.video().view(), {});  // afterwards everything still works
 }
 
 TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
@@ -38,7 +38,7 @@ TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
     EXPECT_THROW(Pipeline(c.rig, far), std::invalid_argument);
 }
 
-// A shift of 9 px is within reach of the coarsest level alone.
+// Only the coarsest level can reach a shift of 9 px.
 TEST_F(PipelineInputs, FlowHasTheLevelsAskedFor) {
     const PipelineCase c;
     const auto errorWith = [&](int levels) {
@@ -136,7 +136,7 @@ TEST_F(PipelineInputs, FlatPicturesStayFlat) {
     }
 }
 
-/// Counts the driver's messages of high severity while it lives.
+/// Counts the driver's high-severity messages while the object exists.
 class HighMessages {
 public:
     explicit HighMessages(const GlContext& gl)

@@ -18,7 +18,8 @@ Pose poseAt(const Vector3d& translation, const Vector3d& degrees = Vector3d::Zer
     return pose;
 }
 
-/// Aside, ahead with the epipole in the picture, turned alone, at rest, hardly at all, far away.
+/// Sideways, forwards with the epipole in the picture, rotated only, unchanged, hardly moved, far
+/// away.
 std::vector<Pose> poses() {
     return {
         poseAt({0.1, 0.02, 0}),   poseAt({0.01, 0, 0.3}), poseAt(Vector3d::Zero(), {0, 2, 1}),
@@ -99,7 +100,7 @@ TEST_F(PipelinePose, AnIdenticalFrameIsNotSearched) {
     p.run(c.video({2, 0}).view(), {}, poseAt({0.02, 0, 0}));
     const auto image = p.readImage();
     const auto flow = p.readFlow();
-    // Another pose for the same picture: no tile changed, so nothing is searched with it.
+    // Another pose with the same picture: no tile changed, so nothing is searched with it.
     p.run(c.video({2, 0}).view(), {}, poseAt({0.3, 0.2, 0}, {0, 5, 0}));
     EXPECT_EQ(p.readStats().changed, 0);
     EXPECT_EQ(p.readStats().searched2d, 0);

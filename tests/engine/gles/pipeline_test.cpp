@@ -22,7 +22,7 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsUpscaled) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setQuality({.learned = false});
-    // Of less contrast: where columns leave the range of a byte, the shaders clamp them.
+    // Low contrast: the shaders clamp columns that leave a byte's range.
     const TestPicture video = Waves(1, 1.2, 60, 25, 96).shoot(c.rig.video.size, {});
     const FrameResult& r = p.run(video.view(), {});
     EXPECT_FALSE(r.stats.usedStill);
@@ -33,7 +33,7 @@ TEST_F(PipelineTest, WithoutAStillTheVideoIsUpscaled) {
     for (const double value : twin::enlargedColumns(luma, p.outputSize().height).values)
         ASSERT_TRUE(value > 0 && value < 255);
     const twin::Grey wanted = twin::enlarged(luma, p.outputSize());
-    // The shaders keep columns in 8 bits, the kernels rows in 1/64 grey level.
+    // The shaders round columns to 8 bits, the kernels round rows to 1/64 grey level.
     constexpr double kTwiceRounded = 0.51 * (1 + twin::kCubicGain);
     const auto image = p.readImage();
     for (std::size_t i = 0; i < wanted.values.size(); ++i)
@@ -64,7 +64,7 @@ void expectGainByAStill(bool learned) {
         EXPECT_DOUBLE_EQ(psnr(p.readImage(), truth), upscaled);
     p.setMode(SuperResMode::Detail);
     p.run(video.view(), {});
-    // The search starts from the flow before, which makes it a little better.
+    // The search starts from the last frame's flow, so the result is slightly better.
     EXPECT_GT(psnr(p.readImage(), truth), detail - 0.1);
     EXPECT_LT(psnr(p.readImage(), truth), detail + 0.3);
     p.dropStill();

@@ -1,5 +1,4 @@
-// What is left of a scene that changes slowly, and of one that rests, however the sensor's noise
-// is.
+// Errors that remain when a scene changes slowly or rests, under different kinds of sensor noise.
 #include "pipeline/plan/work_plan.h"
 #include "tests/engine/gl_test.h"
 #include "tests/engine/pictures.h"
@@ -13,11 +12,11 @@ namespace {
 
 using PlanDrift = GlTest;
 
-constexpr Size kDriftVideo{317, 235};  // the last tiles are cut
+constexpr Size kDriftVideo{317, 235};  // the last tiles are cut off
 constexpr std::size_t kDriftPixels = std::size_t{317} * 235;
 
 using Rgb = std::array<float, 3>;  // [grey levels]
-using Light = std::vector<Rgb>;    // of every pixel
+using Light = std::vector<Rgb>;    // per pixel
 using DriftScene = std::function<Rgb(int x, int y, int frame)>;
 
 Light lightOf(const DriftScene& scene, int frame) {
@@ -29,7 +28,8 @@ Light lightOf(const DriftScene& scene, int frame) {
     return out;
 }
 
-/// A long row of Gaussian numbers, read from any place on: drawing each anew takes most of a test.
+/// A long table of Gaussian numbers, read from any position: new random numbers would take most of
+/// a test's time.
 float gaussian(std::size_t at) {
     static const std::vector<float> table = [] {
         std::mt19937 random(3);
@@ -41,8 +41,8 @@ float gaussian(std::size_t at) {
     return table[at % table.size()];
 }
 
-/// Noise of a sensor, which grows with brightness; `shared` of its variance is that of 2x2 pixels,
-/// as processing leaves it.
+/// A sensor's noise, which grows with brightness. A share `shared` of its variance is common to 2x2
+/// pixels, as after processing.
 struct NoisySensor {
     double sigma = 1, shared = 0;
     std::mt19937 random{3};
@@ -70,11 +70,12 @@ struct NoisySensor {
 };
 
 struct DriftOutcome {
-    double stale = 0;    ///< mean square of what tiles left alone are off by, without noise
+    double stale = 0;    ///< mean square error of tiles that were not drawn, without noise
     double changed = 0;  ///< share of the tiles
 };
 
-/// Runs frames, drawing what the plan says; the outcome is of those after the first ones.
+/// Runs frames and draws what the plan says; the result is measured over the frames after
+/// `settled`.
 DriftOutcome watch(const DriftScene& scene, NoisySensor sensor, int settled, int frames) {
     WorkPlan plan(kDriftVideo);
     Light drawnLight = lightOf(scene, 0), light = drawnLight;
@@ -115,7 +116,7 @@ DriftScene slopes(double contrast, double pixelsPerFrame) {
     };
 }
 
-/// The sun comes out; red alone where the light turns warmer.
+/// The light gets brighter; with `redAlone`, only the red channel does.
 DriftScene brightening(double perFrame, bool redAlone) {
     return [=](int x, int y, int frame) {
         const auto gain = static_cast<float>(1 + perFrame * frame / 100);
@@ -126,7 +127,7 @@ DriftScene brightening(double perFrame, bool redAlone) {
     };
 }
 
-// 0.1 dB of a picture whose error is the video's noise alone are 2.3 % of that noise's variance.
+// If a picture's only error is the video's noise, 0.1 dB are 2.3 % of this noise's variance.
 TEST_F(PlanDrift, NothingStaysBehindASceneThatChangesSlowly) {
     const std::vector<std::pair<const char*, DriftScene>> scenes{
         {"slow", slopes(25, 0.05)},
@@ -140,7 +141,8 @@ TEST_F(PlanDrift, NothingStaysBehindASceneThatChangesSlowly) {
                 << name << ", noise " << sigma;
 }
 
-// Colour alone has no luma to show it over many tiles: each tile's own test has to.
+// A change of colour without luma cannot be detected over many tiles: each tile's own test must
+// detect it.
 TEST_F(PlanDrift, ColourThatChangesAloneIsDrawnBeforeItShows) {
     for (const double sigma : {0.5, 2.0})
         EXPECT_LT(watch(brightening(0.3, true), {sigma}, 4, 12).stale,
@@ -153,12 +155,12 @@ TEST_F(PlanDrift, NoiseAtRestIsLeftAlone) {
         EXPECT_LT(watch(slopes(60, 0), {sigma}, 20, 24).changed, 0.0005) << "noise " << sigma;
 }
 
-// Where a sensor's processing has smoothed its noise, that is learned first.
+// Noise that a sensor's processing has smoothed must be learned first.
 TEST_F(PlanDrift, SmoothedNoiseAtRestIsLeftAloneOnceItIsKnown) {
     EXPECT_LT(watch(slopes(60, 0), {1.5, 0.25}, 80, 16).changed, 0.0005);
 }
 
-// The tiles around a small thing that moves are as still as without it.
+// Tiles around a small moving object must stay as they are without it.
 TEST_F(PlanDrift, WhatMovesInOnePlaceLeavesTheRestAlone) {
     const DriftScene scene = [](int x, int y, int frame) {
         const bool moves = std::hypot(x - 100 - 2 * (frame % 20), y - 90) < 12;

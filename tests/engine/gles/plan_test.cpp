@@ -10,14 +10,14 @@ namespace {
 
 using Plan = GlTest;
 
-constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut
-// Thresholds of a frame without measured noise (0.29 grey levels).
+constexpr Size kSize{100, 60};  // 7x4 tiles, the last ones cut off
+// Thresholds for a frame without measured noise (0.29 grey levels).
 constexpr double kMeanThreshold = 1.58, kAbsoluteThreshold = 2.37;
 
 struct TileState {
     std::uint32_t changed, matched;
     double noise, structure;
-    std::array<double, 3> energy;  // of the difference: pixels, 2x2 means, their twist
+    std::array<double, 3> energy;  // of the difference: pixels, 2x2 means, the means' twist
 };
 
 std::vector<TileState> tilesOf(const WorkPlan& plan) {
@@ -35,12 +35,12 @@ std::vector<TileState> tilesOf(const WorkPlan& plan) {
     return out;
 }
 
-/// `base` with the first `tiles` tiles turned by some grey levels.
+/// `base` with some grey levels changed in the first `tiles` tiles.
 TestPicture changedIn(TestPicture base, int tiles, int by) {
     TestPicture out = base;
     for (int t = 0; t < tiles; ++t)
         for (int i = 0; i < 64; ++i) {
-            // Not at the border to another tile, but where the tile is cut.
+            // Away from the border to another tile, but up to the picture's border.
             const int x = t % 7 == 6 ? 96 + i % 4 : 16 * (t % 7) + 4 + i % 8;
             std::uint8_t* pixel = out.at(x, 16 * (t / 7) + 4 + i / 8);
             pixel[1] = static_cast<std::uint8_t>(base.at(x, 16 * (t / 7) + 4 + i / 8)[1] ^ by);
@@ -52,7 +52,7 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
     const TestPicture drawn = Waves(1, 6, 60, 30).shoot(kSize, {});
     TestPicture now = drawn;
     std::mt19937 random(7);
-    for (int tile = 0; tile < 28; ++tile)  // from hardly any change to much, in one channel
+    for (int tile = 0; tile < 28; ++tile)  // from hardly any change to large ones, in one channel
         for (int i = 0; i < 256; ++i) {
             const int x = 16 * (tile % 7) + i % 16, y = 16 * (tile / 7) + i / 16;
             if (x < kSize.width && y < kSize.height)
@@ -140,7 +140,7 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
     }
 }
 
-// Enlarging looks two pixels beyond a tile.
+// Enlarging reads two pixels beyond a tile.
 TEST_F(Plan, AChangeAtATilesBorderIsOneOfTheTileBesideIt) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     struct Case {
@@ -214,7 +214,7 @@ TEST_F(Plan, ManyChangedTilesAreDrawnInOnePiece) {
     }
 }
 
-/// A slope and noise, with as many columns of dots as the contrasts that are told, two tiles apart.
+/// A slope and noise, with columns of dots two tiles apart, one column for each contrast given.
 TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     TestPicture out(size);
     for (int y = 0; y < size.height; ++y)
@@ -233,7 +233,7 @@ TestPicture dotted(Size size, const std::vector<int>& contrasts) {
     return out;
 }
 
-/// Columns of tiles of which all are matched; -1: some column has tiles of both kinds.
+/// Columns in which all tiles are matched; {-1} if a column has both kinds of tiles.
 std::vector<int> matchedColumns(const WorkPlan& plan) {
     const auto tiles = tilesOf(plan);
     const Size count = plan.tileCount();
@@ -310,7 +310,7 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
         for (int i = 0; i < 20; ++i)
             plan.update(planesOf(drawn), planesOf(drawn), false);
         TestPicture now = drawn;
-        for (int i = 0; i < 256; ++i)  // a tile, evenly
+        for (int i = 0; i < 256; ++i)  // one tile, uniformly
             now.at((inStructure ? 16 : 192) + i % 16, 32 + i / 16)[1] += 9;
         plan.update(planesOf(now), planesOf(drawn), false);
         EXPECT_EQ(plan.work().changed, 9) << "with those beside it";
@@ -318,13 +318,13 @@ TEST_F(Plan, ChangedTilesWithoutStructureAreNotMatched) {
     }
 }
 
-/// Of a picture all of which changed, after the noise is known.
+/// Plans a completely changed picture, after the noise is known.
 void planWhole(WorkPlan& plan, const TestPicture& picture) {
     for (int i = 0; i < 20; ++i)
         plan.update(planesOf(picture), planesOf(picture), true);
 }
 
-// Tiles far apart would have a rectangle around them of which they are a small part.
+// A rectangle around tiles far apart would contain mostly others.
 TEST_F(Plan, AWholeFrameWithLittleStructureIsEnlarged) {
     const Size size{512, 96};
     for (const bool structured : {false, true}) {

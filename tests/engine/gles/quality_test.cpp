@@ -1,4 +1,4 @@
-// Settings that change between frames, and work that is not left out.
+// Settings that change between frames, and work that is not skipped.
 #include "tests/engine/gl_test.h"
 #include "tests/engine/gles/pipeline_case.h"
 #include "tests/oracle/upscale.h"
@@ -34,7 +34,7 @@ PipelineOptions madeWith(const Quality& quality) {
     return out;
 }
 
-/// Two frames after a still, the second's picture.
+/// The picture of the second of two frames after a still.
 Image pictureOf(Pipeline& p, const PipelineCase& c, bool withPoses) {
     const auto pose = [&](double x) { return withPoses ? std::optional(posed(x)) : std::nullopt; };
     p.setStill(c.still().view(), {}, pose(0));
@@ -62,13 +62,14 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
             c.rig.video.size, [&](int x, int y) { return static_cast<double>(frame.at(x, y)[0]); });
         const twin::Grey wanted = twin::enlarged(red, p.outputSize(), true);
         for (std::size_t i = 0; i < wanted.values.size(); ++i)
-            ASSERT_NEAR(image[4 * i], wanted.values[i], 1.02) << i;  // columns in 8 bits
+            // Columns are rounded to 8 bits.
+            ASSERT_NEAR(image[4 * i], wanted.values[i], 1.02) << i;
     }
     Pipeline usual(c.rig, {});
     EXPECT_TRUE(pictureOf(detail, c, false) == pictureOf(usual, c, false)) << "of the still alone";
 }
 
-// Two rows at the lower end of a tile.
+// The change is in the two lowest rows of a tile.
 TEST_F(QualityTest, WhatAChangeReachesIntoIsDrawnAnewWithIt) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), whole(c.rig, {});
@@ -86,7 +87,7 @@ TEST_F(QualityTest, WhatAChangeReachesIntoIsDrawnAnewWithIt) {
     EXPECT_TRUE(p.readImage() == whole.readImage());
 }
 
-// All have seen the same frames before: the noise of the video is known from them.
+// All pipelines saw the same frames before, so they know the same noise.
 TEST_F(QualityTest, ChangedBetweenFramesIsAsFromTheStart) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
@@ -181,7 +182,7 @@ TEST_F(QualityTest, WorkThatIsNotLeftOutDrawsTheSamePicture) {
     }
 }
 
-/// All but a patch in the middle of this grey.
+/// The picture in uniform grey except for a patch in the middle.
 TestPicture evenButForAPatch(TestPicture picture, int grey) {
     const Size size = picture.view().size;
     for (int y = 0; y < size.height; ++y)
@@ -192,7 +193,7 @@ TestPicture evenButForAPatch(TestPicture picture, int grey) {
     return picture;
 }
 
-// The search along lines covers the patch, detail is drawn in it.
+// The patch is searched along epipolar lines and drawn with detail.
 TEST_F(QualityTest, APatchIsDrawnAsWellAsAWholePicture) {
     const PipelineCase c;
     const auto frame = [&](double shift) {
@@ -218,7 +219,7 @@ TEST_F(QualityTest, APatchIsDrawnAsWellAsAWholePicture) {
     }
 }
 
-/// A small change in one corner: what is drawn by tiles, of which classes.
+/// Classes of tiles drawn after a small change in one corner.
 std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     const PipelineCase c;
     PipelineOptions options;

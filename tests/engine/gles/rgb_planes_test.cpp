@@ -11,7 +11,7 @@
 namespace mfar {
 namespace {
 
-constexpr Size kCutSize{54, 38};  // 4x3 tiles, the last ones cut
+constexpr Size kCutSize{54, 38};  // 4x3 tiles, the last ones cut off
 
 double worstAgainstTwin(const ImageView& view) {
     RgbPlanes planes(view.size);

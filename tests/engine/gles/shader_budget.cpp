@@ -156,8 +156,8 @@ void checkGroup(const LinkedShader& shader, Faults& faults) {
         faults.push_back(std::to_string(invocations) + " invocations a group");
 }
 
-// ES cannot be asked for the size of shared variables. Put into storage blocks of their own, they
-// have a size that can: the compiler does the arithmetic of array lengths.
+// ES does not report the size of shared variables. Moved into storage blocks, their size can be
+// queried: the compiler evaluates the array lengths.
 void checkShared(std::string_view name, std::string_view text, std::string_view defines,
                  Faults& faults) {
     std::string code = withoutComments(text);

@@ -6,8 +6,8 @@
 
 namespace mfar {
 
-/// The portable floor: what every driver with OpenGL ES 3.1 offers. The software renderer accepts
-/// far more, so each shader is held to these numbers here.
+/// The portable floor: limits that every OpenGL ES 3.1 driver guarantees. The software renderer
+/// accepts far more, so tests check each shader against these numbers.
 struct ShaderBudget {
     static constexpr int kStorageBlocks = 4;  ///< also the highest binding + 1
     static constexpr int kImages = 4;         ///< also the highest binding + 1
@@ -16,13 +16,13 @@ struct ShaderBudget {
     static constexpr int kFileLines = 150;
 };
 
-/// Faults of one file as it lies in gles_shaders/ (includes unresolved): name, header comment,
-/// length, number of main functions. One line each.
+/// Faults of a file in gles_shaders/ (includes unresolved): name, header comment, length, number of
+/// main functions. One line each.
 [[nodiscard]] std::vector<std::string> shaderFileFaults(std::string_view name,
                                                         std::string_view text);
 
-/// Faults that the resolved text shows: precision, forbidden words, image access, #include left
-/// over, macros that are tested but not named by a line "// Variant: #define NAME value".
+/// Faults in the resolved text: precision, forbidden words, image access, unresolved #include,
+/// macros that are tested but not named by a line "// Variant: #define NAME value".
 [[nodiscard]] std::vector<std::string> shaderTextFaults(std::string_view text);
 
 /// Faults of the linked shader: compiles alone, storage blocks, images, bindings, group size,

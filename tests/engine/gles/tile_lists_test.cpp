@@ -21,7 +21,7 @@ constexpr Size kTiles{19, 15};
 constexpr int kLevels = 4;
 constexpr int kCount = kCells.width * kCells.height;
 
-/// Fields as refine() leaves them: flow, cost, texture; then the two-way errors.
+/// Fields as output by refine(): flow, cost, texture; then the two-way errors.
 std::vector<Cell> randomFields(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -41,7 +41,7 @@ gpu::Buffer stored(const std::vector<Cell>& fields) {
     return patches;
 }
 
-/// The tiles with three cells or more that have texture, match badly and are shown by the still.
+/// Tiles in which at least three cells have texture, match badly and are visible in the still.
 std::vector<bool> twinFlags(const std::vector<Cell>& fields) {
     std::vector<int> cells(kTiles.width * kTiles.height);
     for (int y = 0; y < kCells.height; ++y)
@@ -56,7 +56,7 @@ std::vector<bool> twinFlags(const std::vector<Cell>& fields) {
     return out;
 }
 
-/// With the tiles that have two flagged ones beside them.
+/// Adds the tiles with at least two flagged neighbours.
 std::vector<bool> twinClosed(const std::vector<bool>& flags) {
     const auto at = [&](int x, int y) {
         const bool within = x >= 0 && y >= 0 && x < kTiles.width && y < kTiles.height;
@@ -70,8 +70,8 @@ std::vector<bool> twinClosed(const std::vector<bool>& flags) {
     return out;
 }
 
-/// Groups (y * 65536 + x) of the level above that the groups of a level look at: their own and
-/// those beside it.
+/// Groups (y * 65536 + x) of the level above that a level's groups read: their own and its
+/// neighbours.
 std::set<std::uint32_t> twinAbove(const std::set<std::uint32_t>& groups, Size level) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t g : groups)
@@ -150,7 +150,7 @@ TEST_F(TileListsGl, AShutPlanListsNothing) {
     EXPECT_EQ(lists.count(), 0);
 }
 
-/// A picture at rest but for a square, which has moved in the second one.
+/// A static picture with a square that moves in the second one.
 struct MovedSquare {
     static constexpr int kFirst = 96, kEnd = 192;  // [px], six tiles
     static constexpr int kBy = 14;
@@ -173,7 +173,7 @@ struct MovedSquare {
     TestPicture now, then;
 };
 
-/// What refine() makes of a field of no motion.
+/// Result of refine() for a field of zero motion.
 class Refined {
 public:
     Refined(const TestPicture& now, const TestPicture& then) : pyramids_(now.size), flow(now.size) {

@@ -25,7 +25,7 @@ inline TileParams tileParams(Size video, Size still, Size output) {
     return p;
 }
 
-/// What a fragment shader draws over a whole RGBA8 target.
+/// Draws a fragment shader over a whole RGBA8 target.
 inline gpu::Texture drawn(const char* shader, const TileParams& params, gpu::Bindings bindings,
                           Size size) {
     gpu::Texture out(size, gpu::TexelFormat::Rgba8);

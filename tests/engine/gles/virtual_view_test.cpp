@@ -10,9 +10,9 @@ namespace {
 
 constexpr Size kSeen{320, 240};
 const CameraModel kAbove{kSeen, 300, 300, 159.5, 119.5, {}};
-constexpr double kTable = 0.5;  // [m] from the camera
+constexpr double kTable = 0.5;  // [m], distance to the camera
 
-/// A thing that hovers 4 cm above the table and casts its shadow onto that.
+/// An object that hovers 4 cm above the table and casts its shadow onto it.
 std::shared_ptr<const Scene> hovering() {
     auto model = std::make_shared<Model>();
     model->materials.resize(1);
@@ -35,7 +35,7 @@ InverseDepthField tableField(double share) {
     return field;
 }
 
-/// Where a camera above the table needs real depth, frame after frame.
+/// Areas where a camera above the table needs real depth, for consecutive frames.
 class ShadowDepthGl : public GlTest {
 protected:
     void SetUp() override {

@@ -15,7 +15,8 @@ constexpr Size kWhole{25, 15};
 constexpr Size kHalf{13, 8};
 constexpr double kSigma = 1.5;
 
-/// Covariance, variances, confidence from flat to strong contrast and from alike to unrelated.
+/// Covariance, variances, confidence: from flat to strong contrast and from equal to unrelated
+/// pictures.
 twin::Cells randomStatistics(Size size, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -57,7 +58,7 @@ Weighed weigh(const twin::Cells& displacement, const twin::Cells& statistics,
 }
 
 TEST_F(Weigh, WeightsMatchTwin) {
-    // From an even flow on the left to one that bends on the right, torn a little at the bottom.
+    // From a uniform flow on the left to a bent one on the right, slightly torn at the bottom.
     twin::Cells displacement{kWhole, {}};
     for (int y = 0; y < kWhole.height; ++y)
         for (int x = 0; x < kWhole.width; ++x)
@@ -75,7 +76,7 @@ TEST_F(Weigh, WeightsMatchTwin) {
             EXPECT_NEAR(f[2], t.weight, 1e-3 * t.weight + 1e-6) << x << ", " << y;
             EXPECT_NEAR(f[3], t.confidence, 1e-6);
             EXPECT_EQ(f.head<2>(), d.head<2>());
-            const Eigen::Vector4d l = got.look.at(x, y);  // half precision
+            const Eigen::Vector4d l = got.look.at(x, y);  // in half precision
             EXPECT_NEAR(l[0], std::min(d[2], 65504.0), 1e-3 * d[2]);
             EXPECT_NEAR(l[2], t.weight, 1e-3 * t.weight + 1e-4);
             const std::uint8_t* w = &got.weights[4UL * (1UL * y * kWhole.width + x)];
@@ -99,8 +100,8 @@ twin::Cells constantCells(Size size, std::array<float, 4> value) {
     return out;
 }
 
-// Half of the variance in common: enough where the sensors look from the same side, a quarter of
-// the weight where they do not.
+// Half of the variance is shared: enough if both sensors look from the same side; otherwise it
+// costs three quarters of the weight.
 TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
     const twin::Cells half = constantCells(kHalf, {0, 0, 0, 0});
     const twin::Cells matched = constantCells(kWhole, {7.07e4F, 1e5F, 1e5F, 1});
@@ -112,8 +113,8 @@ TEST_F(Weigh, ABentFlowCostsTrustInAnImperfectMatch) {
     EXPECT_LT(weigh(bent, matched, half, 0.3).field.at(5, 5)[2], 0.4 * even);
 }
 
-// Between two cells that look at different places, look-ups lead nowhere. Turns and zooms tear
-// nothing.
+// Between two cells that look at different places, look-ups are wrong. Rotations and zooms do not
+// tear the flow.
 TEST_F(Weigh, ATornFlowIsNotTrusted) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
@@ -184,7 +185,7 @@ Classified classify(const twin::Cells& field, const std::vector<std::uint32_t>& 
             lists.read<std::uint32_t>(4UL * kTileCount)};
 }
 
-/// Affine, broken and weightless tiles side by side.
+/// Affine tiles, broken ones and ones without weight, side by side.
 twin::Cells mixedField() {
     twin::Cells out{kWhole, {}};
     std::mt19937 random(5);
@@ -200,8 +201,8 @@ twin::Cells mixedField() {
     return out;
 }
 
-/// Header (whole, changed tiles), then changed and matched of each tile: every third unchanged,
-/// every fifth not matched.
+/// Header (whole, changed tiles), then `changed` and `matched` of each tile: every third is
+/// unchanged, every fifth not matched.
 std::vector<std::uint32_t> changes(std::uint32_t whole) {
     std::vector<std::uint32_t> out{whole, 0};
     for (unsigned i = 0; i < kTileCount; ++i)
@@ -209,13 +210,13 @@ std::vector<std::uint32_t> changes(std::uint32_t whole) {
     return out;
 }
 
-/// Of a tile of mixedField() that changed.
+/// Class of a changed tile of mixedField().
 unsigned classIn(const twin::Cells& field, int tile) {
     if (tile % 5 == 0) return 1;
     return twin::tileClass(field, tile % kClassified.width, tile / kClassified.width);
 }
 
-/// Those of `tiles` and all around them.
+/// The tiles and all their neighbours.
 std::set<std::uint32_t> withNeighbours(const std::set<std::uint32_t>& tiles) {
     std::set<std::uint32_t> out;
     for (const std::uint32_t tile : tiles)
@@ -266,7 +267,7 @@ TEST_F(Classify, ClassesCountsAndListsMatchTwin) {
         EXPECT_GT(counts[k], 0U) << "the field shows every class";
         EXPECT_EQ(got.draws.counts[k], counts[k]);
     }
-    EXPECT_EQ(got.draws.counts[6], kTileCount * 128);  // mean confidence 1/2, in 1/256
+    EXPECT_EQ(got.draws.counts[6], kTileCount * 128);  // mean confidence 1/2, in units of 1/256
 
     wanted[0] = changed;
     expectLists(classify(field, changes(0), true, 0), wanted);

@@ -63,7 +63,7 @@ TEST(CellFlow, EndsWhereTheStillShowsThePoint) {
 
 TEST(CellFlow, EndsNowhereBehindTheCameraOrFromNoNumber) {
     Cells cells(20);
-    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // looks back
+    cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // looks backwards
     for (const auto& v : cells.flow(cells.s))
         EXPECT_GT(v[0], 9000);
     cells = Cells(20);
@@ -71,7 +71,7 @@ TEST(CellFlow, EndsNowhereBehindTheCameraOrFromNoNumber) {
     EXPECT_GT(cells.flow(cells.s)[7][1], 9000);
 }
 
-// What a flow of other depths says leads back to them.
+// The flow at other depths leads back to these depths.
 TEST(AlignCells, FollowsTheFlowAlongTheLine) {
     for (const std::size_t count : test::kLengths) {
         const Cells cells(count);

@@ -13,7 +13,7 @@ constexpr Size kPicture{100, 80};
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 using Row = std::vector<float>;
 
-/// Row-major pixel, -1 outside; -2 where rounding decides.
+/// Row-major index of the pixel; -1 outside; -2 if rounding decides.
 int pixelOf(const test::Ray& p, bool valid) {
     if (!valid) return -1;
     if (test::isBetween(p.x) || test::isBetween(p.y)) return -2;
@@ -78,7 +78,8 @@ TEST(MoveRow, CarriesPointsWithTheirVariance) {
             const double z = turned.z + rho[i] * motion.move[2];
             const auto q = test::project(lens, (turned.x + rho[i] * motion.move[0]) / z,
                                          (turned.y + rho[i] * motion.move[1]) / z);
-            if (std::abs(z - rule.leastDepth) < 0.05) continue;  // far outside, beyond the rim
+            // Far outside, beyond the lens's valid circle.
+            if (std::abs(z - rule.leastDepth) < 0.05) continue;
             const int expected = pixelOf(q, variance[i] < kInfinity && z > rule.leastDepth);
             if (expected == -2) continue;
             ASSERT_EQ(pixel[i], expected) << i << " of " << count;

@@ -5,12 +5,13 @@
 namespace mfar::simd {
 namespace {
 
-constexpr double kLearnedError = 1.3;  // luma is in 1/8 grey level, limits in quarters of that
+// Luma has units of 1/8 grey level, limits of a quarter of that.
+constexpr double kLearnedError = 1.3;
 
 TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
     for (const auto& [video, stillSize, output] : kSizes)
         for (const bool usesStill : {true, false}) {
-            if (output.width > 1000) continue;  // slow, and its video is small
+            if (output.width > 1000) continue;  // slow, and the video is small
             const DetailCase frame(video, stillSize);
             const DetailOptions options{SuperResMode::Detail, true, false, true, &evenBank()};
             const Drawn drawn(frame, output, options, usesStill);
@@ -33,7 +34,7 @@ TEST(DetailStepLearned, LearnedFramesAreTheOraclesWithAndWithoutAStill) {
 
 TEST(DetailStepLearned, GuidedFramesAreTheOracles) {
     for (const auto& [video, stillSize, output] : kSizes) {
-        if (output.width > 1000) continue;  // slow, and its video is small
+        if (output.width > 1000) continue;  // slow, and the video is small
         const DetailCase frame(video, stillSize);
         const DetailOptions options{SuperResMode::Detail, true, false, true, &guidedBank()};
         const Drawn drawn(frame, output, options),

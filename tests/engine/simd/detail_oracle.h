@@ -9,12 +9,12 @@
 #include <memory>
 #include <vector>
 
-/// Frames as the detail step draws them, and as they are to look.
+/// Frames drawn by the detail step, and the wanted results.
 namespace mfar::simd {
 
 using twin::Grey;
 
-inline constexpr std::uint32_t kBefore = 0x12345678;  // what the output held
+inline constexpr std::uint32_t kBefore = 0x12345678;  // previous content of the output
 inline constexpr DetailOptions kDetail{SuperResMode::Detail, true, true, true};
 
 /// A frame drawn over kBefore.
@@ -38,7 +38,7 @@ struct Drawn {
     TileSummary summary;
 };
 
-/// What a frame is to look like.
+/// The wanted picture of a frame.
 class Wanted {
 public:
     Wanted(const DetailCase& frame, Size output, const DetailOptions& options, bool usesStill)
@@ -69,17 +69,17 @@ public:
     [[nodiscard]] double enlarged(int x, int y, int c) const {
         return std::clamp(video_[c].at(x, y), 0.0, 255.0);
     }
-    /// Mixed with a channel of the still by its confidence.
+    /// Blended with a channel of the still by the confidence.
     [[nodiscard]] double blended(int x, int y, int c, const Grey& still) const {
         return std::lerp(enlarged(x, y, c), there(x, y, still), lookUpAt(x, y, 3));
     }
-    /// From now on, what the video sees is the mean of the still itself, as shaders take it, and
-    /// not that of the warped still.
+    /// From now on, averages the still itself over video pixels, as the shaders do, instead of the
+    /// warped still.
     void seeStill() {
         ofWarped_ = false;
         detail_ = {};
     }
-    /// With the detail of a still's luma, see lumaPlane(). Slow at first.
+    /// With the detail of a still's luma, see lumaPlane(). The first call is slow.
     [[nodiscard]] double withStill(int x, int y, int c, const Grey& still) {
         if (detail_.values.empty()) {
             const Grey warped =
@@ -97,7 +97,7 @@ public:
         }
         const double weight = lookUpAt(x, y, 2);
         double up = video_[c].at(x, y);
-        if (options_.learned != nullptr)  // by what the detail leaves
+        if (options_.learned != nullptr)  // reduced where the still's detail is added
             up -= std::min(weight, 1.0) * residual_.at(x, y);
         return std::clamp(up + weight * detail_.at(x, y), 0.0, 255.0);
     }
@@ -108,15 +108,15 @@ private:
         return lookUp_[channel].bilinear((x + 0.5) * video.width / output_.width / 4 - 0.5,
                                          (y + 0.5) * video.height / output_.height / 4 - 0.5);
     }
-    /// What the still shows where a place of the output looks.
+    /// The still's value where an output position looks it up.
     [[nodiscard]] double there(double x, double y, const Grey& still) const {
         const double px = (x + 0.5) * still.size.width / output_.width + lookUpAt(x, y, 0) - 0.5,
                      py = (y + 0.5) * still.size.height / output_.height + lookUpAt(x, y, 1) - 0.5;
         return still.bilinear(std::clamp(px, -1.0, double(still.size.width)),
                               std::clamp(py, -1.0, double(still.size.height)));
     }
-    /// Less what guidance adds and takes away, beyond the mean of 5x5 pixels: of those whose cells
-    /// have a weight.
+    /// Subtracts what guidance adds and removes, relative to the mean over those of 5x5 pixels
+    /// whose cells have a weight.
     [[nodiscard]] Grey guided(const Grey& seen) const {
         const Guidance guidance =
             options_.learned != nullptr ? options_.learned->guidance() : Guidance{};
@@ -190,13 +190,13 @@ inline const std::vector<Sizes> kSizes{
     {{16, 16}, {70, 65}, {57, 58}},       {{64, 48}, {200, 150}, {64, 48}},
     {{100, 60}, {90, 54}, {61, 37}},      {{35, 18}, {64, 33}, {1300, 700}}};
 
-/// Tile of an output pixel.
+/// Tile column or row of an output pixel.
 inline int tileAt(int pixel, int video, int output) {
     return static_cast<int>((pixel + 0.5) * video / output) / kTileSize;
 }
 
-/// The same filter for every class, so that no rounding decides which is used. Filters are mirrored
-/// for classes: this one is its own mirror image.
+/// The same filter for every class, so that rounding cannot select another one. Classes mirror
+/// their filters: this one is symmetric.
 inline std::vector<FilterBank::Filter> evenFilters() {
     FilterBank::Filter filter;
     for (int tap = 0; tap < enlarge::kTaps; ++tap)
@@ -213,7 +213,7 @@ inline const FilterBank& evenBank() {
     static const FilterBank bank(evenFilters());
     return bank;
 }
-/// The same with guidance.
+/// As evenBank(), with guidance.
 inline const FilterBank& guidedBank() {
     static const FilterBank bank(evenFilters(), {0.7F, 0.5F});
     return bank;

@@ -11,8 +11,8 @@ namespace {
 constexpr Size kVideo{160, 120}, kStill{400, 300}, kOutput{576, 432};
 constexpr int kFrom = 20, kTo = 32;  // columns of cells
 
-/// A frame with two stills: the second is brighter, seen elsewhere, and its weight is that of the
-/// first and `more` in some columns of cells.
+/// A frame with two stills. The second is inverted and has its own look-ups; in some columns of
+/// cells its weight exceeds the first one's by `more`, elsewhere it is 0.
 struct TwoStills {
     explicit TwoStills(float more, double changedShare = 1)
         : frame(kVideo, kStill, changedShare), other(kVideo, kStill, changedShare) {

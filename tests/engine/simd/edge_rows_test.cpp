@@ -14,10 +14,11 @@ TEST(OpenRow, IsOpenAtEdgesAndWhereNothingIsKnown) {
     for (const std::size_t width : test::kLengths) {
         std::vector<float> low(3 * width, 1), high(3 * width, 1), rho(width, 1), variance(width);
         for (std::size_t x = 0; x < width; ++x) {
-            variance[x] = x % 5 == 4 ? kInfinity : 0.0001F;  // sigma 0.01
+            variance[x] = x % 5 == 4 ? kInfinity : 0.0001F;  // sigma = 0.01
             if (x % 5 == 1) low[2 * width + x] = 0.5F;       // an edge in the last row
-            if (x % 5 == 2) high[x] = 1.1F;                  // below 8 % and three sigmas
-            if (x % 5 == 3) high[x] = 1.13F;                 // above
+            // Below the limits of 8 % and three sigmas.
+            if (x % 5 == 2) high[x] = 1.1F;
+            if (x % 5 == 3) high[x] = 1.13F;  // above the limits
         }
         std::vector<std::uint8_t> open(width + 1, 99);
         openRow(low.data(), high.data(), static_cast<std::ptrdiff_t>(width), 3, rho.data(),
@@ -29,7 +30,7 @@ TEST(OpenRow, IsOpenAtEdgesAndWhereNothingIsKnown) {
 }
 
 struct Scene {
-    Size size{61, 47};  // voters
+    Size size{61, 47};  // in voters
     AlignedRows<float> rho{size}, variance{size}, red{size}, green{size}, blue{size};
 
     explicit Scene(double invalidShare) {
@@ -48,7 +49,7 @@ struct Scene {
     }
 };
 
-/// By the rule, in double precision. `margin`: how clear the decision is.
+/// Decides by the rule, in double precision. `margin`: distance from another decision.
 OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& where, int y,
                  OpenPixel pixel, double& margin) {
     const auto votes = [&](int i, int j) {

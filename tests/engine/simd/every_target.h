@@ -5,7 +5,7 @@
 
 namespace mfar::test {
 
-/// Calls body() once on each instruction set that this processor and this program have.
+/// Calls body() once for each instruction set that both this processor and this program support.
 template <class Body>
 void onEveryTarget(const Body& body) {
     const std::int64_t all = hwy::SupportedTargets();

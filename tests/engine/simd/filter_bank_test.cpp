@@ -17,7 +17,7 @@ std::vector<FilterBank::Filter> numberedFilters() {
     return out;
 }
 
-/// What is said of bytes that are refused; nothing where they are read.
+/// The error message for refused bytes; empty if they are read.
 std::string faultOf(std::span<const std::uint8_t> bytes) {
     try {
         (void)readFilters(bytes, "some.filters");
@@ -44,7 +44,7 @@ TEST(FilterBank, BinsMapOntoOneQuadrantByMirrors) {
         for (int bin = 0; bin < bins; ++bin) {
             const Symmetry same = Symmetry::of(bin, bins);
             const double angle = ((bin + 0.5) / bins - 0.5) * 3.14159265358979;
-            // A direction in the middle of the bin, mapped as pixels are.
+            // A direction in the centre of the bin, mapped as pixels are.
             double x = std::cos(angle), y = std::sin(angle);
             if (same.mirrors) y = -y;
             if (same.transposes) std::swap(x, y);
@@ -99,7 +99,7 @@ TEST(FilterBank, PriorIsWholeAndLearned) {
 }
 
 TEST(FilterBank, CubicLeavesFlatAlone) {
-    // What the pixel itself has makes the sum one: with it, weights beyond it are those of Keys.
+    // The pixel's own weight completes the sum to one; the other weights are Keys'.
     const std::int16_t* cubic = FilterBank::prior().cubic();
     int far = 0;
     for (int phase = 0; phase < kPhases; ++phase)

@@ -15,7 +15,7 @@ using Eigen::Vector2d;
 using Cell = std::array<float, 4>;
 constexpr Size kSmall{160, 120};
 
-/// The flow between two pictures.
+/// Computes the flow between two pictures.
 class Pair {
 public:
     Pair(const FlowPicture& a, const FlowPicture& b, const Flow2dOptions& options = {})
@@ -44,7 +44,8 @@ struct Errors {
     Vector2d bias{0, 0};
 };
 
-/// Errors of a constant flow [px of the field's level], `border` cells off the picture's edge.
+/// Errors against a constant flow [px of the field's level], at least `border` cells inside the
+/// picture.
 Errors errorsOf(Rows<const FlowCell> field, const Vector2d& truth, int border) {
     Errors e;
     int n = 0;
@@ -192,7 +193,7 @@ TEST(Flow2d, TilesThatAreLeftOutChangeNoOther) {
                 ASSERT_EQ(wanted.x, got.x) << x << ", " << y;
                 ASSERT_EQ(wanted.y, got.y) << x << ", " << y;
                 ASSERT_EQ(wanted.cost, got.cost) << x << ", " << y;
-                // Where that vector ends, both know the way back.
+                // At the vector's end, both have the same backward flow.
                 const auto at = [&](int cell, float by, int cells) {
                     const auto end = static_cast<int>(std::floor((4.0F * cell + 2 + by) / 8));
                     return std::clamp(end, 0, cells - 1);
@@ -229,7 +230,7 @@ TEST(Flow2d, TilesThatDidNotChangeKeepTheirVectors) {
             if (pair.work.at(x / 4, y / 4).changed == 0) {
                 EXPECT_EQ(before[40UL * y + x].x, pair.flow.forward()[y][x].x);
             }
-    pair.run(false);  // a new still: nothing holds any more
+    pair.run(false);  // a new still: earlier results are invalid
     EXPECT_LT(errorsOf(pair.flow.forward(), {3, 1}, 3).worst, 0.3);
 }
 

@@ -19,7 +19,7 @@
 
 namespace mfar::simd {
 
-/// Luma that owns its pixels.
+/// Luma picture that owns its pixels.
 struct FlowPicture {
     explicit FlowPicture(Size s, std::uint8_t fill = 0)
         : size(s), pixels(static_cast<std::size_t>(s.width) * s.height, fill) {}
@@ -34,9 +34,9 @@ struct FlowPicture {
     std::vector<std::uint8_t> pixels;
 };
 
-/// A sum of plane waves of 6 to 80 px that is known at every position, moved by `shift`: what a
-/// pixel of the picture without a shift shows lies `shift` farther. `stretch`: along x, from the
-/// left border on.
+/// A sum of plane waves of 6 to 80 px, known at every position and moved by `shift`: content of the
+/// picture without a shift appears `shift` farther. `stretch`: factor along x, from the left
+/// border.
 inline FlowPicture wavesMoved(Size size, Eigen::Vector2d shift, double gain = 1, double offset = 0,
                               unsigned seed = 1, double stretch = 1) {
     constexpr int kWaves = 24;
@@ -92,7 +92,7 @@ inline RgbPlanes planesOf(const FlowPicture& p) {
     return shared;
 }
 
-/// Every tile changed and matched.
+/// Work with every tile changed and matched.
 inline TileWork wholeWork(Size video) {
     TileWork work;
     work.tiles = tilesOf(video);

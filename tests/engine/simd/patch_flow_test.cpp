@@ -10,12 +10,12 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Of costs: pixels are compared in 1/32 grey level.
+// For costs: pixels are compared in 1/32 grey level.
 constexpr double kTolerance = 2e-3;
-constexpr Size kSize{61, 45};  // the last cells cut
+constexpr Size kSize{61, 45};  // the last cells are cut off
 constexpr Size kCells{16, 12};
 
-/// A picture in memory as the kernels read it.
+/// A picture in the memory layout that the kernels read.
 class Level {
 public:
     explicit Level(const FlowPicture& p)
@@ -47,7 +47,7 @@ std::vector<float> randomVectors(unsigned seed, float reach) {
     return out;
 }
 
-/// Search from `vectors` alone with some Gauss-Newton steps.
+/// Searches from `vectors` alone, with `steps` Gauss-Newton steps.
 FlowField searched(const Level& a, const Level& b, const std::vector<float>& vectors, int steps) {
     FlowField out(kCells), coarser({8, 6});
     SearchStep step;
@@ -81,7 +81,7 @@ void expectCostsOf(const FlowPicture& first, const FlowPicture& second) {
 TEST(PatchFlow, CostAndTextureAreThoseOfTheOracle) {
     expectCostsOf(wavesMoved(kSize, {0, 0}), noiseOf(kSize, 3));
     expectCostsOf(noiseOf(kSize, 5), wavesMoved(kSize, {0, 0}));
-    FlowPicture chess(kSize);  // sums at their largest
+    FlowPicture chess(kSize);  // largest possible sums
     for (int y = 0; y < kSize.height; ++y)
         for (int x = 0; x < kSize.width; ++x)
             chess.at(x, y) = (x / 2 + y / 2) % 2 != 0 ? 255 : 0;
@@ -164,7 +164,7 @@ TEST(PatchFlow, PropagationTakesTheBestOfTheNeighbours) {
     EXPECT_GT(moved, kCells.width * kCells.height / 4);
 }
 
-/// Costs of seeds on a plane, away from the border.
+/// Checks the costs of seeds on a plane, away from the border.
 void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = noiseOf(kSize, 3);
     const Level a(first), b(second);
@@ -210,7 +210,7 @@ TEST(PatchFlow, CleanUpKeepsPlanesAndTheStepBetweenThem) {
         prepareCleanUpRow(field, FlowField::first(known), y);
     std::vector<float> out(4UL * kCells.width * kCells.height);
     const CleanUpStep step{field, FlowField::first(known), out.data(), 2};
-    for (int y = 2; y < kCells.height - 2; ++y)  // there the border is repeated
+    for (int y = 2; y < kCells.height - 2; ++y)  // outside of this, the border is repeated
         cleanUpCells(step, y, 2, kCells.width - 2);
     for (int y = 2; y < kCells.height - 2; ++y)
         for (int x = 2; x < kCells.width - 2; ++x) {

@@ -37,7 +37,7 @@ struct Still {
     StillPreparation preparation;
 };
 
-/// An RGBA picture of random texture.
+/// An RGBA picture with random texture.
 struct TestPicture {
     explicit TestPicture(Size size, int smooth = 2)
         : bytes(mixedBytes(4UL * size.width * size.height, 7, smooth)),
@@ -108,7 +108,8 @@ TEST(StillPreparation, ConstantStillStaysConstant) {
     }
 }
 
-/// R G B of a picture in Y U V, not clamped: chroma between the pixels that share it.
+/// Luma of a Y U V picture through R G B, not clamped; chroma is interpolated between the pixels
+/// that share it.
 Grey lumaOfYuv(const ImageView& p) {
     const YuvToRgb rows = yuvToRgb(p.matrix, p.range);
     const bool packed = p.format == PixelFormat::Yuyv, pairs = p.format == PixelFormat::Nv12;

@@ -13,7 +13,7 @@
 namespace mfar {
 namespace {
 
-/// What both tests need of a scene: waves, an edge and noise that grows with `sigma`.
+/// The scene of both tests: waves, edges and noise.
 TestPicture tilePicture(Size size, unsigned seed, double sigma) {
     TestPicture out(size, PixelFormat::Rgba8, 255);
     std::mt19937 random(seed);
