@@ -6,9 +6,9 @@
 
 namespace mfar {
 
-/// From radiance to what a display is given.
+/// Conversion of radiance to display values.
 struct Exposure {
-    float scale = 1;  ///< radiance that becomes white is its inverse; finite, above 0
+    float scale = 1;  ///< 1 / (radiance that becomes white); finite, above 0
     bool operator==(const Exposure&) const = default;
 };
 

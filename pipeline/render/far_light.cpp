@@ -13,13 +13,13 @@ namespace {
 
 constexpr float kFullSphere = 4 * std::numbers::pi_v<float>;
 constexpr int kFinest = 256;  // texels a side, 0.9 degrees at the poles
-constexpr int kCoarsest = 8;  // of the pyramid
+constexpr int kCoarsest = 8;  // edge of the pyramid's coarsest level
 constexpr int kDiffuseEdge = 16;
 constexpr int kIntegrated = 32;  // edge of the level that irradiance is summed over
-constexpr int kSamples = 64;     // of a lobe
+constexpr int kSamples = 64;     // per lobe
 
-/// Of the tables of mirrored light, and how fine they are. Sharper lobes are found between the
-/// first and the environment itself.
+/// Tables of mirrored light: their roughness and resolution. Sharper lobes are interpolated between
+/// the first table and the environment itself.
 struct MirrorLevel {
     float roughness;
     int edge;
@@ -31,7 +31,7 @@ float signOf(float x) {
     return x < 0 ? -1.0F : 1.0F;
 }
 
-/// Texels of the border are there twice.
+/// Weight: border texels occur twice.
 float partOfBorder(int i, int edge) {
     return i == 0 || i == edge - 1 ? 0.5F : 1.0F;
 }
@@ -39,7 +39,7 @@ float partOfBorder(int i, int edge) {
 /// Solid angle of a texel at `direction` of a table [sr].
 float solidAngle(const Eigen::Vector3f& direction, int edge) {
     const float step = 2.0F / static_cast<float>(edge - 1);
-    const float norm1 = direction.lpNorm<1>();  // of the unit vector: 1 / |point on octahedron|
+    const float norm1 = direction.lpNorm<1>();  // of the unit vector: 1 / |point on the octahedron|
     return step * step * norm1 * norm1 * norm1;
 }
 
@@ -49,7 +49,7 @@ DirectionTable::DirectionTable(int edge)
     : edge_(edge), values_(static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge),
                            Eigen::Vector3f::Zero()) {}
 
-// Texels lie on the square's border too: there the map meets itself.
+// Texels lie on the square's border, too, where the map repeats itself.
 Eigen::Vector3f DirectionTable::direction(int column, int row) const {
     const float scale = 2.0F / static_cast<float>(edge_ - 1);
     const float x = scale * static_cast<float>(column) - 1;
@@ -95,7 +95,7 @@ FarLight::FarLight(const EnvironmentLight& environment, const Lighting& lighting
     Pyramid light = pyramid();
     makeDiffuse(light);
     if (hasGround_) {
-        // Nothing of the ground is above its own horizon.
+        // The ground does not light itself: no part of it is above its own horizon.
         ground_ = sunlit + catcher.albedo.cwiseProduct(diffuse_({0, 0, 1}));
         light = pyramid();
         makeDiffuse(light);
@@ -160,9 +160,9 @@ void FarLight::makeDiffuse(const Pyramid& light) {
 
 void FarLight::makeMirrored(const Pyramid& light) {
     struct LobeSample {
-        Eigen::Vector3f direction;  // z along the lobe's middle
+        Eigen::Vector3f direction;  // in a frame with z along the lobe's middle
         float weight;
-        std::size_t level;  // whose texels are about the sample's part of the lobe
+        std::size_t level;  // whose texels are about as large as the sample's part of the lobe
     };
     for (const MirrorLevel& level : kMirrorLevels) {
         const Ggx ggx(alphaOf(level.roughness));
@@ -204,7 +204,7 @@ Eigen::Vector3f FarLight::mirrored(const Eigen::Vector3f& direction, float rough
     const auto i = static_cast<std::size_t>(
         std::min<std::ptrdiff_t>(above - kMirrorLevels.begin(), kMirrorLevels.size() - 1));
     if (i == 0) {
-        // By the lobes' widths.
+        // Interpolates by the lobes' widths.
         const float share =
             alphaOf(std::max(roughness, 0.0F)) / alphaOf(kMirrorLevels.front().roughness);
         const Eigen::Vector3f sharp = radiance(direction, environment_.radiance(direction));

@@ -10,8 +10,8 @@
 
 namespace mfar {
 
-/// A function of the direction, row-major on the octahedral map (Cigolle et al. 2014) with its
-/// border repeated, interpolated.
+/// A function of the direction: a row-major table on the octahedral map (Cigolle et al. 2014) that
+/// repeats its border, interpolated.
 class DirectionTable {
 public:
     /// `edge` texels a side, at least 2.
@@ -35,10 +35,10 @@ private:
     std::vector<Eigen::Vector3f> values_;
 };
 
-/// The light that would reach a point if no object were there: the environment above the horizon
-/// and, where there is a real surface, a ground of its mean radiance below (world z is up). Without
-/// the sun. Integrals over it are tables, so that a surface's light is known without a ray; rays
-/// then measure what the objects change of it.
+/// The light that would reach a point if there were no objects: the environment above the horizon
+/// and, if there is a real surface, a ground of its mean radiance below (world z is up). Does not
+/// include the sun. Integrals over it are precomputed in tables: they give a surface's light
+/// without a ray, and rays only measure how the objects change it.
 class FarLight {
 public:
     FarLight(const EnvironmentLight& environment, const Lighting& lighting,
@@ -47,7 +47,7 @@ public:
     [[nodiscard]] bool dark() const { return dark_; }
     /// Mean radiance over all directions and channels.
     [[nodiscard]] float brightness() const { return brightness_; }
-    /// From a direction, given what the environment shows there.
+    /// Radiance from a direction, given the environment's radiance there.
     [[nodiscard]] Eigen::Vector3f radiance(const Eigen::Vector3f& direction,
                                            const Eigen::Vector3f& environment) const {
         return hasGround_ && direction.z() < 0 ? ground_ : environment;
@@ -56,12 +56,12 @@ public:
     [[nodiscard]] Eigen::Vector3f diffuse(const Eigen::Vector3f& normal) const {
         return diffuse_(normal);
     }
-    /// Mean over the lobe that a surface of this roughness reflects, seen along its normal, about
-    /// `direction` (Karis 2013). Off the normal the lobe is longer, so this is an approximation.
+    /// Mean about `direction` over the lobe that a surface of this roughness reflects, seen along
+    /// its normal (Karis 2013). Off the normal the lobe is longer, so this is an approximation.
     [[nodiscard]] Eigen::Vector3f mirrored(const Eigen::Vector3f& direction, float roughness) const;
 
 private:
-    /// Light of the directions, ever coarser, of which the tables are made.
+    /// Light by direction, at decreasing resolution; the tables are computed from it.
     using Pyramid = std::vector<DirectionTable>;
     [[nodiscard]] Pyramid pyramid() const;
     void makeDiffuse(const Pyramid& light);
@@ -72,7 +72,7 @@ private:
     float brightness_ = 0;
     Eigen::Vector3f ground_{0, 0, 0};
     DirectionTable diffuse_;
-    std::vector<DirectionTable> mirrored_;  // of kRoughnesses
+    std::vector<DirectionTable> mirrored_;  // one for each of kMirrorLevels
 };
 
 }  // namespace mfar

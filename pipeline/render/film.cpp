@@ -10,8 +10,8 @@ namespace mfar {
 namespace {
 
 constexpr float kGreyLevels = 255;
-constexpr float kEnough = 16;  // samples, to know that there is no change
-// Of an unknown background to an object's value: half the range.
+constexpr float kEnough = 16;  // samples after which "no change" is trusted
+// Assumed contrast of the unknown background to an object: half the range.
 constexpr float kEdgeContrast = 0.5F * kGreyLevels;
 
 bool isLight(const Eigen::Vector3f& rgb) {
@@ -22,7 +22,7 @@ void keepNearest(FirstHit& kept, const FirstHit& hit) {
     if (kept.id == 0 || hit.depth < kept.depth) kept = hit;
 }
 
-/// Of the mean of n samples, from their sum and the sum of their squares.
+/// Variance of the mean of n samples, from their sum and the sum of their squares.
 double varianceOfMean(double sum, double squares, double n) {
     if (n < 2) return 0;
     return std::max(0.0, squares - sum * sum / n) / (n * (n - 1));
@@ -33,7 +33,8 @@ Number squared(Number value) {
     return value * value;
 }
 
-/// Of the mean of `count` samples, from their mean and the mean of their squared luminances.
+/// Standard deviation of the mean of `count` samples, from their mean and their mean squared
+/// luminance.
 float deviationOf(const Eigen::Vector3f& mean, float square, float count) {
     if (count < 2) return 0;
     return std::sqrt(std::max(0.0F, square - squared(luminanceOf(mean))) / (count - 1));
@@ -60,12 +61,12 @@ namespace {
 
 const Eigen::Vector3f kNoFar{1, 1, 1};
 
-/// Of light that falls on a paint, by how much of it leaves the surface.
+/// Weights of the light that falls on a paint: the share of it that leaves the surface.
 struct PaintWeights {
     double diffuse, specular;
 };
 PaintWeights weightsOf(const Paint& paint) {
-    constexpr double kLeast = 1e-3;  // of black
+    constexpr double kLeast = 1e-3;  // for black
     return {kLeast + luminanceOf<float>(paint.diffuse),
             kLeast + luminanceOf<float>(paint.specular())};
 }
@@ -142,7 +143,7 @@ void Film::add(std::size_t pixel, const FilmSample& sample) {
     p.albedoOffset += sample.paint.albedo.offset;
 }
 
-// Only one surface is in it, as far as is known.
+// Whether all samples so far met the same surface.
 bool Film::isWhole(const Pixel& p) {
     const std::uint32_t n = p.taken - p.lost;
     if (p.seen.hit.id == 0) return n > 0 && (p.object.hits == n || p.catcher.hits == n);
@@ -223,7 +224,7 @@ float Film::error(std::size_t pixel, const Exposure& exposure) const {
     return static_cast<float>(std::sqrt(variance + edge / (n * std::sqrt(n))));
 }
 
-// Both parts of an object's light are of the same paths: their errors add up.
+// An object's two parts of light come from the same paths, so their errors add up.
 float Film::errorOfKnown(const Pixel& p, const Exposure& exposure) {
     if (p.seen.hit.id == kCatcherId) {
         const KnownLight known = knownOf(p.catcher, p.carried);
@@ -274,7 +275,7 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
     if (p.picture != picture_ || light.id == 0 || p.taken > 0 || p.carried.firstCount > 0) return;
     if (!(light.firstCount > 0 && light.secondCount > 0)) return;
     const Eigen::Vector3f first = light.first.matrix(), second = light.second.matrix();
-    // A neighbourhood without change is one without change.
+    // If the neighbourhood shows no change, the pixel has none.
     const bool untouched = light.id == kCatcherId && first.isZero(0);
     p.carried = {first,
                  second,
@@ -286,9 +287,9 @@ void Film::remember(std::size_t pixel, const LightPixel& light) {
 }
 
 LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
-    // Fewer samples say nothing of their spread.
+    // With fewer samples the spread is unknown.
     constexpr float kFew = 4;
-    // Noise of so few grey levels is not seen.
+    // Noise of at most this many grey levels is invisible.
     constexpr float kUnseen = 0.3F;
     const Pixel& p = at(pixel);
     LightPixel out;
@@ -311,7 +312,7 @@ LightPixel Film::light(std::size_t pixel, const Exposure& exposure) const {
     out.normal = p.seen.normal.array();
     out.depth = hit.depth;
     out.id = hit.id;
-    // A real surface without change stays without.
+    // Keeps pixels with little noise, among them real surfaces without change.
     out.kept = std::min(known.firstCount, known.secondCount) >= kEnough &&
                error(pixel, exposure) < kUnseen;
     return out;

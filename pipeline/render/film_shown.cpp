@@ -1,4 +1,4 @@
-// What a film's pixels show: the part of Film that makes pictures.
+// The part of Film that makes pictures.
 #include "pipeline/render/film.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ FirstHit Film::firstHit(const Pixel& p, bool changed) {
     if (!changed) return {};
     const bool objects = p.object.hits > 0;
     if (p.seen.hit.id != 0 && p.seen.hit.id != kCatcherId) return p.seen.hit;
-    // The catcher is nothing where objects change nothing of it.
+    // A catcher that the objects do not change shows nothing.
     const bool catches = p.catcher.first.squares > 0 || p.carried.firstSquare > 0;
     if (p.seen.hit.id == kCatcherId && (catches || !objects)) return p.seen.hit;
     if (catches && !objects) return p.nearestCatcher;
@@ -60,7 +60,7 @@ Film::Resolved Film::resolved(std::size_t pixel, const Exposure& exposure) const
     return out;
 }
 
-// What nothing is known of is seen as if no object shaded it.
+// Unknown light is shown as if no object shaded the surface.
 SurfaceLight Film::relativeOf(const KnownLight& light) {
     return {light.firstCount > 0 ? light.first : Eigen::Vector3f(1, 1, 1),
             light.secondCount > 0 ? light.second : Eigen::Vector3f(1, 1, 1)};

@@ -7,7 +7,7 @@ namespace mfar {
 namespace {
 
 constexpr int kCell = 4;     // [px]
-constexpr int kOutside = 1;  // [px], of the table's first node before the first pixel
+constexpr int kOutside = 1;  // [px]: the table's first node is this far before the first pixel
 constexpr int kLongestSide = 16384;
 
 int nodesFor(int pixels) {

@@ -8,16 +8,18 @@
 
 namespace mfar {
 
-/// What CameraModel::unproject() gives, from a table every few pixels: within 0.05 px of it inside
-/// the picture for lenses that do not fold there (0.01 px at 60 degrees).
+/// CameraModel::unproject() from a table with a node every few pixels. Error inside the picture:
+/// below 0.05 px for lenses that do not fold there (0.01 px at 60 degrees).
 class LensRays {
 public:
     explicit LensRays(const CameraModel& camera);
 
     [[nodiscard]] const CameraModel& camera() const { return camera_; }
-    /// Normalised ray (x/z, y/z) of a point of the picture [px], up to a pixel outside it.
+    /// Normalised ray (x/z, y/z) of a point of the picture [px], which may be up to a pixel
+    /// outside.
     [[nodiscard]] Eigen::Vector2f at(float x, float y) const;
-    /// The least rectangle of whole table cells with all pixels whose ray is in the box.
+    /// The smallest rectangle of whole table cells that contains all pixels whose ray is in the
+    /// box.
     [[nodiscard]] PixelRect pixelsIn(const Eigen::Vector2f& least,
                                      const Eigen::Vector2f& most) const;
 
@@ -34,7 +36,8 @@ private:
 
 /// Whether two cameras give the same rays.
 [[nodiscard]] bool sameLens(const CameraModel& a, const CameraModel& b);
-/// Numbers finite, focal lengths above 0, between 1 and 16384 pixels a side.
+/// Whether the numbers are finite, the focal lengths above 0, and the size from 1 to 16384 pixels a
+/// side.
 [[nodiscard]] bool isSound(const CameraModel& camera);
 
 }  // namespace mfar

@@ -10,12 +10,13 @@ namespace mfar {
 namespace {
 
 constexpr float kNearest = 1e-3F;  // [m]
-// A pixel beside the point shows its surface if it lies in its plane, within this share of its
-// distance, and has about its normal.
+// A neighbouring pixel shows the point's surface if it lies in the point's plane, within this share
+// of its distance, and its normal is similar.
 constexpr float kOffPlane = 0.01F, kSameBend = 0.9F;
-constexpr float kLeastWeight = 0.1F;  // of the pixels about a point that show its surface
-// The specular lobe of width alpha has gone by when the eye has turned so many alphas about a
-// point: its reflection turns by twice the eye's angle.
+constexpr float kLeastWeight = 0.1F;  // lower limit of the weight of the neighbouring pixels that
+                                      // show the surface
+// Weight of a specular lobe of width alpha falls to 1/e when the eye has turned by this many alphas
+// about a point: the reflection turns by twice the eye's angle.
 constexpr float kLobeTurn = 0.5F;
 
 void addShare(KnownLight& sum, float share, const KnownLight& light) {

@@ -10,17 +10,18 @@
 
 namespace mfar {
 
-/// What an earlier picture knows of the light on surfaces that another view sees, too. Calls may
-/// run at the same time; the film must not change meanwhile, and outlive this.
+/// Light that an earlier picture found on surfaces that another view sees, too. Calls may run at
+/// the same time; the film must not change meanwhile and must outlive this object.
 class LightHistory {
 public:
-    /// A point's light counts like `mostSamples` at most. `lens`: the view's.
+    /// `mostSamples`: upper limit of the weight of a point's light, in samples. `lens`: of the
+    /// view.
     LightHistory(const Film& film, const RenderView& view, std::shared_ptr<const LensRays> lens,
                  float mostSamples);
 
-    /// Light of the surface at `point` in the world, which an eye at `eye` sees: interpolated
-    /// between the pixels that show the same surface there. Specular light counts less the more its
-    /// lobe has turned. Nothing where none of them does.
+    /// Light of the surface at `point` in the world, seen from `eye`: interpolated between the
+    /// pixels that show the same surface there. The weight of specular light falls as its lobe
+    /// turns. Empty if no pixel shows the surface.
     [[nodiscard]] KnownLight at(const SeenSurface& seen, const Eigen::Vector3f& point,
                                 const Eigen::Vector3f& eye) const;
 

@@ -4,7 +4,7 @@
 
 namespace mfar {
 
-/// A direction towards a light that is far away.
+/// A direction towards a distant light.
 struct LightSample {
     Eigen::Vector3f direction{0, 0, 1};  ///< in the world, unit length
     Eigen::Vector3f radiance{0, 0, 0};

@@ -15,7 +15,7 @@ constexpr float kLeastAlpha = 1e-3F;
 constexpr int kAngles = 32, kRoughnesses = 32;
 constexpr std::uint32_t kAlbedoSamples = 256;
 
-/// Tables over sqrt(mu), which puts more nodes where the albedo bends, and roughness.
+/// Tables over roughness and sqrt(mu); the root puts more nodes where the albedo bends.
 struct AlbedoTables {
     std::array<std::array<SpecularAlbedo, kAngles>, kRoughnesses> at;
     std::array<SpecularAlbedo, kRoughnesses> mean;
@@ -52,7 +52,7 @@ AlbedoTables::AlbedoTables() {
             const float root = static_cast<float>(a) / (kAngles - 1);
             const float mu = std::max(root * root, 1e-4F);
             at[r][a] = albedoBySampling(roughness, mu);
-            // 2 mu dmu = 4 root^3 droot, trapezoids.
+            // Trapezoidal rule with 2 mu dmu = 4 root^3 droot.
             const float weight = root * root * root * (a + 1 == kAngles ? 0.5F : 1.0F);
             sum.scale += weight * at[r][a].scale;
             sum.offset += weight * at[r][a].offset;
@@ -67,7 +67,7 @@ const AlbedoTables& albedoTables() {
     return tables;
 }
 
-/// Of a share in [0, 1] along a table.
+/// Position in a table of a share in [0, 1].
 struct Place {
     std::size_t index;
     float rest;
@@ -86,7 +86,7 @@ SpecularAlbedo between(const SpecularAlbedo& a, const SpecularAlbedo& b, float s
 }  // namespace
 
 float Ggx::density(const Eigen::Vector3f& h) const {
-    // As a sum of squares: 1 - z^2 would cancel where a narrow lobe peaks.
+    // A sum of squares: 1 - z^2 would cancel where a narrow lobe peaks.
     const float slope = (h.x() * h.x() + h.y() * h.y()) / alpha2_ + h.z() * h.z();
     return 1 / (kPi * alpha2_ * slope * slope);
 }

@@ -14,7 +14,7 @@ public:
     [[nodiscard]] float density(const Eigen::Vector3f& h) const;
     /// G2 / (4 cos_o cos_i).
     [[nodiscard]] float visibility(float cosO, float cosI) const;
-    /// G1(w) = visible share seen from cosine mu > 0.
+    /// G1(w): the visible share seen from cosine mu > 0.
     [[nodiscard]] float masking(float mu) const;
     /// A normal among those visible from `wo`, wo.z > 0 (Dupuy and Benyoub 2023).
     [[nodiscard]] Eigen::Vector3f sampleNormal(const Eigen::Vector3f& wo,
@@ -29,19 +29,20 @@ private:
     float alpha_, alpha2_;
 };
 
-/// Share of light that GGX of this roughness reflects once, with Schlick's Fresnel term of normal
-/// reflectance f0: f0 * scale + offset (Karis 2013), and its cosine-weighted mean over directions.
+/// Share of light that GGX of this roughness reflects once, with Schlick's Fresnel term of
+/// reflectance f0 at normal incidence: f0 * scale + offset (Karis 2013); and its cosine-weighted
+/// mean over directions.
 struct SpecularAlbedo {
     float scale = 1, offset = 0;
 
-    /// With a Fresnel term of 1.
+    /// For a Fresnel term of 1.
     [[nodiscard]] float full() const { return scale + offset; }
 };
 
-/// GGX's width at a perceptual roughness in [0, 1]; a mirror keeps a little.
+/// GGX's alpha for a perceptual roughness in [0, 1]; slightly above 0 even for a mirror.
 [[nodiscard]] float alphaOf(float roughness);
 
-/// From tables made at the first call; within 0.01.
+/// From tables that the first call computes; error below 0.01.
 [[nodiscard]] SpecularAlbedo specularAlbedo(float roughness, float mu);
 [[nodiscard]] SpecularAlbedo meanSpecularAlbedo(float roughness);
 

@@ -7,17 +7,18 @@
 namespace mfar {
 namespace {
 
-constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};  // B1, half of it
-// Of a tap. Two, as in the paper, are twice the work and no better (measured at 1 to 64 samples).
+constexpr std::array<float, 2> kSpline = {0.5F, 0.25F};  // half of the B1 spline
+// Radius of the kernel in steps. Two, as in the paper, take twice the time and are no better
+// (measured at 1 to 64 samples).
 constexpr int kReach = 1;
-// Neighbours that tell an unknown variance: where one pixel in 16 is sampled, its next ones are
-// four pixels away. And so many that are enough.
+// Neighbours from which an unknown variance is estimated: where one pixel in 16 is sampled, the
+// nearest samples are four pixels away. kSurely neighbours are enough.
 constexpr int kSpreadReach = 2, kSpreadStep = 4;
 constexpr float kSurely = 4;
-// Differences of so many standard errors, of both pixels together, are none of noise.
+// Differences above this many standard errors of both pixels are not noise.
 constexpr float kTolerance = 2.5F;
-constexpr float kLeastVariance = 1e-7F;  // a tenth of a grey level of white
-// Depth changes by no more of itself per pixel on a surface that is not seen edge on.
+constexpr float kLeastVariance = 1e-7F;  // a tenth of a grey level, for white
+// Upper limit of the relative change of depth per pixel on a surface not seen edge on.
 constexpr float kDepthSlope = 0.01F;
 
 float luminanceOf(const Eigen::Array3f& rgb) {
@@ -76,8 +77,8 @@ struct Spread {
         squares += y * y;
         ++count;
     }
-    /// Of light among these, which may be a rare sample. What so few tell nothing of is taken for
-    /// as large as the light itself.
+    /// Variance of a pixel's light among these values; it may be a rare sample. With few values the
+    /// variance is at least the square of their mean.
     [[nodiscard]] float varianceOf(const Eigen::Array3f& light) const {
         if (!(count > 0)) return 0;
         const float mean = sum / count, off = luminanceOf(light) - mean;
@@ -133,7 +134,7 @@ void NoiseFilter::forNeighbours(std::span<const LightPixel> pixels, int x, int y
     }
 }
 
-// What is not known is what the neighbours differ by.
+// An unknown variance is estimated from the differences of the neighbours.
 void NoiseFilter::spreadVariance(int x, int y) {
     const std::size_t i = static_cast<std::size_t>(y) * size_.width + x;
     const LightPixel& pixel = pixels_[i];
@@ -152,7 +153,7 @@ void NoiseFilter::spreadVariance(int x, int y) {
         variances_[i].second = found(second, pixel.second, pixel.secondCount);
 }
 
-// The mean of the neighbours', as estimates from few samples vary much.
+// Takes the mean of the neighbours, because estimates from few samples vary strongly.
 void NoiseFilter::meanVariance(int x, int y) {
     LightPixel& pixel = pixels_[static_cast<std::size_t>(y) * size_.width + x];
     if (pixel.id == 0) return;

@@ -9,17 +9,18 @@
 
 namespace mfar {
 
-/// No paint is darker: what a metal's channel that reflects nothing has of light is not known.
+/// Lower limit of the paint by which specular light is divided: a metal's channel that reflects
+/// nothing does not show its light.
 inline constexpr float kLeastPaint = 0.01F;
 
-/// The colours of a surface by which its light is multiplied, as of glTF's metallic-roughness
-/// material; linear, shares in [0, 1].
+/// The colours by which a surface's light is multiplied, as in glTF's metallic-roughness material;
+/// linear, shares in [0, 1].
 struct Paint {
-    Eigen::Vector3f diffuse{0, 0, 0};  ///< of diffuse light
-    Eigen::Vector3f facing{0, 0, 0};   ///< of specular light along the normal
+    Eigen::Vector3f diffuse{0, 0, 0};  ///< for diffuse light
+    Eigen::Vector3f facing{0, 0, 0};   ///< for specular light along the normal
     SpecularAlbedo albedo{};           ///< towards the eye
 
-    /// Of specular light.
+    /// Paint for specular light.
     [[nodiscard]] Eigen::Vector3f specular() const {
         return (albedo.scale * facing).array() + albedo.offset;
     }
@@ -33,22 +34,22 @@ struct Paint {
             albedo};
 }
 
-/// What a surface sends to the eye, without its paint.
+/// Light that a surface sends to the eye, without its paint.
 struct SurfaceLight {
     Eigen::Vector3f diffuse{0, 0, 0};   ///< radiance of the surface if it were white
-    Eigen::Vector3f specular{0, 0, 0};  ///< and if it reflected all light
+    Eigen::Vector3f specular{0, 0, 0};  ///< radiance if it reflected all light
 
     [[nodiscard]] Eigen::Vector3f on(const Paint& paint) const {
         return paint.diffuse.cwiseProduct(diffuse) + paint.specular().cwiseProduct(specular);
     }
 };
 
-/// Light that is a multiple of other light, channel by channel.
+/// Channel-wise product, for light stored as a multiple of other light.
 [[nodiscard]] inline SurfaceLight product(const SurfaceLight& a, const SurfaceLight& b) {
     return {a.diffuse.cwiseProduct(b.diffuse), a.specular.cwiseProduct(b.specular)};
 }
 
-/// For a surface whose paint is known by its reflectance along the normal alone.
+/// Packs light for a surface whose paint is known only by its reflectance along the normal.
 [[nodiscard]] inline LightWords packed(const SurfaceLight& light, const Paint& paint,
                                        float exposure) {
     const float full = paint.albedo.full();
@@ -59,7 +60,7 @@ struct SurfaceLight {
                         full > 0 ? paint.albedo.offset / full : 0});
 }
 
-/// The light of a radiance of which `white` is the diffuse part before its paint.
+/// Splits `radiance` into diffuse and specular light; `white`: its diffuse part before the paint.
 [[nodiscard]] inline SurfaceLight lightOf(const Eigen::Vector3f& radiance,
                                           const Eigen::Vector3f& white, const Paint& paint) {
     const Eigen::Vector3f rest = radiance - paint.diffuse.cwiseProduct(white);

@@ -8,35 +8,35 @@
 namespace mfar {
 namespace {
 
-// Pairs of random numbers of each vertex.
+// Pairs of random numbers per vertex.
 constexpr std::uint32_t kSunPair = 0, kEnvironmentPair = 1, kScatterPair = 2, kRoulettePair = 3;
 constexpr std::uint32_t kPairsOfVertex = 4;
-constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;  // of the longest
-// Paths that still bring so much of the light go on for sure: what ends them adds noise that no
+constexpr std::uint32_t kPairsOfPath = kPairsOfVertex * 64;  // of the longest path
+// Paths with at least this share of the light always survive: ending them adds noise that no
 // sampler makes up for.
 constexpr float kSurvives = 0.25F;
 
-/// Balance heuristic of one sample from each of two densities (Veach 1997, equation 9.8): the one
-/// that the environment's compensated density is made for.
+/// Balance heuristic of one sample from each of two densities (Veach 1997, equation 9.8): the
+/// heuristic for which the environment's compensated density was derived.
 float balanceWeight(float taken, float other) {
     return taken / (taken + other);
 }
 
-/// Power heuristic (equation 9.13), for the sun: what a broad lobe finds of it would be rare and
-/// bright.
+/// Power heuristic (equation 9.13), for the sun: samples of a broad lobe hit it rarely and would be
+/// very bright.
 float powerWeight(float taken, float other) {
     const float ratio = other / taken;
     return 1 / (1 + ratio * ratio);
 }
 
-// Of the mean light; and of a dark scene.
+// Lower limits of far light: as a share of the mean light, and in a dark scene.
 constexpr float kLeastFarShare = 0.05F, kLeastFar = 1e-6F;
-// A sun that is wider cannot be treated as one direction and a wider lobe [rad].
+// Upper limit of the sun's radius for treating it as one direction and a wider lobe [rad].
 constexpr float kWidestKnownSun = 0.05F;
 
 }  // namespace
 
-/// What rays meet: all, or the catcher alone.
+/// What rays can meet: all surfaces, or the catcher alone.
 struct PathIntegrator::World {
     const TracedScene& scene;
     bool objects;
@@ -64,7 +64,7 @@ struct PathIntegrator::World {
     }
 };
 
-/// A point with light scattered at it.
+/// A point at which light is scattered.
 struct PathIntegrator::Vertex {
     const SurfacePoint& point;
     Eigen::Matrix3f frame;
@@ -73,15 +73,15 @@ struct PathIntegrator::Vertex {
     Vertex(const SurfacePoint& p, const Eigen::Vector3f& wo)
         : point(p), frame(frameAround(p.shading)), scatter(p.look, frame.transpose() * wo) {}
 
-    /// Whether the triangle itself and not only its shading faces there.
+    /// Whether the triangle itself, not only its shading normal, faces this direction.
     [[nodiscard]] bool faces(const Eigen::Vector3f& direction) const {
         return point.geometric.dot(direction) > 0;
     }
 };
 
-/// What a path lets through of the light that arrives where it is.
+/// Product of the reflectances along the path: the share of light at its end that reaches the eye.
 struct PathIntegrator::Carried {
-    Eigen::Vector3f all{1, 1, 1}, white{0, 0, 0};  // white: none before the first bounce
+    Eigen::Vector3f all{1, 1, 1}, white{0, 0, 0};  // white: 0 before the first bounce
 
     void scatter(const ScatterSample& sample, bool first) {
         all = all.cwiseProduct(sample.weight);
@@ -190,7 +190,7 @@ PathIntegrator::Sent PathIntegrator::knownSun(const Vertex& vertex, const Eigen:
     if (sun_.dark()) return {};
     const SurfacePoint& point = vertex.point;
     const Eigen::Vector3f towards = vertex.frame.transpose() * sun_.towards();
-    // A lobe sharper than the sun's disc shows the disc.
+    // A lobe sharper than the sun's disc shows the disc's shape.
     SurfaceLook look = point.look;
     look.roughness = std::max(look.roughness, std::sqrt(sun_.angularRadius()));
     const ScatterValue f =
@@ -224,7 +224,7 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
     for (int depth = 1;; ++depth, pair += kPairsOfVertex) {
         const bool first = depth == 1;
         const Lobes here = first ? lobes : Lobes::Both;
-        // What shines at the second surface is direct light of the first.
+        // Mirrored light emitted by the second surface counts as direct light of the first.
         if (!first || lobes != Lobes::Mirrored) add(out.rest, point.emission, depth - 1);
         const Vertex vertex(point, wo);
         const Arrived lit = direct(vertex, here, sampler, pair, world);
@@ -244,7 +244,8 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
         const Ray ray = point.leaving(direction);
         const bool last = depth == options_.maxDepth;
         std::optional<SurfacePoint> next;
-        // At the last surface the lights' other half alone counts.
+        // The last surface only adds the lights in the sampled direction, the other half of the
+        // multiple importance sampling.
         const bool free = last ? !world.blocked(ray) : !(next = world.next(ray));
         if (free)
             add(first ? out.direct.light : out.rest, escaped(direction, scattered.density).light,
@@ -255,9 +256,9 @@ PathIntegrator::Parts PathIntegrator::walk(SurfacePoint point, Eigen::Vector3f w
     }
 }
 
-// What objects let through of the light that is known (Heitz et al. 2018): where nothing stands
-// before the surface, no noise is left. What is known is off by some percent, so that of many
-// samples the first few alone follow it.
+// Replaces sampled unblocked light by known light, times the share that the objects let through
+// (Heitz et al. 2018): free of noise where nothing blocks the light. Known light has an error of
+// some percent, so its weight falls after the first samples.
 PathIntegrator::Sent PathIntegrator::sum(const Parts& parts, std::uint32_t number) {
     constexpr std::uint32_t kTrusted = 16;
     const Arrived& direct = parts.direct;

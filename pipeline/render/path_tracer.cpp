@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kBatch = 64;  // rays that go through Embree together
 
-/// A sample of a pixel, or the look through its centre that comes before the first.
+/// A sample of a pixel, or the ray through its centre that precedes the samples.
 struct CameraSample {
     std::uint32_t pixel = 0, number = 0;
     bool centre = false;
@@ -52,7 +52,7 @@ struct PathTracer::Parts {
     Parts(std::shared_ptr<const Scene> sound, const PathTracerOptions& o)
         : options(o), scene(std::move(sound), o.buildThreads), integrator(scene, options) {}
 
-    /// The lens's table, kept until another camera comes.
+    /// The lens's table, kept until the camera changes.
     [[nodiscard]] std::shared_ptr<const LensRays> lensOf(const CameraModel& camera) const {
         const std::scoped_lock lock(lensMutex);
         if (!lens || !sameLens(lens->camera(), camera))
@@ -97,7 +97,7 @@ private:
                 parts_.options.independentSamples};
     }
 
-    /// Of camera z 1 a unit of the direction: distances along it are depths.
+    /// The direction has z = 1 in the camera's frame, so that distances along it are depths.
     [[nodiscard]] Ray rayOf(const CameraSample& sample) const {
         Eigen::Vector2f at{sample.pixel % width_, sample.pixel / width_};
         if (!sample.centre) at += filtered(parts_.options.filter, samplerOf(sample).pair(0));

@@ -32,7 +32,7 @@ void PictureResolver::begin(const Film& film, const RenderView& view, const Pixe
     rowsOut_ = 0;
 }
 
-// What is not traced is written as well: the memory held another picture.
+// Pixels outside the traced part are written as well, because the memory holds another picture.
 int PictureResolver::rowsBegin() const {
     return stage_ == kLastStage ? 0 : traced_.y0;
 }
@@ -116,7 +116,8 @@ Film::Resolved PictureResolver::filtered(int x, int y) {
     return film_->resolvedFrom(light, i, exposure_);
 }
 
-// Of the real surface; nothing where none of the pixels around was looked at.
+// Mean of the real surface's pixels of even column and row around; empty if none of them was looked
+// at.
 LightPixel PictureResolver::between(int x, int y) const {
     LightPixel out;
     float count = 0, perDepth = 0;

@@ -11,17 +11,17 @@
 
 namespace mfar {
 
-/// Makes the picture of a film, with its noise smoothed if wanted, in portions of rows: so that it
-/// takes no more of a frame's time than there is. Portions of one stage may run at the same time;
-/// the next stage begins when all of them are done. One caller at a time but for run().
+/// Makes the picture of a film in portions of rows, so that it fits into the time left in a frame;
+/// optionally smooths the noise. Portions of one stage may run at the same time; the next stage
+/// begins when all of them are done. One caller at a time, except for run().
 class PictureResolver {
 public:
     static constexpr int kStages = NoiseFilter::kStages + 2;
 
-    /// There is something in `traced` alone. Film and picture must stay until it is complete; the
-    /// picture keeps its memory. `memory`, if given, is the film: its pixels carry what the filter
-    /// finds for them where nothing else is known, and the real surface's that nobody looked at
-    /// take after those of even column and row around them.
+    /// Pixels outside `traced` are empty. Film and picture must outlive the work; the picture keeps
+    /// its memory. `memory` is null or the film: pixels without samples or carried light then carry
+    /// the filter's result, and pixels of the real surface that were not looked at take the mean of
+    /// those of even column and row around them.
     void begin(const Film& film, const RenderView& view, const PixelRect& traced,
                const Exposure& exposure, bool filter, RenderedPicture& out, Film* memory = nullptr);
 
@@ -29,9 +29,9 @@ public:
         int stage = 0, firstRow = 0, lastRow = 0;
         [[nodiscard]] bool empty() const { return firstRow >= lastRow; }
     };
-    /// Rows of about so many pixels, one at least. Empty: wait for those that are out.
+    /// Rows with about `pixels` pixels, at least one row. Empty: wait for outstanding portions.
     [[nodiscard]] Portion next(std::int64_t pixels);
-    /// What next() gives a portion of, below kStages.
+    /// Stage of the portion that next() returns, below kStages.
     [[nodiscard]] int stage() const { return std::min(stage_, kLastStage); }
     [[nodiscard]] bool hasNext() const { return nextRow_ < rowsEnd(); }
     void run(const Portion& portion);
@@ -57,10 +57,10 @@ private:
     RenderedPicture* out_ = nullptr;
     NoiseFilter filter_;
     int stage_ = kLastStage + 1, nextRow_ = 0, rowsOut_ = 0;
-    std::vector<double> taken_, seen_;  // samples and pixels that show something, of each row
+    std::vector<double> taken_, seen_;  // per row: samples, and pixels that show something
 };
 
-/// All of it at once.
+/// Resolves the whole picture at once.
 void resolve(const Film& film, const RenderView& view, const Exposure& exposure,
              RenderedPicture& out, bool filter = false);
 

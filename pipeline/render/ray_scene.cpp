@@ -14,7 +14,7 @@
 namespace mfar {
 namespace {
 
-// The calls whose signatures differ between Embree 3 and 4.
+// Functions whose signatures differ between Embree 3 and 4.
 #if MFAR_EMBREE_MAJOR >= 4
 void intersectOne(RTCScene scene, RTCRayHit& query) {
     rtcIntersect1(scene, &query);
@@ -60,7 +60,8 @@ void occludedOne(RTCScene scene, RTCRay& query) {
 }
 #endif
 
-// Weight of a corner: rounding over the size of a triangle a thousandth of its distance wide.
+// Tolerance of a corner's weight: rounding over the size of a triangle whose width is a thousandth
+// of its distance.
 constexpr float kEdge = 4e-3F;
 
 RTCRay embreeRay(const Ray& ray) {
@@ -102,8 +103,8 @@ RayHit laneHit(const Packet& query, std::size_t i) {
             query.hit.v[i]};
 }
 
-/// Where the next triangle may be hit at the same distance, and the first one tried is found: by a
-/// packet that may be another than by the ray alone.
+/// On an edge the next triangle may be hit at the same distance, and the first one tested wins: a
+/// packet and a single ray may test in different order.
 bool onEdge(const RayHit& hit) {
     return hit.found() && !(std::min({hit.u, hit.v, 1 - hit.u - hit.v}) > kEdge);
 }
@@ -124,7 +125,7 @@ void intersectInPackets(RTCScene scene, std::span<const Ray> rays, std::span<Ray
     }
 }
 
-/// The widest packet that this processor does not have to take apart.
+/// The widest packet that the processor handles as a whole.
 std::size_t packetWidthOf(RTCDevice device) {
     if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) return 16;
     return rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0 ? 8 : 4;
@@ -166,7 +167,7 @@ RayScene::RayScene(int buildThreads) {
     scene_.reset(rtcNewScene(device_.get()));
     check(device_.get(), "a new scene");
     packetWidth_ = packetWidthOf(device_.get());
-    // Without it rays slip through between triangles that share an edge.
+    // Without this flag, rays slip through between triangles that share an edge.
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
 }
 
@@ -174,7 +175,7 @@ std::uint32_t RayScene::add(std::span<const Eigen::Vector3f> positions,
                             std::span<const std::array<std::uint32_t, 3>> triangles,
                             const HoleTest& holes) {
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree's own buffers: it reads past the end of the last vertex.
+    // Embree's own buffers, because it reads past the end of the last vertex.
     auto* vertices = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 3 * sizeof(float), positions.size()));

@@ -25,26 +25,26 @@ struct RayHit {
     static constexpr std::uint32_t kNone = 0xFFFFFFFFU;
 
     float t = std::numeric_limits<float>::infinity();
-    std::uint32_t mesh = kNone, triangle = 0;  ///< in the order of addition
-    float u = 0, v = 0;  ///< weights of the triangle's second and third corner
+    std::uint32_t mesh = kNone, triangle = 0;  ///< numbered in the order of addition
+    float u = 0, v = 0;  ///< weights of the triangle's second and third corners
 
     [[nodiscard]] bool found() const { return mesh != kNone; }
 };
 
-/// Tells whether there is nothing at a point of a triangle after all. May be called by any thread.
+/// Decides whether a point of a triangle is a hole. May be called by any thread.
 struct HoleTest {
     bool (*isHole)(const void* context, std::uint32_t triangle, float u, float v) = nullptr;
-    const void* context = nullptr;  ///< outlives the scene
+    const void* context = nullptr;  ///< must outlive the scene
 };
 
 /// Triangle meshes in one frame, searched along rays by Embree. After commit(), const calls may
 /// run at the same time.
 class RayScene {
 public:
-    /// Throws std::runtime_error if Embree cannot be had; `buildThreads` >= 1.
+    /// Throws std::runtime_error if Embree is unavailable; `buildThreads` >= 1.
     explicit RayScene(int buildThreads = 1);
 
-    /// Copies the mesh; returns its number. Numbers finite, indices in range.
+    /// Copies the mesh; returns its number. Numbers must be finite, indices in range.
     std::uint32_t add(std::span<const Eigen::Vector3f> positions,
                       std::span<const std::array<std::uint32_t, 3>> triangles,
                       const HoleTest& holes = {});
@@ -52,12 +52,12 @@ public:
     void commit();
 
     [[nodiscard]] bool empty() const { return meshes_ == 0; }
-    /// Around all triangles; of an empty scene an empty box.
+    /// Around all triangles; empty if the scene is.
     [[nodiscard]] const Eigen::AlignedBox3f& box() const { return box_; }
 
     [[nodiscard]] RayHit first(const Ray& ray) const;
     [[nodiscard]] bool blocked(const Ray& ray) const;
-    /// The same to the bit as first() for each; fast for neighbouring rays. `hits` is as long as
+    /// Bit-identical to first() for each ray; fast for neighbouring rays. `hits` is as long as
     /// `rays`.
     void firstOfEach(std::span<const Ray> rays, std::span<RayHit> hits) const;
 

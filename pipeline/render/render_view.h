@@ -4,7 +4,7 @@
 
 namespace mfar {
 
-/// From where a picture of the scene is taken.
+/// The view from which a picture of the scene is taken.
 struct RenderView {
     CameraModel camera;  ///< with its lens; size at least 1x1
     RigidTransform T_world_camera;

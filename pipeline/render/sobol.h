@@ -25,7 +25,7 @@ namespace mfar {
     return ((x & 0xAAAAAAAAU) >> 1) | ((x & 0x55555555U) << 1);
 }
 
-/// Nested uniform (Owen) scrambling of a number whose bits are reversed: each bit is turned by a
+/// Nested uniform (Owen) scrambling of a number whose bits are reversed: each bit is flipped by a
 /// hash of the bits below it and of the seed (Laine and Karras 2011, Burley 2020; multipliers by
 /// Vegdahl).
 [[nodiscard]] constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
@@ -36,14 +36,14 @@ namespace mfar {
     return x ^ (x * 0x53A22864U);
 }
 
-/// The index that sample `index` has after an Owen scramble of the indices: aligned blocks of 2^k
-/// indices stay blocks.
+/// Index of sample `index` after an Owen scramble of the indices: aligned blocks of 2^k indices
+/// stay blocks.
 [[nodiscard]] constexpr std::uint32_t shuffledIndex(std::uint32_t index, std::uint32_t seed) {
     return reversedBits(scrambledReversed(reversedBits(index), seed));
 }
 
-/// Coordinates of the first two Sobol dimensions in 32 bits, bits reversed. The second's matrix is
-/// Pascal's triangle modulo 2, in five steps (Ahmed 2024).
+/// Coordinates of the first two Sobol dimensions in 32 bits, bits reversed. The matrix of the
+/// second is Pascal's triangle modulo 2, in five steps (Ahmed 2024).
 [[nodiscard]] constexpr std::array<std::uint32_t, 2> sobolReversed(std::uint32_t index) {
     std::uint32_t y = index;
     y ^= (y & 0xAAAAAAAAU) >> 1;
@@ -55,16 +55,16 @@ namespace mfar {
 }
 
 /// The random numbers of one sample of a pixel: pairs of a (0, 2)-sequence in base 2,
-/// Owen-scrambled and shuffled anew for each pair (padding, Kollig and Keller 2002; Burley 2020,
-/// section 5). A function of seed, pixel, sample and place on the path alone.
+/// Owen-scrambled and shuffled separately for each pair (padding, Kollig and Keller 2002; Burley
+/// 2020, section 5). They depend only on seed, pixel, sample and place on the path.
 class PixelSampler {
 public:
-    /// `independent`: uniform numbers without any order instead.
+    /// `independent`: independent uniform numbers instead.
     PixelSampler(std::uint32_t seed, std::uint32_t pixel, std::uint32_t sample, bool independent)
         : seed_(mixedBits(pixel ^ mixedBits(seed + 0x9E3779B9U))), sample_(sample),
           independent_(independent) {}
 
-    /// Of the pixel's samples, from 0.
+    /// The sample's number in its pixel, from 0.
     [[nodiscard]] std::uint32_t number() const { return sample_; }
     /// Pair number `dimension`, in [0, 1)^2.
     [[nodiscard]] Eigen::Vector2f pair(std::uint32_t dimension) const {
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    /// The greatest float below 1 at most.
+    /// At most the greatest float below 1.
     static float unit(std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24F; }
 
     std::uint32_t seed_, sample_;

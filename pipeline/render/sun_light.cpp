@@ -15,11 +15,11 @@ SunLight::SunLight(const std::optional<Sun>& sun) {
     irradiance_ = sun->irradiance;
     radiance_ = sun->irradiance / (kPi * sine * sine);
     chord2_ = 4 * half * half;
-    density_ = 1 / (kPi * chord2_);  // of a cap of that chord
+    density_ = 1 / (kPi * chord2_);  // 1 / solid angle of a cap with that chord
 }
 
 LightSample SunLight::sample(const Eigen::Vector2f& u) const {
-    // The area-preserving projection (Lambert's azimuthal) of a disc onto the cap.
+    // Area-preserving projection of a disc onto the cap (Lambert's azimuthal).
     const Eigen::Vector2f p = discPoint(u);
     const float d2 = chord2_ * p.squaredNorm();
     const Eigen::Vector2f side = p * std::sqrt(chord2_ * (1 - d2 / 4));

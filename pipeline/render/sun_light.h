@@ -8,15 +8,15 @@
 
 namespace mfar {
 
-/// The sun's disc: of the same radiance all over, sampled evenly in solid angle.
+/// The sun as a disc of constant radiance, sampled uniformly in solid angle.
 class SunLight {
 public:
-    /// Without a sun it is dark.
+    /// Dark if there is no sun.
     explicit SunLight(const std::optional<Sun>& sun);
 
     [[nodiscard]] bool dark() const { return density_ == 0; }
     [[nodiscard]] Eigen::Vector3f towards() const { return frame_.col(2); }
-    /// On a surface that faces it.
+    /// On a surface that faces the sun.
     [[nodiscard]] const Eigen::Vector3f& irradiance() const { return irradiance_; }
     /// [rad]
     [[nodiscard]] float angularRadius() const { return std::sqrt(chord2_); }

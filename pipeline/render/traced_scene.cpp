@@ -8,12 +8,13 @@
 namespace mfar {
 namespace {
 
-// Of the greatest coordinate: some 30 units in the last place.
+// Share of the largest coordinate: about 30 units in the last place.
 constexpr float kStartOffset = 0x1p-18F;
 constexpr float kLeastOffset = 1e-7F;  // [m]
-constexpr float kStepOver = 1e-6F;     // of the distance
-constexpr int kMostBackFaces = 64;     // on a camera ray
-// A normal seen from behind, as interpolation and maps can give, is turned until it shows.
+constexpr float kStepOver = 1e-6F;     // share of the distance
+constexpr int kMostBackFaces = 64;     // per camera ray
+// Lower limit of the cosine: interpolated and mapped normals that point away from the viewer are
+// turned until they face it.
 constexpr float kLeastShown = 1e-3F;
 
 template <typename T>
@@ -23,7 +24,7 @@ T interpolated(const std::vector<T>& values, const std::array<std::uint32_t, 3>&
            values[corners[2]] * hit.v;
 }
 
-/// Twice the triangle's area in length.
+/// Normal whose length is twice the triangle's area.
 Eigen::Vector3f crossed(const std::vector<Eigen::Vector3f>& positions,
                         const std::array<std::uint32_t, 3>& corners) {
     const Eigen::Vector3f& a = positions[corners[0]];
@@ -32,7 +33,7 @@ Eigen::Vector3f crossed(const std::vector<Eigen::Vector3f>& positions,
 
 Eigen::Vector3f unitOr(const Eigen::Vector3f& v, const Eigen::Vector3f& otherwise) {
     float n = v.norm();
-    if (!(n > 1e-15F && n < 1e15F)) n = v.stableNorm();  // the squares may have run over
+    if (!(n > 1e-15F && n < 1e15F)) n = v.stableNorm();  // the squares may have overflowed
     return n > 0 && std::isfinite(n) ? Eigen::Vector3f(v / n) : otherwise;
 }
 
@@ -125,7 +126,7 @@ void TracedScene::setLook(const TracedMesh& mesh, const RayHit& hit, SurfacePoin
     }
     if (const SurfaceTexture* t = mesh.texture(m.emissionTexture))
         point.emission = point.emission.cwiseProduct(lookUp(*t, uv).head<3>());
-    // More than all light does not come back, whatever a vertex colour or factor says.
+    // A surface reflects at most all light, whatever a vertex colour or factor says.
     point.look.baseColour = point.look.baseColour.cwiseMin(1.0F);
 }
 
@@ -151,7 +152,7 @@ Eigen::Vector3f TracedScene::mapped(const TracedMesh& mesh, const RayHit& hit,
         tangent =
             (mesh.positions[corners[1]] - p) * c.y() - (mesh.positions[corners[2]] - p) * b.y();
         if (area < 0) tangent = -tangent;
-        // Green is up in the texture, where v falls.
+        // Green means up in the texture, the direction in which v falls.
         sign = area < 0 ? 1.0F : -1.0F;
     }
     tangent = unitOr(tangent - normal * normal.dot(tangent), Eigen::Vector3f::Zero());

@@ -10,7 +10,8 @@
 
 namespace mfar {
 
-/// A point of a surface as seen from one side. Normals of unit length, on the viewer's side.
+/// A point of a surface seen from one side. Normals are of unit length and point to the viewer's
+/// side.
 struct SurfacePoint {
     Eigen::Vector3f position{0, 0, 0};  ///< in the world
     Eigen::Vector3f geometric{0, 0, 1};
@@ -18,13 +19,13 @@ struct SurfacePoint {
     SurfaceLook look;
     Eigen::Vector3f emission{0, 0, 0};
 
-    /// As seen along `direction`, of any length.
+    /// Paint seen along `direction`, of any length.
     [[nodiscard]] Paint paint(const Eigen::Vector3f& direction) const;
-    /// Where a ray towards `direction` starts: beside the surface by what rounding may be off.
+    /// Ray from the point towards `direction`; starts off the surface by more than rounding errors.
     [[nodiscard]] Ray leaving(const Eigen::Vector3f& direction) const;
 };
 
-/// A sound scene in world coordinates, ready to be searched. Keeps models alive.
+/// A valid scene in world coordinates, ready to be searched. Keeps the models alive.
 class TracedScene {
 public:
     /// Throws std::runtime_error if the search structure cannot be made.
@@ -36,8 +37,8 @@ public:
     [[nodiscard]] const RayScene& objects() const { return objects_; }
     [[nodiscard]] const RayScene& catcher() const { return catcher_; }
 
-    /// What a ray meets of the objects that shows towards it: single-sided surfaces are not there
-    /// from behind. `hit` is the first one of all.
+    /// The first hit of an object that is visible from the ray's side: single-sided surfaces are
+    /// invisible from behind. `hit` is the first hit of all.
     [[nodiscard]] RayHit shown(const Ray& ray, RayHit hit) const;
     [[nodiscard]] std::uint8_t idOf(const RayHit& hit) const { return meshes_[hit.mesh]->id; }
 
@@ -75,7 +76,8 @@ private:
                                   const Eigen::Vector3f& normal);
 
     std::shared_ptr<const Scene> scene_;
-    std::vector<std::unique_ptr<const TracedMesh>> meshes_;  // at fixed places: hole tests
+    std::vector<std::unique_ptr<const TracedMesh>> meshes_;  // at fixed addresses: hole tests point
+                                                             // to them
     RayScene objects_, catcher_;
 };
 

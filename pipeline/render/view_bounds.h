@@ -7,8 +7,8 @@
 
 namespace mfar {
 
-/// Pixels that see a point of a world box, or a few more; what is behind the camera is not seen.
-/// `rays` are the view's.
+/// Rectangle around the pixels that see a point of a world box; may be larger. Points behind the
+/// camera are not seen. `rays` are those of the view.
 [[nodiscard]] PixelRect pixelsOfBox(const Eigen::AlignedBox3f& box, const RenderView& view,
                                     const LensRays& rays);
 

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/cell_flow_rows.cpp"
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,7 +22,7 @@ void CellDepths(const float* upper, const float* lower, std::size_t count, float
     });
 }
 
-/// Where the still shows the points s of rays.
+/// Where the still shows the points of inverse depth s on the rays.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
     const auto& move = ends.motion.move;
@@ -40,7 +40,8 @@ HWY_INLINE Points<V> endOf(D d, const FlowEnds& ends, V rx, V ry, V s) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> loadVectors(D d, const CellVector* from) {
-    // No Points without values: its constructor would be no function of this instruction set.
+    // Not Points with an empty initialiser: its default constructor would not be compiled for this
+    // instruction set.
     V x, y, c, e;
     hn::LoadInterleaved4(d, from->data(), x, y, c, e);
     return {x, y};
@@ -60,7 +61,7 @@ void CellFlow(const FlowEnds& ends, const CellRow& row, const float* s, CellVect
     });
 }
 
-/// Nearest of some cells, -1 where a mask is not set or none is near.
+/// Nearest cell of each point; -1 if its mask bit is not set or the point is outside the field.
 template <class D>
 HWY_INLINE void storeCells(D d, const Points<hn::Vec<D>>& p, hn::Mask<D> valid, Size cells,
                            std::int32_t* to) {
@@ -114,7 +115,7 @@ void AlignCells(const FlowEnds& ends, const CellRow& row, const CellVector* flow
         const auto moved = hn::MulAdd(ahead, hn::Div(along, square), at);
         hn::StoreU(hn::IfThenElse(tells, moved, at), d, to);
     };
-    // In place, so nothing may be done twice.
+    // In place, so no value may be processed twice.
     const hn::ScalableTag<float> d;
     std::size_t i = 0;
     for (; i + hn::Lanes(d) <= row.count; i += hn::Lanes(d))

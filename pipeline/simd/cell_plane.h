@@ -8,13 +8,13 @@
 
 namespace mfar::simd {
 
-/// Room for whole vectors of the kernels.
+/// Width rounded up to whole vectors of the kernels.
 [[nodiscard]] inline Size wholeVectors(Size cells) {
     constexpr int kLongest = 16;  // [cells]
     return {(cells.width + kLongest - 1) / kLongest * kLongest, cells.height};
 }
 
-/// A value per cell, whose rows repeat their border.
+/// A value per cell; the rows repeat their border.
 class CellPlane {
 public:
     explicit CellPlane(Size cells)
@@ -26,7 +26,7 @@ public:
         row[-1] = row[0];
         row[cells_.width] = row[cells_.width - 1];
     }
-    /// Rows around row y; those outside are held at the border.
+    /// Row y and its neighbours; at the border, row y repeats.
     [[nodiscard]] RowsAround around(int y) {
         return {(*this)[std::max(y - 1, 0)], (*this)[y],
                 (*this)[std::min(y + 1, cells_.height - 1)]};
@@ -38,7 +38,8 @@ private:
     AlignedRows<float> rows_;
 };
 
-/// Calls body(matched, first, last) for the longest runs of cells whose tiles are alike.
+/// Calls body(matched, first, last) for the longest runs of cells whose tiles are all matched or
+/// all not matched.
 template <class Body>
 void forRuns(const TileWork& work, int tileRow, int cellsPerTile, int cells, const Body& body) {
     for (int tile = 0; tile < work.tiles.width;) {

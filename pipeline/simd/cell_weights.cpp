@@ -2,7 +2,7 @@
 
 #include "pipeline/engine/params/weigh.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/cell_weights.cpp"
 #include <hwy/foreach_target.h>
@@ -37,13 +37,13 @@ HWY_INLINE V Vertical(const RowsAround& rows, int x) {
     return hn::MulAdd(Const(2), hn::LoadU(d, rows.here + x), sides);
 }
 
-/// Mean of 3x3 cells, weighed 1 2 1 each way.
+/// Mean of 3x3 cells with weights 1 2 1 in each direction.
 HWY_INLINE V Smoothed(const RowsAround& rows, int x) {
     const V sides = hn::Add(Vertical(rows, x - 1), Vertical(rows, x + 1));
     return hn::Mul(hn::MulAdd(Const(2), Vertical(rows, x), sides), Const(1.0F / 16));
 }
 
-/// Square of how much the flow changes around the cell, times 64.
+/// 64 times the squared change of the flow around the cell.
 HWY_INLINE V Bend(const RowsAround& flow, int x) {
     const D d;
     const V dx = hn::Sub(hn::LoadU(d, flow.here + x + 1), hn::LoadU(d, flow.here + x - 1));
@@ -51,7 +51,7 @@ HWY_INLINE V Bend(const RowsAround& flow, int x) {
     return hn::MulAdd(dx, dx, hn::Mul(dy, dy));
 }
 
-/// Square of how much the flow's step changes at the cell.
+/// Square of the flow's second difference at the cell.
 HWY_INLINE V Tear(const RowsAround& flow, int x) {
     const D d;
     const V here = hn::Add(hn::LoadU(d, flow.here + x), hn::LoadU(d, flow.here + x));
@@ -108,7 +108,7 @@ HWY_INLINE Weight WeightOf(const WeighRow& row, int x, V low, V lowStill, V conf
     const V tear = hn::Sqrt(hn::Add(Tear(row.flowX, x), Tear(row.flowY, x)));
     const V whole = hn::Sub(Const(1), SmoothStep(params::kSmoothStep, params::kTornStep, tear));
     const V weight = hn::Mul(hn::Mul(gain, trust), hn::Mul(confidence, whole));
-    // A flow that is not a number is no even one.
+    // Excludes NaN flow, whose bend is NaN.
     const auto counts = hn::And(hn::Gt(weight, Const(params::kSmallestWeight)), hn::Eq(bend, bend));
     const V signal = hn::Mul(hn::NegMulAdd(Const(2), noise, video), perVideo);
     const auto textured =

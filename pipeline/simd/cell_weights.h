@@ -6,19 +6,19 @@
 
 namespace mfar::simd {
 
-/// Rows around a row of cells. Each repeats its border 1 cell to the left and to the right, and its
-/// memory goes on to a multiple of 16 cells.
+/// A row of cells and its neighbours. Each repeats its border 1 cell to the left and to the right,
+/// and its memory extends to a multiple of 16 cells.
 struct RowsAround {
     const float *above, *here, *below;
 };
 
-/// What a row of cells is weighed by. Statistics are those of PatchSums.
+/// Input for the weights of a row of cells. Statistics are those of PatchSums.
 struct WeighRow {
     int count;
     RowsAround flowX, flowY;  ///< [video px]
     RowsAround covariance, varianceVideo, varianceStill;
     const float *confidence, *lookX, *lookY;
-    /// At half resolution: the cell's row and the one beside it that is nearer.
+    /// At half resolution: the row that contains the cells, and the nearer of its neighbours.
     struct Half {
         const float *near, *other;
     };

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/census_rows.cpp"
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -11,7 +11,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr int kSide = 2 * kCensusRadius + 1;
 
-/// Eight neighbours' bits from number `first` on, the centre left out; the first is the highest.
+/// Bits of eight neighbours from number `first`, skipping the centre; the first is the highest.
 template <class D>
 HWY_INLINE hn::Vec<D> bitsFrom(D d, int first, const std::uint8_t* const (&rows)[kSide],
                                std::size_t x, hn::Vec<D> centre) {

@@ -1,4 +1,4 @@
-// What kernels on fields of inverse depth share. Included once for each instruction set.
+// Shared by kernels on fields of inverse depth. Included once for each instruction set.
 #include "base/image_view.h"
 #include "pipeline/simd/lanes-inl.h"
 
@@ -26,7 +26,7 @@ struct RangeOf {
     V low, high;
 };
 
-/// Least of `low` and greatest of `high` over rows.
+/// Smallest of `low` and largest of `high` over rows.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE RangeOf<V> rangeOver(D d, const float* low, const float* high, std::ptrdiff_t pitch,
                                 int rows) {
@@ -38,11 +38,11 @@ HWY_INLINE RangeOf<V> rangeOver(D d, const float* low, const float* high, std::p
     return out;
 }
 
-/// Rows of a rotation, in lanes.
+/// Rows of a rotation matrix, in lanes.
 template <class D>
 struct Turn {
     HWY_INLINE Turn(D tag, const float* rowMajor) : d(tag), r(rowMajor) {}
-    /// Component `k` of the turned (x, y, z).
+    /// Component `k` of the rotated (x, y, z).
     template <class V>
     HWY_INLINE V component(int k, V x, V y, V z) const {
         const float* row = r + 3L * k;
@@ -53,8 +53,8 @@ struct Turn {
     const float* r;
 };
 
-/// The pixel of a picture that holds a point, as EpipolarLens::pixelAt(): column and row, and where
-/// that is in the picture.
+/// The pixel that contains a point, as EpipolarLens::pixelAt(): column, row, and whether it is in
+/// the picture.
 template <class D, class V = hn::Vec<D>>
 struct PixelOf {
     hn::Vec<hn::RebindToSigned<D>> column, row;

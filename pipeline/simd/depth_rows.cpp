@@ -6,16 +6,17 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/depth_rows.cpp"
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/depth_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
-constexpr float kLeastLanding = 0.05F;  // depth after a turn, of a ray of unit depth
+constexpr float kLeastLanding = 0.05F;  // lower limit of the depth after the rotation, for a ray of
+                                        // unit depth
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
-/// Row-major, -1 where the mask is not set.
+/// Row-major pixel index, -1 where the mask is not set.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void storePixels(D /*d*/, const PixelOf<D>& at, hn::Mask<D> valid, int width,
                             std::int32_t* to) {
@@ -43,7 +44,7 @@ void LandRow(const Lens& lens, Size size, const Motion& motion, const float* ray
     });
 }
 
-/// The least rectangle around pixels that are given some lanes at a time.
+/// Smallest rectangle around pixels that are added a vector at a time.
 class LaneBounds {
 public:
     HWY_INLINE explicit LaneBounds(Size size)
@@ -89,7 +90,8 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
         const auto p = projected(d, lens, hn::Mul(u, inverse), hn::Mul(v, inverse));
         const PixelOf<decltype(d)> at(d, p, size);
         const auto moved = hn::Mul(rho, inverse);
-        const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);  // of moved by rho
+        const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);  // derivative of `moved` by
+                                                                         // rho
         const auto grown = hn::MulAdd(hn::Mul(set(rule.growth), rho), rho, before);
         const auto variance = hn::Mul(hn::Mul(grown, slope), slope);
         const auto known = hn::And(hn::Lt(before, set(kUnknown)), hn::Gt(z, set(rule.leastDepth)));

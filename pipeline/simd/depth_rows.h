@@ -9,58 +9,60 @@
 
 namespace mfar::simd {
 
-/// A turn and a move of points, row-major.
+/// A rotation (row-major) and a translation of points.
 struct Motion {
     std::array<float, 9> turn;
     std::array<float, 3> move;
 };
 
-/// Where points s of pixels land in a picture of another camera: turn (r + s (t - r t.z)), see
-/// EpipolarLens; `motion.move` is t, before the turn.
+/// Pixels of another camera's picture on which points of inverse depth `s` land: R (r + s (t - r
+/// t.z)), see EpipolarLens; `motion.move` is t, applied before the rotation.
 void landRow(const Lens& lens, Size size, const Motion& motion, const float* raysX,
              const float* raysY, const float* s, std::size_t count, std::int32_t* landing);
 
-/// The scene's points of a row of pixels, known where their variance is finite.
+/// The scene's points in a row of pixels; a point is known if its variance is finite.
 struct DepthPoints {
-    const float *raysX, *raysY;  ///< of the pixels' middles
-    const float *x, *y;          ///< from there [px]
+    const float *raysX, *raysY;  ///< of the pixel centres
+    const float *x, *y;          ///< offset from the centre [px]
     const float *rho, *variance;
 };
-/// The same as another camera sees them.
+/// The same points seen by another camera.
 struct MovedPoints {
-    std::int32_t* pixel;  ///< row-major; -1: invalid
-    float *x, *y;         ///< from its middle [px]
+    std::int32_t* pixel;  ///< row-major index; -1: invalid
+    float *x, *y;         ///< offset from that pixel's centre [px]
     float *rho, *variance;
 };
 struct MoveRule {
-    float pixelX, pixelY;  ///< rays a pixel
-    float leastDepth;      ///< share of the depth before
-    float growth;          ///< of variance, by the square of rho
+    float pixelX, pixelY;  ///< change of the ray per pixel
+    float leastDepth;      ///< lower limit, as a share of the depth before
+    float growth;          ///< added variance as a share of the squared inverse depth
 };
-/// Points are homogeneous, (x, y, 1, rho). Adds what they land on to `bounds`.
+/// Points are homogeneous, (x, y, 1, rho). Extends `bounds` to the pixels on which they land.
 void moveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& rule,
              const DepthPoints& from, std::size_t count, const MovedPoints& to, PixelRect& bounds);
 
-/// What a search says of a row of pixels.
+/// Result of a search for a row of pixels.
 struct SearchedRow {
     const float *raysX, *raysY, *s;
     const std::int32_t* landing;  ///< landRow()
-    const float* nearest;         ///< of the other picture: greatest s that lands on each pixel
+    const float* nearest;         ///< for each pixel of the other picture, the largest s that lands
+                                  ///< on it
 };
 struct MeasureRule {
     std::array<float, 3> t;  ///< translation of points [units]
-    float slack;             ///< s that neighbours on one surface may differ by
-    float leastDepth;        ///< after the move, share of the depth before
+    float slack;             ///< tolerance of s between neighbours on one surface
+    float leastDepth;        ///< lower limit after the move, as a share of the depth before
     float error;             ///< standard deviation of a match [rays]
     float perUnit;           ///< s [1/unit] to rho [1/m]
 };
-/// rho = s / (1 - s t.z) and its variance; 0 and infinite where the other picture does not show the
-/// pixel, or the pixel does not move.
+/// Inverse depth rho = s / (1 - s t.z) and its variance; 0 and infinity if the other picture does
+/// not show the pixel, or if the pixel does not move.
 void measureRow(const SearchedRow& row, const MeasureRule& rule, std::size_t count, float* rho,
                 float* variance);
 
-/// Takes s of cells of 4x4 pixels, bilinear, where that differs from the pixels' own by less than
-/// `same`. Pixels [first, first + count) of row y; `cells`: `size` of them, row-major.
+/// Replaces the inverse depth `own` of pixels by that of cells of 4x4 pixels, bilinear, where they
+/// differ by less than `same`. Pixels [first, first + count) of row y; `cells`: row-major, `size`
+/// of them.
 struct CellField {
     const float* cells;
     Size size;

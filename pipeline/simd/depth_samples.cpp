@@ -2,7 +2,7 @@
 
 #include "pipeline/engine/params/occlusion.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/depth_samples.cpp"
 #include <hwy/foreach_target.h>
@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kNowhere = -1e9F;  // inverse depth of what hides nothing [1/m]
+constexpr float kNowhere = -1e9F;  // inverse depth of unknown pixels, which occlude nothing [1/m]
 
 struct Prepare {
     const SampleSource& from;
@@ -25,7 +25,7 @@ struct Prepare {
         const V zero = hn::Zero(d);
         const V inverse = hn::LoadU(d, from.inverse + x), given = hn::LoadU(d, from.sigma + x);
         const V sigma = from.squared ? hn::Sqrt(given) : given;
-        // Tested positively, so that NaN is unknown.
+        // Written as positive tests, so that NaN is unknown.
         const auto near = hn::And(hn::Gt(inverse, hn::Set(d, params::kLeastInverseDepth)),
                                   hn::Lt(inverse, hn::Set(d, params::kMostInverseDepth)));
         const auto sharp = hn::And(hn::Gt(sigma, hn::Set(d, params::kLeastDepthSigma)),

@@ -5,22 +5,22 @@
 
 namespace mfar::simd {
 
-/// What counts of a real depth sample, as CompositeOptions has it.
+/// Thresholds for real depth samples, from CompositeOptions.
 struct SampleBounds {
     float bias;    ///< [sigmas]
     float hidden;  ///< bias and softness together [sigmas]
 };
 
-/// A row of real depth and of the picture it belongs to, video resolution.
+/// A row of real depth and of the picture that it belongs to, at the video's resolution.
 struct SampleSource {
     const float *inverse, *sigma;  ///< [1/m]
     bool squared;                  ///< `sigma` holds variances
     const std::uint8_t *red, *green, *blue;
 };
 
-/// The same as single precision for weighing. `inverse`: where nothing is known so far away that
-/// it hides nothing. `nearest`, `farthest`: the greatest and the least inverse depth that the
-/// sample may be in front of or behind; 0 where nothing is known.
+/// The same in single precision, for weighing. `inverse`: of an unknown pixel, so far away that it
+/// occludes nothing. `nearest`, `farthest`: inverse depth above which a virtual pixel is surely in
+/// front of the sample, and below which it is surely behind; 0 for an unknown pixel.
 struct SampleRow {
     float *inverse, *variance, *red, *green, *blue;
     float *nearest, *farthest;
@@ -30,10 +30,10 @@ struct SampleRow {
 void prepareSamples(const SampleSource& from, const SampleBounds& bounds, int first, int last,
                     const SampleRow& to);
 
-/// In place: entry i becomes the greatest (farthest: the least) of entries i to i + 3.
+/// In place: entry i becomes the largest (farthest: the smallest) of entries i to i + 3.
 void spreadSamples(float* nearest, float* farthest, int count);
 
-/// Of four such rows the greatest and the least, column by column.
+/// Largest and smallest value of each column over four such rows.
 struct FourRows {
     const float* row[4];
 };

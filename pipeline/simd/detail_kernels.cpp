@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/detail_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -17,12 +17,12 @@ using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
 using U = hn::RebindToUnsigned<F>;
 
-/// Lanes of 32 bits that may begin at any byte.
+/// Loads 32-bit lanes from any byte offsets.
 HWY_INLINE hn::Vec<U> GatherAnywhere(const void* base, hn::Vec<I> bytes) {
 #if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
     return hn::GatherOffset(U(), static_cast<const std::uint32_t*>(base), bytes);
 #else
-    // Loads of lanes that are not aligned are not for Highway's emulation.
+    // Highway's emulated target does not support unaligned gathers.
     HWY_ALIGN std::int32_t at[hn::MaxLanes(I())];
     HWY_ALIGN std::uint32_t out[hn::MaxLanes(U())];
     hn::Store(bytes, I(), at);
@@ -32,7 +32,7 @@ HWY_INLINE hn::Vec<U> GatherAnywhere(const void* base, hn::Vec<I> bytes) {
 #endif
 }
 
-/// Of two rows, `t` of the way from the first to the second.
+/// Interpolates two rows; `t`: 0 is the first.
 HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, int x) {
     const F df;
     const auto a = hn::LoadU(df, rows[0] + x);
@@ -41,10 +41,10 @@ HWY_INLINE hn::Vec<F> Between(const std::array<const float*, 2>& rows, float t, 
 
 struct Positions {
     hn::Vec<I> x, y;    // whole pixels
-    hn::Vec<F> fx, fy;  // between this one and the next
+    hn::Vec<F> fx, fy;  // fraction towards the next pixel
 };
 
-/// Reads the look-ups of one vector after the other.
+/// Reads the look-ups of consecutive vectors.
 class LookUp {
 public:
     LookUp(const LookUpRows& rows, Size size, int begin)
@@ -77,7 +77,7 @@ HWY_INLINE hn::Vec<F> MeanOfFour(hn::Vec<U> texels, const Positions& at) {
     const F df;
     const I di;
     const U du;
-    // Both columns at once: 255 * 256 fits in half a lane.
+    // Both columns at once: 255 * 256 fits into half a lane.
     const auto scaled = hn::NearestInt(hn::Mul(at.fy, hn::Set(df, 256.0F)));
     const auto lower = hn::BitCast(du, scaled);
     const auto upper = hn::Sub(hn::Set(du, 256), lower);

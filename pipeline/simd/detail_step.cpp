@@ -7,13 +7,13 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kGrain = 32;  // rows of the output
-// Whole frames are drawn in columns of about this width, whose rows in between stay in the
-// processor's first cache.
+constexpr int kGrain = 32;  // rows of the output per portion
+// Whole frames are drawn in strips of about this width, so that intermediate rows stay in the
+// first-level cache.
 constexpr int kStripWidth = 576;
 constexpr int kStripStep = 64;
 
-/// First output pixel whose centre lies in each tile, and the end.
+/// First output pixel whose centre lies in each tile, then the output's size.
 std::vector<int> tileStarts(int tiles, int video, int output) {
     std::vector<int> out;
     for (int i = 0; i < tiles; ++i) {
@@ -35,8 +35,8 @@ struct DetailStep::Frame {
     const DetailInput& in;
     DetailOptions options;
     Rows<std::uint32_t> out;
-    bool warps, blends, linear;  // how the still is used: at most one of both
-    const FilterBank* bank;      // null: nothing is learned
+    bool warps, blends, linear;  // how the still is used: at most one of the two
+    const FilterBank* bank;      // null: no learned filters
     BlendPicture picture;
     const DetailStep& step;
 };
@@ -71,7 +71,7 @@ DetailStep::Show DetailStep::showOf(const Frame& frame, int column, int row) con
     if (work.draw != TileWork::Draw::Whole) return upscaled ? Show::Video : Show::Detail;
     const PixelRect& in = work.detailTiles;
     if (!(column >= in.x0 && column < in.x1 && row >= in.y0 && row < in.y1)) return Show::Video;
-    // Tiles that are not matched count as upscaled, but may have a weight of their neighbours.
+    // Unmatched tiles are classified as upscaled, too, but their neighbours may give them weight.
     const bool weightless =
         upscaled && tile.matched != 0 && frame.options.mode == SuperResMode::Detail;
     return weightless ? Show::Video : Show::Detail;
@@ -107,7 +107,7 @@ TileSummary DetailStep::draw(const DetailInput& in, const DetailOptions& options
                 *this};
     if (frame.blends) frame.picture = {in.picture.data, in.picture.pitch, in.picture.size};
     choose(frame);
-    // One pointer and one reference: std::function keeps them without allocating.
+    // Captures one pointer and one reference: std::function stores them without allocating.
     workers_->forRange(output_.height, kGrain, [this, &frame](int first, int last) {
         scratch_.with([&](Scratch& scratch) { drawPart(frame, scratch, first, last); });
     });
@@ -141,7 +141,7 @@ void DetailStep::drawTileRow(const Frame& frame, Scratch& scratch, int row, int 
     }
 }
 
-// Of a row of tiles, those pixels that are drawn.
+// Cuts the drawn pixels of a row of tiles into segments.
 void DetailStep::cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const {
     std::vector<Segment>& segments = scratch.segments;
     segments.clear();

@@ -25,24 +25,24 @@ struct DetailOptions {
     SuperResMode mode;
     bool cubic;                      ///< see Quality
     bool upscaledTiles, plainTiles;  ///< see SkipOptions
-    /// In mode Detail, tiles with structure are enlarged by these filters as far as the still's
-    /// detail leaves a share, and none is sharpened. Null: as without.
+    /// In mode Detail, enlarges tiles with structure by these filters where the still's detail
+    /// leaves a share; then no tile is sharpened. Null: sharpening as usual.
     const FilterBank* learned = nullptr;
 };
 
 struct DetailInput {
     const RgbPlanes& video;
     const TileWork& work;
-    // A still's luma, or its RGBA8 picture for mode Blend; both without data: the video is only
+    // A still's luma, or its RGBA8 picture for mode Blend; if neither has data, the video is only
     // enlarged.
     StillPairs still{};
     Rows<const std::uint32_t> picture{};
-    // Read with a still alone, one entry per 4x4 video pixels.
+    // Only read if there is a still; one entry per 4x4 video pixels.
     Rows<const WeighedCell> weighed;
     Rows<const LookUpCell> lookUps;
     Rows<const TrustCell> trust;
-    /// A second still, seen where it counts for more than the first; in mode Detail alone. Without
-    /// data: there is none.
+    /// A second still, shown where its share is larger than the first's; only in mode Detail.
+    /// Without data: no second still.
     struct Second {
         StillPairs still{};
         Rows<const WeighedCell> weighed{};
@@ -52,23 +52,23 @@ struct DetailInput {
     Second second{};
 };
 
-/// Turns video, still and flow into the high-resolution picture on the host: what SuperRes::draw()
-/// draws, to a grey level. Allocates in the constructor. Unlike there, what lies beside drawn
-/// tiles is sharpened as of this frame, too.
+/// Turns video, still and flow into the high-resolution picture on the CPU: the result of
+/// SuperRes::draw() within a grey level. Allocates in the constructor. Unlike there, the sharpened
+/// neighbours of drawn tiles are this frame's, too.
 class DetailStep {
 public:
-    /// `stillRig`: StillPreparation::rig(). `output`: size of what is made of the whole video.
+    /// `stillRig`: StillPreparation::rig(). `output`: size of the enlarged whole video.
     DetailStep(const StereoRig& stillRig, Size output, std::shared_ptr<Workers> workers);
 
-    /// Draws what `work` asks for into RGBA8 (R in the lowest byte, alpha 255) of the output's
-    /// size; the other tiles keep their pixels.
+    /// Draws the tiles that `work` lists, into RGBA8 (R in the lowest byte, alpha 255) of the
+    /// output's size; other tiles keep their pixels.
     TileSummary draw(const DetailInput& in, const DetailOptions& options, Rows<std::uint32_t> out);
-    /// Of every tile in the last draw(), row-major.
+    /// Class of every tile at the last draw(), row-major.
     [[nodiscard]] const std::vector<TileClass>& classes() const { return classes_.classes(); }
 
 private:
     enum class Show : std::uint8_t { Nothing, Video, Detail, BothStills };
-    /// Pixels of a row that are drawn alike.
+    /// Pixels of a row that are drawn in the same way.
     struct Segment {
         int begin, end;
         Show show;
@@ -78,11 +78,11 @@ private:
     struct Scratch {
         Scratch(const DetailStep& step);
         VideoRows video;
-        LookUpRowCache lookUps;  // of mode Blend
+        LookUpRowCache lookUps;  // for mode Blend
         WarpedStill warped, second;
         LearnedRows learned;
-        WarpedRow detail{}, secondDetail{};  // of a row
-        AlignedRows<std::int16_t> added;     // a row of each still
+        WarpedRow detail{}, secondDetail{};  // current row
+        AlignedRows<std::int16_t> added;     // one row for each still
         std::vector<Segment> segments;
         PixelSpans learnedSpans, detailSpans, secondSpans;
     };
@@ -94,7 +94,8 @@ private:
     void drawStrip(const Frame& frame, Scratch& scratch, const PixelRect& strip) const;
     void cut(const Frame& frame, int row, int begin, int end, Scratch& scratch) const;
     void drawRow(const Frame& frame, Scratch& scratch, int y) const;
-    /// What stills, and filters as far as these leave a share, add to the video's pixels.
+    /// The detail that the stills, and the learned filters where the stills leave a share, add to
+    /// the video's pixels.
     static const std::int16_t* detailOf(Scratch& scratch, const Segment& segment,
                                         const std::int16_t* learned, int y);
 
@@ -104,7 +105,8 @@ private:
     LearnedTaps learnedTaps_;
     LookUpTaps lookUpTaps_;
     WarpedStillTaps warpedTaps_;
-    std::vector<int> columnsAt_, rowsAt_;  // first output pixel of each tile, and the end
+    std::vector<int> columnsAt_, rowsAt_;  // first output pixel of each tile, then the output's
+                                           // size
     TileClasses classes_;
     std::vector<Show> shows_;  // per tile
     ScratchSlots<Scratch> scratch_;

@@ -7,14 +7,14 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kLeastContrast = 3;  // of kLevels: less is not seen to be blurred
+constexpr int kLeastContrast = 3;  // of kLevels: lower contrast does not look blurred
 
 std::uint8_t channel(std::uint32_t colour, unsigned c) {
     return static_cast<std::uint8_t>(colour >> 8 * c);
 }
 
-/// Level of the largest difference of a colour in 3x3 pixels, along one row. Outlines count as
-/// little as the objects shine: the silhouette knows them already.
+/// Contrast level along one row: the largest difference of a colour channel in 3x3 pixels. Outlines
+/// count only by their objects' brightness: the silhouette is sharp already.
 class Contrasts {
 public:
     explicit Contrasts(const PixelRect& where)

@@ -10,23 +10,25 @@
 
 namespace mfar::simd {
 
-/// Replaces what a look-up blurs while the camera rests: EdgeRefiner on the host.
+/// Replaces pixels that the look-up blurs, while the camera rests: EdgeRefiner on the CPU.
 class EdgeSharpener {
 public:
     static constexpr int kLevels = 64;  ///< of contrast
 
-    /// See WarpOptions. Lists `most` pixels at most, unless more have the very highest contrast.
+    /// See WarpOptions. `most`: upper limit of listed pixels, unless more have the highest contrast
+    /// level.
     EdgeSharpener(Size layer, double share, int most, int fadeFrames);
 
-    /// Lists the pixels with the most contrast of a look-up's `colour` and `state` within `where`.
-    /// Forgets the list and the answer before.
+    /// Lists the pixels of highest contrast within `where`, from a look-up's `colour` and `state`.
+    /// Discards the previous list and answer.
     void list(Rows<const std::uint32_t> colour, Rows<const std::uint32_t> state,
               const PixelRect& where);
-    /// Row-major indices, ascending, once.
+    /// The listed pixels: row-major indices, ascending. Returned once.
     std::optional<std::vector<std::uint32_t>> take();
-    /// To pixels that take() gave; others are left out.
+    /// Takes the answer for pixels returned by take(); other pixels are ignored.
     void answer(const HoleAnswer& answer);
-    /// Replaces the pixels, a little more with each frame, in a `colour` of the same pose.
+    /// Blends the answered pixels into a `colour` of the same pose, with a weight that rises from
+    /// frame to frame.
     void show(Rows<std::uint32_t> colour);
     void drop();
 
@@ -41,7 +43,7 @@ private:
     bool isListed_ = false;
     std::vector<std::array<std::uint32_t, 2>> listed_;  // pixel, colour; ascending
     std::vector<Entry> entries_;
-    double shown_ = 0;  // share of the answer, 0: there is none
+    double shown_ = 0;  // weight of the answer, 0: no answer
 };
 
 }  // namespace mfar::simd

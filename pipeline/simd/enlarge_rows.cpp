@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/enlarge_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -27,7 +27,8 @@ using U8 = hn::Rebind<std::uint8_t, I16>;
 constexpr std::int16_t fixed15(double value) {
     return static_cast<std::int16_t>(value * 32768 + (value < 0 ? -0.5 : 0.5));
 }
-// Of 1/64 grey level, from bytes times 128. Their sum is a half to the bit: grey stays grey.
+// Result [1/64 grey level] from bytes times 128. The sum is exactly a half, so that grey stays
+// grey.
 constexpr std::int16_t kRed = fixed15(0.299 / 2), kBlue = fixed15(0.114 / 2);
 constexpr std::int16_t kGreen = 16384 - kRed - kBlue;
 
@@ -64,7 +65,8 @@ HWY_INLINE hn::Vec<F> Step(hn::Vec<F> value, float from, float weight = 1) {
     return hn::IfThenElseZero(hn::Ge(value, hn::Set(F(), from)), hn::Set(F(), weight));
 }
 
-/// Bin of an angle whose double has this cosine and sine, up to a factor: see Symmetry.
+/// Bin of an angle; cosine and sine of twice the angle are given up to a common factor: see
+/// Symmetry.
 template <int kBins>
 HWY_INLINE hn::Vec<F> AngleBin(hn::Vec<F> cosine, hn::Vec<F> sine) {
     static_assert(kBins == 8 || kBins == 16);
@@ -116,7 +118,8 @@ HWY_INLINE hn::Vec<F> SumOfFive(const float* at) {
 HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy) {
     using C = GradientClasses;
     const F d;
-    // Differences of two pixels, in 1/8 grey level, over 25 pixels; eigenvalues twice.
+    // Scale: differences of two pixels in 1/8 grey level, sums over 25 pixels, twice the
+    // eigenvalues.
     constexpr float kScale = 2.0F * 25 * (2 * kLumaScale) * (2 * kLumaScale);
     const auto sum = hn::Add(xx, yy), cosine = hn::Sub(xx, yy), sine = hn::Add(xy, xy);
     const auto spread = hn::Sqrt(hn::MulAdd(cosine, cosine, hn::Mul(sine, sine)));
@@ -125,7 +128,7 @@ HWY_INLINE hn::Vec<F> GradientClass(hn::Vec<F> xx, hn::Vec<F> xy, hn::Vec<F> yy)
     for (const float from : C::kStrengthFrom)
         kind = hn::Add(kind, Step(twiceLargest, from * from * kScale, 3));
     for (const float from : C::kCoherenceFrom) {
-        // (s1 - s2) / (s1 + s2) >= from, in terms of the eigenvalues' sum and difference.
+        // (s1 - s2) / (s1 + s2) >= from, expressed by the eigenvalues' sum and difference.
         const float share = 2 * from / (1 + from * from);
         kind = hn::Add(kind, Step(hn::Sub(spread, hn::Mul(sum, hn::Set(d, share))), 0));
     }
@@ -188,11 +191,11 @@ void RangeRow(const std::array<const std::int16_t*, 5>& luma, int begin, int end
     }
 }
 
-/// Weights times luma: steps of the sums of a filter, and of a step of the residual.
+/// Shift from weight times luma to steps of the residual.
 constexpr int kSumShift = 12;
 static_assert(kWeightScale * kLumaScale == kResidualScale << kSumShift);
 
-/// Two numbers that lie side by side.
+/// Two adjacent numbers as one word.
 HWY_INLINE std::int32_t PairAt(const std::int16_t* at) {
     std::int32_t out = 0;
     std::memcpy(&out, at, sizeof(out));

@@ -17,21 +17,21 @@
 
 namespace mfar::simd {
 
-/// Checks cell by cell whether the still shows the finest detail of the video: superres_fine.comp
-/// and superres_confirm.comp on the host's lanes. Allocates in the constructor.
+/// Checks for each cell whether the still shows the finest detail of the video: superres_fine.comp
+/// and superres_confirm.comp on the CPU. Allocates in the constructor.
 class FineCheck {
 public:
     /// `stillRig`: StillPreparation::rig().
     FineCheck(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Share of its weight that each cell keeps, [0, 1]; valid until the next run. Tiles that are
-    /// not matched, and cells that are not whole, say nothing of their own.
+    /// Share of its weight that each cell keeps, [0, 1]; valid until the next run. Unmatched tiles
+    /// and incomplete cells contribute nothing; their neighbours decide.
     Rows<const float> run(const RgbPlanes& video, const StillPairs& still,
                           Rows<const LookUpCell> lookUps, const TileWork& work,
                           const FineMatch& match);
 
 private:
-    static constexpr int kSamples = 2;  // of the still, in each pixel of the video each way
+    static constexpr int kSamples = 2;  // samples of the still per video pixel in each direction
     struct Scratch {
         Scratch(const FineCheck& check);
         LookUpRowCache lookUps;
@@ -49,10 +49,10 @@ private:
     void sum(const Frame& frame, Scratch& scratch, int row);
     [[nodiscard]] FineSumsNear::Pair near(CellPlane& sums, int row) const;
 
-    Size video_, cells_, sampled_;  // cells whose row is sampled
+    Size video_, cells_, sampled_;  // sampled_: cells in rows that are sampled
     std::shared_ptr<Workers> workers_;
     LookUpTaps taps_;
-    CellPlane ofVideo_, ofBoth_, ofStill_;  // of sampled rows
+    CellPlane ofVideo_, ofBoth_, ofStill_;  // for the sampled rows
     AlignedRows<float> shares_;
     ScratchSlots<Scratch> scratch_;
 };

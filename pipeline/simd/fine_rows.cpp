@@ -2,7 +2,7 @@
 
 #include "pipeline/engine/params/weigh.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/fine_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -19,7 +19,7 @@ HWY_INLINE hn::Vec<F> Wide(hn::Vec<I16> values) {
     return hn::ConvertTo(F(), hn::PromoteTo(hn::Rebind<std::int32_t, F>(), values));
 }
 
-/// Of the pixels of a row of cells, column by column.
+/// Columns of the pixels of a row of cells: four pixels of each cell.
 struct Quads {
     hn::Vec<I16> at[4];
 };
@@ -30,7 +30,7 @@ HWY_INLINE Quads QuadsOf(const std::int16_t* row, int cell) {
     return out;
 }
 
-/// Four samples to one pixel [1/128 grey level], in place of the upper row: no sum of four exceeds
+/// Sums four samples to one pixel [1/128 grey level], in place of the upper row: the sum fits into
 /// 16 bits.
 HWY_INLINE void SumSamples(std::int16_t* upper, const std::int16_t* lower, int begin, int end) {
     const I16 d;
@@ -48,7 +48,8 @@ void FineSumsRow(const std::array<const std::int16_t*, 2>& video,
                  const FineSums& to) {
     const F d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    // Pixels move to the front of their row: those of the first cells to where samples were.
+    // Compacts the pixels at the front of their row: the first cells' pixels replace samples that
+    // were already summed.
     SumSamples(still[0], still[1], 4 * begin, 4 * end);
     SumSamples(still[2], still[3], 4 * begin, 4 * end);
     constexpr float kVideo = 1.0F / 8, kStill = 1.0F / 128;
@@ -81,7 +82,7 @@ void FineSumsRow(const std::array<const std::int16_t*, 2>& video,
     }
 }
 
-/// Mean of three columns, weighed 1 2 1.
+/// Mean of three columns with weights 1 2 1.
 HWY_INLINE hn::Vec<F> Smoothed(const FineSumsNear::Pair& rows, int x) {
     const F d;
     const auto column = [&](int at) HWY_ATTR {
@@ -104,7 +105,7 @@ void FineShareRow(const FineSumsNear& sums, const FineMatch& match, int count, f
         const auto unexplained = hn::Sub(video, hn::Div(hn::Mul(both, both), still));
         const auto allowed = hn::MulAdd(share, video, noise);
         const auto kept = hn::Div(allowed, hn::Max(unexplained, hn::Set(d, params::kFineLeast)));
-        // What is not a number keeps its weight.
+        // NaN keeps the whole weight.
         hn::StoreU(hn::IfThenElse(hn::Lt(kept, one), kept, one), d, to + x);
     }
 }

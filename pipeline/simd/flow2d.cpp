@@ -10,7 +10,7 @@
 namespace mfar::simd {
 namespace {
 
-// Levels whose cells are left out where no tile needs them; coarser ones have few.
+// The finest levels, in which cells that no tile needs are skipped; coarser levels have few cells.
 constexpr int kMaskedLevels = 2;
 
 std::vector<Size> cellsOfLevels(Size video, int levels) {
@@ -36,7 +36,7 @@ void shareRows(Workers& workers, int rows, const Row& row) {
     });
 }
 
-/// Calls run(first, end, key) on the longest parts of [0, columns) whose tiles have the same key.
+/// Calls run(first, end, key) for the longest parts of [0, columns) whose tiles have the same key.
 template <class Key, class Run>
 void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run) {
     for (int first = 0; first < columns;) {
@@ -49,7 +49,7 @@ void forTileRuns(int columns, int cellsPerTile, const Key& keyOf, const Run& run
     }
 }
 
-/// The coarser level's vectors, unmatched.
+/// Takes the coarser level's vectors for cells that are not searched.
 void enlargeCells(const FlowPlanes& coarse, const FlowPlanes& fine, int row, int first, int end) {
     for (int column = first; column < end; ++column) {
         const std::ptrdiff_t from = row / 2 * coarse.pitch + column / 2;
@@ -89,12 +89,12 @@ void Flow2d::chooseTiles(const TileWork& work, bool keepsUnchanged, int margin) 
     }
     wantsAll_ = std::ranges::find(wanted_.flags, 0) == wanted_.flags.end();
     widen(wanted_, margin, between_, fine_);
-    // The finest level takes vectors from cells beside, and those took some from theirs.
+    // The finest level uses vectors of neighbouring cells, which used vectors of their neighbours.
     widen(fine_, 1, between_, next_);
 }
 
-// Cells that vectors of the video end in are confirmed there, between the cells around; the
-// clean-up and propagation take vectors from three cells around those.
+// Confirmation interpolates between the cells around the end of a video vector; clean-up and
+// propagation use vectors of three more cells around those.
 void Flow2d::chooseBackward() {
     std::ranges::fill(ends_.flags, std::uint8_t{0});
     for (int y = 0; y < videoCells_.height; ++y)
@@ -107,7 +107,7 @@ void Flow2d::chooseBackward() {
             };
             ends_.at(tileAt(x, cell.x, ends_.size.width), tileAt(y, cell.y, ends_.size.height)) = 1;
         }
-    constexpr int kMargin = 3;  // tiles: of half of the level's four cells, each way
+    constexpr int kMargin = 3;  // tiles; each is half of four cells of that level in each direction
     widen(ends_, kMargin, between_, endsAround_);
 }
 
@@ -183,7 +183,7 @@ void Flow2d::propagateRow(const Way& way, int level, int toArea, int row) {
         });
 }
 
-// So that the last round ends in area 0, the search begins in the one before all rounds.
+// Begins in the area that makes the last propagation round end in area 0.
 void Flow2d::searchLevel(Ways ways, int level) {
     const int rows =
         ways[0]->direction.stages[static_cast<std::size_t>(level)].areas[0].cells().height;
@@ -211,7 +211,7 @@ void Flow2d::run(const Luma& luma, const TileWork& work, bool usePrior) {
                        luma.words, false,      params::kBackwardPropagations};
     const Way* const ways[] = {&forward, &backward};
     const Ways both(ways), forwardAlone(ways, 1), backwardAlone(ways + 1, 1);
-    // Vectors of a tile that did not change hold as long as the still does.
+    // Vectors of unchanged tiles stay valid as long as the still.
     const bool keepsUnchanged = usePrior && !work.drawsWhole();
     const int reach = kCleanUpRadius + options_.propagations;
     chooseTiles(work, keepsUnchanged, (reach + kCellsPerTile - 1) / kCellsPerTile);
@@ -246,7 +246,7 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     errorsGiven_ = true;
     searched_.clear();
     if (work.matched == 0) return;
-    // Whether a tile is searched depends on those beside it, and the clean-up on the search there.
+    // Whether a tile is searched depends on its neighbours, and the clean-up on the search there.
     constexpr int kMargin = 2;
     chooseTiles(work, !work.drawsWhole(), kMargin);
     const FlowPlanes field = forwards_.stages[0].areas[0].planes();
@@ -264,8 +264,9 @@ void Flow2d::refine(const Luma& luma, const TileWork& work, Cells forward, Cells
     cleanUpForward(work, false);
 }
 
-// No propagation: a listed group's neighbours need not be listed. What the lines found is a
-// candidate at every level, and at the finest it stays where nothing fits better.
+// No propagation, because the neighbours of a listed group may not be listed. The vectors of the
+// line search are candidates at every level, and remain at the finest level if no other fits
+// better.
 void Flow2d::searchListed(const Way& way) {
     const FlowPlanes lines = forwards_.stages[0].areas[0].planes();
     for (int level = static_cast<int>(forwards_.stages.size()) - 1; level >= 0; --level) {

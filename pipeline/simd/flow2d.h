@@ -15,12 +15,12 @@
 
 namespace mfar::simd {
 
-/// Dense flow between video and still without any knowledge of pose, on the host's lanes: what
-/// mfar::Flow2d does in shaders, on the same pyramids. Both directions.
+/// Dense flow between video and still in both directions, without knowledge of the pose:
+/// mfar::Flow2d on the CPU, on the same pyramids.
 ///
-/// Does less where nobody reads the result: a tile that is not matched, or that did not change
-/// where tiles alone are drawn, is searched at the two finest levels only as far as its neighbours
-/// take vectors from it, and cells of the still only where vectors of the video end.
+/// Skips work whose result is not read: tiles that are not matched, and unchanged tiles where only
+/// changed tiles are drawn, are searched at the two finest levels only as far as their neighbours
+/// use vectors from them; cells of the still only where vectors of the video end.
 class Flow2d {
 public:
     /// Throws std::invalid_argument for options out of range.
@@ -36,26 +36,26 @@ public:
         const std::vector<LumaLevel>& still;
         std::span<const std::uint32_t> words;
     };
-    /// Computes both fields; nothing where no changed tile is matched. `usePrior`: the last frame's
-    /// field is a candidate everywhere (not after a new still).
+    /// Computes both fields, unless no changed tile is matched. `usePrior`: the last frame's field
+    /// is a candidate everywhere (not valid after a new still).
     void run(const Luma& luma, const TileWork& work, bool usePrior);
 
-    /// Computes the forward field from one vector per cell that is right but for a fraction of a
-    /// pixel; `errors`: what is known of the two-way error of eq. 2, in x [px]. Tiles where the
-    /// vectors turn out wrong are searched in 2-D from coarse to fine.
+    /// Computes the forward field from one vector per cell that is correct within a fraction of a
+    /// pixel. `errors`: known two-way errors of eq. 2, in x [px]. Tiles with wrong vectors are
+    /// searched in 2-D from coarse to fine.
     using Cells = std::span<const std::array<float, 4>>;
     void refine(const Luma& luma, const TileWork& work, Cells forward, Cells errors);
 
     /// Cells of 4x4 pixels, row by row without gaps. Video -> still.
     [[nodiscard]] Rows<const FlowCell> forward() const { return rowsOf(forward_, videoCells_); }
-    /// Still -> video, of level backwardLevel(); after run().
+    /// Still -> video, at level backwardLevel(); valid after run().
     [[nodiscard]] Rows<const FlowCell> backward() const { return rowsOf(backward_, stillCells_); }
     [[nodiscard]] int backwardLevel() const { return backwardLevel_; }
-    /// After refine(): errors() holds the two-way errors of the video's cells.
+    /// Whether errors() holds the two-way errors of the video's cells: true after refine().
     [[nodiscard]] bool errorsGiven() const { return errorsGiven_; }
     [[nodiscard]] Rows<const ErrorCell> errors() const { return rowsOf(errors_, videoCells_); }
 
-    /// The tiles that the last refine() had to search.
+    /// The tiles that the last refine() searched.
     [[nodiscard]] const std::vector<bool>& searchedTiles() const { return searched_.tiles(); }
     [[nodiscard]] int searchedCount() const { return searched_.count(); }
 
@@ -68,11 +68,11 @@ private:
     struct Direction {
         int finest;  // level
         std::vector<Stage> stages;
-        AlignedRows<float> known;  // of the finest level's cells
+        AlignedRows<float> known;  // for the finest level's cells
 
         Direction(const std::vector<Size>& cells, int finestLevel);
     };
-    /// One way through the levels: where patches are taken and sought, and what else counts.
+    /// One direction of the search through the levels: pictures, and parameters.
     struct Way {
         Direction& direction;
         const std::vector<LumaLevel>& from;
@@ -89,13 +89,13 @@ private:
 
     void chooseTiles(const TileWork& work, bool keepsUnchanged, int margin);
     void chooseBackward();
-    /// The tiles that a level is searched in; null: all.
+    /// The tiles in which a level is searched; null: all.
     [[nodiscard]] const TileMask* maskOf(const Direction& direction, int level) const;
     [[nodiscard]] int roundsAt(const Way& way, int level) const;
     [[nodiscard]] SearchStep searchStep(const Way& way, int level, int area) const;
     void searchRow(const Way& way, int level, int row);
     void propagateRow(const Way& way, int level, int toArea, int row);
-    /// Searches one level of one way or of two at once.
+    /// Searches one level in one or both directions.
     void searchLevel(Ways ways, int level);
     void alignRow(const AlignStep& step, const TileWork& work, int row);
     void searchListed(const Way& way);
@@ -111,11 +111,11 @@ private:
     std::vector<FlowCell> forward_, backward_;
     std::vector<ErrorCell> errors_;
     bool errorsGiven_ = false;
-    bool wantsAll_ = false;       // every tile is in wanted_
-    TileMask wanted_;             // tiles with results that are read
-    TileMask fine_, next_;        // searched at the finest level, at the next
-    TileMask ends_, endsAround_;  // where vectors end; searched for those
-    TileMask between_;            // room for widen()
+    bool wantsAll_ = false;       // every tile is wanted
+    TileMask wanted_;             // tiles whose results are read
+    TileMask fine_, next_;        // searched at the finest level, and at the next
+    TileMask ends_, endsAround_;  // where vectors end, and the tiles searched for those
+    TileMask between_;            // scratch for widen()
     TileSearch searched_;
 };
 

@@ -1,6 +1,6 @@
 #include "pipeline/simd/patch_flow.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/flow_clean_up.cpp"
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most what the fields' margins have room for.
+// Vectors no longer than the fields' margins.
 using Cells = hn::CappedTag<float, kFieldMargin>;
 using Vec = hn::Vec<Cells>;
 
-/// Flow at the cell [px] and its change per cell, of one component.
+/// Plane through one flow component: value at the cell [px] and change per cell.
 struct Plane {
     Vec value, dx, dy;
 };
@@ -27,8 +27,8 @@ HWY_INLINE void order(Vec& a, Vec& b) {
     a = low;
 }
 
-/// Median of 3x3: sorts the columns, then takes the middle of (largest low, middle middle, smallest
-/// high).
+/// Median of 3x3: sorts the columns, then takes the median of (largest low, median of the middles,
+/// smallest high).
 HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     const Cells d;
     Vec low[3], middle[3], high[3];
@@ -51,7 +51,7 @@ HWY_INLINE Vec medianAt(const float* plane, std::ptrdiff_t pitch) {
     return centre;
 }
 
-/// Of the neighbours of one row: weights, and differences from the plane times weights.
+/// Sums over the neighbours in one row: weights, and differences from the plane times weights.
 struct RowSums {
     Vec w, wi, wii, x, xi, y, yi;
 };
@@ -83,7 +83,7 @@ HWY_INLINE RowSums sumRow(const CleanUpStep& step, std::ptrdiff_t at, const Plan
     return s;
 }
 
-/// Over all neighbours: of w; of w times i, j, ii, ij, jj; of w times d, i d, j d.
+/// Sums over all neighbours: w; w i, w j, w i i, w i j, w j j; w d, w d i, w d j.
 struct PlaneSums {
     Vec w, wi, wj, wii, wij, wjj, x, xi, xj, y, yi, yj;
 };
@@ -119,13 +119,13 @@ HWY_INLINE Vec crossed(Vec a, Vec b, Vec c, Vec d) {
     return hn::Sub(hn::Mul(a, b), hn::Mul(c, d));
 }
 
-/// The planes through the neighbours, weighted by how well each is known and by how close it is to
-/// the planes before, so that the other side of a depth edge has no say.
+/// Fits planes through the neighbours. The weights depend on how reliable each neighbour is and how
+/// close to the previous planes, so that the other side of a depth edge has no influence.
 HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reach, Plane& x,
                           Plane& y) {
     const Cells d;
     const PlaneSums s = sumNeighbours(step, at, x, y, reach);
-    // Normal equations, damped on the slopes: a lone neighbour makes no plane.
+    // Normal equations with damped slopes: a single neighbour defines no plane.
     const Vec damp = hn::MulAdd(hn::Set(d, params::kSlopeDampingPerWeight), s.w,
                                 hn::Set(d, params::kSlopeDamping));
     const Vec ww = hn::Add(s.w, hn::Set(d, 1e-6F));
@@ -140,7 +140,7 @@ HWY_INLINE void fitPlanes(const CleanUpStep& step, std::ptrdiff_t at, float reac
         const auto by = [&](Vec a, Vec b, Vec c) HWY_ATTR {
             return hn::MulAdd(a, u0, hn::MulAdd(b, ui, hn::Mul(c, uj)));
         };
-        // Where nothing is solvable, sums may be NaN: zero times those is NaN, too.
+        // Selects, because NaN sums of unsolvable cells stay NaN when multiplied by 0.
         const auto moved = [&](Vec v, Vec change) HWY_ATTR {
             return hn::IfThenElse(solvable, hn::MulAdd(scale, change, v), v);
         };

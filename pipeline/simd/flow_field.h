@@ -4,7 +4,7 @@
 
 namespace mfar::simd {
 
-/// Owns the vectors of one level's cells, zero at first, with margins for the clean-up.
+/// Owns the vectors of one level's cells, initially zero, with margins for the clean-up.
 class FlowField {
 public:
     explicit FlowField(Size cells)
@@ -16,7 +16,7 @@ public:
         return {first(x_),  first(y_),    first(cost_), first(texture_),
                 x_.pitch(), cells_.width, cells_.height};
     }
-    /// The first cell of a further plane of this layout.
+    /// The first cell of another plane of this layout.
     [[nodiscard]] static float* first(AlignedRows<float>& plane) {
         return plane[kCleanUpRadius] + kFieldMargin;
     }

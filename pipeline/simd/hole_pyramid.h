@@ -13,34 +13,34 @@
 
 namespace mfar::simd {
 
-/// Fills holes from their surroundings by push-pull (Gortler et al. 1996, section 3.5), apart for
-/// objects and the shadow below them, so that neither leaks into the other. HoleFiller on the host:
-/// the pyramid is made only where it is looked up.
+/// Fills holes from their surroundings by push-pull (Gortler et al. 1996, section 3.5), separately
+/// for objects and for the shadow below them, so that neither leaks into the other. HoleFiller on
+/// the CPU; the pyramid is computed only where it is read.
 class HolePyramid {
 public:
     static constexpr int kLevels = 6;
 
     HolePyramid(Size layer, std::shared_ptr<Workers> workers);
 
-    /// A layer as ViewLookUp leaves it.
+    /// A layer as ViewLookUp writes it.
     struct Layer {
-        Rows<std::uint32_t> colour;  ///< drawn into
+        Rows<std::uint32_t> colour;  ///< modified
         Rows<const std::uint32_t> state;
         PixelRect where;
     };
-    /// `holes`: of that layer, ascending. Cracks, of which most neighbours show the same surface,
-    /// are always filled and marked as edges; others where `pushPull` asks for it.
+    /// `holes`: of that layer, ascending. Cracks (holes most of whose neighbours show the same
+    /// surface) are always filled and marked as edges; other holes only if `pushPull` is set.
     void fill(const Layer& layer, std::span<Hole> holes, bool pushPull);
 
 private:
-    /// Of an area: the object with most of it and what it shows, what the catcher shows. RGBA8
+    /// An area: its largest object with that object's colour, and the catcher's colour. RGBA8
     /// premultiplied; weights [1/255].
     struct Area {
         std::uint32_t object = 0, catcher = 0;
         std::uint8_t id = 0, objectWeight = 0, catcherWeight = 0;
     };
     struct Level {
-        PixelRect texels;  // of the level
+        PixelRect texels;  // of this level
         std::vector<Area> areas;
     };
     struct Sum {
@@ -61,7 +61,8 @@ private:
     std::shared_ptr<Workers> workers_;
     std::array<Level, kLevels> levels_;
     int levelCount_ = kLevels;
-    PixelRect blocks_;                       // of 64 pixels each way, around the layer's part
+    PixelRect blocks_;                       // blocks of 64 pixels in each direction, around the
+                                             // drawn part of the layer
     std::vector<std::uint8_t> blockWanted_;  // row-major
 };
 

@@ -6,7 +6,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/label_costs.cpp"
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/label_lines-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,15 +15,15 @@ namespace mfar::simd::HWY_NAMESPACE {
 constexpr int kSteps = kLabels - 1;
 constexpr int kUnseenCost = kCensusBits / 2;
 constexpr float kFixed = 65536.0F;
-// Pixels whose segments are placed at a time.
+// Number of pixels whose segments are placed at a time.
 constexpr std::size_t kRun = 64;
 
 using DLabels = hn::CappedTag<std::int32_t, kLabels>;
 
-/// The segments of a run of pixels on the canvas [px], of kSteps steps each.
+/// Segments of a run of pixels on the canvas [px], each of kSteps steps.
 struct Segments {
     HWY_ALIGN float fromX[kRun], fromY[kRun], wayX[kRun], wayY[kRun];
-    /// The same in 1/kFixed from the pixels' edges, where both ends are in the picture.
+    /// The same in 1/kFixed px from the pixels' edges; valid if both ends are in the picture.
     HWY_ALIGN std::int32_t x[kRun], y[kRun], dx[kRun], dy[kRun], isInside[kRun];
 };
 
@@ -56,7 +56,7 @@ HWY_INLINE void keepSegments(D d, std::size_t i, const Points<hn::Vec<D>>& from,
     hn::StoreU(hn::BitCast(dInt, hn::VecFromMask(d, isInside)), dInt, out.isInside + i);
 }
 
-/// The segments one pixel beside others, to the side that `side` has the sign of.
+/// Segments shifted sideways by one pixel; the sign of `side` selects the side.
 template <class D>
 HWY_INLINE void keepBeside(D d, std::size_t i, const Segments& of, float side, Size size,
                            Segments& out) {
@@ -69,7 +69,7 @@ HWY_INLINE void keepBeside(D d, std::size_t i, const Segments& of, float side, S
     keepSegments(d, i, from, {hn::Add(from.x, wayX), hn::Add(from.y, wayY)}, size, out);
 }
 
-/// Differences of one vector of a pixel's labels, as many as lanes.
+/// Census differences for one vector of a pixel's labels.
 template <class V>
 HWY_INLINE void storeDifferences(DLabels d, V own, V seen, std::uint8_t* out) {
     const hn::RebindToUnsigned<DLabels> dBits;
@@ -129,7 +129,7 @@ HWY_INLINE void costsOf(const Segments& segments, std::size_t i, std::uint32_t o
         costsAcrossBorder(segments, i, own, still, out);
 }
 
-/// Takes what the segments cost where that is less.
+/// Lowers costs to those of these segments where they are smaller.
 HWY_INLINE void takeLesser(const Segments& segments, std::size_t i, std::uint32_t own,
                            const CensusPicture& still, std::uint8_t* out) {
     const hn::CappedTag<std::uint8_t, kLabels> d;

@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/label_lines.cpp"
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/label_lines-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -11,7 +11,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 static_assert(sizeof(Valley) == 8);
 
-constexpr float kLeastWay = 0.1F;  // of one label, squared [px^2]
+constexpr float kLeastWay = 0.1F;  // lower limit of a label's step, squared [px^2]
 
 template <class D>
 struct Valleys {
@@ -47,7 +47,7 @@ HWY_INLINE V vertices(D d, const Valleys<D>& valleys) {
     return hn::IfThenElse(isPlain, valleys.label, hn::Add(valleys.label, part));
 }
 
-/// Finds the pixels nearest to the points of labels, counted from the best.
+/// Finds the pixels nearest to the points of labels, which are counted from the best label.
 template <class D>
 struct NearestPixels {
     using V = hn::Vec<D>;
@@ -61,7 +61,7 @@ struct NearestPixels {
 
     D d;
     Points<V> best, way;
-    V perSquare;  ///< 1 / square of the way
+    V perSquare;  ///< 1 / squared length of a step
 
     HWY_INLINE Pixel at(float k) const {
         const V from = hn::Set(d, k), half = hn::Set(d, 0.5F);
@@ -70,7 +70,8 @@ struct NearestPixels {
         const V along = hn::Mul(hn::Sub(x, best.x), way.x);
         return {x, y, hn::Mul(hn::MulAdd(hn::Sub(y, best.y), way.y, along), perSquare)};
     }
-    /// The next pixel on one side of the best label's; `near`, `far`: rises of the labels there.
+    /// The next different pixel on one side of the best label's; `near`, `far`: cost rises of the
+    /// labels there.
     HWY_INLINE Side beside(const Pixel& own, float side, V near, V far) const {
         const Pixel one = at(side), two = at(2 * side);
         const auto isNext = [&](const Pixel& p)
@@ -81,8 +82,8 @@ struct NearestPixels {
     }
 };
 
-/// The valleys' bottoms [labels from the best]. Two labels that are nearest to the same pixel tell
-/// no more than one of them, and it counts where its foot is on the line.
+/// The minima of the valleys, in labels from the best. If two labels are nearest to the same pixel,
+/// they count as one, at the label of the pixel's foot on the line.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V bottoms(D d, const Valleys<D>& valleys, const NearestPixels<D>& pixels) {
     const auto own = pixels.at(0);

@@ -9,12 +9,12 @@
 
 namespace mfar::simd {
 
-/// Where a frame's pixels lie in the still's canvas under their labels: s = perLabel * label, see
-/// EpipolarLens.
+/// Where a frame's pixels lie in the still's canvas for given labels. Inverse depth s = perLabel *
+/// label, see EpipolarLens.
 struct LabelLines {
     Lens lens;
     float tx, ty, tz;        ///< translation of points, in the frame's orientation
-    float originX, originY;  ///< camera pixel of the canvas's first
+    float originX, originY;  ///< camera pixel of the canvas's first pixel
     float perLabel;
 };
 
@@ -30,20 +30,20 @@ struct CensusPicture {
     Size size;
 };
 
-/// Costs of a row's pixels, whose census is `own`, for kLabels * vectors labels from `base` on, by
-/// pixel, then by label: differences from the nearest pixels' census in the still; half of the bits
-/// where there is none. `slack`: the least of these costs and of those one pixel to either side of
-/// the line. A vector of labels is short, so the lens may be taken as straight along it.
+/// Costs of a row's pixels with census `own`, for kLabels * vectors labels from `base`, ordered by
+/// pixel, then by label: Hamming distance to the census of the still's nearest pixel, half of the
+/// bits if the still has none. `slack`: takes the smallest of this cost and those one pixel to
+/// either side of the line. A vector of labels is short, so the lens is taken as straight along it.
 void labelCosts(const LabelLines& lines, const LabelRow& row, const std::int16_t* base,
                 const std::uint32_t* own, const CensusPicture& still, int vectors, bool slack,
                 std::uint8_t* out);
 
-/// Labels of a row's valleys with their sub-label part. Costs belong to pixels, up to 0.7 px beside
-/// the points of their labels: the part counts from where those pixels' feet are on the line.
+/// Labels of a row's valleys with sub-label precision. Costs belong to pixels that lie up to 0.7 px
+/// off the points of their labels: the fraction is measured from the pixels' feet on the line.
 void labelPlaces(const LabelLines& lines, const LabelRow& row, const Valley* valleys, float* out);
 
-/// Labels of valleys with their sub-label part: the vertex of the two straight lines through a
-/// label and its neighbours (a parabola would lock to whole labels on such costs).
+/// Labels of valleys with sub-label precision: the vertex of two straight lines through a label and
+/// its neighbours (a parabola would lock to whole labels with such costs).
 void labelVertices(const Valley* valleys, std::size_t count, float* out);
 
 }  // namespace mfar::simd

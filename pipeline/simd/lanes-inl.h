@@ -1,4 +1,4 @@
-// What several kernels need in lanes. Included once for each instruction set.
+// Shared by several kernels. Included once for each instruction set.
 #include "pipeline/simd/lens.h"
 
 #include <cstddef>
@@ -17,9 +17,9 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// Calls body(tag, i) for vectors that cover `count` values: whole ones, of which the last may
-/// overlap the one before, so that the body must not change what it reads; lane by lane where not
-/// even one is full.
+/// Calls body(tag, i) for vectors that cover `count` values. The last whole vector may overlap the
+/// one before, so the body must not change its input. If `count` is less than a vector, lane by
+/// lane.
 template <class D, class Body>
 HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
     const std::size_t lanes = hn::Lanes(d);
@@ -35,13 +35,13 @@ HWY_INLINE void forLanes(D d, std::size_t count, const Body& body) {
     if (i < count) body(d, count - lanes);
 }
 
-/// EpipolarLens::project() of a vector of rays.
+/// EpipolarLens::project() for a vector of rays.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Points<V> projected(D d, const Lens& lens, V x, V y) {
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };
     V q = hn::MulAdd(x, x, hn::Mul(y, y));
     const V rim = set(lens.rim2);
-    // Positively, so that a ray that is no number stays one.
+    // Written as a positive test, so that a NaN ray stays NaN.
     if (!hn::AllTrue(d, hn::Le(q, rim))) {
         const V c = hn::Sqrt(hn::Div(rim, hn::Max(q, rim)));
         x = hn::Mul(x, c);

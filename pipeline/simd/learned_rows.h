@@ -12,23 +12,23 @@
 
 namespace mfar::simd {
 
-/// Tables for taking the residual's grid to the output's size, shared by all threads.
+/// Tables for resampling the residual's grid to the output's size, shared by all threads.
 struct LearnedTaps {
     LearnedTaps(Size picture, Size output);
 
     RowTaps rows, columns;
 };
 
-/// What the learned enlarger adds to a picture that Keys' cubic enlarges: rows at the output's
-/// size, each made from the picture's rows when it is asked for. Scratch of one thread.
+/// The residual that the learned enlarger adds to a picture enlarged by Keys' cubic: rows at the
+/// output's size, computed on request. Scratch of one thread.
 class LearnedRows {
 public:
     LearnedRows(Size picture, int outputWidth);
 
-    /// Starts with a picture, for these pixels of the output alone. Nothing is covered then.
+    /// Starts a picture; only these pixels of the output are computed. Clears the covered pixels.
     void begin(const RgbPlanes& picture, const LearnedTaps& taps, const FilterBank& bank,
                const PixelSpan& pixels);
-    /// The only pixels whose residual is asked for from now on, ascending.
+    /// Limits the computation from now on to these pixels, ascending.
     void cover(const PixelSpans& pixels);
     /// Residual of a row in the covered pixels [1/32 grey level]; valid until the next call.
     [[nodiscard]] const std::int16_t* row(int y);
@@ -44,14 +44,16 @@ private:
     const RgbPlanes* picture_ = nullptr;
     const LearnedTaps* taps_ = nullptr;
     const FilterBank* bank_ = nullptr;
-    PixelSpan within_{}, columns_{};  // of the output; of the picture, what they need
+    PixelSpan within_{}, columns_{};  // within_: of the output; columns_: the picture's columns
+                                      // that they need
     PixelSpans covered_;              // pixels of the output
     PixelSpans made_;                 // columns of the picture
-    std::array<int, 2> kept_{};       // rows of the picture whose residual is there
+    std::array<int, 2> kept_{};       // rows of the picture whose residual is stored
     std::array<int, kKept> loaded_{};
     AlignedRows<std::int16_t> luma_;      // kKept rows with a margin
-    AlignedRows<float> sums_, mixed_;     // three rows with a margin; a row of the grid
-    AlignedRows<std::uint16_t> classes_;  // a row of each kind
+    AlignedRows<float> sums_, mixed_;     // sums_: three rows with a margin; mixed_: a row of the
+                                          // grid
+    AlignedRows<std::uint16_t> classes_;  // a row of each kind of class
     AlignedRows<std::int16_t> range_;     // lowest and highest
     AlignedRows<std::int16_t> grid_;      // residual of two rows: eight of the grid
     AlignedRows<std::int16_t> wide_;      // a row of the output

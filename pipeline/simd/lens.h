@@ -2,11 +2,11 @@
 
 namespace mfar::simd {
 
-/// What projects rays (x / z, y / z) to pixels: a pinhole with radial-tangential distortion.
+/// Projects rays (x / z, y / z) to pixels: a pinhole with radial-tangential distortion.
 struct Lens {
     float fx = 1, fy = 1, cx = 0, cy = 0;          ///< [px]
     float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
-    float rim2 = 1;  ///< squared radius beyond which rays are held at the rim
+    float rim2 = 1;  ///< squared radius; rays beyond it are held at the rim
 };
 
 }  // namespace mfar::simd

@@ -7,9 +7,10 @@
 
 namespace mfar::simd {
 
-/// Tables for bringing a field of look-ups to the output's size, shared by all threads.
+/// Tables for enlarging a field of look-ups to the output's size, shared by all threads.
 struct LookUpTaps {
-    /// `stillRig`: with the still camera as it is looked into. `output`: of the whole video.
+    /// `stillRig`: with the still camera at the resolution that is looked up. `output`: size of the
+    /// enlarged whole video.
     LookUpTaps(const StereoRig& stillRig, Size output);
 
     RowTaps rows, columns;
@@ -17,17 +18,17 @@ struct LookUpTaps {
     float stepX, stepY;  ///< still pixels per output pixel
 };
 
-/// Where the pixels of output rows look into the still, and how much it counts there. Scratch of
-/// one thread.
+/// Look-up positions of output rows in the still, and the still's share there. Scratch of one
+/// thread.
 class LookUpRowCache {
 public:
     LookUpRowCache(Size cells, int outputWidth) : cells_(cells.width, outputWidth) {}
 
-    /// Starts with a field, for pixels [begin, end) of the output alone. `confident`: the share is
-    /// the confidence instead of the weight.
+    /// Starts a field; only pixels [begin, end) of the output are computed. `confident`: the share
+    /// is the confidence instead of the weight.
     void begin(Rows<const LookUpCell> field, const LookUpTaps& taps, bool confident, int begin,
                int end);
-    /// Valid until a row is asked for that lies four cells away.
+    /// Valid until a row four cells away is requested.
     [[nodiscard]] LookUpRows row(int y);
 
 private:

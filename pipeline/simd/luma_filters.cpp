@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_filters.cpp"
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -13,7 +13,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 
 using DWords = hn::ScalableTag<std::uint16_t>;
 
-/// Bytes of words below 256.
+/// Stores words below 256 as bytes.
 template <class D>
 HWY_INLINE void storeBytes(D /*d*/, hn::Vec<D> words, std::uint8_t* to) {
     const hn::RebindToSigned<D> dSigned;
@@ -21,7 +21,7 @@ HWY_INLINE void storeBytes(D /*d*/, hn::Vec<D> words, std::uint8_t* to) {
     hn::StoreU(hn::DemoteTo(dByte, hn::BitCast(dSigned, words)), dByte, to);
 }
 
-/// Pairs of bytes, each a word.
+/// Loads pairs of bytes as words.
 template <class D>
 HWY_INLINE hn::Vec<D> loadPairs(D d, const std::uint8_t* from) {
     return hn::LoadU(d, reinterpret_cast<const std::uint16_t*>(from));
@@ -49,7 +49,7 @@ void ThinRow(const std::uint8_t* in, std::size_t width, std::uint8_t* out) {
 
 void SmoothRow(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
                std::size_t width, int side, std::uint8_t* out) {
-    // The sums of columns, in 1/256, and one more at each end of a run.
+    // Column sums [1/256], with one more at each end of a run.
     constexpr std::size_t kRun = 256;
     HWY_ALIGN std::uint16_t column[kRun + 2];
     const auto s = static_cast<std::uint16_t>(side), c = static_cast<std::uint16_t>(256 - 2 * side);
@@ -88,7 +88,7 @@ void NoiseColumns(const Rows<const std::uint8_t>& picture, int first, int rows, 
     forLanes(hn::ScalableTag<std::int16_t>(), width, [&](auto d, std::size_t i) HWY_ATTR {
         const hn::Rebind<std::uint8_t, decltype(d)> dByte;
         const hn::RebindToUnsigned<decltype(d)> dWord;
-        // (1 -2 1) along a row.
+        // Applies (1 -2 1) along a row.
         const auto bend = [&](int y) HWY_ATTR {
             const std::uint8_t* row = picture[y] + i;
             const auto at = [&](int k)

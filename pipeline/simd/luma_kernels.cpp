@@ -2,7 +2,7 @@
 
 #include "pipeline/engine/params/luma.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_kernels.cpp"
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Columns that are smoothed at once: their sums stay on the stack.
+// Columns smoothed at once: their sums stay on the stack.
 constexpr int kStrip = 256;
 constexpr int kMostLanes = 16;
 using Floats = hn::CappedTag<float, kMostLanes>;
@@ -26,7 +26,7 @@ HWY_INLINE Vec loadFloats(const std::uint8_t* from) {
     return hn::ConvertTo(d, hn::PromoteTo(hn::RebindToSigned<Floats>(), hn::LoadU(Bytes(), from)));
 }
 
-/// Grey levels, rounded and held within a byte.
+/// Grey levels, rounded and clamped to a byte.
 HWY_INLINE hn::Vec<Bytes> roundedBytes(Vec v) {
     const Floats d;
     const auto held =
@@ -49,7 +49,7 @@ HWY_INLINE float oneLumaAt(const SmoothRows::Planes& p, int x) {
            params::kLumaBlue * p.blue[x];
 }
 
-/// Columns [first, end) smoothed down the rows.
+/// Smooths columns [first, end) vertically.
 HWY_INLINE void smoothColumns(const SmoothRows& rows, int first, int end, float side, float* to) {
     const Floats d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
@@ -71,7 +71,7 @@ void SmoothLumaRow(const SmoothRows& rows, int width, float side, std::uint8_t* 
     const Floats d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
     const auto sides = hn::Set(d, side), centre = hn::Set(d, 1 - 2 * side);
-    HWY_ALIGN float columns[kStrip + 2 + kMostLanes];  // from one left of the strip on
+    HWY_ALIGN float columns[kStrip + 2 + kMostLanes];  // starts one pixel left of the strip
     std::uint8_t rest[kMostLanes];
     for (int first = 0; first < width; first += kStrip) {
         const int count = std::min(kStrip, width - first);

@@ -5,7 +5,7 @@
 
 namespace mfar::simd {
 
-/// Rows that a smoothed row is made of. RGB: three planes; luma: the first alone, the others null.
+/// Input rows of a smoothed row. RGB: three planes; luma: only the first, the others null.
 struct SmoothRows {
     struct Planes {
         const std::uint8_t *red, *green, *blue;
@@ -13,15 +13,15 @@ struct SmoothRows {
     Planes above, here, below;
 };
 
-/// A row of the finest level as luma_from_video.comp makes it: 3x3 pixels, `side` is the weight of
-/// each side's neighbour. Writes `width` pixels and reads no others.
+/// A row of the finest level, as in luma_from_video.comp: 3x3 taps; `side`: weight of each
+/// neighbour. Writes `width` pixels and reads no pixels beyond.
 void smoothLumaRow(const SmoothRows& rows, int width, float side, std::uint8_t* to);
 
 /// A row of the next coarser level: means of 2x2 pixels. Reads 2 * width pixels of both rows.
 void halveLumaRow(const std::uint8_t* upper, const std::uint8_t* lower, int width,
                   std::uint8_t* to);
 
-/// Both lenses and the rotation between them, as rig.glsl has them.
+/// Both lenses and the rotation between them, as in rig.glsl.
 struct StillLens {
     float videoPinhole[4], videoDistortion[5];  ///< fx fy cx cy; k1 k2 p1 p2 k3
     float stillPinhole[4], stillDistortion[5];
@@ -29,8 +29,8 @@ struct StillLens {
 
     bool operator==(const StillLens&) const = default;
 };
-/// Still pixels of the video pixels of a row, far outside where the ray points away. Writes up to
-/// 15 elements more than `width`.
+/// Positions in the still of a row's video pixels [still px]; far outside if the ray points away.
+/// Writes up to 15 elements more than `width`.
 void stillPixelRow(const StillLens& lens, int y, int width, float* stillX, float* stillY);
 
 struct StillPicture {
@@ -39,7 +39,7 @@ struct StillPicture {
     int width, height;     ///< [px]
 };
 /// Mean of the still over the footprint [still px] of each video pixel of a row: 4x4 bilinear taps,
-/// as luma_from_still.comp takes them.
+/// as in luma_from_still.comp.
 void footprintRow(const StillPicture& still, float footprint, const float* stillX,
                   const float* stillY, int width, std::uint8_t* to);
 

@@ -15,20 +15,21 @@
 
 namespace mfar::simd {
 
-/// Luma pyramids of the video frame and of the still at the video's geometry (rotation and both
-/// lenses applied, no parallax), both smoothed alike: what the flow compares. In host memory, in
-/// the layout that the shaders use too (luma_layout.h): words() may be uploaded as they are.
+/// Luma pyramids for the flow: of the video frame, and of the still at the video's geometry
+/// (rotation and both lenses applied, no parallax), smoothed in the same way. In host memory, in
+/// the layout of the shaders (luma_layout.h), so that words() may be uploaded unchanged.
 class LumaPyramids {
 public:
     LumaPyramids(Size video, std::shared_ptr<Workers> workers);
 
     /// From the video frame.
     void buildVideo(const RgbPlanes& video);
-    /// From the luma of a still of rig.still.size, through the rig. Once per still.
+    /// From the luma of a still of size rig.still.size, through the rig. Once per still.
     void buildStill(Rows<const std::uint8_t> luma, const StereoRig& rig);
-    /// From luma that already has the video's geometry (flow between two frames): the still's side.
+    /// Second picture, from luma that already has the video's geometry (flow between two frames);
+    /// takes the still's place.
     void buildSecond(Rows<const std::uint8_t> luma);
-    /// The same for the video's side.
+    /// First picture likewise; takes the video's place.
     void buildFirst(Rows<const std::uint8_t> luma);
 
     [[nodiscard]] const std::vector<LumaLevel>& video() const { return video_; }
@@ -42,15 +43,15 @@ private:
     void halve(const LumaLevel& fine, const LumaLevel& coarse, int first, int last);
     /// The first pixel of a row.
     [[nodiscard]] std::uint8_t* rowOf(const LumaLevel& level, int y);
-    /// Repeats the border of a row over its margins.
+    /// Repeats a row's border in its margins.
     void fillMargins(const LumaLevel& level, int y);
     void findStillPixels(const StillLens& lens);
 
     std::shared_ptr<Workers> workers_;
     std::vector<LumaLevel> video_, still_;
     std::vector<std::uint32_t> words_;
-    std::optional<StillLens> lens_;       // of stillX_, stillY_
-    AlignedRows<float> stillX_, stillY_;  // still pixels of the video's
+    std::optional<StillLens> lens_;       // lens for which stillX_, stillY_ were computed
+    AlignedRows<float> stillX_, stillY_;  // still pixels of the video's pixels
 };
 
 }  // namespace mfar::simd

@@ -1,6 +1,6 @@
 #include "pipeline/simd/luma_rows.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/luma_rows.cpp"
 #include <hwy/foreach_target.h>
@@ -10,7 +10,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 16-bit fixed point of 0.299, 0.587, 0.114: the sum is 256.
+// 0.299, 0.587, 0.114 in 1/256: the sum is 256.
 constexpr std::uint16_t kRed = 77, kGreen = 150, kBlue = 29;
 
 void LumaRow(const std::uint8_t* texels, bool bgr, std::size_t pixels, std::uint8_t* luma) {

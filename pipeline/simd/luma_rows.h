@@ -5,7 +5,7 @@
 
 namespace mfar::simd {
 
-/// Rec. 601 luma of `pixels` texels of four bytes, R G B first (`bgr`: B G R), rounded.
+/// Rec. 601 luma of `pixels` texels of four bytes, in the order R G B (`bgr`: B G R), rounded.
 void lumaRow(const std::uint8_t* texels, bool bgr, std::size_t pixels, std::uint8_t* luma);
 
 }  // namespace mfar::simd

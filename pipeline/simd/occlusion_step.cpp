@@ -9,13 +9,13 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kSpare = 64;  // pixels behind a strip that vectors may write
+constexpr int kSpare = 64;  // pixels after a strip that vectors may write
 
 Size withMargin(Size video) {
     return {video.width + 2 * kSampleMargin, video.height};
 }
 
-/// Of the four samples around a pixel that lies `share` behind the second.
+/// Weights of the four samples around a pixel; `share`: its distance from the second sample.
 std::array<float, 4> distanceWeights(float share) {
     std::array<float, 4> out{};
     for (int i = 0; i < 4; ++i) {
@@ -25,7 +25,7 @@ std::array<float, 4> distanceWeights(float share) {
     return out;
 }
 
-/// Copies border entries into the margins beside them.
+/// Copies border entries into the adjacent margins.
 void repeatBorder(float* row, int width) {
     std::fill_n(row, kSampleMargin, row[kSampleMargin]);
     std::fill_n(row + kSampleMargin + width, kSampleMargin, row[kSampleMargin + width - 1]);
@@ -33,22 +33,23 @@ void repeatBorder(float* row, int width) {
 
 }  // namespace
 
-/// What a run draws.
+/// Parameters of a run.
 struct OcclusionStep::Task {
     const LayerRowsView& layer;
     const RealDepth& real;
     const RgbPlanes& video;
     Rows<std::uint32_t> picture;
     PixelRect bounds;  // output pixels
-    int first, last;   // columns of samples that they look up
+    int first, last;   // columns of samples that these pixels read
 };
 
-/// A part of the rows between two rows of samples.
+/// A part of the output rows that lie between two rows of samples.
 struct OcclusionStep::Strip {
     int x = 0, count = 0;
     std::array<float, kVisibilityChunk + kSpare> greatest{}, least{}, z{}, inverse{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> colours{};
-    // Of a layer that is enlarged: the columns around the strip, and between its rows.
+    // For an enlarged layer: its columns around the strip in the two rows, and interpolated between
+    // them.
     std::array<float, kVisibilityChunk + kSpare> depthAbove{}, depthBelow{};
     std::array<std::uint32_t, kVisibilityChunk + kSpare> above{}, below{}, redBlue{}, greenAlpha{};
     std::array<std::uint8_t, kVisibilityChunk + kSpare> visibility{};
@@ -73,7 +74,7 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
       greatest_({withMargin(video).width, video.height + 1}),
       least_({withMargin(video).width, video.height + 1}), visibility_(output) {
     validate(options);
-    // Its columns of the layer fit a strip, too.
+    // Limited so that the strip's columns of the layer fit, too.
     const double columnsPerPixel = static_cast<double>(layer.width) / output.width;
     longestStrip_ =
         std::clamp(static_cast<int>((kVisibilityChunk - 2) / columnsPerPixel), 1, kVisibilityChunk);
@@ -88,7 +89,7 @@ OcclusionStep::OcclusionStep(Size video, Size output, Size layer, const Composit
         layerRight_.push_back(std::clamp(left + 1, 0, layer.width - 1));
         layerShare_.push_back(twiceInAWord(layerColumns_.share[static_cast<std::size_t>(x)]));
     }
-    // Vectors read on behind the last pixel.
+    // Vectors read beyond the last pixel.
     layerLeft_.resize(layerLeft_.size() + kLayerSpare, layer.width - 1);
     layerRight_.resize(layerRight_.size() + kLayerSpare, layer.width - 1);
     layerShare_.resize(layerShare_.size() + kLayerSpare);
@@ -101,7 +102,7 @@ void OcclusionStep::run(const LayerRowsView& layer, const RealDepth& real, const
     assert(layer.colour.size == layer_ && layer.depth.size == layer_);
     const PixelRect bounds = layerInOutput(layer.bounds, layer_, output_);
     if (bounds.empty()) return;
-    // The four samples around each pixel, or around the outermost one.
+    // The four samples around each pixel; beyond the border, those around the outermost sample.
     const auto samples = [](int firstBase, int lastBase, int count) {
         return std::pair(std::max(std::min(firstBase, count - 1) - 1, 0),
                          std::min(std::max(lastBase, 0) + 2, count - 1) + 1);
@@ -162,7 +163,7 @@ void OcclusionStep::drawRows(const Task& task, int base) {
     const auto rowAt = [&](auto place) { return static_cast<int>(place - rows_.first.begin()); };
     const int top = std::max(rowAt(found.begin()), task.bounds.y0);
     const int bottom = std::min(rowAt(found.end()), task.bounds.y1);
-    if (top >= bottom) return;  // an output smaller than the video leaves rows out
+    if (top >= bottom) return;  // an output smaller than the video skips rows
     FourRows nearest{}, farthest{};
     const int middle = std::clamp(base, 0, video_.height - 1);
     for (int j = 0; j < 4; ++j) {
@@ -217,7 +218,7 @@ LayerColumns OcclusionStep::layerColumns(const Strip& strip) const {
             layerRight_[first + static_cast<std::size_t>(strip.count) - 1]};
 }
 
-/// The layer's rows around an output row, and its share of the lower one.
+/// The layer's rows above and below an output row, and the weight of the lower one.
 OcclusionStep::TwoRows OcclusionStep::layerRowsAt(int y) const {
     const int base = layerRows_.first[static_cast<std::size_t>(y)];
     return {std::clamp(base, 0, layer_.height - 1), std::clamp(base + 1, 0, layer_.height - 1),

@@ -16,12 +16,12 @@
 
 namespace mfar::simd {
 
-/// Picture of the virtual objects alone, seen by the video camera. Borrowed. VirtualLayer on the
-/// host.
+/// Picture of the virtual objects alone, from the video camera's view. Borrowed. VirtualLayer on
+/// the CPU.
 struct LayerRowsView {
     Rows<const std::uint32_t> colour;  ///< RGBA8, premultiplied by coverage
     Rows<const float>
-        depth;         ///< z [m] along the camera's axis, lifted where a shadow is; 0 = nothing
+        depth;         ///< z [m] along the camera's axis, reduced where a shadow is; 0 = nothing
     PixelRect bounds;  ///< covered pixels, empty = nothing
 };
 
@@ -38,20 +38,20 @@ struct RealDepth {
     }
 };
 
-/// Puts a virtual layer over the picture of the real scene, behind what is nearer there: Composite
-/// on the host's lanes. Only the layer's bounds are worked on.
+/// Composites a virtual layer over the picture of the real scene, hidden where the real scene is
+/// nearer: Composite on the CPU. Only processes the layer's bounds.
 class OcclusionStep {
 public:
-    /// `layer`: size of the layers that come. Throws std::invalid_argument for an option that is
-    /// not finite or out of its range. Null workers: in the caller's thread alone.
+    /// `layer`: size of the layers. Throws std::invalid_argument for an option that is not finite
+    /// or out of its range. Null workers: runs in the caller's thread.
     OcclusionStep(Size video, Size output, Size layer, const CompositeOptions& options,
                   std::shared_ptr<Workers> workers);
 
-    /// `real`: a pixel whose values are not both finite and positive is unknown and hides nothing.
-    /// `video`: the frame the depth belongs to. `picture`: that frame at output size, RGBA8, drawn
-    /// into. A layer pixel whose depth is not finite and positive is not drawn. Between the pixels
-    /// of a smaller layer colours are linear; depth is that of the nearest pixel of the four around
-    /// that has one.
+    /// `real`: a pixel whose values are not both finite and positive is unknown and occludes
+    /// nothing. `video`: the frame that the depth belongs to. `picture`: that frame at output size,
+    /// RGBA8, modified. Layer pixels whose depth is not finite and positive are not drawn. Between
+    /// the pixels of a smaller layer, colours are interpolated linearly; depth is that of the
+    /// nearest of the four surrounding pixels that has one.
     void run(const LayerRowsView& layer, const RealDepth& real, const RgbPlanes& video,
              Rows<std::uint32_t> picture);
 
@@ -59,22 +59,22 @@ public:
     [[nodiscard]] bool hides(double rho, double sigma, double inverse) const {
         return options_.hides(rho, sigma, inverse);
     }
-    /// Share of each pixel of the layer that was drawn, in 255ths, within the last bounds.
+    /// Visible share of each pixel of the layer, in 255ths; valid within the last bounds.
     [[nodiscard]] Rows<const std::uint8_t> visibility() const { return visibility_.rows(); }
 
 private:
-    /// Where output pixels along one axis lie between the pixels of another picture: at `first` +
+    /// Positions of output pixels along one axis, between the pixels of another picture: `first` +
     /// share.
     struct Between {
         Between(int pixels, int others);
-        std::vector<std::int32_t> first;  ///< from -1 on
+        std::vector<std::int32_t> first;  ///< from -1
         std::vector<float> share;         ///< [0, 1)
     };
     /// One of the frame's planes, margins included.
     using Plane = AlignedRows<float>;
     struct TwoRows {
         int above, below;
-        float share;  ///< of the lower one
+        float share;  ///< weight of the lower row
     };
     struct Task;
     struct Strip;

@@ -6,14 +6,14 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/paint_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/display_values-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// No more: a row of quarters has as many words to spare.
+// At most 8 lanes: a row of quarters has only that many words of padding.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -68,7 +68,7 @@ HWY_INLINE V At(const Plane& plane, V x, V y) {
     return hn::MulAdd(y, plane.perY, hn::MulAdd(x, plane.perX, plane.first));
 }
 
-/// Of numbers from 1 on, within a hundredth.
+/// For numbers >= 1; error below 0.01.
 HWY_INLINE V Log2(V x) {
     const DU du;
     const VU bits = hn::BitCast(du, x);
@@ -81,10 +81,10 @@ HWY_INLINE V Log2(V x) {
                    hn::MulAdd(hn::Mul(F(0.34F), low), hn::Sub(F(2), m), low));
 }
 
-/// A size of each lane's texture.
+/// One size of each lane's texture.
 struct Level {
-    VI first, width, height;  // of texels
-    V across, down;           // the same as numbers
+    VI first, width, height;  // first texel; size in texels
+    V across, down;           // the size as floats
 };
 HWY_INLINE Level LevelAt(const PaintInput& in, VI level) {
     const DU du;
@@ -97,7 +97,7 @@ HWY_INLINE Level LevelAt(const PaintInput& in, VI level) {
             hn::BitCast(di, hn::ShiftRight<16>(size)), LowHalf(size), HighHalf(size)};
 }
 
-/// Adds the squares of a word's bytes.
+/// Adds the squares of a word's bytes, weighted.
 HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
     const VU bits = hn::Set(DU(), 0xFFU);
     const auto byte = [&](VU shifted) HWY_ATTR {
@@ -109,7 +109,7 @@ HWY_INLINE void AddSquares(VU word, V share, Colour& sum) {
     sum.b = hn::MulAdd(hn::Mul(b, b), share, sum.b);
 }
 
-/// Adds what a texel holds.
+/// Adds a texel, weighted.
 HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
     const DU du;
     const auto* words = reinterpret_cast<const std::uint32_t*>(in.texels);
@@ -118,14 +118,14 @@ HWY_INLINE void AddTexel(const PaintInput& in, VI texel, V share, Paint& sum) {
     AddSquares(hn::GatherIndex(du, words + 1, at), share, sum.facing);
 }
 
-/// The texels around a coordinate that repeats, and how far it is beyond the first.
+/// The two texels around a repeating coordinate, and the distance from the first.
 struct Around {
     VI first, second;
     V beyond;
 };
 HWY_INLINE Around TexelsAround(V coordinate, VI side, V count) {
     const DI di;
-    // What is no place is as good as any.
+    // An invalid coordinate is replaced by 0.
     coordinate = hn::IfThenElseZero(hn::Lt(hn::Abs(coordinate), F(1e6F)), coordinate);
     const V share = hn::Sub(coordinate, hn::Floor(coordinate));
     const V place = hn::MulSub(share, count, F(0.5F)), low = hn::Floor(place);
@@ -134,7 +134,7 @@ HWY_INLINE Around TexelsAround(V coordinate, VI side, V count) {
             hn::IfThenElse(hn::Lt(next, side), next, hn::Zero(di)), hn::Sub(place, low)};
 }
 
-/// Adds `weight` of a bilinear look-up.
+/// Adds a bilinear look-up times `weight`.
 HWY_INLINE void AddProbe(const PaintInput& in, const Level& level, V u, V v, float weight,
                          Paint& sum) {
     const Around x = TexelsAround(u, level.width, level.across);
@@ -159,7 +159,7 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
     const Plane perZ = PlaneOf(triangles, triangle, 0);
     const Plane uPlane = PlaneOf(triangles, triangle, 3);
     const Plane vPlane = PlaneOf(triangles, triangle, 6);
-    // Beside its triangle a plane may end.
+    // Outside its triangle, the plane of 1 / z may reach 0.
     const V z = hn::Div(F(1), hn::Max(At(perZ, x, y), F(1e-6F)));
     const V u = hn::Mul(At(uPlane, x, y), z), v = hn::Mul(At(vPlane, x, y), z);
     const V step = hn::Mul(z, F(spread));
@@ -171,9 +171,10 @@ HWY_INLINE Footprint FootprintAt(const PaintTriangle* triangles, VU triangle, V 
             hn::Mul(hn::NegMulAdd(v, perZ.perY, vPlane.perY), step)};
 }
 
-/// Of a place on the grid over `spread` of its pixels each way: four probes, two by two, in texels
-/// half as wide as they are apart or more. Against the mean over a pixel, one probe between two
-/// levels is 4 dB worse on the showpiece; four probes along a long footprint are no better.
+/// Paint at a place on the grid, averaged over `spread` grid pixels in each direction: 2x2 probes,
+/// in a level whose texels are at least half as wide as the probes' distance. Compared with the
+/// mean over a pixel, one probe between two levels is 4 dB worse on the showpiece; four probes
+/// along a long footprint are no better.
 HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float spread) {
     const D d;
     const DI di;
@@ -182,7 +183,7 @@ HWY_INLINE Paint Sample(const PaintInput& in, VU triangle, V x, V y, float sprea
     const VU levels = WordOf(DU(), in.triangles, triangle, 10);
     const V texels = hn::Mul(LowHalf(size), HighHalf(size));
     const V area = hn::Mul(hn::Abs(hn::NegMulAdd(f.uy, f.vx, hn::Mul(f.ux, f.vy))), texels);
-    // Between probes there are twice the steps.
+    // Probes are two steps apart in each direction.
     const V apart = hn::Mul(area, F(4));
     const M finite = hn::Lt(apart, F(1e12F));
     const V held = hn::Max(hn::IfThenElse(finite, apart, F(1e12F)), F(1));
@@ -205,21 +206,21 @@ HWY_INLINE VU Byte(V level) {
     return hn::BitCast(DU(), hn::ConvertTo(DI(), hn::Add(held, F(0.5F))));
 }
 
-/// Linear light, 1 = 255^2, to an sRGB byte.
+/// Linear light, 1 = 255^2, as an sRGB byte.
 HWY_INLINE VU SrgbByte(V linear) {
     return Byte(SrgbLevel(D(), hn::Mul(linear, F(1.0F / 65025))));
 }
 
-/// What is painted in each pixel.
+/// What each pixel shows.
 struct Shown {
-    M any;         ///< an object
-    VU triangle;   ///< of one of its quarters
-    V dx, dy;      ///< from the pixel's middle to that of the quarters [grid px]
-    Four<V> part;  ///< share of each quarter
+    M any;         ///< whether the pixel shows an object
+    VU triangle;   ///< of one of the object's quarters
+    V dx, dy;      ///< from the pixel's centre to the centre of those quarters [grid px]
+    Four<V> part;  ///< weight of each quarter
     Four<VU> triangles;
 };
 
-/// Numbers of the objects in the quarters of pixels, 0 where there is none.
+/// Numbers of the objects in the quarters of pixels; 0: no object.
 HWY_INLINE Four<VU> ObjectsOf(const PaintRow& row, int x) {
     const DU du;
     Four<VU> s;
@@ -233,8 +234,8 @@ HWY_INLINE Four<VU> ObjectsOf(const PaintRow& row, int x) {
     return {object(s.a), object(s.b), object(s.c), object(s.d)};
 }
 
-/// Paints pixels in equal parts with the quarters of the object `number`, of which there are
-/// `count`.
+/// Gives equal weights to the quarters of pixels that show the object `number`; there are `count`
+/// of them.
 HWY_INLINE void Divide(const Four<VU>& s, const Four<VU>& t, VU number, VU count, Shown& out) {
     const D d;
     const DU du;
@@ -289,7 +290,7 @@ HWY_INLINE Shown Choose(const PaintRow& row, int x) {
     return out;
 }
 
-/// Whether quarters of a pixel are painted with different materials.
+/// Pixels whose quarters have different materials.
 HWY_INLINE M Differ(const PaintInput& in, const Shown& s) {
     const D d;
     const DU du;

@@ -7,22 +7,23 @@
 
 namespace mfar::simd {
 
-// Which colour a surface has at each pixel, whatever light there is: its texture over the pixel's
+// Colour of the surface at each pixel, independent of light: its texture over the pixel's
 // footprint, averaged in linear light.
 
-/// One size of a texture. Bytes of its texels are 255 times the square root of linear values, which
-/// blend exactly once they are squared.
+/// One size of a texture. Texel bytes are 255 times the square root of linear values; their squares
+/// are blended, which is exact.
 struct PaintLevel {
-    std::uint32_t first;  ///< texel among all
+    std::uint32_t first;  ///< index of its first texel in PaintInput's array
     std::uint32_t size;   ///< width, height << 16
 };
 
-/// What a triangle is painted with; a cache line, of which lanes gather words.
+/// Paint of a triangle; one cache line, from which lanes gather words.
 struct PaintTriangle {
-    RasterPlane perZ, u, v;      ///< on the grid: 1 / z, uv over z; of those that are drawn alone
+    RasterPlane perZ, u, v;      ///< on the grid: 1 / z, u / z, v / z; set only for triangles that
+                                 ///< are drawn
     std::uint32_t size = 0;      ///< of the texture's first level, as PaintLevel
-    std::uint32_t levels = 0;    ///< first level, index of the last from there << 24
-    std::uint32_t material = 0;  ///< equal ones are painted alike
+    std::uint32_t levels = 0;    ///< index of the first level, and of the last relative to it << 24
+    std::uint32_t material = 0;  ///< triangles of equal material are painted alike
     std::uint32_t unused[4] = {};
 };
 static_assert(sizeof(PaintTriangle) == 64);
@@ -33,17 +34,17 @@ struct PaintInput {
     const PaintTriangle* triangles;
 };
 
-/// Pixels of a row of the layer, at half the grid's resolution. Rows of the grid have
+/// Pixels of a row of the layer, which has half the grid's resolution. Rows of the grid have
 /// AlignedRows::kPadding to spare.
 struct PaintRow {
-    int x, y, count;                                   ///< of the layer
+    int x, y, count;                                   ///< pixels of the layer
     const std::uint32_t *upper, *lower;                ///< words of the first pixel's quarters
-    const std::uint32_t *upperIndices, *lowerIndices;  ///< triangles
+    const std::uint32_t *upperIndices, *lowerIndices;  ///< indices of triangles
     PaintWords* out;
 };
-/// Writes `count` pixels, and up to 7 beyond: bytes of sRGB, 0 where no object is. Of several
-/// objects in a pixel the one that has most of the quarters is painted (RestPixels), in the middle
-/// of them.
+/// Writes `count` pixels, and up to 7 beyond: sRGB bytes, 0 where no object is. If a pixel shows
+/// several objects, the one with most quarters is painted (RestPixels), at the centre of those
+/// quarters.
 void paintRow(const PaintRow& row, const PaintInput& in);
 
 }  // namespace mfar::simd

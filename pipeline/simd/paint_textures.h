@@ -13,28 +13,28 @@
 
 namespace mfar::simd {
 
-/// The textures of a scene's surfaces for paintRow(), all in one array: what a material's base
-/// colour and metallic make, as one picture at the larger size of both textures, in all sizes down
-/// to one texel. Equal materials have one.
+/// The textures of a scene's surfaces for paintRow(), all in one array. A material's base colour
+/// and metallic textures are combined to one picture, at the larger of both sizes, with all levels
+/// down to one texel. Equal materials share one.
 class PaintTextures {
 public:
-    /// What a part is painted with: the words of PaintTriangle.
+    /// Paint of a part: the words of PaintTriangle.
     struct Material {
         std::uint32_t size, levels, material;
     };
 
-    /// Makes pictures that the objects before did not have; keeps the others. Borrows nothing.
-    /// Takes 4 ns a texel.
+    /// Makes the pictures that are new with these objects; keeps the others. Copies all input.
+    /// Takes 4 ns per texel.
     void set(std::span<const SilhouetteModels::Object> objects);
-    /// Of a part of those objects.
+    /// Material of a part of those objects.
     [[nodiscard]] const Material& of(const SilhouetteModels::Part& part) const {
         return materials_.at(&part);
     }
-    /// Without triangles. Valid until set().
+    /// Input without triangles. Valid until set().
     [[nodiscard]] PaintInput input() const { return {texels_.data(), levels_.data(), nullptr}; }
 
 private:
-    /// Textures of base colour and metallic-roughness, and what multiplies them: colour, metallic.
+    /// Textures of base colour and of metallic-roughness, and their factors: colour, metallic.
     struct Source {
         const SurfaceTexture *colour = nullptr, *metallic = nullptr;
         std::array<float, 4> factor{};
@@ -42,7 +42,8 @@ private:
         auto operator<=>(const Source&) const = default;
     };
     struct Picture {
-        std::shared_ptr<const Model> model;  // owns the textures: their addresses are not used anew
+        std::shared_ptr<const Model> model;  // keeps the textures alive, so that their addresses
+                                             // stay unique
         std::vector<PaintLevel> levels;      // largest first
     };
     using Pictures = std::map<Source, Picture>;

@@ -1,6 +1,6 @@
 #include "pipeline/simd/patch_flow.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_align.cpp"
 // clang-format off: in this order alone
@@ -14,18 +14,18 @@ namespace mfar::simd::HWY_NAMESPACE {
 namespace {
 
 constexpr float kSteepest = params::kSteepestFlow;
-// Pixels of a row that have one place of their own: four; all eight where the flow changes so
-// little along the row that they stay as close to their own places as four do at the steepest.
+// Pixels of a row that share one position: four, or all eight where the flow changes so little
+// along the row that their error is not larger than that of four at the steepest flow.
 constexpr int kHalf = 4;
 constexpr float kGentle = 1.0F / 10;
-// Below this a patch counts as flat: its corners move by a hundredth of a pixel, less than the
-// slope of a field is known by.
+// A patch of less bend counts as flat: its corners move by a hundredth of a pixel, less than the
+// uncertainty of the field's slope.
 constexpr float kFlat = 1.0F / 256;
-// Shares of a pixel, in 16 bits with room for those of its neighbours.
+// Weights of pixels, in 16 bits with room for the change along the row.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
-// Pixels beyond this [1/32 grey level less 128] come from a steep slope at a high contrast: held,
-// so that sums of their squares fit 32 bits.
+// Limit of a pixel value less 128 [1/32 grey level], so that sums of squares fit into 32 bits.
+// Values beyond occur at a steep slope with high contrast.
 constexpr std::int16_t kMostValue = 5792;
 
 /// Change of the flow per pixel along x and along y.
@@ -33,8 +33,8 @@ struct Bend {
     Vector2 dx, dy;
 };
 
-/// The smaller one-sided difference, zero where the two do not agree in sign. Two cells wide,
-/// because from one to the next the noise is larger than the change.
+/// The smaller of both one-sided differences; zero if their signs differ. Over two cells, because
+/// between adjacent cells the noise is larger than the change.
 HWY_INLINE float slopeOf(float before, float here, float after) {
     const float a = here - before, b = after - here;
     if (!(a * b > 0)) return 0;
@@ -42,7 +42,7 @@ HWY_INLINE float slopeOf(float before, float here, float after) {
     return bounded(least / 8, -kSteepest, kSteepest);
 }
 
-/// A vector that no picture is large enough for, or NaN, is zero.
+/// Replaces NaN and vectors longer than any picture by zero.
 HWY_INLINE float soundOf(float v) {
     constexpr float kMost = 2e4F;
     return std::abs(v) < kMost ? v : 0;
@@ -63,16 +63,16 @@ HWY_INLINE Bend bendAt(const AlignStep& step, int column, int row, Vector2 here)
             slope(seedAt(step, column, row - 2), seedAt(step, column, row + 2))};
 }
 
-/// Where the parts of a patch's rows lie in the other picture, row by row.
+/// Positions of the parts of a patch's rows in the other picture, row by row.
 template <int kParts>
 struct BentPlaces {
     static constexpr int kCount = kPatch * kParts;
     std::int32_t upper[kCount], lower[kCount];  // of the first pixel [bytes]
-    // Shares of the next pixel, twice in 32 bits.
+    // Weights of the next pixel, twice in 32 bits.
     std::int32_t shareX[kCount], shareY[kCount];
 };
 
-/// Columns of a patch's parts, row by row.
+/// First columns of a patch's parts, row by row.
 template <int kParts>
 HWY_INLINE const float* firstColumns() {
     alignas(64) static constexpr float kColumns[2][2 * kPatch] = {
@@ -130,7 +130,8 @@ HWY_INLINE void placeParts(const PatchPicture& p, int column, int row, Vector2 u
     }
 }
 
-/// Pixels of a row's parts from `parts` on; on the scalar target the one of column c.
+/// Loads a row's parts, `next` pixels after `parts`; on the scalar target, only the pixel of column
+/// c.
 template <int kParts>
 HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
     if constexpr (kParts == 1) return loadPixels(parts[0] + next + c);
@@ -144,7 +145,7 @@ HWY_INLINE Vec16 loadParts(const std::uint8_t* const* parts, int next, int c) {
 #endif
 }
 
-/// The shares of a row's parts, each in all pixels of its part.
+/// The weights of a row's parts, repeated for all pixels of the part.
 template <int kParts>
 HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
     const Row16 d16;
@@ -161,7 +162,7 @@ HWY_INLINE Vec16 loadShares(const std::int32_t* shares, int c) {
 #endif
 }
 
-/// Twice the columns of a row's pixels from the middle of their part.
+/// Twice the columns of a row's pixels, relative to the centre of their part.
 template <int kParts>
 HWY_INLINE const std::int16_t* alongPart() {
     alignas(16) static constexpr std::int16_t kAlong[2][kPatch] = {{-7, -5, -3, -1, 1, 3, 5, 7},
@@ -169,17 +170,17 @@ HWY_INLINE const std::int16_t* alongPart() {
     return kAlong[kParts - 1];
 }
 
-/// What a bent patch sees between the pixels of two rows and their neighbours on the right.
+/// Interpolates a bent patch's pixels from two rows and their right neighbours.
 template <class D16>
 struct BentPixels {
     hn::Vec<D16> shareX, shareY;
 
-    /// Between the pixels of one row.
+    /// Interpolates within a row.
     HWY_INLINE hn::Vec<D16> across(hn::Vec<D16> here, hn::Vec<D16> next) const {
         const auto step = hn::ShiftLeft<kValueBits + 1>(hn::Sub(next, here));
         return hn::Add(hn::ShiftLeft<kValueBits>(here), hn::MulFixedPoint15(step, shareX));
     }
-    /// Less 128.
+    /// Interpolates between two rows; result less 128.
     HWY_INLINE hn::Vec<D16> down(hn::Vec<D16> upper, hn::Vec<D16> lower) const {
         const D16 d;
         const auto most = hn::Set(d, kMostValue), middle = hn::Set(d, 128 << kValueBits);
@@ -189,8 +190,8 @@ struct BentPixels {
     }
 };
 
-/// Adds up the products of a patch with the pixels of the other picture at its places. `slopeX`,
-/// `slopeY`: change of the shares by half a pixel along the row.
+/// Sums the products of a patch with the other picture's pixels at its positions. `slopeX`,
+/// `slopeY`: change of the weights per half pixel along the row.
 template <int kParts>
 HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
                            const BentPlaces<kParts>& places, std::int16_t slopeX,
@@ -223,7 +224,7 @@ HWY_INLINE void addUpParts(const Patch& patch, const std::uint8_t* pixels,
 }
 
 #if HWY_MAX_BYTES >= 32
-/// The same where whole rows have one place, two rows at once.
+/// The same for rows with a single position, two rows at once.
 HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
                              const BentPlaces<1>& places, std::int16_t slopeX, std::int16_t slopeY,
                              int cell, CompareSums& out) {
@@ -254,7 +255,7 @@ HWY_INLINE void addUpTwoRows(const Patch& patch, const std::uint8_t* pixels,
 }
 #endif
 
-/// comparePatch() with a flow that changes over the patch.
+/// comparePatch() for a flow that changes over the patch.
 template <int kParts>
 HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int column, int row,
                             Vector2 u, const Bend& bend, int cell, CompareSums& out) {
@@ -270,7 +271,7 @@ HWY_INLINE void compareBent(const Patch& patch, const PatchPicture& p, int colum
         addUpParts<kParts>(patch, p.pixels, places, slopeX, slopeY, cell, out);
 }
 
-/// Room for a batch and what is added up for it.
+/// A batch and its sums.
 struct AlignRoom {
     Batch batch;
     PatchSums patchSums;
@@ -278,7 +279,7 @@ struct AlignRoom {
     Bend bend[kBatch];
 };
 
-/// The best of the seeds and the places that Gauss-Newton steps lead to from there.
+/// Finds the best of the seeds and of the positions that Gauss-Newton steps reach from them.
 HWY_INLINE void alignBatch(const AlignStep& step, AlignRoom& room) {
     Batch& batch = room.batch;
     loadPatches(step.from, room.patchSums, batch);

@@ -37,21 +37,22 @@ HWY_INLINE Vec squaredLength(const Lanes2& v) {
     return hn::MulAdd(v.x, v.x, hn::Mul(v.y, v.y));
 }
 
-/// Cells, their patches, and the vector of each that fits best so far.
+/// Cells, their patches, and the best vector of each so far.
 struct Batch {
     int count = 0;
     int column[kBatch], row[kBatch];
     Patch patch[kBatch];
-    Each mean, variance;  // of the patch's pixels; the latter a sum
-    Each2 sumG, sumAG;    // of the gradients, of the pixels less their mean times those
+    Each mean, variance;  // of the patch's pixels; variance: sum of squares, not divided by the
+                          // count
+    Each2 sumG, sumAG;    // sums of the gradients, and of (pixel - mean) times gradient
     Each inverseXx, inverseXy, inverseYy;  // Hessian
 
     Each2 best;
     Each cost;
     Each2 descent;  // right-hand side of the Gauss-Newton step
 
-    Each2 trial;  // the vector that is tried next
-    Each active;  // 1: it is tried, and after that: it was better; else 0
+    Each2 trial;  // the vector to be tried next
+    Each active;  // 1: trial pending, then: trial was better; else 0
 
     HWY_INLINE void add(int c, int r) {
         column[count] = c;
@@ -60,7 +61,8 @@ struct Batch {
     }
 };
 
-/// The patches of the batch's cells, and what does not depend on where they are sought.
+/// Loads the patches of the batch's cells and what does not depend on the position in the other
+/// picture.
 HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch) {
     for (int i = 0; i < batch.count; ++i)
         loadPatch(p, batch.column[i], batch.row[i], i, batch.patch[i], sums);
@@ -87,8 +89,7 @@ HWY_INLINE void loadPatches(const PatchPicture& p, PatchSums& sums, Batch& batch
     }
 }
 
-/// Takes the trials that are active and fit better than the best so far; the others are active no
-/// more.
+/// Accepts active trials that fit better than the best so far; deactivates the others.
 HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
     const Cells d;
     const auto noise = hn::Set(d, params::kPatchNoise), zero = hn::Zero(d), one = hn::Set(d, 1.0F);
@@ -119,7 +120,7 @@ HWY_INLINE void takeBetter(const CompareSums& sums, Batch& batch) {
     }
 }
 
-/// The active cells of a batch, found without a branch on each.
+/// Indices of a batch's active cells, found without a branch per cell.
 struct ActiveCells {
     int count = 0;
     int cell[kBatch];
@@ -132,7 +133,7 @@ struct ActiveCells {
     }
 };
 
-/// Compares the active cells with their trials by compare(cell), and takes what fits better.
+/// Compares the active cells' trials by compare(cell), and accepts better ones.
 template <class Compare>
 HWY_INLINE void tryActive(const Compare& compare, const CompareSums& sums, Batch& batch) {
     const ActiveCells active(batch);
@@ -142,8 +143,8 @@ HWY_INLINE void tryActive(const Compare& compare, const CompareSums& sums, Batch
     takeBetter(sums, batch);
 }
 
-/// One Gauss-Newton step of the active cells becomes their trial, at most a pixel long; they are
-/// active no more where it is too short.
+/// Sets the trials of the active cells to one Gauss-Newton step, at most a pixel long; deactivates
+/// cells whose step is too short.
 HWY_INLINE void stepActive(Batch& batch) {
     const Cells d;
     const auto one = hn::Set(d, 1.0F);

@@ -1,6 +1,6 @@
-// What is summed over an 8x8 patch of one luma level and the pixels of another: patch.glsl in
-// integers. Included once for each instruction set.
-// Pixels are kept less 128, so that sums of squares fit 32 bits: offsets cancel in every result.
+// Sums over an 8x8 patch of one luma level and the pixels of another: patch.glsl in integers.
+// Included once for each instruction set. Pixels are kept less 128, so that sums of squares fit
+// into 32 bits: the offsets cancel in every result.
 #if defined(MFAR_PATCH_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MFAR_PATCH_INL_H
 #undef MFAR_PATCH_INL_H
@@ -36,8 +36,8 @@ using Vec16 = hn::Vec<Row16>;
 using Vec32 = hn::Vec<Sum32>;
 constexpr int kRowLanes = HWY_TARGET == HWY_SCALAR ? 1 : kPatch;
 
-// Cells that are searched side by side: what follows a comparison is done for all at once, in
-// lanes of one cell each.
+// Cells that are searched together: the work after a comparison runs for all at once, one cell per
+// lane.
 constexpr int kBatch = 16;
 using Cells = hn::CappedTag<float, kBatch>;
 using CellsInt = hn::RebindToSigned<Cells>;
@@ -52,16 +52,16 @@ HWY_INLINE float bounded(float v, float low, float high) {
     return least < high ? least : high;
 }
 
-/// The patch of a cell: its pixels and twice its central differences.
+/// The patch of a cell: its pixels, and twice their central differences.
 struct alignas(64) Patch {
     std::int16_t pixels[64], gx[64], gy[64];
 };
 
-/// What sums over a patch's pixels come in: four parts of each cell's.
+/// Partial sums over a patch's pixels: four per cell.
 struct alignas(64) Parts {
     std::int32_t of[kBatch][4] = {};
 
-    /// In units of `unit`.
+    /// Sums for a vector of cells, in units of `unit`.
     [[nodiscard]] HWY_INLINE Vec sum(std::size_t i, float unit) const {
         const CellsInt d;
         hn::Vec<CellsInt> a, b, c, e;
@@ -71,13 +71,13 @@ struct alignas(64) Parts {
     }
 };
 
-/// Sum of products of 16-bit lanes of one row, or of two.
+/// Sum of products of 16-bit lanes, for one row or two.
 template <class D16>
 struct ProductSum {
     using D32 = hn::CappedTag<std::int32_t, HWY_MAX(hn::MaxLanes(D16()) / 2, 1)>;
     hn::Vec<D32> even, odd;
 
-    // Those that a compiler makes are for no instruction set.
+    // Explicit, because a compiler-generated constructor is not compiled for the instruction set.
     HWY_INLINE ProductSum() : even(hn::Zero(D32())), odd(hn::Zero(D32())) {}
     HWY_INLINE void add(hn::Vec<D16> a, hn::Vec<D16> b) {
         even = hn::ReorderWidenMulAccumulate(D32(), a, b, even, odd);
@@ -98,10 +98,11 @@ HWY_INLINE Vec16 loadPixels(const std::uint8_t* from) {
     return hn::PromoteTo(Row16(), hn::LoadU(Row8(), from));
 }
 
-/// Rows of pixels that may be read as they are; rows outside the picture repeat its border.
+/// Rows of pixels that may be read without bounds checks; rows outside the picture repeat its
+/// border.
 class PatchRows {
 public:
-    /// `rows` from `y` on, `bytes` from `x` on, up to kWidth.
+    /// `rows` rows from `y`, `bytes` bytes from `x`, up to kWidth.
     HWY_INLINE PatchRows(const PatchPicture& p, int x, int y, int rows, int bytes) {
         if (y >= 0 && y + rows <= p.height) {
             first_ = p.pixels + y * p.pitch + x;
@@ -129,7 +130,7 @@ private:
     std::uint8_t copy_[10 * kWidth];
 };
 
-/// What loadPatch() adds up.
+/// The sums of loadPatch().
 struct PatchSums {
     Parts a, x, y, aa, ax, ay, xx, xy, yy;
 };
@@ -166,7 +167,7 @@ HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, 
     ProductSum<Row16> sumA, sumX, sumY;
     for (int c = 0; c < kPatch; c += kRowLanes) {
         auto above = loadPixels(rows[0] + c + 1), here = loadPixels(rows[1] + c + 1);
-        // Eight times 255 at most.
+        // At most eight times 255.
         auto columnsA = hn::Zero(d16), columnsX = hn::Zero(d16), columnsY = hn::Zero(d16);
         for (int r = 0; r < kPatch; ++r) {
             const std::uint8_t* line = rows[r + 1] + c;
@@ -194,13 +195,13 @@ HWY_INLINE void loadPatch(const PatchPicture& p, int column, int row, int cell, 
     products.store(sums, cell);
 }
 
-/// Sums over the other picture's pixels, their squares, their products with the patch's pixels and
-/// gradients.
+/// Sums of the other picture's pixels, their squares, and their products with the patch's pixels
+/// and gradients.
 struct CompareSums {
     Parts b, bb, ab, xb, yb;
 };
 
-/// All of these but the first, by rows.
+/// All of these but the first, row by row.
 template <class D16>
 struct RowProducts {
     ProductSum<D16> bb, ab, xb, yb;
@@ -221,7 +222,7 @@ struct RowProducts {
     }
 };
 
-/// Pixels between those of a row and their neighbours on the right, less 128.
+/// Interpolates a row's pixels and their right neighbours; result less 128.
 template <class D16>
 HWY_INLINE hn::Vec<D16> betweenColumns(hn::Vec<D16> here, hn::Vec<D16> next, hn::Vec<D16> right) {
     const auto step = hn::ShiftLeft<kValueBits>(hn::Sub(next, here));
@@ -240,7 +241,7 @@ HWY_INLINE hn::Vec<Rows16> loadTwoRows(const std::uint8_t* upper, const std::uin
                          hn::Combine(d8, hn::LoadU(Row8(), lower), hn::LoadU(Row8(), upper)));
 }
 
-/// Adds up the products of a patch with the pixels between rows of the other picture.
+/// Sums the products of a patch with pixels interpolated between rows of the other picture.
 HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_t across,
                           std::int16_t along, int cell, CompareSums& out) {
     const Rows16 d;
@@ -279,7 +280,7 @@ HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_
         for (int r = 0; r < kPatch; ++r) {
             const auto below = between(rows[r + 1] + c);
             const auto v = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
-            columns = hn::Add(columns, v);  // eight times 4096 at most
+            columns = hn::Add(columns, v);  // at most eight times 4096
             products.add(patch, kPatch * r + c, v);
             above = below;
         }
@@ -290,7 +291,8 @@ HWY_INLINE void addUpRows(const Patch& patch, const PatchRows& rows, std::int16_
 }
 #endif
 
-/// The patch against a level, displaced by u pixels. Positions outside are held at the border.
+/// Compares the patch with a level, displaced by u pixels. Positions outside are clamped to the
+/// border.
 HWY_INLINE void comparePatch(const Patch& patch, const PatchPicture& p, int column, int row,
                              Vector2 u, int cell, CompareSums& out) {
     const float x = bounded(static_cast<float>(kCellSize * column - 2) + u.x, -7.0F,

@@ -1,6 +1,6 @@
 #include "pipeline/simd/patch_flow.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_search.cpp"
 // clang-format off: in this order alone
@@ -16,13 +16,13 @@ namespace {
 constexpr int kMostRadius = 40;
 constexpr std::size_t kMostSide = 2 * kMostRadius + 1, kSideRoom = kMostSide + 15;
 
-/// Room for a batch and what is added up for it.
+/// A batch and its sums.
 struct SearchRoom {
     Batch batch;
     PatchSums patchSums;
     CompareSums sums;
 
-    /// Begins a batch of the cells that were added.
+    /// Begins a batch with the cells that were added.
     HWY_INLINE void load(const PatchPicture& from) {
         loadPatches(from, patchSums, batch);
         for (int i = 0; i < batch.count; ++i) {
@@ -40,7 +40,7 @@ struct SearchRoom {
     }
 };
 
-/// Trials that are not what was found already are active.
+/// Activates trials that differ from the best vector.
 HWY_INLINE void activateNew(Batch& batch) {
     const Cells d;
     for (std::size_t i = 0; i < kBatch; i += hn::Lanes(d)) {
@@ -51,7 +51,7 @@ HWY_INLINE void activateNew(Batch& batch) {
     }
 }
 
-/// Gauss-Newton steps of the active cells, as long as each fits better.
+/// Gauss-Newton steps of the active cells, as long as each improves the fit.
 HWY_INLINE void refine(const PatchPicture& to, int steps, SearchRoom& room) {
     for (int k = 0; k < steps; ++k) {
         stepActive(room.batch);
@@ -65,7 +65,7 @@ HWY_INLINE Vector2 vectorOf(const FlowPlanes& field, int column, int row) {
     return {field.x[at], field.y[at]};
 }
 
-/// Sums of patches at whole pixels, a row of displacements at once.
+/// Sums of patches at whole pixels, for a row of displacements.
 struct WholeSums {
     alignas(64) float b[kSideRoom], bb[kSideRoom], ab[kSideRoom], cost[kSideRoom];
 };
@@ -94,7 +94,7 @@ HWY_INLINE void sumWhole(const Patch& patch, const PatchRows& rows, std::size_t 
     out.ab[at] = sum(ab);
 }
 
-/// The costs that takeBetter() finds, of each of `count` displacements.
+/// The costs of takeBetter() for each of `count` displacements.
 HWY_INLINE void costsOf(float patchMean, float patchVariance, std::size_t count, WholeSums& sums) {
     const Cells d;
     const auto mean = hn::Set(d, patchMean), variance = hn::Set(d, patchVariance);
@@ -113,12 +113,12 @@ HWY_INLINE void costsOf(float patchMean, float patchVariance, std::size_t count,
     }
 }
 
-/// The vector of one cell that fits best so far.
+/// The best vector of one cell so far.
 struct WholeBest {
     float x, y, cost;
 };
 
-/// Tries all displacements of a row; the first of the best is taken.
+/// Tries all displacements of a row; of equal costs the first wins.
 HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture& to, int firstDx,
                                int endDx, int dy, WholeSums& sums, WholeBest& best) {
     const int y = std::clamp(kCellSize * batch.row[cell] - 2 + dy, -7, to.height - 2);
@@ -138,8 +138,8 @@ HWY_INLINE void searchWholeRow(const Batch& batch, int cell, const PatchPicture&
     }
 }
 
-/// The square of displacements, from no motion on row by row around: it wins where nothing tells.
-/// What fits best becomes the trial.
+/// Tries a square of displacements, starting with no motion, which therefore wins without texture.
+/// The best becomes the trial.
 void searchWhole(Batch& batch, int cell, const PatchPicture& to, int radius) {
     WholeSums sums{};
     WholeBest best{batch.best.x.of[cell], batch.best.y.of[cell], batch.cost.of[cell]};
@@ -168,7 +168,7 @@ HWY_INLINE void tryPrior(const SearchStep& step, SearchRoom& room) {
     room.compare(step.to);
 }
 
-/// The coarser level's vectors around the cells: k-th of the four, the nearest first.
+/// The coarser level's vectors around the cells: the k-th of four, the nearest first.
 HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
     Batch& batch = room.batch;
     for (int i = 0; i < batch.count; ++i) {
@@ -182,7 +182,7 @@ HWY_INLINE void tryCoarser(const SearchStep& step, int k, SearchRoom& room) {
     room.compare(step.to);
 }
 
-/// Finds the vectors of the cells that were added to the batch.
+/// Finds the vectors of the batch's cells.
 void searchBatch(const SearchStep& step, SearchRoom& room) {
     room.load(step.from);
     if (step.prior.x != nullptr) tryPrior(step, room);
@@ -246,7 +246,7 @@ struct Offset {
 };
 constexpr Offset kBeside[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
 
-/// Does one of the cell's neighbours have another vector?
+/// Whether one of the cell's neighbours has a different vector.
 HWY_INLINE bool differsFromNeighbours(const FlowPlanes& field, int column, int row) {
     const Vector2 own = vectorOf(field, column, row);
     bool differs = false;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/patch_sums.cpp"
 #include <hwy/foreach_target.h>
@@ -15,16 +15,17 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Grey levels less 128 in 1/64: a patch's sum of squares fits four lanes of 32 bits.
+// Grey levels less 128 are kept in 1/64: a patch's sum of squares fits into four 32-bit lanes.
 constexpr float kOne = 64;
 constexpr float kPixels = params::kPatchPixels;
 constexpr int kRows = 8;
-constexpr int kChunk = 16;  // cells whose sums wait in four lanes each, to be added across cells
+constexpr int kChunk = 16;  // cells whose sums are kept in four lanes each until they are added
+                            // across cells
 
-/// Where the still's patch of each cell begins.
+/// First pixel of the still's patch of each cell.
 struct Origins {
     HWY_ALIGN std::array<std::int32_t, 2 * kChunk> x, y;
-    HWY_ALIGN std::array<std::int32_t, 2 * kChunk> fx, fy;  // in 2^-15, twice in 32 bits
+    HWY_ALIGN std::array<std::int32_t, 2 * kChunk> fx, fy;  // weights in 2^-15, twice in 32 bits
 };
 
 /// Four partial sums per cell.
@@ -132,7 +133,7 @@ HWY_INLINE V16 Between(V16 a, V16 b, V16 f) {
     return hn::Add(a, hn::MulFixedPoint15(hn::Sub(b, a), f));
 }
 
-/// Products are added pairwise, or first and second half apart, as the processor does it.
+/// Products are added in adjacent pairs or in halves, depending on the processor.
 struct Accumulator {
     V32 first, second;
 
@@ -151,7 +152,7 @@ HWY_INLINE V16 PerBlock(const std::int32_t* values) {
                        hn::TableLookupLanes(hn::LoadU(d, values), hn::SetTableIndices(d, cell)));
 }
 
-/// A row of the patch of each block's cell.
+/// Adds one row of the patch of each block's cell.
 template <class VideoRow, class StillRow>
 HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int first, V16 fx,
                         V16 fy, Partial& out) {
@@ -167,7 +168,7 @@ HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int 
     Accumulator a{zero, zero}, b = a, aa = a, ab = a, bb = a;
     V16 upper = level(0);
     for (int half = 0; half < 2; ++half) {
-        // Four rows fit 16 bits.
+        // Sums of four rows fit into 16 bits.
         V16 sumA = hn::Zero(d16), sumB = hn::Zero(d16);
         for (int row = 4 * half; row < 4 * half + 4; ++row) {
             const V16 p = Pixels(
@@ -192,8 +193,8 @@ HWY_INLINE void SumRows(const VideoRow& videoRow, const StillRow& stillRow, int 
     bb.store(&out.bb[to]);
 }
 
-/// Of kBlocks cells from `first` on, out of `count` of the chunk; `video`: rows at the chunk's
-/// first.
+/// Sums the patches of kBlocks cells from `first`, out of the chunk's `count` cells; `video`: rows
+/// at the chunk's first cell.
 HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& still, int first,
                            int count, const Origins& origins, Partial& out) {
     const V16 fx = PerBlock(&origins.fx[first]), fy = PerBlock(&origins.fy[first]);
@@ -202,7 +203,7 @@ HWY_INLINE void SumPatches(const std::uint8_t* const* video, const PatchLevel& s
     const std::uint8_t* at[kBlocks];
     bool inside = true;
     for (int i = 0; i < kBlocks; ++i) {
-        cell[i] = std::min(first + i, count - 1);  // those behind the last are not used
+        cell[i] = std::min(first + i, count - 1);  // results beyond the last cell are not used
         column[i] = 4 * static_cast<std::ptrdiff_t>(cell[i]);
         const int y = origins.y[cell[i]];
         inside = inside && y >= 0 && y + kRows < still.height;

@@ -1,6 +1,6 @@
-// Paths over windows of one vector of labels, in registers: a block of 16 bytes is a pixel's, a
-// vector has as many pixels as it has blocks. Path costs are kept as their complement, so that the
-// zeros that shifts and look-ups bring in from outside a window never win. Included once for each
+// Paths over windows of one vector of labels, in registers: a block of 16 bytes belongs to a pixel;
+// a vector holds as many pixels as blocks. Path costs are stored as their complement, so that the
+// zeros that shifts and look-ups insert outside a window never win. Included once for each
 // instruction set.
 #include "pipeline/simd/path_costs.h"
 
@@ -36,7 +36,7 @@ HWY_INLINE VBlocks<Blocks> everywhere(const std::array<std::uint8_t, 16>& bytes)
     return hn::LoadDup128(DBlocks<Blocks>(), bytes.data());
 }
 
-/// A block each from `Blocks` places that are `apart` bytes from each other.
+/// Loads `Blocks` blocks that are `apart` bytes from each other.
 template <int Blocks>
 HWY_INLINE VBlocks<Blocks> loadApart(const std::uint8_t* from, std::ptrdiff_t apart) {
     if constexpr (Blocks == 1)
@@ -58,7 +58,7 @@ HWY_INLINE void storeApart(VBlocks<Blocks> v, std::uint8_t* to, std::ptrdiff_t a
     }
 }
 
-/// What paths of single vectors need, in registers.
+/// Constants in registers for paths of single vectors.
 template <int Blocks>
 class Stepper {
 public:
@@ -77,7 +77,7 @@ public:
         block_ = hn::Load(d_, blocks.data());
     }
 
-    /// One byte of each block's own, in all of its lanes.
+    /// Spreads one byte per block to all lanes of that block.
     HWY_INLINE V spread(const std::uint8_t* bytes) const {
         if constexpr (Blocks == 1) {
             return hn::Set(d_, bytes[0]);
@@ -89,8 +89,8 @@ public:
         }
     }
 
-    /// The complement of path costs after a step, from those before it. `shifts`: of the windows,
-    /// `jumps`: penalties, a byte each block.
+    /// Advances the complement of path costs by one step. `shifts` (motion of the window) and
+    /// `jumps` (penalties): one byte per block.
     HWY_INLINE V advance(V path, const std::uint8_t* shifts, const std::uint8_t* jumps,
                          V cost) const {
         std::uint32_t moved = 0;
@@ -109,7 +109,7 @@ public:
         return hn::Add(sum, hn::Not(greatest(sum)));
     }
 
-    /// Bytes of a block by place; 0 for places outside of it.
+    /// Bytes of a block by index; 0 for indices outside of it.
     HWY_INLINE V taken(V block, V place) const {
         const hn::RebindToSigned<D> dSigned;
         const auto at = hn::BitCast(dSigned, place);
@@ -118,7 +118,7 @@ public:
     }
 
 private:
-    /// The greatest byte of each block, in all of its lanes.
+    /// The largest byte of each block, in all of its lanes.
     HWY_INLINE V greatest(V v) const {
         const hn::Repartition<std::uint32_t, D> words;
         v = hn::Max(v, hn::BitCast(d_, hn::Shuffle1032(hn::BitCast(words, v))));
@@ -133,13 +133,13 @@ private:
     V one_, places_, byTwo_, byOne_, block_;
 };
 
-/// What lies between neighbours: the penalty of a jump, and how far the window moves.
+/// Differences between neighbours: the penalty of a jump, and the motion of the window.
 class Neighbours {
 public:
     explicit Neighbours(const PathVolume& volume)
         : jumps_(volume.jumps), chunks_((volume.jumpDifferences + 15) / 16) {}
 
-    /// Of `count` pixels, at most kMost, from those beside them. Writes whole vectors.
+    /// For `count` pixels, at most kMost, and their neighbours. Writes whole vectors.
     static constexpr int kMost = 64, kRoom = 2 * kMost;
     HWY_INLINE void penalties(const std::uint8_t* to, const std::uint8_t* from, int count,
                               std::uint8_t* out) const {
@@ -159,7 +159,7 @@ public:
                     hn::StoreU(jump, d, out + i);
                 });
     }
-    /// Held within one more than a window.
+    /// Clamped to one more than a window.
     HWY_INLINE static void shifts(const std::int16_t* to, const std::int16_t* from, int count,
                                   std::uint8_t* out) {
         for (int i = 0; i < count; ++i)
@@ -187,13 +187,13 @@ private:
     int chunks_;
 };
 
-/// The neighbours of a run of pixels in `Blocks` rows, interleaved.
+/// Penalties and shifts for a run of pixels in `Blocks` rows, interleaved.
 template <int Blocks>
 struct RunOfRows {
     HWY_ALIGN std::uint8_t jumps[Neighbours::kMost * 4], shifts[Neighbours::kMost * 4];
 
-    /// Pixels [x, x + count) of rows from y on, each beside the one `toFrom` before or behind it;
-    /// one without a neighbour stands beside itself.
+    /// Pixels [x, x + count) of rows from y, each with its neighbour at offset `toFrom`; a pixel
+    /// without a neighbour takes itself.
     HWY_INLINE void fill(const Neighbours& between, const PathVolume& v, int x, int count, int y,
                          int toFrom) {
         HWY_ALIGN std::uint8_t jump[4][Neighbours::kRoom] = {}, shift[4][Neighbours::kRoom] = {};
@@ -227,7 +227,8 @@ private:
     }
 };
 
-/// Both directions at once, as each step waits for the one before: two chains fill the processor.
+/// Both directions at once: each step waits for the one before, so two chains keep the processor
+/// busy.
 template <int Blocks>
 HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     static_assert(Blocks == 1 || Blocks == 2 || Blocks == 4);
@@ -263,7 +264,7 @@ HWY_INLINE void blocksAlongRows(const PathVolume& v, int y) {
     }
 }
 
-/// The cheapest labels of sums that lack one path, which is there as its complement.
+/// The cheapest labels of sums that lack one path, which is given as its complement.
 template <int Blocks>
 HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
                           VBlocks<Blocks> path, const std::int16_t* base, Valley* out) {
@@ -274,7 +275,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     const auto a = hn::BitCast(d16, sums), b = hn::BitCast(d16, hn::Not(path));
     const auto odds = [&](auto v) HWY_ATTR { return hn::And(hn::ShiftRight<8>(v), byte); };
     const auto even = hn::Add(hn::And(a, byte), hn::And(b, byte)), odd = hn::Add(odds(a), odds(b));
-    // The lesser sum wins, and of the same sums the lesser label.
+    // The smallest sum wins; of equal sums, the smallest label.
     const auto places =
         hn::BitCast(d16, everywhere<Blocks>({0, 0, 2, 0, 4, 0, 6, 0, 8, 0, 10, 0, 12, 0, 14, 0}));
     const auto evenKey = hn::Or(hn::ShiftLeft<4>(even), places);
@@ -302,7 +303,7 @@ HWY_INLINE void valleysOf(const Stepper<Blocks>& stepper, VBlocks<Blocks> sums,
     }
 }
 
-/// The path costs of a strip of columns, which all go down or up together.
+/// The path costs of a strip of columns, which advance together, down or up.
 class BlockColumns {
 public:
     BlockColumns(const PathVolume& volume, int first, int last)

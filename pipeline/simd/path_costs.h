@@ -8,35 +8,36 @@
 
 namespace mfar::simd {
 
-inline constexpr int kLabels = 16;  ///< of a vector of labels
+inline constexpr int kLabels = 16;  ///< number of labels in a vector
 
-/// The cheapest of a pixel's labels, and by how much those beside it are dearer.
+/// The cheapest of a pixel's labels, and how much more the neighbouring labels cost.
 struct Valley {
     static constexpr std::uint8_t kUnknown = 255;  ///< outside the window
 
     std::int32_t label = 0;
-    /// Of label - 2, label - 1, label + 1 and label + 2: at most 254, or kUnknown.
+    /// For label - 2, label - 1, label + 1 and label + 2: at most 254, or kUnknown.
     std::array<std::uint8_t, 4> rise{};
 };
 
 /// A picture whose pixels have `vectors` vectors of labels each; rows without gaps. Costs and
-/// penalties are so small that a path's cost stays below 85.
+/// penalties must be so small that a path's cost stays below 85.
 struct PathVolume {
-    const std::uint8_t* guide;  ///< the picture whose edges allow jumps
+    const std::uint8_t* guide;  ///< the picture whose edges make jumps cheaper
     const std::int16_t* base;   ///< first label of every pixel
     Size size;
     int vectors;
-    std::uint8_t step;          ///< penalty of one label's difference
-    int jumpDifferences;        ///< jumps are the same from this difference of the guide on
-    const std::uint8_t* jumps;  ///< of more, by the difference of the guide: 256
-    const std::uint8_t* costs;  ///< kLabels * vectors a pixel
-    std::uint8_t* sums;         ///< as many: of the paths
+    std::uint8_t step;          ///< penalty for a difference of one label
+    int jumpDifferences;        ///< from this difference of the guide the jump penalty is constant
+    const std::uint8_t* jumps;  ///< penalty of larger differences, by the difference of the guide:
+                                ///< 256 entries
+    const std::uint8_t* costs;  ///< kLabels * vectors per pixel
+    std::uint8_t* sums;         ///< sums of the paths, as many as costs
 };
 
-/// Rows and columns that are fastest together: boundaries between threads at multiples of them.
+/// Fastest numbers of rows and columns: threads should split the work at multiples of them.
 inline constexpr int kRowsTogether = 4, kColumnsTogether = 32;
 
-/// Bytes of scratch that the paths of these columns, or of any rows, need; none for paths that stay
+/// Bytes of scratch for the paths of these columns, or of any number of rows; 0 for paths that stay
 /// in registers.
 [[nodiscard]] std::size_t pathScratch(int vectors, int columns);
 

@@ -1,5 +1,5 @@
-// Paths over windows of several vectors of labels, as the coarsest level has them, in memory with
-// room on both sides. Included once for each instruction set.
+// Paths over windows of several vectors of labels, as at the coarsest level, in memory with margins
+// on both sides. Included once for each instruction set.
 #include "pipeline/simd/path_costs.h"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A label that the last pixel's window has not finds this beside the labels, which never wins.
+/// Value in the margins around the labels, for labels outside the last pixel's window: it never
+/// wins.
 constexpr std::uint8_t kNever = 200;
 
-/// Such bytes on either side of a pixel's labels: room for a window that has none of the last's,
-/// nor a neighbour of them.
+/// Size of the margin on either side: enough for a window that shares no label with the last one.
 HWY_INLINE std::size_t marginOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * (vectors + 1);
 }
@@ -30,8 +30,8 @@ HWY_INLINE std::size_t strideOf(int vectors) {
     return static_cast<std::size_t>(kLabels) * vectors + 2 * marginOf(vectors);
 }
 
-/// One step of a path: `from` = the last pixel's path costs, `shift` = difference of the windows.
-/// Path costs are kept less their least, so that they are bounded and the sums comparable.
+/// One step of a path: `from`: path costs of the last pixel, `shift`: difference of the windows.
+/// The smallest path cost is subtracted, so that costs are bounded and the sums comparable.
 HWY_INLINE void windowStep(const std::uint8_t* from, int shift, std::uint8_t stepPenalty,
                            std::uint8_t jumpPenalty, const std::uint8_t* cost, std::uint8_t* to,
                            int labels) {
@@ -61,7 +61,7 @@ HWY_INLINE void addLabels(const std::uint8_t* path, int labels, std::uint8_t* su
         hn::StoreU(hn::Add(hn::LoadU(d, sums + k), hn::LoadU(d, path + k)), d, sums + k);
 }
 
-/// From pixel `from` to pixel `to`, which lie beside each other or are the same.
+/// Step from pixel `from` to pixel `to`, which are adjacent or the same.
 HWY_INLINE void windowMove(const PathVolume& v, std::ptrdiff_t from, std::ptrdiff_t to,
                            const std::uint8_t* last, std::uint8_t* now) {
     const int labels = kLabels * v.vectors;

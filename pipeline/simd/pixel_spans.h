@@ -11,10 +11,10 @@ struct PixelSpan {
     bool operator==(const PixelSpan&) const = default;
 };
 
-/// Spans of a row, ascending, that neither touch nor overlap.
+/// Spans of a row, ascending, neither touching nor overlapping.
 using PixelSpans = std::vector<PixelSpan>;
 
-/// Adds a span that begins no earlier than the last.
+/// Adds a span that does not begin before the last.
 inline void append(PixelSpans& spans, const PixelSpan& added) {
     if (!spans.empty() && added.begin <= spans.back().end)
         spans.back().end = std::max(spans.back().end, added.end);
@@ -22,7 +22,7 @@ inline void append(PixelSpans& spans, const PixelSpan& added) {
         spans.push_back(added);
 }
 
-/// Does each of these pixels lie in `spans`?
+/// Whether all of these pixels lie in one of the `spans`.
 [[nodiscard]] inline bool contains(const PixelSpans& spans, const PixelSpans& pixels) {
     return std::ranges::all_of(pixels, [&](const PixelSpan& some) {
         return std::ranges::any_of(spans, [&](const PixelSpan& span) {

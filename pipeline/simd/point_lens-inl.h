@@ -30,7 +30,7 @@ HWY_INLINE Triples<V> Transformed(D d, const PointTransform& T, const Triples<V>
     return {row(T.rows[0]), row(T.rows[1]), row(T.rows[2])};
 }
 
-/// Pixels (x, y) of points of z > 0.
+/// Pixels (x, y) of points with z > 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Triples<V> PixelsOf(D d, const PointLens& lens, const Triples<V>& p) {
     const auto set = [d](float v) HWY_ATTR { return hn::Set(d, v); };

@@ -5,12 +5,12 @@
 
 namespace mfar::simd {
 
-/// LensProjection in single precision: projects points before the camera [m] to pixels.
+/// LensProjection in single precision: projects points in front of the camera [m] to pixels.
 struct PointLens {
     float fx = 1, fy = 1, cx = 0, cy = 0;          ///< [px]
     float k1 = 0, k2 = 0, p1 = 0, p2 = 0, k3 = 0;  ///< as CameraModel::distortion
-    float rim = 1;                                 ///< radius of the outermost ray of the model
-    float rimRadial = 1;                           ///< radial factor of the distortion there
+    float rim = 1;                                 ///< radius of the model's outermost ray
+    float rimRadial = 1;                           ///< radial distortion factor there
     float nearest = 0.01F;                         ///< least z [m]
 };
 
@@ -30,7 +30,7 @@ struct Point3 {
     return {row(T.rows[0]), row(T.rows[1]), row(T.rows[2])};
 }
 
-/// (w u, w v, w) as lens_projection.glsl gives it: pixel (u, v), w = z of any sign.
+/// (w u, w v, w), as lens_projection.glsl: pixel (u, v), w = z of either sign.
 [[nodiscard]] inline Point3 projected(const PointLens& lens, const Point3& p) {
     const float r = std::sqrt(p.x * p.x + p.y * p.y);
     const bool within = p.z * lens.rim > r;

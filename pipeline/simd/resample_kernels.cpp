@@ -1,6 +1,6 @@
 #include "pipeline/simd/resample_kernels.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/resample_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -14,8 +14,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using F = hn::ScalableTag<float>;
 using I = hn::RebindToSigned<F>;
 
-/// Lanes source[index[i]] of a vector whose first index is the least. Indices ascend slowly, so
-/// that they lie in a few vectors from there on: permuting these is faster than a gather.
+/// Gathers source[index[i]] for ascending indices. They ascend slowly, so they lie in a few vectors
+/// from the first index, and permuting these is faster than a gather.
 class Window {
 public:
     explicit Window(const std::int32_t* first)

@@ -5,29 +5,27 @@
 
 namespace mfar::simd {
 
-/// See RowTaps, which makes and owns it.
+/// A resampling table; RowTaps makes and owns it.
 struct TapTable {
-    const std::int32_t* first;  ///< ascending; 64 bytes behind the end repeat the last
-    const float* weights;       ///< a row per tap
+    const std::int32_t* first;  ///< ascending; 64 bytes after the end repeat the last entry
+    const float* weights;       ///< one row per tap
     std::ptrdiff_t pitch;       ///< floats from one row of weights to the next
     int taps;
 };
 
-// Entries [begin, end) of a resampled row. Reads up to 64 bytes behind the source's end, writes up
-// to as many behind `end`.
+// Entries [begin, end) of a resampled row. Reads up to 64 bytes beyond the source's end and writes
+// up to 64 bytes beyond `end`.
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, float* to);
-/// Times `scale`, rounded.
+/// Result times `scale`, rounded.
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, float scale,
                  std::int16_t* to);
-/// Rounded and clamped.
+/// Result rounded and clamped.
 void resampleRow(const float* source, const TapTable& taps, int begin, int end, std::uint8_t* to);
 
-/// Entries [begin, end) of the sum of rows, each times its weight. Reads and writes up to 64 bytes
-/// behind `end`.
+/// Entries [begin, end) of a weighted sum of rows. Reads and writes up to 64 bytes beyond `end`.
 void weighRows(const std::int16_t* const* rows, const float* weights, int number, int begin,
                int end, float* to);
-/// Entries [0, count) of the sum of rows, each times its weight. Reads and writes up to 64 bytes
-/// behind their ends.
+/// Entries [0, count) of a weighted sum of rows. Reads and writes up to 64 bytes beyond their ends.
 void weighRows(const std::uint8_t* const* rows, const float* weights, int number, int count,
                float* to);
 

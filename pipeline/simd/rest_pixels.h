@@ -9,7 +9,7 @@
 
 namespace mfar::simd {
 
-/// A pixel of the layer as it was looked up.
+/// Result of looking up a pixel of the layer.
 struct RestPixel {
     std::uint32_t colour;  ///< RGBA8 premultiplied
     float depth;
@@ -17,9 +17,9 @@ struct RestPixel {
     std::optional<Hole> hole;  ///< without its index
 };
 
-/// Pixels that need more than lookUpRow() does: edges, covered by quarters, and what the reference
-/// does not show, which the patches may. Objects and the shadow on the real surface are two layers,
-/// the latter below (warp_rest.comp).
+/// Pixels for which lookUpRow() is not enough: edges, covered by quarters, and pixels that the
+/// reference picture does not show but the re-rendered patches may. Objects and the shadow on the
+/// real surface are two layers, the shadow below (warp_rest.comp).
 class RestPixels {
 public:
     RestPixels(const ViewLookUp::Input& input, const WarpReference& reference,
@@ -33,7 +33,7 @@ public:
         PaintWords paint;
     };
     [[nodiscard]] RestPixel at(const Asked& asked) const;
-    /// Some picture knows light without paint.
+    /// Whether any picture stores light without paint.
     [[nodiscard]] bool needsPaint() const;
 
 private:
@@ -44,7 +44,7 @@ private:
     struct View {
         std::span<const WarpSurface> surfaces;
         std::span<const std::array<std::uint8_t, 4>> colours;
-        std::span<const LightWords> lights;  ///< empty: colours alone are known
+        std::span<const LightWords> lights;  ///< empty: only colours are known
         Size size;
         PointTransform fromCamera;
         const PointLens* lens;
@@ -52,7 +52,7 @@ private:
     };
 
     static bool inView(const View& view, const Point3& point, Point3& at);
-    /// What of a surface is asked for.
+    /// The surface to look up.
     struct Wanted {
         Point3 point;
         float id;

@@ -6,7 +6,8 @@
 
 namespace mfar::simd {
 
-/// Scratch memory for the parts of a loop in threads: as many as run at a time, made once.
+/// Scratch memory for the parts of a threaded loop: one slot per part that runs at a time,
+/// allocated once.
 template <class T>
 class ScratchSlots {
 public:
@@ -21,7 +22,7 @@ public:
         for (Slot& slot : slots_)
             body(slot.scratch);
     }
-    /// Calls back with scratch memory that nobody else uses meanwhile.
+    /// Calls `body` with scratch memory that no other thread uses meanwhile.
     template <class Body>
     void with(const Body& body) {
         for (;;) {

@@ -1,7 +1,7 @@
 #include "pipeline/engine/params/luma.h"
 #include "pipeline/simd/luma_kernels.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/still_footprint.cpp"
 #include <algorithm>
@@ -23,7 +23,7 @@ struct Ray {
     Vec x, y;
 };
 
-/// base/geometry.h's lens model.
+/// The lens model of base/geometry.h.
 HWY_INLINE Ray distorted(const float* distortion, const Ray& p) {
     const Floats d;
     const auto k = [&](int i) HWY_ATTR { return hn::Set(d, distortion[i]); };
@@ -36,7 +36,7 @@ HWY_INLINE Ray distorted(const float* distortion, const Ray& p) {
     return {hn::MulAdd(p.x, radial, across), hn::MulAdd(p.y, radial, down)};
 }
 
-/// Fixed-point iterations, as camera.glsl has them.
+/// Fixed-point iterations, as in camera.glsl.
 HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
     const Floats d;
     const auto most = hn::Set(d, 0.5F), least = hn::Set(d, -0.5F);
@@ -50,11 +50,11 @@ HWY_INLINE Ray undistorted(const float* distortion, const Ray& target) {
 }
 
 constexpr int kTaps = params::kFootprintTaps;
-// Shares of a pixel, two of which times a pixel fit 32 bits with room to add.
+// Weights of pixels: a pixel times two of them fits into 32 bits with room for sums.
 constexpr int kShareBits = 14;
 constexpr float kShare = 1 << kShareBits;
 
-/// The taps of one axis: first pixels, and shares of the pixels after those.
+/// The taps of one axis: first pixels, and weights of the next pixels.
 struct Taps {
     int first[kTaps], share[kTaps];
 };
@@ -63,7 +63,7 @@ HWY_INLINE void placeTaps(float centre, float footprint, int size, Taps& out) {
     for (int i = 0; i < kTaps; ++i) {
         const float off = (static_cast<float>(i) + 0.5F) / kTaps - 0.5F;
         const float at = centre + off * footprint;
-        // Far outside and NaN: at the border.
+        // Clamps positions far outside, and NaN, to the border.
         const float held = at > -1 ? std::min(at, static_cast<float>(size)) : -1.0F;
         const float whole = std::floor(held);
         out.first[i] = static_cast<int>(whole);
@@ -94,10 +94,10 @@ std::uint8_t footprintMean(const StillPicture& p, const Taps& x, const Taps& y) 
 }
 
 #if HWY_TARGET != HWY_SCALAR
-// Pixels of a row that all taps of a footprint lie in, at most.
+// Upper limit of the pixels of a row that the taps of a footprint span.
 constexpr int kWindow = 16;
 constexpr float kMostFootprint = 16;
-// Grey levels between two rows are kept in 1/16.
+// Values between two rows are kept in 1/16 grey level.
 constexpr int kValueBits = 4;
 using Four = hn::FixedTag<float, kTaps>;
 using FourInt = hn::FixedTag<std::int32_t, kTaps>;
@@ -116,14 +116,14 @@ struct TapLanes {
     }
 };
 
-/// The pixels left and right of each tap of a row.
+/// The pixels left and right of each tap in a row.
 HWY_INLINE hn::Vec<Taps16> tapsOf(const std::uint8_t* window,
                                   hn::VFromD<hn::FixedTag<std::uint8_t, 2 * kTaps>> at) {
     const hn::FixedTag<std::uint8_t, kWindow> dWindow;
     return hn::PromoteTo(Taps16(), hn::TableLookupBytes(hn::LoadU(dWindow, window), at));
 }
 
-/// Four parts of the sum over a footprint whose window lies within the still.
+/// Four partial sums over a footprint whose window lies within the still.
 HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLanes& y, int left,
                           std::int32_t* parts) {
     const Taps16 d16;
@@ -150,7 +150,7 @@ HWY_INLINE void sumWindow(const StillPicture& p, const TapLanes& x, const TapLan
     hn::StoreU(hn::Add(sum, sum1), dInt, parts);
 }
 
-/// Rounded means from the parts of the sums of `count` pixels.
+/// Rounded means from the partial sums of `count` pixels.
 HWY_INLINE void storeMeans(const std::int32_t (*parts)[4], int count, std::uint8_t* to) {
     const Floats d;
     const hn::RebindToSigned<Floats> dInt;
@@ -211,7 +211,7 @@ void FootprintRow(const StillPicture& still, float footprint, const float* still
     const auto offsets = hn::Mul(hn::Sub(hn::Iota(d, 0.5F), hn::Set(d, kTaps / 2.0F)),
                                  hn::Set(d, footprint / kTaps));
     const float reach = footprint * (kTaps - 1) / (2 * kTaps);
-    // NaN is within nothing.
+    // False for NaN.
     const auto within = [&](float q, int room, int size) {
         return q - reach >= 0 && q - reach + static_cast<float>(room) <= static_cast<float>(size) &&
                q + reach + 2 <= static_cast<float>(size);

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/still_kernels.cpp"
 #include <hwy/foreach_target.h>
@@ -21,7 +21,7 @@ HWY_INLINE hn::Vec<I16> LoadWide(const std::uint8_t* from) {
     return hn::PromoteTo(I16(), hn::LoadU(U8(), from));
 }
 
-/// Of 1/32 grey level, rounded and clamped.
+/// Converts 1/32 grey level to bytes, rounded and clamped.
 HWY_INLINE hn::Vec<U8> Bytes(hn::Vec<I16> fixed) {
     return hn::DemoteTo(U8(), hn::ShiftRight<5>(hn::Add(fixed, hn::Set(I16(), 16))));
 }
@@ -33,7 +33,8 @@ HWY_INLINE hn::Vec<U8> LumaOf(hn::Vec<I16> y, const std::int16_t* chroma, const 
     return Bytes(chroma == nullptr ? sum : hn::Add(sum, hn::LoadU(d, chroma)));
 }
 
-/// Whole vectors of `step` bytes a pixel; the last from a copy, as cameras' rows have no padding.
+/// Whole vectors of `step` bytes per pixel; the last from a copy, because cameras' rows have no
+/// padding.
 template <int kStep, class Load>
 HWY_INLINE void LumaRows(const std::uint8_t* from, const std::int16_t* chroma, const LumaGain& by,
                          std::size_t pixels, std::uint8_t* luma, const Load& load) {
@@ -64,7 +65,7 @@ void LumaOfPairs(const std::uint8_t* yAndChroma, const std::int16_t* chroma, con
     });
 }
 
-/// [1/32 grey level]
+/// Result [1/32 grey level].
 HWY_INLINE hn::Vec<I16> Raised(const std::array<const std::uint8_t*, 3>& luma, hn::Vec<I16> share,
                                std::size_t x) {
     const std::uint8_t* at = luma[1] + x;
@@ -96,7 +97,8 @@ void PairRows(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t 
 
 void PackRow(const std::array<const std::uint8_t*, 3>& rgb, std::size_t pixels,
              std::uint32_t* rgba) {
-    // As many as fit in one vector of the result, which bounds what is written behind the end.
+    // As many pixels as fit into one vector of the result, which limits what is written beyond the
+    // end.
     const hn::Rebind<std::uint16_t, hn::ScalableTag<std::uint32_t>> d;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
     const std::size_t lanes = hn::Lanes(d);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/still_look_up.cpp"
 #include <hwy/foreach_target.h>
@@ -40,7 +40,7 @@ HWY_INLINE V StepTo(V target, V at) {
     return hn::Max(hn::Min(hn::Sub(target, at), Const(0.5F)), Const(-0.5F));
 }
 
-// As camera.glsl: fixed-point iterations, here until all lanes stand still.
+// As in camera.glsl: fixed-point iterations, here until all lanes have converged.
 HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     constexpr float kAtRest = 3e-7F;  // 0.001 px at a focal length of 3000 px
     const Point target{hn::Mul(hn::Sub(x, Const(lens.cx)), Const(1 / lens.fx)),
@@ -56,7 +56,7 @@ HWY_INLINE Point Unproject(const LensParams& lens, V x, V y) {
     return ray;
 }
 
-// Far outside where the ray points away from the still's scene.
+// Position in the still; far outside if the ray points away from the still's view.
 HWY_INLINE Point StillPixel(const LookUpParams& lookUp, V x, V y) {
     const Point ray = Unproject(lookUp.video, x, y);
     const auto turned = [&](int row) HWY_ATTR {
@@ -82,7 +82,7 @@ HWY_INLINE hn::Mask<D> Inside(const LensParams& lens, Point p) {
     return hn::And(x, hn::And(hn::Ge(p.y, zero), hn::Le(p.y, Const(lens.height - 1))));
 }
 
-// NaN becomes the least.
+// NaN becomes `least`.
 HWY_INLINE V Clamp(V value, float least, float most) {
     const V low = Const(least);
     return hn::IfThenElse(hn::Gt(value, low), hn::Min(value, Const(most)), low);
@@ -104,7 +104,7 @@ HWY_INLINE V Mix(V a, V b, V share) {
     return hn::MulAdd(hn::Sub(b, a), share, a);
 }
 
-/// The backward field at `q`, less its sign: what the way there and back again ends off by.
+/// Two-way error: the flow plus the backward field at its end `q`.
 HWY_INLINE V TwoWayError(const BackwardCells& backward, Point q, V flowX, V flowY) {
     const D d;
     const hn::RebindToSigned<D> di;

@@ -9,11 +9,11 @@
 
 namespace mfar::simd {
 
-/// A lens and the size of the picture behind it.
+/// A lens and the size of its picture.
 struct LensParams : params::Lens {
     explicit LensParams(const CameraModel& camera);
     float width, height;  ///< [px]
-    bool distorts;        ///< a coefficient of the distortion is not zero
+    bool distorts;        ///< whether a distortion coefficient is not zero
 };
 
 /// Two lenses and the rows of R_still_video.
@@ -24,9 +24,9 @@ struct LookUpParams {
     float scaleX, scaleY;  ///< still px per video px
 };
 
-/// Two-way errors: as a row that is known, or by the backward field.
+/// Two-way errors: a row of known errors, or the backward field to compute them from.
 struct BackwardCells {
-    const ErrorCell* errors = nullptr;  ///< of the row's first cell; null: by the field
+    const ErrorCell* errors = nullptr;  ///< for the row's first cell; null: use the field
     const FlowCell* field = nullptr;
     std::ptrdiff_t pitch = 0;  ///< cells
     int columns = 0, rows = 0;
@@ -36,19 +36,20 @@ struct BackwardCells {
 /// Splits a row of the flow into its two coordinates.
 void splitFlow(const FlowCell* cells, int count, float* x, float* y);
 
-/// Mean flow of 2x2 cells in pixels of the next coarser level. Reads 2 count cells.
+/// Mean flow of 2x2 cells, in pixels of the next coarser level. Reads 2 * count cells.
 void halveFlow(const float* upper, const float* lower, int count, float* out);
 
-/// A row of cells of the flow and of what its ends are in the still. Its memory is a multiple of
-/// 16 cells; what lies behind `count` is not used.
+/// A row of cells of the flow, and the results for where it ends in the still. The memory extends
+/// to a multiple of 16 cells; values beyond `count` are not used.
 struct LookUpRow {
     int row, count;
     const float *flowX, *flowY;  ///< [video px]
     float *lookX, *lookY;        ///< end of the flow less the scaled cell centre [still px]
-    float* confidence;           ///< eq. 2 with lambda(x) = min(x, 1); 0 outside of a picture
+    float* confidence;           ///< eq. 2 with lambda(x) = min(x, 1); 0 outside the still or the
+                                 ///< video
 };
 
-/// Where flow ends in the still and how well both fields agree (superres_assess.comp).
+/// Computes where flow ends in the still and how well both fields agree (superres_assess.comp).
 void lookUpCells(const LookUpParams& lookUp, const BackwardCells& backward, const LookUpRow& row);
 
 }  // namespace mfar::simd

@@ -8,10 +8,10 @@
 
 namespace mfar::simd {
 
-/// Rec. 601 luma of the R G B of a sound picture in any format, row by row.
+/// Rec. 601 luma of a valid picture's R G B in any format, row by row.
 class StillLuma {
 public:
-    /// What one thread needs for pictures of this width.
+    /// Scratch of one thread for pictures of this width.
     struct Scratch {
         explicit Scratch(int width) : half({width / 2 + 2, 1}), chroma({width, 1}) {}
         AlignedRows<float> half;
@@ -20,11 +20,11 @@ public:
 
     explicit StillLuma(const ImageView& picture);
 
-    /// Writes up to 64 bytes behind the row's end.
+    /// Writes up to 64 bytes beyond the row's end.
     void row(int y, Scratch& scratch, std::uint8_t* luma) const;
 
 private:
-    /// One sample of U or V after the other, `step` bytes apart.
+    /// Samples of U or V, `step` bytes apart.
     struct Samples {
         const std::uint8_t* data = nullptr;
         std::size_t stride = 0;

@@ -11,7 +11,7 @@
 namespace mfar::simd {
 namespace {
 
-constexpr int kStillGrain = 16;  // rows
+constexpr int kStillGrain = 16;  // rows per portion
 
 }  // namespace
 
@@ -77,7 +77,7 @@ void StillPreparation::keep(const ImageView& still) {
     unmade_ = to;
 }
 
-// One row of the result's columns into scratch.wide.
+// Resamples the columns of one row of the result into scratch.wide.
 template <class RowAt>
 void StillPreparation::weighColumn(const RowTaps& taps, int y, Size from, const RowAt& rowAt,
                                    Scratch& scratch) {

@@ -12,12 +12,12 @@
 namespace mfar::simd {
 namespace {
 
-constexpr std::size_t kBatch = 1024;  // triangles
+constexpr std::size_t kBatch = 1024;  // triangles per batch
 constexpr int kCornersAtATime = 2048;
 constexpr int kLeastBand = 16;  // rows
 constexpr int kBandsPerThread = 4;
-// Farther outside of the grid than that, a corner is clipped off [px]: single precision places
-// the others within a hundredth of a pixel.
+// Corners farther outside the grid are clipped [px]: for all others single precision is exact
+// within a hundredth of a pixel.
 constexpr float kGuard = 65536;
 
 }  // namespace
@@ -200,7 +200,7 @@ void SurfaceRaster::addSeen(Batch& batch, std::size_t triangle) {
     if (addTriangle(batch, c, index)) setPaint(*batch.placed, c, index);
 }
 
-/// False: nothing of it is seen.
+/// Returns false if the triangle is outside the grid or faces away.
 bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
                                 std::uint32_t index) const {
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
@@ -209,7 +209,7 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
         !(top < static_cast<float>(grid_.y1)) || !(bottom > static_cast<float>(grid_.y0)))
         return false;
     const SilhouetteModels::Part& part = *batch.placed->part->source;
-    // Clockwise in a picture whose first row is on top: what faces away.
+    // Clockwise, with the first row on top: the triangle faces away.
     if (!part.bothSides &&
         (c[1].x - c[0].x) * (c[2].y - c[0].y) >= (c[2].x - c[0].x) * (c[1].y - c[0].y))
         return false;
@@ -228,10 +228,10 @@ bool SurfaceRaster::addTriangle(Batch& batch, const RasterCorner (&c)[3],
     return true;
 }
 
-/// Of the triangle, or of a piece of it: its planes are the same.
+/// From the triangle or a piece of it: their planes are the same.
 void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
                              std::uint32_t index) {
-    if (placed.part->source->material == nullptr) return;  // the catcher
+    if (placed.part->source->material == nullptr) return;  // the catcher has no paint
     PaintTriangle& paint = paintTriangles_[index];
     const float area = doubleArea(c);
     paint.perZ = planeThrough(c, {c[0].perZ, c[1].perZ, c[2].perZ}, area);
@@ -241,7 +241,7 @@ void SurfaceRaster::setPaint(const Placed& placed, const RasterCorner (&c)[3],
 
 namespace {
 
-/// (w x, w y, w) on the grid, and what is linear there.
+/// (w x, w y, w) on the grid, and values that are linear in it.
 struct ClipCorner {
     float x, y, w, u, v;
 };
@@ -251,7 +251,7 @@ ClipCorner between(const ClipCorner& a, const ClipCorner& b, float share) {
     return {mix(a.x, b.x), mix(a.y, b.y), mix(a.w, b.w), mix(a.u, b.u), mix(a.v, b.v)};
 }
 
-/// Sutherland and Hodgman 1974: keeps what `inside` gives a value of 0 or more.
+/// Sutherland and Hodgman 1974: keeps the part where `inside` is 0 or more.
 template <class Inside>
 std::vector<ClipCorner> clipped(const std::vector<ClipCorner>& polygon, const Inside& inside) {
     std::vector<ClipCorner> out;
@@ -260,7 +260,7 @@ std::vector<ClipCorner> clipped(const std::vector<ClipCorner>& polygon, const In
         const float from = inside(a), to = inside(b);
         if (from >= 0) out.push_back(a);
         if ((from >= 0) == (to >= 0)) continue;
-        // The same place from both sides.
+        // The same point for both triangles at the edge.
         out.push_back(from >= 0 ? between(b, a, to / (to - from))
                                 : between(a, b, from / (from - to)));
     }

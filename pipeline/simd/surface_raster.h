@@ -16,27 +16,27 @@
 
 namespace mfar::simd {
 
-/// What of the virtual scene a camera sees now: the models and, below them, the real surface that
-/// catches their shadows, rasterised at twice the layer's resolution, so that a pixel is covered by
-/// quarters. The lens's distortion acts on the corners. No light; what the surfaces are painted
-/// with is looked up on demand. ModelSilhouette on the host's lanes.
+/// The visible surfaces of the virtual scene: the models and, below them, the real surface that
+/// catches their shadows, rasterised at twice the layer's resolution, so that a pixel has four
+/// quarters. The lens's distortion is applied to the corners. No light; paint is looked up on
+/// demand. ModelSilhouette on the CPU.
 class SurfaceRaster {
 public:
-    /// `layer`: the camera at the layer's resolution. Null workers: in the caller's thread alone.
+    /// `layer`: the camera at the layer's resolution. Null workers: runs in the caller's thread.
     SurfaceRaster(const CameraModel& layer, std::shared_ptr<Workers> workers);
 
     void setScene(const Scene& scene);
     [[nodiscard]] const SilhouetteModels& models() const { return models_; }
 
-    /// Draws within `where` [layer px]; what is elsewhere is not valid afterwards.
+    /// Draws within `where` [layer px]; pixels elsewhere become invalid.
     void draw(const RigidTransform& T_world_camera, const PixelRect& where);
-    /// Twice the layer's size: z and number, packed as warp_surface.glsl says; 0 = nothing. The
-    /// catcher's number is seen only where no object is, nearer or not.
+    /// At twice the layer's size: z and number, packed as in warp_surface.glsl; 0 = nothing. The
+    /// catcher's number appears only where no object is, whichever is nearer.
     [[nodiscard]] Rows<const std::uint32_t> surface() const { return words_.rows(); }
-    /// The paint of layer pixels `x0` to `x1` of row `y`, within what was drawn: factor times
-    /// texture over the pixel's footprint, averaged in linear light, as bytes of sRGB; 0 where no
-    /// object is. Of several objects in a pixel it is that of the one with most quarters, as
-    /// RestPixels looks it up. Writes up to 7 words beyond. From any thread.
+    /// The paint of layer pixels `x0` to `x1` of row `y`, within the drawn part: factor times
+    /// texture over the pixel's footprint, averaged in linear light, as sRGB bytes; 0 where no
+    /// object is. If a pixel shows several objects, the paint of the one with most quarters, as in
+    /// RestPixels. Writes up to 7 words beyond. Any thread may call it.
     void paintRow(int y, int x0, int x1, PaintWords* out) const;
 
 private:
@@ -56,13 +56,13 @@ private:
         AlignedRows<float> seen;  // corners on the grid
         PointTransform view{};
         bool isInView = false;
-        std::uint32_t firstTriangle = 0;  // among paintTriangles_
+        std::uint32_t firstTriangle = 0;  // index in paintTriangles_
     };
     struct Chunk {
         Placed* placed;
         int first, count;  // corners
     };
-    /// Triangles that are made ready in one go.
+    /// Triangles that are prepared together.
     struct Batch {
         const Placed* placed;
         std::size_t first, last;
@@ -86,7 +86,7 @@ private:
     std::deque<Placed> placed_;
     std::vector<Chunk> chunks_;
     std::vector<Batch> batches_;
-    PixelRect grid_;  // that is drawn
+    PixelRect grid_;  // the part that is drawn
     AlignedRows<std::uint32_t> words_, indices_;
     PaintTextures paint_;
     std::vector<PaintTriangle> paintTriangles_;  // of all objects

@@ -23,21 +23,22 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr float kRed = params::kLumaRed, kGreen = params::kLumaGreen, kBlue = params::kLumaBlue;
 
 constexpr int kSide = kTileSize / 2;  // of a tile [blocks of 2x2 pixels]
-constexpr int kCells = 4;             // likewise, cells of 2x2 blocks
+constexpr int kCells = 4;             // likewise [cells of 2x2 blocks]
 constexpr int kRowBlocks = kSide * kTileGroup;
 constexpr int kRowCells = kCells * kTileGroup;
 
-/// What a group of tiles is measured by, uninitialised behind its last tile: sums of blocks'
-/// pixels, and their twists (a - b - c + d), which is blind to slopes.
+/// Measurements of a group of tiles, uninitialised beyond its last tile: sums of the pixels of
+/// blocks, and their twists (a - b - c + d), which are 0 on slopes.
 struct Blocks {
     using Values = std::array<std::array<float, kRowBlocks>, kSide>;
     using CellSums = std::array<std::array<std::int32_t, kRowCells>, kCells>;
     HWY_ALIGN Values light;                 // 2x2 means of the video's luma
-    HWY_ALIGN Values rough;                 // half its twist, without sign
+    HWY_ALIGN Values rough;                 // half its twist, absolute value
     HWY_ALIGN Values lumaSum, lumaTwist;    // of the difference
     HWY_ALIGN CellSums redSum, blueSum;     // of the difference
-    HWY_ALIGN CellSums farthest, absolute;  // the largest channel's |sum| and sum of |difference|
-    // Sums of squared twists, four to a tile.
+    HWY_ALIGN CellSums farthest, absolute;  // the largest channel's |sum|, and the sum of
+                                            // |difference|
+    // Sums of squared twists, four per tile.
     HWY_ALIGN std::array<std::int32_t, kRowCells> redTwist, blueTwist;
 };
 
@@ -119,7 +120,7 @@ struct Block {
     V sum, twist, absolute;
 };
 
-/// A channel's pixels of two rows: a b over c d.
+/// A channel of the 2x2 pixels in two rows: a b above c d.
 template <class D>
 struct Quad {
     hn::Vec<D> a, b, c, d;
@@ -127,7 +128,7 @@ struct Quad {
 
 template <class D>
 HWY_INLINE Quad<D> ReadQuad(D d, const std::uint8_t* top, const std::uint8_t* bottom) {
-    // Two neighbours are the bytes of a word.
+    // Neighbours are the two bytes of a word.
     const hn::Repartition<std::uint8_t, D> d8;
     const auto low = hn::Set(d, 0xFF);
     const hn::RebindToUnsigned<D> du;
@@ -173,7 +174,7 @@ HWY_INLINE void StoreLuma(D, float scale, hn::Vec<D> red, hn::Vec<D> green, hn::
           to + hn::Lanes(df));
 }
 
-/// Sums of neighbours in one lane of 32 bits each.
+/// Sums neighbours into 32-bit lanes.
 template <class D>
 HWY_INLINE auto PairSums(D d, hn::Vec<D> v) {
     const hn::Repartition<std::int32_t, D> di;
@@ -182,7 +183,7 @@ HWY_INLINE auto PairSums(D d, hn::Vec<D> v) {
     return hn::Add(hn::ShiftRight<16>(hn::ShiftLeft<16>(pairs)), hn::ShiftRight<16>(pairs));
 }
 
-/// A vector of blocks, all rows of the tiles.
+/// Reads a vector of blocks in all rows of the tiles.
 template <class D>
 HWY_INLINE void ReadColumn(D d, const TilePixels& pixels, int x, Blocks& out) {
     const hn::Repartition<std::int32_t, D> di;
@@ -229,7 +230,7 @@ HWY_INLINE void ReadColumn(D d, const TilePixels& pixels, int x, Blocks& out) {
 }
 
 void ReadBlocks(const TilePixels& pixels, Blocks& out) {
-    // Vectors of whole tiles, then of one tile.
+    // Vectors of several whole tiles, then of one tile.
     const hn::CappedTag<std::int16_t, 4 * kSide> d;
     const hn::FixedTag<std::int16_t, kSide> tile;
     const int blocks = kSide * pixels.tiles, lanes = static_cast<int>(hn::Lanes(d));

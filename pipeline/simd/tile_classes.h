@@ -12,17 +12,17 @@
 
 namespace mfar::simd {
 
-/// Counts of a frame, as superres_classify.comp makes them.
+/// Counts for a frame, as in superres_classify.comp.
 struct TileSummary {
     std::array<int, kTileClasses> tiles{};  ///< count per TileClass
-    int unexplained = 0;                    ///< tiles that no still shows
-    int second = 0;                         ///< tiles that show the second still
-    /// Sum of eq. 2 over the cells of all tiles, in sixteenths, each tile's rounded down: 256 a
-    /// tile where all is sure. Zero without a still.
+    int unexplained = 0;                    ///< tiles explained by no still
+    int second = 0;                         ///< tiles in which the second still is shown
+    /// Sum of eq. 2 over the cells of all tiles, in sixteenths, rounded down per tile: 256 per
+    /// fully confident tile. Zero without a still.
     double confidence = 0;
 };
 
-/// Class of every tile of a frame; remembers which were unexplained when drawn last.
+/// Class of every tile of a frame; also remembers which tiles were unexplained when last drawn.
 class TileClasses {
 public:
     explicit TileClasses(Size video);
@@ -31,7 +31,7 @@ public:
     struct Skips {
         bool upscaledTiles, plainTiles;
     };
-    /// How a still matches; without data: there is none.
+    /// How a still matches; without data: no still.
     struct Match {
         Rows<const WeighedCell> weighed{};
         Rows<const TrustCell> trust{};
@@ -44,7 +44,7 @@ public:
         return classes_[static_cast<std::size_t>(row) * tiles_.width + column];
     }
 
-    /// Does some of the second still count for more than the first?
+    /// Whether the second still's share exceeds the first's somewhere in the tile.
     [[nodiscard]] bool showsSecond(int column, int row) const {
         return second_[static_cast<std::size_t>(row) * tiles_.width + column] != 0;
     }
@@ -55,8 +55,8 @@ private:
 
     Size tiles_;
     std::vector<TileClass> classes_;
-    std::vector<int> unexplained_;      // cells, per tile
-    std::vector<std::uint8_t> second_;  // flags, per tile
+    std::vector<int> unexplained_;      // unexplained cells per tile
+    std::vector<std::uint8_t> second_;  // flags per tile
     std::vector<TileSummary> rowSums_;  // per row of tiles
 };
 

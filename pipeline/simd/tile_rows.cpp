@@ -1,24 +1,27 @@
 #include "pipeline/simd/tile_rows.h"
 
-// Highway compiles what follows once for each instruction set.
+// Highway compiles the rest of this file once per instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/tile_rows.cpp"
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/tile_blocks-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr float kMeanToDeviation = 1.2533F;  // of the absolute value of a Gaussian
-// Of mean and both slopes, each squared over its variance: 1e-8 of tiles at rest are beyond.
+constexpr float kMeanToDeviation = 1.2533F;  // standard deviation / mean absolute value, for a
+                                             // Gaussian
+// Threshold for mean and both slopes, each squared over its variance: 1e-8 of unchanged tiles
+// exceed it.
 constexpr float kSurelyChanged = 40;
-// Of a cell's mean, likewise.
+// The same for a cell's mean.
 constexpr float kCellSurelyChanged = 30;
-constexpr float kByteRounding = 0.17F;  // variance of the difference of two pixels of 8 bits
+constexpr float kByteRounding = 0.17F;  // variance of the rounding of a difference of two 8-bit
+                                        // pixels
 
-// From here on a tile is a lane: sums run in the same order on every processor.
+// From here on each lane is a tile: sums are added in the same order on every processor.
 using D = hn::CappedTag<float, kTileGroup>;
 using V = hn::Vec<D>;
 
@@ -26,13 +29,13 @@ HWY_INLINE V Const(float value) {
     return hn::Set(D(), value);
 }
 
-/// Blocks of a row of tiles as vectors, one per column of a tile.
+/// Loads blocks of a row of tiles: one vector per column of a tile.
 HWY_INLINE void Columns(const float* row, V* out) {
     const D d;
     hn::LoadInterleaved4(d, row, out[0], out[1], out[2], out[3]);
     hn::LoadInterleaved4(d, row + 4 * hn::Lanes(d), out[4], out[5], out[6], out[7]);
 #if HWY_TARGET != HWY_SCALAR
-    // Halves of tiles alternate.
+    // The halves of tiles alternate.
     for (int i = 0; i < 4; ++i) {
         const V first = out[i], second = out[i + 4];
         out[i] = hn::ConcatEven(d, second, first);
@@ -44,7 +47,7 @@ HWY_INLINE void Columns(const float* row, V* out) {
 /// The 8x8 values of each tile.
 using Grid = V[kSide][kSide];
 
-/// What the plane through 4x4 of them leaves.
+/// Residual of a plane through 4x4 of the values.
 HWY_INLINE V BesidePlane(const Grid& values, int top, int left) {
     const V zero = hn::Zero(D());
     V sum = zero, squares = zero, slopeX = zero, slopeY = zero;
@@ -103,7 +106,7 @@ HWY_INLINE Moments MomentsOf(const Blocks::CellSums& sums, int tile) {
     return out;
 }
 
-/// Of the difference's luma.
+/// Sums over the luma of the difference.
 struct LumaDifference {
     V means, bends, noise;  // noise: sum of squared twists
     Moments moments;
@@ -145,7 +148,7 @@ HWY_INLINE V NoiseOf(const Blocks& blocks, int tile) {
     return hn::Mul(sum, Const(kMeanToDeviation / 64));
 }
 
-/// Variance of a cell's mean by noise.
+/// Variance of a cell's mean due to noise.
 HWY_INLINE V OfCell(V variance, float grain) {
     const V rounded = hn::Add(variance, Const(kByteRounding));
     return hn::Mul(hn::Mul(rounded, Const(1.0F / 16)), Const(grain));
@@ -185,7 +188,7 @@ HWY_INLINE auto ChangedCells(const Blocks& blocks, int tile, V noisiest,
     return out;
 }
 
-/// A vector of tiles' measures before they are written.
+/// Measurements of a vector of tiles before they are written.
 struct Measures {
     using Values = std::array<float, kTileGroup>;
     HWY_ALIGN std::array<std::int32_t, kTileGroup> cells;

@@ -8,9 +8,9 @@
 
 namespace mfar::simd {
 
-inline constexpr int kTileGroup = 16;  ///< tiles that are measured at a time
+inline constexpr int kTileGroup = 16;  ///< number of tiles measured at a time
 
-/// Tiles beside each other in both pictures: 16 bytes of each row per tile.
+/// Adjacent tiles in both pictures: 16 bytes of each row per tile.
 struct TilePixels {
     /// Rows of red, green and blue.
     using Channels = std::array<std::array<const std::uint8_t*, kTileSize>, 3>;
@@ -18,7 +18,7 @@ struct TilePixels {
     int tiles;  ///< up to kTileGroup
 };
 
-/// Measures each tile: the same bits on every processor.
+/// Measures each tile; bit-identical on every processor.
 void measureTileGroup(const TilePixels& pixels, const ChangeBounds& bounds, TileMeasure* out);
 
 }  // namespace mfar::simd

@@ -10,7 +10,7 @@
 
 namespace mfar::simd {
 
-/// Tiles of 16x16 px, row-major: 1 or 0.
+/// A flag (1 or 0) for each tile of 16x16 px, row-major.
 struct TileMask {
     Size size;
     std::vector<std::uint8_t> flags;
@@ -24,11 +24,13 @@ struct TileMask {
         return flags[static_cast<std::size_t>(y) * size.width + x];
     }
 };
-/// `out` (of the same size): tiles with a flag within `margin` tiles each way. `between`: room.
+/// `out` (of the same size): tiles with a flag within `margin` tiles in each direction. `between`:
+/// scratch.
 void widen(const TileMask& in, int margin, TileMask& between, TileMask& out);
 
-/// Finds the tiles that a field along epipolar lines does not explain, and for each pyramid level
-/// the groups of 4x4 cells that their 2-D search has to cover: flow_flag.comp and flow_list.comp.
+/// Finds the tiles whose motion a field along epipolar lines does not explain, and for each pyramid
+/// level the groups of 4x4 cells that their 2-D search has to cover: flow_flag.comp and
+/// flow_list.comp.
 class TileSearch {
 public:
     struct Group {
@@ -37,14 +39,14 @@ public:
 
     TileSearch(Size cells, int levels);
 
-    /// `noise` of the video [grey levels]; `errors`: two-way, row by row.
+    /// `noise`: of the video [grey levels]; `errors`: two-way errors, row by row.
     void find(const FlowPlanes& field, std::span<const ErrorCell> errors, double noise);
     void clear();
 
     [[nodiscard]] std::span<const Group> groups(int level) const {
         return groups_[static_cast<std::size_t>(level)];
     }
-    /// The same as groups(0), by tile.
+    /// groups(0) as a flag per tile.
     [[nodiscard]] const std::vector<bool>& tiles() const { return listed_; }
     [[nodiscard]] int count() const { return static_cast<int>(groups_[0].size()); }
 

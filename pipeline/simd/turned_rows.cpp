@@ -5,14 +5,14 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "pipeline/simd/turned_rows.cpp"
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 
 constexpr float kOutside = -1e6F;
-constexpr float kLeastDepth = 0.05F;  // of a ray of unit depth, after the turn
+constexpr float kLeastDepth = 0.05F;  // lower limit of the depth of a rotated ray of unit depth
 
 void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY, std::size_t count,
                   float* x, float* y) {
@@ -40,7 +40,7 @@ void TurnedPoints(const TurnedLens& lens, const float* raysX, const float* raysY
 using DPixels = hn::CappedTag<float, kTurnedCell>;
 using VPixels = hn::Vec<DPixels>;
 
-/// Reads pixels of a picture between four of them.
+/// Samples a picture bilinearly.
 class Sampler {
 public:
     explicit Sampler(const Rows<const std::uint8_t>& source)
@@ -62,7 +62,8 @@ private:
     using DInt = hn::RebindToSigned<DPixels>;
     using DBits = hn::RebindToUnsigned<DPixels>;
 
-    /// Words of four bytes from a pixel on, or from before it where that would read past the end.
+    /// Interpolates along a row. Loads four bytes from a pixel, or from earlier if that would read
+    /// past the end.
     HWY_INLINE VPixels between(hn::Vec<DInt> offset, VPixels share) const {
         const auto from = hn::Min(offset, hn::Set(dInt_, last_));
         const auto words =

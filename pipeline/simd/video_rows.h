@@ -12,20 +12,20 @@ struct VideoTaps {
     VideoTaps(Size video, Size output);
 
     RowTaps cubicRows, cubicColumns, linearRows, linearColumns;
-    RowTaps trustRows, trustColumns;  ///< of cells at the video's size
+    RowTaps trustRows, trustColumns;  ///< from cells to the video's size
 };
 
-/// Rows of the video, sharpened and at the output's width; makes each when it is asked for and
-/// keeps the last four. Scratch of one thread.
+/// Rows of the video, sharpened, at the output's width; computed on request, the last four are
+/// kept. Scratch of one thread.
 class VideoRows {
 public:
     VideoRows(Size video, int outputWidth);
 
-    /// Starts with a video, for pixels [begin, end) of the output alone. `trust` without data: it
-    /// is not sharpened.
+    /// Starts a video; only pixels [begin, end) of the output are computed. `trust` without data:
+    /// no sharpening.
     void begin(const RgbPlanes& video, Rows<const TrustCell> trust, const VideoTaps& taps,
                bool linear, int begin, int end);
-    /// Four rows no more than three apart.
+    /// Four rows, at most three apart.
     [[nodiscard]] EnlargedRows rows(const std::array<int, 4>& videoRows);
 
 private:

@@ -20,21 +20,21 @@ namespace mfar::simd {
 class RestPixels;
 class SurfaceRaster;
 
-/// A pixel of which something is missing.
+/// A pixel that is not completely known.
 struct Hole {
     std::uint32_t pixel;   ///< row-major index
-    std::uint32_t colour;  ///< so far, RGBA8 premultiplied
-    bool isEdge, isOpen;   ///< known nowhere
+    std::uint32_t colour;  ///< what is known so far, RGBA8 premultiplied
+    bool isEdge, isOpen;   ///< isOpen: known nowhere
 };
 
-/// The pixels of all patches.
+/// The pixels of all re-rendered patches.
 class PatchStore {
 public:
     using Rgba = std::array<std::uint8_t, 4>;
     struct Picture {
         std::vector<Rgba> colours;
-        std::vector<LightWords> lights;     // empty where colours alone are known
-        std::vector<WarpSurface> surfaces;  // these and colours: empty until there is a pixel
+        std::vector<LightWords> lights;     // empty if only colours are known
+        std::vector<WarpSurface> surfaces;  // like colours: empty until there is a pixel
     };
     explicit PatchStore(Size layer) : layer_(layer) {}
     void store(const PatchPictures::StoredRows& rows);
@@ -47,9 +47,9 @@ private:
     std::array<Picture, PatchPictures::kPatches> pictures_;
 };
 
-/// Every pixel of the layer that shows a surface looks its colour up in the reference or, where
-/// that does not show it, in the patches. ViewLookUp on the host's lanes: rows in threads, plain
-/// pixels in lanes, edges and what else is not as simple one by one.
+/// Looks up the colour of every pixel of the layer that shows a surface: in the reference, a traced
+/// picture, or, if that does not show the surface, in the re-rendered patches. ViewLookUp on the
+/// CPU: rows in threads, plain pixels in lanes; edges and other complicated pixels one by one.
 class ViewLookUp {
 public:
     ViewLookUp(const LensProjection& layer, std::shared_ptr<Workers> workers);
@@ -63,12 +63,12 @@ public:
         const PatchStore& store;
         Eigen::Vector4d plane;  ///< SilhouetteModels::plane()
     };
-    /// Writes every pixel of `where`, and no other.
+    /// Writes every pixel of `where`, and no other pixel.
     void run(const Input& input, const RigidTransform& T_world_camera, const PixelRect& where);
-    /// Nothing at all in these pixels.
+    /// Sets these pixels to nothing.
     void clear(const PixelRect& where);
 
-    /// Of the last run, ascending.
+    /// Holes of the last run, ascending.
     [[nodiscard]] std::vector<Hole>& holes() { return holes_; }
     [[nodiscard]] Rows<std::uint32_t> colour() { return colour_.rows(); }  ///< RGBA8 premultiplied
     [[nodiscard]] Rows<const float> depth() const { return depth_.rows(); }

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "pipeline/simd/view_rows.cpp"
 
 #include <hwy/foreach_target.h>
-// Once for each instruction set, like this file.
+// Included once per instruction set, like this file.
 #include "pipeline/simd/display_values-inl.h"
 #include "pipeline/simd/point_lens-inl.h"
 
@@ -14,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mfar::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// No more: a row of quarters has as many words to spare.
+// At most 8 lanes: a row of quarters has only that many words of padding.
 using D = hn::CappedTag<float, 8>;
 using DU = hn::RebindToUnsigned<D>;
 using DI = hn::RebindToSigned<D>;
@@ -23,7 +23,7 @@ using VU = hn::Vec<DU>;
 using VI = hn::Vec<DI>;
 using M = hn::Mask<D>;
 
-/// Four words around a place: those of an upper and of a lower row.
+/// Four adjacent words: two of an upper row and two of a lower row.
 struct Four {
     VU a, b, c, d;
 };
@@ -47,7 +47,7 @@ HWY_INLINE M IsClose(VU word, V z, V tolerance) {
     return hn::Lt(hn::Abs(hn::Sub(DepthOf(word), z)), tolerance);
 }
 
-/// Bilinear, in 256ths: two channels a word.
+/// Bilinear with weights in 256ths: two channels per word.
 HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
     const DU du;
     const VU even = hn::Set(du, 0x00FF00FFU), half = hn::Set(du, 0x00800080U);
@@ -66,7 +66,7 @@ HWY_INLINE VU Blend(const Four& texels, const Four& weights) {
 /// Linear red, green and blue.
 using Light = Triples<V>;
 
-/// 2^exponent of light words, times the shares of each.
+/// 2^exponent of light words, times their weights.
 HWY_INLINE V LightScale(VU words, VU share) {
     const DU du;
     const D d;
@@ -84,7 +84,7 @@ HWY_INLINE V LightChannel(VU words) {
     return hn::ConvertTo(D(), hn::BitCast(DI(), bits));
 }
 
-/// Bilinear, of four light words.
+/// Bilinear interpolation of four light words.
 HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     Light out{hn::Zero(D()), hn::Zero(D()), hn::Zero(D())};
     const auto add = [&](VU word, VU share) HWY_ATTR {
@@ -100,7 +100,7 @@ HWY_INLINE Light BlendLight(const Four& words, const Four& weights) {
     return out;
 }
 
-/// Bilinear, the share of specular light that no paint changes.
+/// Bilinear interpolation of the share of specular light that the paint does not change.
 HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& weights) {
     const auto veil = [&](VU d, VU s, VU weight) HWY_ATTR {
         const VU bits = hn::Or(hn::ShiftLeft<3>(hn::ShiftRight<kLightFreeBit>(d)),
@@ -113,12 +113,12 @@ HWY_INLINE V BlendVeil(const Four& diffuse, const Four& specular, const Four& we
     return hn::Mul(hn::ConvertTo(D(), hn::BitCast(DI(), sum)), hn::Set(D(), 1 / (256 * kMostVeil)));
 }
 
-/// Of two vectors of PaintWords.
+/// Paint of a vector of pixels, from two vectors of PaintWords.
 struct PaintOf {
     VU diffuse, facing;
 };
 
-/// The surface's radiance as a display's bytes.
+/// The surface's radiance as display bytes.
 template <int kShift>
 HWY_INLINE VU LitChannel(const PaintOf& paint, V diffuse, V specular, V veil) {
     const D d;
@@ -140,7 +140,7 @@ HWY_INLINE VU Lit(const PaintOf& paint, const Light& diffuse, const Light& specu
                   hn::Set(DU(), 0xFF000000U));
 }
 
-/// Shares within a pixel, of the four texels around.
+/// Weights of the four surrounding texels, for a position in a pixel.
 HWY_INLINE Four WeightsOf(V x, V y) {
     const DU du;
     const D d;
@@ -168,7 +168,7 @@ HWY_INLINE V PlaneDepth(const CatcherPlane& plane, V rayX, V rayY, float nearest
     return hn::IfThenElseZero(seen, z);
 }
 
-/// The quarters of pixels: each second word of two rows.
+/// The quarters of pixels: alternate words of two rows.
 HWY_INLINE Four QuartersOf(const ViewRow& row, int x) {
     Four s;
     hn::LoadInterleaved2(DU(), row.upper + 2L * x, s.a, s.b);
@@ -176,7 +176,7 @@ HWY_INLINE Four QuartersOf(const ViewRow& row, int x) {
     return s;
 }
 
-/// What a vector of pixels shows.
+/// Result for a vector of pixels.
 struct Found {
     VU colour;
     V depth;
@@ -184,16 +184,16 @@ struct Found {
     M left;
 };
 
-/// What a vector of pixels asks for: the surface that each shows, and where it lies in the
-/// reference.
+/// Request of a vector of pixels: the surface that each shows, and its position in the reference
+/// picture.
 struct Asked {
-    V z;                           ///< to the layer's camera
+    V z;                           ///< in the layer's camera
     VU id;                         ///< number of the surface
     M ofCatcher;                   ///< the surface is the catcher
     M empty;                       ///< nothing is there
-    M asked;                       ///< the reference is read
-    V thereZ;                      ///< z to the reference's camera
-    V pixelX, pixelY, lowX, lowY;  ///< in the reference, and rounded down [px]
+    M asked;                       ///< the reference picture is read
+    V thereZ;                      ///< z in the reference's camera
+    V pixelX, pixelY, lowX, lowY;  ///< in the reference picture, exact and rounded down [px]
 };
 
 HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY) {
@@ -227,7 +227,7 @@ HWY_INLINE Asked AskFor(const ViewLookUpInput& in, const Four& s, V rayX, V rayY
     return {z, id, ofCatcher, empty, asked, there.z, pixel.x, pixel.y, lowX, lowY};
 }
 
-/// Each second word.
+/// Gathers every second word.
 HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
     const DU du;
     const VI word = hn::Add(at, at);
@@ -236,13 +236,13 @@ HWY_INLINE Four GatherLights(const std::uint32_t* from, VI at, int width) {
             hn::GatherIndex(du, from + 2L * width + 2, word)};
 }
 
-/// Reads the reference where `a` asks for it.
+/// Reads the reference picture where `a` asks for it.
 HWY_INLINE void ReadReference(const ViewLookUpInput& in, const Asked& a, const PaintOf& paint,
                               Found& out) {
     const D d;
     const DU du;
     const V width = hn::Set(d, static_cast<float>(in.reference.width));
-    // Pictures of up to 2^24 pixels: whole numbers of single precision.
+    // Pictures have at most 2^24 pixels: indices are exact in single precision.
     const VI row = hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowY));
     const VI at = hn::Add(hn::Mul(row, hn::ConvertTo(DI(), width)),
                           hn::ConvertTo(DI(), hn::IfThenElseZero(a.asked, a.lowX)));
@@ -310,7 +310,7 @@ int LookUpRow(const ViewRow& row, const ViewLookUpInput& in) {
                                  paint.diffuse, paint.facing);
         Found f = LookUp(in, s, hn::LoadU(d, row.rayX + x), hn::LoadU(d, row.rayY + x), paint);
         const M within = hn::FirstN(d, static_cast<std::size_t>(row.count - x));
-        // Beside the row there is nothing.
+        // Pixels beyond the row are nothing.
         f.colour = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.colour)));
         f.state = hn::BitCast(du, hn::IfThenElseZero(within, hn::BitCast(d, f.state)));
         f.depth = hn::IfThenElseZero(within, f.depth);

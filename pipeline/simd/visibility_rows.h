@@ -8,7 +8,8 @@
 
 namespace mfar::simd {
 
-/// Pixels of an output row that are worked on at a time; rows of so many have 64 bytes to spare.
+/// Pixels of an output row that are processed at a time; rows of this length have 64 bytes to
+/// spare.
 inline constexpr int kVisibilityChunk = 256;
 
 /// CompositeOptions in single precision.
@@ -20,39 +21,39 @@ struct VisibilityParams {
     float likeness;      ///< [1 / grey level^2]
 };
 
-/// A part of an output row before it is weighed.
+/// Input and result of decideRow(), for a part of an output row.
 struct DecideRow {
     int count;
     const float* z;                 ///< of the virtual layer [m]
     const float *greatest, *least;  ///< rangeOfSamples() at each pixel
-    std::uint8_t* visibility;       ///< written up to 16 pixels behind the last: 0, 255 or kOpen
-    float* inverse;                 ///< written likewise: inverse virtual depth [1/m]
+    std::uint8_t* visibility;       ///< 0, 255 or kOpen; written up to 16 pixels beyond the last
+    float* inverse;                 ///< inverse depth of the virtual layer [1/m]; written likewise
 };
 inline constexpr std::uint8_t kOpen = 1;  ///< the samples have to be weighed
 
-/// Where a virtual pixel is surely before the real scene or behind it (visibility_decide.frag).
-/// Returns whether any pixel is left open.
+/// Decides where a virtual pixel is surely in front of the real scene or behind it
+/// (visibility_decide.frag). Returns whether any pixel is left open.
 bool decideRow(const DecideRow& row, const VisibilityParams& params);
 
 /// Samples around an output row: four rows, pixel 0 in entry kSampleMargin of each.
 inline constexpr int kSampleMargin = 2;
 struct SampleWindow {
     std::array<SampleRow, 4> rows;
-    std::array<float, 4> weights;  ///< by the distance of each row
+    std::array<float, 4> weights;  ///< by the row's distance
 };
 
 /// A part of an output row whose open pixels are weighed.
 struct OpenRow {
     int count;
-    const std::int32_t* column;    ///< of each pixel: index of the first of its four samples
-    const float* weights;          ///< of each pixel: of its four samples by distance
+    const std::int32_t* column;    ///< for each pixel, index of the first of its four samples
+    const float* weights;          ///< for each pixel, weights of its four samples by distance
     const std::uint32_t* picture;  ///< RGBA8
     const float* inverse;
     std::uint8_t* visibility;
 };
 
-/// Weighs open pixels by distance and by likeness of the picture to the video
-/// (visibility_sample.frag).
+/// Computes the visibility of open pixels; samples are weighed by distance and by similarity of the
+/// picture to the video (visibility_sample.frag).
 void weighOpenPixels(const OpenRow& row, const SampleWindow& samples,
                      const VisibilityParams& params);
 

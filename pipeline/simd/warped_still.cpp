@@ -12,20 +12,21 @@ namespace mfar::simd {
 namespace {
 
 constexpr int kReach = params::kGuideReach;
-constexpr int kMargin = 16;  // columns beside a row: a cache line
+constexpr int kMargin = 16;  // columns on each side of a row: a cache line
 constexpr float kMeanScale = 32;
 
-/// Taps of the mean over a video pixel along one axis. The warped still is read linearly once more,
-/// which widens what a pixel sees: the samples lie closer, so that their spread is as without.
+/// Taps of the mean over a video pixel along one axis. The warped still is interpolated linearly,
+/// which widens the footprint; therefore the samples lie closer together, so that the total spread
+/// is unchanged.
 RowTaps meanOf(int output, int video) {
-    constexpr double kWidened = 2.0 + 2.0 / 15;  // spread of a tent over that of four samples
+    constexpr double kWidened = 2.0 + 2.0 / 15;  // (spread of a tent) / (spread of four samples)
     const double pitch = static_cast<double>(video) / output, seen = params::kSeen;
     return RowTaps::mean(output, video,
                          std::sqrt(std::max(seen * seen - kWidened * pitch * pitch, 0.0)));
 }
 
-/// Rows from a row of detail to the last that it looks at, at most. `reach`: rows of the video
-/// behind the last that it is made of.
+/// Largest number of rows from a row of detail to the last row that it reads. `reach`: additional
+/// rows of the video that guidance reads.
 int rowsLookedAt(const RowTaps& mean, const RowTaps& cubic, Size video, Size output, int reach) {
     int most = mean.taps();
     for (int y = 0; y < output.height; ++y) {
@@ -75,7 +76,7 @@ void WarpedStill::begin(const StillPairs& still, Rows<const LookUpCell> lookUps,
         spans->clear();
 }
 
-// Adds what a span needs.
+// Adds the columns that a span needs.
 void WarpedStill::spread(const PixelSpan& span) {
     const RowTaps &cubic = taps_->cubicRows, &mean = taps_->meanRows;
     const int first = cubic.first(span.begin),
@@ -111,7 +112,7 @@ void WarpedStill::warp(int y) {
     warpedRows_[slot] = y;
 }
 
-// What the video would show of the still in one of its rows.
+// The still as the video would show it, in one of the video's rows.
 void WarpedStill::makeMean(int row, float* to) {
     const RowTaps& columns = taps_->meanColumns;
     weighed_.clear();
@@ -131,7 +132,7 @@ void WarpedStill::makeMean(int row, float* to) {
         resampleRow(column_[0], taps_->meanRows.table(), span.begin, span.end, to);
 }
 
-// Of one of the video's rows, what guidance adds and takes away.
+// Computes one row of the video for guidance: differences and trust.
 void WarpedStill::compare(int row) {
     const int slot = row % GuideRows::kRows;
     if (comparedRows_[slot] == row) return;
@@ -170,7 +171,7 @@ void WarpedStill::makeGuided(int row, float* to) {
         guideRow(rows, begin, end, seen_[row % GuideRows::kRows] + kMargin, to);
 }
 
-// The same at the output's width.
+// As the video would show it, with guidance, enlarged to the output's width.
 void WarpedStill::makeLow(int row) {
     if (guide_ != nullptr)
         makeGuided(row, mean_[0]);

@@ -17,35 +17,36 @@
 
 namespace mfar::simd {
 
-/// What a frame is weighed by. Borrowed for the call.
+/// Input for the weights of a frame. Borrowed for the call.
 struct WeighInput {
-    /// Levels in `words`, at least two each; the second is for the sensors' photometric gain.
+    /// Levels in `words`, at least two each; the second level is used for the photometric gain
+    /// between the sensors.
     const std::vector<LumaLevel>& videoLuma;
     const std::vector<LumaLevel>& stillLuma;
     std::span<const std::uint32_t> words;  ///< ends with kLumaSpareWords
     Rows<const FlowCell> forward;          ///< video to still, cells of 4x4 video px
-    /// Still to video, in pixels of level `backwardLevel`; for where errors.data is null.
+    /// Still to video, in pixels of level `backwardLevel`; read only if errors.data is null.
     Rows<const FlowCell> backward;
     int backwardLevel = 0;
-    Rows<const ErrorCell> errors;  ///< of the cells of `forward`, or data == nullptr
+    Rows<const ErrorCell> errors;  ///< for the cells of `forward`, or data == nullptr
     const TileWork& work;
 };
 
-/// How far the still is trusted, cell by cell: superres_assess.comp, superres_gain.comp and
-/// superres_weigh.comp on the host's lanes. Results are single precision: the GLES step rounds
-/// look-ups to 16 and trust to 8 bits.
+/// Trust in the still, cell by cell: superres_assess.comp, superres_gain.comp and
+/// superres_weigh.comp on the CPU. Results are single precision; the GLES step rounds look-ups to
+/// 16 and trust to 8 bits.
 class WeighStep {
 public:
-    /// `stillRig`: StillReference::rig(), whose still may have fewer pixels than the sensor's.
-    /// Null workers: in the caller's thread alone.
+    /// `stillRig`: StillReference::rig(), whose still may have fewer pixels than the sensor's. Null
+    /// workers: runs in the caller's thread.
     WeighStep(const StereoRig& stillRig, std::shared_ptr<Workers> workers);
 
-    /// Weighs every cell, or does nothing where no tile changed. Where no changed tile is matched,
-    /// the gain stays that of the frame before. Tiles that are not matched get no weight of their
-    /// own. The results' rows, one entry per cell, are valid until the next run.
+    /// Weighs every cell; does nothing if no tile changed. If no changed tile is matched, the gain
+    /// of the last frame is kept. Unmatched tiles get no weight of their own. The results have one
+    /// entry per cell and are valid until the next run.
     void run(const WeighInput& in);
 
-    /// Keeps this share of each cell's weight, one entry per cell.
+    /// Multiplies each cell's weight by its share, one entry per cell.
     void lower(Rows<const float> shares);
 
     [[nodiscard]] Rows<const WeighedCell> weighed() const { return shown(weighed_); }

@@ -8,15 +8,15 @@
 namespace mfar {
 namespace {
 
-// Of the cost of a sample nothing is known yet: few enough for any scene.
+// While the cost of a sample is unknown: few enough for any scene.
 constexpr std::int64_t kFirstSamples = 64;
-// Fewer are not worth a call; what they take too much is paid back.
+// Fewer are not worth a call; an overrun is repaid.
 constexpr std::int64_t kLeastSamples = 16;
 constexpr double kPortionsPerFrame = 16;
-// What was not used up for want of processor time is made up for a little, once.
+// Share of the budget that was unused for want of processor time and may be used later, once.
 constexpr double kMostSaved = 0.08;
-// A picture's conversion may take the budget of a few frames. What is paid back in one: of the
-// budget, and of the debt, so that a large one does not last.
+// Converting a picture may take the budget of a few frames. A frame repays this share of the
+// budget, or of the debt if that is larger, so that a large debt does not last.
 constexpr double kMostDebt = 10, kRepaid = 0.08;
 
 double valid(double ms) {
@@ -55,7 +55,7 @@ BudgetGrant BudgetController::grant() {
     BudgetGrant out{kFirstSamples, 0};
     if (msPerSample_ > 0) {
         const double ms = std::min(left, portionMs());
-        // Far inside the range of the integer, however cheap a sample is.
+        // Keeps the conversion in the integer's range, however cheap a sample is.
         out.samples = static_cast<std::int64_t>(std::min(ms / msPerSample_, 1e9));
         out.samples = std::max(out.samples, kLeastSamples);
     }

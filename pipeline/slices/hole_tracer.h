@@ -10,25 +10,25 @@
 
 namespace mfar {
 
-/// Cuts one request after the other into portions. One caller at a time for all but prepare() and
-/// answer(), during which none else is called.
+/// Cuts one request after the other into portions. One caller at a time, except for prepare() and
+/// answer(): while one of them runs, no other function may be called.
 class HoleTracer {
 public:
     static constexpr int kMostSamples = 256;
 
-    /// `mostPixels`: what a request has beyond is left out.
+    /// `mostPixels`: upper limit of a request's pixels; the rest is dropped.
     explicit HoleTracer(std::size_t mostPixels) : mostPixels_(mostPixels) {}
 
     [[nodiscard]] bool idle() const { return stage_ == Stage::Idle; }
-    /// Takes a request while idle, by swapping its memory with that of an older one.
+    /// Takes a request while idle. Swaps memory with an older request.
     void take(HoleRequest& request);
     [[nodiscard]] bool taken() const { return stage_ == Stage::Taken; }
-    /// Sorts the pixels; those twice in the list or outside the picture are left out, all of them
-    /// for a view that is not sound.
+    /// Sorts the pixels. Drops duplicates and pixels outside the picture, and all pixels if the
+    /// view is invalid.
     void prepare();
 
-    /// Pixels to be traced now, request().samples each, at most about `mostSamples` in all. None:
-    /// all were handed out.
+    /// Pixels to be traced now, with request().samples each, at most about `mostSamples` in all.
+    /// Empty: all were handed out.
     [[nodiscard]] std::span<const std::uint32_t> next(std::int64_t mostSamples);
     void done(std::span<const std::uint32_t> pixels) { done_ += pixels.size(); }
     [[nodiscard]] bool tracing() const {
@@ -51,7 +51,7 @@ private:
     Stage stage_ = Stage::Idle;
     HoleRequest request_;
     std::size_t handed_ = 0, done_ = 0;
-    std::optional<Film> film_;  // of the request's size
+    std::optional<Film> film_;  // has the size of the request's picture
     std::uint64_t answered_ = 0;
 };
 

@@ -6,20 +6,21 @@
 namespace mfar {
 namespace {
 
-// A camera that goes on soon gets a new picture at this share of the limit: it inherits the light.
+// With policy `soon`, a moving camera gets a new picture at this share of the limit: it inherits
+// the light.
 constexpr double kSoon = 0.25;
-// A next picture is given up when the camera has come back half of the way.
+// The next picture is discarded when the camera has come back half of the way.
 constexpr double kBack = 0.5;
-// So many limits away from its view the picture shown is worse than a noisy one.
+// At this multiple of the limits a noisy picture is better than the one shown.
 constexpr double kHopeless = 3;
-// A finer picture is worth a conversion when its error has halved.
+// A refined picture is worth a conversion when its error has halved.
 constexpr int kSamplesRatio = 4;
-// A camera that moves by less for so many looks rests; then what is farther off is warped for
-// nothing.
+// A camera rests if it moves less than kRestPixels in so many looks; then a picture that is farther
+// off than kElsewherePixels would be warped needlessly.
 constexpr double kRestPixels = 0.1, kElsewherePixels = 0.2;
 constexpr int kRestLooks = 10;
-// Light of an earlier picture counts like so many samples at most; of one in other light, so few
-// that the new samples soon outweigh it.
+// Upper limit of the weight, in samples, of an earlier picture's light; in other light it is low,
+// so that new samples soon outweigh it.
 constexpr float kMostCarried = 64, kMostCarriedElsewhere = 4;
 constexpr int kLookTurn = 1;
 
@@ -29,7 +30,7 @@ ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> s
                        double renewed) {
     if (!sinceNext)
         return sinceShown && *sinceShown < renewed ? ReferenceStep::Refine : ReferenceStep::Start;
-    // The very first picture is finished wherever the camera goes: it is better than none.
+    // The very first picture is finished wherever the camera moves: it is better than no picture.
     if (!sinceShown) return ReferenceStep::Continue;
     if (*sinceShown < kBack * renewed) return ReferenceStep::Drop;
     return *sinceNext >= 1 && *sinceNext > *sinceShown ? ReferenceStep::Start
@@ -39,8 +40,8 @@ ReferenceStep nextStep(std::optional<double> sinceShown, std::optional<double> s
 ReferencePictures::ReferencePictures(const SliceOptions& slices, const ReferencePolicy& policy)
     : slices_(slices), policy_(policy), pictures_{Picture(slices), Picture(slices)} {}
 
-// The light of one in the making counts once it is shown: where it changes all the time, none would
-// be finished.
+// For the picture in progress, a change of the light does not count until it is shown: if the light
+// changes all the time, no picture would ever be finished.
 std::optional<double> ReferencePictures::changeSince(const Picture& picture) const {
     const bool isShown = &picture == &pictures_[shown_];
     if (!picture.scene || picture.scene->objects != scene_->objects ||
@@ -71,7 +72,7 @@ ReferenceStep ReferencePictures::chosenStep() const {
     const ReferenceStep step =
         nextStep(sinceShown, hasBegun ? changeSince(pictures_[1 - shown_]) : std::nullopt,
                  policy_.soon ? kSoon : 1);
-    // One that knows little yet would be inherited for nothing, as long as it serves.
+    // If the picture shown still serves and has few samples, there is nothing to inherit from it.
     const bool serves = sinceShown && *sinceShown < 1;
     if (step == ReferenceStep::Start && !hasBegun && serves && shown.slices.samples() == 0)
         return ReferenceStep::Refine;
@@ -96,8 +97,8 @@ void ReferencePictures::look(const RenderView& now, const RenderView& predicted,
     }
 }
 
-// Where no object is, the real surface's light is smooth enough for a quarter of the pixels while
-// the camera moves.
+// Away from objects the light on the real surface is smooth: while the camera moves, a quarter of
+// the pixels is enough.
 Slices::Density ReferencePictures::densityOf(const PixelRect& tile, const Picture& picture,
                                              const PixelRect& objects) const {
     if (!common(tile, objects).empty()) return Slices::Density::Full;
@@ -107,7 +108,7 @@ Slices::Density ReferencePictures::densityOf(const PixelRect& tile, const Pictur
     return picture.rests || !policy_.filter ? Slices::Density::Full : Slices::Density::Quarter;
 }
 
-// As the picture shown knows.
+// By the picture that is shown.
 bool ReferencePictures::showsNothing(const PixelRect& tile, const RenderView& view) const {
     const Eigen::Vector2f middle(0.5F * static_cast<float>(tile.x0 + tile.x1 - 1),
                                  0.5F * static_cast<float>(tile.y0 + tile.y1 - 1));
@@ -162,7 +163,7 @@ void ReferencePictures::trace(const Portion& portion) {
                                  *picture.film, picture.history ? &*picture.history : nullptr);
 }
 
-// At rest a pixel's own samples count alone: what is carried over knows no edges and no texture.
+// At rest only a pixel's own samples count: carried light lacks edges and textures.
 PixelState ReferencePictures::Picture::state(std::uint32_t pixel, const Exposure& exposure) const {
     const KnownLight known = rests ? KnownLight{} : film->known(pixel);
     return {film->error(pixel, exposure),
@@ -184,7 +185,7 @@ int ReferencePictures::leastSamples(const Picture& picture) const {
     if (!shown.scene || shown.scene->objects != picture.scene->objects ||
         viewChange(shown.view, now_, scene_->balls, policy_.limits) >= kHopeless)
         return 1;
-    // At rest nothing is to become worse.
+    // At rest the new picture must not be worse than the one shown.
     return nextRests_ ? std::max(policy_.samplesToReplace, shown.shownSamples)
                       : policy_.samplesToReplace;
 }
@@ -192,15 +193,15 @@ int ReferencePictures::leastSamples(const Picture& picture) const {
 bool ReferencePictures::toShow() const {
     const Picture& picture = pictures_[working()];
     if (toBegin_ || !picture.scene || !picture.slices.turnComplete()) return false;
-    // Of the one whose place it takes.
+    // Portions of the picture that will be replaced are outstanding.
     if (pictures_[1 - working()].portions > 0) return false;
     if (picture.slices.finished()) return !picture.counted;
     if (isSparse(picture)) return picture.slices.turns() > std::max(picture.shownTurns, kLookTurn);
     return picture.slices.samples() >= leastSamples(picture);
 }
 
-// While the camera moves, a picture that knows little is better than one of another view, or none:
-// its light is filtered.
+// While the camera moves, a picture with few samples, whose light is filtered, is better than a
+// picture of another view or no picture.
 bool ReferencePictures::isSparse(const Picture& picture) const {
     if (picture.rests || !policy_.filter || picture.slices.samples() > 0) return false;
     const Picture& shown = pictures_[shown_];

@@ -14,45 +14,46 @@
 
 namespace mfar {
 
-/// What is to be done about a reference picture.
+/// The next action for the reference pictures.
 enum class ReferenceStep : unsigned char {
     Refine,    ///< the picture shown gets more samples
-    Continue,  ///< the next one does
-    Start,     ///< a next one is begun, in place of what there is of it
-    Drop,      ///< the next one is given up: the one shown serves again
+    Continue,  ///< the next picture gets more samples
+    Start,     ///< a new next picture is begun; an unfinished one is discarded
+    Drop,      ///< the next picture is discarded: the one shown serves again
 };
 
-/// The changes since the pictures' views, as of viewChange(); nothing: there is no such picture, or
-/// it is of another scene.
-/// A next picture is begun at `renewed` of the limit.
+/// `sinceShown`, `sinceNext`: viewChange() since the views of the two pictures; empty if the
+/// picture does not exist or is of another scene. A next picture is begun at a change of `renewed`.
 [[nodiscard]] ReferenceStep nextStep(std::optional<double> sinceShown,
                                      std::optional<double> sinceNext, double renewed);
 
 struct ReferencePolicy {
     ViewLimits limits;
-    /// A picture of another view takes the shown one's place with so many samples, unless that is
-    /// of other objects or hopelessly far off. Four that are filtered are as good as 16 that are
-    /// not (root mean square error 3.2 and 4.4 against 3.3 and 3.1 of 255 on two scenes).
+    /// Samples per pixel that a picture of another view must have to replace the one shown; fewer
+    /// are enough if that one is of other objects or too far off. Four filtered samples are as good
+    /// as 16 unfiltered ones (root mean square error 3.2 and 4.4 against 3.3 and 3.1 of 255 on two
+    /// scenes).
     int samplesToReplace = 4;
-    bool filter = true;   ///< of noise
-    bool history = true;  ///< light of the picture before is carried over to the next
-    /// While the camera moves, the next picture begins long before the one shown has reached its
-    /// limits, and is shown before every pixel has a sample. For what takes light alone from it.
+    bool filter = true;   ///< smooth the noise
+    bool history = true;  ///< carry light from the previous picture over to the next
+    /// While the camera moves, begin the next picture long before the one shown has reached its
+    /// limits, and show it before every pixel has a sample. For callers that use only the light of
+    /// the picture.
     bool soon = true;
     bool operator==(const ReferencePolicy&) const = default;
 };
 
-/// The scene a picture is of.
+/// The scene of a picture.
 struct ReferenceScene {
     std::shared_ptr<const PathTracer> tracer;
     std::shared_ptr<const Scene> source;
     std::vector<ObjectBall> balls;
-    std::uint64_t objects = 0, light = 0;  ///< numbers that change with them
+    std::uint64_t objects = 0, light = 0;  ///< version numbers of the objects and of the light
 };
 
 /// The two reference pictures: the one shown, which is refined while it serves, and the next one,
-/// which takes its place. One caller at a time, but trace() may be called by any number, and
-/// trace() and done() alone during begin() and from beginShow() to endShow().
+/// which will replace it. One caller at a time. Exceptions: any number of threads may call trace(),
+/// and trace() and done() may run during begin() and between beginShow() and endShow().
 class ReferencePictures {
 public:
     /// Throws std::invalid_argument for slices out of range.
@@ -60,44 +61,45 @@ public:
 
     void setScene(std::shared_ptr<const ReferenceScene> scene) { scene_ = std::move(scene); }
     [[nodiscard]] const ReferenceScene* scene() const { return scene_.get(); }
-    /// Of the picture shown; none: there is none.
+    /// Scene of the picture shown; null if there is none.
     [[nodiscard]] const std::shared_ptr<const ReferenceScene>& shownScene() const {
         return pictures_[shown_].scene;
     }
 
-    /// The camera is at `now`; a picture that is begun because of it is made for `predicted`.
-    /// One that has come to rest gets a picture of its very view.
+    /// Reports the camera's view `now`. If a picture is begun, it is for the view `predicted`; once
+    /// the camera rests, a picture of exactly its view is begun.
     void look(const RenderView& now, const RenderView& predicted, Timestamp time);
 
-    /// Whether begin() is due. Then there is nothing to trace.
+    /// Whether begin() is due. Until then there is nothing to trace.
     [[nodiscard]] bool toBegin() const;
     void begin();
 
-    /// The next portion of the picture in the making, which is number `picture` until it is done.
-    /// No pixels: nothing to trace now.
+    /// The next portion of the picture in progress; done() needs the index `picture`. No pixels:
+    /// nothing to trace now.
     struct Portion {
         Slice slice;
         std::size_t picture = 0;
     };
     [[nodiscard]] Portion next(std::int64_t mostSamples);
-    /// Any number of threads may be in here.
+    /// May be called by any number of threads at once.
     void trace(const Portion& portion);
     void done(const Portion& portion, const Exposure& exposure);
 
-    /// Whether the picture in the making is complete and should be shown.
+    /// Whether the picture in progress is complete and should be shown.
     [[nodiscard]] bool toShow() const;
-    /// Then it is made in portions, until that is complete; meanwhile nothing of it is traced.
+    /// Begins to make that picture, in portions of resolver(), until resolver().complete();
+    /// meanwhile none of its samples are traced.
     void beginShow(const Exposure& exposure, RenderedPicture& out);
     [[nodiscard]] PictureResolver& resolver() { return resolver_; }
     void endShow(RenderedPicture& out);
 
-    /// No portion of the picture in the making is out, and every pixel has the same samples.
+    /// No portion of the picture in progress is outstanding, and every pixel has the same samples.
     [[nodiscard]] bool turnComplete() const { return pictures_[working()].slices.turnComplete(); }
-    /// Nothing is to be done for a camera that rests.
+    /// Nothing is left to do while the camera rests.
     [[nodiscard]] bool settled() const;
-    /// Of the picture in the making, as of Slices; 1 without one.
+    /// Progress of the picture in progress, see Slices; 1 if there is none.
     [[nodiscard]] double progress() const;
-    /// Pixels that a picture has, as far as is known.
+    /// Number of pixels to trace in the current picture.
     [[nodiscard]] std::size_t pixels() const;
     [[nodiscard]] std::uint64_t finished() const { return finished_; }
     /// When the view of the picture shown was chosen.
@@ -107,18 +109,18 @@ private:
     struct Picture {
         explicit Picture(const SliceOptions& slices) : slices(slices) {}
 
-        std::shared_ptr<const ReferenceScene> scene;  // none: there is no picture
+        std::shared_ptr<const ReferenceScene> scene;  // null: there is no picture
         RenderView view;
         Timestamp chosen;
         std::unique_ptr<Film> film;
-        std::optional<LightHistory> history;  // of the picture shown before
-        PixelRect traced;                     // there is nothing elsewhere in the film
+        std::optional<LightHistory> history;  // from the picture shown before
+        PixelRect traced;                     // the film is empty elsewhere
         TouchedTiles touched;
         Slices slices;
-        int portions = 0;                        // out
+        int portions = 0;                        // outstanding
         int shownSamples = 0, shownTurns = 0;    // when it was shown last
-        bool rests = false;                      // it is of a camera at rest
-        bool wasShown = false, counted = false;  // among the finished
+        bool rests = false;                      // the camera rested when it was chosen
+        bool wasShown = false, counted = false;  // counted: among the finished
 
         [[nodiscard]] PixelState state(std::uint32_t pixel, const Exposure& exposure) const;
     };
@@ -140,9 +142,9 @@ private:
     PictureResolver resolver_;
     std::size_t shown_ = 0;
     bool hasNext_ = false, toBegin_ = false;
-    bool nextRests_ = false;  // the next one is of a camera at rest
+    bool nextRests_ = false;  // the next picture is of a camera at rest
     RenderView now_, wanted_, restsAt_;
-    int restLooks_ = 0;  // since it is there
+    int restLooks_ = 0;  // looks since the camera came to rest
     Timestamp chosen_;
     std::uint64_t finished_ = 0;
 };

@@ -10,47 +10,47 @@
 
 namespace mfar {
 
-/// Makes reference pictures of a scene in threads of its own, of low priority, within a budget of
-/// processor time per call of update(); beyond it, and when there is nothing to do, they sleep.
-/// Building a scene's search structure is not in the budget. All functions are for one thread, the
-/// frame's: none of them waits, takes a lock, or allocates, once the first pictures have been.
+/// Makes reference pictures of a scene in its own low-priority threads, within a budget of
+/// processor time per call of update(); when it is used up or nothing is left to do, they sleep.
+/// Building a scene's search structure is not part of the budget. All functions are for one thread,
+/// the frame's: none waits or takes a lock, and none allocates after the first pictures.
 class ReferenceRenderer {
 public:
     /// Throws std::invalid_argument for options out of range.
     explicit ReferenceRenderer(const ReferenceOptions& options);
-    /// Waits for portions of work, a fraction of the budget each, for a picture's conversion, or
-    /// for a scene that is being built.
+    /// Waits for running portions of work (each a fraction of the budget), for the conversion of a
+    /// picture, or for a scene that is being built.
     ~ReferenceRenderer();
     ReferenceRenderer(const ReferenceRenderer&) = delete;
     ReferenceRenderer& operator=(const ReferenceRenderer&) = delete;
 
-    /// Null is a scene of nothing. The newest one wins; the pictures of an older one are shown
-    /// until there is one of it. One that is not sound is left alone, see takeError().
+    /// Null: an empty scene. The newest scene wins; pictures of the old one are shown until the new
+    /// one has a picture. An invalid scene is ignored, see takeError().
     void setScene(std::shared_ptr<const Scene> scene);
 
-    /// A frame begins, `time` its camera's pose; a view that is not sound is taken for the last
-    /// one. Once a frame.
+    /// Begins a frame with the camera's pose at `time`. An invalid view is replaced by the last
+    /// valid one. Call once per frame.
     void update(const RenderView& now, Timestamp time);
 
-    /// The newest picture that is complete, null before the first. It stays as it is until the next
-    /// call; another one lies at another address.
+    /// The newest complete picture, null before the first. It stays valid until the next call;
+    /// another picture has another address.
     [[nodiscard]] const RenderedPicture* newest();
 
-    /// The newest request wins; one that is being traced is answered all the same. Takes the list
-    /// by swapping memory with `request`.
+    /// The newest request wins; a request that is already being traced is still answered. Swaps
+    /// memory with `request`.
     void requestHoles(HoleRequest& request);
-    /// The newest answer since the last call, null without one. It stays until the next call.
+    /// The newest answer since the last call, or null. It stays valid until the next call.
     [[nodiscard]] const HoleAnswer* takeHoles();
 
-    /// Whether the threads have done what the last update() allows. For measurements, as it takes a
-    /// lock.
+    /// Whether the threads have finished the work that the last update() allows. For measurements:
+    /// it takes a lock.
     [[nodiscard]] bool rests() const {
         return workers_.rest(updates_, static_cast<int>(threads_.size()));
     }
 
-    /// As of the last frame or picture.
+    /// State at the last frame or picture.
     [[nodiscard]] const RenderCounters& counters();
-    /// What was wrong with a scene that could not be used, once.
+    /// Why a scene was rejected; returned once.
     [[nodiscard]] std::optional<std::string> takeError();
 
 private:
@@ -61,7 +61,7 @@ private:
     std::optional<RenderView> view_;
     std::uint64_t updates_ = 0;
     bool hasPicture_ = false;
-    std::vector<std::jthread> threads_;  // last: they use what is above
+    std::vector<std::jthread> threads_;  // last member: the threads use those above
 };
 
 }  // namespace mfar

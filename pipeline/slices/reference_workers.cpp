@@ -12,12 +12,12 @@
 namespace mfar {
 namespace {
 
-// A picture for a predicted view must serve the present one too.
+// Upper limit of the predicted change: the picture must serve the present view, too.
 constexpr double kPredictedChange = 0.9;
-// Frames that went by during one long job, of which the budget is to know.
+// Upper limit of the frames reported to the budget after one long job.
 constexpr std::uint64_t kMostMissed = 16;
 constexpr double kRateSeconds = 1;
-// Of whose time nothing is known yet.
+// Pixels of the first portion, while the time per pixel is unknown.
 constexpr std::int64_t kFirstResolved = 2048;
 
 double secondsBetween(Timestamp a, Timestamp b) {
@@ -80,7 +80,7 @@ void ReferenceWorkers::readMail() {
     if (mail_.ticks.fetch()) takeTick();
 }
 
-// What is asked for a picture whose scene has gone is asked again for the next.
+// Drops a request for a picture whose scene was replaced: it comes again with the next picture.
 void ReferenceWorkers::takeHoles(HoleRequest& request) {
     const std::shared_ptr<const Scene> source = std::exchange(request.source, nullptr);
     const std::shared_ptr<const ReferenceScene>& scene =

@@ -15,14 +15,14 @@
 
 namespace mfar {
 
-/// A frame's begin.
+/// The beginning of a frame.
 struct RenderTick {
-    std::optional<RenderView> view;  ///< the camera's last one
+    std::optional<RenderView> view;  ///< the camera's last view
     Timestamp time;
     std::uint64_t number = 0;
 };
 
-/// What goes between the frame's thread and the workers.
+/// Messages between the frame's thread and the workers.
 struct RenderMail {
     TripleBuffer<RenderTick> ticks;
     TripleBuffer<std::shared_ptr<const Scene>> scenes;
@@ -31,29 +31,29 @@ struct RenderMail {
     TripleBuffer<RenderedPicture> pictures;
     TripleBuffer<RenderCounters> counters;
     TripleBuffer<std::string> errors;
-    std::atomic<std::uint32_t> wakes{0};  ///< changes with each letter to the workers
+    std::atomic<std::uint32_t> wakes{0};  ///< incremented with each message to the workers
     std::atomic<bool> stop{false};
 };
 
-/// What the threads of a ReferenceRenderer share, and what they do.
+/// State and work of the threads of a ReferenceRenderer.
 class ReferenceWorkers {
 public:
     /// Throws std::invalid_argument for options out of range. `mail` must outlive it.
     ReferenceWorkers(const ReferenceOptions& options, RenderMail& mail);
 
-    /// A thread's life, until mail.stop.
+    /// Main function of a thread; returns after mail.stop.
     void work();
 
-    /// Whether frame `number` has begun and `threads` threads sleep: its budget is used up, or
-    /// there is nothing to do. Waits for a lock.
+    /// Whether frame `number` has begun and `threads` threads sleep, because its budget is used up
+    /// or nothing is left to do. Waits for a lock.
     [[nodiscard]] bool rest(std::uint64_t number, int threads) const;
 
 private:
     struct Job {
         enum class Kind : unsigned char {
             None,
-            Build,  // of these one at a time, as of the two after the next together
-            Begin,  // one at a time, and none while a picture is resolved
+            Build,  // one Build at a time; one of PrepareHoles and AnswerHoles at a time
+            Begin,  // one at a time, and not while a picture is resolved
             Resolve,
             PrepareHoles,
             AnswerHoles,
@@ -65,15 +65,16 @@ private:
         ReferencePictures::Portion portion;
         PictureResolver::Portion rows;
         std::span<const std::uint32_t> holes;
-        int holeSamples = 0;  // of each
+        int holeSamples = 0;  // per pixel
         std::shared_ptr<const Scene> source, previousSource;
-        std::shared_ptr<const ReferenceScene> scene;  // Build: the one before, then the one built
+        std::shared_ptr<const ReferenceScene> scene;  // Build: first the previous scene, then the
+                                                      // new one
         std::string error;
 
         [[nodiscard]] std::int64_t samples() const;
     };
 
-    // Under the mutex:
+    // With the mutex locked:
     void readMail();
     void takeHoles(HoleRequest& request);
     void takeTick();
@@ -89,7 +90,7 @@ private:
     [[nodiscard]] bool hasWork() const { return toBuild_ || building_ || tracing(); }
     void publishCounters();
     void wakeOthers();
-    // Without it:
+    // With the mutex unlocked:
     void perform(Job& job);
     void build(Job& job) const;
 
@@ -104,17 +105,18 @@ private:
     RenderTick tick_;
     std::shared_ptr<const Scene> toBuild_, source_;
     std::shared_ptr<const ReferenceScene> scene_, shownScene_, holeScene_;
-    bool building_ = false;   // Build is out
-    bool exclusive_ = false;  // Begin is, or a picture is resolved
+    bool building_ = false;   // a Build job is outstanding
+    bool exclusive_ = false;  // a Begin job is outstanding, or a picture is resolved
     bool resolves_ = false;
-    std::array<double, PictureResolver::kStages> resolveMs_{};  // of a pixel, in each stage
+    std::array<double, PictureResolver::kStages> resolveMs_{};  // time per pixel in each stage
     bool holesExclusive_ = false;                               // PrepareHoles or AnswerHoles is
+                                                                // outstanding
     bool toLook_ = false, workAtBegin_ = false;
     double tickSeconds_ = 1.0 / 30;
-    double holeMs_ = 0;  // in the current frame
+    double holeMs_ = 0;  // time for holes in the current frame
     int asleep_ = 0;
     RenderCounters counters_;
-    std::uint64_t samplesThen_ = 0;  // when the rate was computed
+    std::uint64_t samplesThen_ = 0;  // counters_.samples when the rate was computed last
     Timestamp rateTime_;
 };
 

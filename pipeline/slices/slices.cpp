@@ -9,7 +9,8 @@ namespace mfar {
 namespace {
 
 constexpr int kTileEdge = 8;
-// Turns of slices of time: a look, two of the first samples, and from here on all pixels.
+// Turns of Slicing::Time: a ray through the centres, two sparse turns of the first samples, then
+// all pixels.
 constexpr int kLook = 1, kFirstFull = 4;
 constexpr int kTilePixels = kTileEdge * kTileEdge;
 
@@ -21,7 +22,7 @@ std::uint32_t spread(std::uint32_t v) {
     return (v | v << 1) & 0x55555555;
 }
 
-/// Every other bit of the lower 16, side by side.
+/// Moves every other bit of the lower 16 next to each other.
 int gathered(std::uint32_t v) {
     v &= 0x55555555;
     v = (v | v >> 1) & 0x33333333;
@@ -29,8 +30,8 @@ int gathered(std::uint32_t v) {
     return static_cast<int>((v | v >> 4) & 0x000000ff);
 }
 
-/// The place of a tile's pixel in Morton order that comes as number `rank`: of any 4^n that come
-/// first, each fills a square of its own. Its own inverse.
+/// Place in Morton order of the tile's pixel with number `rank` in sampling order: the first 4^n
+/// pixels each fill a square of their own. The function is its own inverse.
 std::uint32_t evenlySpread(std::uint32_t rank) {
     return (rank & 0x03) << 4 | (rank & 0x0c) | (rank & 0x30) >> 4;
 }
@@ -39,7 +40,7 @@ std::uint32_t mortonCode(int x, int y) {
     return spread(static_cast<std::uint32_t>(x)) | spread(static_cast<std::uint32_t>(y)) << 1;
 }
 
-/// Number in which a pixel of a picture so wide comes in its tile.
+/// Number, in sampling order within its tile, of a pixel of a picture of this width.
 std::uint32_t rankOf(std::uint32_t pixel, int width) {
     const auto x = static_cast<int>(pixel) % width, y = static_cast<int>(pixel) / width;
     return evenlySpread(mortonCode(x % kTileEdge, y % kTileEdge));
@@ -83,7 +84,7 @@ void Slices::addTile(const PixelRect& pixels, Density density) {
     Tile tile;
     tile.first = static_cast<std::uint32_t>(pixels_.size());
     const int left = pixels.x0 - pixels.x0 % kTileEdge, top = pixels.y0 - pixels.y0 % kTileEdge;
-    // Those of even column and row come first.
+    // Pixels of even column and row come first.
     const std::uint32_t ranks = density == Density::Full ? kTilePixels : kTilePixels / 4;
     for (std::uint32_t rank = 0; rank < ranks; ++rank) {
         const std::uint32_t code = evenlySpread(rank);
@@ -114,7 +115,7 @@ void Slices::beginTurn() {
     for (Tile& tile : tiles_) {
         if (tile.active == 0) continue;
         tile.most = mostOfTurn(tile);
-        // A tile without pixels in a sparse turn: those that it would have are known.
+        // The tile has no pixels in this sparse turn: they are known already.
         if (tile.handed >= tile.most) --ofTurn_;
     }
     if (ofTurn_ == 0) samples_ = samplesOfTurn();
@@ -184,7 +185,7 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
     } else if (tile.handed < tile.active) {
         if (adapts && turn_ + 1 == kFirstFull && isUntouched(tile, states)) {
             kept = 0;
-            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // are traced
+            settled_ -= tile.handed * static_cast<std::uint64_t>(step(tile));  // they were traced
         }
     } else {
         tile.samples += step(tile);
@@ -195,7 +196,7 @@ void Slices::endRound(Tile& tile, const PixelStates& states) {
             kept = keepNoisy(tile, states);
     }
     dropActive(tile, kept);
-    // A tile of space goes on by itself.
+    // Spatial slices: the tile goes on independently of the others.
     if (!time && tile.active > 0) {
         tile.most = tile.active;
         return;
@@ -219,7 +220,7 @@ bool Slices::isUntouched(const Tile& tile, const PixelStates& states) const {
 }
 
 std::uint32_t Slices::keepNoisy(Tile& tile, const PixelStates& states) {
-    constexpr int kRow = kTileEdge + 2;  // a border without noise
+    constexpr int kRow = kTileEdge + 2;  // with a border that is not noisy
     std::array<bool, kRow * kRow> noisy{};
     const auto placeOf = [&](std::uint32_t pixel) {
         const std::uint32_t x = pixel % static_cast<std::uint32_t>(width_);

@@ -6,14 +6,14 @@
 
 namespace mfar {
 
-/// Where a picture shows anything, by tiles of 8x8 pixels.
+/// Tiles of 8x8 pixels in which a picture shows anything.
 class TouchedTiles {
 public:
-    /// Nothing is known.
+    /// Forgets the picture: nothing is known.
     void clear() { tiles_.clear(); }
     void set(const RenderedPicture& picture);
 
-    /// Whether it is known that the pixel is farther than a tile from anything that is shown.
+    /// Whether the pixel is known to be farther than a tile from anything shown.
     [[nodiscard]] bool isFarFrom(const Eigen::Vector2d& pixel) const;
 
 private:

@@ -17,7 +17,7 @@ double angleBetween(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Cones about the optical axis inside and around what a camera sees.
+/// Cones about the optical axis: one inside the field of view, one around it.
 struct ViewCones {
     double inner = std::numbers::pi, outer = 0;  // half angles [rad]
 
@@ -33,7 +33,7 @@ struct ViewCones {
     }
 };
 
-/// A ball as a camera sees it.
+/// A ball as seen by a camera.
 struct BallSight {
     Eigen::Vector3d towards;  // in the camera's frame [m]
     double fromAxis = 0, halfAngle = 0;
@@ -63,7 +63,7 @@ LightMoments momentsOf(const Environment& environment) {
         const double solidAngle = std::sin(polar) * 2 * std::numbers::pi * std::numbers::pi /
                                   (static_cast<double>(width) * height);
         for (int column = 0; column < width; ++column) {
-            // Column 0 is -x, three quarters of the width +y.
+            // Column 0 is -x, the column at three quarters of the width is +y.
             const double around = 2 * std::numbers::pi * (column + 0.5) / width - std::numbers::pi;
             const Eigen::Vector4d basis{1, std::sin(polar) * std::cos(around),
                                         std::sin(polar) * std::sin(around), std::cos(polar)};

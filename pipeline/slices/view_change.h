@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// A ball around an object, in the world [m].
+/// Bounding ball of an object, in the world [m].
 struct ObjectBall {
     Eigen::Vector3d centre;
     double radius;
@@ -19,35 +19,33 @@ struct ObjectBall {
 /// One for each of the scene's objects that has vertices.
 [[nodiscard]] std::vector<ObjectBall> objectBalls(const Scene& scene);
 
-/// Up to where a picture of another view serves, warped, as well as a new one.
+/// Limits of a view change up to which a warped picture serves as well as a new one.
 struct ViewLimits {
-    double turnDegrees = 4;  ///< of the line of sight about an object's centre, above 0
+    double turnDegrees = 4;  ///< turn of the line of sight about an object's centre, above 0
     double zoom = 0.2;       ///< change of the distance to it as a share, above 0
     bool operator==(const ViewLimits&) const = default;
 };
 
-/// How differently two views show the objects, in units of the limits: from 1 on too differently.
-/// The camera's turning on the spot changes nothing that a warp cannot make up for, and counts, as
-/// an angle across the picture, for objects alone that `from` does not show as a whole. Objects
-/// that `to` does not show count for nothing. Infinity for cameras that are not the same, and for
-/// an object that `to` shows and `from` does not.
+/// How differently two views show the objects, in units of the limits: from 1 on too differently. A
+/// warp can undo the camera's rotation on the spot, so its angle counts only for objects that
+/// `from` does not show whole. Objects that `to` does not show do not count. Infinity for different
+/// cameras, and for an object that `to` shows and `from` does not.
 [[nodiscard]] double viewChange(const RenderView& from, const RenderView& to,
                                 std::span<const ObjectBall> objects, const ViewLimits& limits);
 
-/// By how much the objects move from one view to the other, at most, seen without distortion [px].
-/// Those that either does not have before it count for nothing. Infinity for cameras that are not
-/// the same.
+/// Largest motion of the objects from one view to the other, without distortion [px]. Points that
+/// are not in front of both cameras do not count. Infinity for different cameras.
 [[nodiscard]] double pixelChange(const RenderView& from, const RenderView& to,
                                  std::span<const ObjectBall> objects);
 
-/// How much the light differs, as a share of the stronger: the largest difference of the mean
-/// radiance and of its first moment over all directions (spherical harmonics of degree 0 and 1).
+/// Difference of the light as a share of the stronger: the largest difference of the mean radiance
+/// and of its first moment over all directions (spherical harmonics of degree 0 and 1).
 [[nodiscard]] double lightChange(const Lighting& a, const Lighting& b);
 
-/// Whether all but the light is the same.
+/// Whether the scenes differ in their light alone.
 [[nodiscard]] bool sameObjects(const Scene& a, const Scene& b);
 
-/// Whether a camera can be there: its numbers sound, its pose finite and a rotation.
+/// Whether the view is valid: camera parameters sound, pose finite and its rotation valid.
 [[nodiscard]] bool isUsable(const RenderView& view);
 
 }  // namespace mfar

@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-// Long enough to be calm at the noise of poses from tags, short enough for a hand.
+// Long enough to average out the noise of poses from tags, short enough for the motion of a hand.
 constexpr double kWindow = 0.1;
 constexpr double kLongestGap = 0.5;
 

@@ -9,24 +9,25 @@
 namespace mfar {
 
 struct PredictionLimits {
-    double seconds = 0.5;    ///< ahead, at most; 0: no prediction
-    double turnDegrees = 4;  ///< of the camera, and of its way as seen from the objects, at most
+    double seconds = 0.5;    ///< prediction time, at most; 0: no prediction
+    double turnDegrees = 4;  ///< rotation of the camera, and angle of its translation as seen from
+                             ///< the objects, at most
     bool operator==(const PredictionLimits&) const = default;
 };
 
-/// Where a camera will be that keeps turning and moving at its rate in its own frame, as measured
-/// over its last tenth of a second. One thread at a time; no allocation.
+/// Predicts the pose of a camera that keeps its angular and linear velocity in its own frame, as
+/// measured over the last tenth of a second. One thread at a time; no allocation.
 class ViewPredictor {
 public:
     /// Throws std::invalid_argument for limits that are negative or not finite.
     explicit ViewPredictor(const PredictionLimits& limits = {});
 
-    /// Where it was at `time`, later than before; an earlier time or a gap of more than half a
-    /// second is a new start.
+    /// Adds the pose at `time`, later than the last one. An earlier time or a gap above half a
+    /// second restarts the measurement.
     void add(const RigidTransform& T_world_camera, Timestamp time);
 
-    /// `seconds` after the last pose, as far as the limits let. `distance`: to the objects [m]. The
-    /// identity before the first pose.
+    /// Pose `seconds` after the last one, as far as the limits allow. `distance`: to the objects
+    /// [m]. The identity before the first pose.
     [[nodiscard]] RigidTransform predict(double seconds, double distance) const;
 
 private:

@@ -70,7 +70,7 @@ TEST(DepthFilter, TheNearerSurfaceHidesTheOther) {
         for (int x = 40; x < 60; ++x)
             measured.rho[static_cast<std::size_t>(y) * 120 + x] = 2;
     filter.fuse(measured, kWhole);
-    // 0.1 m to the right: the near square moves 22 px to the left, what is behind it 5.5.
+    // 0.1 m to the right: the near square moves 22 px to the left, the background 5.5 px.
     filter.predict(motion({0, 0, 0}, {0.1, 0, 0}), 0);
     const auto at = [&](int x) { return filter.field().rho[45UL * 120 + x]; };
     EXPECT_NEAR(at(28), 2, 1e-4);
@@ -84,12 +84,12 @@ TEST(DepthFilter, MovesAndGrowsWithTheCamera) {
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);
     const float variance = filter.field().variance[middle()];
-    // Half a metre ahead of a wall at one metre.
+    // Half a metre towards a wall at one metre.
     filter.predict(motion({0, 0, 0}, {0, 0, 0.5}), 0);
     ASSERT_TRUE(filter.field().isKnown(middle()));
     EXPECT_NEAR(filter.field().rho[middle()], 2, 1e-4);
     EXPECT_GT(filter.field().variance[middle()], 10 * variance);
-    // Through it.
+    // Through the wall.
     filter.predict(motion({0, 0, 0}, {0, 0, 1.2}), 0);
     EXPECT_FALSE(filter.field().isKnown(middle()));
 }

@@ -19,7 +19,7 @@ CameraModel barrelCamera() {
     return {{240, 180}, 200, 201, 122, 88, {-0.25, 0.06, 0.001, -0.0012, 0.002}};
 }
 
-/// A panel before a slanted wall, metres.
+/// A panel in front of a slanted wall [m].
 Scene panelScene() {
     return {{{Eigen::Vector3d(0.2, 0.1, 1).normalized(), 1.6},
              {{0, 0, 1}, 1, {-0.2, -0.15}, {0.25, 0.2}}},
@@ -27,13 +27,13 @@ Scene panelScene() {
             100};
 }
 
-/// The depth stage as a camera moves in that scene; the world is the scene's frame.
+/// Runs the depth stage while a camera moves in that scene; the world is the scene's frame.
 class Walk {
 public:
     explicit Walk(const DepthOptions& options = {}, const PixelRect& where = kAll)
         : stage_(barrelCamera(), std::make_shared<Workers>(2), options), where_(where) {}
 
-    /// A frame of a camera there.
+    /// Passes the frame of a camera at this pose.
     void go(const RigidTransform& T_world_video) {
         pose_ = T_world_video;
         Pose pose{Timestamp::fromSeconds(1 + kFrame * frames_++), T_world_video};
@@ -46,8 +46,8 @@ public:
     static RigidTransform at(double x) { return motion({0, 0, 0}, {x, 0.3 * x, 0}); }
 
     struct Errors {
-        double median = 0;    ///< of |z - truth| / truth where depth is known
-        double bad = 0;       ///< share of known pixels off by more than a tenth
+        double median = 0;    ///< of |z - truth| / truth over pixels with known depth
+        double bad = 0;       ///< share of known pixels with an error above a tenth
         double complete = 0;  ///< share of pixels with known depth
     };
     [[nodiscard]] Errors errors() const {
@@ -135,7 +135,7 @@ TEST(DepthStage, MeasuresOnlyWhereItIsNeeded) {
     walk.goSideways(10, 0.01);
     expectGood(walk.errors());
     const InverseDepthField& field = walk.stage().field();
-    // What was measured moves by up to four pixels a frame.
+    // Measured values move by up to four pixels per frame.
     const PixelRect reached = widened(where, 40, field.size);
     for (int y = 0; y < field.size.height; ++y) {
         for (int x = 0; x < field.size.width; ++x) {

@@ -16,7 +16,7 @@ constexpr Size kPicture{64, 48};
 constexpr PixelRect kAllPixels{0, 0, 64, 48};
 constexpr int kEdge = 30;
 
-/// A dark surface left of kEdge before a bright one, with a fine pattern on both.
+/// A dark surface to the left of kEdge and a bright one to the right, with a fine pattern on both.
 std::vector<std::uint8_t> picture(int left = 60, int right = 160) {
     std::vector<std::uint8_t> out;
     for (int y = 0; y < kPicture.height; ++y)
@@ -26,7 +26,7 @@ std::vector<std::uint8_t> picture(int left = 60, int right = 160) {
     return out;
 }
 
-/// The near surface reaches `too` pixels too far; between them `unknown` pixels.
+/// The near surface extends `too` pixels too far, followed by `unknown` pixels.
 InverseDepthField field(int too, int unknown) {
     InverseDepthField out(kPicture);
     for (int y = 0; y < kPicture.height; ++y)
@@ -88,7 +88,7 @@ TEST(EdgeSnap, AnEdgeGoesWhereThePictureHasIt) {
         }
 }
 
-// The surfaces differ in colour alone, so that it must be read from where each format has it.
+// The surfaces differ only in colour, so that it must be read correctly from every format.
 TEST(EdgeSnap, ColourOfEveryFormatTellsSurfacesApart) {
     for (const PixelFormat format : test::kEveryFormat) {
         if (format == PixelFormat::Gray8) continue;
@@ -106,13 +106,14 @@ TEST(EdgeSnap, ColourOfEveryFormatTellsSurfacesApart) {
     }
 }
 
-// Rounded, and with each pair's chroma as it is, a picture in Y U V is the picture in R G B.
+// If values are rounded and chroma is the same for each pair of pixels, a Y U V picture gives the
+// same result as the R G B picture.
 TEST(EdgeSnap, YuvAndItsRgbGiveTheSameField) {
     for (const PixelFormat format : {PixelFormat::Yuyv, PixelFormat::Nv12, PixelFormat::Yuv420}) {
         test::PaddedPicture painted(format, kPicture, 6);
         for (int plane = 0; plane < planeCount(format); ++plane)
             for (auto& b : painted.plane(plane))
-                b = static_cast<std::uint8_t>(110 + b / 8);  // some are alike
+                b = static_cast<std::uint8_t>(110 + b / 8);  // some values are equal
         const ImageView view = painted.view(YuvMatrix::Bt709, YuvRange::Limited);
         const auto samples = twin::yuvSamples(view);
         const int down = format == PixelFormat::Yuyv ? 1 : 2;

@@ -51,7 +51,7 @@ TEST(Keyframes, ScoreTakesTheMostParallaxThatOverlaps) {
     const Keyframes frames = walked({});
     EXPECT_EQ(frames.choose(poseAt(0.1), 100, kAll, 1)->frame->pose.T_world_video.translation.x(),
               0);
-    // So near that frames from farther away see other parts of the scene.
+    // So near that frames taken from farther away see other parts of the scene.
     const auto near = frames.choose(poseAt(0.1), 100, kAll, 8);
     ASSERT_TRUE(near);
     EXPECT_NEAR(near->frame->pose.T_world_video.translation.x(), 0.06, 0.011);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures what the paper claims and writes one page with numbers and figures: paper.md.
-# Usage: paper.sh BUILD-FOLDER OUTPUT-FOLDER [--quick]. --quick: tiny pictures, which show that it runs.
+# Usage: paper.sh BUILD-FOLDER OUTPUT-FOLDER [--quick]. --quick: tiny pictures, to check that it runs.
 set -euo pipefail
 build=$1
 out=$2
@@ -19,7 +19,7 @@ fi
 rm -rf "$out"
 mkdir -p "$out"
 
-# measured FILE COMMAND...: runs it; its table goes into FILE, its messages to the terminal.
+# measured FILE COMMAND...: runs COMMAND; its table goes into FILE, its messages to the terminal.
 measured() {
     local file=$out/$1
     shift
@@ -31,7 +31,7 @@ measured() {
     fi
 }
 
-# median LINE: of this line of mfar-bench's table [ms].
+# median LINE: the median in this line of mfar-bench's table [ms].
 median() { awk -v line="$1" 'index($0, line " ") == 1 { sub(line, ""); print $1; exit }' "$out/times.txt"; }
 perSecond() { awk -v ms="$1" 'BEGIN { if (ms == "") print "not measured"; else printf "%.1f frames/s", 1000 / ms }'; }
 

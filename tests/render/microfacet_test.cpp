@@ -12,14 +12,14 @@ Eigen::Vector3f viewAt(float mu) {
     return {std::sqrt(1 - mu * mu), 0, mu};
 }
 
-/// Of f(direction) over the upper hemisphere, by midpoints.
+/// Integral of f(direction) over the upper hemisphere, by the midpoint rule.
 template <int Phis = 256, typename F>
 double overHemisphere(F f) {
     constexpr int kThetas = 256;
     double sum = 0;
     for (int i = 0; i < kThetas; ++i)
         for (int j = 0; j < Phis; ++j) {
-            // Finer towards the pole and the rim.
+            // Finer steps near the pole and the rim.
             const double s = (i + 0.5) / kThetas;
             const double z = s * s * (3 - 2 * s), dz = 6 * s * (1 - s) / kThetas;
             const double phi = 2 * M_PI * (j + 0.5) / Phis, r = std::sqrt(1 - z * z);
@@ -45,7 +45,8 @@ TEST(Microfacet, VisibleNormalsIntegrateToOne) {
 TEST(Microfacet, MaskingIsTheVisibleShareOfTheNormals) {
     const Ggx ggx(0.5F);
     const Eigen::Vector3f wo = viewAt(0.4F);
-    // The projected area of the visible ones is that of the surface (Heitz 2014, equation 14).
+    // The projected area of the visible normals equals that of the surface (Heitz 2014, equation
+    // 14).
     const double projected = overHemisphere([&](const Eigen::Vector3f& h) {
         return ggx.masking(0.4F) * ggx.density(h) * std::max(0.0F, wo.dot(h));
     });

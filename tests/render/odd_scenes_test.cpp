@@ -25,7 +25,7 @@ std::shared_ptr<Scene> oddScene(Mesh mesh) {
     return out;
 }
 
-/// Traces and expects only numbers; gives how many pixels see an object or its shadow.
+/// Traces, expects finite numbers, and returns how many pixels see an object or its shadow.
 int tracedSoundly(const std::shared_ptr<const Scene>& scene, const RenderView& view) {
     const PathTracer tracer(scene);
     const Film film = traced(tracer, view, 4);
@@ -97,7 +97,7 @@ TEST(OddScenes, TheCameraInsideAnObject) {
     auto scene = oddScene(sphere({0, 0, 0}, 5, 16));
     EXPECT_EQ(tracedSoundly(scene, kOddView), 32 * 24);
     EXPECT_EQ(PathTracer(scene).bounds(kOddView), (PixelRect{0, 0, 32, 24}));
-    // From within, the front of a single-sided one does not show.
+    // From inside, the front of a single-sided surface is not visible.
     auto single = std::make_shared<Scene>();
     single->objects.push_back(objectOf(modelOf(sphere({0, 0, 0}, 5, 16), {})));
     single->lighting = allLight();

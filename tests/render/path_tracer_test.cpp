@@ -28,7 +28,7 @@ std::shared_ptr<Scene> sceneOf(Mesh mesh, const Material& material) {
     return out;
 }
 
-/// Of the object over all pixels that see nothing else.
+/// Mean of the object's radiance over all pixels that see nothing else.
 Eigen::Vector3f meanRadiance(const Film& film) {
     Eigen::Vector3f sum{0, 0, 0};
     int pixels = 0;
@@ -55,8 +55,8 @@ TEST(PathTracer, AWhiteSphereInEvenLightCannotBeSeen) {
 }
 
 TEST(PathTracer, ABowlGivesBackNoMoreThanItGets) {
-    // Light that goes to and fro on the inside: all of it comes out, less what the path's length
-    // cuts off.
+    // Light is reflected many times inside: all of it leaves, except what the limit of the path's
+    // length cuts off.
     Mesh bowl = sphere({0, 0, 0}, 1, 32);
     std::erase_if(bowl.triangles, [&](const auto& t) {
         return bowl.positions[t[0]].z() > 0.3F || bowl.positions[t[1]].z() > 0.3F;
@@ -90,7 +90,7 @@ TEST(PathTracer, RouletteChangesNoMean) {
     EXPECT_NEAR(a, b, 0.006F);
 }
 
-/// What a horizontal surface sends along wo under a scene's lights, by quadrature alone.
+/// Radiance of a horizontal surface along wo under a scene's lights, by quadrature.
 Eigen::Vector3f byQuadrature(const Lighting& lighting, const SurfaceLook& look,
                              const Eigen::Vector3f& wo) {
     const SurfaceScatter scatter(look, wo);
@@ -138,8 +138,8 @@ TEST(PathTracer, SunOnAMattSurfaceIsItsIrradianceTimesCosine) {
 }
 
 TEST(PathTracer, AMirrorShowsTheSunWithItsRadiance) {
-    // The disc fills the reflection's lobe: its radiance, which only the weighted sum of both
-    // strategies can give.
+    // The disc fills the reflection's lobe: only the weighted sum of both strategies gives its
+    // radiance.
     auto scene = sceneOf(square(1, 0), materialOf({1, 1, 1}, 1, 0.1F));
     scene->lighting.sun = Sun{Eigen::Vector3f(0, 1, 1).normalized(), {2, 2, 2}, 0.4F};
     const RenderView view = lookingAt({0, -3, 3}, {0, 0, 0}, {4, 4}, 2000);
@@ -155,7 +155,7 @@ TEST(PathTracer, EmissionIsSeenAndLights) {
     const RenderView view = lookingAt({0, -4, 0}, {0, 0, 0}, {8, 8}, 20);
     const Eigen::Vector3f seen = meanRadiance(traced(PathTracer(scene), view, 4));
     EXPECT_NEAR((seen - lamp.emission).norm(), 0, 1e-5F);
-    // The ground under it: a sphere of radius 1 at height 2 adds radiance * albedo * (r / h)^2.
+    // Ground below: a sphere of radius r = 1 at height h = 2 adds radiance * albedo * (r / h)^2.
     scene->catcher = ground(20, 0.5F);
     for (Eigen::Vector3f& p : scene->catcher.positions)
         p.z() = -2;
@@ -194,7 +194,7 @@ TEST(PathTracer, TexturesAlphaMasksAndSidesAreMinded) {
 }
 
 TEST(PathTracer, ANormalMapTurnsTheLight) {
-    // All normals lean towards +u, which is +x: light from +x alone gets brighter.
+    // All normals are tilted towards +u, which is +x: light from +x becomes brighter.
     SurfaceTexture map{{1, 1}, false, {{218, 128, 218, 255}}};
     Material leaning = materialOf({1, 1, 1}, 0, 1);
     leaning.normalTexture = 0;

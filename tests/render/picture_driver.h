@@ -28,11 +28,11 @@ prepared(const std::shared_ptr<const Scene>& scene, std::uint64_t objects, std::
     return prepared(render_scenes::stillLife(), objects, light);
 }
 
-/// Neither filter nor history: every pixel is sampled.
+/// No filter and no history: every pixel is sampled.
 inline constexpr ReferencePolicy kPlain{{4, 0.2}, 8, false, false};
 inline constexpr ReferencePolicy kProduct{{4, 0.2}, 8, true, true};
 
-/// Does one by one what the threads of a renderer do, and keeps what was shown.
+/// Runs the steps of a renderer's threads one by one, and keeps the picture shown.
 class Driver {
 public:
     explicit Driver(const SliceOptions& slices, const ReferencePolicy& policy = kPlain)
@@ -44,7 +44,7 @@ public:
         const RenderView view = render_scenes::viewFrom(size, azimuth);
         pictures.look(view, view, {});
     }
-    /// True if there was something to do.
+    /// Returns whether there was something to do.
     bool step() {
         if (pictures.toBegin()) {
             pictures.begin();

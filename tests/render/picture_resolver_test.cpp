@@ -31,7 +31,7 @@ void expectSame(const RenderedPicture& a, const RenderedPicture& b) {
 TEST_P(PictureResolving, PortionsInAnyOrderMakeThePicture) {
     RenderedPicture whole, parts;
     resolve(film, view, {}, whole, GetParam());
-    // What an earlier picture has left is gone.
+    // Values of an earlier picture must be overwritten.
     parts.colour.assign(kResolvedSize.width * kResolvedSize.height, {1, 2, 3, 4});
     parts.id.assign(parts.colour.size(), 7);
     PictureResolver resolver;

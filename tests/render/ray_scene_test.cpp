@@ -24,7 +24,7 @@ TEST(RayScene, FindsWhatIsNearest) {
     const RayScene scene = sphereOnSquare();
     const RayHit ball = scene.first({{0, -4, 0.01F}, {0, 2, 0}});
     EXPECT_EQ(ball.mesh, 0U);
-    EXPECT_NEAR(ball.t, 1.5F, 0.01F);  // in lengths of the direction
+    EXPECT_NEAR(ball.t, 1.5F, 0.01F);  // in units of the direction's length
     const RayHit floor = scene.first({{2, 2, 5}, {0, 0, -1}});
     EXPECT_EQ(floor.mesh, 1U);
     EXPECT_NEAR(floor.t, 6, 1e-5F);
@@ -34,7 +34,7 @@ TEST(RayScene, FindsWhatIsNearest) {
     EXPECT_FALSE(scene.blocked({{2, 2, 5}, {0, 0, -1}, 6.1F}));
 }
 
-/// Rays of a fan, and every third one at an edge or a corner, where two triangles are met at once.
+/// A fan of rays; every third one meets an edge or a corner, where two triangles are hit at once.
 std::vector<Ray> fan(std::size_t count, std::mt19937& random) {
     const Mesh ball = sphere({0, 0, 0}, 1, 32);
     std::uniform_real_distribution<float> slope(-0.4F, 0.4F);
@@ -75,7 +75,7 @@ TEST(RayScene, TogetherRaysFindTheSameToTheBit) {
 TEST(RayScene, HolesLetRaysThrough) {
     RayScene scene;
     const Mesh upper = square(1, 1), lower = square(1, 0);
-    // Only the first triangle's part towards its first corner is there.
+    // Only the first triangle exists, and of it only the part near its first corner.
     const HoleTest holes{[](const void*, std::uint32_t triangle, float u, float v) {
                              return triangle != 0 || u + v > 0.5F;
                          },

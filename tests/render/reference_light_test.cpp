@@ -12,8 +12,8 @@ namespace {
 
 using namespace reference_pictures;
 
-/// Of objects' colours within their silhouettes [grey levels], root mean square, against samples
-/// without filter or history.
+/// Root mean square error of the objects' colours within their silhouettes [grey levels], compared
+/// with a picture sampled without filter or history.
 double errorOf(const RenderedPicture& picture, double azimuth) {
     Driver exact({Slicing::Time, 256, 16, 0, 16});
     exact.look(azimuth);
@@ -40,7 +40,8 @@ TEST(ReferenceLight, AFirstPictureIsShownOfOneSampleInSixteenPixels) {
     EXPECT_GT(driver.shown.size(), 4U);
     const RenderedPicture &first = driver.shown.front(), &last = driver.shown.back();
     for (std::size_t i = 0; i < first.id.size(); ++i) {
-        // Through a pixel's centre; later samples may find an object beside it.
+        // The first id is that of the pixel's centre; later samples may also hit a neighbouring
+        // object.
         if (first.id[i] == 0 || first.id[i] == kCatcherId || last.id[i] == kCatcherId) continue;
         ASSERT_EQ(first.id[i], last.id[i]) << "objects are whole at once";
     }
@@ -100,7 +101,7 @@ TEST(ReferenceLight, LightOfAnotherLightIsSoonOutweighed) {
 TEST(ReferenceLight, SurfacesThatNothingChangesAreTracedOnce) {
     Driver driver({Slicing::Time, 2, 1, 0, 2}, kProduct);
     driver.size = {192, 144};
-    // A black ball in the sun: it has a shadow, and changes no light elsewhere.
+    // A black ball in the sun: it casts a shadow and changes no other light.
     const auto sunlit = std::make_shared<Scene>(*render_scenes::stillLife());
     sunlit->lighting.environment = nullptr;
     sunlit->objects.resize(1);
@@ -132,7 +133,7 @@ TEST(ReferenceLight, AtRestEachPixelHasItsOwnSamples) {
     EXPECT_TRUE(driver.pictures.settled());
 }
 
-// Of silhouettes, where carried light knows nothing.
+// At silhouettes, where there is no carried light.
 TEST(ReferenceLight, AtRestSilhouettesAreAsSmoothAsWithoutHistory) {
     Driver driver({Slicing::Time, 64, 2, 1, 16}, kProduct), exact({Slicing::Time, 256, 16, 0, 16});
     driver.look(20);

@@ -21,17 +21,17 @@ TEST(NextStep, FollowsTheCamera) {
         ReferenceStep step;
     };
     for (const auto& [sinceShown, sinceNext, step] : std::vector<Case>{
-             {{}, {}, Start},         // nothing yet
-             {{}, 9.0, Continue},     // the first one, wherever the camera is
-             {0.2, {}, Refine},       // it is new
-             {0.3, {}, Start},        // the next one takes over its light
-             {kInfinite, {}, Start},  // it never did
-             {1.1, 0.9, Continue},    // on the way
-             {0.6, 2.0, Start},       // the same, and the shown one serves meanwhile
-             {0.1, 0.7, Drop},        // come back
-             {0.2, 0.7, Continue},    // not quite
-             {2.0, 1.5, Continue},    // too fast, but better than what is shown
-             {1.5, 2.0, Start},       // another way than was predicted
+             {{}, {}, Start},         // no picture yet
+             {{}, 9.0, Continue},     // the first picture is continued wherever the camera is
+             {0.2, {}, Refine},       // the picture is new
+             {0.3, {}, Start},        // the next picture takes over its light
+             {kInfinite, {}, Start},  // the picture shown cannot serve at all
+             {1.1, 0.9, Continue},    // the camera is on the way
+             {0.6, 2.0, Start},       // the same, and the picture shown serves meanwhile
+             {0.1, 0.7, Drop},        // the camera came back
+             {0.2, 0.7, Continue},    // the camera did not quite come back
+             {2.0, 1.5, Continue},    // too fast, but the next picture is better than the one shown
+             {1.5, 2.0, Start},       // the camera took another way than predicted
          }) {
         EXPECT_EQ(nextStep(sinceShown, sinceNext, 0.25), step)
             << sinceShown.value_or(-1) << ' ' << sinceNext.value_or(-1);
@@ -78,7 +78,7 @@ TEST(ReferencePictures, ACameraThatComesToRestGetsAPictureOfItsOwnView) {
     EXPECT_TRUE(driver.shows(22));
     EXPECT_TRUE(driver.pictures.settled());
     for (int i = 0; i < 30; ++i)
-        driver.look(22 + 0.001 * (i % 2));  // a pose is never quite the same
+        driver.look(22 + 0.001 * (i % 2));  // poses are never exactly equal
     EXPECT_FALSE(driver.step());
 }
 
@@ -131,7 +131,7 @@ TEST(ReferencePictures, ACameraThatComesBackFindsItsPictureAndRefinesIt) {
     driver.look(20);
     driver.untilShown(3);
     driver.look(26);
-    ASSERT_TRUE(driver.step());  // it is begun
+    ASSERT_TRUE(driver.step());  // the picture is begun
     ASSERT_TRUE(driver.step());
     driver.look(20.2);
     driver.settle();

@@ -32,7 +32,7 @@ ReferenceOptions quick() {
     return out;
 }
 
-/// A frame loop without a frame's work; times are those of 30 frames a second.
+/// A frame loop without other work; times are those of 30 frames per second.
 class Frames {
 public:
     explicit Frames(const ReferenceOptions& options) : renderer(options) {}
@@ -43,7 +43,7 @@ public:
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     [[nodiscard]] Timestamp now() const { return Timestamp::fromSeconds(1 + count_ / 30.0); }
-    /// Waits until the frame was seen by the threads.
+    /// Waits until the threads have received the frame.
     bool seen() {
         const auto end = steady_clock::now() + std::chrono::seconds(60);
         while (renderer.counters().frame < now()) {
@@ -52,7 +52,7 @@ public:
         }
         return true;
     }
-    /// Frames until `reached`; false if it never is.
+    /// Runs frames until `reached`; returns false if it never is.
     bool until(const RenderView& view, const std::function<bool()>& reached) {
         const auto end = steady_clock::now() + std::chrono::seconds(60);
         while (!reached()) {
@@ -66,7 +66,7 @@ public:
             return renderer.counters().pictures >= pictures && renderer.counters().idle;
         });
     }
-    /// Until there is the picture that a camera at rest gets.
+    /// Runs until the picture of a resting camera is shown.
     bool rest(const RenderView& view) {
         if (!finish(view)) return false;
         for (int i = 0; i < 15; ++i) {
@@ -86,7 +86,7 @@ RenderView shownView(ReferenceRenderer& renderer) {
     return {renderer.newest()->camera, renderer.newest()->T_world_camera};
 }
 
-/// About the origin.
+/// Angle about the origin.
 double degreesBetween(const RenderView& a, const RenderView& b) {
     const Eigen::Vector3d &from = a.T_world_camera.translation, &to = b.T_world_camera.translation;
     return std::atan2(from.cross(to).norm(), from.dot(to)) * 180 / std::numbers::pi;
@@ -123,7 +123,8 @@ TEST(ReferenceRenderer, GivesTheSamePictureForBothWaysAndAnyThreads) {
 TEST(ReferenceRenderer, IsIdleOnceConvergedAndUnmoved) {
     ReferenceOptions options = quick();
     options.slices.samples = 4096;
-    options.slices.threshold = 1e6;  // calm as soon as an error is believed
+    options.slices.threshold = 1e6;  // every pixel counts as finished as soon as its estimated
+                                     // error is trusted
     Frames frames(options);
     EXPECT_TRUE(frames.renderer.counters().idle);
     frames.renderer.setScene(render_scenes::stillLife());
@@ -161,16 +162,16 @@ TEST(ReferenceRenderer, SleepsWhenTheFramesBudgetIsUsedUp) {
     Frames frames(options);
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
-    // A machine that is busy may give less time, never more.
+    // A busy machine may give less time, but never more.
     int shown = 0;
     ASSERT_TRUE(frames.until(
         view, [&] { return ++shown > 300 && frames.renderer.counters().budget.mean > 0; }));
     EXPECT_LE(frames.renderer.counters().budget.mean, 1.1);
     const double used = frames.renderer.counters().cpuMs;
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    frames.frame(view);  // its counters tell of the time before
+    frames.frame(view);  // its counters describe the time before
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    // Of a few frames, whose end the counters had not told of yet; awake, it were hundreds.
+    // Time of a few frames that the counters did not include yet; awake threads would use hundreds.
     EXPECT_LE(frames.renderer.counters().cpuMs - used, 20 * options.budgetMs);
 }
 

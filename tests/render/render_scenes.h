@@ -8,18 +8,18 @@
 #include <memory>
 #include <vector>
 
-/// Small scenes of which the light is known, and ways to trace them.
+/// Small scenes with known light, and functions that trace them.
 namespace mfar::render_scenes {
 
 /// Latitude-longitude sphere about `centre` with smooth normals.
 [[nodiscard]] Mesh sphere(const Eigen::Vector3f& centre, float radius, int rings = 32);
 /// Rectangle with the corners (-side, -side) and (side, side) at height z, facing up.
 [[nodiscard]] Mesh square(float side, float z);
-/// The same as a real surface.
+/// The same as a catcher.
 [[nodiscard]] ShadowCatcher ground(float side, float albedo);
 [[nodiscard]] Model modelOf(Mesh mesh, const Material& material);
 [[nodiscard]] SceneObject objectOf(Model model);
-/// The same radiance from all around.
+/// Constant radiance from all directions.
 [[nodiscard]] std::shared_ptr<const Environment> evenLight(float radiance);
 /// Brighter towards +z, with a bright window on one side.
 [[nodiscard]] std::shared_ptr<const Environment> unevenLight();
@@ -29,7 +29,7 @@ namespace mfar::render_scenes {
                                    Size size, double focal);
 
 [[nodiscard]] std::vector<std::uint32_t> allPixels(Size size);
-/// All pixels, so many samples each.
+/// Traces all pixels with `samples` samples each.
 [[nodiscard]] Film traced(const PathTracer& tracer, const RenderView& view, int samples);
 [[nodiscard]] RenderedPicture resolved(const Film& film, const RenderView& view);
 

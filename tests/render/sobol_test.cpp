@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-/// Sobol's second dimension from its direction numbers, which are rows of Pascal's triangle.
+/// Sobol's second dimension from its direction numbers, the rows of Pascal's triangle.
 std::uint32_t secondCoordinate(std::uint32_t index) {
     std::uint32_t out = 0, direction = 0x80000000U;
     for (; index != 0; index >>= 1, direction ^= direction >> 1)
@@ -34,7 +34,8 @@ TEST(Sobol, ShuffleKeepsAlignedBlocks) {
     }
 }
 
-/// How many of the boxes of 2^-a by 2^-b hold exactly one of the samples first..first + 2^(a + b).
+/// Whether each of the boxes of 2^-a by 2^-b holds exactly one of the samples first..first + 2^(a +
+/// b).
 bool eachBoxHasOne(std::uint32_t pixel, std::uint32_t dimension, std::uint32_t first, int a,
                    int b) {
     std::set<std::pair<int, int>> boxes;
@@ -57,7 +58,7 @@ TEST(Sobol, EveryElementaryIntervalOfEveryBlockHasItsSample) {
                             << pixel << ' ' << dimension << ' ' << a << ' ' << bits - a;
 }
 
-/// Root mean square error over pixels of the mean of f(u) over n samples, whose integral is known.
+/// Root mean square error, over pixels, of the mean of f(u) over n samples; the integral is known.
 template <typename F>
 double errorOf(F f, double integral, std::uint32_t n, bool independent) {
     double squares = 0;
@@ -77,7 +78,7 @@ TEST(Sobol, SmoothIntegralsAreFarBetterThanByChance) {
     const double ours = errorOf(product, integral, 64, false);
     const double chance = errorOf(product, integral, 64, true);
     EXPECT_LT(ours * 15, chance);
-    // By chance: the standard deviation of the product over 8.
+    // Random numbers: the standard deviation of the product over 8.
     EXPECT_NEAR(chance, 0.666 / 8, 0.01);
 }
 
@@ -85,7 +86,7 @@ TEST(Sobol, TheErrorOfADiscFallsFasterThanByChance) {
     const auto disc = [](const Eigen::Vector2f& u) { return u.squaredNorm() < 1 ? 1.0 : 0.0; };
     const double few = errorOf(disc, M_PI / 4, 16, false);
     const double many = errorOf(disc, M_PI / 4, 1024, false);
-    // n^-3/4: a factor of 22.6 where chance gives 8.
+    // n^-3/4 gives a factor of 22.6, random numbers 8.
     EXPECT_GT(few / many, 14);
 }
 

@@ -24,7 +24,7 @@ std::vector<SurfaceLook> looks(const Eigen::Vector3f& colour) {
     return out;
 }
 
-/// Light that comes back if the same comes from everywhere.
+/// Reflected light under uniform light of 1.
 Eigen::Vector3f furnace(const SurfaceLook& look, float mu) {
     const SurfaceScatter scatter(look, directionAt(mu, 0.4F));
     Eigen::Vector3f sum{0, 0, 0};
@@ -60,7 +60,8 @@ TEST(SurfaceScatter, IsReciprocal) {
     }
 }
 
-/// Shares of samples, and the density's integral, over cells even in cosine and azimuth.
+/// Shares of the samples, and the density's integral, over cells of equal size in cosine and
+/// azimuth.
 struct Cells {
     static constexpr int kSide = 8, kFine = 48;
     std::array<double, kSide * kSide> sampled{}, expected{};

@@ -23,7 +23,7 @@ TEST(TripleBuffer, TheNewestWins) {
 
 TEST(TripleBuffer, WhatTheReaderHasStaysAndMemoryIsReused) {
     TripleBuffer<std::vector<int>> buffer;
-    for (int i = 0; i < 3; ++i) {  // all three get their memory
+    for (int i = 0; i < 3; ++i) {  // allocates the memory of all three slots
         buffer.back().assign(100, i);
         buffer.publish();
         buffer.fetch();

@@ -16,7 +16,7 @@ constexpr Size kSize{64, 48};
 const ViewLimits kLimits{4, 0.2};
 const std::vector<ObjectBall> kBall{{{0, 0, 0}, 0.1}};
 
-/// The camera turns on the spot, to its right.
+/// Rotates the camera on the spot, to its right.
 RenderView turned(RenderView view, double degrees) {
     const Eigen::AngleAxisd turn(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitY());
     view.T_world_camera.rotation = view.T_world_camera.rotation * turn;
@@ -28,7 +28,7 @@ double change(const RenderView& from, const RenderView& to) {
 }
 
 TEST(ViewChange, IsTheAngleAboutTheObjectInUnitsOfTheLimit) {
-    // Level with the object, the azimuth is that angle.
+    // At the object's level, the azimuth is that angle.
     const RenderView from = viewFrom(kSize, 20, 0);
     EXPECT_NEAR(change(from, from), 0, 1e-12);
     EXPECT_NEAR(change(from, viewFrom(kSize, 22, 0)), 0.5, 1e-9);
@@ -45,7 +45,7 @@ TEST(ViewChange, IsTheDistancesRatioInUnitsOfTheLimit) {
 TEST(ViewChange, TurningOnTheSpotIsNoneForWhatIsWhollySeen) {
     const RenderView from = viewFrom(kSize, 20);
     EXPECT_NEAR(change(from, turned(from, 8)), 0, 1e-9);
-    const RenderView cut = turned(from, 24);  // at the picture's border
+    const RenderView cut = turned(from, 24);  // the object crosses the picture's border
     EXPECT_NEAR(change(cut, turned(cut, 2)), 0.5, 0.01);
     EXPECT_NEAR(change(cut, turned(cut, -8)), 2, 0.01);
 }

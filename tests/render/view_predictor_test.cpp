@@ -19,7 +19,7 @@ double angle(const RigidTransform& a, const RigidTransform& b) {
     return a.rotation.angularDistance(b.rotation);
 }
 
-/// On a circle about the origin, `speed` degrees a second.
+/// Pose on a circle about the origin, moving at `speed` degrees per second.
 RigidTransform onCircle(double seconds, double speed) {
     return render_scenes::viewFrom({64, 48}, speed * seconds).T_world_camera;
 }
@@ -41,7 +41,7 @@ TEST(ViewPredictor, FollowsTheLastTenthOfASecond) {
     ViewPredictor predictor(kNoLimits);
     for (int i = 0; i <= 15; ++i)
         predictor.add(onCircle(i / 30.0, 20), Timestamp::fromSeconds(i / 30.0));
-    for (int i = 16; i <= 20; ++i)  // it stops
+    for (int i = 16; i <= 20; ++i)  // the camera stops
         predictor.add(onCircle(0.5, 20), Timestamp::fromSeconds(i / 30.0));
     expectNear(predictor.predict(1, kFar), onCircle(0.5, 20), 1e-9, 1e-9);
 }

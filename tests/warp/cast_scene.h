@@ -10,8 +10,8 @@
 
 namespace mfar::test {
 
-/// Spheres over the plane z = 0, each patterned by a function of the point alone and shadowed on
-/// the plane by a soft disc: known from anywhere exactly, by casting rays. World frame: z up.
+/// Spheres above the plane z = 0. Their pattern is a function of the point alone, and each casts a
+/// soft disc as its shadow: any view can be computed exactly by casting rays. World frame: z up.
 struct CastScene {
     struct Ball {
         Eigen::Vector3d centre;
@@ -19,23 +19,23 @@ struct CastScene {
     };
     std::vector<Ball> balls;
     bool shadows = true;
-    double contrast = 1;  ///< of the balls' pattern
+    double contrast = 1;  ///< of the spheres' pattern
 
-    /// The same as triangles, round to `segments` around.
+    /// The same scene as triangles, with `segments` around each sphere.
     [[nodiscard]] mfar::Scene scene(int segments = 192) const;
-    /// `grid`^2 rays a pixel for the colour, one through its centre for depth and number.
+    /// `grid`^2 rays per pixel for the colour, one through its centre for depth and id.
     [[nodiscard]] RenderedPicture cast(const RenderView& view, int grid = 1) const;
-    /// Of these pixels alone; the others are empty.
+    /// Only these pixels; the others are empty.
     [[nodiscard]] RenderedPicture castPixels(const RenderView& view, int grid,
                                              std::span<const std::uint32_t> pixels) const;
 };
 
-/// A big ball, a small one before it, their shadows.
+/// A big ball with a small one in front, and their shadows.
 [[nodiscard]] CastScene twoBalls();
-/// A lens with some distortion, off centre.
+/// An off-centre lens with some distortion.
 [[nodiscard]] CameraModel bentCamera(Size size);
-/// The camera at `degrees` around the scene's middle, looking at it from 0.6 m; `up` above the
-/// plane.
+/// Pose of a camera at `degrees` around the scene's centre, looking at it from 0.6 m; `up` above
+/// the plane.
 [[nodiscard]] RigidTransform orbit(double degrees, double distance = 0.6, double upDegrees = 30);
 
 }  // namespace mfar::test

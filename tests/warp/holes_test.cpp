@@ -39,7 +39,7 @@ TEST_F(WarpHolesGl, RequestsAreWhatTheReferenceDoesNotShow) {
     const RenderedPicture before = s.scene.cast({s.warp.camera(), test::orbit(0)});
     int hidden = 0, surfaces = 0;
     for (const std::uint32_t pixel : request->pixels) {
-        if (now.id[pixel] == 0) continue;  // the plane beside the shadow, which cannot be known
+        if (now.id[pixel] == 0) continue;  // the plane next to the shadow, which cannot be known
         ++surfaces;
         const Eigen::Vector2d at(pixel % kHoleLayer.width, pixel / kHoleLayer.width);
         const Eigen::Vector3d p = now.depth[pixel] * s.warp.camera().unproject(at).homogeneous();
@@ -50,7 +50,7 @@ TEST_F(WarpHolesGl, RequestsAreWhatTheReferenceDoesNotShow) {
         hidden +=
             before.id[i] != now.id[pixel] || std::abs(before.depth[i] - q.z()) > 0.003 ? 1 : 0;
     }
-    // The others lie at a limb, where rounding decides.
+    // The other pixels are at a limb, where rounding decides.
     EXPECT_GT(surfaces, 100);
     EXPECT_GT(hidden, 0.8 * surfaces);
 }
@@ -116,7 +116,8 @@ TEST_F(WarpHolesGl, ModesThatDoNotRenderDoNotAsk) {
     }
 }
 
-// The small ball is behind the big one, comes out a little, and is opaque at once.
+// The small ball is occluded by the big one; when a little of it appears, it must be opaque at
+// once.
 TEST_F(WarpHolesGl, AnObjectThatComesOutFromBehindAnotherIsNoHole) {
     const CastScene scene = test::twoBalls();
     const auto engine = test::warpEngine();

@@ -14,7 +14,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kView{320, 240};
-constexpr int kAcross = 8;  // rays a pixel, each way
+constexpr int kAcross = 8;  // rays per pixel in each direction
 
 struct Truth {
     Eigen::Vector3d diffuse = Eigen::Vector3d::Zero(), facing = Eigen::Vector3d::Zero();  // linear

@@ -18,7 +18,7 @@ CameraModel seeing() {
     return {kSeen, 50, 50, 29.5, 19.5, {}};
 }
 
-/// A square of 0.4 m about (x, 0, 1), a metre before a camera at the origin, that faces it.
+/// A square of 0.4 m about (x, 0, 1) that faces a camera at the origin.
 SceneObject squareAt(double x, const Material& material) {
     auto model = std::make_shared<Model>();
     Mesh mesh;
@@ -35,7 +35,7 @@ SceneObject turnedRound(SceneObject object) {
     return object;
 }
 
-/// How many of the surface's pixels show each object.
+/// Number of the surface's pixels that show each object.
 std::array<int, 256> pixelsOfEach(const gpu::Texture& surface) {
     const Size size = surface.size();
     std::vector<std::array<std::uint32_t, 4>> texels(static_cast<std::size_t>(size.width) *
@@ -62,7 +62,7 @@ std::array<int, 256> seen(std::vector<SceneObject> objects) {
     return seen(silhouette);
 }
 
-constexpr int kSquare = 4 * 20 * 20;  // pixels at twice the resolution
+constexpr int kSquare = 4 * 20 * 20;  // pixels, at twice the resolution
 
 TEST_F(SilhouetteGl, WhatFacesAwayIsSeenOfTwoSidedSurfacesAlone) {
     Material twoSided;

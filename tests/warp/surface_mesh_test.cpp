@@ -40,8 +40,8 @@ TEST(SurfaceMesh, LongEdgesAreCutAtTheSamePointsOnBothSides) {
             if (to < from) std::swap(from, to);
             ++edges[{from, to}];
         }
-    // Inner edges have two triangles, the others lie on the outline: its length tells if any is
-    // torn.
+    // Inner edges belong to two triangles, the others to the outline: its length shows whether an
+    // edge is torn.
     double outline = 0;
     for (const auto& [edge, triangles] : edges) {
         EXPECT_LE(triangles, 2);
@@ -91,7 +91,7 @@ TEST(SurfaceMesh, SimplifiedStaysCloseToASmoothSurface) {
     EXPECT_EQ(simplified(whole, 80000).triangles.size(), whole.triangles.size());
 }
 
-// A pipe around which u goes from 0 to 1.
+// A pipe around which u runs from 0 to 1.
 TEST(SurfaceMesh, SimplifiedKeepsBothSidesOfASeamApart) {
     std::vector<Vector3f> corners;
     std::vector<Eigen::Vector2f> uvs;

@@ -19,7 +19,7 @@ namespace mfar::simd {
 namespace {
 
 constexpr Size kPainted{60, 40};
-constexpr int kRays = 8;  // of a pixel, each way
+constexpr int kRays = 8;  // per pixel in each direction
 
 CameraModel paintCamera() {
     return {kPainted, 50, 50, 29.5, 19.5, {}};
@@ -106,7 +106,7 @@ Words paintOf(const Scene& scene, int threads = 1) {
     return paintOf(raster);
 }
 
-/// Diffuse colour, reflectance along the normal.
+/// Diffuse colour, then reflectance along the normal.
 using Six = Eigen::Matrix<double, 6, 1>;
 
 Six bytesOf(const PaintWords& words) {
@@ -118,7 +118,7 @@ Six bytesOf(const PaintWords& words) {
     return out;
 }
 
-/// Linear; what a ray from the origin meets first.
+/// Paint (linear) of the surface that a ray from the origin meets first.
 std::optional<Six> met(const Scene& scene, const Eigen::Vector3d& along) {
     double nearest = 1e9;
     std::optional<Six> out;
@@ -163,7 +163,7 @@ struct Errors {
     double worst = 0;
 };
 
-/// Over the pixels that the scene fills [levels].
+/// Errors over the pixels that the scene fills [grey levels].
 Errors errorsOf(const Words& words, const Scene& scene) {
     Errors out;
     for (int y = 0; y < kPainted.height; ++y)
@@ -226,7 +226,7 @@ TEST(SurfacePaint, OfABallHasFactorsAndTexturesOfTwoSizes) {
     EXPECT_LT(errors.mean, 3.6);
 }
 
-// Textures keep roots of linear values in bytes: half a step is 0.75 grey levels where it is dark.
+// Textures store roots of linear values in bytes: half a step is 0.75 grey levels in dark areas.
 TEST(SurfacePaint, OfPlainColoursIsRoundedTwice) {
     for (const bool hasTexture : {false, true})
         for (int level = 0; level < 256; ++level) {
@@ -264,7 +264,8 @@ TEST(SurfacePaint, WithoutTextureCoordinatesIsTheFactorAlone) {
     EXPECT_EQ(words.front(), PaintWords{});
 }
 
-// A nearer square covers the upper right quarter of pixel (30, 20), two of its neighbours' halves.
+// A nearer square covers the upper right quarter of pixel (30, 20) and half of each of two
+// neighbours.
 TEST(SurfacePaint, OfTwoObjectsInAPixelIsThatOfMostQuarters) {
     Material red, blue;
     red.baseColour = {1, 0, 0, 1};
@@ -278,7 +279,7 @@ TEST(SurfacePaint, OfTwoObjectsInAPixelIsThatOfMostQuarters) {
             return words[static_cast<std::size_t>(y) * kPainted.width + x].diffuse & 0xFFFFFFU;
         };
         EXPECT_EQ(at(30, 20), 0x000000FFU);
-        EXPECT_EQ(at(30, 19), 0x000000FFU);  // of equals the first from below
+        EXPECT_EQ(at(30, 19), 0x000000FFU);  // of equal objects, the first counted from below
         EXPECT_EQ(at(31, 20), 0x000000FFU);
         EXPECT_EQ(at(31, 19), 0x00FF0000U);
         EXPECT_EQ(at(39, 10), 0x00FF0000U);
@@ -308,7 +309,7 @@ TEST(SurfacePaint, IsSeenThroughHoles) {
     EXPECT_EQ(at(34, 24), 0x0000FF00U);
 }
 
-// Two objects and two of a model's triangles at the same places.
+// Two objects, and two triangles of a model, at the same places.
 TEST(SurfacePaint, ThreadsAndTheRowsEndsChangeNothing) {
     const std::vector<SurfaceTexture> textures{noise({64, 64}, 5), noise({16, 16}, 6)};
     auto twice = modelOf(ball(0.15F, 64), textured(0), textures);

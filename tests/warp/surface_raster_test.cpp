@@ -21,7 +21,7 @@ CameraModel straight() {
     return {kLayer, 50, 50, 29.5, 19.5, {}};
 }
 
-/// A square of 0.4 m about the origin in many triangles of odd shapes, which faces -z.
+/// A square of 0.4 m about the origin that faces -z, cut into many triangles of irregular shape.
 Mesh shards(int side, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> shift(-0.4F, 0.4F);
@@ -70,7 +70,8 @@ float depthOf(std::uint32_t word) {
     return std::bit_cast<float>(word & 0xFFFFFF00U);
 }
 
-// A metre away the square covers 40 of the grid's pixels each way: from 39.99 on, and from 19.99.
+// At a distance of 1 m the square covers 40 of the grid's pixels in each direction: from 39.99 and
+// from 19.99.
 TEST(SurfaceRaster, CoversASurfaceWithoutGapsOrRims) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         const auto words = drawn(
@@ -108,7 +109,7 @@ TEST(SurfaceRaster, DepthIsThatOfTheSlantedPlane) {
     EXPECT_GT(checked, 1000);
 }
 
-// A floor that begins behind the camera and ends far before it.
+// A floor from behind the camera to far in front of it.
 TEST(SurfaceRaster, WhatReachesBehindTheCameraIsClipped) {
     Material both;
     both.doubleSided = true;

@@ -25,7 +25,7 @@ std::uint64_t hashed(std::uint64_t hash, const std::vector<T>& values) {
     return hash;
 }
 
-/// Of several poses, with holes filled and rendered.
+/// Hash over several poses, with holes filled and rendered.
 std::uint64_t hashOfWarps(int threads) {
     std::uint64_t hash = 14695981039346656037U;
     const Size size{320, 240};

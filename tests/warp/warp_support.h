@@ -14,7 +14,7 @@
 
 namespace mfar::test {
 
-/// Of colours over the pixels that show an object in `truth` [dB against 255].
+/// PSNR of the colours over the pixels that show an object in `truth` [dB, peak 255].
 inline double psnrInside(const std::vector<std::uint8_t>& rgba, const RenderedPicture& truth) {
     double sum = 0;
     std::size_t values = 0;
@@ -26,7 +26,7 @@ inline double psnrInside(const std::vector<std::uint8_t>& rgba, const RenderedPi
     return 10 * std::log10(255.0 * 255 * static_cast<double>(values) / sum);
 }
 
-/// What a request asks for, cast.
+/// Answers a request by casting rays.
 inline HoleAnswer answered(const CastScene& scene, const HoleRequest& request, int grid = 2) {
     const RenderedPicture picture = scene.castPixels(request.view, grid, request.pixels);
     HoleAnswer out;
@@ -49,7 +49,7 @@ inline HoleAnswer answeredInWhite(const CastScene& scene, const HoleRequest& req
     return out;
 }
 
-/// Of the next frame at this pose, over these pixels.
+/// Mean of green over these pixels in the next frame at this pose.
 inline double meanGreen(Warp& warp, const RigidTransform& pose,
                         const std::vector<std::uint32_t>& pixels) {
     const auto rgba = bytesOf(warp.run(pose).colour);
@@ -59,7 +59,7 @@ inline double meanGreen(Warp& warp, const RigidTransform& pose,
     return sum / static_cast<double>(pixels.size());
 }
 
-/// Runs until the holes of this pose are rendered and shown in full, or there are none.
+/// Runs until the holes of this pose are rendered and fully shown, or until there are none.
 inline const LayerPicture& settled(Warp& warp, const CastScene& scene, const RigidTransform& pose,
                                    int frames = 12) {
     for (int i = 0; i < frames; ++i) {

@@ -57,7 +57,7 @@ TEST_F(WarpGl, SmallTurnsAreAsSharpAsInterpolationAllows) {
 TEST_F(WarpGl, RenderedHolesAreBetterThanFilledOnesAndThoseThanNone) {
     std::array<double, 4> psnr{};
     for (int i = 0; i < 4; ++i) {
-        // A ball well before another one.
+        // A ball far in front of another one.
         Shown s({.filling = static_cast<HoleFilling>(i)},
                 {{{{0, 0, 0.1}, 0.09}, {{0.04, -0.25, 0.14}, 0.045}}, true, 1.5});
         psnr[i] = s.psnrAt(15);
@@ -96,7 +96,7 @@ TEST_F(WarpGl, DepthIsThatOfTheCurrentPose) {
                 truth.id[i - kLayer.width] != id || truth.id[i + kLayer.width] != id)
                 continue;
             if (id == kCatcherId && truth.colour[i][3] < 8) continue;
-            // At a ball's limb its facets are a little nearer to the middle than it is.
+            // At a ball's limb its facets are slightly nearer to the centre than the ball.
             const float lift = id == kCatcherId ? kShadowLift * truth.depth[i] : 0;
             ASSERT_NEAR(z[i], truth.depth[i] - lift, 0.01) << x << " " << y;
             ++checked;
@@ -113,7 +113,7 @@ TEST_F(WarpGl, HugeMotionAndOddPosesAreHarmless) {
     RigidTransform away = test::orbit(0);
     away.rotation = away.rotation * Eigen::Quaterniond(0, 0, 1, 0);  // looks the other way
     EXPECT_TRUE(s.warp.run(away).bounds.empty());
-    // Within a ball, at its surface, in the plane, far away, upside down, turned by 90 degrees.
+    // Inside a ball, on its surface, in the plane, far away, upside down, turned by 90 degrees.
     for (const double distance : {0.001, 0.05, 0.09, 0.1001, 0.14, 50.0, 1e5})
         for (const double degrees : {0.0, 90.0, 180.0}) {
             const LayerPicture& layer = s.warp.run(test::orbit(degrees, distance, 1));
@@ -184,7 +184,7 @@ TEST_F(WarpGl, ACrowdOfTrianglesIsSimplifiedAndSeenTheSame) {
     const CastScene scene{{{{0, 0, 0.1}, 0.09}}, true, 1};
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kLayer), kLayer, *engine, {.filling = HoleFilling::PushPull});
-    warp.setScene(scene.scene(720));  // half a million
+    warp.setScene(scene.scene(720));  // half a million triangles
     const RenderView from{warp.camera(), test::orbit(0)}, to{warp.camera(), test::orbit(2)};
     warp.setReference(warpReference(scene.cast(from, 3)));
     EXPECT_GT(psnrInside(test::bytesOf(warp.run(to.T_world_camera).colour), scene.cast(to, 3)), 34);

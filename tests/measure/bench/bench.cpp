@@ -32,7 +32,7 @@ Workload withoutPoses(Workload work) {
     return work;
 }
 
-/// Our pipeline fed with a workload's frames; brings in the stills outside the measured time.
+/// Our pipeline on a workload's frames; sets the stills outside the measured time.
 class Ours {
 public:
     Ours(const Workload& work, SuperResMode mode, EngineKind engine, int threads = 0,
@@ -105,7 +105,7 @@ void addTiles(CaseResult& result, const FrameStats& stats) {
         result.tileShare[c] += stats.tiles[c] / all / static_cast<double>(result.frame.runs);
 }
 
-/// Runs `frames` once more with each stage timed by itself.
+/// Runs `frames` again and times each stage separately.
 void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
     std::vector<std::pair<std::string, std::vector<double>>> stages;
     gpu::Timer timer;
@@ -130,7 +130,7 @@ void measureStages(Ours& ours, std::size_t frames, CaseResult& result) {
     if (!gpuMs.empty()) result.stages.push_back({"all, by the GPU's clock", summarise(gpuMs)});
 }
 
-/// The paper's method with one of OpenCV's flows.
+/// The paper's method with one of OpenCV's flow algorithms.
 class Peer {
 public:
     Peer(std::string name, eval::DisPreset flow, const Workload& work, Size output)
@@ -144,7 +144,7 @@ public:
         return eval::wallMs([&] { paper_.run(work_.frames[i]); });
     }
     void measure(std::size_t i) { ms_.push_back(run(i)); }
-    /// `ours`: time of each frame, run in turn with this.
+    /// `ours`: time of each of our frames, run in turn with this peer.
     [[nodiscard]] PeerResult result(const CaseResult& of, const std::vector<double>& ours) const {
         const Summary own = summarise(ms_);
         std::vector<double> ratios;

@@ -24,17 +24,18 @@ struct StageSummary {
 struct CaseResult {
     std::string name;
     Summary frame;                     ///< whole frame from upload to finished picture
-    std::vector<StageSummary> stages;  ///< in a run of its own: each stage waits for its end
-    std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles per TileClass
+    std::vector<StageSummary> stages;  ///< from a separate run in which each stage waits for its
+                                       ///< end
+    std::array<double, kTileClasses> tileShare{};  ///< mean share of the tiles of each TileClass
 };
 
-/// OpenCV's version of the paper on a moving camera, frame by frame in turn with ours.
+/// OpenCV's version of the paper's method on a moving camera; its frames are run in turn with ours.
 struct PeerResult {
     std::string name;
-    std::string of;  ///< the case of ours
+    std::string of;  ///< name of our case
     Summary frame;
-    double ratio = 0;          ///< our median over the peer's: below 1 we are faster
-    double low = 0, high = 0;  ///< 10th and 90th percentile of the ratio frame by frame
+    double ratio = 0;          ///< our median over the peer's: below 1 ours is faster
+    double low = 0, high = 0;  ///< 10th and 90th percentile of the ratio of single frames
 };
 
 /// Moving frames with another number of threads or output size.
@@ -45,29 +46,29 @@ struct ScalingResult {
 };
 
 struct BenchResult {
-    std::string workload;  ///< what is moving and at rest
-    std::string posed;     ///< what is hand-held
+    std::string workload;  ///< source of the moving and resting frames
+    std::string posed;     ///< source of the hand-held frames
     std::string renderer;
     Size video, still, output;
     Summary setStill;  ///< per-still work of our pipeline
     std::vector<CaseResult> cases;
     std::vector<PeerResult> peers;
-    DepthTimes depth;  ///< of what is hand-held
+    DepthTimes depth;  ///< on the hand-held frames
     WarpTimes warp;    ///< at the video's size
     TriangulationTimes triangulation;
     std::vector<ScalingResult> scaling;
     RenderFigures render;
 };
 
-/// Filters learned from a workload's lessons as the daemon learns them; null: there are none. One
-/// line on what was learned goes to stderr.
+/// Filters learned from a workload's lessons, as in the daemon; null: no lessons. Prints one line
+/// on what was learned to stderr.
 [[nodiscard]] std::shared_ptr<const FilterBank> learnedFrom(const Workload& work);
 
-/// Needs a current GL context, which `renderer` describes. The first frames warm up and do not
-/// count. Poses of `moving` are not used, those of `posed` are; without frames it is left out.
+/// Needs a current GL context, described by `renderer`. The first frames warm up and do not count.
+/// Uses the poses of `posed`, not those of `moving`; `posed` without frames is skipped.
 [[nodiscard]] BenchResult runBench(const Workload& moving, const Workload& posed, SuperResMode mode,
                                    EngineKind engine, const std::string& renderer);
-/// One thread and two, at three output sizes.
+/// With one and two threads, at three output sizes.
 [[nodiscard]] std::vector<ScalingResult> runScaling(const Workload& moving, const Workload& posed,
                                                     SuperResMode mode, EngineKind engine);
 

@@ -10,7 +10,7 @@ namespace mfar::bench {
 
 /// The whole result, times in ms, sizes as [width, height].
 [[nodiscard]] nlohmann::json toJson(const BenchResult& result);
-/// For people: one line per case, stage and peer.
+/// Human-readable: one line per case, stage and peer.
 [[nodiscard]] std::string toTable(const BenchResult& result);
 
 }  // namespace mfar::bench

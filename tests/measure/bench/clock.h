@@ -9,11 +9,11 @@
 
 namespace mfar::bench {
 
-/// What run time is.
+/// Definition of run time.
 enum class Clock {
     Wall,
-    /// The processor's time of all threads over the number of cores: on a machine that others use
-    /// as well, what a run would take alone, were its work spread evenly.
+    /// Processor time of all threads over the number of cores: on a shared machine, the time that a
+    /// run would take alone if its work were spread evenly.
     Processor,
 };
 

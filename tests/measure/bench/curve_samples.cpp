@@ -12,7 +12,7 @@
 namespace mfar::bench {
 namespace {
 
-/// A flow field of fewer pixels: each takes the vector of the one nearest to its middle.
+/// Reduces a flow field: each pixel takes the vector nearest to its centre.
 cv::Mat reduced(const FlowImage& flow, Size size) {
     const double scale = static_cast<double>(size.width) / flow.size.width;
     cv::Mat out(size.height, size.width, CV_32FC2);

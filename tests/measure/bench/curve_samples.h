@@ -8,7 +8,7 @@
 
 namespace mfar::bench {
 
-/// A frame, its still and the true flow between them: what a setting is measured on.
+/// A frame, its still and the true flow between them, on which a setting is measured.
 struct CurveSample {
     std::string name;
     StereoRig rig;
@@ -18,13 +18,13 @@ struct CurveSample {
     [[nodiscard]] bool hasPoses() const { return frame.pose && still.pose; }
 };
 
-/// The first `most` samples of each folder that mfar-eval flow takes. Throws EvalError,
+/// The first `most` samples of each folder that mfar-eval flow accepts. Throws EvalError,
 /// RecordingError and ImageFileError.
 [[nodiscard]] std::vector<CurveSample>
 curveSamplesOf(const std::vector<std::filesystem::path>& folders, std::size_t most);
 
-/// A frame each of the first `most` of the synthetic office and shelf, hand-held, at the video size
-/// asked for (a fraction of 640x480). Repeatable.
+/// One hand-held frame of each of the first `most` synthetic scenes (office, shelf), at the
+/// requested video size (a fraction of 640x480). Repeatable.
 [[nodiscard]] std::vector<CurveSample> syntheticCurveSamples(Size video, std::size_t most = 2);
 
 }  // namespace mfar::bench

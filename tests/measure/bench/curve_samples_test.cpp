@@ -15,7 +15,7 @@ cv::Mat grey(const cv::Mat& picture) {
     return out;
 }
 
-// What another's flow finds in the pictures is what the truth says.
+// An independent flow method must find the true flow in the pictures.
 TEST(SyntheticCurveSamples, TruthFitsThePictures) {
     const auto samples = syntheticCurveSamples({320, 240});
     ASSERT_EQ(samples.size(), 2U);

@@ -5,11 +5,11 @@
 
 namespace mfar::bench {
 
-/// Depth without a still, a frame: luma, search against a keyframe, filter and edges. Options are
-/// such that every frame is searched. Nothing measured: no runs.
+/// Time of depth without a still, per frame: luma, search against a keyframe, filter and edges. The
+/// options make every frame search. Not measured: zero runs.
 struct DepthTimes {
-    Summary tenth;  ///< of the picture, about its middle
-    Summary whole;  ///< picture
+    Summary tenth;  ///< of the picture, around its centre
+    Summary whole;  ///< the whole picture
 };
 
 /// Uses the workload's frames that have a pose; the first ones warm up and do not count.

@@ -8,13 +8,13 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench governor`: how deadlines are kept.
+/// `mfar-bench governor`: how well deadlines are met.
 class GovernorCommand {
 public:
     explicit GovernorCommand(CLI::App& app);
 
     [[nodiscard]] bool asked() const { return command_->parsed(); }
-    /// Throws ConfigError for a faulty table, Failure for one that cannot be read.
+    /// Throws ConfigError for a faulty table, Failure for an unreadable one.
     void run() const;
 
 private:

@@ -8,7 +8,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr std::size_t kSettling = 30;  // frames that a change of scene may take
+constexpr std::size_t kSettling = 30;  // frames allowed for settling after a change of scene
 
 double percentile(std::vector<double> values, double share) {
     if (values.empty()) return 0;

@@ -14,10 +14,10 @@
 namespace mfar::bench {
 namespace {
 
-constexpr int kStillEvery = 30;  // frames, where the governor lets one come
+constexpr int kStillEvery = 30;  // frames between stills, if the governor allows one
 constexpr std::chrono::milliseconds kInterval{33};
 
-/// What a scene shows, there and back again.
+/// The frames of a scene, played forwards and backwards.
 struct Shots {
     std::string name;
     std::vector<SceneFrame> frames;
@@ -32,7 +32,7 @@ Shots shotsOf(synthetic::Scene which, synthetic::Path path, const char* name, in
     rig = scene.rig();
     Shots out{name, {}};
     scene.fire();
-    // The first still comes some frames after its pulse.
+    // The first still arrives some frames after its pulse.
     for (SceneFrame frame; std::cmp_less(out.frames.size(), count);) {
         frame = nextFrame(scene);
         if (out.frames.empty() && frame.still.empty()) continue;

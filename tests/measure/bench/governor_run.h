@@ -10,11 +10,12 @@
 
 namespace mfar::bench {
 
-/// One scene after the other, as the governor met it.
+/// One scene of a sequence, as the governor handled it.
 struct GovernedScene {
     std::string name;
-    std::vector<double> ms;             ///< of its frames, from the first after the change of scene
-    std::map<std::string, int> levels;  ///< frames of each
+    std::vector<double> ms;             ///< of its frames, from the first one after the change of
+                                        ///< scene
+    std::map<std::string, int> levels;  ///< number of frames at each level
 };
 
 struct GovernedRun {
@@ -24,23 +25,23 @@ struct GovernedRun {
 
 struct GovernorRequest {
     std::vector<double> deadlinesMs{33, 66, 133};
-    int frames = 120;  ///< of each scene
+    int frames = 120;  ///< per scene
     Clock clock = Clock::Wall;
 };
 
-/// The frames of one deadline after the other, each under a governor of its own that starts with
+/// Runs the frames at one deadline after the other, each under its own governor that starts with
 /// `levels`. Needs a current GL context.
 [[nodiscard]] std::vector<GovernedRun> measureGovernor(const GovernorRequest& request,
                                                        const std::vector<QualityLevel>& levels);
 
-/// Frames from a change of scene on, until of those left no more than one in twenty are late; all
-/// of them when that never is so.
+/// Number of frames after a change of scene until at most one in twenty of the remaining ones is
+/// late; all frames if that never happens.
 [[nodiscard]] int settledAfter(std::span<const double> ms, double deadlineMs);
 
-/// Of all frames, and of those from the 30th of each scene on [ms].
+/// 95th percentile over the frames from number `from` (0: all) of each scene [ms].
 [[nodiscard]] double p95(const GovernedRun& run, std::size_t from);
 
-/// For people: a line for each scene of each deadline.
+/// Human-readable: a line for each scene of each deadline.
 [[nodiscard]] std::string governorTable(std::span<const GovernedRun> runs);
 
 }  // namespace mfar::bench

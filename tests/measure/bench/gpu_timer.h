@@ -6,9 +6,10 @@
 
 namespace mfar::gpu {
 
-/// Time the GPU spends on what is issued between start() and stop(), measured by the GPU itself and
-/// read later, so that nothing waits. Optional: needs EXT_disjoint_timer_query (OpenGL ES) or
-/// ARB_timer_query (OpenGL); where neither exists, everything is a no-op and read() gives nothing.
+/// Measures the time that the GPU spends on commands between start() and stop(). The GPU measures
+/// it and the result is read later, so that nothing waits. Optional: needs EXT_disjoint_timer_query
+/// (OpenGL ES) or ARB_timer_query (OpenGL); without them every call is a no-op and read() returns
+/// nothing.
 class Timer {
 public:
     Timer();
@@ -17,16 +18,16 @@ public:
     ~Timer();
 
     [[nodiscard]] bool available() const { return query_ != 0; }
-    /// One measurement at a time, and one Timer at a time in a context.
+    /// One measurement at a time; only one Timer may measure in a context.
     void start();
     void stop();
-    /// Milliseconds of the last measurement; nothing while it is not finished, and nothing when the
-    /// GPU changed its clock meanwhile.
+    /// Milliseconds of the last measurement; empty while it is unfinished, or if the GPU changed
+    /// its clock meanwhile.
     [[nodiscard]] std::optional<double> read() const;
 
 private:
     GLuint query_ = 0;
-    bool disjointKnown_ = false;  // the context can tell a change of clock (OpenGL ES only)
+    bool disjointKnown_ = false;  // the context reports a change of clock (OpenGL ES only)
 };
 
 }  // namespace mfar::gpu

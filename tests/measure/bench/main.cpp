@@ -43,7 +43,7 @@ struct Options {
     std::vector<std::filesystem::path> data;
 };
 
-/// What moves without and with poses; no frames where there are none.
+/// Workloads with motion, without and with poses; no frames if unavailable.
 struct Workloads {
     Workload moving, posed;
 };

@@ -25,11 +25,11 @@ void writeText(const fs::path& file, const std::string& text) {
     if (!out.flush()) throw eval::EvalError(fmt::format("{}: cannot be written", file.string()));
 }
 
-// Levels that take hardly longer than a less accurate one replace it: the governor has nothing to
-// choose between them.
+// Levels that are hardly slower than a less accurate one replace it: the governor could not gain
+// time by choosing that one.
 constexpr double kLeastStep = 1.05;
 
-/// The front of our own points as levels, from fast to accurate.
+/// Our points' front as levels, from fast to accurate.
 std::vector<QualityLevel> levelsOf(const ParetoStage& superres) {
     std::vector<ParetoPoint> ours;
     for (const ParetoPoint& p : superres.points)

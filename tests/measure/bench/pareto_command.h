@@ -9,7 +9,7 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench pareto`: run time against error of every setting and peer.
+/// `mfar-bench pareto`: run time and error of every setting and peer.
 class ParetoCommand {
 public:
     explicit ParetoCommand(CLI::App& app);

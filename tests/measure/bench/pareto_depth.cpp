@@ -20,7 +20,7 @@ namespace {
 
 struct DepthSetting {
     const char* name;
-    EpipolarOptions search;  ///< against the still
+    EpipolarOptions search;  ///< search against the still
 };
 
 std::vector<DepthSetting> depthSettings() {
@@ -56,7 +56,8 @@ double scoreOf(const DepthSample& sample, const cv::Mat& rho) {
            eval::depthError(rho, sample.inverseDepth, shots.rig.video.fx * baseline, all).bad1;
 }
 
-/// One setting on one sample. What it finds first counts: later it filters that with what it knew.
+/// One setting on one sample. Only the first result is scored: later ones are filtered with earlier
+/// ones.
 class DepthWay {
 public:
     DepthWay(const DepthSample& sample, const DepthSetting& setting)
@@ -68,7 +69,7 @@ public:
 
     void measure(const ParetoRun& run, bool scored, WayTimes& out) {
         const CurveSample& shots = sample_.shots;
-        // A new still: the same view is measured again, and nothing is predicted.
+        // A new still, so that the same view is measured again and nothing is predicted.
         pipeline_.setStill(eval::viewOf(still_), shots.still.time, shots.still.pose);
         const double ms = msOf(run.clock, [&] {
             pipeline_.run(eval::viewOf(frame_), shots.frame.time, shots.frame.pose);
@@ -127,7 +128,7 @@ std::vector<DepthSample> depthSamplesOf(const std::vector<std::filesystem::path>
     for (std::size_t i = 0; i < folders.size(); ++i) {
         const eval::FlowSet set = eval::depthSamplesOf(folders[i]);
         for (std::size_t k = 0; k < std::min(most, set.samples.size()); ++k) {
-            const cv::Mat flow = eval::loadTruth(set, set.samples[k]);  // knows what is hidden
+            const cv::Mat flow = eval::loadTruth(set, set.samples[k]);  // marks occluded pixels
             FloatImage image = loadPfm(set.samples[k].truth);
             cv::Mat rho = cv::Mat(flow.size(), CV_32F, image.values.data()).clone();
             for (int y = 0; y < flow.rows; ++y)

@@ -55,7 +55,7 @@ constexpr const char* kBlindPeers[] = {"dis-fast", "dis-medium", "dis-medium-bot
                                        "dis-medium-full", "farneback"};
 constexpr const char* kStereoPeers[] = {"sgbm", "stereobm"};
 
-/// All ways on one sample.
+/// All methods on one sample.
 class FlowSampleRun {
 public:
     FlowSampleRun(const CurveSample& sample, bool withPoses, const ParetoRun& run)
@@ -65,7 +65,7 @@ public:
     void ours(PipelineOptions options, bool scored, WayTimes& out) {
         options.output = sample_.rig.video.size;
         Pipeline& pipeline = pool_.with(options);
-        // A new still: no run starts from the answer of the one before.
+        // A new still, so that no run starts from the result of the previous one.
         pipeline.setStill(eval::viewOf(still_), sample_.still.time,
                           withPoses_ ? sample_.still.pose : std::nullopt);
         pipeline.setMeasure(true);
@@ -89,7 +89,7 @@ public:
     }
 
 private:
-    // What the field needs: all of the 2-D flow, or the search along the lines.
+    // The stages that compute the field: all of the 2-D flow, or the search along the lines.
     [[nodiscard]] std::vector<std::string_view> stages() const {
         if (withPoses_) return {"epipolar"};
         return {"pyramid", "flow"};
@@ -102,7 +102,7 @@ private:
     cv::Mat frame_, still_;
 };
 
-/// Of every sample in turn, the first round scored and not timed: it warms up.
+/// Runs all samples in turn. The first round is scored but not timed: it warms up.
 class FlowStageRun {
 public:
     FlowStageRun(bool withPoses, const ParetoRun& run)

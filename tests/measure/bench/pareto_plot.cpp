@@ -14,13 +14,13 @@ namespace draw = eval::svg;
 
 constexpr double kWide = 520, kHigh = 400, kMarginLeft = 80, kMarginTop = 60, kBetween = 90,
                  kMarginBelow = 60;
-constexpr double kLeastError = 1e-3;  // none at all has no logarithm
+constexpr double kLeastError = 1e-3;  // lower limit, because zero has no logarithm
 
 bool canBeDrawn(const ParetoPoint& p) {
     return std::isfinite(p.ms) && std::isfinite(p.error) && p.ms > 0 && p.error >= 0;
 }
 
-/// One stage, its left edge at `left`.
+/// Draws one stage, with its left edge at `left`.
 class StagePanel {
 public:
     StagePanel(const ParetoStage& stage, double left) : stage_(stage), left_(left) {
@@ -65,7 +65,7 @@ private:
         for (const std::size_t i : paretoFront(stage_.points)) {
             const ParetoPoint& p = stage_.points[i];
             if (!canBeDrawn(p)) continue;
-            // What is as fast as this and less accurate is behind it.
+            // A staircase: everything above it and to its right is dominated.
             path += path.empty() ? fmt::format("M{:.1f} {:.1f}", x(p.ms), y(p.error))
                                  : fmt::format(" H{:.1f} V{:.1f}", x(p.ms), y(p.error));
             if (p.kind != ParetoPoint::Kind::Peer)

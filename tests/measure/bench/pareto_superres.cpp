@@ -20,7 +20,7 @@
 namespace mfar::bench {
 namespace {
 
-constexpr std::size_t kScoredEvery = 3;  // frames
+constexpr std::size_t kScoredEvery = 3;  // every third frame is scored
 
 cv::Mat lumaOf(const StoredImage& picture, Size size) {
     const cv::Mat rgba(picture.size.height, picture.size.width, CV_8UC4,
@@ -38,11 +38,11 @@ double errorOf(const cv::Mat& bgr, const cv::Mat& truth) {
     return std::sqrt(eval::meanSquaredError(eval::luma(bgr)(inner), truth(inner)));
 }
 
-/// A way to make a sequence's pictures, frame by frame from its still on.
+/// A method that makes a sequence's pictures, frame by frame after its still.
 struct SequenceWay {
     std::function<void()> begin;                  ///< sets the still
-    std::function<void(std::size_t)> run;         ///< frame i; what msOf() measures
-    std::function<cv::Mat(std::size_t)> picture;  ///< of the last frame, CV_8UC3
+    std::function<void(std::size_t)> run;         ///< processes frame i; timed by msOf()
+    std::function<cv::Mat(std::size_t)> picture;  ///< returns the last frame's picture, CV_8UC3
 };
 
 void measureWay(const SequenceSample& sample, const SequenceWay& way, const ParetoRun& run,
@@ -55,7 +55,7 @@ void measureWay(const SequenceSample& sample, const SequenceWay& way, const Pare
     }
 }
 
-/// Ours on one sequence: all settings on one pipeline.
+/// Our pipeline on one sequence; all settings use the same pipeline.
 class SequencePipeline {
 public:
     explicit SequencePipeline(const Workload& work)

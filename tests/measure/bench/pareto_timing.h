@@ -15,7 +15,7 @@
 
 namespace mfar::bench {
 
-/// Times and errors of one way, gathered sample by sample.
+/// Times and errors of one method, collected sample by sample.
 class WayTimes {
 public:
     void time(double ms) { ms_.push_back(ms); }
@@ -23,9 +23,9 @@ public:
         sum_ += value;
         ++count_;
     }
-    /// Of the sample that ends here the median counts.
+    /// Ends a sample; its median is kept.
     void endSample() { medians_.push_back(summarise(std::exchange(ms_, {})).median); }
-    /// Mean over the samples of their medians.
+    /// Mean of the samples' medians.
     [[nodiscard]] double ms() const {
         double sum = 0;
         for (const double ms : medians_)
@@ -40,7 +40,7 @@ private:
     int count_ = 0;
 };
 
-/// The points of a stage: the first of ours is the default, peers come after ours in `times`.
+/// The points of a stage: the first of ours is the default; in `times`, peers follow ours.
 [[nodiscard]] inline std::vector<ParetoPoint> pointsOf(const std::vector<std::string>& ours,
                                                        const std::vector<std::string>& peers,
                                                        const std::vector<WayTimes>& times) {
@@ -55,7 +55,7 @@ private:
     return out;
 }
 
-/// Of the stages of the last run, which was measured, those of these names.
+/// Share of the named stages in the time of the last run, which must have been measured.
 [[nodiscard]] inline double shareOfStages(const Pipeline& pipeline,
                                           const std::vector<std::string_view>& names) {
     double some = 0, all = 0;
@@ -67,23 +67,23 @@ private:
     return all > 0 ? some / all : 0;
 }
 
-/// A peer's answer with its time by this clock; `method`: a FlowMethod or DepthMethod.
+/// A peer's result with its time by this clock; `method`: a FlowMethod or DepthMethod.
 template <class Method>
 [[nodiscard]] auto timed(Method& method, const eval::Shot& frame, Clock clock) {
-    constexpr double kRuns = 4;  // once for the answer, three for its time
+    constexpr double kRuns = 4;  // one for the result, three timed
     typename Method::Result out;
     const double ms = msOf(clock, [&] { out = method.run(frame); });
     if (clock == Clock::Processor) out.ms = ms / kRuns;
     return out;
 }
 
-/// Pipelines for one rig; settings that may change between frames share one.
+/// Pipelines for one rig; settings that may change between frames share a pipeline.
 class PipelinePool {
 public:
     explicit PipelinePool(const StereoRig& rig) : rig_(rig) {}
 
-    /// With these options from its next run on. What only Quality does not cover has to be the same
-    /// for all calls.
+    /// A pipeline that uses these options from its next run. Options that Quality does not cover
+    /// must be the same in all calls, except those compared here.
     Pipeline& with(const PipelineOptions& options) {
         for (auto& [made, pipeline] : made_) {
             const bool fits = made.flow2d.levels == options.flow2d.levels &&

@@ -1,5 +1,4 @@
-// Of the virtual layer: the pictures that the tracer makes bit by bit, and what the warp makes of
-// them.
+// Stages of the virtual layer: pictures that the tracer makes in slices, and their warps.
 #include "tests/measure/bench/pareto_stages.h"
 #include "tests/measure/eval/slicing.h"
 #include "tests/measure/eval/warp.h"
@@ -21,7 +20,7 @@ constexpr const char* kDefaultSlicing = "time-adaptive";
 constexpr const char* kWholePicture = "full";
 constexpr const char* kInpainting = "inpaint";
 
-/// A column of a report's row.
+/// One column of a report's row.
 double valueOf(const eval::Report::Row& row, std::size_t column) {
     return row.values.at(column).value();
 }
@@ -74,7 +73,7 @@ ParetoStage warpStage(bool quick) {
 
 ParetoStage slicingStage(bool quick) {
     eval::SlicingRequest request;
-    request.frames = 8;  // the budget is not asked for
+    request.frames = 8;  // the budget is not measured
     if (quick) {
         request.size = {48, 36};
         request.samples = 8;

@@ -1,7 +1,7 @@
 #include "tests/measure/bench/pareto_stages.h"
 #include "tests/measure/eval/report.h"
 
-// Where there is no Embree, there is no path tracer.
+// Used without Embree: there is no path tracer.
 namespace mfar::bench {
 
 ParetoStage warpStage(bool /*quick*/) {

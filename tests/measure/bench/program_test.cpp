@@ -107,7 +107,7 @@ TEST(MfarBench, CurvesHaveEveryValueOfEveryKnob) {
     }
 }
 
-/// By stage, how many points of each kind a table has.
+/// For each stage of a table, the number of points of each kind.
 std::map<std::string, std::map<std::string, int>> paretoKinds(const std::filesystem::path& csv) {
     std::istringstream lines(mfar::test::readFile(csv));
     std::string line;

@@ -24,7 +24,7 @@ using namespace render_scenes;
 
 constexpr std::uint32_t kErrorSamples = 16;
 
-/// The peer: no packets, no wrapper of ours.
+/// The peer: no packets and no wrapper of ours.
 class BareEmbree {
 public:
     explicit BareEmbree(const Mesh& mesh)

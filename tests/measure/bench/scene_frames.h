@@ -8,10 +8,10 @@
 
 namespace mfar::bench {
 
-/// A frame and the still that comes before it, R G B A, made before anything is timed: the board's
-/// renderer works in threads of this program.
+/// A frame and the still that precedes it, R G B A, rendered before anything is timed: the board's
+/// renderer uses threads of this program.
 struct SceneFrame {
-    cv::Mat picture, still;  ///< still: empty when there is none
+    cv::Mat picture, still;  ///< still: empty if there is none
     Timestamp time;
     std::optional<Pose> pose, stillPose;
 };

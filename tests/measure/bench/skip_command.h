@@ -8,7 +8,7 @@
 
 namespace mfar::bench {
 
-/// `mfar-bench skip`: what leaving work out saves and costs.
+/// `mfar-bench skip`: time saved and accuracy lost by skipping work.
 class SkipCommand {
 public:
     explicit SkipCommand(CLI::App& app);

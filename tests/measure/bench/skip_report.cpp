@@ -8,8 +8,8 @@
 namespace mfar::bench {
 namespace {
 
-constexpr double kMostLost = 0.1;     // dB, points
-constexpr double kLeastSaved = 0.02;  // of a frame, that is more than chance
+constexpr double kMostLost = 0.1;     // upper limit of a tolerable loss [dB or points]
+constexpr double kLeastSaved = 0.02;  // share of a frame; less may be chance
 
 std::string value(const std::optional<double>& v) {
     return v ? fmt::format("{:+.3f}", *v) : "-";

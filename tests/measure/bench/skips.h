@@ -8,25 +8,25 @@
 
 namespace mfar::bench {
 
-/// What leaving one kind of work out saves and costs in one case.
+/// Time saved and accuracy lost by skipping one kind of work in one case.
 struct SkipResult {
     std::string skip, scene;  ///< the case
     double ms = 0,
-           msWithout = 0;  ///< median frame with the skip, and with the work done all the same
-    /// Errors that the skip adds; nothing where there is nothing to measure.
-    std::optional<double> psnrLost;  ///< of the picture beside virtual objects [dB]
-    /// Of the depth under them, where that decides what is seen [points].
+           msWithout = 0;  ///< median frame with the skip, and without it
+    /// Errors that the skip adds; empty if there is nothing to measure.
+    std::optional<double> psnrLost;  ///< of the picture outside virtual objects [dB]
+    /// Error of the depth under the objects, where it decides visibility [points].
     std::optional<double> bad1Added;
     std::optional<double>
-        overlapLost;  ///< of where they are seen with where they should be [points]
+        overlapLost;  ///< overlap of the visible object with its true visible part [points]
 };
 
-/// A case with all skips on.
+/// A case with all skips enabled.
 struct SkipCase {
     std::string scene;
     double ms = 0;          ///< median frame
     long depthTiles = 0;    ///< over all frames
-    long framesInView = 0;  ///< with an object in view
+    long framesInView = 0;  ///< frames with an object in view
     double changed = 0;     ///< mean share of the tiles
 };
 
@@ -37,18 +37,19 @@ struct SkipReport {
 
 struct SkipRequest {
     std::vector<std::string> cases, skips;  ///< empty: all
-    int frames = 20;                        ///< that count
+    int frames = 20;                        ///< number of frames that count
     Clock clock = Clock::Wall;
 };
 
 [[nodiscard]] std::vector<std::string> skipNames();
 [[nodiscard]] std::vector<std::string> skipCaseNames();
 
-/// Runs every case with all skips on and with each of them off, frame by frame in turn. Needs a
-/// current GL context.
+/// Runs every case with all skips enabled, and with each of them disabled, frame by frame in turn.
+/// Needs a current GL context.
 [[nodiscard]] SkipReport measureSkips(const SkipRequest& request);
 
-/// For people: cases, then skips; what saves nothing or costs more than 0.1 dB or points is marked.
+/// Human-readable: cases, then skips; skips that save nothing, or lose more than 0.1 dB or points,
+/// are marked.
 [[nodiscard]] std::string skipTable(const SkipReport& report);
 /// case,skip,ms,ms_without,saved_ms,psnr_lost_db,bad1_added,overlap_lost
 [[nodiscard]] std::string skipCsv(const SkipReport& report);

@@ -5,7 +5,7 @@
 
 namespace mfar::bench {
 
-/// What repeated timings of one thing come to [ms].
+/// Summary of repeated timings [ms].
 struct Summary {
     double median = 0;
     double p99 = 0;  ///< smallest value that 99 % of the runs do not exceed
@@ -13,7 +13,7 @@ struct Summary {
     std::size_t runs = 0;
 };
 
-/// Zeroes when there is no value.
+/// All zero if there is no value.
 [[nodiscard]] Summary summarise(std::vector<double> ms);
 
 }  // namespace mfar::bench

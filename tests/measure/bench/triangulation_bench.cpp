@@ -13,7 +13,7 @@ namespace mfar::bench {
 namespace {
 
 constexpr int kRuns = 9;
-constexpr int kPeerPoints = 5000;  // it is far slower, and each point costs the same
+constexpr int kPeerPoints = 5000;  // the peer is much slower, and each point takes the same time
 
 struct Views {
     explicit Views(Size size)
@@ -22,7 +22,7 @@ struct Views {
           T_b_a{Eigen::Quaterniond(Eigen::AngleAxisd(0.03, Eigen::Vector3d(1, 2, 3).normalized())),
                 {-0.1, 0.02, 0.01}} {}
 
-    /// Normalised rays of a point of a pixel in both views.
+    /// Normalised rays, in both views, of the point that a pixel shows.
     [[nodiscard]] std::pair<Eigen::Vector2d, Eigen::Vector2d> rays(int x, int y) const {
         const double rho = 0.3 + 0.2 * x / camera.size.width;
         const Eigen::Vector2d a = camera.unproject({x, y});
@@ -85,7 +85,7 @@ TriangulationTimes measureTriangulation(Size video) {
     for (int i = 0; i <= kRuns; ++i) {
         const double a = ours(TriangulationMethod::Flow), b = ours(TriangulationMethod::Midpoint);
         const double c = eval::wallMs([&] { opencv.run(); });
-        if (i == 0) continue;  // warms up
+        if (i == 0) continue;  // the first run warms up
         fast.push_back(a);
         midpoint.push_back(b);
         peer.push_back(c);

@@ -6,17 +6,17 @@
 
 namespace mfar::bench {
 
-/// A finished picture of two balls on a plane, turned by 2 degrees, a frame: until it is
-/// finished.
+/// Time per frame, with all work finished, to warp a picture of two balls on a plane by 2 degrees.
 struct WarpTimes {
-    Summary objects;    ///< balls that fill a ninth of the picture, with their shadows
+    Summary objects;    ///< balls that cover a ninth of the picture, with their shadows
     Summary whole;      ///< a ball larger than the picture
-    Summary still;      ///< as `objects`, the camera at rest
-    Summary reference;  ///< of `objects`: making a new picture ready, on the host, and its upload
-    Summary remap;      ///< the peer: cv::remap, bilinear, of the whole picture
+    Summary still;      ///< as `objects`, with the camera at rest
+    Summary reference;  ///< for `objects`: preparing a new traced picture on the CPU, and its
+                        ///< upload
+    Summary remap;      ///< the peer: cv::remap, bilinear, on the whole picture
 };
 
-/// For GLES a context has to be current. `runs` after one that does not count.
+/// GLES needs a current context. Makes `runs` runs after one that does not count.
 [[nodiscard]] WarpTimes measureWarp(Size size, int runs, EngineKind engine);
 
 }  // namespace mfar::bench

@@ -24,42 +24,42 @@ struct Lesson {
     std::optional<Pose> stillPose{}, framePose{};
 };
 
-/// The pictures a benchmark runs on, all in memory. CV_8UC3, B G R.
+/// The input of a benchmark, all in memory. CV_8UC3, B G R.
 struct Workload {
     std::string name;
     StereoRig rig;
     std::vector<cv::Mat> stills;
     std::vector<cv::Mat> frames;
-    std::vector<std::size_t> stillOf;  ///< per frame: index of its reference
-    /// Of the video camera, per frame and per still; nothing where not known, empty: of none.
+    std::vector<std::size_t> stillOf;  ///< per frame: index of its still
+    /// Poses of the video camera, per frame and per still. An entry is empty if unknown; the vector
+    /// is empty if all are.
     std::vector<std::optional<Pose>> framePoses{}, stillPoses{};
-    std::vector<Lesson> lessons{};  ///< what the product has learned from before the frames
-    std::shared_ptr<const FilterBank> filters{};  ///< from these; null: as shipped
+    std::vector<Lesson> lessons{};  ///< pairs from which the product learned before the frames
+    std::shared_ptr<const FilterBank> filters{};  ///< learned from the lessons; null: default
+                                                  ///< filters
 };
 
-/// As a running product has: pairs of stills are among them.
+/// Enough for pairs of stills among the lessons, as in a running product.
 inline constexpr int kLessons = 4;
 
-/// A textured plane made in code, seen by a hand-held camera: each frame differs from the one
-/// before by some 4 video pixels, a little rotation and sensor noise. One still, taken before.
-/// Repeatable.
+/// A synthetic textured plane seen by a hand-held camera: consecutive frames differ by about 4
+/// video pixels, a small rotation and sensor noise. One still, taken before the frames. Repeatable.
 [[nodiscard]] Workload syntheticWorkload(Size video, Size still, int frames, int lessons = 0);
 
 /// The synthetic board's office through a hand-held camera, with exact poses: one still, then
-/// frames. The board's pictures are brought to the sizes asked for. Needs no current GL context.
-/// Repeatable.
+/// frames, resized to the requested sizes. Needs no current GL context. Repeatable.
 [[nodiscard]] Workload handheldWorkload(Size video, Size still, int frames, int lessons = 0);
-/// The same of any board of Pace::Consumer that has not been started.
+/// The same for any board of Pace::Consumer that has not been started.
 [[nodiscard]] Workload handheldWorkload(SyntheticBoard& board, Size video, Size still, int frames,
                                         int lessons = 0);
 
-/// Frames of a recording, from its start and round again when it is short, with the stills that
+/// Frames of a recording, repeated from its start if it is too short, with the stills that
 /// mfar-eval would use, and their poses. Each still with its first frame is a lesson. Throws
 /// EvalError and RecordingError.
 [[nodiscard]] Workload recordedWorkload(const std::filesystem::path& folder, int frames);
 
-/// The first frame over and over: a camera at rest. With `noise`, a sensor's noise of that sigma
-/// [grey levels] changes every pixel every time.
+/// Repeats the first frame: a camera at rest. `noise`: sigma of sensor noise that changes in every
+/// frame [grey levels].
 [[nodiscard]] Workload atRest(const Workload& moving, double noise);
 
 }  // namespace mfar::bench

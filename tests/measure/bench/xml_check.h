@@ -5,8 +5,8 @@
 
 namespace mfar::bench::test {
 
-/// Whether elements of a document are closed in the order they were opened, attributes are quoted
-/// and no bare & or < stands between them: what a reader of XML needs, without its declarations.
+/// Whether a document is well-formed XML, apart from declarations: elements are closed in the
+/// reverse order of opening, attributes are quoted, and there is no unescaped & or <.
 inline bool isWellFormed(const std::string& xml) {
     std::vector<std::string> open;
     bool any = false;

@@ -1,6 +1,6 @@
-// What a frame asks of a board: runs the product's frame path on pictures made in code, for
-// ./run board-report. On GLES, lists every draw and dispatch with its invocations and bytes; on
-// SIMD, does the work that an emulator counts the instructions of, or that is timed here.
+// Work per frame on a board: runs the product's frame path on synthetic pictures, for ./run
+// board-report. On GLES, lists every draw and dispatch with its invocations and bytes; on SIMD,
+// runs the work for an emulator that counts instructions, or times it.
 
 #include "hal/gl_context.h"
 #include "pipeline/enlarge/prior_filters.h"
@@ -33,7 +33,7 @@ struct Options {
     bool time = false, avx2 = false;
 };
 
-/// What stills teach is set, so that what follows from it is part of the frame.
+/// Filters as if learned from stills, so that their work is part of the frame.
 std::shared_ptr<const FilterBank> learnedFilters() {
     return std::make_shared<FilterBank>(readFilters(enlarge::priorFilters(), "prior"),
                                         Guidance{0.5F, 0.5F}, FineMatch{4.0F, 0.1F});
@@ -92,7 +92,7 @@ Json recorded(const PassRecorder& recorder) {
     return out;
 }
 
-/// The still's passes and those of the last frame.
+/// The passes of the still and of the last frame.
 Json passesOf(Frames& frames) {
     Json out;
     {
@@ -108,7 +108,7 @@ Json passesOf(Frames& frames) {
     return out;
 }
 
-/// Of this processor, now [GHz]: a chain of additions takes a cycle each.
+/// Current clock of this processor [GHz]: each addition of a dependent chain takes one cycle.
 double clockGhz() {
     constexpr int kAdditions = 50'000'000;
     using Clock = std::chrono::steady_clock;
@@ -127,7 +127,7 @@ double clockGhz() {
     return most;
 }
 
-/// Median time of each stage and of the frame [ms], the first three frames left out.
+/// Median time of each stage and of the frame [ms], without the first three frames.
 Json timesOf(Frames& frames) {
     constexpr std::size_t kWarmUp = 3;
     std::map<std::string, std::vector<double>> ms;

@@ -19,7 +19,8 @@ struct ShaderText {
 std::map<GLuint, ShaderText> shaderTexts;                  // by shader
 std::map<GLuint, std::vector<ShaderText>> programShaders;  // by program
 
-/// Of the product's texts: version, defines, precisions, body; see gpu::shaderPreamble().
+/// Parses one of the product's shader texts: version, defines, precisions, body; see
+/// gpu::shaderPreamble().
 ShaderText textOf(const std::string& whole) {
     ShaderText out;
     const std::size_t head = whole.find('\n') + 1, end = whole.find("precision highp float;");
@@ -66,7 +67,7 @@ std::int64_t bytesOfTexel(GLint format) {
     }
 }
 
-/// Of the texture that is bound to the active unit.
+/// Size of the texture bound to the active unit.
 std::int64_t bytesOfBoundTexture() {
     GLint width = 0, height = 0, format = 0;
     glGetTexLevelParameteriv(GL_TEXTURE_2D, 0, GL_TEXTURE_WIDTH, &width);
@@ -146,7 +147,7 @@ std::int64_t bytesSampledFrom(GLint unit) {
     return bytes;
 }
 
-/// Blocks of storage count as read; what a search or a filter writes there is small.
+/// Storage blocks count as read; what a search or a filter writes to them is small.
 std::int64_t bytesOfStorage(GLuint program) {
     GLint count = 0;
     std::int64_t bytes = 0;
@@ -163,7 +164,8 @@ std::int64_t bytesOfStorage(GLuint program) {
     return bytes;
 }
 
-/// What the program that is in use reads and writes if it looks at all of it, and its parameters.
+/// Bytes that the current program accesses if it reads and writes everything once, and its
+/// parameters.
 PassWork usedNow() {
     PassWork out;
     const auto program = static_cast<GLuint>(integer(GL_CURRENT_PROGRAM));
@@ -226,7 +228,7 @@ std::int64_t bytesOfTargetPixel() {
     return bytes;
 }
 
-/// `pixels`: of the target that the draw fills.
+/// `pixels`: number of the target's pixels that the draw fills.
 void recordDraw(std::int64_t vertices, std::int64_t pixels) {
     if (vertices == 0) return;
     PassWork work = usedNow();
@@ -241,14 +243,13 @@ void recordDraw(std::int64_t vertices, std::int64_t pixels) {
     recorder->add(std::move(work));
 }
 
-/// Pixels of a tile of the video, in the target: its width tells its scale, rows follow the
-/// picture.
+/// Number of target pixels per video tile, from the ratio of the target's size to the video's.
 std::int64_t pixelsOfTile(const PassWork& work) {
     std::array<GLint, 4> viewport{};
     glGetIntegerv(GL_VIEWPORT, viewport.data());
     const auto columns = work.params.find("videoWidth"), rows = work.params.find("videoHeight");
     if (columns == work.params.end() || rows == work.params.end()) return 0;
-    constexpr double kTile = 16;  // pixels of the video
+    constexpr double kTile = 16;  // side in pixels of the video
     return static_cast<std::int64_t>(kTile * viewport[2] / columns->second * kTile * viewport[3] /
                                      rows->second);
 }
@@ -271,7 +272,7 @@ nlohmann::json jsonOf(const PassWork& work) {
 
 }  // namespace mfar::boards
 
-// The linker sends the product's calls to these first (--wrap).
+// The linker redirects the product's calls to these functions (--wrap).
 using namespace mfar::boards;
 extern "C" {
 

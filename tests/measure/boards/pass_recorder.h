@@ -11,19 +11,19 @@ namespace mfar::boards {
 
 /// One draw or dispatch.
 struct PassWork {
-    std::string shader;   ///< of the compute or the fragment shader, as gles_shaders/ names it
-    std::string defines;  ///< "#define LEARNED", or empty
-    std::int64_t invocations = 0;  ///< of the compute or the fragment shader
+    std::string shader;            ///< name of the compute or fragment shader, as in gles_shaders/
+    std::string defines;           ///< e.g. "#define LEARNED", or empty
+    std::int64_t invocations = 0;  ///< of the compute or fragment shader
     std::int64_t vertices = 0;
-    std::int64_t bytesRead = 0;         ///< of what it reads, each byte once
-    std::int64_t bytesWritten = 0;      ///< of what it writes, each byte once
-    std::map<std::string, int> params;  ///< integers of the block Params
+    std::int64_t bytesRead = 0;         ///< each byte counted once
+    std::int64_t bytesWritten = 0;      ///< each byte counted once
+    std::map<std::string, int> params;  ///< integers of the uniform block Params
 };
 
-/// Everything that this thread's context is given to do while an object of this class lives. The
-/// linker puts this before the GL functions that start work (--wrap), so that the
-/// product's own calls are counted, unchanged. One at a time. Waits for the GPU wherever a list
-/// decides how much there is to do.
+/// Records all work that this thread's GL context receives during the object's life. The linker
+/// redirects the GL functions that start work to it (--wrap), so that the product's own calls are
+/// recorded unchanged. One object at a time. Waits for the GPU wherever a list on the GPU
+/// determines the amount of work.
 class PassRecorder {
 public:
     PassRecorder();

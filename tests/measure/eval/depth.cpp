@@ -16,15 +16,15 @@ namespace {
 
 constexpr double kEdgeReach = 4;  // [px]
 
-/// What a sample's depths are measured against.
+/// Truth for a sample's depths.
 struct DepthTruth {
-    cv::Mat visible;  ///< CV_32F [1/m], NaN where unknown or hidden in the still
+    cv::Mat visible;  ///< CV_32F [1/m], NaN where unknown or occluded in the still
     cv::Mat all, edges, inner;
     double disparity;  ///< of a point at 1 m [px]
 };
 
 DepthTruth loadDepthTruth(const FlowSet& set, const FlowSample& sample) {
-    const cv::Mat flow = loadTruth(set, sample);  // checks the size, knows what is hidden
+    const cv::Mat flow = loadTruth(set, sample);  // checks the size, marks occluded pixels
     FloatImage image = loadPfm(sample.truth);
     const cv::Mat rho(flow.size(), CV_32F, image.values.data());
     DepthTruth out;

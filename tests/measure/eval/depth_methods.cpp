@@ -17,7 +17,7 @@ namespace mfar::eval {
 namespace {
 
 /// A dense flow, triangulated pixel by pixel. A flow method's still has the video's lens and
-/// orientation: both views are the video camera.
+/// orientation, so both views have the video camera's lens.
 class TriangulatedFlow final : public DepthMethod {
 public:
     TriangulatedFlow(const StereoRig& rig, std::unique_ptr<FlowMethod> flow,
@@ -52,7 +52,7 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product: measured along epipolar lines, filtered over the frames. Its time is that of all
+/// The product: search along epipolar lines, filtered over the frames. Its time includes all stages
 /// that depth needs.
 class FilteredDepth final : public DepthMethod {
 public:

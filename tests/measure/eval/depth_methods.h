@@ -8,23 +8,23 @@
 
 namespace mfar::eval {
 
-/// One way to find the depth of video frames with the help of a still, set up for one rig. Frames
-/// come in the order of their times, so that a method may carry what it knows from one to the next.
+/// A method that finds the depth of video frames with a still, set up for one rig. Frames come in
+/// the order of their times, so that a method may keep state between them.
 class DepthMethod {
 public:
     virtual ~DepthMethod() = default;
 
-    /// The reference of the following frames.
+    /// The still for the following frames.
     virtual void setStill(const Shot& still) = 0;
     struct Result {
         cv::Mat inverseDepth;  ///< CV_32F [1/m] of every video pixel, 0 = unknown
-        double ms = 0;         ///< wall time [ms], as of FlowMethod, with the triangulation
-        cv::Mat variance{};    ///< CV_32F of inverseDepth [1/m^2], empty where there is none
+        double ms = 0;         ///< wall time [ms], see FlowMethod, including triangulation
+        cv::Mat variance{};    ///< CV_32F of inverseDepth [1/m^2], empty if the method has none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
 
-/// What --methods accepts for depth.
+/// Names that --methods accepts for depth.
 [[nodiscard]] const std::vector<std::string>& depthMethodNames();
 
 class DepthFactory {

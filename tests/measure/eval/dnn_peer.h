@@ -10,7 +10,7 @@
 
 namespace mfar::eval {
 
-/// What the name of a model of OpenCV's dnn_superres says, as in EDSR_x4.pb.
+/// Information from the file name of an OpenCV dnn_superres model, such as EDSR_x4.pb.
 struct DnnModelName {
     std::string algorithm;  ///< edsr, espcn, fsrcnn, lapsrn
     int scale;              ///< 2, 3, 4, 8
@@ -19,10 +19,9 @@ struct DnnModelName {
 /// Throws EvalError for other names.
 [[nodiscard]] DnnModelName dnnModelNamed(const std::filesystem::path& file);
 
-/// A peer for super-resolution without a still: such a model enlarges the video by its own factor,
-/// what remains to the output's size is done by OpenCV (bicubic, area means where it shrinks).
-/// B G R, CV_8UC3. Throws EvalError when the file cannot be used or when this program was built
-/// without dnn_superres.
+/// A peer for super-resolution without a still: the model enlarges the video by its own factor;
+/// OpenCV then resizes to the output's size (bicubic, area means for shrinking). B G R, CV_8UC3.
+/// Throws EvalError if the file cannot be used or if this program was built without dnn_superres.
 [[nodiscard]] std::function<cv::Mat(const cv::Mat&)> dnnEnlarger(const std::filesystem::path& file,
                                                                  Size output);
 

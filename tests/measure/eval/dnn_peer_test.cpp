@@ -16,7 +16,7 @@ namespace {
 
 using test::TempFolder;
 
-/// Fields of a protocol buffer, as TensorFlow's files of networks are made of.
+/// Encodes fields of a protocol buffer, the format of TensorFlow's network files.
 std::string varint(unsigned long value) {
     std::string out;
     for (; value >= 128; value >>= 7)
@@ -40,7 +40,7 @@ std::string node(const std::string& name, const std::string& op,
     return field(1, out + attributes);
 }
 
-/// A network of one channel: `copies` times the same one, sorted into a picture.
+/// A network of one channel: `copies` copies of it, rearranged to a picture.
 std::string copiesToPixels(int copies) {
     constexpr unsigned long kFloat = 1;
     const std::string type = field(6, kFloat);
@@ -71,7 +71,7 @@ std::filesystem::path write(const std::filesystem::path& file, const std::string
     return file;
 }
 
-/// What is said of a file; nothing where it is used.
+/// Error message for a file; empty if it is accepted.
 std::string refusal(const std::filesystem::path& file) {
     try {
         (void)dnnEnlarger(file, {72, 54});
@@ -94,7 +94,8 @@ TEST(DnnPeer, TheNameTellsTheModelAndItsFactor) {
         EXPECT_THROW((void)dnnModelNamed(name), EvalError) << name;
 }
 
-// A network that repeats each pixel says whether pictures pass it upright, in order and in place.
+// A network that repeats each pixel checks that pictures pass upright, with channels in order and
+// pixels in place.
 TEST(DnnPeer, AModelEnlargesTheVideo) {
     if (builtWithout()) GTEST_SKIP() << "built without OpenCV's dnn_superres";
     const TempFolder folder;

@@ -19,10 +19,10 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kStillEvery = 10;  // synthetic frames
-constexpr int kScoredFrame = 5;  // after the one in which a still is asked for
+constexpr int kStillEvery = 10;  // synthetic frames between stills
+constexpr int kScoredFrame = 5;  // number of frames after the request for a still
 
-/// All methods on the frames of one scene.
+/// Runs all methods on the frames of one scene.
 class Figure7Run {
 public:
     Figure7Run(const Figure7Request& request, std::string name, const StereoRig& rig,
@@ -72,7 +72,7 @@ private:
     std::optional<Timestamp> stillTime_;
 };
 
-/// What the product learns from the next stills of a scene.
+/// Filters that the product learns from the next stills of a scene.
 std::shared_ptr<const FilterBank> learnedFrom(SceneRun& board, int stills) {
     StillLearning learning;
     learning.begin(board.rig());

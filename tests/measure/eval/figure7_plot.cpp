@@ -15,23 +15,23 @@ constexpr double kFigureLeft = 64, kFigureTop = 72, kFigureHeight = 230, kFigure
 constexpr double kBar = 25, kBarGap = 3, kGroupGap = 34;
 constexpr std::array<const char*, 6> kBarColours{"#444444", "#0072b2", "#56b4e9",
                                                  "#d55e00", "#009e73", "#cc79a7"};
-// Of the numbers in them.
+// Colours of the numbers inside the bars.
 constexpr std::array<const char*, 6> kBarInk{"#fff", "#fff", "#111", "#fff", "#fff", "#111"};
 
-/// One measure of all scenes and methods.
+/// One metric for all scenes and methods.
 struct Figure7Panel {
     std::string title;
     std::function<double(const PictureScores&)> value;
     double least, most, step;
     int decimals;
-    bool tiles;  ///< quantiles of the tiles, too
+    bool tiles;  ///< also draw quantiles of the tiles
 };
 
 double groupWidth() {
     return static_cast<double>(figure7Methods().size()) * (kBar + kBarGap) + kGroupGap;
 }
 
-/// Draws the bars of a panel, its upper edge at `top`.
+/// Draws the bars of a panel, with its upper edge at `top`.
 class Figure7Bars {
 public:
     Figure7Bars(const Figure7Panel& panel, double top) : panel_(panel), top_(top) {}
@@ -75,7 +75,7 @@ private:
             out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2\" fill=\"#fff\" "
                                "stroke=\"#222\" stroke-width=\"0.8\"/>\n",
                                x + kBar / 2, y(panel_.value(frame)));
-        const bool inside = zero - end > 18;  // at the foot of the bar, away from all else
+        const bool inside = zero - end > 18;  // at the foot of the bar, where nothing else is drawn
         out += svg::text(x + kBar / 2, inside ? zero - 6 : std::min(zero, end) - 6, "middle",
                          fmt::format("{:.{}f}", mean, mean > 99.9 ? 0 : panel_.decimals), 10,
                          inside ? kBarInk[m] : "#222");
@@ -97,7 +97,7 @@ private:
     double top_;
 };
 
-/// The lowest value of any frame, at most 0, rounded down to whole steps.
+/// The lowest value of any frame, or 0 if that is lower, rounded down to whole steps.
 double leastOf(const std::vector<Figure7Scene>& scenes, const Figure7Panel& panel) {
     double out = 0;
     for (const Figure7Scene& scene : scenes)

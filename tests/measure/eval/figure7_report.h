@@ -8,20 +8,20 @@
 
 namespace mfar::eval {
 
-/// The methods in the order of the figure; the truth is the first, the product the second.
+/// The methods in the order of the figure: the truth first, the product second.
 struct Figure7Method {
     const char* name;   ///< of superResMethodNames(), or "truth"
     const char* title;  ///< in the legend
 };
 [[nodiscard]] const std::vector<Figure7Method>& figure7Methods();
 
-/// What one scene came to.
+/// Results of one scene.
 struct Figure7Scene {
     std::string name;
     std::vector<std::string> frames;
-    std::vector<std::vector<PictureScores>> scores;  ///< of each method, of each frame
+    std::vector<std::vector<PictureScores>> scores;  ///< by method, then by frame
 
-    /// Mean over the frames. `value`: of a frame's scores.
+    /// Mean over the frames. `value`: selects a score of a frame.
     template <class F>
     [[nodiscard]] double mean(std::size_t method, F&& value) const {
         double sum = 0;
@@ -31,12 +31,12 @@ struct Figure7Scene {
     }
 };
 
-/// Every frame and method, then the means.
+/// All frames and methods, then the means.
 [[nodiscard]] Report figure7Report(const std::vector<Figure7Scene>& scenes,
                                    const PictureMetrics& metrics);
-/// A line for each scene: the product against the paper's method, bilinear and the truth.
+/// One line per scene that compares the product with the paper's method, bilinear and the truth.
 [[nodiscard]] std::string figure7Summary(const std::vector<Figure7Scene>& scenes);
-/// Means as bars, frames as dots, quantiles of the tiles beside LPC-SI.
+/// Means as bars, frames as dots; for LPC-SI also quantiles of the tiles.
 [[nodiscard]] std::string figure7Svg(const std::vector<Figure7Scene>& scenes,
                                      const PictureMetrics& metrics);
 

@@ -13,7 +13,7 @@ std::size_t count(const std::string& text, const std::string& what) {
     return n;
 }
 
-/// Methods that lose ten of Q and a tenth of LPC-SI each.
+/// Each method loses ten of Q and a tenth of LPC-SI relative to the one before.
 Figure7Scene steps(const std::string& name, std::size_t frames) {
     Figure7Scene out{name, std::vector<std::string>(frames, "0"), {}};
     for (std::size_t m = 0; m < figure7Methods().size(); ++m) {
@@ -39,7 +39,7 @@ TEST(Figure7, SummaryComparesTheProductWithTheOthers) {
 TEST(Figure7, ReportHasEveryFrameAndTheMeans) {
     const Report report = figure7Report({steps("desk", 2)}, kAsked);
     ASSERT_EQ(report.rows().size(), 6U * 2 + 6);
-    EXPECT_FALSE(report.rows()[0].values[0]);  // of the truth itself
+    EXPECT_FALSE(report.rows()[0].values[0]);  // the truth has no PSNR
     EXPECT_EQ(report.rows()[13].method, "detail");
     EXPECT_EQ(report.rows()[13].values[1], 90);
     EXPECT_NE(report.csv().find("hdrvdp_ppd"), std::string::npos);
@@ -52,7 +52,7 @@ TEST(Figure7, FigureHasABarForEveryMethodOfEveryScene) {
     EXPECT_TRUE(bench::test::isWellFormed(svg)) << svg;
     EXPECT_EQ(count(svg, "<title>"), 2U * 2 * 6);
     EXPECT_EQ(count(svg, "<circle"), 2U * 6 * (3 + 1));
-    EXPECT_EQ(count(svg, ">-40<"), 1U);  // the axis goes below what is lowest
+    EXPECT_EQ(count(svg, ">-40<"), 1U);  // the axis extends below the lowest value
     EXPECT_NE(svg.find("30 pixels per degree"), std::string::npos);
     EXPECT_EQ(svg.find("nan"), std::string::npos);
 }

@@ -26,13 +26,13 @@ cv::Mat grey(const cv::Mat& picture) {
     return out;
 }
 
-/// A peer that knows nothing of cameras: from one grey picture to another of the same size.
+/// A peer without knowledge of cameras: flow from one grey picture to another of the same size.
 struct PlainFlows {
-    cv::Mat flow, back;  ///< back: empty for those that go one way
+    cv::Mat flow, back;  ///< back: empty for methods with one direction
 };
 using PlainFlow = std::function<PlainFlows(const cv::Mat& a, const cv::Mat& b)>;
 
-constexpr double kAlpha = 2;  // the paper's, of its confidence [px]
+constexpr double kAlpha = 2;  // the paper's alpha, for its confidence [px]
 
 class PlainMethod final : public FlowMethod {
 public:
@@ -68,7 +68,7 @@ PlainFlow dis(DisPreset preset, bool fullResolution, bool bothWays) {
 
 PlainFlows farneback(const cv::Mat& a, const cv::Mat& b) {
     PlainFlows out;
-    // The values of OpenCV's own samples.
+    // Parameters from OpenCV's own samples.
     cv::calcOpticalFlowFarneback(a, b, out.flow, 0.5, 3, 15, 3, 5, 1.2, 0);
     return out;
 }
@@ -107,9 +107,9 @@ private:
     std::optional<Pose> stillPose_;
 };
 
-/// The product, along epipolar lines where both poses are known or without them. Its time is that
-/// of what the field needs: all of the 2-D flow, which goes both ways, or the search along the
-/// lines.
+/// The product: along epipolar lines if both poses are known, otherwise in 2-D. Its time includes
+/// the stages that the field needs: all of the 2-D flow, which computes both directions, or the
+/// search along the lines.
 class ProductMethod final : public FlowMethod {
 public:
     ProductMethod(const StereoRig& rig, bool usePoses)

@@ -9,27 +9,27 @@
 
 namespace mfar::eval {
 
-/// One way to find the flow from video frames to a still, set up for one rig. Frames come in the
-/// order of their times, so that a method may carry what it knows from one to the next.
+/// A method that finds the flow from video frames to a still, set up for one rig. Frames come in
+/// the order of their times, so that a method may keep state between them.
 class FlowMethod {
 public:
     virtual ~FlowMethod() = default;
 
-    /// The reference of the following frames.
+    /// The still for the following frames.
     virtual void setStill(const Shot& still) = 0;
     struct Result {
         cv::Mat flow;  ///< CV_32FC2 [video px], FlowField in pipeline/results.h; NaN = no answer
         double ms =
-            0;  ///< wall time [ms], median of three after the answer, work per still not in it
-        cv::Mat confidence{};  ///< CV_32F of every pixel, empty where the method has none
+            0;  ///< wall time [ms], median of three runs after the first, without work per still
+        cv::Mat confidence{};  ///< CV_32F of every pixel, empty if the method has none
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
 
-/// What --methods accepts for flow.
+/// Names that --methods accepts for flow.
 [[nodiscard]] const std::vector<std::string>& flowMethodNames();
 
-/// The methods of this product need a GL context: it is created on first need and stays current.
+/// The product's methods need a GL context: it is created when first needed and stays current.
 /// Throws std::invalid_argument for an unknown name.
 class FlowFactory {
 public:

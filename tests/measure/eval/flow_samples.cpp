@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The whole text as a number, digits only; nothing when it is none or does not fit.
+/// The whole text as a number, digits only; empty if it is not a number or too large.
 std::optional<std::int64_t> parseDigits(const std::string& text) {
     std::int64_t value = 0;
     const char* end = text.data() + text.size();
@@ -31,7 +31,7 @@ std::optional<std::int64_t> parseDigits(const std::string& text) {
     return value;
 }
 
-/// Files named prefix, number, suffix: by their number.
+/// Files named prefix, number, suffix, by their number.
 std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_view prefix,
                                           std::string_view suffix) {
     std::map<std::int64_t, fs::path> out;
@@ -47,7 +47,8 @@ std::map<std::int64_t, fs::path> numbered(const fs::path& folder, std::string_vi
     return out;
 }
 
-/// What is not known of a pair's camera: one pinhole as wide as it is far, straight ahead.
+/// Assumed camera of a pair, whose real one is unknown: one pinhole with a focal length of the
+/// picture's width, looking straight ahead.
 StereoRig pairRig(const fs::path& picture) {
     const Size size = loadImage(picture).size;
     StereoRig rig;
@@ -92,7 +93,7 @@ FlowSample sampleOf(const Recording& recording, const RecordedImage& video,
             posesOf(recording, video.time, still.time)};
 }
 
-/// The samples of truth/flow, apart by what they lead to.
+/// The samples of truth/flow, separated by their target.
 struct RecordedFlows {
     std::vector<FlowSample> toStill, toVideo;
 

@@ -9,13 +9,13 @@ namespace mfar::eval {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr double kNearPlane = 1e-3;    // share of the point's own depth
+constexpr double kNearPlane = 1e-3;    // lower limit of depth, as a share of the point's own depth
 constexpr double kSplatWeight = 0.25;  // bilinear weight above which a pixel is covered
 
-/// Where a point of the frame is in the still, seen with the video's lens, and how near there.
+/// Position of a frame's point in the still, with the video's lens, and its inverse depth there.
 struct Seen {
     Eigen::Vector2d pixel;
-    double inverseDepth;  ///< [1/m], along the still's axis turned as the video's
+    double inverseDepth;  ///< [1/m], along the still's axis rotated to the video's orientation
 };
 
 class Projection {
@@ -25,7 +25,7 @@ public:
           rotation_((turn_ * T_still_frame.rotation).toRotationMatrix()),
           translation_(turn_ * T_still_frame.translation) {}
 
-    /// Nothing behind the camera or outside the still's picture.
+    /// Empty if the point is behind the camera or outside the still's picture.
     [[nodiscard]] std::optional<Seen> see(const Eigen::Vector2d& pixel, double rho) const {
         const Eigen::Vector2d ray = rig_.video.unproject(pixel);
         const Eigen::Vector3d point =
@@ -34,7 +34,7 @@ public:
         return Seen{rig_.video.project(point.head<2>() / point.z()), rho / point.z()};
     }
 
-    /// A difference of inverse depth that moves the look-up by one pixel [1/m].
+    /// The difference of inverse depth that moves the look-up by one pixel [1/m].
     [[nodiscard]] double onePixel() const {
         const double length = translation_.norm() * std::max(rig_.video.fx, rig_.video.fy);
         return length > 0 ? 1 / length : std::numeric_limits<double>::infinity();
@@ -56,12 +56,12 @@ private:
     Eigen::Vector3d translation_;
 };
 
-/// How near the nearest surface is at each pixel of the still in the video's geometry.
+/// Inverse depth of the nearest surface at each pixel of the still in the video's geometry.
 class NearestSurface {
 public:
     explicit NearestSurface(cv::Size size) : rho_(size, CV_64F, -1.0) {}
 
-    /// Covers the pixels around a place whose bilinear weight is above a quarter.
+    /// Covers the pixels around a position whose bilinear weight is above a quarter.
     void add(const Seen& seen) {
         const double left = std::floor(seen.pixel.x()), top = std::floor(seen.pixel.y());
         for (const double y : {top, top + 1})

@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Lenses that bend, a still camera that looks elsewhere.
+/// Distorting lenses, and a still camera with another orientation.
 StereoRig crookedRig() {
     StereoRig rig;
     rig.video = {{80, 60}, 70, 72, 39, 30, {-0.12, 0.03, 0.001, -0.002, 0}};
@@ -77,7 +77,8 @@ TEST(FlowTruth, WhatIsHiddenOrOutsideInTheStillIsUnknown) {
         for (int x = 30; x < 50; ++x)
             depth.at(x, y) = 1;
     const cv::Mat flow = flowOfInverseDepth(depth, rig, rig.T_still_video);
-    // The wall moves 5 px to the left and leaves the picture, the panel 10 px: it hides 5 columns.
+    // The wall moves 5 px to the left and leaves the picture, the panel 10 px: it occludes 5
+    // columns.
     for (int x = 0; x < 80; ++x) {
         const auto& v = flow.at<cv::Vec2f>(30, x);
         if (x < 5 || (x >= 25 && x < 30))
@@ -107,7 +108,7 @@ TEST(FlowTruth, ASlantedSurfaceDoesNotHideItself) {
     }
 }
 
-/// Rays through the exact world know better than the projected truth what hides what.
+/// Rays through the exact world determine occlusion more accurately than the projected truth.
 TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
     using synthetic::Path;
     StereoRig rig = synthetic::boardRig();
@@ -118,7 +119,8 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
         const RigidTransform T_world_frame = cameraPose(world, path, 1, 1.5);
         const RigidTransform T_world_still =
             cameraPose(world, path, 1, 0) * rig.T_still_video.inverse();
-        RigidTransform T_world_turned = T_world_still;  // oriented as the video, see FlowField
+        RigidTransform T_world_turned = T_world_still;  // with the video's orientation, see
+                                                        // FlowField
         T_world_turned.rotation = T_world_still.rotation * rig.T_still_video.rotation;
         const synthetic::Viewpoint frame{rig.video, T_world_frame, 0};
         const FlowImage exact = flowBetween(world, frame, {rig.video, T_world_turned, 0});
@@ -136,7 +138,8 @@ TEST(FlowTruth, AgreesWithRaysThroughTheWorld) {
             }
         EXPECT_EQ(far, 0);
         EXPECT_GT(both, 8000);
-        EXPECT_GT(both, 0.95 * either);  // silhouettes to a pixel, the borders of two lenses
+        EXPECT_GT(both, 0.95 * either);  // silhouettes are exact within a pixel; the borders of two
+                                         // lenses differ
     }
 }
 

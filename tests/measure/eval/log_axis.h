@@ -6,14 +6,14 @@
 
 namespace mfar::eval {
 
-/// A logarithmic axis over all that was included: values above zero.
+/// A logarithmic axis over all included values; they must be above zero.
 class LogAxis {
 public:
     void include(double value) {
         least_ = std::min(least_, value);
         most_ = std::max(most_, value);
     }
-    /// Where a value lies, [0, 1] for what was included and a margin.
+    /// Position of a value; the included values and a margin span [0, 1].
     [[nodiscard]] double at(double value) const {
         if (!(least_ <= most_)) return 0;
         return (std::log(value / least_) + kMargin) / (std::log(most_ / least_) + 2 * kMargin);

@@ -32,7 +32,8 @@ MatchClass classOf(const cv::Vec2f& lookUp, float confidence, Size still) {
     return confidence >= kWellMatched ? MatchClass::Matched : MatchClass::Unmatched;
 }
 
-/// CV_32FC2: the still pixel that each video pixel's flow leads to; far outside behind the camera.
+/// CV_32FC2: the still pixel to which each video pixel's flow leads; far outside for points behind
+/// the camera.
 cv::Mat lookUpsOf(const StereoRig& rig, const cv::Mat& flow) {
     const Eigen::Matrix3d rotation = rig.T_still_video.rotation.toRotationMatrix();
     cv::Mat out(flow.size(), CV_32FC2, cv::Scalar::all(-1e6));

@@ -11,34 +11,35 @@
 
 namespace mfar::eval {
 
-/// What the product's match says of a frame, at video size.
+/// The product's match of a frame with the still, at video size.
 struct StillMatch {
     cv::Mat flow;        ///< CV_32FC2 [video px], as Pipeline::readFlow()
     cv::Mat confidence;  ///< CV_32F, eq. 2, as Pipeline::readConfidence()
 };
 
-/// Confidence from which on a pixel is well matched: both ways of the flow agree to a video pixel.
+/// Confidence from which a pixel counts as well matched: both directions of the flow agree within a
+/// video pixel.
 inline constexpr float kWellMatched = 0.5F;
-/// Share of a picture below which a class is too small to be measured.
+/// Smallest share of a picture that a class needs to be measured.
 inline constexpr double kSmallestClass = 0.001;
 
-/// By what the still can say of a pixel.
+/// Classes of pixels by what the still shows of them.
 enum class MatchClass : unsigned char {
     Outside,    ///< its look-up leaves the still
-    Unmatched,  ///< inside, but hidden there or not found with confidence
+    Unmatched,  ///< inside, but occluded there or matched with low confidence
     Matched,
 };
 inline constexpr int kMatchClasses = 3;
 
-/// The class of every output pixel, CV_8U: that of the video pixel that it lies in.
+/// The class of every output pixel, CV_8U: that of the video pixel that contains it.
 [[nodiscard]] cv::Mat matchClasses(const StereoRig& rig, Size output, const StillMatch& match);
 
 /// One sentence on the classes, for the head of a table.
 [[nodiscard]] std::string matchClassesHead();
-/// Of each class: its share of the pixels, and the luma PSNR over bicubic there [dB].
+/// For each class: its share of the pixels, and its gain in luma PSNR over bicubic [dB].
 [[nodiscard]] std::vector<Column> matchClassColumns();
-/// Luma pictures CV_64F, classes CV_8U, same size. No gain of a class that is too small, and none
-/// where either picture equals the truth.
+/// Luma pictures CV_64F, classes CV_8U, same size. A class has no gain if it is too small or if
+/// either picture equals the truth there.
 [[nodiscard]] std::vector<std::optional<double>> matchClassValues(const cv::Mat& classes,
                                                                   const cv::Mat& picture,
                                                                   const cv::Mat& bicubic,

@@ -11,7 +11,7 @@
 namespace mfar::eval {
 namespace {
 
-/// HDR-VDP-2 of what an sRGB display shows, in place of that of luma.
+/// Replaces the HDR-VDP-2 score of luma by that of the light of an sRGB display.
 void scoreColours(const cv::Mat& test, const cv::Mat& reference, const HdrVdpDisplay& display,
                   PictureScores& out) {
     const auto light = [&](const cv::Mat& picture) {
@@ -51,7 +51,7 @@ Report evaluateMetric(const MetricRequest& request) {
     PictureScores scores = scoreOf(luma(test), luma(reference), metrics);
     if (colours) scoreColours(test, reference, metrics.display, scores);
     auto further = furtherValues(scores, request.metrics);
-    if (colours) further.back().reset();  // sRGB has no single gamma
+    if (colours) further.back().reset();  // sRGB has no single gamma value
     Report report(followedBy<Column>({{"psnr_db", 2}, {"ssim", 4}, {"lpc_si", 4}, {"hdrvdp_q", 2}},
                                      furtherColumns(request.metrics)));
     report.add(request.reference.filename().string(), request.test.filename().string(),

@@ -13,10 +13,10 @@ namespace mfar::eval {
 struct MetricRequest {
     std::filesystem::path test, reference;
     PictureMetrics metrics{pictureMetricNames(), {}};
-    bool colour = false;  ///< HDR-VDP-2 of the colours, not of luma
+    bool colour = false;  ///< HDR-VDP-2 of the colours instead of luma
 };
 
-/// `mfar-eval metric`: measures of one picture against another.
+/// `mfar-eval metric`: metrics of one picture against another.
 CLI::App* addMetricCommand(CLI::App& app, MetricRequest& request, std::string& csv);
 
 /// One row. Throws ImageFileError and, for pictures of different size, EvalError.

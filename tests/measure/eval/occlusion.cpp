@@ -18,7 +18,7 @@ namespace {
 
 using synthetic::Path;
 
-/// Frames before the first that is scored: until a still is there and depth has settled.
+/// Frames before the first that is scored: until there is a still and depth has settled.
 constexpr int kSettling = 8;
 
 std::optional<double> measured(double value) {

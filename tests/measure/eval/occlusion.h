@@ -15,14 +15,15 @@ struct OcclusionRequest {
     std::vector<synthetic::Path> paths{synthetic::Path::Handheld, synthetic::Path::Rest};
     std::filesystem::path objects;  ///< a configuration of mfard; empty: sceneObjects()
     PoseSource poses = PoseSource::Recorded;
-    int frames = 24;   ///< scored, per run
+    int frames = 24;   ///< scored frames per run
     double noise = 1;  ///< of both sensors, see SyntheticOptions
 };
 
-/// Every object alone in every scene, on every path: rows of `SCENE/PATH/OBJECT`, `method` is the
-/// source of poses. Columns: ms of the stages depth and composite, iou, boundary_px (see
-/// OcclusionScore), flicker of a camera at rest, as a share of the object's pixels at the output's
-/// resolution. Then means and medians. Throws EvalError, and Failure for a faulty configuration.
+/// Measures every object alone in every scene, on every path: rows of `SCENE/PATH/OBJECT`; `method`
+/// is the source of poses. Columns: ms of the stages depth and composite, iou, boundary_px (see
+/// OcclusionScore), flicker with a camera at rest, as a share of the object's pixels at the
+/// output's resolution. Then means and medians. Throws EvalError, and Failure for a faulty
+/// configuration.
 [[nodiscard]] Report evaluateOcclusion(const OcclusionRequest& request);
 
 }  // namespace mfar::eval

@@ -8,7 +8,7 @@
 
 namespace mfar::eval {
 
-/// The subcommand `occlusion` with its options, which fill `request` and `csv`.
+/// Adds the subcommand `occlusion` with its options, which set `request` and `csv`.
 CLI::App* addOcclusionCommand(CLI::App& app, OcclusionRequest& request, std::string& csv);
 
 }  // namespace mfar::eval

@@ -63,7 +63,7 @@ void PaperPipeline::setStill(const cv::Mat& still) {
 
 const cv::Mat& PaperPipeline::run(const cv::Mat& video) {
     cv::cvtColor(video, grey_, cv::COLOR_BGR2GRAY);
-    // DIS takes a filled flow as its first guess; every frame starts afresh here.
+    // DIS takes an existing flow as its first guess; here every frame starts without one.
     forward_.release();
     backward_.release();
     dis_->calc(grey_, stillGrey_, forward_);

@@ -16,11 +16,11 @@ namespace mfar::eval {
 /// Writes a PNG. Throws ImageFileError.
 void savePicture(const std::filesystem::path& file, const cv::Mat& picture);
 
-/// CV_8UC3 B G R -> CV_8UC4 R G B A, as the pipeline takes it.
+/// CV_8UC3 B G R -> CV_8UC4 R G B A, the pipeline's format.
 [[nodiscard]] cv::Mat toRgba(const cv::Mat& bgr);
-/// Borrows a CV_8UC4 (Rgba8) or CV_8UC1 (Gray8).
+/// A view of a CV_8UC4 (Rgba8) or CV_8UC1 (Gray8) picture.
 [[nodiscard]] ImageView viewOf(const cv::Mat& picture);
-/// What Pipeline::readImage gives -> CV_8UC3 B G R.
+/// The result of Pipeline::readImage -> CV_8UC3 B G R.
 [[nodiscard]] cv::Mat fromRgba(const std::vector<std::uint8_t>& rgba, Size size);
 
 }  // namespace mfar::eval

@@ -6,12 +6,12 @@
 
 namespace mfar::eval {
 
-/// What every help says of the measures and their parameters.
+/// Help text on the metrics and their parameters, for every subcommand.
 extern const char* const kPictureMetricsHelp;
 
-/// Adds `--metrics`, whose default is what `metrics` holds, and what goes with it.
+/// Adds `--metrics`, whose default is the content of `metrics`, and the metrics' parameters.
 void addPictureMetrics(CLI::App& sub, PictureMetrics& metrics);
-/// Adds only how the measures look: --ppd, --peak, --black, --gamma, --lpc-ratio.
+/// Adds only the metrics' parameters: --ppd, --peak, --black, --gamma, --lpc-ratio.
 void addMetricParameters(CLI::App& sub, PictureMetrics& metrics);
 
 }  // namespace mfar::eval

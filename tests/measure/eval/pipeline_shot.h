@@ -5,7 +5,8 @@
 
 namespace mfar::eval {
 
-/// A shot as a pipeline takes it: converted once, so that a run can be timed without that.
+/// A shot in the pipeline's format, converted once, so that a timed run does not include the
+/// conversion.
 class PipelineShot {
 public:
     /// `usePose`: false hides a known pose from the pipeline.

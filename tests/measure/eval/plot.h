@@ -7,11 +7,11 @@
 
 namespace mfar::eval {
 
-/// A value over another. Points that are not finite or, for x, not above 0 are left out.
+/// A point of a plot. Points that are not finite or, for x, not above 0 are left out.
 struct PlotPoint {
     double x = 0, y = 0;
-    std::string tip;    ///< shown where the mouse rests
-    std::string label;  ///< written beside it
+    std::string tip;    ///< tool tip
+    std::string label;  ///< text next to the point
 };
 
 struct PlotLine {
@@ -19,20 +19,21 @@ struct PlotLine {
     std::vector<PlotPoint> points;
 };
 
-/// Two logarithmic axes over all of its points, and what lies between them.
+/// Two logarithmic axes over all points, and the lines between them.
 struct PlotPanel {
     std::string title, xLabel, yLabel;
-    double leastY = 1e-9;  ///< what is drawn for anything below, as a logarithm ends somewhere
+    double leastY = 1e-9;  ///< lower limit of what is drawn, because the axis is logarithmic
     std::vector<PlotLine> lines;
     std::vector<PlotPoint> diamonds;
     std::optional<PlotPoint> ringed;
 };
 
-/// An SVG document of panels side by side, in colours distinct for every kind of colour vision.
+/// An SVG document of panels side by side, in colours that are distinct for all kinds of colour
+/// vision.
 [[nodiscard]] std::string plotSvg(const std::string& title, const std::vector<PlotPanel>& panels,
                                   const std::string& footnote);
 
-/// Throws EvalError when the file cannot be written.
+/// Throws EvalError if the file cannot be written.
 void writePlot(const std::filesystem::path& file, const std::string& svg);
 
 }  // namespace mfar::eval

@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A turn of the error from one frame to the next that no noise makes.
+// Rotation of the error between consecutive frames that noise cannot explain.
 constexpr double kFlipDeg = 3;
 
 const std::vector<Column> kColumns{
@@ -46,7 +46,7 @@ Values none() {
     return Values(kColumns.size());
 }
 
-/// Motion from where the camera was to where it was taken to be, in its own frame.
+/// Error: motion from the camera's true pose to the measured one, in the camera's own frame.
 RigidTransform errorOf(const Pose& measured, const Pose& truth) {
     return truth.T_world_video.inverse() * measured.T_world_video;
 }
@@ -96,7 +96,7 @@ public:
         report_.add(recording_, std::to_string(time.ns), method_, std::move(row));
     }
 
-    /// After the means: a median of them would be none of frames.
+    /// Must be called after the means are added; otherwise they would include the medians.
     void addMedian() const {
         if (rows_.empty()) return;
         Values out = none();

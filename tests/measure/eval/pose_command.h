@@ -8,7 +8,7 @@
 
 namespace mfar::eval {
 
-/// The subcommand `pose` with its options, which fill `request` and `csv`.
+/// Adds the subcommand `pose` with its options, which set `request` and `csv`.
 CLI::App* addPoseCommand(CLI::App& app, PoseRequest& request, std::string& csv);
 
 }  // namespace mfar::eval

@@ -56,7 +56,7 @@ RigidTransform view(int i) {
     return cameraAt(0.5, 0.4 + 0.004 * i, -0.3, 0.1);
 }
 
-/// Four frames and a still of one tag.
+/// Four frames and a still that show one tag.
 void writeRecording(const fs::path& root) {
     const StereoRig rig{testCamera().scaledTo({320, 240}), testCamera(), {}};
     Recorder recorder(root, rig, 30);

@@ -7,19 +7,19 @@
 
 namespace mfar::eval {
 
-/// Who tells the methods where the camera was.
+/// Source of the camera poses that methods get.
 enum class PoseSource {
-    Recorded,  ///< the recording, see posesOf()
+    Recorded,  ///< poses of the recording, see posesOf()
     Tags,      ///< the product's tracker, from the tags in frames and stills
-    None,      ///< nobody
+    None,      ///< no poses
 };
 
-/// The poses of one recording as methods get them. What is measured against stays as recorded.
+/// The poses of one recording as methods get them. The truth stays as recorded.
 class KnownPoses {
 public:
-    /// `recording` must outlive this. Tags: goes through all pictures in the order of their times,
-    /// with the recording's tags.toml. A still has the pose that it shows itself; pictures without
-    /// one have none. Throws TagMapError and ImageFileError.
+    /// `recording` must outlive this. Tags: processes all pictures in the order of their times,
+    /// with the recording's tags.toml. A still has the pose computed from the still itself; a
+    /// picture without a pose has none. Throws TagMapError and ImageFileError.
     KnownPoses(const Recording& recording, PoseSource source);
 
     /// `still` may also be the time of a video frame.

@@ -6,7 +6,7 @@
 
 namespace mfar::eval {
 
-/// The option --poses, which sets `source`.
+/// Adds the option --poses, which sets `source`.
 void addPoseSource(CLI::App& sub, PoseSource& source);
 
 }  // namespace mfar::eval

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-/// The programs as a user runs them, on tiny pictures: they must not rot. How good and how fast the
-/// product is, is not asserted here.
+/// Runs the programs as a user does, on tiny pictures, so that they cannot rot. The product's
+/// accuracy and speed are not asserted here.
 namespace mfar::eval {
 namespace {
 
@@ -13,7 +13,7 @@ using test::Outcome;
 using test::TempFolder;
 namespace fs = std::filesystem;
 
-/// A texture and the same moved by (3, -2) pixels, with the flow that says so.
+/// A texture, the same texture moved by (3, -2) pixels, and that flow.
 void writePair(const fs::path& folder) {
     const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
     const cv::Size size(160, 120);
@@ -77,7 +77,7 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     ASSERT_EQ(rows.size(), 1U + 10 + 10) << outcome.text;
     EXPECT_EQ(rows[0], split("recording,frame,method,ms,epe_px,bad1,bad2,coverage,angular_deg,"
                              "ause,ause_rel"));
-    EXPECT_LT(std::stod(rows[4].at(8)), 5);  // of a method without confidence
+    EXPECT_LT(std::stod(rows[4].at(8)), 5);  // a method without confidence
     EXPECT_TRUE(rows[4].at(9).empty());
     EXPECT_EQ(rows[5][2], "dis-medium-both");
     EXPECT_GE(std::stod(rows[5].at(10)), 0);
@@ -90,7 +90,8 @@ TEST(MfarEval, FlowMeasuresAKnownShift) {
     EXPECT_LT(std::stod(rows[10][4]), 0.5);
 }
 
-/// A flat wall at 2 m, taken by both sensors at one time: 1/m and a baseline, no flow.
+/// A flat wall at 2 m, taken by both sensors at the same time: inverse depth and a baseline, no
+/// flow.
 void writeStereo(const fs::path& root) {
     const cv::Mat world = bench::syntheticWorkload({160, 120}, {320, 240}, 1).stills[0];
     const cv::Size size(160, 120);
@@ -134,7 +135,7 @@ TEST(MfarEval, FlowOfAStereoPairKnowsItsPoseAndHowFarItIsOff) {
     for (const double share : clean)
         EXPECT_LT(share, 0.05);
     EXPECT_GT(worse[1], clean[1] + 0.05);
-    EXPECT_EQ(off[1], clean[1]);  // knows no pose
+    EXPECT_EQ(off[1], clean[1]);  // uses no pose
     EXPECT_GT(off[2], 0.5);
     EXPECT_GT(other[2], 0.5);
     EXPECT_NE(off[2], other[2]);
@@ -161,7 +162,7 @@ TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
         EXPECT_TRUE(rows[i + 1][7].empty());  // a wall has no edges
         EXPECT_GT(std::stod(rows[i + 1][11]), 0.8);
         EXPECT_GE(std::stod(rows[i + 1][13]), std::stod(rows[i + 1][11]));
-        EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // who tells a variance
+        EXPECT_EQ(rows[i + 1].at(15).empty(), i != 0);  // only some methods report a variance
     }
     const Outcome blind = execute(
         folder, fmt::format("{0} depth {1}/wall --methods flow --poses none --csv {1}/out.csv",
@@ -170,7 +171,7 @@ TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
     EXPECT_EQ(std::stod(readCsv(folder / "out.csv").at(1).at(6)), 0);  // no pose, no depth
 }
 
-// Without poses the epipolar method has to do what the one in two dimensions does.
+// Without poses the epipolar method must give the result of the 2-D method.
 TEST(MfarEval, PosesCanBeKeptFromTheMethods) {
     const TempFolder folder;
     writeStereo(folder / "wall");

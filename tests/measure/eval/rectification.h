@@ -8,24 +8,24 @@
 
 namespace mfar::eval {
 
-/// Two views turned so that their pictures are one pinhole camera beside itself: a point at (u, v)
-/// in the first lies at (u - d, v) in the second, d = fx |baseline| / depth >= 0. The picture may
-/// lie on its side: u follows the baseline.
+/// Two views rotated to one pinhole camera at both positions: a point at (u, v) in the first lies
+/// at (u - d, v) in the second, d = fx |baseline| / depth >= 0. The picture may lie on its side: u
+/// follows the baseline.
 class Rectification {
 public:
     /// Both views have the lens and size of `camera`; `T_second_first` maps camera coordinates.
-    /// `disparities` [px] of room on the left, where the second view shows what the first has at
-    /// its border. Nothing where the pictures cannot be rectified: no baseline, or its direction in
-    /// or near one of the pictures.
+    /// `disparities` [px]: margin on the left, where the second view shows the first view's border.
+    /// Empty if rectification is impossible: no baseline, or its direction lies in or near one of
+    /// the pictures.
     [[nodiscard]] static std::optional<Rectification>
     of(const CameraModel& camera, const RigidTransform& T_second_first, int disparities);
 
     [[nodiscard]] cv::Size size() const { return size_; }
-    /// For cv::remap, CV_32FC2 of size(): pixel of the view that each rectified pixel shows.
+    /// For cv::remap, CV_32FC2 of size(): the view's pixel for each rectified pixel.
     [[nodiscard]] cv::Mat firstMap() const { return mapOf(firstTurn_); }
     [[nodiscard]] cv::Mat secondMap() const { return mapOf(secondTurn_); }
-    /// Rectified pixel of a pixel of the first view; pixel of the second view that a rectified
-    /// pixel shows, far outside when it is behind that camera.
+    /// ofFirst(): rectified pixel of a pixel of the first view. The other: pixel of the second view
+    /// for a rectified pixel, far outside if the point is behind that camera.
     [[nodiscard]] Eigen::Vector2d ofFirst(const Eigen::Vector2d& pixel) const;
     [[nodiscard]] Eigen::Vector2d toSecond(const Eigen::Vector2d& rectified) const {
         return toView(rectified, secondTurn_);

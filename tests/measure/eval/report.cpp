@@ -25,7 +25,8 @@ void addUnique(std::vector<std::string>& list, const std::string& value) {
     if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
-/// Cells of equal width per column: the first three to the left, the numbers to the right.
+/// Pads the cells of each column to equal width: the first three columns aligned left, numbers
+/// right.
 std::string layOut(const std::vector<std::vector<std::string>>& lines) {
     std::vector<std::size_t> widths(lines.front().size(), 0);
     for (const auto& line : lines)

@@ -16,36 +16,36 @@ class EvalError : public std::runtime_error {
 
 struct Column {
     std::string name;  ///< as in the CSV
-    int decimals;      ///< shown in the table; the CSV carries six
+    int decimals;      ///< in the table; the CSV has six
 };
 
-/// The results of an evaluation: one row per recording, frame and method, printed as one table and
+/// The results of an evaluation: one row per recording, frame and method. Printed as one table and
 /// written as one CSV whose columns begin with recording,frame,method.
 class Report {
 public:
     explicit Report(std::vector<Column> columns) : columns_(std::move(columns)) {}
 
-    /// One value per column; nothing where it was not measured.
+    /// One value per column; empty if it was not measured.
     void add(const std::string& recording, const std::string& frame, const std::string& method,
              std::vector<std::optional<double>> values);
     /// Appends the means: `frame` = "mean" per recording and method; with several recordings also
     /// recording = "all", over all their frames.
     void addMeans();
-    /// The same with the middle values of the frames, `frame` = "median".
+    /// The same with the medians of the frames, `frame` = "median".
     void addMedians();
 
-    /// Lines above the table: what has to be known to read it.
+    /// Lines above the table that explain how to read it.
     void setHead(std::string head) { head_ = std::move(head); }
     /// Columns that were never measured are left out.
     [[nodiscard]] std::string table() const;
     [[nodiscard]] std::string csv() const;
-    /// Throws EvalError when the file cannot be written.
+    /// Throws EvalError if the file cannot be written.
     void writeCsv(const std::filesystem::path& file) const;
 
     struct Row {
         std::string recording, frame, method;
         std::vector<std::optional<double>> values;
-        bool ofFrames = false;  ///< of several
+        bool ofFrames = false;  ///< aggregated over several frames
     };
     [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
 

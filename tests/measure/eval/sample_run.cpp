@@ -11,13 +11,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The poses of samples, which those of recordings may get from somewhere else.
+/// Sets the poses of samples; those of recordings may come from another source.
 void setPoses(std::vector<FlowSample>& samples, const fs::path& folder, PoseSource source) {
     if (source == PoseSource::Recorded) return;
     if (!fs::exists(folder / "cam0")) {
         if (source == PoseSource::Tags)
             throw EvalError(fmt::format("{}: no recording, so no tags are known", folder.string()));
-        return;  // a pair has none
+        return;  // a pair has no poses
     }
     const Recording recording = loadRecording(folder);
     const KnownPoses poses(recording, source);

@@ -11,17 +11,17 @@
 
 namespace mfar::eval {
 
-/// What is asked of every evaluation of frames against stills.
+/// Parameters common to all evaluations of frames against stills.
 struct SampleRequest {
     std::vector<std::filesystem::path> folders;  ///< recordings or two-frame pairs
     std::vector<std::string> methods;
-    Degradation degradation;  ///< done to every still or second picture
+    Degradation degradation;  ///< applied to every still or second picture
     PoseSource poses = PoseSource::Recorded;
     PoseNoise poseNoise;  ///< of every frame
     int frames = 0;       ///< per folder, 0 = all that have truth
 };
 
-/// The samples of one folder, with poses and pictures made as the request says.
+/// The samples of one folder, with the poses and pictures that the request asks for.
 class SampleRun {
 public:
     /// `set`: the folder's samples. `request` must outlive this. Throws EvalError.
@@ -32,7 +32,7 @@ public:
     [[nodiscard]] const std::string& label() const { return label_; }
 
     /// Calls `frame` for every sample in the order of their times, and `still` before it whenever
-    /// the reference is another one. Throws EvalError and ImageFileError.
+    /// the still changes. Throws EvalError and ImageFileError.
     void each(const std::function<void(const Shot&)>& still,
               const std::function<void(const FlowSample&, const Shot&)>& frame) const;
 

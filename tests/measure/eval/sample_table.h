@@ -17,9 +17,9 @@ struct SampleRow {
     const std::string& method;
 };
 
-/// Runs every method of the request on every sample of its folders, a method made anew for each
-/// folder by `factory.create(name, rig)`, and adds the means. `samplesOf(folder)` finds the
-/// samples, `truthOf(set, sample)` loads what is true, `addRow(row, result, truth)` compares and
+/// Runs every method of the request on every sample of its folders, and adds the means.
+/// `factory.create(name, rig)` makes a new method for each folder, `samplesOf(folder)` finds the
+/// samples, `truthOf(set, sample)` loads the truth, `addRow(row, result, truth)` compares and
 /// reports.
 template <class Factory, class SamplesOf, class TruthOf, class AddRow>
 void measureSamples(const SampleRequest& request, const SamplesOf& samplesOf,

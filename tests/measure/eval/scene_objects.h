@@ -7,7 +7,7 @@
 
 namespace mfar::eval {
 
-/// Virtual objects half behind real things of a scene; none where no place for one is known.
+/// Virtual objects half behind real objects of a scene; empty if no suitable place is known.
 [[nodiscard]] std::vector<VirtualObject> sceneObjects(synthetic::Scene scene);
 
 }  // namespace mfar::eval

@@ -12,25 +12,25 @@
 
 namespace mfar::eval {
 
-/// The tags of a world that stay where they are.
+/// The tags of a world that do not move.
 [[nodiscard]] TagMap tagMapOf(const synthetic::World& world);
 
-/// A synthetic scene as the product meets it, frame by frame: the pictures of both sensors, with
-/// the poses that a source tells. Its truth is the board's. Same options: the same pictures.
+/// A synthetic scene as the product sees it, frame by frame: the pictures of both sensors, with
+/// poses from a source. Its truth is the board's. Equal options give equal pictures.
 class SceneRun {
 public:
     /// The board runs at its consumer's pace. Needs a linked createGlContext().
     SceneRun(SyntheticOptions options, PoseSource poses);
 
-    /// The next frame and its pose; the pose of a still is what that shows itself. A still comes
-    /// some frames after its pulse.
+    /// The next frame and its pose; a still's pose is computed from the still itself. A still
+    /// arrives some frames after its pulse.
     struct Shots {
         Frame frame;
         std::optional<Pose> pose;
         std::optional<Frame> still;
         std::optional<Pose> stillPose;
     };
-    /// Throws std::runtime_error when there are no more.
+    /// Throws std::runtime_error if there are no more.
     [[nodiscard]] Shots next();
     /// Asks for a still.
     void fire() { board_->trigger().fire(); }
@@ -47,13 +47,13 @@ private:
     std::optional<Tracker> tracker_;
 };
 
-/// One frame through the pipeline, after its still if there is one.
+/// Runs one frame through the pipeline, after its still if there is one.
 const FrameResult& runOn(Pipeline& pipeline, const SceneRun::Shots& shots);
 
-/// How much of each pixel of a pipeline's picture shows a virtual object, CV_32F of the output's
-/// size; nothing of any without objects.
+/// Share of each pixel of a pipeline's picture that shows a virtual object, CV_32F of the output's
+/// size; 0 everywhere without objects.
 [[nodiscard]] cv::Mat shownObjects(const Pipeline& pipeline);
-/// The same at the video's size, where it is a half at least: CV_8U, 255 or 0.
+/// The same at the video's size, thresholded at a half: CV_8U, 255 or 0.
 [[nodiscard]] cv::Mat shownAtVideo(const cv::Mat& shown, Size video);
 
 }  // namespace mfar::eval

@@ -19,7 +19,7 @@ class ShiftFlow final : public FlowMethod {
 public:
     explicit ShiftFlow(const StereoRig& rig) : rig_(rig) {}
 
-    // The still in the geometry of the video: its size, its lens.
+    // The still at the geometry of the video: its size and its lens.
     void setStill(const Shot& still) override {
         still_ = greyFloats(resampleStill(still.picture, rig_));
         cv::createHanningWindow(window_, still_.size(), CV_32F);

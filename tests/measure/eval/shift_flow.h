@@ -4,7 +4,8 @@
 
 namespace mfar::eval {
 
-/// One shift for the whole picture, by phase correlation: what a flow has to be better than.
+/// One shift for the whole picture, by phase correlation: a baseline that any flow method should
+/// beat.
 [[nodiscard]] std::unique_ptr<FlowMethod> shiftFlow(const StereoRig& rig);
 
 }  // namespace mfar::eval

@@ -11,43 +11,45 @@
 
 namespace mfar::eval {
 
-/// A view of a scene, and what it looks like.
+/// A view of a scene, and its true picture.
 struct SlicedScene {
     std::shared_ptr<const PathTracer> tracer;
     RenderView view;
     PixelRect bounds;
     RenderedPicture truth;
 
-    /// Of the few balls and boxes of the tests. `threads` trace the truth.
+    /// The small scene of balls and boxes of the tests. `threads`: for tracing the truth.
     SlicedScene(Size size, int truthSamples, int threads);
-    /// Root mean square of the difference to the truth inside the bounds [grey levels].
+    /// Root mean square of the difference from the truth inside the bounds [grey levels].
     [[nodiscard]] double error(const Film& film, bool filter = false) const;
 };
 
-/// After so much processor time the picture was so far off.
+/// Error of the picture after some processor time.
 struct ErrorAt {
-    double samples = 0;  ///< of a pixel in the mean
+    double samples = 0;  ///< mean number per pixel
     double ms = 0, rmse = 0;
-    double filtered = 0;  ///< rmse of the picture whose noise is smoothed
+    double filtered = 0;  ///< error of the picture with smoothed noise
 };
 
-/// The picture on its way: after 1, 2, 4, ... samples (time slices), after 1, 2, 4, ... of 16 parts
-/// of it and at the end (spatial slices), where nothing is seen yet of what is not traced.
+/// Errors of the unfinished picture: after 1, 2, 4, ... samples (time slices), or after 1, 2, 4,
+/// ... of its 16 parts and at the end (spatial slices, in which parts that are not traced yet are
+/// empty).
 [[nodiscard]] std::vector<ErrorAt> slicedErrors(const SlicedScene& scene,
                                                 const SliceOptions& slices);
 
-/// The picture as a whole, anew with 1, 2, 4, ... samples up to `samples`.
+/// Errors of the whole picture, traced from scratch with 1, 2, 4, ... samples up to `samples`.
 [[nodiscard]] std::vector<ErrorAt> wholeErrors(const SlicedScene& scene, int samples);
 
-/// Processor time of each frame [ms] when a picture is cut into `frames` of equally many samples.
+/// Processor time of each frame [ms] if a picture is cut into `frames` portions of equally many
+/// samples.
 [[nodiscard]] std::vector<double> frameTimes(const SlicedScene& scene, const SliceOptions& slices,
                                              int frames);
 
-/// How `frames` frames kept to a budget: the product's renderer in its threads, while the view
-/// turns by `degreesPerSecond` at 30 frames a second, which makes new pictures necessary.
+/// How well `frames` frames kept to a budget: the product's renderer in its threads, while the view
+/// rotates by `degreesPerSecond` at 30 frames per second, so that new pictures are needed.
 struct BudgetRun {
-    double mean = 0, deviation = 0;  ///< as of BudgetKept
-    double samplesPerSecond = 0;     ///< of processor time
+    double mean = 0, deviation = 0;  ///< see BudgetKept
+    double samplesPerSecond = 0;     ///< per second of processor time
 };
 [[nodiscard]] BudgetRun budgetRun(const SliceOptions& slices, Size size, double budgetMs,
                                   int threads, int frames, double degreesPerSecond);

@@ -15,9 +15,9 @@ namespace mfar::eval {
 namespace {
 
 constexpr const char* kSceneName = "still-life";
-// A picture of the paper's took so many frames.
+// Frames per picture in the paper.
 constexpr int kFramesOfPicture = 64;
-// New pictures every few seconds, so that their begin and their end count.
+// Fast enough for a new picture every few seconds, so that beginnings and ends of pictures count.
 constexpr double kTurnPerSecond = 3;
 
 struct SlicingMethod {
@@ -55,8 +55,8 @@ void addErrors(Report& report, const char* method, const std::vector<ErrorAt>& e
     panel.lines.push_back(std::move(line));
 }
 
-/// Of the frames' times: their mean, and in units of it their standard deviation, 95th percentile
-/// and most.
+/// Statistics of the frames' times: their mean and, relative to it, standard deviation, 95th
+/// percentile and maximum.
 void addFrames(Report& report, const char* method, std::vector<double> ms) {
     const auto count = static_cast<double>(ms.size());
     const double mean = std::accumulate(ms.begin(), ms.end(), 0.0) / count;

@@ -6,7 +6,7 @@
 
 namespace mfar::eval {
 
-/// The subcommand `slicing` with its options, which fill `request`.
+/// Adds the subcommand `slicing` with its options, which set `request`.
 CLI::App* addSlicingCommand(CLI::App& app, SlicingRequest& request);
 
 }  // namespace mfar::eval

@@ -28,7 +28,7 @@ RigidTransform moved(double degrees, const Vector3d& axis, const Vector3d& trans
             translation};
 }
 
-/// A camera's picture of a textured wall that stands across the video camera's axis.
+/// A camera's picture of a textured wall perpendicular to the video camera's axis.
 cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_frame) {
     constexpr int kEdge = 700;
     constexpr double kPixel = 1.0 / 160;  // texture pixels a metre
@@ -50,7 +50,7 @@ cv::Mat pictureOfWall(const CameraModel& camera, const RigidTransform& T_camera_
     return out;
 }
 
-/// What the peer answers when the still was taken after `motion`.
+/// Error of the peer's flow if the still was taken after `motion`.
 FlowError errorAfter(const RigidTransform& motion,
                      StereoPeer::Matcher matcher = StereoPeer::Matcher::SemiGlobal) {
     const StereoRig rig = crookedPairRig();
@@ -98,7 +98,7 @@ TEST(Rectification, PutsEveryPointOnTheSameRowNearerToTheLeft) {
                 EXPECT_LT(place.y(), views->size().height);
                 const Vector3d point = motion * (depth * camera.unproject({x, y}).homogeneous());
                 const Eigen::Vector2d seen = camera.project(point.head<2>() / point.z());
-                // One disparity explains it: where the second view shows the point.
+                // A single disparity must explain it: where the second view shows the point.
                 double best = 1e9;
                 for (double d = 0; d < 40; d += 0.01)
                     best = std::min(best,

@@ -16,7 +16,7 @@ template <class F>
     return span.count();
 }
 
-/// The middle of what three calls return.
+/// The median of three calls' results.
 template <class F>
 [[nodiscard]] double medianOfThree(F&& call) {
     std::array<double, 3> values{};

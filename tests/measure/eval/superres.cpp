@@ -25,17 +25,17 @@
 namespace mfar::eval {
 namespace {
 
-/// Over all three channels of 8 bits [dB].
+/// PSNR over all three 8-bit channels [dB].
 double colourPsnr(const cv::Mat& picture, const cv::Mat& truth) {
     return cv::PSNR(picture, withoutBorder(truth), 255);
 }
 
-/// NaN says that there was nothing to measure.
+/// NaN: nothing could be measured.
 std::optional<double> measured(double value) {
     return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-/// One recording with the methods set up for its rig.
+/// One recording, with the methods set up for its rig.
 class SuperResRun {
 public:
     SuperResRun(const SuperResRequest& request, const Recording& recording, std::string label,
@@ -94,7 +94,7 @@ private:
     };
     using Times = std::pair<Timestamp, Timestamp>;
 
-    /// The true flow from the last frame to this one; empty where that is not known.
+    /// The true flow from the last frame to this one; empty if unknown.
     [[nodiscard]] cv::Mat flowTo(Timestamp time) {
         const auto last = std::exchange(frameTime_, time);
         const auto file = last ? recording_.truthFlow(*last, time) : std::nullopt;
@@ -146,7 +146,7 @@ private:
     KnownPoses poses_;
     std::string label_;
     std::vector<Named> methods_;
-    std::unique_ptr<StillMatcher> matcher_;  // where classes are wanted
+    std::unique_ptr<StillMatcher> matcher_;  // only if classes are requested
     std::optional<Times> stillTimes_;
     std::optional<Timestamp> frameTime_;
 };

@@ -16,7 +16,7 @@ struct Match {
     std::size_t frame, still;
 };
 
-/// The `rank`-nearest frame of each still.
+/// For each still, its frame of the given rank in the order of distance in time.
 std::vector<Match> matchesOf(const Recording& recording, std::size_t rank) {
     std::vector<Match> out;
     for (std::size_t still = 0; still < recording.stills.size(); ++still) {
@@ -38,7 +38,7 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
     Pipeline pipeline(recording.rig, {.output = {}, .skipUnchanged = false});
     pipeline.setMatchListener(&learning);
     learning.begin(recording.rig);
-    std::optional<Timestamp> last;  // of the frames
+    std::optional<Timestamp> last;  // time of the last frame
     for (std::size_t rank = 0; left != 0; ++rank) {
         const std::vector<Match> matches = matchesOf(recording, rank);
         if (matches.empty()) return;
@@ -51,12 +51,12 @@ void learnFrom(const Recording& recording, const SuperResRequest& request, int& 
                                          request.degradation,
                                          static_cast<std::uint64_t>(stillAt.ns)),
                                  stillAt, pose.still};
-            // Noise of its own: not that of the frame that is measured.
+            // Other noise than that of the measured frame.
             const Shot video{degrade(loadPicture(recording.video[frame].file),
                                      request.videoDegradation,
                                      ~static_cast<std::uint64_t>(at.ns) - 1),
                              at, pose.frame};
-            // A still that shows the very view of a frame is that frame's truth.
+            // A still with the same view as a frame is that frame's truth.
             learning.setMayUseOlder(last && !showsOwnView(recording, stillAt, *last));
             last = at;
             PipelineShot(reference).giveAsStill(pipeline);

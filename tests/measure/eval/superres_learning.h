@@ -9,13 +9,13 @@
 
 namespace mfar::eval {
 
-/// SuperResRequest::learn: from each still of the recordings, once.
+/// Value of SuperResRequest::learn: each still of the recordings once.
 inline constexpr int kEachOnce = -1;
 
-/// Filters learned from these recordings as the daemon learns them: each still is matched to the
-/// frame nearest to it that does not show its very own view, those after the last one once more to
-/// the frames next to these, up to request.learn matches. One line on what was learned goes to
-/// stderr. Needs a current GL context.
+/// Filters learned from these recordings, as in the daemon. First each still is matched with its
+/// nearest frame that does not show the same view, then with the next-nearest, and so on, up to
+/// request.learn matches. Prints one line on what was learned to stderr. Needs a current GL
+/// context.
 [[nodiscard]] std::shared_ptr<const FilterBank>
 learnedFilters(const SuperResRequest& request,
                const std::vector<std::filesystem::path>& recordings);

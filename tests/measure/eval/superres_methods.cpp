@@ -35,7 +35,7 @@ public:
     Result run(const Shot& frame) override {
         const PipelineShot shot(frame, usePoses_);
         shot.run(pipeline_);
-        // The picture is that of the first run: a second one could start from its own answer.
+        // The picture of the first run: a second run could start from the first one's result.
         Result out{fromRgba(pipeline_.readImage(), pipeline_.outputSize()), 0};
         glFinish();
         out.ms = wallMs([&] {
@@ -50,7 +50,7 @@ private:
     Pipeline pipeline_;
 };
 
-/// What needs no still.
+/// Methods that need no still.
 class Enlarging final : public SuperResMethod {
 public:
     using Enlarge = std::function<cv::Mat(const cv::Mat& video)>;
@@ -68,7 +68,7 @@ private:
     Enlarge enlarge_;
 };
 
-/// `filter`: of cv::InterpolationFlags.
+/// `filter`: one of cv::InterpolationFlags.
 std::unique_ptr<SuperResMethod> upscaling(Size output, int filter) {
     const cv::Size size(output.width, output.height);
     return std::make_unique<Enlarging>(

@@ -12,21 +12,21 @@
 
 namespace mfar::eval {
 
-/// One way to bring a video frame to the still's resolution. Pictures are CV_8UC3, B G R.
+/// A method that enlarges a video frame to the still's resolution. Pictures are CV_8UC3, B G R.
 class SuperResMethod {
 public:
     virtual ~SuperResMethod() = default;
 
-    /// `second`: null where there is none; for methods that use two.
+    /// `second`: null if there is none; for methods that use two stills.
     virtual void setStills(const Shot& newest, const Shot* second) = 0;
     struct Result {
         cv::Mat picture;
-        double ms = 0;  ///< wall time of a second run on the same frame, work finished
+        double ms = 0;  ///< wall time of a second run on the same frame, with all work finished
     };
     [[nodiscard]] virtual Result run(const Shot& frame) = 0;
 };
 
-/// Finds what of a frame the still shows, as the product does.
+/// Finds the parts of a frame that the still shows, as the product does.
 class StillMatcher {
 public:
     virtual ~StillMatcher() = default;
@@ -35,23 +35,23 @@ public:
     [[nodiscard]] virtual StillMatch run(const Shot& frame) = 0;
 };
 
-/// What --methods accepts for superres.
+/// Names that --methods accepts for superres.
 [[nodiscard]] const std::vector<std::string>& superResMethodNames();
-/// Does this method say nothing, or nothing of its own, without a still?
+/// Whether this method needs a still to give a result, or a result different from plain enlarging.
 [[nodiscard]] bool needsStill(const std::string& method);
 
-/// The methods of this product need a GL context: it is created on first need and stays current.
+/// The product's methods need a GL context: it is created when first needed and stays current.
 /// Throws std::invalid_argument for an unknown name.
 class SuperResFactory {
 public:
     explicit SuperResFactory(double alpha) : alpha_(alpha) {}
-    /// What the product's methods enlarge by; null: as shipped.
+    /// Filters for the product's methods; null: default filters.
     void setFilters(std::shared_ptr<const FilterBank> filters) { filters_ = std::move(filters); }
-    /// Makes the context, for pipelines of others.
+    /// Creates the context, for other users' pipelines.
     void requireContext();
     [[nodiscard]] std::unique_ptr<SuperResMethod> create(const std::string& name,
                                                          const StereoRig& rig);
-    /// A model of OpenCV's dnn_superres. Throws EvalError as dnnEnlarger() does.
+    /// A method from a model of OpenCV's dnn_superres. Throws EvalError as dnnEnlarger() does.
     [[nodiscard]] static std::unique_ptr<SuperResMethod>
     createModel(const std::filesystem::path& file, const StereoRig& rig);
     [[nodiscard]] std::unique_ptr<StillMatcher> createMatcher(const StereoRig& rig);

@@ -10,25 +10,25 @@
 
 namespace mfar::eval {
 
-/// A frame to measure on: its truth and the still it may use.
+/// A frame to measure: its truth and the stills that may be used.
 struct SuperResSample {
     RecordedImage video;
     RecordedImage still;
-    std::optional<RecordedImage> second;  ///< another still, where there is one
+    std::optional<RecordedImage> second;  ///< another still, if there is one
     std::filesystem::path truth;
 };
 
-/// The frames with truth/highres, at most `limit` of them, 0 = all. One line per frame left out
-/// goes to stderr. Throws EvalError when none is left.
+/// The frames with truth/highres, at most `limit` of them, 0 = all. Prints one line per skipped
+/// frame to stderr. Throws EvalError if none remains.
 [[nodiscard]] std::vector<SuperResSample> superResSamplesOf(const Recording& recording, int limit);
 
-/// The truth, CV_8UC3 of the output's size. Throws EvalError when it has another or is too small
-/// for a border, ImageFileError.
+/// The truth, CV_8UC3 of the output's size. Throws EvalError if the size differs or is too small
+/// for a border, and ImageFileError.
 [[nodiscard]] cv::Mat loadHighRes(const SuperResSample& sample, const StereoRig& rig);
 
-/// Border left out of every measure [output px].
+/// Border excluded from every metric [output px].
 inline constexpr int kSuperResBorder = 32;
-/// The same memory.
+/// Shares the picture's memory.
 [[nodiscard]] cv::Mat withoutBorder(const cv::Mat& picture);
 
 }  // namespace mfar::eval

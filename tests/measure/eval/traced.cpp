@@ -28,15 +28,15 @@ namespace {
 using Rgb = std::array<float, 3>;
 using Picture = std::vector<Rgb>;
 
-constexpr double kRate = 30;      // frames a second
-constexpr int kFirstFrames = 15;  // in which there may be no picture yet
-constexpr float kPaper = 200;     // grey level under the layer
-constexpr double kFill = 0.5;     // of the picture's height, by the objects' ball
+constexpr double kRate = 30;      // frames per second
+constexpr int kFirstFrames = 15;  // first frames, in which there may be no picture yet
+constexpr float kPaper = 200;     // grey level below the layer
+constexpr double kFill = 0.5;     // share of the picture's height that the objects' ball covers
 constexpr auto kPatience = std::chrono::seconds(20);
 constexpr std::uint64_t kWorldSeed = 1;
 
-/// The objects' scene, and how the board's camera moves about it: the point that the board looks at
-/// lies in the middle of the objects, and distances are scaled so that they fill the picture.
+/// The objects' scene, and the path of the board's camera around it: the point at which the board
+/// looks is the centre of the objects, and distances are scaled so that they fill the picture.
 class Course {
 public:
     Course(const std::string& scene, synthetic::Path path, Size size)
@@ -92,7 +92,7 @@ Picture differenceOf(const Picture& a, const Picture& b) {
     return out;
 }
 
-/// A mean of squares, of three channels a pixel.
+/// Mean square over pixels of three channels.
 struct MeanSquare {
     double sum = 0;
     double values = 0;
@@ -108,7 +108,7 @@ struct MeanSquare {
     }
 };
 
-/// An error's luma, CV_64F.
+/// Luma of an error, CV_64F.
 cv::Mat lumaOf(const Picture& error, Size size) {
     cv::Mat out(size.height, size.width, CV_64F);
     double* to = out.ptr<double>();
@@ -117,8 +117,8 @@ cv::Mat lumaOf(const Picture& error, Size size) {
     return out;
 }
 
-/// Where objects' pixels of a frame were in the one before, as flow, CV_32FC2; NaN where that does
-/// not show the object.
+/// Flow from the objects' pixels of a frame to their positions in the one before, CV_32FC2; NaN if
+/// that frame does not show the object there.
 cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
     const Size size = now.camera.size;
     const LensProjection lens(now.camera);
@@ -142,7 +142,7 @@ cv::Mat motionTo(const RenderedPicture& before, const RenderedPicture& now) {
     return out;
 }
 
-/// How the errors of objects' pixels change from a frame to the next; nothing where none is in
+/// Flicker of the errors of objects' pixels between consecutive frames; empty if no pixel is in
 /// both.
 std::optional<double> flickerOf(const Picture& before, const RenderedPicture& truthBefore,
                                 const Picture& now, const RenderedPicture& truth) {
@@ -161,7 +161,7 @@ TracedLayerOptions optionsOf(const TracedRequest& request, const std::string& me
     return out;
 }
 
-/// The product's layer along a course, frame by frame.
+/// The product's layer along a path, frame by frame.
 class ShownFrames {
 public:
     ShownFrames(const Course& course, const TracedLayerOptions& options)
@@ -169,8 +169,8 @@ public:
         layer_.setScene(course.scene());
     }
 
-    /// Its threads use up the budget before the next frame begins, as they do on a board whose
-    /// processors are free.
+    /// Waits until the tracer's threads have used up the budget before the next frame begins, as on
+    /// a board with free processors.
     Picture next() {
         const RenderView view = course_.at(frame_);
         const Timestamp time =
@@ -229,7 +229,7 @@ public:
           truth_(course_.scene(), request.truthSamples, request.truth, label_) {}
 
     void run() {
-        std::vector<std::vector<Picture>> shown;  // of each method, for the video
+        std::vector<std::vector<Picture>> shown;  // by method, for the video
         for (const std::string& method : request_.methods)
             shown.push_back(run(method));
         if (!request_.video.empty()) writeVideo(shown);

@@ -6,9 +6,9 @@
 
 namespace mfar::eval {
 
-/// The subcommand `traced` with its options, which fill `request`.
+/// Adds the subcommand `traced` with its options, which set `request`.
 CLI::App* addTracedCommand(CLI::App& app, TracedRequest& request);
-/// Evaluates, with a GL context where the engine needs one.
+/// Evaluates, with a GL context if the engine needs one.
 [[nodiscard]] Report runTracedCommand(const TracedRequest& request);
 
 }  // namespace mfar::eval

@@ -10,13 +10,14 @@
 
 namespace mfar::eval {
 
-/// A subcommand and what it does.
+/// A subcommand and the function that runs it.
 struct EvalCommand {
     CLI::App* command;
     std::function<Report()> evaluate;
 };
 
-/// What needs the path tracer; nothing where it is not built. `csv` is filled like that of others.
+/// Subcommands that need the path tracer; empty if it is not built. `csv` is set as by other
+/// subcommands.
 [[nodiscard]] std::vector<EvalCommand> addTracedCommands(CLI::App& app, std::string& csv);
 
 }  // namespace mfar::eval

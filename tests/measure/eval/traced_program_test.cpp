@@ -43,12 +43,12 @@ TEST(MfarEvalTraced, ComparesFramesOfEachMethodAndKeepsTheTruth) {
         const std::vector<std::string> row = cells(line);
         if (row[0] != "still-life/orbit" || row[1] != "20") continue;
         ++compared;
-        // Grey paper alone is at 11 dB, and 4 samples a pixel of truth are no better than 35.
+        // Grey paper alone has 11 dB; a truth of 4 samples per pixel allows at most 35 dB.
         EXPECT_GT(std::stod(row[3]), 15) << line;
         EXPECT_LT(std::stod(row[3]), 60) << line;
     }
     EXPECT_EQ(compared, 2) << "product and independent";
-    // Of frames 0, 1, 10, 11, 20 and 21.
+    // For frames 0, 1, 10, 11, 20 and 21.
     const auto files = std::filesystem::directory_iterator(folder / "truth");
     EXPECT_EQ(std::distance(begin(files), end(files)), 6);
     EXPECT_TRUE(std::filesystem::exists(folder / "saved/still-life-orbit-020-product.png"));

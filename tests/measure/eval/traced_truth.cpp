@@ -13,12 +13,12 @@
 namespace mfar::eval {
 namespace {
 
-constexpr std::uint32_t kTruthSeed = 7;  // other random numbers than the product's
+constexpr std::uint32_t kTruthSeed = 7;  // other random numbers than in the product
 
 PathTracerOptions truthOptions() {
     PathTracerOptions out;
     out.shadowReach = kShadowReach;
-    out.fireflyClamp = 1;  // as the product's: its error is not what is measured
+    out.fireflyClamp = 1;  // as in the product: the clamp's error is not measured
     out.seed = kTruthSeed;
     return out;
 }

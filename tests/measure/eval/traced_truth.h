@@ -11,16 +11,15 @@
 
 namespace mfar::eval {
 
-/// Pictures path traced in the very views of frames, kept in a folder from run to run if there is
-/// one.
+/// Pictures path traced for the views of frames, kept in a folder between runs if there is one.
 class TracedTruth {
 public:
-    /// `name`: of the course, for the files.
+    /// `name`: name of the path, for the files.
     TracedTruth(const std::shared_ptr<const Scene>& scene, int samples,
                 std::filesystem::path folder, const std::string& name);
 
-    /// Stays as long as this does. A file that is not whole is made anew. Throws EvalError for one
-    /// that cannot be written.
+    /// The picture stays valid as long as this object. An incomplete file is made again. Throws
+    /// EvalError if a file cannot be written.
     const RenderedPicture& at(int frame, const RenderView& view);
 
 private:
@@ -33,7 +32,7 @@ private:
     std::map<int, RenderedPicture> pictures_;
 };
 
-/// Pictures of `size` beside each other, of values in [0, 255].
+/// Pictures of `size` side by side, with values in [0, 255].
 [[nodiscard]] StoredImage
 rgbaOf(const std::vector<const std::vector<std::array<float, 3>>*>& pictures, Size size);
 

@@ -7,9 +7,9 @@
 namespace mfar::eval {
 namespace {
 
-constexpr double kClearlyBefore = 1.1;  // as inverse depth
+constexpr double kClearlyBefore = 1.1;  // ratio of inverse depths
 
-/// A ray with the object's extent as the unit of length: origin + t * direction.
+/// A ray in units of the object's extent: origin + t * direction.
 struct LocalRay {
     Eigen::Vector3d origin, direction;
 };
@@ -73,7 +73,7 @@ VirtualTruth virtualTruth(std::span<const VirtualObject> objects, const CameraMo
     for (int y = 0; y < video.size.height; ++y) {
         for (int x = 0; x < video.size.width; ++x) {
             const Eigen::Vector2d ray = video.unproject({x, y});
-            double nearest = 0;  // as inverse depth
+            double nearest = 0;  // inverse depth
             for (const VirtualObject& object : objects)
                 if (const double z = surfaceDepth(object, T_world_video, ray); z > 0)
                     nearest = std::max(nearest, 1 / z);

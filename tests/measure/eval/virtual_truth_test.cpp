@@ -19,7 +19,7 @@ VirtualObject objectAt(VirtualShape shape, const Eigen::Vector3d& position) {
 TEST(VirtualTruth, AxesOfAnEllipsoidAreItsSize) {
     const VirtualObject sphere = objectAt(VirtualShape::Sphere, {0, 0, 2});
     EXPECT_NEAR(surfaceDepth(sphere, {}, {0, 0}), 1.95, 1e-12);
-    // A ray that just touches it from the side: the tangent from the origin to the ellipse.
+    // A ray that just touches the side: the tangent from the origin to the ellipse.
     const double reach = 0.2 / std::sqrt(4 - 0.05 * 0.05);
     EXPECT_GT(surfaceDepth(sphere, {}, {reach - 1e-6, 0}), 1.9);
     EXPECT_EQ(surfaceDepth(sphere, {}, {reach + 1e-6, 0}), 0);
@@ -31,7 +31,7 @@ TEST(VirtualTruth, ATurnedBoxShowsItsEdge) {
     box.T_world_object.rotation = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitY());
     EXPECT_NEAR(surfaceDepth(box, {}, {0, 0}), 2 - 0.1 * std::numbers::sqrt2, 1e-12);
     EXPECT_EQ(surfaceDepth(box, {}, {0, 0.1}), 0);
-    // Parallel to its upper and lower side, and outside of them.
+    // Parallel to its upper and lower sides, and outside.
     box.T_world_object.translation.y() = 0.2;
     EXPECT_EQ(surfaceDepth(box, {}, {0, 0}), 0);
 }

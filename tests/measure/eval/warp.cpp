@@ -20,7 +20,7 @@
 namespace mfar::eval {
 namespace {
 
-constexpr int kFrames = 12;  // of one view, in which its holes and its edges are answered
+constexpr int kFrames = 12;  // frames per view, in which requests for holes and edges are answered
 constexpr double kInpaintRadius = 3;
 
 std::size_t objectPixels(const RenderedPicture& picture) {
@@ -42,7 +42,7 @@ PathTracerOptions asInTheProduct() {
 
 using Rgba = std::vector<std::uint8_t>;
 
-/// Of the three colours, where the truth shows an object [dB].
+/// PSNR of the three colours where the truth shows an object [dB].
 double psnrInside(const Rgba& rgba, const RenderedPicture& truth) {
     double sum = 0;
     for (std::size_t i = 0; i < truth.id.size(); ++i)
@@ -64,14 +64,14 @@ struct Shot {
     RenderedPicture truth;
 };
 
-/// What one method makes of a view, and what it costs.
+/// Result and cost of one method for a view.
 struct Warped {
     Rgba rgba;
     double ms = 0;
     std::optional<double> holeShare, rerayShare, rerayOfObjects;
 };
 
-/// One scene with its reference.
+/// One scene with its traced picture.
 class WarpRun {
 public:
     WarpRun(const WarpRequest& request, const std::string& scene)
@@ -148,7 +148,7 @@ private:
         return out;
     }
 
-    /// Telea's, for the holes of the method `none`. Time without that of the warp.
+    /// Telea's method, for the holes that the method `none` leaves. Time without that of the warp.
     [[nodiscard]] Warped inpaint(const Shot& shot) const {
         Warp warp(view_.camera, request_.size, *engine_,
                   {.filling = HoleFilling::None, .leastMotion = 0});

@@ -9,12 +9,12 @@
 
 namespace mfar::eval {
 
-/// What the subcommand writes besides its table.
+/// Files that the subcommand writes besides its table.
 struct WarpFiles {
     std::filesystem::path svg;
 };
 
-/// The subcommand `warp` with its options.
+/// Adds the subcommand `warp` with its options.
 CLI::App* addWarpCommand(CLI::App& app, WarpRequest& request, WarpFiles& files);
 /// Evaluates, and writes the plot.
 [[nodiscard]] Report runWarpCommand(const WarpRequest& request, const WarpFiles& files);

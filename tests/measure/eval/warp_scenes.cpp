@@ -19,7 +19,8 @@ namespace mfar::eval {
 namespace {
 
 constexpr double kElevation = 35, kFocal = 1.2;  // [degrees], [picture widths]
-constexpr double kFill = 0.6;                    // of the picture's height, by the objects' ball
+constexpr double kFill = 0.6;                    // share of the picture's height that the objects'
+                                                 // ball covers
 
 Scene sceneOf(Model model) {
     Scene scene;

@@ -11,13 +11,13 @@
 
 namespace mfar::eval {
 
-/// `still-life`: balls and boxes beside and behind each other; `showpiece`: the daemon's own object
-/// on a plane that catches its shadow.
+/// `still-life`: balls and boxes next to and behind each other; `showpiece`: the daemon's own
+/// object on a plane that catches its shadow.
 [[nodiscard]] std::vector<std::string> warpSceneNames();
-/// Of those, or of a glTF file at its own size, which stands on the plane. Throws EvalError.
+/// One of those, or a glTF file at its own size, standing on the plane. Throws EvalError.
 [[nodiscard]] std::shared_ptr<const Scene> warpScene(const std::string& name);
 
-/// A camera with a slightly bent lens that looks at the middle of the scene's objects from the
+/// A camera with a slightly distorting lens that looks at the centre of the scene's objects from a
 /// distance that shows all of them, `degrees` around them and 35 degrees above.
 [[nodiscard]] RenderView warpView(const Scene& scene, Size size, double degrees);
 
@@ -25,10 +25,11 @@ namespace mfar::eval {
     return picture.id[pixel] != 0 && picture.id[pixel] != kCatcherId;
 }
 
-/// So many samples of each pixel, on all processors. Pixels not listed stay empty.
+/// Traces the listed pixels with `samples` samples each, on all processors. Other pixels stay
+/// empty.
 [[nodiscard]] RenderedPicture tracePixels(const PathTracer& tracer, const RenderView& view,
                                           std::span<const std::uint32_t> pixels, int samples);
-/// The same of all pixels that the scene reaches.
+/// The same for all pixels that the scene may cover.
 [[nodiscard]] RenderedPicture tracePicture(const PathTracer& tracer, const RenderView& view,
                                            int samples);
 

@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// Something to measure. `make` sets it up for a number of threads; what it returns is timed.
+/// A case to measure. `make` prepares it for a number of threads and returns the function to time.
 struct BenchCase {
     std::string name;
     std::function<std::function<void()>(std::shared_ptr<Workers>)> make;
@@ -17,7 +17,7 @@ struct BenchCase {
 
 [[nodiscard]] std::vector<BenchCase> detailBenchCases();
 
-/// All of them, in the order of the report.
+/// All cases, in the order of the report.
 [[nodiscard]] std::vector<BenchCase> benchCases();
 
 }  // namespace mfar

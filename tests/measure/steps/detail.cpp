@@ -13,7 +13,7 @@ const DetailCase& frame(double changedShare) {
     return changedShare < 1 ? part : whole;
 }
 
-/// What draws one frame after the other, and all that it needs.
+/// Draws frames repeatedly; owns all input.
 struct Drawn {
     Drawn(Size output, const std::shared_ptr<Workers>& workers)
         : still(frame(1).rig, output, workers), step(still.rig(), output, workers), out(output) {

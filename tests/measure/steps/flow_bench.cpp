@@ -1,4 +1,4 @@
-// Time of the host's pyramids and 2-D flow, the least of many runs.
+// Time of the CPU's pyramids and 2-D flow: the minimum of many runs.
 
 #include "pipeline/flow/cell_field.h"
 #include "pipeline/simd/flow2d.h"

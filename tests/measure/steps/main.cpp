@@ -34,7 +34,7 @@ void measure(const BenchCase& which, int threads) {
 }  // namespace
 }  // namespace mfar
 
-// Times of the steps on SIMD lanes: mfar-simd-bench [PART-OF-A-NAME].
+// Times of the SIMD steps: mfar-simd-bench [PART-OF-A-NAME].
 int main(int argc, char** argv) {
     const std::string_view wanted = argc > 1 ? argv[1] : "";
     for (const mfar::BenchCase& which : mfar::benchCases()) {

@@ -10,8 +10,8 @@ namespace {
 
 using namespace enlarge;
 
-constexpr int kBorder = 12;           // pixels of a picture that are left out
-constexpr double kLeastPixels = 400;  // of a class, to learn and to check
+constexpr int kBorder = 12;           // pixels at the picture's border that are skipped
+constexpr double kLeastPixels = 400;  // lower limit per class, for learning and for checking
 
 }  // namespace
 

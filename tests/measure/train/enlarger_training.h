@@ -7,23 +7,27 @@
 
 namespace mfar::train {
 
-/// Least squares for the filters of every class, from pairs of pictures: what the learned enlarger
-/// is trained by. In double precision and in a fixed order: the same pairs give the same bits.
+/// Trains the learned enlarger: least squares for the filters of every class, from pairs of
+/// pictures. In double precision and in a fixed order, so that the same pairs give bit-identical
+/// filters.
 class EnlargerTraining {
 public:
     EnlargerTraining();
 
-    /// `heldOut`: to check filters on, not to learn from.
+    /// `heldOut`: used to check filters, not to learn.
     void add(const TrainingPair& pair, bool heldOut);
 
     struct Outcome {
         std::vector<FilterBank::Filter> filters;  ///< kUnique, see FilterBank
-        int used = 0;                             ///< number of classes that are not zero
-        /// Sums of squares on the pairs held out, of the gradient's classes and of the curvature's.
+        int used = 0;                             ///< number of classes with a filter that is not
+                                                  ///< zero
+        /// Sums of squared errors on the held-out pairs, of the gradient classes and of the
+        /// curvature classes.
         double cubicError[2] = {}, error[2] = {};
     };
-    /// `ridge`: weight of zero against the pairs' sums [grey levels^2]. A class whose filter is no
-    /// better than the cubic on the pairs held out, or that too few pixels have, gets zeros.
+    /// `ridge`: regularisation weight relative to the pairs' sums [grey levels^2]. A class gets
+    /// zeros if its filter is no better than the cubic on the held-out pairs, or if too few pixels
+    /// belong to it.
     [[nodiscard]] Outcome solve(double ridge) const;
 
 private:

@@ -7,7 +7,7 @@
 namespace mfar::train {
 namespace {
 
-/// Random discs, which have edges of all directions.
+/// Random discs: edges in all directions.
 twin::Grey discs(unsigned seed) {
     std::mt19937 random(seed);
     twin::Grey out = twin::greyOf({320, 256}, [](int, int) { return 120.0; });
@@ -62,7 +62,7 @@ TEST(EnlargerTraining, ClassesWithoutPixelsToCheckGetNoFilter) {
 }
 
 TEST(EnlargerTraining, FiltersThatMakeHeldOutPicturesWorseAreLeftOut) {
-    // Learned without noise, checked on noise alone: sharpening that only makes noise larger.
+    // Learned without noise and checked on pure noise: there sharpening only amplifies noise.
     EnlargerTraining training;
     training.add({discs(1), {}}, false);
     training.add({twin::greyOf({320, 256}, [](int, int) { return 128.0; }), {12, 0, 5}}, true);

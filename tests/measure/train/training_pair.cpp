@@ -12,7 +12,7 @@ namespace {
 
 using twin::Grey;
 
-/// Mean over [at, at + 1) of `scale` entries each, of a function of entries.
+/// Mean of `valueAt` over interval number `at`; intervals are `scale` entries long.
 template <class ValueAt>
 double meanOver(int at, double scale, const ValueAt& valueAt) {
     const double lo = at * scale, hi = lo + scale;
@@ -41,7 +41,7 @@ Grey blurred(const Grey& g, double share) {
     });
 }
 
-/// Box and Muller's: the same numbers with every standard library.
+/// Box-Muller transform: the same numbers with every standard library.
 class Noise {
 public:
     explicit Noise(unsigned seed) : random_(seed) {}

@@ -7,20 +7,20 @@
 
 namespace mfar::train {
 
-/// How a video camera would have seen a sharp picture.
+/// Model of the video camera that sees a sharp picture.
 struct Sensor {
     double noise = 0;  ///< standard deviation [grey levels]
     double blur = 0;   ///< weight of each of the two neighbours along both axes, [0, 1/3]
     unsigned seed = 1;
 };
 
-/// A picture as a video camera sees it, and what Keys' cubic is wrong by on the grid of sub-pixels.
+/// A picture as a video camera sees it, and the error of Keys' cubic on the grid of sub-pixels.
 class TrainingPair {
 public:
-    static constexpr int kMargin = 64;  ///< columns on both sides of the picture
+    static constexpr int kMargin = 64;  ///< columns on each side of the picture
 
-    /// `sharp`: luma in grey levels, at least 64x64. The video is its mean over the area of each
-    /// pixel, of kScale times the size, in whole grey levels.
+    /// `sharp`: luma in grey levels, at least 64x64. The video is its mean over each pixel's area,
+    /// kScale times smaller, rounded to whole grey levels.
     TrainingPair(const twin::Grey& sharp, const Sensor& sensor);
 
     [[nodiscard]] Size size() const { return size_; }

@@ -43,7 +43,7 @@ std::vector<float> fieldOf(Size size, F vectorAt) {
     return out;
 }
 
-/// Pixel i of a field as the triangulation gets it.
+/// Vector of pixel i of a field, as passed to the triangulation.
 inline Eigen::Vector2d vectorAt(const std::vector<float>& field, std::size_t i) {
     return {field[2 * i], field[2 * i + 1]};
 }

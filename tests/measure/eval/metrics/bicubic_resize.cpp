@@ -6,7 +6,7 @@
 namespace mfar::eval {
 namespace {
 
-/// Which samples make one of the result, and how much of each.
+/// An input sample of a result, and its weight.
 struct ResizeTap {
     std::vector<int> index;
     std::vector<double> weight;

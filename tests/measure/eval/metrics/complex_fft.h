@@ -7,7 +7,7 @@
 namespace mfar::eval {
 
 /// Complex two-dimensional Fourier transform of pictures of one size, CV_64FC2, in place and not
-/// scaled. Made on one thread at a time; run() is thread-safe.
+/// scaled. Construct on one thread at a time; run() is thread-safe.
 class ComplexFft {
 public:
     enum class Direction { Forward, Inverse };

@@ -9,8 +9,8 @@ namespace mfar::eval {
 struct FftwPlanDelete {
     void operator()(fftw_plan_s* plan) const;
 };
-/// A transform that FFTW has thought about. FFTW makes plans on one thread at a time; any may carry
-/// them out.
+/// A plan of FFTW for a transform. FFTW makes plans on one thread at a time; any thread may execute
+/// them.
 using FftwPlan = std::unique_ptr<fftw_plan_s, FftwPlanDelete>;
 
 }  // namespace mfar::eval

@@ -4,9 +4,8 @@
 
 namespace mfar::eval {
 
-/// Share of pixels where the picture is wrong by more than `tolerance` grey levels beyond what
-/// plain bicubic up-scaling is wrong by: where the method did harm. All CV_64F in grey levels, same
-/// size.
+/// Share of pixels whose error exceeds that of plain bicubic up-scaling by more than `tolerance`
+/// grey levels: there the method did harm. All CV_64F in grey levels, same size.
 [[nodiscard]] double harmRate(const cv::Mat& picture, const cv::Mat& bicubic, const cv::Mat& truth,
                               double tolerance = 2);
 

@@ -15,7 +15,7 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr int kLeastSide = 17;  // of a picture that is still divided
+constexpr int kLeastSide = 17;  // smallest side of a picture that is divided further
 int levelsOf(cv::Size size) {
     int out = 0;
     for (; size.width >= kLeastSide && size.height >= kLeastSide; ++out)
@@ -35,13 +35,13 @@ cv::Mat logOfMean(const cv::Mat& a, const cv::Mat& b) {
     return out;
 }
 
-/// What a row of a band is compared by; the base has no sensitivity of its own.
+/// Input for comparing a row of a band; the base has no sensitivity of its own.
 struct BandRow {
     const double *difference, *self, *others, *beside, *sensitivity, *weight;
 };
 
-/// Sums over a row: squared difference as far as it is visible and counts, the same not squared and
-/// everywhere, and what masks it.
+/// Sums over a row: squared visible difference times squared weight, visible difference, and
+/// masking.
 cv::Vec3d comparedRow(const BandRow& row, int cols, double norm) {
     const Masking& by = masking();
     cv::Vec3d sum;
@@ -104,7 +104,7 @@ void BandComparison::decompose(Pathways pathways) {
     addBase(test, reference, testLuminance, referenceLuminance);
 }
 
-// The base is filtered here, as it is too coarse for one sensitivity to stand for all of it.
+// The base is filtered by frequency here, because it is too coarse for a single sensitivity.
 void BandComparison::addBase(const cv::Mat& test, const cv::Mat& reference, double testLuminance,
                              double referenceLuminance) {
     Band& base = bands_.back();
@@ -136,7 +136,7 @@ cv::Mat BandComparison::neighbours(std::size_t b, std::size_t o) const {
         out += cv::max(bicubicResize(mask, size), 0) / divisor;
     };
     if (b > 0) add(bands_[b - 1], band.norm / 2);
-    if (b + 2 < bands_.size()) add(bands_[b + 1], 2 * band.norm);  // the base masks nothing
+    if (b + 2 < bands_.size()) add(bands_[b + 1], 2 * band.norm);  // the base does not mask
     return out;
 }
 
@@ -157,7 +157,7 @@ HdrVdpBand BandComparison::compare(std::size_t b, std::size_t o, const cv::Mat& 
                  weight.ptr<double>(y)},
                 self.cols, band.norm);
     });
-    // In the order of the rows, so that the number of threads changes nothing.
+    // Summed in the order of the rows, so that the result does not depend on the number of threads.
     const cv::Vec3d total = std::accumulate(sums.begin(), sums.end(), cv::Vec3d(0, 0, 0));
     const auto pixels = static_cast<double>(self.total());
     return {static_cast<int>(b) + 1,

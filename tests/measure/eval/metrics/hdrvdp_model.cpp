@@ -9,13 +9,13 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr int kLuminances = 2048;  // of the receptors' tables
+constexpr int kLuminances = 2048;  // entries of the receptors' tables
 constexpr int kCurveSamples = 256;
 constexpr double kLeastLog = -5, kMostLog = 5;
-// Scales the sensitivities to those that were measured.
+// Scales the sensitivities to measured ones.
 constexpr double kPeakSensitivity = 0.006894596;
 
-/// Piecewise linear between nodes that rise or fall, constant beyond.
+/// Piecewise linear between ascending or descending nodes, constant beyond.
 template <std::size_t N>
 double interpolated(const std::array<double, N>& at, const std::array<double, N>& values,
                     double x) {
@@ -28,7 +28,7 @@ double interpolated(const std::array<double, N>& at, const std::array<double, N>
     return values[i - 1] + t * (values[i] - values[i - 1]);
 }
 
-/// A table over evenly spaced logarithms of the luminance.
+/// Reads a table over evenly spaced logarithms of the luminance.
 double fromLogTable(const std::vector<double>& table, double log) {
     const auto last = static_cast<double>(table.size() - 1);
     const double at =
@@ -41,7 +41,8 @@ double luminanceAt(int i) {
     return std::pow(10, kLeastLog + (kMostLog - kLeastLog) * i / (kLuminances - 1));
 }
 
-/// Of L and M cones alike, at every luminance of the table: half of what both see together.
+/// Sensitivity of one kind of L or M cones, taken as equal, at every luminance of the table: half
+/// of their joint sensitivity.
 std::vector<double> coneSensitivities() {
     std::vector<double> both(kLuminances), out(kLuminances);
     for (int i = 0; i < kLuminances; ++i)
@@ -57,7 +58,7 @@ std::vector<double> coneSensitivities() {
     return out;
 }
 
-/// Just noticeable steps from the darkest luminance on.
+/// Number of just noticeable steps from the darkest luminance.
 std::vector<double> integrated(const std::vector<double>& sensitivity) {
     const double step = (kMostLog - kLeastLog) / (kLuminances - 1) * std::numbers::ln10;
     const double scale = kPeakSensitivity / std::pow(10, -2.4);

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-/// The eye of HDR-VDP-2 (Mantiuk, Kim, Rempel, Heidrich 2011, sections 3 and 4) with the constants
-/// of releases 2.2.x. Luminances in cd/m^2, frequencies in cycles/degree.
+/// The model of the eye of HDR-VDP-2 (Mantiuk, Kim, Rempel, Heidrich 2011, sections 3 and 4) with
+/// the constants of releases 2.2.x. Luminances in cd/m^2, frequencies in cycles/degree.
 namespace mfar::eval::hdrvdp {
 
 /// Gain of the eye's optics.
@@ -14,35 +14,35 @@ namespace mfar::eval::hdrvdp {
 [[nodiscard]] double jointSensitivity(double luminance);
 [[nodiscard]] double rodSensitivity(double luminance);
 
-/// Contrast sensitivity without what optics and receptors do to it; 0 for frequency 0.
+/// Contrast sensitivity without the effects of optics and receptors; 0 for frequency 0.
 [[nodiscard]] double neuralSensitivity(double frequency, double luminance);
 
-/// What a pixel of a given light excites: shares of each channel's luminance.
+/// Excitation of each kind of receptor by a pixel's light, as shares of each channel's luminance.
 struct ReceptorWeights {
     double l = 0, m = 0, rod = 0;
 };
 /// Grey of the white point D65.
 inline constexpr ReceptorWeights kGreyWeights{0.601847152244699, 0.316708295579169,
                                               0.904670654599503};
-/// What makes the light of a display of colours: an LCD with fluorescent lamps or with LEDs behind
-/// it, or a cathode ray tube.
+/// Light source of a colour display: an LCD with fluorescent lamps or with LEDs, or a cathode ray
+/// tube.
 enum class Emission { FluorescentLcd, LedLcd, Crt };
-/// Of red, green and blue.
+/// Weights of red, green and blue.
 [[nodiscard]] const std::array<ReceptorWeights, 3>& rgbWeights(Emission emission);
 
-/// Masking: exponents of a signal and of what masks it; weights of what is in the same band, of
-/// its other orientations, and of the bands beside it.
+/// Masking: exponents of the signal and of the masking signal; weights of masking by the same band,
+/// by its other orientations, and by the adjacent bands.
 struct Masking {
     double signalExponent, maskExponent;
     double self, orientations, neighbours;
 };
 [[nodiscard]] const Masking& masking();
 
-/// How strongly receptors answer, in units of just noticeable differences.
+/// Response of the receptors in units of just noticeable differences.
 class ReceptorResponse {
 public:
     ReceptorResponse();
-    /// Of an L or M cone, and of a rod; luminances beyond 1e-5 and 1e5 answer as these.
+    /// Response of an L or M cone, and of a rod; luminances are clamped to [1e-5, 1e5].
     [[nodiscard]] double cone(double luminance) const { return at(cone_, luminance); }
     [[nodiscard]] double rod(double luminance) const { return at(rod_, luminance); }
 
@@ -56,18 +56,18 @@ private:
     std::vector<double> cone_, rod_;
 };
 
-/// neuralSensitivity() at one frequency over the logarithm of the luminance, tabulated.
+/// neuralSensitivity() at one frequency as a table over the logarithm of the luminance.
 class SensitivityCurve {
 public:
     explicit SensitivityCurve(double frequency);
-    /// `log10Luminance` beyond -5 and 5 counts as these.
+    /// `log10Luminance` is clamped to [-5, 5].
     [[nodiscard]] double at(double log10Luminance) const;
 
 private:
     std::vector<double> values_;
 };
 
-/// How much a band counts at its frequency, by release 2.2.1 = 2.2.2 and by 2.2.0.
+/// Weight of a band by its frequency, in releases 2.2.1 and 2.2.2, and in release 2.2.0.
 [[nodiscard]] double qualityWeight(double frequency);
 [[nodiscard]] double qualityWeight220(double frequency);
 

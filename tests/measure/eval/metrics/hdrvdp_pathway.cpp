@@ -8,10 +8,10 @@
 namespace mfar::eval::hdrvdp {
 namespace {
 
-constexpr double kSurround = 1e-5;  // what is around the picture [cd/m^2]
+constexpr double kSurround = 1e-5;  // luminance around the picture [cd/m^2]
 constexpr double kLeastLight = 1e-5, kMostLight = 1e10;
 
-/// Light of each kind of receptor, CV_64F.
+/// Light received by each kind of receptor, CV_64F.
 struct Reception {
     cv::Mat l, m, rod;
 };

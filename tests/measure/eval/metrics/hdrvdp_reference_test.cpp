@@ -46,7 +46,7 @@ hdrvdp::Emission emissionNamed(const std::string& quantity) {
     return quantity.ends_with("led-lcd") ? hdrvdp::Emission::LedLcd : hdrvdp::Emission::Crt;
 }
 
-/// What the program has for a row of the table of constants; NaN where that is part of nothing.
+/// The program's value for a row of the table of constants; NaN if the row is not used by any part.
 double constantOf(const ReferenceRow& row, const hdrvdp::ReceptorResponse& response) {
     const std::string &quantity = row.text("quantity"), &a = row.text("arg1"),
                       &b = row.text("arg2");
@@ -85,7 +85,7 @@ TEST(HdrVdpReference, ConstantsOfTheEye) {
         expectRelative(got, row.number("value"), 1e-9, what);
         ++checked;
     }
-    // All but the S cones, which are not used, and factors that are within others.
+    // All but the S cones, which are not used, and factors contained in others.
     EXPECT_EQ(checked, 3 + 27 + 36 + 12 + 90 + 24 + 5 + 2);
 }
 

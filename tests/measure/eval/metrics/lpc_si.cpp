@@ -35,7 +35,7 @@ std::vector<double> binFrequencies(int n) {
     return out;
 }
 
-/// What all filters of a picture's size are made of.
+/// Parts shared by all filters of a picture's size.
 struct FilterParts {
     std::array<cv::Mat, kScales> radial;
     cv::Mat angle;
@@ -109,11 +109,11 @@ public:
         return out;
     }
 
-    /// Eq. 33 of every pixel.
+    /// Eq. 33 for every pixel.
     [[nodiscard]] cv::Mat map() const { return coherent_ / (weight_ + kRegularity); }
 
 private:
-    /// Filters at every scale. Sums of the gains.
+    /// Computes the responses at every scale; returns the sums of the gains.
     std::array<double, kScales> respond(double direction) {
         cv::Mat lobe(spectrum_.size(), CV_64F);
         cv::parallel_for_({0, lobe.rows}, [&](const cv::Range& rows) {
@@ -156,7 +156,7 @@ private:
         return out;
     }
 
-    /// Eq. 32 of one pixel from its responses, not below 0.
+    /// Eq. 32 for one pixel from its responses, at least 0.
     static double coherence(const Complex& c1, const Complex& c2, const Complex& c3) {
         const auto phase = [](const Complex& c) {
             const double amplitude = std::sqrt(std::norm(c));
@@ -166,7 +166,7 @@ private:
         return std::max(0.0, (a * b * b * b * c * c).real());
     }
 
-    /// Adds an orientation to both sums of eq. 33. Sum of its weights.
+    /// Adds an orientation to both sums of eq. 33; returns the sum of its weights.
     double accumulate(const cv::Mat& amplitude, double threshold) {
         return sumOf(amplitude.size(), [&](int y, int x) {
             const double energy = amplitude.at<double>(y, x) - threshold;
@@ -185,7 +185,7 @@ private:
     std::array<cv::Mat, kScales> responses_;
 };
 
-/// Eqs. 34 and 35: the mean of the sorted values with weights that fall with the rank.
+/// Eqs. 34 and 35: the mean of the sorted values with weights that decrease with the rank.
 double pooled(const cv::Mat& map) {
     std::vector<double> values;
     for (int y = 0; y < map.rows; ++y)
@@ -205,7 +205,7 @@ double pooled(const cv::Mat& map) {
     return sum / weights;
 }
 
-/// Between sorted values, the first being 0 and the last 1.
+/// Interpolates between sorted values, the first at 0 and the last at 1.
 double quantile(const std::vector<double>& sorted, double share) {
     const double at = share * static_cast<double>(sorted.size() - 1);
     const auto i = static_cast<std::size_t>(at);

@@ -6,16 +6,16 @@
 
 namespace mfar::eval {
 
-/// Ratio of the filters' spread to their centre frequency: that of the authors' release 1.0, and
-/// that of a variant in circulation, whose values are higher and not to be compared.
+/// Ratio of the filters' spread to their centre frequency: in the authors' release 1.0, and in a
+/// variant in circulation, whose values are higher and not comparable.
 inline constexpr double kLpcRelease = 0.75, kLpcVariant = 0.33;
 
-/// What one of the eight orientations contributes.
+/// Contribution of one of the eight orientations.
 struct LpcOrientation {
-    std::array<double, 3> filterSum{};    ///< of the gains at each scale, finest first
-    double mean = 0, deviation = 0;       ///< of the finest scale's amplitude within the border
-    double threshold = 0;                 ///< which that has to exceed
-    double energy = 0;                    ///< sum of what exceeds it, whole picture
+    std::array<double, 3> filterSum{};    ///< sum of the gains at each scale, finest first
+    double mean = 0, deviation = 0;       ///< amplitude at the finest scale, within the border
+    double threshold = 0;                 ///< minimum amplitude that counts
+    double energy = 0;                    ///< sum of amplitudes above the threshold, whole picture
     std::array<double, 2> coarserMean{};  ///< amplitude at the other scales, whole picture
 };
 
@@ -25,15 +25,15 @@ struct LpcSharpness {
     std::array<LpcOrientation, 8> orientations{};
 };
 
-/// Local phase coherence sharpness index (Hassen, Wang, Salama 2013, eqs. 21 to 35) as the authors'
-/// release 1.0 computes it. The sharpest ten thousandth of the pixels decides it, so that a single
+/// Local phase coherence sharpness index (Hassen, Wang, Salama 2013, eqs. 21 to 35), as computed by
+/// the authors' release 1.0. The sharpest ten thousandth of the pixels decides it, so that a single
 /// sharp patch makes a whole picture sharp: see also lpcTiles(). CV_64F in grey levels [0, 255], at
-/// least 32x32. Throws std::invalid_argument for others and for what is not finite. From one thread
-/// at a time.
+/// least 32x32. Throws std::invalid_argument for other pictures and for values that are not finite.
+/// From one thread at a time.
 [[nodiscard]] LpcSharpness lpcSharpness(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 [[nodiscard]] double lpcSi(const cv::Mat& picture, double sigmaRatio = kLpcRelease);
 
-/// How lpcSi() is distributed over 8x8 tiles of equal size, alone each.
+/// Distribution of lpcSi() over 8x8 tiles of equal size, each computed separately.
 struct LpcTiles {
     double p10 = 0, median = 0, p90 = 0;
 };

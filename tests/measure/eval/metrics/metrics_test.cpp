@@ -67,9 +67,9 @@ TEST(HarmRate, CountsPixelsWorseThanBicubicByMoreThanTwo) {
     const cv::Mat truth = constant(100, {10, 10}), bicubic = constant(104, {10, 10});
     cv::Mat picture = truth.clone();
     EXPECT_EQ(harmRate(picture, bicubic, truth), 0);
-    picture.at<double>(0, 0) = 106;  // two levels beyond the bicubic error: still allowed
+    picture.at<double>(0, 0) = 106;  // two levels above the bicubic error: still allowed
     picture.at<double>(0, 1) = 106.5;
-    picture.at<double>(0, 2) = 93;  // the error's sign plays no role
+    picture.at<double>(0, 2) = 93;  // the error's sign does not matter
     EXPECT_DOUBLE_EQ(harmRate(picture, bicubic, truth), 0.02);
 }
 
@@ -78,7 +78,7 @@ TEST(TilesBelow, CountsWholeTilesThatAreWorseByMoreThanAQuarter) {
     cv::Mat picture = truth - 3.2;  // within the tolerance
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 0);
     picture(cv::Rect(64, 64, 64, 64)) = 96;
-    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // a part of a tile
+    picture(cv::Rect(5 * 64, 0, 63, 129)) = 0;  // part of a tile
     picture(cv::Rect(0, 2 * 64, 64, 1)) = 0;
     EXPECT_DOUBLE_EQ(tilesBelow(picture, bicubic, truth), 0.1);
     EXPECT_EQ(tilesBelow(picture, bicubic, truth, 2), 0);
@@ -89,7 +89,7 @@ TEST(TilesBelow, CountsWholeTilesThatAreWorseByMoreThanAQuarter) {
 TEST(TilesBelow, OneBadPixelMakesATileWorse) {
     const cv::Mat truth = constant(100, {64, 64}), bicubic = truth + 0.5;
     cv::Mat picture = truth.clone();
-    picture.at<double>(7, 9) = 200;  // 100^2 / 64^2 is more than 0.75^2
+    picture.at<double>(7, 9) = 200;  // 100^2 / 64^2 is above 0.75^2
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 1);
 }
 
@@ -124,7 +124,7 @@ TEST(FlowSparsification, LowConfidenceShouldMeanLargeErrors) {
     cv::Mat flow = truth.clone();
     flow.at<cv::Vec2f>(0, 1) += cv::Vec2f(1, 0);
     flow.at<cv::Vec2f>(0, 2) += cv::Vec2f(0, 3);
-    flow.at<cv::Vec2f>(0, 3) = {std::nanf(""), 0};  // no answer, no error
+    flow.at<cv::Vec2f>(0, 3) = {std::nanf(""), 0};  // no result, no error
     const cv::Mat right = (cv::Mat_<float>(1, 4) << 0.9F, 0.5F, 0.1F, 0);
     EXPECT_NEAR(flowSparsification(flow, truth, right).ause, 0, 1e-9);
     EXPECT_GT(flowSparsification(flow, truth, 1 - right).ausePerRandom, 1);

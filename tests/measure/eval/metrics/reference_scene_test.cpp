@@ -17,7 +17,7 @@ double differenceFrom(const std::string& name, const cv::Mat& picture) {
     return cv::norm(referencePicture(name), cv::Mat_<double>(picture), cv::NORM_INF);
 }
 
-// What the tests at full size stand on.
+// The tests at full size rely on this.
 TEST(ReferenceScene, IsTheOneOfThePictures) {
     if (referenceTable("lpc_si.csv").empty())
         GTEST_SKIP() << referenceFolder().string() << " is not there";

@@ -34,7 +34,7 @@ TEST(Sparsification, TheSameConfidenceEverywhereIsARandomOrder) {
     for (const double left : got.byConfidence)
         EXPECT_NEAR(left, 1, 1e-12);
     EXPECT_NEAR(got.ausePerRandom, 1, 1e-12);
-    EXPECT_NEAR(got.ause, 0.5, 0.01);  // under 1 and above a straight line to 0
+    EXPECT_NEAR(got.ause, 0.5, 0.01);  // the area below 1 and above a straight line to 0
 }
 
 TEST(Sparsification, TheWrongOrderIsWorseThanNone) {
