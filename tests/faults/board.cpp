@@ -24,7 +24,7 @@
 namespace mfar::faults {
 namespace {
 
-/// Then come how the still camera is triggered, and super-resolution.
+/// Followed by the still camera's trigger (kTrigger or kNoTrigger) and by kSuperRes.
 constexpr std::string_view kConfiguration = R"(source = "cameras"
 [record]
 least_free_mb = 0
@@ -55,7 +55,7 @@ rate_hz = 2.0
 )";
 constexpr std::string_view kNoTrigger = "rate_hz = 5.0\n";
 
-/// Its mode is the end of it.
+/// Followed by the mode.
 constexpr std::string_view kSuperRes = R"([superres]
 learn = false
 )";
@@ -72,7 +72,8 @@ constexpr std::array<std::string_view, 6> kBad = {
 constexpr std::array<Ns, 4> kSteps = {3600 * kSecond, -3600 * kSecond, 315'360'000 * kSecond,
                                       -315'360'000 * kSecond};
 
-// By renaming: who reads finds the one or the other. Past the faults of disk and descriptors.
+// Writes and renames, so that a reader finds either the old or the new file. Not affected by the
+// faults of disk and descriptors.
 void replace(const std::string& file, std::string_view text) {
     rlimit limit{};
     getrlimit(RLIMIT_NOFILE, &limit);
@@ -107,7 +108,7 @@ std::string words(const Fault& fault) {
 }  // namespace
 
 Board& Board::get() {
-    static auto* board = new Board;  // threads outlive main()
+    static auto* board = new Board;  // never destroyed, as threads outlive main()
     return *board;
 }
 
@@ -128,7 +129,7 @@ void Board::setUp(const Plan& plan) {
 }
 
 void Board::writeDevice(Where which) const {
-    // What is on the screen has the time of the video picture alone.
+    // Only video pictures carry a time stamp, so that the screen's picture has the video's time.
     std::string text = which == Where::Still ? "plain " : "";
     if (which == Where::Still && hasTrigger_) text += "triggered ";
     for (const Fault* fault : active_)
@@ -177,7 +178,7 @@ void Board::disturb(const Fault& fault, int by) {
         return Scheduler::get().stepWall(by * kSteps[static_cast<std::size_t>(fault.number)]);
     case Where::Disk: (fault.number == 0 ? diskFull_ : diskHangs_) += by; return;
     case Where::Descriptors:
-        // Two at once end with the first.
+        // Two faults at once both end with the first.
         if (by > 0) return limitDescriptors(fault.number);
         if (descriptors_) setrlimit(RLIMIT_NOFILE, &*descriptors_);
         return descriptors_.reset();
@@ -185,13 +186,13 @@ void Board::disturb(const Fault& fault, int by) {
     }
 }
 
-/// So many more than are open.
+/// Leaves `free` descriptors.
 void Board::limitDescriptors(int free) {
     if (descriptors_) return;
     rlimit limit{};
     getrlimit(RLIMIT_NOFILE, &limit);
     descriptors_ = limit;
-    const int next = dup(STDERR_FILENO);  // the lowest that is free
+    const int next = dup(STDERR_FILENO);  // the lowest free descriptor
     close(next);
     limit.rlim_cur = static_cast<rlim_t>(next + free);
     setrlimit(RLIMIT_NOFILE, &limit);
@@ -199,7 +200,7 @@ void Board::limitDescriptors(int free) {
 
 void Board::changeConfiguration(const Fault& fault) {
     const auto which = static_cast<std::size_t>(fault.number);
-    if (!Judge::get().isReady()) return;  // nobody would take the signal
+    if (!Judge::get().isReady()) return;  // without a handler the signal would end the process
     replace("mfard.toml", configuration_ + std::string(which < kBad.size() ? kBad[which] : ""));
     kill(getpid(), SIGHUP);
 }

@@ -1,5 +1,6 @@
-// The calls by which a program waits and looks at the time, taken over by preloading this library:
-// see Scheduler. The calling thread has the turn; locks are the C library's own, tried until free.
+// Replaces the calls by which a program waits and reads clocks, as a preloaded library: see
+// Scheduler. The calling thread has the turn; locks are the C library's, and are tried until they
+// are free.
 
 #include "tests/faults/real_calls.h"
 #include "tests/faults/scheduler.h"
@@ -82,7 +83,7 @@ bool isOurs(clockid_t clock) {
            clock == CLOCK_MONOTONIC_COARSE || clock == CLOCK_BOOTTIME;
 }
 
-/// On the scheduler's clock. A step of the wall clock does not move what waits already.
+/// Converts to the scheduler's clock. A step of the wall clock does not move existing deadlines.
 Ns deadlineOf(clockid_t clock, const timespec* time) {
     if (time == nullptr) return kNever;
     return nsOf(*time) - (isWall(clock) ? Scheduler::get().wallOffset() : 0);
@@ -92,7 +93,7 @@ Ns deadlineIn(Ns time) {
     return Scheduler::get().look() + std::max<Ns>(time, 0);
 }
 
-/// Until `attempt` succeeds; the key is what somebody else's release is announced with.
+/// Repeats until `attempt` succeeds; wake(key) announces a release.
 template <class Attempt>
 int lockWith(const void* key, Attempt attempt, Ns deadline = kNever) {
     Scheduler& all = Scheduler::get();
@@ -115,7 +116,7 @@ int unlock(pthread_mutex_t* mutex) {
     return error;
 }
 
-/// Conditions that count on the monotonic clock. Never destroyed.
+/// Condition variables whose deadlines are on the monotonic clock. Never destroyed.
 std::set<const pthread_cond_t*>& monotonicConditions() {
     static auto* all = new std::set<const pthread_cond_t*>;
     return *all;
@@ -321,7 +322,7 @@ MFAR_TAKES_OVER int sem_post(sem_t* semaphore) noexcept {
     return error;
 }
 
-// What futexes are for in the C++ library: futures, atomics, static objects.
+// The C++ library's futures, atomics and static objects use futexes.
 MFAR_TAKES_OVER long syscall(long number, ...) noexcept {
     va_list rest;
     va_start(rest, number);
@@ -364,7 +365,7 @@ MFAR_TAKES_OVER int sigtimedwait(const sigset_t* set, siginfo_t* info, const tim
     }
 }
 
-// A timer is an event descriptor that the scheduler writes to.
+// A timer is an event descriptor; the scheduler writes to it.
 MFAR_TAKES_OVER int timerfd_create(int, int flags) noexcept {
     const int fd = eventfd(0, ((flags & TFD_CLOEXEC) != 0 ? EFD_CLOEXEC : 0) | EFD_NONBLOCK);
     if (fd >= 0) Scheduler::get().addTimer(fd);

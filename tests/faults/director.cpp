@@ -1,5 +1,5 @@
-// Runs a schedule of faults within mfard's process, and asks it all the time how it is. Part of the
-// library that is preloaded: it begins before main() and ends with the process.
+// Executes a schedule of faults within mfard's process, and asks mfard for its status all the time.
+// Part of the preloaded library: it begins before main() and ends with the process.
 
 #include "daemon/tools/control_client.h"
 #include "tests/faults/board.h"
@@ -28,8 +28,8 @@ namespace {
 
 constexpr Ns kUs = 1000;
 constexpr Ns kEndTime = 3 * kSecond;    ///< from SIGTERM to the end
-constexpr Ns kReadyTime = 5 * kSecond;  ///< from the start, whatever devices do
-/// Between episodes: what may be late has come, and mfard is watched while all is well.
+constexpr Ns kReadyTime = 5 * kSecond;  ///< from the start, whatever the state of devices
+/// Pause between episodes: late results arrive, then mfard is checked without faults.
 constexpr Ns kQuiet = 4500 * kMs;
 
 long numberOf(const char* variable, long otherwise) {
@@ -67,7 +67,7 @@ struct Step {
 std::vector<Step> stepsOf(const Episode& episode) {
     std::vector<Step> steps;
     for (const Fault& fault : episode) {
-        // A loose plug is in and out.
+        // A loose plug disconnects several times.
         const int times = fault.kind->name.ends_with("loose plug") ? 5 : 1;
         for (int i = 0; i < times; ++i) {
             const Ns part = fault.length / (2 * times - 1);
@@ -80,7 +80,7 @@ std::vector<Step> stepsOf(const Episode& episode) {
     return steps;
 }
 
-/// Asks for what may be refused, as another fault may be in the way.
+/// Sends a request that may be refused because of another fault.
 void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-param): of a thread
     try {
         static_cast<void>(ask(Board::kSocket, what));
@@ -89,7 +89,7 @@ void request(nlohmann::json what) {  // NOLINT(performance-unnecessary-value-par
     }
 }
 
-// A disk that fails does so under a recording.
+// A recording is started before a fault of the disk.
 void apply(const Step& step) {
     static int recordings = 0;
     const bool ofDisk = step.fault->kind->where == Where::Disk;
@@ -103,10 +103,10 @@ void apply(const Step& step) {
         Board::get().begin(*step.fault);
     } else {
         Board::get().end(*step.fault);
-        // Which waits for the disk, as another fault may hold it.
+        // In a thread of its own, as another fault may make the request wait for the disk.
         if (ofDisk)
             std::thread([] {
-                sleepFor(300 * kMs);  // one that it has held up begins now
+                sleepFor(300 * kMs);  // a recording that the fault delayed begins now
                 request({{"command", "record"}, {"stop", true}});
             }).detach();
         Judge::get().ends(*step.fault);
@@ -126,8 +126,8 @@ void checkRecordings() {
 
 const Plan& plan();
 
-/// A configuration that is read again turns super-resolution's detail on: 9 MiB of the software
-/// renderer. Losses of the context add nothing, however many there are.
+/// Reading a configuration again may turn on super-resolution's detail: 9 MiB in the software
+/// renderer. Losses of the context must not add memory, whatever their number.
 std::uint64_t grows() {
     const bool mayTurnOn = std::getenv("MFAR_FAULTY_GL") != nullptr && plan().mode != "detail";
     return (mayTurnOn ? 20U : 8U) << 20U;
@@ -144,7 +144,7 @@ void checkGrowth(std::uint64_t moreBytes = grows()) {
 void checkLine() {
     for (int i = 0; i < 5; ++i) {
         if (Board::get().lineRests()) return;
-        sleepFor(70 * kMs);  // there may have been a pulse
+        sleepFor(70 * kMs);  // a pulse may be on
     }
     Judge::get().fail("the trigger's line does not rest");
 }
@@ -160,10 +160,10 @@ void checkInQuiet() {
     }
 }
 
-/// The first thread has its own signal mask, not the one of begin().
+/// Set once the first thread has its own signal mask again, not the one set in begin().
 std::atomic<bool> hasItsMask = false;
 
-/// Whether the first thread blocks SIGTERM: until it does, SIGTERM ends the process as any other.
+/// True when the first thread blocks SIGTERM; before, SIGTERM ends the process directly.
 bool blocksSigterm() {
     if (!hasItsMask) return false;
     std::ifstream status("/proc/self/status");
@@ -198,7 +198,7 @@ void runEpisode(const Episode& episode, Ns begin) {
     sleepFor(kQuiet);
 }
 
-/// The end may come in the midst of it.
+/// SIGTERM or SIGKILL may come during this episode.
 void runLast(const Plan& plan) {
     const Ns begin = Scheduler::get().now();
     std::thread([at = begin + plan.endAfter, isKilled = plan.isKilled] {
@@ -219,7 +219,7 @@ void run(const Plan& plan) {
     runLast(plan);
 }
 
-/// Without faults, for as many pictures. Memory may grow in the first minutes.
+/// Runs without faults until this number of pictures. Memory may grow in the first minutes.
 [[noreturn]] void soak(std::uint64_t frames) {
     constexpr std::uint64_t kMoreBytes = 1U << 20U;
     sleepFor(120 * kSecond);
@@ -247,7 +247,7 @@ void awaitReady() {
     if (Scheduler::get().now() - begin > kReadyTime) Judge::get().fail("it is ready late");
 }
 
-/// After a process that was killed in the same folder.
+/// The second process, started after the first was killed, in the same folder.
 [[noreturn]] void runAfterKill() {
     awaitReady();
     sleepFor(kQuiet);
@@ -275,12 +275,12 @@ void direct() {
 __attribute__((constructor)) void begin() {
     Judge::get();
     Board::get().setUp(plan());
-    // Signals are for mfard's own threads.
+    // Only mfard's own threads may receive signals.
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     std::thread(direct).detach();
-    // It begins first, as its faults may be there before everything else.
+    // The director runs first, as its faults may have to begin before everything else.
     Scheduler::get().yield();
     for (void (*work)() : {&runScreen, &askAlways})
         std::thread(work).detach();

@@ -23,17 +23,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What the product promises, see daemon/budgets.h and the service's unit.
+// The product's guarantees, see daemon/budgets.h and the service's unit.
 constexpr Ns kStale = 3 * kSecond, kMarked = 250 * kMs, kBack = 3 * kSecond;
 constexpr Ns kVideoBudget = 1500 * kMs, kWriter = 2500 * kMs;
 constexpr Ns kPicture = 2000 * kMs;
-constexpr Ns kRepeats = 200 * kMs;  ///< some pictures
-constexpr Ns kLookTime = kSecond;   ///< how often mfard looks at its threads
+constexpr Ns kRepeats = 200 * kMs;  ///< duration of some pictures
+constexpr Ns kLookTime = kSecond;   ///< interval at which mfard checks its threads
 constexpr Ns kSameLine = 10 * kSecond;
 constexpr std::uint64_t kProvenFrames = 10;
-/// Of measuring: pictures have periods, answers take time.
+/// Measuring error: pictures have periods, answers take time.
 constexpr Ns kSlack = 100 * kMs;
-constexpr Ns kOnScreen = 500 * kMs;  ///< the age of a picture while all is well
+constexpr Ns kOnScreen = 500 * kMs;  ///< age limit of a picture without faults
 constexpr Ns kAnswer = kSecond;
 
 std::string seconds(Ns time) {
@@ -49,11 +49,11 @@ std::uint64_t entries(const char* folder) {
         std::distance(std::filesystem::directory_iterator(folder), {}));
 }
 
-/// What each descriptor is open on.
+/// The files of all descriptors.
 std::multiset<std::string> openFiles() {
     std::multiset<std::string> out;
     for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-        std::error_code error;  // the folder's own is closed by now
+        std::error_code error;  // ignored: the iterator's own descriptor is already closed
         out.insert(std::filesystem::read_symlink(entry.path(), error).string());
     }
     return out;
@@ -73,7 +73,7 @@ std::string textOf(const ordered_json& said, const char* key) {
 }  // namespace
 
 Judge& Judge::get() {
-    static auto* judge = new Judge;  // threads outlive main()
+    static auto* judge = new Judge;  // never destroyed, as threads outlive main()
     return *judge;
 }
 
@@ -115,7 +115,7 @@ void Judge::change(const Fault& fault, int by) {
 }
 
 void Judge::begins(const Fault& fault) {
-    // One that is not open hangs its opener, which may take far longer.
+    // A hang before the camera is open blocks its opener, whose time limit is far longer.
     const bool wasSound = calm_[VideoDevice].lasts(kBack, now());
     const int before = calm_[VideoDevice].active;
     change(fault, 1);
@@ -137,19 +137,20 @@ void Judge::shows(Ns taken) {
     shown_ = taken;
 }
 
-// Before the first picture there is none that could be stale.
+// Before the first picture nothing can be stale.
 Ns Judge::age(Ns at) const {
     return shown_ ? at - *shown_ : 0;
 }
 
-/// For how long the video camera has sent nothing, because of its fault.
+/// Time for which the video camera has sent nothing because of its fault.
 Ns Judge::missing(Ns at) const {
     const Calm& device = calm_[VideoDevice];
     return device.active > 0 ? std::min(age(at), at - device.since) : 0;
 }
 
-/// For how long the GPU has finished no picture, because of its fault. Those that come first have
-/// more time, nothing is drawn without a camera, and a GPU that was given up draws nothing.
+/// Time for which the GPU has finished no picture because of its fault. Zero for the first pictures
+/// (they have longer limits), without a video camera (nothing is drawn), and after the GPU was
+/// given up.
 Ns Judge::unfinished(Watched gpu, Ns at) const {
     if (calm_[gpu].active == 0 || calm_[Video].active > 0) return 0;
     if (frames_ < kProvenFrames || isGpuGivenUp_) return 0;
@@ -171,15 +172,16 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
     isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the processor draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
-    // A pipe that is not read takes some pictures, and then one for as long as a writer may need.
+    // A pipe without a reader takes some pictures; the writer may then need its budget for one
+    // more.
     const Ns stalled = asked - std::max(calm_[Screen].since, calm_[Video].since);
-    // That a camera repeats itself is known after some pictures.
+    // A camera that repeats pictures is detected only after some of them.
     const bool repeats = calm_[Video].active > calm_[VideoDevice].active;
     const bool isKnown = (calm_[Screen].active == 0 || stalled > kWriter) &&
                          (!repeats || calm_[VideoDevice].lasts(kRepeats, asked));
     if (age(asked) > kStale + kSlack && isFine && isKnown)
         fail("the screen's picture is " + seconds(age(asked)) + " old, status says ok");
-    // Cameras are looked at between pictures.
+    // Cameras are checked between pictures.
     if (missing(asked) > kMarked + kSlack && isFine && calm_[Drawing].lasts(kMarked, asked))
         fail("the video camera has sent nothing for " + seconds(missing(asked)) +
              ", status says ok");
@@ -187,7 +189,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
         fail("the GPU has finished no picture for " + seconds(unfinished(Gpu, asked)) +
              ", status says ok");
     if (!calm_[All].lasts(kBack + kSlack, asked) || frames_ < kProvenFrames) return;
-    // A GPU that has failed is named for a minute, or for ever.
+    // A failed GPU is named for a minute, or for ever once it is given up.
     const bool namesGpu = hadGpuFaults_ && cause.find("the GPU failed") != cause.npos;
     if (!isFine && !namesGpu)
         fail(fmt::format("nothing has been wrong for {}, status says {}: {} {}",
@@ -198,7 +200,7 @@ void Judge::judgeState(const ordered_json& said, Ns asked) {
              ", the screen's picture is " + seconds(age(asked)) + " old");
 }
 
-// One camera's fault is none of the other.
+// A fault of one camera must not be reported for the other.
 void Judge::judgeBlame(const std::string& fault, Ns asked) {
     if (!calm_[Slow].lasts(kBack, asked)) return;
     const bool video = calm_[Video].lasts(kBack + kSlack, asked);
@@ -245,14 +247,14 @@ void Judge::fed() {
         fail("the watchdog is fed with a picture that is " + seconds(age(now())) + " old");
 }
 
-// What is said because somebody asked is said each time.
+// Answers to requests are logged each time.
 void Judge::logSays(std::string_view text) {
     logBytes_ += text.size();
     std::string all(text.substr(0, text.find_last_not_of('\n') + 1));
     note("log: " + std::regex_replace(all, std::regex("\n"), "\n             log: "));
-    // At the end, what was kept back is said.
+    // At the end, messages that were held back are logged.
     if (isEnding() || all.find("mfard.toml") != all.npos) return;
-    // Without how long it has lasted, and that it has been kept back.
+    // Compared without the duration and the number of repetitions.
     const std::string event =
         std::regex_replace(all, std::regex(R"( \((degraded|stalled|once)[^)]*\))"), "");
     const auto before = logged_.find(event);

@@ -15,32 +15,32 @@
 
 namespace mfar::faults {
 
-/// Holds what mfard says of itself against what is so. Each rule that is broken is a line of the
-/// report. Its functions are called by one thread at a time, see Scheduler.
+/// Compares mfard's own reports with the actual state. Each violated rule is a line of the report.
+/// Its functions are called by one thread at a time, see Scheduler.
 class Judge {
 public:
-    /// The process's own; writes to the file that MFAR_FAULTS_REPORT names.
+    /// The judge of the process; writes to the file that MFAR_FAULTS_REPORT names.
     static Judge& get();
 
-    // What is so.
+    // The actual state.
     void begins(const Fault& fault);
     void ends(const Fault& fault);
-    /// The screen shows a picture, taken at this time.
+    /// The screen shows a picture that was taken at this time.
     void shows(Ns taken);
 
-    // What mfard does and says.
+    // mfard's actions and reports.
     void serviceHears(std::string_view text);
     void logSays(std::string_view text);
     void status(const nlohmann::ordered_json& said, Ns asked);
     void answersNot(const std::string& why, Ns asked);
-    void terminated();  ///< it has been asked to end
+    void terminated();  ///< mfard has got SIGTERM
     void ended(int code, bool inTime);
-    /// While nothing is wrong: what cameras have sent that is to be refused, as stats has it.
+    /// Counters of refused frames, checked while there is no fault.
     void stats(const nlohmann::ordered_json& said);
-    /// A recording that has ended can be read.
+    /// Checks that a finished recording can be read.
     void recording(const std::string& folder);
-    /// Memory, descriptors and threads while nothing is wrong; the first call says what may be.
-    /// False where there is more: what is still being answered may end soon.
+    /// Checks memory, descriptors and threads while there is no fault, relative to the first call.
+    /// False when there are more: an answer in progress may end soon.
     [[nodiscard]] bool holdsNoMore(std::uint64_t moreBytes = 8U << 20U);
 
     void note(const std::string& text);
@@ -52,7 +52,7 @@ public:
     [[nodiscard]] std::uint64_t frames() const { return frames_; }
 
 private:
-    /// Since when there has been no such fault; nothing while there is one.
+    /// `since`: when faults of this kind last changed.
     struct Calm {
         int active = 0;
         Ns since = 0;
@@ -79,13 +79,13 @@ private:
     std::array<Calm, WatchedCount> calm_{};
     std::optional<Ns> ready_, terminated_, shown_, fed_;
     std::optional<Ns>
-        hangs_;  ///< since when the video driver does, while nothing else is wrong with it
+        hangs_;  ///< begin of a hang of the video driver, while the camera has no other fault
     std::uint64_t frames_ = 0, asked_ = 0, meals_ = 0, failures_ = 0;
     std::map<std::string, Ns> logged_;
     std::uint64_t logBytes_ = 0;
     bool hadGpuFaults_ = false, isGpuGivenUp_ = false;
     struct Held {
-        std::multiset<std::string> files;  ///< what descriptors are open on
+        std::multiset<std::string> files;  ///< files of all descriptors
         std::uint64_t threads = 0, bytes = 0;
     };
     std::optional<Held> first_;

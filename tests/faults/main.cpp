@@ -1,5 +1,5 @@
-// mfar-faults: mfard under schedules of faults until the time is over or one of its promises
-// breaks.
+// mfar-faults: runs mfard under schedules of faults until the time is over or mfard breaks one of
+// its guarantees.
 #include "tests/faults/plan.h"
 #include "tests/faults/trial.h"
 #include "tests/stability/seeded_run.h"
@@ -45,7 +45,7 @@ Options parse(int argc, char** argv) {
     return o;
 }
 
-/// The first line in which two reports differ.
+/// The first line that differs between two reports.
 std::string difference(const std::string& one, const std::string& other) {
     std::istringstream first(one), second(other);
     std::string a, b;
@@ -63,7 +63,7 @@ void print(const Tally& tally, double seconds) {
                tally.cases, seconds, tally.failures);
 }
 
-/// Runs one seed after the other.
+/// Runs seed after seed.
 Tally drawSeeds(const Options& o, std::uint64_t seed) {
     const auto begin = Clock::now();
     Tally sum;

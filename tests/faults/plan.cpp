@@ -15,7 +15,7 @@ namespace {
 using enum Where;
 using enum Effect;
 
-// Those of cameras stand twice: of the video and of the still camera.
+// The cameras' faults are listed twice, for the video and for the still camera.
 constexpr std::array kKinds = {
     Kind{"video silent", Video, StopsDevice, "silent"},
     Kind{"video hangs", Video, HangsDriver, "hang"},
@@ -63,20 +63,21 @@ constexpr std::array kKinds = {
     Kind{"disk hangs", Disk, None, "", 1, 1},
     Kind{"no descriptors", Descriptors, Slows, "", 0, 3},
     Kind{"slow machine", Machine, Slows, "", 10, 200},
-    // With a GPU alone.
+    // Only with a GPU.
     Kind{"GPU late", Gpu, StopsGpu, "never"},
     Kind{"GPU lost", Gpu, None, "lost"},
     Kind{"GPU hangs", Gpu, HangsGpu, "hang"},
 };
 constexpr std::size_t kOfGpu = 3;
 
-/// Two that overlap end before the watchdog ends mfard.
+/// Two overlapping faults must end before the watchdog ends mfard.
 constexpr Ns kLongestOfGpu = 3300 * kMs;
 
-/// From the start to READY, where nothing waits: each look at the clock costs half a microsecond.
+/// Time from the start to READY when nothing waits: each read of the clock costs half a
+/// microsecond.
 constexpr std::uint64_t kStartTime = 40'000;
 
-/// Those by which a picture can stand still come three times as often.
+/// Faults that can stop the picture are drawn three times as often.
 const Kind& drawnKind(std::mt19937_64& random, std::string_view only, bool hasGpu) {
     const auto isMeant = [&](const Kind& kind) { return kind.name.find(only) != only.npos; };
     const auto kinds = std::span(kKinds).first(kKinds.size() - (hasGpu ? 0 : kOfGpu));
@@ -127,7 +128,7 @@ Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only, bool h
     out.beginsBroken = random() % 4 == 0;
     out.hasTrigger = random() % 2 == 0 && MFAR_FAULTS_HAS_LINE;
     out.mode = kModes[random() % kModes.size()];
-    // SIGTERM may come at once, while all is being set up.
+    // SIGTERM may come very early, during set-up.
     const bool endsEarly = random() % 8 == 0;
     out.endsBeforeReady = endsEarly && random() % 2 == 0;
     if (endsEarly) episodes = 1;
@@ -139,7 +140,7 @@ Plan Plan::drawn(std::uint64_t seed, int episodes, std::string_view only, bool h
     out.endAfter = static_cast<Ns>(random() % (endsEarly ? 300 : 6000)) * kMs;
     if (out.endsBeforeReady) out.endAfter = static_cast<Ns>(random() % kStartTime);
     out.isKilled = random() % 6 == 0;
-    // Without descriptors nothing can begin.
+    // Without free descriptors nothing can begin.
     for (const Fault& fault : out.episodes.front())
         if (fault.kind->where == Descriptors) out.beginsBroken = false;
     if (out.beginsBroken)

@@ -8,7 +8,7 @@
 
 namespace mfar::faults {
 
-/// What the C library does under the names that calls.cpp takes over.
+/// The C library's functions behind the names that calls.cpp replaces.
 struct RealCalls {
     int (*clock)(clockid_t, timespec*);
     long (*syscall)(long, ...);

@@ -18,12 +18,12 @@ namespace mfar::faults {
 
 struct Scheduler::Task {
     std::atomic<int> turn{0};
-    const void* key = nullptr;  ///< it waits for this, or its files; null: it is ready
+    const void* key = nullptr;  ///< the thread waits for this key, or for `files`; both null: ready
     pollfd* files = nullptr;
     nfds_t fileCount = 0;
     int filesReady = 0;
     Ns deadline = kNever;
-    std::uint64_t order = 0;  ///< since when
+    std::uint64_t order = 0;  ///< order of becoming ready
     bool woken = false;
     void* (*start)(void*) = nullptr;
     void* argument = nullptr;
@@ -34,7 +34,7 @@ struct Scheduler::Task {
 
 namespace {
 
-constexpr std::uint64_t kFileTurns = 16;  // how often files are looked at while others are ready
+constexpr std::uint64_t kFileTurns = 16;  // turns between checks of files while threads are ready
 constexpr std::uint64_t kLocksPerYield = 16;
 constexpr int kIdleMs = 100, kMostIdle = 100;
 
@@ -115,7 +115,8 @@ void Scheduler::checkFiles() {
     }
 }
 
-// To the next deadline. Without one only somebody outside can help.
+// Advances the clock to the next deadline. Without a deadline only another process can end the
+// wait.
 void Scheduler::advance() {
     Ns first = kNever;
     for (const Task* task : tasks_)
@@ -219,7 +220,7 @@ void* Scheduler::begin(void* argument) {
     return task->start(task->argument);
 }
 
-// Destructors of what belongs to the thread may lock: the last round is ours.
+// Destructors of thread-specific data may lock, so the thread ends in the last round.
 void Scheduler::end(void* argument) {
     auto* task = static_cast<Task*>(argument);
     if (++task->cleanUps < PTHREAD_DESTRUCTOR_ITERATIONS) {

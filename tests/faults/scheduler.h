@@ -14,47 +14,49 @@ using Ns = std::int64_t;
 constexpr Ns kNever = std::numeric_limits<Ns>::max();
 constexpr Ns kMs = 1'000'000, kSecond = 1'000'000'000;
 
-/// Runs the threads of this process one at a time, on a clock of its own: it passes a little with
-/// each look at it, and jumps to the next deadline when every thread waits. So an hour of waiting
-/// costs nothing, and as the next thread to run is drawn from a seed, a run can be repeated.
+/// Runs the threads of this process one at a time, on a clock of its own: the clock advances a
+/// little each time it is read, and jumps to the next deadline when every thread waits. An hour of
+/// waiting thus takes no time, and a run can be repeated, as a seed determines the order of
+/// threads.
 ///
-/// A thread gives its turn away where it waits (see calls.cpp), and now and then where it locks.
-/// All functions belong to the thread whose turn it is, so nothing here is locked.
+/// A thread passes its turn on when it waits (see calls.cpp), and sometimes when it locks. All
+/// functions are called by the thread that has the turn, so that no locks are needed here.
 class Scheduler {
 public:
-    /// Made with the first call; never destroyed, as threads outlive main().
+    /// Created by the first call; never destroyed, as threads outlive main().
     static Scheduler& get();
 
-    /// False in a thread that has given up its turn for ever, within the C library's last clean-up.
+    /// False in a thread that has given up its turn for ever, during the C library's last clean-up.
     [[nodiscard]] bool hasTurn() const;
 
     [[nodiscard]] Ns now() const { return now_; }
-    /// The time, after what the look costs.
+    /// Reads the clock, which advances it.
     [[nodiscard]] Ns look() { return now_ += cost_; }
     void setCost(Ns cost) { cost_ = cost; }
-    /// Of CLOCK_REALTIME, before that of the other clocks.
+    /// CLOCK_REALTIME minus the other clocks.
     [[nodiscard]] Ns wallOffset() const { return wallOffset_; }
     void stepWall(Ns by) { wallOffset_ += by; }
 
-    /// Waits until wake() with this key, false when the time is over.
+    /// Waits until wake() with this key; false when the deadline has passed.
     bool waitFor(const void* key, Ns deadline = kNever);
-    /// The first of those that wait, at most `count`; returns how many.
+    /// Wakes the first threads that wait for the key, at most `count`; returns their number.
     int wake(const void* key, int count = std::numeric_limits<int>::max());
-    /// As poll(), -1 with errno included.
+    /// As poll(), including -1 with errno.
     int waitForFiles(pollfd* fds, nfds_t count, Ns deadline);
-    /// Others may go first.
+    /// Lets other threads run first.
     void yield();
-    /// The same now and then.
+    /// As yield(), but only sometimes.
     void maybeYield();
 
-    /// A timer's descriptor becomes readable at `first`, then every `period`; 0: never, once.
+    /// A timer's descriptor becomes readable at `first` (0: never), then every `period` (0: only
+    /// once).
     void setTimer(int fd, Ns first, Ns period);
     void addTimer(int fd) { timers_.push_back({fd, 0, 0}); }
 
     // The life of a thread.
     int create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*),
                void* argument);
-    /// Returns when the thread does nothing of ours any more.
+    /// Returns when the thread no longer runs code of this library.
     void waitForEnd(pthread_t thread);
 
     [[nodiscard]] std::uint64_t random() { return random_(); }

@@ -17,7 +17,7 @@
 namespace mfar::faults {
 namespace {
 
-/// Takes a Y4M stream apart.
+/// Parses a Y4M stream.
 class Reader {
 public:
     void add(std::span<const char> bytes) {
@@ -53,7 +53,7 @@ private:
             reinterpret_cast<const std::uint8_t*>(text_.data()) + at_ + kFrame.size();
         at_ += whole;
         if (const auto ms = pretended::stampOf({pixels, luma}, width_)) {
-            // The stamp has the lower bits of the time alone.
+            // The stamp has only the lower bits of the time.
             const std::int64_t now = Scheduler::get().now() / kMs;
             constexpr std::int64_t kMask = (1LL << pretended::kStampBits) - 1;
             Judge::get().shows((now - ((now - *ms) & kMask)) * kMs);
@@ -83,7 +83,7 @@ void runScreen() {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         const ssize_t count = read(fd, bytes.data(), bytes.size());
         if (count > 0) reader.add({bytes.data(), static_cast<std::size_t>(count)});
-        // Before mfard opens it, and once it has closed it, it has no other end.
+        // The pipe has no writer before mfard opens it and after mfard has closed it.
         if (count <= 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
 }

@@ -1,5 +1,5 @@
-// The calls by which mfard meets the rest of the machine, taken over by preloading this library:
-// the service manager, the log, the disk, and its own end.
+// Replaces the calls between mfard and the rest of the machine, as a preloaded library: service
+// manager, log, disk, and exit.
 
 #include "tests/faults/board.h"
 #include "tests/faults/judge.h"
@@ -22,7 +22,7 @@ using namespace mfar::faults;
 
 namespace {
 
-/// Only what is recorded: mfard itself may need other files.
+/// Only recordings: mfard itself may need other files.
 bool isOnDisk(int fd) {
     std::error_code ignored;
     const auto file =
@@ -31,7 +31,7 @@ bool isOnDisk(int fd) {
 }
 
 __attribute__((destructor)) void atExit() {
-    // exit() does not say with what; the parent sees it.
+    // exit() does not pass the exit code; the parent process sees it.
     Judge::get().ended(0, true);
 }
 
@@ -66,7 +66,7 @@ MFAR_TAKES_OVER ssize_t write(int fd, const void* bytes, size_t count) {
     return real().syscall(SYS_write, fd, bytes, count);
 }
 
-// Of a socket that waits, by the scheduler's clock.
+// A blocking socket waits on the scheduler's clock.
 MFAR_TAKES_OVER ssize_t recv(int fd, void* to, size_t size, int flags) {
     constexpr int kPatienceMs = 15'000;
     const bool waits = (flags & MSG_DONTWAIT) == 0 && (fcntl(fd, F_GETFL) & O_NONBLOCK) == 0;

@@ -27,9 +27,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of real time: schedules take a second, a soak some minutes.
+/// Limits of real time: a schedule takes a second, a soak some minutes.
 constexpr std::chrono::minutes kTrialTime{2}, kSoakTime{60};
-constexpr std::size_t kContext = 40;  // lines before the first failure
+constexpr std::size_t kContext = 40;  // lines shown before the first failure
 
 /// A folder for one trial, removed with everything in it.
 class Folder {
@@ -52,7 +52,7 @@ private:
     fs::path path_;
 };
 
-// One thread of mfard runs at a time: on one processor they follow each other fastest.
+// One thread of mfard runs at a time, and switches are fastest on one processor.
 void takeProcessor(int job) {
     cpu_set_t allowed, one;
     if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) return;
@@ -80,7 +80,7 @@ constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
         {"MFAR_FAULTS_SOAK", std::to_string(options.soakFrames)},
         {"MFAR_FAULTS_REPORT", "report"},
         {"MFAR_PRETENDED_V4L2", "cameras"},
-        {"NOTIFY_SOCKET", "/nowhere"},  // what is sent there is taken over
+        {"NOTIFY_SOCKET", "/nowhere"},  // messages to it are intercepted
         {"WATCHDOG_USEC", "10000000"},
         {"LD_PRELOAD", MFAR_FAULTS_BOARD ":" MFAR_FAULTS_CAMERAS}};
     if (options.hasGpu) {
@@ -95,7 +95,7 @@ constexpr const char* kAfterKill = "MFAR_FAULTS_AFTER_KILL";
     _exit(127);
 }
 
-/// What it ended with, in words; empty for 0.
+/// The exit status in words; empty for 0.
 std::string waitFor(pid_t child, std::chrono::minutes most) {
     const auto end = std::chrono::steady_clock::now() + most;
     int status = 0;
@@ -129,7 +129,7 @@ bool tellsFailure(const std::string& line) {
     return line.find("FAILED: ") != line.npos;
 }
 
-// All failures, with what was before the first.
+// All failures, with the lines before the first.
 std::string excerpt(const std::vector<std::string>& lines) {
     const auto first = std::ranges::find_if(lines, tellsFailure);
     const auto before = static_cast<std::size_t>(first - lines.begin());
