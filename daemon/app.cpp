@@ -20,7 +20,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kLookTime{1};               ///< how often threads are looked at, at least
+constexpr Seconds kLookTime{1};               ///< longest interval between checks of the threads
 constexpr std::uint64_t kFirstPictures = 10;  ///< see kFirstPatience
 
 std::ofstream openSummary(const Options& options, const Config& config) {
@@ -31,7 +31,7 @@ std::ofstream openSummary(const Options& options, const Config& config) {
             throw Failure(ExitCode::Usage, "standard output cannot take both video and summary");
         return file;
     }
-    // Now, because after a long run is too late to learn that it cannot be written.
+    // Opened now: a failure after a long run would lose the summary.
     file.open(*options.summary);
     if (!file)
         throw Failure(ExitCode::OutputFailed,
@@ -44,7 +44,8 @@ std::ofstream openSummary(const Options& options, const Config& config) {
 App::App(const Options& options, Log& log)
     : options_(options), log_(log), config_(effectiveConfig(options)),
       summary_(openSummary(options, config_)) {
-    // A display pipe whose reader has gone is an error of that write, not the end of the process.
+    // With SIGPIPE ignored, writing to a closed display pipe returns an error and does not end the
+    // process.
     signal(SIGPIPE, SIG_IGN);
     if (options_.control)
         control_.emplace(
@@ -76,7 +77,7 @@ ExitCode App::run() {
         }
         return finish(end);
     } catch (const std::exception& error) {
-        // Else the thread would be waited for, which nobody has told to end.
+        // The destructor of glThread waits for it, so it has to be told to stop.
         input_.request_stop();
         cancel_.request_stop();
         if (isReading()) {
@@ -138,7 +139,7 @@ void App::onReady() {
 
 void App::onHangUp() {
     if (options_.config)
-        (void)reload();  // the log tells how it went
+        (void)reload();  // the result is in the log
     else
         log_.warning("SIGHUP: started without --config, nothing to read again");
 }
@@ -185,7 +186,7 @@ void App::onRead() {
     if (reload_) readAgain();
 }
 
-// Returns what has changed.
+// Returns a message that says what has changed.
 std::string App::take(const Config& wanted) {
     const std::string restart = needRestart(config_, wanted);
     config_.superres = wanted.superres;
@@ -215,7 +216,7 @@ void App::onTick() {
     feedWatchdog(now);
     log_.sayKept();
     leaveIfHanging();
-    // Ticks may come more often, for the watchdog.
+    // The watchdog may need more ticks than the status line.
     const Timestamp time = Timestamp::now();
     if (time.seconds() - statusShown_.seconds() < 0.9 * config_.status.intervalS) return;
     statusShown_ = time;
@@ -242,7 +243,7 @@ Health App::health(const Counted& counted) {
     return health_.judge(seen);
 }
 
-// Before and after the pictures there is nothing to watch: systemd has limits of its own for both.
+// Fed only while pictures are made: systemd has limits of its own for start and stop.
 void App::feedWatchdog(const Health& health) {
     if (!running_ || !service_.watchdogPeriod()) return;
     if (isProven_ && !std::exchange(patienceEnded_, true)) service_.watchdogPatience(1);
@@ -251,7 +252,7 @@ void App::feedWatchdog(const Health& health) {
 
 void App::logHealth(const Health& health) {
     if (health.state == told_.state && health.cause == told_.cause) return;
-    // At the end, threads and pictures end as well.
+    // During shutdown threads and pictures stop as well; that is no fault.
     if (stopReason_ && health.state == HealthState::Stalled) return;
     if (health.state != HealthState::Ok)
         log_.warning(sentence(health), health.cause, subjectOf(health));
@@ -263,7 +264,7 @@ void App::logHealth(const Health& health) {
     told_ = health;
 }
 
-// Updates what was described at the start.
+// Updates the run's description, which was made at the start.
 void App::takeChanges(const Counted& counted) {
     RunDescription& run = running_->description;
     if (counted.rendering) {

@@ -30,26 +30,27 @@
 namespace mfar {
 
 /// The main thread: signals, timers, status, shutdown. It waits for nothing but its events, so that
-/// it can end the program whatever a device or a driver does:
-///   signal -> no more frames, the trigger line is inactive -> what is on its way is shown and
-///   written. When this takes longer than
-///     0.2 s, with nothing to be written: the process ends as it is, in the midst of a picture
-///     0.4 s, otherwise: slow readers of the display's pipe are given up, 0.5 s later the process
-///            ends as it is
-/// A run that ends by itself waits for its output as long as that takes, and then at most 2.5 s for
-/// its devices.
-/// A second signal ends it at once. Where the main thread itself hangs on the way out, as in a
-/// driver or on a disk that does not return, another one ends the process 2.5 s after the signal.
+/// it can end the program even when a device or a driver hangs.
+/// After a signal no more frames are taken and the trigger line is set inactive. Frames in process
+/// are still shown and written. When this takes longer than
+///   0.2 s, and nothing is being written: the process ends, even in the middle of a picture
+///   0.4 s, otherwise: writing to slow readers of the display's pipe is given up; 0.5 s later the
+///          process ends
+/// A run that ends by itself waits for its output without a limit, and then at most 2.5 s for its
+/// devices.
+/// A second signal ends the process at once. If the main thread itself hangs during shutdown (in a
+/// driver, on a disk that does not answer), LastResort ends the process 2.5 s after the signal.
 class App {
 public:
     /// Throws ConfigError, Failure.
     App(const Options& options, Log& log);
 
-    /// Runs until the end and writes the summary, also of a run that failed. Throws what ended it.
+    /// Runs until the end and writes the summary, even if the run fails. Throws the error that
+    /// ended the run.
     [[nodiscard]] ExitCode run();
 
 private:
-    /// What the GL thread tells after set-up.
+    /// What the GL thread reports after set-up.
     struct Ready {
         RunDescription description;
         std::string startLine;
@@ -58,13 +59,13 @@ private:
     /// The GL thread reports this once all output is written.
     struct Over {
         std::string reason;
-        std::exception_ptr error;  ///< null: all is well
+        std::exception_ptr error;  ///< null: no error
     };
-    /// The configuration is read again by a thread of its own, as models may take long.
+    /// A reload of the configuration. A thread of its own does it, as reading models may take long.
     struct Reload {
         Reload() : answer(said.get_future().share()) {}
 
-        std::promise<std::string> said;  ///< what has changed, or why the old one stays
+        std::promise<std::string> said;  ///< what has changed, or why the reload was refused
         std::shared_future<std::string> answer;
         std::future<Config> config;
         std::jthread reader;
@@ -83,7 +84,8 @@ private:
     void removeControl() const;
     [[noreturn]] void leaveFailed(const std::exception_ptr& error);
     void onHangUp();
-    /// Its answer waits until the configuration is read. Throws std::runtime_error without a file.
+    /// The future is ready once the configuration has been read. Throws std::runtime_error without
+    /// a file.
     std::shared_future<std::string> reload();
     void readAgain();
     [[nodiscard]] bool isReading() const;
@@ -105,7 +107,7 @@ private:
     [[nodiscard]] bool writeSummary(const std::string& reason, ExitCode code);
 
     const Timestamp started_ = Timestamp::now();
-    LastResort lastResort_;  ///< before the others: it watches over their destruction, too
+    LastResort lastResort_;  ///< first: it watches the others' destruction, too
     const Options options_;
     Log& log_;
     Config config_;
@@ -116,22 +118,23 @@ private:
     Mailbox<Tunables> changes_{HandOver::NewestWins};
     CallQueue<App> calls_{[this] { events_.wake(); }};
     CallQueue<Session> sessionCalls_;
-    std::atomic<bool> finishesRecording_{false};  ///< one that mfarctl has ended
+    std::atomic<bool> finishesRecording_{false};  ///< after mfarctl ended a recording
     std::stop_source input_;
     std::stop_source cancel_;
-    std::jthread stopper_;  ///< stops the devices, which may take its time
+    std::jthread stopper_;  ///< stops the devices, which may take long
     std::optional<std::string> stopReason_;
     std::optional<int> stopSignal_;
     std::optional<Ready> running_;
     std::optional<Over> ended_;
-    bool isProven_ = false;       ///< all shaders are compiled, so limits hold as they are
-    bool patienceEnded_ = false;  ///< and the watchdog's, too
+    bool isProven_ = false;  ///< all shaders are compiled: time limits apply without kFirstPatience
+    bool patienceEnded_ = false;  ///< the watchdog's limit no longer has kFirstPatience either
     HealthRecord health_;
     Timestamp statusShown_;
-    /// The second one follows the first: the file may have changed meanwhile.
+    /// `nextReload_` was requested during `reload_` and follows it: the file may have changed
+    /// meanwhile.
     std::optional<Reload> reload_, nextReload_;
-    Health told_;                     ///< that the log has said last
-    bool firstPictureShown_ = false;  ///< by the log
+    Health told_;                     ///< the health that was last written to the log
+    bool firstPictureShown_ = false;  ///< the log has the line about it
 
     std::mutex mutex_;
     // Guarded by the mutex; they move to running_ and ended_.

@@ -1,4 +1,4 @@
-// What mfarctl may ask of a running mfard, each part done by the thread it belongs to.
+// The commands of mfarctl. Each part of a command runs on the thread that owns its data.
 
 #include "daemon/app.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Longer than the slowest picture of the slowest board.
+/// Longer than one picture takes on the slowest board.
 constexpr std::chrono::milliseconds kAnswerTime{10'000};
 
 }  // namespace

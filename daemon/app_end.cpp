@@ -1,4 +1,4 @@
-// The ways in which a run ends: by a signal, by itself, by a device that does not let it.
+// The ways in which a run ends: by a signal, by itself, or by force because a device hangs.
 
 #include "daemon/app.h"
 #include "daemon/budgets.h"
@@ -18,9 +18,9 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kLeaveTime{0.2};   ///< after a signal: for the picture in work
-constexpr Seconds kFlushTime{0.4};   ///< the same, for what is being written
-constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to notice that they are to give up
+constexpr Seconds kLeaveTime{0.2};   ///< after a signal: to finish the current picture
+constexpr Seconds kFlushTime{0.4};   ///< the same while pictures are written: to finish writing
+constexpr Seconds kCancelTime{0.5};  ///< then: for the threads to react to the cancel request
 constexpr std::chrono::milliseconds kLastResort{2500};
 
 const char* signalName(int signal) {
@@ -38,7 +38,7 @@ void App::onSignal(int signal) {
         std::_Exit(128 + signal);
     }
     stopSignal_ = signal;
-    // Says nothing: whoever takes the messages may be what hangs.
+    // Logs nothing: writing the log may be what hangs.
     lastResort_.arm(kLastResort, [] { std::_Exit(static_cast<int>(ExitCode::Ok)); });
     stop(signalName(signal));
     events_.deadlineIn(writes() ? kFlushTime : kLeaveTime);
@@ -61,7 +61,8 @@ void App::onOver() {
     if (!stopSignal_) events_.deadlineIn(kLastResort);
 }
 
-// After --seconds, a GPU that hangs ends no frame. What only waits for its output may take longer.
+// After --seconds, a GPU that hangs would keep the run from ending. Waiting for the output alone
+// has no limit here.
 void App::leaveIfHanging() {
     if (!stopReason_ || stopSignal_ || ended_) return;
     for (const Heartbeats::Late& late : stats_.heartbeats().late(isProven_ ? 1 : kFirstPatience))
@@ -117,7 +118,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         if (*one)
             (*one)->said.set_exception(
                 std::make_exception_ptr(std::runtime_error("mfard is ending")));
-    control_.reset();  // it may wait for that
+    control_.reset();  // its destructor may wait for these answers
     onReady();
     const Counted counted = stats_.count();
     const Health last = health(counted);
@@ -129,11 +130,11 @@ ExitCode App::finish(std::future<std::string>& end) {
         const ExitCode code = writeSummary(stopReason_.value_or(reason), ExitCode::Ok)
                                   ? ExitCode::Ok
                                   : ExitCode::OutputFailed;
-        // Reading cannot be interrupted, and all that counts is done.
+        // Reading cannot be interrupted; everything else is done, so the process ends without it.
         if (isReading()) std::_Exit(static_cast<int>(code));
         return code;
     } catch (const std::exception& error) {
-        // A reader that took nothing before the signal is not waited for.
+        // A display reader that took nothing before the signal does not count as a failure.
         if (cancel_.stop_requested() || (stopSignal_ && counted.displayFault)) {
             log_.warning(fmt::format("not everything was written: {}", error.what()), {},
                          {message::kEnded});
@@ -142,7 +143,7 @@ ExitCode App::finish(std::future<std::string>& end) {
         }
         (void)writeSummary(fmt::format("error: {}", error.what()), exitCode(error));
         if (!stopSignal_) throw;
-        // Nobody starts it again, so that there is nothing to wait for.
+        // After a signal mfard is not restarted, so there is no pause before a restart.
         log_.error(error.what());
         return exitCode(error);
     }

@@ -9,15 +9,15 @@
 
 namespace mfar {
 
-/// Says on the picture what is wrong. Lives on one thread; where pictures are textures, on the GL
-/// thread with its context current. Allocates nothing before it is first needed. Throws GlError.
+/// Draws a fault's text over a picture. Used by one thread; for pictures in textures, by the GL
+/// thread with its context current. Allocates nothing before the first fault. Throws GlError.
 class Banner {
 public:
-    /// `size` of the pictures.
+    /// `size`: of the pictures.
     explicit Banner(Size size) : size_(size) {}
 
-    /// A copy of the picture with the text across its lower edge, where the picture is: in a
-    /// texture or on the host. Over black, on the host, where the picture is empty. Valid until the
+    /// A copy of the picture with the text across its lower edge, in a texture or on the host, as
+    /// the picture itself. An empty picture gives the text over black, on the host. Valid until the
     /// next call.
     [[nodiscard]] Picture over(const Picture& picture, const std::string& text);
 

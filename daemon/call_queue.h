@@ -12,29 +12,30 @@
 
 namespace mfar {
 
-/// Work that one thread gives to the thread a Target belongs to, which does it when it has time.
-/// All functions may be called from any thread.
+/// Calls that one thread asks another thread, the Target's, to execute. All functions may be called
+/// from any thread.
 template <class Target>
 class CallQueue {
 public:
-    /// `wake` tells the other thread that there is work; empty: it looks by itself.
+    /// `wake` notifies the other thread of a new call; empty: that thread polls.
     explicit CallQueue(std::function<void()> wake = {}) : wake_(std::move(wake)) {}
 
-    /// What `work` returns or throws when the other thread has done it. Throws std::runtime_error
-    /// when that takes longer than `limit` (it may still be done later) or will never happen.
+    /// The result or exception of `work`, executed by the other thread. Throws std::runtime_error
+    /// after `limit` (the call may still be executed later) or when it will never be executed.
     template <class Work>
     std::invoke_result_t<Work, Target&> call(Work work, std::chrono::milliseconds limit) {
         using Result = std::invoke_result_t<Work, Target&>;
         auto task = std::make_shared<std::packaged_task<Result(Target&)>>(std::move(work));
         std::future<Result> result = task->get_future();
-        // The queue alone holds it: dropped there, its promise is broken and nobody waits on.
+        // The queue holds the only reference: when it drops the call, the promise breaks and the
+        // caller wakes.
         put([task = std::move(task)](Target& target) { (*task)(target); });
         if (result.wait_for(limit) != std::future_status::ready)
             throw std::runtime_error("mfard is too busy to answer");
         return result.get();
     }
 
-    /// Does what waits.
+    /// Executes the queued calls.
     void runAll(Target& target) {
         for (;;) {
             std::function<void(Target&)> next;
@@ -48,7 +49,7 @@ public:
         }
     }
 
-    /// Nothing will be done any more.
+    /// Refuses all further calls.
     void close() {
         std::deque<std::function<void(Target&)>> left;
         const std::lock_guard lock(mutex_);

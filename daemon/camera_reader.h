@@ -13,11 +13,12 @@
 
 namespace mfar {
 
-/// A camera that sends nothing is reported after this time. Stopping it ends the wait at once.
+/// Longest wait for a frame, after which a camera's fault is reported. Stopping the camera ends the
+/// wait at once.
 inline constexpr std::chrono::milliseconds kFrameWait{50};
 
-/// Fetches the frames of one camera of a rig, refuses those that cannot be its own and tells
-/// `stats` how the camera is. One thread.
+/// Fetches the frames of one camera of a rig, refuses frames with a wrong size and reports the
+/// camera's state to `stats`. Used by one thread.
 class CameraReader {
 public:
     /// Both must outlive this.
@@ -27,7 +28,7 @@ public:
     [[nodiscard]] std::optional<Frame> next(std::chrono::milliseconds timeout);
     [[nodiscard]] bool ended() const { return camera_.ended(); }
 
-    /// A call of next() waits for the camera. Any thread.
+    /// True while next() waits for the camera. Any thread.
     [[nodiscard]] bool isWaiting() const { return waiting_; }
 
 private:
@@ -36,7 +37,7 @@ private:
     Camera& camera_;
     CameraRole role_;
     Size expected_;
-    ExitCode failure_;  ///< what it means when the camera fails
+    ExitCode failure_;  ///< exit code when the camera fails
     CameraWatch watch_;
     Stats& stats_;
     std::atomic<bool> waiting_{false};

@@ -13,45 +13,46 @@
 
 namespace mfar {
 
-/// A camera at work, as status shows it.
+/// State of a running camera, as status shows it.
 struct CameraState {
-    double configuredHz = 0;               ///< 0: on trigger, or as it likes
-    double rateHz = 0;                     ///< measured over the last frames; 0: not known
-    CameraCounters counters{};             ///< its own, or what its frames tell
-    std::uint64_t repeated = 0;            ///< pictures that equal the one before
-    std::optional<Timestamp> lastFrame{};  ///< its arrival
+    double configuredHz = 0;               ///< 0: triggered or free-running
+    double rateHz = 0;                     ///< measured over the last frames; 0: unknown
+    CameraCounters counters{};             ///< reported by the camera, else derived from its frames
+    std::uint64_t repeated = 0;            ///< pictures equal to the one before
+    std::optional<Timestamp> lastFrame{};  ///< arrival time
     std::optional<Timestamp>
-        lastDistinct{};                    ///< of one unlike the one before; nothing: not watched
-    std::optional<double> distinctAgeS{};  ///< of that, when somebody asked
-    bool repeats = false;                  ///< it has sent the same picture for too long
+        lastDistinct{};  ///< last picture unlike the one before; nothing: not watched
+    std::optional<double> distinctAgeS{};  ///< age of lastDistinct at the time of the query
+    bool repeats = false;  ///< the same picture has come for longer than kRepeatTime
 };
 
-/// A camera's state, as its frames show it.
+/// Which checks apply to a camera's frames.
 enum class CameraKind {
-    Stored,  ///< nothing: no frame is ever left out
-    Live,    ///< frames may be left out
-    Sensor,  ///< it also has a rate to keep, and noise, so that no two pictures are equal
+    Stored,  ///< none: no frame is ever dropped
+    Live,    ///< frames may be dropped
+    Sensor,  ///< also has a rate to keep, and noise, so that no two pictures are equal
 };
 
-/// Looks at the frames of one camera: how fast they come, how many are missing where the camera
-/// does not count them itself, and whether it shows one picture for ever. One thread.
+/// Checks the frames of one camera: their rate, the number of missing frames where the camera does
+/// not count them itself, and whether it repeats one picture. Used by one thread.
 class CameraWatch {
 public:
-    /// A rate that is further off for longer is worth a warning.
+    /// A rate that is off by more than this share for longer than this time causes a warning.
     static constexpr double kRateTolerance = 0.1;
     static constexpr std::chrono::seconds kRateTime{3};
-    /// So is one picture that comes again for longer, and at least so many times.
+    /// A picture that repeats for longer than this time and at least this many times causes a
+    /// warning.
     static constexpr std::chrono::seconds kRepeatTime{2};
     static constexpr int kRepeats = 3;
 
     CameraWatch(const CameraInfo& info, CameraKind kind);
 
     void add(const Frame& frame, Timestamp now);
-    /// The camera's own counters, up to now.
+    /// The camera's own counters since its start.
     void add(const CameraCounters& counters);
 
     [[nodiscard]] const CameraState& state() const { return state_; }
-    /// Returns the new warnings about the camera, each once.
+    /// Returns the new warnings about the camera, each only once.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:
@@ -63,15 +64,15 @@ private:
     CameraState state_;
     FrameDrops drops_;
     std::uint64_t frames_ = 0;
-    std::optional<Timestamp> wrongSince_;  ///< the rate
+    std::optional<Timestamp> wrongSince_;  ///< since when the rate is wrong
     bool rateTold_ = false;
     std::optional<std::uint64_t> checksum_;
-    int repeats_ = 0;  ///< of the last picture
+    int repeats_ = 0;  ///< consecutive repetitions of the last picture
     std::vector<std::string> warnings_;
 };
 
-/// Covers at most sixteen rows of the first plane, spread over the picture. A sensor's noise makes
-/// it differ from picture to picture.
+/// Checksum of at most sixteen rows of the first plane, spread over the picture. A sensor's noise
+/// makes it differ from picture to picture.
 [[nodiscard]] std::uint64_t sparseChecksum(const ImageView& picture);
 
 }  // namespace mfar

@@ -12,7 +12,7 @@ namespace mfar {
 
 class TomlReader;
 
-/// Who speaks with a camera.
+/// Which library drives a camera.
 enum class CameraDriver {
     Libcamera,
     V4l2,
@@ -21,29 +21,30 @@ enum class CameraDriver {
 /// One sensor, section [cameras.video] or [cameras.still].
 struct CameraConfig {
     CameraDriver driver = CameraDriver::Libcamera;
-    /// libcamera: id, model or location; V4L2: device or card name; empty: any but the other one.
+    /// libcamera: id, model or location; V4L2: device or card name; empty: any camera but the other
+    /// one
     std::string camera{};
     Size size{};
-    double rateHz = 0;            ///< 0: on trigger only
-    std::string format = "auto";  ///< or a name of the driver's
-    bool allowCrop = false;       ///< libcamera: a part of the field of view will do
-    /// Name and value, as the camera knows them.
+    double rateHz = 0;            ///< 0: triggered only
+    std::string format = "auto";  ///< or the driver's name of a format
+    bool allowCrop = false;       ///< libcamera: cropping the field of view is allowed
+    /// Control names and values, as the camera defines them.
     std::vector<std::pair<std::string, std::string>> controls{};
     bool operator==(const CameraConfig&) const = default;
 };
 
 /// The line that triggers the still sensor, section [cameras.trigger].
 struct TriggerLineConfig {
-    std::string chip;  ///< label, name or path; empty: found by the line's name
+    std::string chip;  ///< label, name or path; empty: the chip that has the named line
     std::string line;  ///< number or name; empty: the still sensor is free-running
     bool activeLow = false;
     double pulseMs = 1;
-    bool pulseIsExposure = false;  ///< the sensor exposes as long as the pulse lasts
+    bool pulseIsExposure = false;  ///< the pulse length sets the exposure time
     std::string loopbackChip;      ///< empty: `chip`
-    std::string loopback;          ///< input wired to the line; empty: none
-    double delayMs = 0;            ///< from the edge to the start of exposure, a first guess
-    double jitterMs = 1;           ///< what stills' times may be off by
-    double arrivalMs = 500;        ///< a still that has not come by then is lost
+    std::string loopback;          ///< input wired to the trigger line; empty: no loopback
+    double delayMs = 0;            ///< from the edge to the start of exposure, initial estimate
+    double jitterMs = 1;           ///< error bound of stills' times
+    double arrivalMs = 500;        ///< a still that has not come after this time is lost
     bool operator==(const TriggerLineConfig&) const = default;
 };
 
@@ -56,7 +57,7 @@ struct CamerasConfig {
     bool operator==(const CamerasConfig&) const = default;
 };
 
-/// Reads the section; faults go to `file`.
+/// Reads the section; faults are added to `file`.
 void readCameras(TomlReader& file, CamerasConfig& cameras);
 
 }  // namespace mfar

@@ -9,8 +9,8 @@
 namespace mfar {
 namespace {
 
-/// A camera that was stopped answers sooner, or hangs. A process that is to end waits little
-/// longer.
+/// A camera that works reacts to stop() in this time; one that does not hangs, and a process that
+/// is ending must not wait much longer.
 constexpr std::chrono::milliseconds kStopTime{100};
 
 }  // namespace
@@ -47,7 +47,7 @@ CaptureThread::~CaptureThread() {
 void CaptureThread::stop() {
     stopped_ = true;
     if (stills_) stills_->stop();
-    rig_.still().stop();  // with its trigger line, which nobody else would leave safe
+    rig_.still().stop();  // also sets the trigger line to its safe level
     rig_.video().stop();
     out_.close();
 }
@@ -55,7 +55,7 @@ void CaptureThread::stop() {
 void CaptureThread::join() {
     if (!thread_.joinable()) return;
     while (isOver_.wait_for(kStopTime) != std::future_status::ready)
-        // The thread does this at its end, but it hangs.
+        // The thread finishes the recording when it ends, but it hangs.
         if (rig_.handOver() == HandOver::NewestWins && video_.isWaiting())
             return rig_.finishRecording();
     thread_.join();
@@ -73,7 +73,8 @@ void CaptureThread::run() {
     }
     if (stills_) stills_->stop();
     out_.finish();
-    // Beside the last picture, for which a process in a hurry does not wait.
+    // While the last picture is processed. A shutdown after a signal does not wait for that
+    // picture.
     try {
         rig_.finishRecording();
     } catch (...) {
@@ -89,7 +90,7 @@ FramePairer::NextStill CaptureThread::stillSource() {
 
 bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
     std::optional<Frame> video = video_.next(kFrameWait);
-    // From here, as the GL thread may be busy with a picture for a while.
+    // Reported by this thread, as the GL thread may be busy with a picture for a while.
     stats_.fault(rig_.fault());
     if (stills_) stills_->check();
     if (!video) return !stopped_ && !video_.ended();
@@ -102,10 +103,10 @@ bool CaptureThread::captureOne(FramePairer& pairer, Heartbeat& heart) {
         if (!still.measured) still.measured = poses_.measure(still.frame);
         still.pose = poses_.place(*still.measured, still.frame.time());
     }
-    // What is only predicted, a replay predicts as well; a still's lies between those of the
-    // frames.
+    // A predicted pose is not recorded, as a replay predicts it as well; nor is a still's, which is
+    // interpolated between those of frames.
     if (captured.pose && poses_.isMeasured(*captured.pose)) rig_.recordPose(*captured.pose);
-    // It waits until the picture before is finished.
+    // put() waits until the previous picture is finished.
     if (rig_.handOver() == HandOver::Lossless) heart.rest();
     const auto put = out_.put(std::move(captured));
     if (put == Mailbox<CapturedFrame>::Put::Replaced) stats_.mailboxDropped(out_.dropped());

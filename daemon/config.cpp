@@ -122,7 +122,8 @@ std::string needRestart(const Config& running, const Config& wanted) {
     compare(running.seed == wanted.seed, "seed");
     compare(running.record == wanted.record, "record");
     compare(running.limits == wanted.limits, "limits");
-    // Another tag map is another world, and a tracker that starts anew has no pose for a while.
+    // Another tag map is another world frame, and a tracker that starts again has no pose for a
+    // while.
     compare(running.pose == wanted.pose, "pose");
     compare(running.engine == wanted.engine, "engine");
     compare(running.virtualLayer == wanted.virtualLayer, "virtual");

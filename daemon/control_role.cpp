@@ -12,7 +12,7 @@
 namespace mfar {
 namespace {
 
-/// Groups of the other end beside its first one; nothing where the kernel does not say.
+/// Supplementary groups of the connected process; nothing where the kernel does not report them.
 std::vector<gid_t> groupsOfPeer(int socket) {
     constexpr std::size_t kMost = 65536;
     std::vector<gid_t> groups(32);

@@ -7,20 +7,20 @@
 
 namespace mfar {
 
-/// The requests that a client of the control socket may make.
+/// Which requests a client of the control socket may make.
 enum class ControlRole {
-    Observer,  ///< ask how mfard is
-    Operator,  ///< everything
+    Observer,  ///< status and stats only
+    Operator,  ///< all requests
 };
 
-/// Members of this group are operators, beside root and the user that mfard runs as.
+/// Members of this group are operators, and so are root and the user that mfard runs as.
 inline constexpr const char* kOperatorsGroup = "mfar-operators";
 
-/// Its number; nothing where the system has no such group.
+/// The group's number; nothing where the system has no such group.
 [[nodiscard]] std::optional<gid_t> operatorsGroup();
 
-/// The role of a process with this user and these groups, as the kernel reports
-/// them for the other end of a socket.
+/// The role of a process with this user and these groups, which the kernel reports for the peer of
+/// a socket.
 [[nodiscard]] ControlRole roleOf(uid_t user, std::span<const gid_t> groups,
                                  std::optional<gid_t> operators);
 

@@ -20,17 +20,17 @@
 
 namespace mfar {
 
-/// What goes back to a client: a line, and what it announces.
+/// An answer: a line, and the data that the line announces.
 struct ControlAnswer {
     std::string line;  ///< without the line end
     std::vector<std::uint8_t> data{};
 };
 
 /// A Unix stream socket for requests of one line each. A connection carries one request and its
-/// answer. Requests are read side by side and answered side by side, four at most, each by a thread
-/// of its own, as one may wait for a disk. A client that is slow is given up: 2 s for its request,
-/// 5 s for taking the answer. The owner and the group of this process may connect; who of them is
-/// an operator, roleOfPeer() says.
+/// answer. Requests are read concurrently; up to four are answered at once, each by a thread of its
+/// own, as an answer may wait for a disk. A client may take 2 s to send its request and 5 s to take
+/// the answer, then it is dropped. The owner and the group of this process may connect;
+/// roleOfPeer() decides which of them is an operator.
 class ControlSocket {
 public:
     static constexpr std::size_t kLongestRequest = 4096;  ///< [byte], line end included
@@ -38,25 +38,25 @@ public:
     /// Called with a request without its line end, by several threads at once. Must not throw.
     using Handler = std::function<ControlAnswer(std::string_view request, ControlRole role)>;
 
-    /// Makes the socket and begins to listen. One that a dead process has left is replaced. Throws
-    /// Failure(Unavailable) when somebody listens there, or the path cannot be used. `hearts`,
-    /// which must outlive this, has the thread watched.
+    /// Creates the socket and begins to listen. A socket file that a dead process has left is
+    /// replaced. Throws Failure(Unavailable) when a process listens there, or the path cannot be
+    /// used. The threads register with `hearts`, which must outlive this.
     ControlSocket(std::filesystem::path path, Handler handler, Heartbeats* hearts = nullptr);
     ControlSocket(const ControlSocket&) = delete;
     ControlSocket& operator=(const ControlSocket&) = delete;
-    /// Gives up what is being served.
+    /// Drops the requests in progress.
     ~ControlSocket();
 
 private:
     struct Client {
         OwnedFd fd;
-        Timestamp end;  ///< of its time for the request
+        Timestamp end;  ///< when the client's time for the request is over
         ControlRole role = ControlRole::Observer;
         std::string request{};
         bool isReady = false, isComplete = false, isGone = false;
     };
 
-    /// One request that is being answered.
+    /// A request in progress.
     struct Answering {
         Client client;
         std::atomic<bool> isOver{false};
@@ -78,8 +78,8 @@ private:
     std::optional<gid_t> operators_;
     OwnedFd listening_;
     OwnedFd stop_;
-    OwnedFd answered_;              ///< readable when an answer is over
-    std::list<Answering> answers_;  ///< of the thread
+    OwnedFd answered_;              ///< readable when an answer is finished
+    std::list<Answering> answers_;  ///< used by thread_ only
     std::thread thread_;
 };
 

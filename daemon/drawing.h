@@ -16,22 +16,21 @@
 namespace mfar {
 
 /// Everything that draws on one GL context, or without one, except for the display's own objects.
-/// It is lost with the context. Made, used and destroyed with that context current.
+/// It is lost with the context. Created, used and destroyed with that context current.
 struct Drawing {
-    /// `gl`: null, now or later, where nothing is drawn with GL; it must outlive this. Throws
-    /// GlError.
+    /// `gl`: null, now or later, where nothing is drawn with GL; must outlive this. Throws GlError.
     Drawing(const Config& config, const StereoRig& rig, Size output,
             const std::unique_ptr<GlContext>& gl);
 
     GpuWatch gpu;
-    std::unique_ptr<gpu::Validation> validation;  ///< of all that the pipeline writes
+    std::unique_ptr<gpu::Validation> validation;  ///< of everything that the pipeline writes
     EngineChoice engines;
     Pipeline pipeline;
     VirtualWorld objects;
     Banner banner;
-    Picture last;                  ///< the pipeline's, without banner; empty before the first
-    std::optional<Picture> shown;  ///< what the display got last
-    std::string faultShown;        ///< over it
+    Picture last;  ///< the pipeline's last picture, without banner; empty before the first
+    std::optional<Picture> shown;  ///< the last picture that the display got
+    std::string faultShown;        ///< text of the banner on it
 };
 
 }  // namespace mfar

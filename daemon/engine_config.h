@@ -21,13 +21,13 @@ enum class EngineWish : std::uint8_t {
 
 /// Section [engine] of the configuration.
 struct EngineConfig {
-    EngineWish use = EngineWish::Auto;  ///< for every step that is not named below
+    EngineWish use = EngineWish::Auto;  ///< for every step that is not set below
     EngineWish still = EngineWish::Auto, pyramid = EngineWish::Auto, flow = EngineWish::Auto,
                weigh = EngineWish::Auto, detail = EngineWish::Auto, occlusion = EngineWish::Auto;
 
-    /// Is every step fixed to the host's SIMD lanes, so that GLES is not needed?
+    /// True when every step is set to SIMD, so that GLES is not needed.
     [[nodiscard]] bool isSimdAlone() const;
-    /// Is any step fixed to GLES, so that mfard cannot do without?
+    /// True when a step is set to GLES, so that GLES is required.
     [[nodiscard]] bool needsGles() const;
     bool operator==(const EngineConfig&) const = default;
 };
@@ -35,12 +35,12 @@ struct EngineConfig {
 /// Reads section [engine].
 void readEngine(TomlReader& file, EngineConfig& engine);
 
-/// The choice with the configuration's wishes in place of `decided`.
+/// `decided`, with the configured steps replaced.
 [[nodiscard]] EngineChoice withWishes(const EngineConfig& engine, EngineChoice decided);
 
-/// "simd" where all steps run there, else each step: "still gles, flow simd, ...".
+/// "simd" where all steps run there, else every step: "still gles, flow simd, ...".
 [[nodiscard]] std::string describe(const EngineChoice& choice);
-/// The choice that describe() gave this text for; nothing for another text.
+/// The inverse of describe(); nothing for any other text.
 [[nodiscard]] std::optional<EngineChoice> parseEngineChoice(std::string_view text);
 
 }  // namespace mfar

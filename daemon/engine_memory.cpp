@@ -16,7 +16,7 @@
 namespace mfar {
 namespace {
 
-// A file of this size holds hundreds of drivers; a longer one is not ours.
+// A file of this size holds hundreds of drivers; a longer one was not written by mfard.
 constexpr std::uintmax_t kMostBytes = 65536;
 
 nlohmann::json kept(const std::filesystem::path& file) {

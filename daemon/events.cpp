@@ -42,7 +42,7 @@ void arm(const OwnedFd& timer, std::chrono::duration<double> time, bool repeat) 
         throw std::system_error(errno, std::generic_category(), "timer");
 }
 
-/// Takes the count out of a timer or event descriptor; false when it was not set.
+/// Reads and resets the counter of a timer or event descriptor; false when it was zero.
 bool drained(const OwnedFd& fd) {
     std::uint64_t count = 0;
     return read(fd.get(), &count, sizeof count) == sizeof count;
@@ -88,7 +88,7 @@ void Events::deadlineIn(std::chrono::duration<double> time) {
 
 void Events::wake() {
     const std::uint64_t one = 1;
-    // Can only fail when the counter is full, and then the main thread wakes anyway.
+    // Fails only when the counter is full, and then the main thread wakes anyway.
     [[maybe_unused]] const ssize_t n = write(wake_.get(), &one, sizeof one);
 }
 

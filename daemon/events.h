@@ -9,22 +9,23 @@ namespace mfar {
 struct Event {
     enum class Kind {
         Signal,    ///< SIGINT, SIGTERM or SIGHUP arrived
-        Tick,      ///< the period of tickEvery() has passed
-        Deadline,  ///< the time of deadlineIn() has come
-        Wake,      ///< somebody called wake()
+        Tick,      ///< a period of tickEvery() has passed
+        Deadline,  ///< the time set by deadlineIn() has come
+        Wake,      ///< wake() was called
     };
     Kind kind;
     int signal = 0;
 };
 
-/// What the main thread waits for. From its construction on, SIGINT, SIGTERM and SIGHUP arrive only
-/// here: they are blocked in the constructing thread and all that it starts later.
+/// The events that the main thread waits for. Once this is constructed, SIGINT, SIGTERM and SIGHUP
+/// arrive only here: they are blocked in the constructing thread and in all threads that it starts
+/// later.
 class Events {
 public:
     /// Throws std::system_error.
     Events();
 
-    /// Waits. Signals come before everything else.
+    /// Waits for the next event. Signals come before all others.
     [[nodiscard]] Event wait();
     void tickEvery(std::chrono::duration<double> period);
     /// Replaces an earlier deadline.

@@ -16,10 +16,10 @@
 namespace mfar {
 namespace {
 
-// Learning takes this share of a processor at most.
+// Learning uses at most this share of a processor.
 constexpr double kShare = 0.1;
 constexpr std::chrono::minutes kStoreEvery{1};
-// A state has 1.2 MB; a longer file is none of ours.
+// A state has 1.2 MB; a longer file was not written by mfard.
 constexpr std::size_t kMostFilterBytes = 4 << 20;
 
 /// Throws FilterBankError.

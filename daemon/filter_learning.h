@@ -22,49 +22,49 @@
 namespace mfar {
 
 struct FilterLearningOptions {
-    /// Keeps what was learned; empty: it lasts as long as this.
+    /// File of the learned state; empty: the state is lost with this object.
     std::filesystem::path file;
-    std::string sensors;  ///< both sensors' names and sizes: what is learned belongs to them
-    /// Every still is learned from, and finish() waits for it: the same pictures give the same
-    /// filters. Else stills that come while one is learned from, or so soon that learning would
-    /// take more than a tenth of a processor, are left out.
+    std::string sensors;  ///< both sensors' names and sizes, for which filters are learned
+    /// Learn from every still; finish() waits until it is done, so that the same pictures give the
+    /// same filters. Otherwise stills are skipped that come during learning, or so early that
+    /// learning would use more than a tenth of a processor.
     bool waits = false;
-    /// Where it is known, guidance is learned, too: see enlarge::GuidanceLearner.
+    /// Where this is set, guidance is learned, too: see enlarge::GuidanceLearner.
     std::optional<StereoRig> rig = std::nullopt;
-    WatchedThread watched{};  ///< its budget is for one still
+    WatchedThread watched{};  ///< its time budget is for one still
 };
 
-/// Learns the enlarger's filters from matched stills, in a thread of low priority that stores the
+/// Learns the enlarger's filters from matched stills, in a low-priority thread that stores the
 /// state every minute and at the end. Stills are copied on the frame's thread, one at a time.
 class FilterLearning final : public MatchListener {
 public:
-    /// Goes on from the file where that can be read; see takeWarnings().
+    /// Loads the state from the file where that can be read; see takeWarnings().
     explicit FilterLearning(FilterLearningOptions options);
     FilterLearning(const FilterLearning&) = delete;
     FilterLearning& operator=(const FilterLearning&) = delete;
-    /// Like stop(), but faults are lost.
+    /// Like stop(), but errors are ignored.
     ~FilterLearning() override;
 
-    /// Gives up what is being learned from, and stores the state, which may wait for the disk.
+    /// Aborts learning from the current still, and stores the state, which may wait for the disk.
     void stop();
 
-    // For the frame's thread; none but finish() waits for the learning.
+    // For the frame's thread; only finish() waits for the learning.
     void matched(const RgbPlanes& video, Rows<const std::uint8_t> still,
                  Rows<const LookUpCell> lookUps,
                  const MatchedPictures::LookedUp& lookedUp) override;
     void replaced(const RgbPlanes& video, Rows<const std::uint8_t> still,
                   Rows<const LookUpCell> lookUps,
                   const MatchedPictures::LookedUp& lookedUp) override;
-    /// The filters in place, where they are others than at the last call.
+    /// The current filters, if they have changed since the last call.
     [[nodiscard]] std::shared_ptr<const FilterBank> takeFilters();
-    /// With FilterLearningOptions::waits: until the last still is learned from.
+    /// With FilterLearningOptions::waits: waits until the last still has been learned from.
     void finish();
 
     // For any thread.
     /// Forgets everything, the file too.
     void reset();
     [[nodiscard]] LearningCounts counts() const;
-    /// Faults of the file since the last call.
+    /// Errors of the file since the last call.
     [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:
@@ -79,15 +79,15 @@ private:
     void store(const std::vector<std::uint8_t>& bytes);
 
     const FilterLearningOptions options_;
-    EnlargerLearner learner_;  // of the thread; of the constructor and destructor
-    // The new still, and the one before with the last frame that was drawn with it. They belong to
-    // the frame's thread, and to the learner's while isFull_ is set.
+    EnlargerLearner learner_;  // used by thread_, and by constructor and destructor
+    // The new still, and the previous one with the last frame that was drawn with it. They belong
+    // to the frame's thread, and to the learner's thread while isFull_ is set.
     MatchedPictures pictures_, older_;
     std::optional<RgbPlanes> olderVideo_;
-    bool hasOlder_ = false;                  // `older_` is of the still before that of `pictures_`
-    bool olderTaken_ = false;                // of the frame's thread: since the last still
-    MatchedPictures truth_;                  // of the other thread, as the next
-    std::unique_ptr<FrameMatcher> matcher_;  // since it is needed for the first time
+    bool hasOlder_ = false;    // `older_` holds the still before the one in `pictures_`
+    bool olderTaken_ = false;  // used by the frame's thread: `older_` was set since the last still
+    MatchedPictures truth_;    // used by thread_, as is matcher_
+    std::unique_ptr<FrameMatcher> matcher_;  // created at first use
 
     mutable std::mutex mutex_;
     std::condition_variable_any begun_;
@@ -98,12 +98,12 @@ private:
     std::vector<std::string> warnings_;
     Clock::time_point mayLearn_{};
     Clock::time_point stored_ = Clock::now();
-    bool isStored_ = true;  // of the thread
+    bool isStored_ = true;  // used by thread_
 
     std::jthread thread_;  // last: it uses all of the above
 };
 
-/// Where learned filters of these sensors are kept: in the service's state folder
+/// Where the learned filters of these sensors are stored: in the service's state folder
 /// ($STATE_DIRECTORY); empty where there is none.
 [[nodiscard]] std::filesystem::path learnedFiltersFile(const std::string& sensors);
 

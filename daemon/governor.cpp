@@ -8,16 +8,16 @@
 namespace mfar {
 namespace {
 
-constexpr double kRoom = 0.85;      // of the deadline, for a level not tried yet
-constexpr double kDownRoom = 0.95;  // of the deadline, after the one that did not keep it
-// With those that bring in a still one in twenty.
+constexpr double kRoom = 0.85;      // share of the deadline, when going up
+constexpr double kDownRoom = 0.95;  // share of the deadline, when going down
+// One late frame in kLateWindow, and one more that brings in a still: one in twenty.
 constexpr std::size_t kMostLate = 1;
 constexpr std::uint64_t kLateWindow = 40;  // frames
 constexpr std::uint64_t kSettle = 8;       // frames before a better level is tried
-constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;  // frames until a failed one is
-// What held for so long was no mistake: another scene has come.
+constexpr std::uint64_t kFirstWait = 20, kLongestWait = 960;  // frames until a retry
+// A level that kept the deadline for this long was a good choice; the scene has changed.
 constexpr std::uint64_t kHeld = 100;       // frames
-constexpr int kAtRest = 3;                 // frames in which nothing changed
+constexpr int kAtRest = 3;                 // consecutive frames without a change
 constexpr std::uint64_t kStillEvery = 40;  // frames
 
 }  // namespace
@@ -87,7 +87,7 @@ void Governor::goTo(std::size_t level) {
     ++changes_;
 }
 
-// Of those that may be tried.
+// The best level that is expected to need at most `ms`, among those that may be tried now.
 std::size_t Governor::bestWithin(double ms) const {
     std::size_t best = 0;
     for (std::size_t i = 1; i < levels_.size(); ++i)

@@ -13,45 +13,46 @@ namespace mfar {
 /// Picks the most accurate level of a quality table whose frames keep a deadline, frame by frame.
 /// Pure logic on the frames' times; used by one thread.
 ///
-/// What a level takes here is told by the table's times, scaled by what the frames before took in
-/// comparison: the second longest of the last 20 that changed anything. Two late ones within 40,
-/// where one more may bring in a still: the level goes down, as far as that says. It goes up when a
-/// better one is expected to need 85 % of the deadline at most; one that did not keep it is
-/// not tried again for a while, each time for twice as long.
+/// The expected time of a level is its time in the table, times a factor for this machine and
+/// scene: the second largest ratio of measured to table time among the last 20 frames that changed
+/// anything. Two late frames within 40 (one more may bring in a still) make the level go down, to
+/// the best that is expected to keep the deadline. It goes up when a better level is expected to
+/// need at most 85 % of the deadline. A level that missed the deadline is not tried again for a
+/// while, which doubles each time.
 ///
-/// Frames in which nothing changed, those that bring in a still, and those that have none though
-/// the level would use one, say nothing about a level.
-/// When the picture comes to rest it is drawn once more at the best level: late, but nothing moves.
+/// Not counted are frames in which nothing changed, frames that bring in a still, and frames
+/// without a still at a level that uses one. When the picture comes to rest it is drawn once more
+/// at the best level: late, but nothing moves.
 class Governor {
 public:
     /// At least one level, in rising order of time. `deadlineMs` above zero.
     Governor(std::vector<QualityLevel> levels, double deadlineMs);
 
-    /// What the next frame is to be computed with.
+    /// The settings for the next frame.
     struct Choice {
         std::size_t level = 0;
-        bool redraw = false;  ///< all of it anew
+        bool redraw = false;  ///< draw the whole picture again
 
         bool operator==(const Choice&) const = default;
     };
     [[nodiscard]] const Choice& next() const { return next_; }
     [[nodiscard]] const QualityLevel& level() const { return levels_[next_.level]; }
 
-    /// Told of every frame. Not finite or negative times are ignored.
+    /// To be called for every frame. Negative or non-finite times are ignored.
     struct Frame {
-        double ms = 0;          ///< from its begin to its picture shown
-        bool newStill = false;  ///< a still became the reference before it
+        double ms = 0;          ///< from the begin of its processing to its picture shown
+        bool newStill = false;  ///< a still became the reference just before this frame
         bool usedStill = true;
-        double changedBefore = 1;  ///< share of the picture that changed in the frame before this
+        double changedBefore = 1;  ///< share of the picture that changed in the previous frame
     };
     void add(const Frame& frame);
 
-    /// A still may be asked for: frames that bring one in and are late for it are rare enough, and
-    /// the level makes use of it.
+    /// False while a still must not be triggered: the level uses none, or a frame that brings in a
+    /// still would be late too often.
     [[nodiscard]] bool mayTakeStill() const;
 
     [[nodiscard]] double deadlineMs() const { return deadline_; }
-    /// Times that the level changed, but for frames at rest.
+    /// Number of level changes, without those for frames at rest.
     [[nodiscard]] std::uint64_t changes() const { return changes_; }
 
 private:
@@ -72,16 +73,16 @@ private:
 
     std::vector<QualityLevel> levels_;
     double deadline_;
-    std::size_t level_ = 0;  // of frames that change something
+    std::size_t level_ = 0;  // for frames that change something
     Choice next_;
-    std::optional<Pending> pending_;        // the frame before, until it is known what changed
-    std::array<double, kWindow> ratios_{};  // of times to the table's, the newest of a ring
+    std::optional<Pending> pending_;        // the previous frame, until it is known what changed
+    std::array<double, kWindow> ratios_{};  // measured time / table time, ring buffer
     std::size_t ratioCount_ = 0;
-    std::uint64_t frame_ = 0;            // of those that count
-    std::uint64_t changedAt_ = 0;        // frame_
-    std::vector<std::uint64_t> lateAt_;  // frame_ of late ones since the level changed
+    std::uint64_t frame_ = 0;            // number of frames counted
+    std::uint64_t changedAt_ = 0;        // value of frame_ at the last change of level
+    std::vector<std::uint64_t> lateAt_;  // values of frame_ for late frames since the level changed
     struct Trial {
-        std::uint64_t notBefore = 0, wait = 0;  // frame_; frames
+        std::uint64_t notBefore = 0, wait = 0;  // value of frame_; number of frames
     };
     std::vector<Trial> trials_;
     int restFrames_ = 0;

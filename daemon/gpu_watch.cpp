@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-// As many as a display has buffers: the processor may be so far ahead.
+// The processor may be this many pictures ahead of the GPU: as many as a display has buffers.
 constexpr std::size_t kMostInWork = 3;
 constexpr const char* kLate = "the GPU does not finish a picture";
 

@@ -12,28 +12,28 @@
 
 namespace mfar {
 
-/// Looks whether the GPU gets done with the pictures and has lost nothing. Lives on the thread of
-/// the context.
+/// Checks that the GPU finishes pictures and has lost nothing. Lives on the thread of the context.
 ///
-/// A GPU is waited for half a second. A software renderer may be as slow as it likes, but its
-/// thread goes on every half a second, too.
+/// The wait for a GPU is limited to half a second. A software renderer may take longer, but its
+/// thread does not wait longer than half a second at a time, either.
 class GpuWatch {
 public:
-    /// `context` may be null, now or later, and then there is nothing to watch. It must outlive
-    /// this.
+    /// `context` may be null, now or later; then nothing is checked. It must outlive this.
     explicit GpuWatch(const std::unique_ptr<GlContext>& context) : context_(context) {}
 
-    /// To be asked before each picture; waits where the GPU has not done the third last one, or one
-    /// for half a second. False: a software renderer still has not, and nothing may be drawn.
-    /// Throws GpuLost.
+    /// To be called before each picture. Waits, half a second at most, while the GPU has not
+    /// finished the third last picture, or has worked on one for half a second. False when a
+    /// software renderer has still not finished: nothing may be drawn then. Throws GpuLost.
     [[nodiscard]] bool isReady();
-    /// Throws GpuLost where what was drawn so far cannot be trusted.
+    /// Throws GpuLost when what was drawn so far may be wrong.
     void requireSound() const;
-    /// After the commands of a picture, before the display's. Throws GpuLost where they failed.
+    /// To be called after the commands of a picture, before the display's. Throws GpuLost when the
+    /// commands failed.
     void drawn();
-    /// Why all on the GPU has to be made anew after `error`; nothing where that is another's fault.
+    /// The reason why everything on the GPU has to be created again after `error`; nothing when the
+    /// GPU did not cause the error.
     [[nodiscard]] std::optional<std::string> lossBehind(const std::exception& error) const;
-    /// For people, nothing when all is well.
+    /// In words; nothing without a fault.
     [[nodiscard]] std::optional<std::string> fault() const;
 
 private:

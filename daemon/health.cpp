@@ -11,12 +11,12 @@
 namespace mfar {
 namespace {
 
-/// A wait that is shorter is none that people want to know of.
+/// Shorter waits are not reported.
 constexpr std::chrono::seconds kWorthTelling{1};
 constexpr double kStalePeriods = 5;
 
-/// A state with its cause, and since when it has been so where that is known better than by
-/// looking.
+/// A state with its cause. `since`: when it began, where that is known; otherwise since it was
+/// first seen.
 struct Judged {
     HealthState state = HealthState::Ok;
     std::string cause{};
@@ -37,7 +37,7 @@ std::optional<Judged> hanging(const Observed& seen, ThreadRole role, HealthState
     return std::nullopt;
 }
 
-// A slow camera is no fault.
+// Pictures of a slow camera may be older: a low rate is no fault.
 bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     if (!shown) return false;
     const double period = seen.rateHz > 0 ? 1 / seen.rateHz : 0;
@@ -45,7 +45,7 @@ bool isFresh(std::optional<Timestamp> shown, const Observed& seen) {
     return inSeconds(seen.now - *shown) <= seen.patience * limit;
 }
 
-// Pictures that do not come, while no thread hangs and no device is at fault.
+// No new pictures, although no thread hangs and no device has a fault.
 std::optional<Judged> standingStill(const Observed& seen) {
     if (isFresh(seen.lastPicture, seen) || (seen.fault && isFresh(seen.lastBanner, seen)))
         return std::nullopt;
@@ -57,7 +57,7 @@ std::optional<Judged> standingStill(const Observed& seen) {
     return Judged{HealthState::Stalled, std::move(cause), *begin};
 }
 
-// Everything that is missing: no cause hides another.
+// All that is missing, joined: no cause hides another.
 Judged missing(const Observed& seen) {
     std::vector<Judged> all;
     if (seen.fault) all.push_back({HealthState::Degraded, *seen.fault, std::nullopt, "", true});

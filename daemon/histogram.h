@@ -5,13 +5,13 @@
 
 namespace mfar {
 
-/// Distribution of times, in fixed memory for a daemon that runs for months. Buckets grow by
+/// Distribution of times, of constant memory use, as the daemon runs for months. Buckets grow by
 /// 2^(1/32), so that a quantile is at most 1.1 % off.
 class Histogram {
 public:
-    /// Milliseconds; what is not positive counts as the smallest, 1 us.
+    /// Milliseconds; zero, negative and NaN go to the smallest bucket, 1 us.
     void add(double ms);
-    /// The value that the share q of all values does not exceed; 0 when there is none.
+    /// The value that a share q of all values does not exceed; 0 without values.
     [[nodiscard]] double quantile(double q) const;
     [[nodiscard]] std::uint64_t count() const { return count_; }
 

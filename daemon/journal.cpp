@@ -8,7 +8,7 @@
 #include <sys/un.h>
 
 #include <cstring>
-// Fields for places in our source code help nobody who reads the journal.
+// Without the fields CODE_FILE, CODE_LINE and CODE_FUNC, which help nobody who reads the journal.
 #define SD_JOURNAL_SUPPRESS_LOCATION
 #include <systemd/sd-journal.h>
 
@@ -19,8 +19,8 @@ constexpr int kRoomMs = 500;
 
 }  // namespace
 
-// The library's own socket blocks while the journal takes nothing, and cannot be asked. One that is
-// connected to the same place can be.
+// The library's own socket blocks while the journal takes nothing, and cannot be polled. A socket
+// of our own, connected to the same address, can.
 bool Journal::hasRoom() const {
     const OwnedFd probe(socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     sockaddr_un address{};

@@ -6,16 +6,16 @@
 
 namespace mfar {
 
-/// Sends messages to the journal of systemd, see sd_journal_sendv(3). One that finds no room is
-/// waited for half a second, those after it are not until there is room again. Used by one thread
-/// at a time.
+/// Sends messages to the journal of systemd, see sd_journal_sendv(3). When the journal is full, the
+/// first message waits for half a second; further ones do not wait until there is room again. Used
+/// by one thread at a time.
 class Journal {
 public:
-    /// `socket`: where the journal listens.
+    /// `socket`: the journal's address.
     explicit Journal(std::string socket = "/run/systemd/journal/socket")
         : socket_(std::move(socket)) {}
 
-    /// `fields`: "NAME=value". False when there is no journal or it takes nothing.
+    /// `fields`: "NAME=value". False when there is no journal or it is full.
     bool operator()(const std::vector<std::string>& fields);
 
 private:

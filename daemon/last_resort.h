@@ -10,11 +10,11 @@
 
 namespace mfar {
 
-/// Does what is left to do when the way out itself hangs: an own thread acts after a limit, unless
-/// this object has been destroyed by then. Used by one thread.
+/// Ends a shutdown that hangs: a thread of its own calls `act` after a time limit, unless this
+/// object has been destroyed by then. Used by one thread.
 class LastResort {
 public:
-    /// `act` is called on the own thread. A second call does nothing.
+    /// `act` is called on that thread. A second call is ignored.
     void arm(std::chrono::milliseconds limit, std::function<void()> act) {
         if (thread_.joinable()) return;
         thread_ = std::jthread([limit, act = std::move(act)](const std::stop_token& stop) {

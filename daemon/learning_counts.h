@@ -7,10 +7,10 @@
 
 namespace mfar {
 
-/// What was learned from stills, for people.
+/// Counters of filter learning.
 struct LearningCounts {
     LearnerCounts learner;
-    std::uint64_t leftOut = 0;  ///< stills that came too soon
+    std::uint64_t leftOut = 0;  ///< stills skipped because they came too soon
 };
 
 /// "12 stills, 71 of 104 classes, 1.02 dB over the cubic (0.54 as shipped)".

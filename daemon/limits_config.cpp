@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kMegabyte = 1 << 20;
 constexpr double kLeastMb = 64;
-/// Of the machine's memory: the rest is for the system, drivers and the program itself.
+/// Share of the machine's memory; the rest is for the system, drivers and the program itself.
 constexpr double kShareOfMachine = 0.75, kMostByMachine = 4096 * kMegabyte;
 constexpr double kShareOfFrames = 2.0 / 3, kShareOfFiles = 1.0 / 6;
-/// Of all buffers and textures, measured as the growth of a run with larger pictures [byte/px].
+/// For all buffers and textures, measured as the growth of a run with larger pictures [byte/px].
 constexpr double kBytesPerStillPixel = 36, kBytesPerVideoPixel = 150;
 
 std::uint64_t physicalMemory() {
@@ -27,7 +27,7 @@ std::uint64_t physicalMemory() {
     return pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * bytes : 0;
 }
 
-/// The smallest limit of this process's control group and those around it; 0: none.
+/// The smallest limit of this process's control group and its parents; 0: no limit.
 std::uint64_t controlGroupMemory() {
     std::ifstream groups("/proc/self/cgroup");
     std::uint64_t least = 0;
@@ -36,7 +36,7 @@ std::uint64_t controlGroupMemory() {
         const std::filesystem::path top = "/sys/fs/cgroup";
         for (auto group = std::filesystem::path(line.substr(4)); !group.empty();
              group = group.parent_path()) {
-            std::uint64_t bytes = 0;  // "max" is no number
+            std::uint64_t bytes = 0;  // stays 0 for "max"
             std::ifstream limit(top / group / "memory.max");
             if (limit >> bytes && bytes > 0) least = least == 0 ? bytes : std::min(least, bytes);
         }

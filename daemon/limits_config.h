@@ -10,29 +10,30 @@ namespace mfar {
 
 class TomlReader;
 
-/// Section [limits]: what the daemon may take for what it reads.
+/// Section [limits]: memory that the daemon may use for its input.
 struct LimitsConfig {
     double memoryMb = 0;  ///< 0: three quarters of machineMemory(), at most 4096
 
     bool operator==(const LimitsConfig&) const = default;
-    /// The budget.
+    /// The whole budget.
     [[nodiscard]] std::uint64_t memoryBytes() const;
-    /// The frame path's and a recording's share of it: two thirds.
+    /// The share for the frame path and a recording: two thirds of the budget.
     [[nodiscard]] std::uint64_t pictureBytes() const;
 };
 
 void readLimits(TomlReader& file, LimitsConfig& limits);
 
-/// What the machine has, or this process's control group where that is less [byte].
+/// The machine's memory, or this process's control group limit where that is less [byte].
 [[nodiscard]] std::uint64_t machineMemory();
 
-/// Refuses pictures for which pictureBytes() is too small, before memory is taken for them; `lists`
-/// is what a recording's take of it. `place` is for the message. Throws Failure(BadData).
+/// Refuses picture sizes that need more than pictureBytes(), before any memory is allocated;
+/// `lists` is what a recording's lists need of it. `place` is for the message. Throws
+/// Failure(BadData).
 void requireMemory(const LimitsConfig& limits, Size video, Size still, std::string_view place,
                    std::size_t lists = 0);
 
-/// The share of models and environments, which are read before the ones in use are given up: a
-/// sixth of the budget each time. Taken from as files are read.
+/// Budget of one configuration's models and environments: a sixth of the whole, as those in use are
+/// released only after new ones have been read. Reduced as files are read.
 class FileMemory {
 public:
     explicit FileMemory(const LimitsConfig& limits);

@@ -50,7 +50,7 @@ Log::Style Log::styleOf(int fd) {
 void Log::status(std::string_view text) {
     if (style_ != Style::Terminal) return;
     const std::lock_guard lock(mutex_);
-    // A line longer than the terminal would wrap and could not be redrawn in place.
+    // A line longer than the terminal's width would wrap and could not be redrawn in place.
     status_ = text.substr(0, static_cast<std::size_t>(columns(fd_) - 1));
     put("\r\x1b[K" + status_);
 }
@@ -82,7 +82,7 @@ void Log::line(int priority, std::string_view word, std::string_view text, const
     say({priority, std::string(text), word, subject});
 }
 
-/// With the mutex held.
+/// The mutex is held.
 void Log::say(const RepeatLimit::Message& message) {
     if (style_ == Style::Journal && send_ && send_(fieldsOf(message))) return;
     std::string out = status_.empty() ? "" : "\r\x1b[K";
@@ -95,7 +95,7 @@ void Log::say(const RepeatLimit::Message& message) {
     put(out + status_);
 }
 
-// The first message that is not taken is waited for, those after it are not.
+// The first message that cannot be written waits; further ones do not.
 bool Log::isWritable() {
     pollfd out{fd_, POLLOUT, 0};
     const int patience = dropped_ == 0 ? kPatienceMs : 0;
@@ -103,7 +103,7 @@ bool Log::isWritable() {
 }
 
 void Log::put(std::string_view bytes) {
-    // Where standard error cannot be written there is nobody left to tell.
+    // Errors of standard error itself are ignored: there is nowhere to report them.
     std::string all;
     if (dropped_ > 0) all = fmt::format("mfard: {} messages were not taken\n", dropped_);
     all += bytes;

@@ -9,7 +9,7 @@
 
 namespace mfar {
 
-/// What happens when the sender is faster than the receiver.
+/// Policy for a sender that is faster than the receiver.
 enum class HandOver {
     NewestWins,  ///< the waiting item is replaced and counted as dropped (live sources)
     /// The sender waits until the receiver has taken the item and asks for the next one: nothing is
@@ -17,9 +17,9 @@ enum class HandOver {
     Lossless,
 };
 
-/// One slot between one sending and one receiving thread. When an item is replaced, the newer one
-/// may save what must not be lost of it: `void supersede(T&& older)`, if T has that member.
-/// All functions may be called from any thread.
+/// A slot for one item between one sending and one receiving thread. When an item is replaced,
+/// `void supersede(T&& older)` of the newer one is called, if T has that member, and may keep parts
+/// of the older one. All functions may be called from any thread.
 template <class T>
 class Mailbox {
 public:
@@ -27,7 +27,7 @@ public:
 
     explicit Mailbox(HandOver handOver) : handOver_(handOver) {}
 
-    /// Closed: nobody takes any more; the item is destroyed, unless it was taken before.
+    /// Closed: the mailbox is closed; the item is destroyed, unless it was taken before.
     Put put(T item) {
         std::unique_lock lock(mutex_);
         if (closed_) return Put::Closed;
@@ -52,14 +52,14 @@ public:
         });
     }
 
-    /// The same for at most `timeout`.
+    /// The same, but waits for at most `timeout`.
     [[nodiscard]] std::optional<T> takeWithin(std::chrono::milliseconds timeout) {
         return take([&](std::unique_lock<std::mutex>& lock) {
             stored_.wait_for(lock, timeout, [&] { return closed_ || finished_ || slot_; });
         });
     }
 
-    /// Closed, or finished and empty: no item will ever come.
+    /// Closed, or finished and empty: no further item will come.
     [[nodiscard]] bool over() const {
         const std::lock_guard lock(mutex_);
         return closed_ || (finished_ && !slot_);
@@ -71,7 +71,7 @@ public:
         return std::exchange(slot_, std::nullopt);
     }
 
-    /// The sender's last word: what is in the slot is still handed out, then take() returns
+    /// No further item will be put: the item in the slot is still handed out, then take() returns
     /// nothing.
     void finish() {
         {
@@ -93,7 +93,7 @@ public:
         asked_.notify_all();
     }
 
-    /// Items replaced before anybody took them.
+    /// Number of items that were replaced before they were taken.
     [[nodiscard]] std::uint64_t dropped() const {
         const std::lock_guard lock(mutex_);
         return dropped_;

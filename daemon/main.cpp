@@ -18,8 +18,8 @@
 namespace mfar {
 namespace {
 
-/// After a service, the line that it had taken, whatever the configuration says by now; by hand,
-/// the configured one.
+/// Within the service's unit: the line that the service had taken, even if the configuration has
+/// changed since. Otherwise: the configured line.
 TriggerLineConfig lineToRelease(const Options& options) {
     const std::filesystem::path note = takenLineFile();
     if (note.empty()) return effectiveConfig(options).cameras.trigger;

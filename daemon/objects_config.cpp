@@ -35,7 +35,7 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     out.size.setConstant(0.1);
     file.choice<VirtualShape>(prefix + "shape", out.shape, kShapes);
     file.numbers(prefix + "size", {out.size.data(), 3});
-    // One colour alone is that of the whole.
+    // Without a second colour, the first is that of the whole object.
     Eigen::Vector3d first = Eigen::Vector3d::Constant(-1);
     file.numbers(prefix + "colour", {first.data(), 3});
     if (first.x() >= 0) out.colours.fill(first.cast<float>());
@@ -45,7 +45,7 @@ void readShape(TomlReader& file, const std::string& prefix, VirtualObject& out) 
     file.integer(prefix + "squares", out.squares);
 }
 
-/// Reads each model once, however many objects show it and whatever they call its file.
+/// Reads each model file once, even if several objects show it or name it by different paths.
 class ModelReader {
 public:
     ModelReader(std::filesystem::path folder, FileMemory& memory)

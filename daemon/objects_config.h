@@ -15,18 +15,19 @@ class TomlReader;
 
 inline constexpr std::size_t kMostObjects = 64;
 
-/// Reads the sections [[objects]]: what is shown, and where. Models are read here, so that one that
-/// is missing or broken, or for which `memory` is too small, is a fault with its place; their names
-/// are relative to `folder`.
+/// Reads the sections [[objects]]: what is shown, and where. Models are read here, so that a fault
+/// (missing, invalid, `memory` too small) is reported with its place in the file. File names are
+/// relative to `folder`.
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
-/// Where an object is. Nothing when it stands on a tag that the map does not have.
+/// Where an object is. Nothing when it stands on a tag that is not in the map.
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,
                                                        const TagMap& tags);
 
-/// Why what is not shown is not, a line each: it stands on a tag that the map does not have, or it
-/// is a model and `shapesAlone` says why there are none ("" : models are shown).
+/// The reasons why objects are not shown, a line each: the object stands on a tag that is not in
+/// the map, or it is a model and `shapesAlone` gives the reason why no models are shown ("": models
+/// are shown).
 [[nodiscard]] std::vector<std::string> leftOut(const std::vector<PlacedObject>& objects,
                                                const TagMap& tags, std::string_view shapesAlone);
 

@@ -5,7 +5,7 @@
 
 namespace mfar {
 
-/// What a value looks like in TOML.
+/// Type of a value in TOML.
 enum class OptionType : unsigned char {
     Text,
     Word,     ///< a text, one of Option::words
@@ -17,29 +17,29 @@ enum class OptionType : unsigned char {
     Values,   ///< a table of texts, numbers and flags by any name
 };
 
-/// The least and the most that a number may be, both included; equal: no limit.
+/// The lower and upper limit of a number, both included; equal: no limits.
 struct OptionRange {
     double least = 0, most = 0;
-    std::string_view unit{};  ///< empty: none
+    std::string_view unit{};  ///< empty: no unit
 };
 
-/// A key of a file.
+/// A key of a configuration file.
 struct Option {
     std::string_view name{};
     OptionType type = OptionType::Text;
-    std::string_view byDefault{};  ///< as in TOML; of an absent one, an example
-    std::string_view meaning{};    ///< sentences; empty: as in the section before
+    std::string_view byDefault{};  ///< as in TOML; for an absent key, an example
+    std::string_view meaning{};    ///< sentences; empty: as in the previous section
     std::string_view words{};      ///< separated by spaces
-    OptionRange range{};           ///< of each number
-    int count = 1;                 ///< numbers in a list
+    OptionRange range{};           ///< for each number
+    int count = 1;                 ///< number of elements of a list
     std::string_view argument{};   ///< the option of mfard's command line that overrides it
-    bool isAbsent = false;         ///< by default; its absence has a meaning of its own
+    bool isAbsent = false;         ///< absent by default, which has a meaning of its own
 };
 
 struct OptionSection {
     enum class Kind : unsigned char {
         Always,
-        Absent,  ///< by default
+        Absent,  ///< absent by default
         List,    ///< [[name]], any number of them
     };
 

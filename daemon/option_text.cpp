@@ -49,7 +49,7 @@ std::string sectionText(const OptionSection& section) {
     std::string out = heading(section);
     bool isFirst = true;
     for (const Option& option : section.options) {
-        // Keys without a meaning of their own follow each other.
+        // Keys without a meaning of their own need no empty line between them.
         if (!isFirst && !option.meaning.empty()) out += "\n";
         out += comment(describe(option)) + fmt::format("{} = {}\n", option.name, option.byDefault);
         isFirst = false;
@@ -57,7 +57,7 @@ std::string sectionText(const OptionSection& section) {
     return out;
 }
 
-/// The same lines as comments.
+/// The same lines as comments in TOML.
 std::string commented(std::string_view text) {
     std::string out;
     while (!text.empty()) {

@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// The command line of mfard. What is absent here is left to the configuration file.
+/// The command line of mfard. Absent values are taken from the configuration file.
 struct Options {
     std::optional<std::filesystem::path> config;
     bool checkConfig = false;
@@ -25,21 +25,21 @@ struct Options {
     std::optional<SourcePace> pace;
     std::optional<PoseOrigin> pose;
     std::optional<std::uint64_t> seed;
-    std::optional<std::uint64_t> frames;           ///< end after that many pictures
-    std::optional<double> seconds;                 ///< end after that time
+    std::optional<std::uint64_t> frames;           ///< end after this number of pictures
+    std::optional<double> seconds;                 ///< end after this time
     std::optional<std::filesystem::path> summary;  ///< "-" = standard output
     std::optional<std::filesystem::path> control;  ///< socket for mfarctl
     bool measure = false;
     bool validate = false;
 };
 
-/// What the command line asks for: a run, or only a text to be printed.
+/// The parsed command line: options of a run, or a text to be printed.
 struct CommandLine {
     Options options;
     std::optional<std::string> print;  ///< --help, --version, --print-config
 };
 
-/// One option, for the manual page and completion.
+/// One option, for the manual page and shell completion.
 struct ArgumentText {
     std::string names;  ///< "-h,--help"
     std::string value;  ///< "FILE"; empty: a flag
@@ -50,9 +50,9 @@ struct ArgumentText {
 /// Throws Failure(Usage).
 [[nodiscard]] CommandLine parseCommandLine(int argc, const char* const* argv);
 
-/// The file named by --config, if any, with the command line's wishes on top. Throws ConfigError,
-/// Failure(NoInput) for a missing file or tag map, Failure(BadData) for a tag map that is wrong and
-/// Failure(BadConfig) for what does not go together.
+/// The configuration of the file named by --config, if any, overridden by the command line. Throws
+/// ConfigError, Failure(NoInput) for a missing file or tag map, Failure(BadData) for an invalid tag
+/// map and Failure(BadConfig) for options that contradict each other.
 [[nodiscard]] Config effectiveConfig(const Options& options);
 
 }  // namespace mfar

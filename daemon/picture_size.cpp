@@ -5,7 +5,7 @@
 namespace mfar {
 namespace {
 
-constexpr int kMostPixels = 16384;  // across or down
+constexpr int kMostPixels = 16384;  // width or height
 
 std::optional<int> pixels(std::string_view digits) {
     int out = 0;

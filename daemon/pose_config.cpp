@@ -79,7 +79,8 @@ TrackerOptions trackerOptions(const PoseConfig& pose, TagMap map, double rateHz)
     out.fullSearchInterval = pose.fullSearchInterval;
     PoseFilterOptions& filter = out.pose.filter;
     filter.bridgeFrames = pose.bridgeFrames;
-    // The frames decide, so the time must not end before them, and stills are older than a frame.
+    // Frames are the limit, so the time limit must be longer; stills can be up to a frame older,
+    // hence the half frame more.
     if (rateHz > 0) {
         const std::chrono::duration<double> frames((pose.bridgeFrames + 0.5) / rateHz);
         filter.bridge =

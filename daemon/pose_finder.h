@@ -13,44 +13,46 @@
 
 namespace mfar {
 
-/// What a source of pictures knows about poses.
+/// Pose information of a picture source.
 struct PoseInputs {
     std::string source;  ///< its name, for messages
     StereoRig rig;
     double rateHz = 0;  ///< of the video
     TagMap tags;        ///< empty: unknown
-    /// The pose at a time; empty where there are no recorded poses.
+    /// The pose at a time; empty without recorded poses.
     std::function<std::optional<Pose>(Timestamp)> recorded;
 };
 
-/// What a still itself says about the video camera's pose at its time.
+/// The video camera's pose measured from a still itself, at the still's time.
 struct StillMeasurement {
     std::optional<Pose> pose{};
-    std::optional<double> ms{};  ///< that the search for tags took, where there was one
+    std::optional<double> ms{};  ///< time of the tag search, if there was one
 };
 
-/// Gives frames and stills the video camera's pose at their time, from where the configuration
-/// says. Used by one thread, which is not the GL thread, where nothing else is said.
+/// Finds the video camera's pose for frames and stills at their times, from the configured origin.
+/// Used by one thread, not the GL thread, unless stated otherwise.
 class PoseFinder {
 public:
-    /// `stats` must outlive this. Throws Failure when there is no such thing as configured.
+    /// `stats` must outlive this. Throws Failure when the configured origin is not available.
     PoseFinder(const PoseConfig& config, PoseInputs inputs, Stats& stats);
 
-    /// Frames in the order of their times. Nothing when the pose is not known.
+    /// Frames must come in the order of their times. Nothing when the pose is unknown.
     [[nodiscard]] std::optional<Pose> ofVideo(const Frame& video);
-    /// Seeks tags in a still, which takes long. By one thread, which may be a further one.
+    /// Searches tags in a still, which takes long. Called by one thread, which need not be the one
+    /// of the other functions.
     [[nodiscard]] StillMeasurement measure(const Frame& still);
-    /// The pose of a still that is not younger than the last frame. One whose own tags cannot be
-    /// used gets the pose between those of the frames around it, where PoseHistory has one.
+    /// The pose of a still that is not younger than the last frame. Without usable tags of its own
+    /// it is interpolated between the frames around it, where PoseHistory can.
     [[nodiscard]] std::optional<Pose> place(const StillMeasurement& measured, Timestamp time);
 
-    /// Not only predicted.
+    /// False for a pose that is only predicted.
     [[nodiscard]] bool isMeasured(const Pose& pose) const { return recorded_ || pose.tags > 0; }
-    /// Where the tags are, as known at the start; empty: unknown.
+    /// The tag map known at the start; empty: unknown.
     [[nodiscard]] const TagMap& tags() const { return tags_; }
-    /// Without such a map: the one of the tag that has become the world, once. From any thread.
+    /// Without a tag map at the start: the map with the tag that has become the world frame,
+    /// returned once. Any thread.
     [[nodiscard]] std::optional<TagMap> takeFoundTags() { return found_.tryTake(); }
-    /// A map may still come that way.
+    /// True while takeFoundTags() may still return a map.
     [[nodiscard]] bool mayFindTags() const { return tracker_ && tags_.empty(); }
     /// "poses from 12 tags"
     [[nodiscard]] const std::string& description() const { return description_; }
@@ -63,7 +65,7 @@ private:
     std::optional<Tracker> tracker_;
     bool foundTags_ = false;
     Mailbox<TagMap> found_{HandOver::NewestWins};
-    PoseHistory history_;  ///< of frames whose own tags were seen
+    PoseHistory history_;  ///< poses of frames with tags of their own
 };
 
 }  // namespace mfar

@@ -48,12 +48,14 @@ std::optional<Pose> PoseHistory::at(Timestamp t) const {
     const double s = secondsBetween(a.time, t) / span;
     const Vector6 twist = rate(a, b);
     const Vector6 change = (before ? rate(pose(next - 2), a) : rate(b, pose(next + 1))) - twist;
-    // The arc of a parabola over its chord, where the rate changes by `change` in one span.
+    // Difference between a parabola and its chord when the rate changes by `change` within one
+    // span.
     const Vector6 arc = s * (1 - s) / 2 * span * change;
     Pose out;
     out.time = t;
     out.T_world_video = a.T_world_video * exponential(s * span * twist);
-    // The errors of neighbours are much alike, so that their mean is no surer than they are.
+    // The errors of neighbouring poses are strongly correlated, so that their mean is not more
+    // precise than each.
     out.covariance = (1 - s) * a.covariance + s * b.covariance + arc * arc.transpose();
     return out;
 }

@@ -8,22 +8,22 @@
 
 namespace mfar {
 
-/// The poses of the last video frames, for what was exposed between two of them. A still arrives
-/// tens of milliseconds after its exposure, when the frames on both sides of it are known, and
-/// between them its pose is far surer than a prediction. One thread.
+/// The poses of the last video frames, to interpolate between two of them. A still arrives tens of
+/// milliseconds after its exposure, when the frames on both sides of it are known; a pose
+/// interpolated between them is far more precise than a prediction. One thread.
 class PoseHistory {
 public:
-    /// Times must rise; a step back forgets what came before.
+    /// Times must rise; a step back clears the history.
     void add(const Pose& pose);
 
-    /// The pose at t, moving at a constant rate between its neighbours. How much that rate differs
-    /// from that of the frames before or after is part of its covariance, as nothing better is
-    /// known about what the camera did meanwhile. tags = 0. Nothing when t is not between two poses
-    /// at most kLongestGap apart, or when no third pose tells how steady the motion is.
+    /// The pose at t, at a constant rate of motion between its neighbours. The difference between
+    /// that rate and the rate before or after is added to the covariance, as nothing better is
+    /// known about the motion in between. tags = 0. Nothing when t is not between two poses at most
+    /// kLongestGap apart, or when there is no third pose to estimate the change of rate from.
     [[nodiscard]] std::optional<Pose> at(Timestamp t) const;
 
     static constexpr std::chrono::milliseconds kLongestGap{100};
-    static constexpr std::size_t kLength = 32;  ///< a second of video
+    static constexpr std::size_t kLength = 32;  ///< one second of video
 
 private:
     [[nodiscard]] const Pose& pose(std::size_t i) const;  ///< 0 = oldest

@@ -10,13 +10,13 @@
 
 namespace mfar {
 
-/// How frames kept their deadline, and with which settings. No level: nothing was governed.
+/// How frames kept their deadline, and at which levels. `level` is empty without a governor.
 struct QualityCounts {
     std::string level;      ///< of the latest frame
     double deadlineMs = 0;  ///< 0: the level is pinned
-    Histogram frameMs;      ///< from a frame's begin to its picture shown
+    Histogram frameMs;      ///< from the begin of a frame to its picture shown
     std::uint64_t frames = 0, late = 0;
-    std::vector<std::pair<std::string, std::uint64_t>> framesOf;  ///< each level
+    std::vector<std::pair<std::string, std::uint64_t>> framesOf;  ///< frames of each level
 
     void add(double ms) {
         frameMs.add(ms);

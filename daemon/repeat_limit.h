@@ -12,10 +12,10 @@
 
 namespace mfar {
 
-/// Decides which messages of events that come again and again are said: the first at once, then
-/// each event once in ten seconds at most, with how often it has come since. A plug that is loose
-/// for a day fills no disk, and the last message of an event is always said. Bounded memory: past
-/// 64 events at a time, all others count as one. Used by one thread at a time.
+/// Limits repeated messages: an event's first message passes at once, then each event passes at
+/// most once in ten seconds, with the number of repetitions. A loose plug cannot fill the disk, and
+/// the last message of an event always passes. Bounded memory: beyond 64 events at a time, all
+/// others are treated as one. Used by one thread at a time.
 class RepeatLimit {
 public:
     static constexpr std::chrono::seconds kInterval{10};
@@ -24,17 +24,17 @@ public:
     struct Message {
         int priority = 0;
         std::string text;
-        std::string_view word{};  ///< before each line: "warning: "; outlives this
+        std::string_view word{};  ///< prefix of each line: "warning: "; must outlive this
         Subject subject{};
-        std::uint64_t count = 1;  ///< events that it stands for
+        std::uint64_t count = 1;  ///< number of events that the message stands for
     };
 
-    /// True: to be said now. Else it is kept, in place of an earlier one of its event.
+    /// True: log it now. Otherwise it is held back and replaces an earlier message of its event.
     [[nodiscard]] bool mayPass(std::string_view event, const Message& message, Timestamp now);
-    /// What was kept and may be said now, in the order of the last time, each with its count:
-    /// "... (7 more times in 28 s)".
+    /// The messages that were held back and may be logged now, sorted by the time of their last
+    /// event, each with its count: "... (7 more times in 28 s)".
     [[nodiscard]] std::vector<Message> due(Timestamp now);
-    /// All that was kept, as nothing will follow.
+    /// All messages that were held back, for the end of the log.
     [[nodiscard]] std::vector<Message> rest(Timestamp now);
 
 private:

@@ -23,12 +23,13 @@ namespace {
 constexpr std::chrono::seconds kLongestWait{30};
 constexpr std::chrono::seconds kWaitWithoutCount{5};
 constexpr std::chrono::seconds kRan{60};
-// From the end of one process to the start of the next: RestartSec= and what a busy system takes.
+// Longest time from the end of one process to the start of the next that counts as in a row:
+// RestartSec= and the delay of a busy system.
 constexpr std::chrono::seconds kInARow{60};
 constexpr int kMostCounted = 1000;
-constexpr std::size_t kMostBytes = 64;  // of the file
+constexpr std::size_t kMostBytes = 64;  // size limit of the file
 
-/// Empty without a file that can be read.
+/// Empty when the file cannot be read.
 std::string textOf(const std::filesystem::path& file) {
     try {
         return boundedText(file, kMostBytes);
@@ -55,7 +56,8 @@ std::filesystem::path RestartPause::defaultFile() {
                                                : std::filesystem::path();
 }
 
-// The file has the count and when the last process ended, on the clock that begins with the system.
+// The file has the count and the time at which the last process ended, on the clock that starts at
+// boot.
 int RestartPause::failuresBefore(Timestamp started) const {
     std::istringstream in(textOf(file_));
     int count = 0;
@@ -97,7 +99,7 @@ void pauseBeforeRestart(ExitCode code, const std::string& error, Timestamp start
     sigaddset(&ends, SIGINT);
     const timespec second{1, 0};
     for (std::chrono::seconds left = next.wait; left.count() > 0; left -= std::chrono::seconds(1)) {
-        // What it waits for has ended well before: there is nothing to be watched.
+        // The pictures have ended well before; the wait must not be ended by the watchdog.
         service.alive();
         if (sigtimedwait(&ends, nullptr, &second) > 0) return;
     }

@@ -36,7 +36,7 @@ struct SyntheticSource final : RigSource {
         handOver = handOverAt(options(config).pace);
         std::vector<MappedTag> known;
         for (const synthetic::Tag& tag : board.world().tags)
-            // One that moves says nothing about where the camera is.
+            // A moving tag has no fixed place in the world.
             if (!tag.moves)
                 known.push_back({{TagFamily::Tag36h11, tag.id}, tag.size, tag.T_world_tag});
         tags = TagMap(known);
@@ -85,7 +85,7 @@ struct PlayedSource final : RigSource {
     [[nodiscard]] const StereoRig& geometry() const override { return player.recording().rig; }
     [[nodiscard]] Camera& video() override { return player.video(); }
     [[nodiscard]] Camera& still() override { return player.stills(); }
-    // The recording's stills were triggered when it was made.
+    // A recording's stills are fixed: nothing can be triggered.
     [[nodiscard]] Trigger* trigger() override { return nullptr; }
     [[nodiscard]] std::string name() const override {
         return "recording " + player.recording().root.string();
@@ -195,7 +195,7 @@ std::shared_ptr<Recorder> Rig::recorder() const {
     return recorder_;
 }
 
-// Of a thread that holds the lock.
+// The caller holds the lock.
 void Rig::requireNoRecorder() const {
     if (recorder_) throw Failure(ExitCode::OutputFailed, "a recording is under way already");
 }
@@ -265,7 +265,8 @@ std::optional<std::string> Rig::endBrokenRecording() {
     if (!error) return std::nullopt;
     lostBefore_ += lostBy(*recorder_);
     broke_ = error;
-    // The disk may hang, and neither this thread nor one that still copies a frame may wait for it.
+    // The disk may hang: neither this thread nor one that still copies a frame may wait for the
+    // last reference's destructor.
     ending_.emplace_back([recorder = std::exchange(recorder_, nullptr)]() mutable {
         while (recorder.use_count() > 1)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -280,7 +281,7 @@ void Rig::finishRecording() {
             return finish(*to);
         } catch (const Failure&) {
             if (mustRecord_) throw;
-            return;  // endBrokenRecording() tells it
+            return;  // endBrokenRecording() reports it
         }
     }
     const std::lock_guard lock(mutex_);
@@ -290,7 +291,8 @@ void Rig::finishRecording() {
 std::filesystem::path newRecordingIn(const std::filesystem::path& directory) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name = fmt::format("{:%Y%m%d-%H%M%S}", fmt::gmtime(seconds));
-    // A board without a clock of its own begins each day at the same time.
+    // On a board without a battery-backed clock, every boot begins at the same time, so the name
+    // may exist.
     std::filesystem::path folder = directory / name;
     std::error_code ignored;
     for (int i = 2; std::filesystem::exists(folder, ignored); ++i)

@@ -22,19 +22,20 @@
 namespace mfar {
 namespace {
 
-constexpr double kNominalView = std::numbers::pi / 3;  // across the picture [rad]
+constexpr double kNominalView = std::numbers::pi / 3;  // horizontal field of view [rad]
 constexpr double kNominalBaseline = 0.014;             // [m]
-// Frames that a camera may leave out before it is called silent, and before it is opened anew.
+// Number of frame periods without a frame after which a camera is reported as silent, and after
+// which it is reopened.
 constexpr double kSilentPeriods = 4.5, kStalledPeriods = 20;
-// The period of one that sends as it likes and whose rate is not configured, at most.
+// Assumed period of a free-running camera without a configured rate.
 constexpr double kUnknownPeriodMs = 500;
 
 std::chrono::nanoseconds nanoseconds(double ms) {
     return std::chrono::nanoseconds(static_cast<std::int64_t>(ms * 1e6));
 }
 
-/// A trigger whose line may not be there yet: it is tried anew with each pulse, and once a second
-/// without.
+/// A trigger whose line may not exist yet: every pulse tries to open it, and without pulses rest()
+/// does so once a second.
 class WaitingTrigger final : public Trigger {
 public:
     explicit WaitingTrigger(const TriggerLineConfig& line)
@@ -84,11 +85,11 @@ public:
     }
 
 private:
-    /// With the mutex held. Throws std::runtime_error.
+    /// The mutex is held. Throws std::runtime_error.
     void open() {
         if (open_) return;
         tried_ = Timestamp::now();
-        // First: whoever comes after a crash has to find it.
+        // Before the line is opened, so that after a crash the note of it is there.
         if (const auto file = takenLineFile(); !file.empty()) noteTakenLine(file, line_);
         open_ = openGpioTrigger(options_);
     }
@@ -97,12 +98,13 @@ private:
     const TriggerOptions options_;
     mutable std::mutex mutex_;
     std::unique_ptr<PulseTrigger> open_;
-    std::uint64_t missedBefore_ = 0;  ///< of lines that were opened before
+    std::uint64_t missedBefore_ = 0;  ///< missed edges of lines that have been closed
     std::optional<Timestamp> tried_;
     std::optional<std::string> fault_;
 };
 
-/// What is not named is any camera but the one that the other names.
+/// A camera without a name is any camera except the one that the other sensor's configuration
+/// names.
 CameraWish wishFor(const CameraConfig& config, const CameraConfig& other, bool largest) {
     return {config.camera, config.driver == other.driver ? other.camera : "", largest};
 }
@@ -139,7 +141,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
     const auto periods = [&](double count) {
         return std::chrono::milliseconds(std::lround(count * periodMs));
     };
-    // One that waits for its trigger is silent as long as it likes.
+    // A triggered camera may be silent for any time.
     options.silent = onTrigger ? std::chrono::milliseconds(0)
                                : std::max(options.silent, periods(kSilentPeriods));
     if (!onTrigger) options.stalled = std::max(options.stalled, periods(kStalledPeriods));
@@ -148,7 +150,7 @@ std::unique_ptr<ReopeningCamera> waitingCamera(const CameraConfig& config, const
         [config, wish] { return openCamera(config, wish); }, options);
 }
 
-// A lost still is asked for once more by the StillPolicy.
+// No repetition here: StillPolicy asks once more for a lost still.
 TriggeredStillOptions stillOptions(const TriggerLineConfig& line) {
     TriggeredStillOptions out;
     out.matching.guess = nanoseconds(line.delayMs);

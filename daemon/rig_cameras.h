@@ -14,19 +14,19 @@
 
 namespace mfar {
 
-/// The geometry of two cameras that nobody has calibrated: pinholes of 60 degrees across the
-/// picture, the still sensor 14 mm beside the video sensor. Enough to enlarge the video by matching
-/// in both dimensions; poses and depth need a calibration.
+/// The geometry of two cameras without a calibration: pinholes with a field of view of 60 degrees,
+/// the still sensor 14 mm next to the video sensor. Enough to enlarge the video by matching in both
+/// dimensions; poses and depth need a calibration.
 [[nodiscard]] StereoRig nominalRig(Size video, Size still);
 
 [[nodiscard]] TriggerOptions triggerOptions(const TriggerLineConfig& line);
 
-/// Two cameras of this board and the line that triggers the second. Devices that are not there are
-/// waited for.
+/// Two cameras of this board and the line that triggers the second. A camera that is not connected
+/// is waited for.
 class CamerasSource final : public RigSource {
 public:
     /// `hearts` watches the threads that open the cameras, and must outlive this. Throws Failure
-    /// for a calibration that cannot be used and a trigger line that is not there.
+    /// for an invalid calibration and a missing trigger line.
     CamerasSource(const CamerasConfig& config, Heartbeats& hearts);
 
     [[nodiscard]] const StereoRig& geometry() const override { return geometry_; }
@@ -41,9 +41,9 @@ private:
     CamerasConfig config_;
     StereoRig geometry_;
     std::unique_ptr<ReopeningCamera> video_;
-    std::unique_ptr<ReopeningCamera> freeStill_;       ///< without a trigger line
-    std::unique_ptr<TriggeredStillCamera> triggered_;  ///< with one
-    const ReopeningCamera* still_ = nullptr;           ///< in one of the two
+    std::unique_ptr<ReopeningCamera> freeStill_;       ///< set without a trigger line
+    std::unique_ptr<TriggeredStillCamera> triggered_;  ///< set with a trigger line
+    const ReopeningCamera* still_ = nullptr;           ///< the camera in one of the two
     std::function<std::optional<std::string>()> triggerFault_{};
 };
 

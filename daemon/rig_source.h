@@ -16,28 +16,28 @@
 
 namespace mfar {
 
-/// A set of devices that belong together, behind a Rig.
+/// A set of devices that belong together; Rig wraps it.
 class RigSource {
 public:
     virtual ~RigSource() = default;
     [[nodiscard]] virtual const StereoRig& geometry() const = 0;
     [[nodiscard]] virtual Camera& video() = 0;
     [[nodiscard]] virtual Camera& still() = 0;
-    /// nullptr where stills come by themselves.
+    /// nullptr where stills are not triggered.
     [[nodiscard]] virtual Trigger* trigger() = 0;
     [[nodiscard]] virtual std::string name() const = 0;
 
     HandOver handOver = HandOver::NewestWins;
-    bool hasSensors = false;  ///< its pictures have noise and a rate to keep
+    bool hasSensors = false;  ///< pictures have noise, and a rate to keep
     ExitCode failure = ExitCode::Unavailable;
     std::optional<std::uint64_t> videoFrames{};
-    std::chrono::nanoseconds stillTimeOffset{0};  ///< to the video's clock
-    TagMap tags{};                                ///< where they are known
-    /// Empty where poses are not recorded.
+    std::chrono::nanoseconds stillTimeOffset{0};  ///< still's time + offset = video's time
+    TagMap tags{};                                ///< empty: unknown
+    /// Empty without recorded poses.
     std::function<std::optional<Pose>(Timestamp)> recordedPoses{};
-    /// How stills and pulses went together; empty: nobody looked.
+    /// Counters of the matching of stills to pulses; empty: no matching.
     std::function<StillCounters()> matching{};
-    /// What is wrong with a device at present, for people; empty: nothing ever is.
+    /// Present fault of a device, in words; empty: this source has no faults.
     std::function<std::optional<std::string>()> fault{};
 };
 

@@ -14,7 +14,7 @@
 namespace mfar {
 namespace {
 
-/// The same for the same two sensors, as far as that is known.
+/// Identifies the two sensors, as far as they are known.
 std::string sensorsOf(const Config& config, Rig& rig) {
     const auto [video, still] = std::pair(rig.geometry().video.size, rig.geometry().still.size);
     return fmt::format("{} {} {}x{}, {} {} {}x{}", rig.video().info().name,
@@ -23,13 +23,13 @@ std::string sensorsOf(const Config& config, Rig& rig) {
                        still.height);
 }
 
-/// How often is looked for a fault while no frames come.
+/// Interval between checks for a fault while no frames come.
 constexpr std::chrono::milliseconds kFaultInterval{30};
 
 }  // namespace
 
-// The context comes after the rig: a synthetic source has its own, and this one has to be current
-// on this thread at the end.
+// The context is created after the rig: a synthetic source has its own context, and the session's
+// must be current on this thread at the end.
 Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                  CallQueue<Session>& calls, StopTokens stop)
     : stats_(stats), changes_(changes), calls_(calls), stop_(std::move(stop)), config_(config),
@@ -61,7 +61,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
                     poses_.description(),
                     how.engine,
                     rig_.video().info().rateHz};
-    beginRecording(config);  // last: a failure of the others must not wait for the disk
+    beginRecording(config);  // last: if anything before fails, there is no wait for the disk
 }
 
 Session::~Session() = default;
@@ -110,7 +110,7 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     Heartbeat heart(stats_.heartbeats(), std::string(kPictureThread), budget::kPicture);
     heart_ = &heart;
     const std::shared_ptr<void> atEnd(nullptr, [this](void*) { heart_ = nullptr; });
-    std::optional<CapturedFrame> captured;  // that is not shown yet
+    std::optional<CapturedFrame> captured;  // not shown yet
     bool enough = false;
     while (!enough) {
         heart.beat();
@@ -146,7 +146,7 @@ void Session::showNext(std::optional<CapturedFrame>& captured) {
     calls_.runAll(*this);
     checkRecording();
     if (!captured) return showFault();
-    // Without a clock of its own a source waits for us: only our own time is latency then.
+    // A lossless source waits for us, so latency is measured from here.
     if (rig_.handOver() == HandOver::Lossless) captured->arrived = Timestamp::now();
     process(*captured);
     captured.reset();
@@ -156,7 +156,8 @@ void Session::finishDisplay() {
     orFail(ExitCode::OutputFailed, [&] { display_->finish(); });
 }
 
-// Recordings keep every picture, and who waits for that says so.
+// For recordings every picture is kept; waiting for a slow writer is then reported, not counted as
+// a hang.
 FileDisplayPolicy Session::displayPolicy() {
     FileDisplayPolicy policy;
     policy.isLive = rig_.handOver() == HandOver::NewestWins;
@@ -200,7 +201,7 @@ double Session::deadlineMs() const {
     return config_.governor.governs() ? config_.governor.deadlineMs : 0;
 }
 
-// Previews of virtual objects are drawn with GL, whatever engine does the steps.
+// Previews of virtual objects are drawn with GL, whichever engine executes the steps.
 bool Session::canShowObjects() {
     if (gl_.context || config_.objects.empty() ||
         !VirtualWorld::drawsPreviews(config_.virtualLayer))
@@ -240,7 +241,7 @@ void Session::process(CapturedFrame& captured) {
     const Timestamp time = captured.video.time();
     const FrameResult& result = drawing_->pipeline.run(captured.video.view(), time, captured.pose);
     drawing_->gpu.requireSound();
-    // Before the display, which may wait: the exposure runs meanwhile.
+    // Before show(), which may wait: the still is exposed meanwhile.
     fireIfNeeded(time, result.stats);
     previous_ = time;
     drawing_->last = result.picture;
@@ -272,7 +273,7 @@ void Session::tell(Timestamp time) {
     if (auto error = drawing_->pipeline.takeImportFault()) stats_.warn(*error + ": it is copied");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
-        // It is the policy that repeats.
+        // Repetitions are counted by the policy, not by the matching.
         matching->repeated = static_cast<std::uint64_t>(policy_.repetitions());
         stats_.matching(*matching);
     }
@@ -303,7 +304,7 @@ void Session::takeStill(CapturedStill still) {
     useStill();
 }
 
-// A picture that is only enlarged needs no still; it is kept until another mode does.
+// Mode Off uses no still; the newest one is kept for a later change of mode.
 void Session::useStill() {
     if (!newestStill_ || config_.superres.mode == SuperResMode::Off) return;
     const CapturedStill still = *std::exchange(newestStill_, std::nullopt);
@@ -340,7 +341,7 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
         } catch (const TriggerBusy&) {
             policy_.busy();
         } catch (const std::runtime_error& error) {
-            // One that is waited for says so in the picture.
+            // A trigger that is waited for is reported in the picture and does not end the session.
             if (!rig_.fault())
                 throw Failure(ExitCode::Unavailable, trigger->name() + ": " + error.what());
         }
@@ -352,17 +353,18 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), lost);
 }
 
-// Frames bring the fault with them; without them it is shown over the last picture.
+// A frame's picture has the fault as its banner; without frames the last picture is shown again
+// with it.
 void Session::showFault() {
     const std::optional<std::string> fault = rig_.fault();
-    // The thread that tells it otherwise may wait for the device that is at fault.
+    // Reported here as well, as the capture thread may wait for the faulty device.
     stats_.fault(fault);
     if (!fault) return;
     show(Timestamp::now(), true);
     stats_.bannerShown(Timestamp::now());
 }
 
-// The last picture of the pipeline, with what is wrong over it.
+// Shows the pipeline's last picture, with the fault as a banner.
 void Session::show(Timestamp time, bool unchanged) {
     const std::string fault = bannerText();
     try {

@@ -32,7 +32,7 @@ namespace mfar {
 
 class FilterLearning;
 
-/// What can be changed while running.
+/// The settings that can be changed while running.
 struct Tunables {
     SuperResConfig superres;
     TriggerConfig trigger;
@@ -47,12 +47,12 @@ struct Tunables {
 
 /// Two ways to end a session from outside.
 struct StopTokens {
-    std::stop_token input;   ///< no more frames; what has been processed is still written
-    std::stop_token cancel;  ///< also give up what waits for a slow display
+    std::stop_token input;   ///< no more frames; what has been processed is still shown and written
+    std::stop_token cancel;  ///< also stop waiting for a slow display
 };
 
-/// One run from devices to display: everything that lives on the GL thread. Made, run and destroyed
-/// by that thread.
+/// One run from devices to display: everything that lives on the GL thread. Created, run and
+/// destroyed by that thread.
 class Session {
 public:
     /// Opens devices, GL and display. All references must outlive this. Throws Failure.
@@ -61,22 +61,22 @@ public:
     ~Session();
 
     [[nodiscard]] const RunDescription& description() const { return description_; }
-    /// One line for the start: renderer, sensors, display, output size.
+    /// The line logged at the start: renderer, sensors, display, output size.
     [[nodiscard]] std::string startLine() const;
 
-    /// Why the pictures have ended, or what is thrown.
+    /// Receives the reason why the pictures ended, or the error.
     using Over = std::function<void(const std::string& reason, const std::exception_ptr& error)>;
     /// Processes frames until the source ends, a stop is requested or `maxFrames` are shown, and
-    /// waits until they are out. Calls `over` then: what is left is to close the devices, which may
-    /// hang. Returns why it ended. Throws Failure.
+    /// waits until they are written. Then calls `over`: all that is left is closing the devices,
+    /// which may hang. Returns the reason of the end. Throws Failure.
     [[nodiscard]] std::string run(std::optional<std::uint64_t> maxFrames, const Over& over);
 
-    // For the CallQueue, between two pictures. All throw std::runtime_error.
-    /// The last picture, as it went to the display or as the display's screen shows it.
+    // To be called through the CallQueue, between two pictures. All throw std::runtime_error.
+    /// The last picture: as it went to the display, or as the display's screen shows it.
     [[nodiscard]] ScreenPicture snapshot(bool ofScreen) const;
-    /// Asks for one still, whatever the configuration says about when to.
+    /// Requests one still, whatever the trigger configuration is.
     void askForStill();
-    /// Forgets the filters that were learned.
+    /// Deletes the learned filters.
     void resetLearning();
     /// See Rig.
     [[nodiscard]] std::function<std::shared_ptr<Recorder>()>
@@ -87,7 +87,7 @@ public:
     [[nodiscard]] std::function<Recorded()> stopRecording() { return rig_.stopRecording(); }
 
 private:
-    /// A copy of a still that the pipeline matches.
+    /// A copy of a still that the pipeline uses.
     struct UsedStill {
         std::vector<std::uint8_t> pixels;
         ImageView view;
@@ -95,40 +95,40 @@ private:
         std::optional<Pose> pose;
     };
     void beginRecording(const Config& config);
-    /// Records from now on what beginRecording() has asked for, once its folder is there.
+    /// Starts the recording requested by beginRecording(), once its folder has been created.
     void takeFirstRecording();
     void checkRecording();
     [[nodiscard]] std::string showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& capture,
                                          std::optional<std::uint64_t> maxFrames);
     void apply(const Tunables& wanted);
-    /// Applies pending changes and calls, then shows the frame; without one, the fault.
+    /// Applies pending changes and calls, then shows the frame; without a frame, shows a fault.
     void showNext(std::optional<CapturedFrame>& captured);
-    /// Deadline of a picture [ms]; 0: none.
+    /// Deadline of a picture [ms]; 0: no deadline.
     [[nodiscard]] double deadlineMs() const;
-    /// Opens GL for the objects where it is not open yet; reports where that fails.
+    /// Opens GL for the objects if it is not open yet; reports a failure.
     bool canShowObjects();
     void placeObjects();
-    /// On the context that is open, or on none: with all that was set, and the stills that were
-    /// used.
+    /// Creates drawing_ on the open context, or without one, with all settings and the stills in
+    /// use.
     void makeDrawing();
-    /// On another context, after all on the one before is lost. Throws Failure where that does not
-    /// help.
+    /// Creates drawing_ on a new context after the GPU has lost everything. Throws Failure when
+    /// that fails.
     void makeDrawingAnew(std::string why);
     [[nodiscard]] std::optional<std::string> gpuFault();
     [[nodiscard]] std::string bannerText();
     [[nodiscard]] Rendering rendering() const;
     void keepUsedStill(const CapturedStill& still);
-    /// After the pipeline has taken it.
+    /// To be called after the pipeline has taken the still.
     void keepSecondStill();
     [[nodiscard]] bool mayDraw();
-    /// Leaves of `captured` what is needed to process it once more.
+    /// Keeps the parts of `captured` that are needed to process it again after a GPU loss.
     void process(CapturedFrame& captured);
     void takeStill(CapturedStill still);
     void useStill();
     void fireIfNeeded(Timestamp frame, const FrameStats& stats);
     void setUpQuality(SuperResMode best);
     void setQuality(const QualityLevel& level);
-    /// Takes the governor's choice for the next frame.
+    /// Applies the governor's choice for the next frame.
     void govern();
     void showFault();
     void finishDisplay();
@@ -142,37 +142,37 @@ private:
     void show(Timestamp time, bool unchanged);
 
     Stats& stats_;
-    Heartbeat* heart_ = nullptr;  ///< of the thread, while pictures are made
+    Heartbeat* heart_ = nullptr;  ///< the GL thread's, while pictures are made
     Mailbox<Tunables>& changes_;
     CallQueue<Session>& calls_;
     StopTokens stop_;
     Config config_;  ///< with the changes so far
     Rig rig_;
-    std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid: its folder is being made
+    std::future<std::shared_ptr<Recorder>> firstRecording_;  ///< valid: its folder is being created
     PoseFinder poses_;
     GlDevice device_ = GlDevice::Preferred;
     OpenedGl gl_;
     std::unique_ptr<Display> display_;
     Size output_;
     GpuFailures failures_;
-    std::unique_ptr<FilterLearning> learning_;   ///< null: the shipped filters
-    std::shared_ptr<const FilterBank> filters_;  ///< learned; null: none or the shipped ones
-    std::optional<Quality> quality_;             ///< the pipeline's; nothing: as configured
-    std::unique_ptr<Drawing> drawing_;           ///< tells the learning
+    std::unique_ptr<FilterLearning> learning_;   ///< null: no learning
+    std::shared_ptr<const FilterBank> filters_;  ///< learned; null: none yet, or the shipped ones
+    std::optional<Quality> quality_;    ///< current, in the pipeline; nothing: as configured
+    std::unique_ptr<Drawing> drawing_;  ///< reports to learning_, so it is destroyed first
     StillPolicy policy_;
     std::optional<CapturedStill> newestStill_;  ///< not used yet
-    // Where steps run on GLES: the newest used, the one that the pipeline keeps beside it, and the
-    // one before, whose memory is used again.
+    // Set where steps run on GLES: the newest still in use, the one that the pipeline keeps next to
+    // it, and the previous one, whose memory is reused.
     std::optional<UsedStill> usedStill_, secondStill_, formerStill_;
     TriggerReports triggerReports_;
     std::vector<QualityLevel> levels_;  ///< empty: the quality is as configured
     std::optional<Governor> governor_;
-    Governor::Choice choice_{};          ///< the pipeline's
+    Governor::Choice choice_{};          ///< current, in the pipeline
     std::vector<StageTime> stages_;      ///< of the last picture
-    std::optional<Timestamp> previous_;  ///< frame, which the pipeline's numbers are about
+    std::optional<Timestamp> previous_;  ///< the frame that the pipeline's statistics are about
     std::optional<Timestamp> stillTime_;
     TagMap tags_;
-    std::string sensors_;  ///< that filters are learned for
+    std::string sensors_;  ///< the sensors that filters are learned for
     std::uint64_t pictures_ = 0;
     ValidationCounts validated_{};
     RunDescription description_;

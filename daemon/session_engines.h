@@ -9,20 +9,20 @@
 
 namespace mfar {
 
-/// GL as far as a session needs it.
+/// The GL context of a session, if it needs one.
 struct OpenedGl {
-    std::unique_ptr<GlContext> context;  ///< current on this thread; null: none is used
-    std::string without;  ///< why there is none: for people; empty where none is needed
+    std::unique_ptr<GlContext> context;  ///< current on this thread; null: GL is not used
+    std::string without;  ///< why there is none, in words; empty where none is needed
 };
 
-/// Opens GL unless every step runs on SIMD and nothing else draws with it: with engine "auto" a
-/// software renderer is given back. Throws Failure where the configuration needs GLES and there is
-/// none.
+/// Opens GL unless every step runs on SIMD and nothing else draws with it; with engine "auto" a
+/// software renderer is closed again. Throws Failure where the configuration needs GLES and there
+/// is none.
 [[nodiscard]] OpenedGl openGl(const Config& config, GlDevice device);
 
-/// Which engine does which step: as configured; where that leaves it open, SIMD without GL and on a
-/// software renderer, else what was measured to be faster on this GPU, now or at an earlier start.
-/// Validation is of shaders: with it, GLES.
+/// Chooses the engine of each step: as configured; for auto, SIMD without GL and on a software
+/// renderer, otherwise the one that was measured to be faster on this GPU, now or at an earlier
+/// start. With validation, which checks shaders, auto means GLES.
 [[nodiscard]] EngineChoice chooseEngines(const Config& config, const GlContext* gl,
                                          const StereoRig& rig, Size output);
 

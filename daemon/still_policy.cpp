@@ -3,7 +3,8 @@
 namespace mfar {
 namespace {
 
-/// A share of changed tiles below this is sensor noise, flicker or a blinking light, not motion.
+/// Below this share of changed tiles, the changes are sensor noise, flicker or a blinking light,
+/// not motion.
 constexpr double kMovedShare = 0.05;
 
 std::chrono::nanoseconds toNanoseconds(double s) {
@@ -14,7 +15,7 @@ std::chrono::nanoseconds toNanoseconds(double s) {
 
 bool StillPolicy::decide(Timestamp now, Timestamp statsOf, const FrameStats& stats) {
     if (still_ && !usedSince_) usedSince_ = now;
-    // The first frame with a new still or mode is drawn anew as a whole, which is no motion.
+    // The first frame with a new still or mode is drawn completely: its changes are no motion.
     const bool changed = stats.changed > kMovedShare && statsOf != usedSince_;
     if (changed && firedAt_ && statsOf > *firedAt_) movedSinceTrigger_ = true;
     if (changed && usedSince_ && statsOf > *usedSince_) movedInUse_ = true;
@@ -51,7 +52,8 @@ bool StillPolicy::wanted(Timestamp now, Timestamp statsOf, const FrameStats& sta
     if (!still_) return true;
     if (firedAt_ && now - *firedAt_ < toNanoseconds(config_.minIntervalS)) return false;
     if (movedInUse_ && now - *still_ > toNanoseconds(config_.maxAgeS)) return true;
-    // At rest a new still would show what the old one shows, however little that explains.
+    // At rest a new still would show the same as the old one, even if that explains little of the
+    // picture.
     return movedSinceTrigger_ && statsOf >= *usedSince_ && stats.explained < config_.explainedBelow;
 }
 

@@ -17,46 +17,46 @@ enum class TriggerMode {
 struct TriggerConfig {
     TriggerMode mode = TriggerMode::Demand;
     double rateHz = 2;            ///< mode rate: stills per second
-    double explainedBelow = 0.6;  ///< mode demand: share of the picture, [0, 1]
-    double maxAgeS = 10;          ///< mode demand: a still older than this is renewed in motion
-    double minIntervalS = 0.3;    ///< mode demand: never faster than this
-    double timeoutS = 3;          ///< a still that has not come by then is lost
+    double explainedBelow = 0.6;  ///< mode demand: threshold, share of the picture, [0, 1]
+    double maxAgeS = 10;          ///< mode demand: an older still is replaced while the scene moves
+    double minIntervalS = 0.3;    ///< mode demand: lower limit of the time between triggers
+    double timeoutS = 3;          ///< a still that has not come after this time is lost
 
     bool operator==(const TriggerConfig&) const = default;
 };
 
-/// Decides when the still sensor fires. Pure logic on the time of the video frames; asked once per
+/// Decides when the still sensor fires. Pure logic on the time of the video frames; called once per
 /// frame, by one thread.
 ///
-/// A lost still is counted and asked for once more at once. When that one is lost too, the policy
-/// waits for maxAgeS (mode demand), the next period (mode rate), or somebody to ask (mode off).
+/// A lost still is counted and requested again at once. When that one is lost too, the policy waits
+/// for maxAgeS (mode demand), the next period (mode rate), or ask() (mode off).
 class StillPolicy {
 public:
     explicit StillPolicy(const TriggerConfig& config) : config_(config) {}
 
-    /// Takes effect with the next decision; a pending still stays pending unless the mode turns
-    /// off.
+    /// Takes effect with the next decision. A pending still stays pending unless the mode changes
+    /// to Off.
     void configure(const TriggerConfig& config);
 
-    /// True: fire now (and the policy counts on that). `now` is the time of the newest frame,
-    /// `stats` may be those of an earlier one, of time `statsOf`.
+    /// True: the caller must fire now (the policy relies on it). `now` is the time of the newest
+    /// frame, `stats` are those of the frame of time `statsOf`, which may be older.
     [[nodiscard]] bool decide(Timestamp now, Timestamp statsOf, const FrameStats& stats);
 
-    /// Somebody wants a still: the next decision that does not wait for one is to fire, in any
-    /// mode.
+    /// Requests one still in any mode: the next decision without a pending still fires.
     void ask() { asked_ = true; }
 
-    /// The trigger could not fire as its last pulse was still on: the next decision is to.
+    /// The trigger could not fire because its last pulse was still on: the next decision fires
+    /// again.
     void busy();
 
-    /// A still has become the reference of the frame that is decided on next, and of those after
-    /// it. One that was exposed before the last trigger is a late answer to the trigger before it.
+    /// A still has become the reference of the next decided frame and those after it. A still that
+    /// was exposed before the last trigger is a late answer to an earlier trigger.
     void stillArrived(Timestamp exposed);
 
     [[nodiscard]] bool pending() const { return firedAt_ && !arrived_; }
     [[nodiscard]] int fired() const { return fired_; }
     [[nodiscard]] int lost() const { return lost_; }
-    /// Of fired(), those in place of a lost one.
+    /// Number of triggers that repeated a lost still, included in fired().
     [[nodiscard]] int repetitions() const { return repetitions_; }
 
 private:
@@ -68,10 +68,10 @@ private:
     std::optional<Timestamp> still_;      ///< exposure of the current reference
     std::optional<Timestamp> usedSince_;  ///< first frame drawn with that reference and mode
     std::optional<Timestamp> firedAt_;    ///< the last trigger
-    bool arrived_ = true;                 ///< the answer to the last trigger is settled
-    bool repeated_ = false;  ///< the last trigger was itself the repetition of a lost one
+    bool arrived_ = true;                 ///< the last trigger's still has come or is given up
+    bool repeated_ = false;               ///< the last trigger was the repetition of a lost one
     bool movedSinceTrigger_ = false;
-    bool movedInUse_ = false;  ///< since the reference was first used
+    bool movedInUse_ = false;  ///< the scene moved since the reference was first used
     bool asked_ = false;
     std::optional<Timestamp> due_;        ///< mode rate: the next trigger
     std::optional<Timestamp> notBefore_;  ///< after two lost stills

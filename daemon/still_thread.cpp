@@ -18,7 +18,7 @@ std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& st
 }
 
 bool StillBox::put(CapturedStill still) {
-    std::optional<CapturedStill> oldest;  // destroyed without the lock
+    std::optional<CapturedStill> oldest;  // destroyed after the lock is released
     const std::lock_guard lock(mutex_);
     if (stills_.size() == kCapacity) {
         oldest = std::move(stills_.front());
@@ -51,7 +51,7 @@ void StillThread::check() const {
 
 void StillThread::run() {
     try {
-        // The picture goes on without new stills.
+        // The pictures go on without new stills.
         Heartbeat heart(stats_.heartbeats(), "still capture", budget::kCapture, ThreadRole::Helper);
         while (!stopped_ && !reader_.ended()) {
             heart.beat();

@@ -20,21 +20,21 @@ namespace mfar {
 struct CapturedStill {
     Frame frame;
     std::optional<Pose> pose{};
-    std::optional<StillMeasurement> measured{};  ///< nothing: nobody has looked yet
+    std::optional<StillMeasurement> measured{};  ///< nothing: not measured yet
 };
 
-/// The next still of a rig as FramePairer expects it: its time is of the video's clock, and it is
+/// The next still of a rig as FramePairer expects it: its time converted to the video's clock,
 /// counted and recorded. Nothing when none has come within `timeout`. Throws Failure.
 [[nodiscard]] std::optional<CapturedStill> nextStill(CameraReader& reader, Rig& rig, Stats& stats,
                                                      std::chrono::milliseconds timeout);
 
-/// Stills on their way from the thread of their camera to that of the video, oldest first. Few, as
-/// each holds a buffer of the camera. Thread-safe, never waits.
+/// Stills on their way from the still camera's thread to the video's, oldest first. The capacity is
+/// small, as each still holds a buffer of the camera. Thread-safe, never waits.
 class StillBox {
 public:
     static constexpr std::size_t kCapacity = 2;
 
-    /// False: the oldest had to give way to it.
+    /// False: the oldest still was dropped to make room.
     bool put(CapturedStill still);
     [[nodiscard]] std::optional<CapturedStill> take();
 
@@ -43,8 +43,8 @@ private:
     std::deque<CapturedStill> stills_;
 };
 
-/// The thread of a live still camera: neither a camera that hangs nor the search for tags in a
-/// still holds up the video.
+/// The thread of a live still camera, so that neither a camera that hangs nor the search for tags
+/// in a still delays the video.
 class StillThread {
 public:
     /// The camera has been started; the owner stops it. All arguments must outlive this.
@@ -56,7 +56,8 @@ public:
 
     /// Ends the thread with the camera's next answer. Any thread, never waits.
     void stop() { stopped_ = true; }
-    /// Throws what ended the thread: Failure for a camera that failed or a still of a wrong size.
+    /// Throws the error that ended the thread: Failure for a camera that failed or a still of a
+    /// wrong size.
     void check() const;
     /// The next still, if one has come. Never waits.
     [[nodiscard]] std::optional<CapturedStill> take() { return box_.take(); }
@@ -71,7 +72,7 @@ private:
     StillBox box_;
     std::atomic<bool> stopped_{false};
     std::atomic<bool> failed_{false};
-    std::exception_ptr failure_;  ///< set before failed_
+    std::exception_ptr failure_;  ///< written before failed_
     std::thread thread_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMostFaults = 50;
 constexpr std::size_t kLongestKey = 200;
 
-/// Takes "section." or "section[0]." off the key; false when the key is not in the section.
+/// Removes "section." or "section[0]." from the key; false when the key is not in the section.
 bool takeSection(const OptionSection& section, std::string_view& key) {
     if (section.name.empty()) return true;
     if (!key.starts_with(section.name)) return false;
@@ -58,12 +58,13 @@ std::string_view lastPart(std::string_view key) {
     return key.substr(key.rfind('.') + 1);
 }
 
-// A key in the wrong section is as likely as a slip of the finger, so the name alone counts too.
+// A key in the wrong section is as likely as a typing error, so the last part of the names is
+// compared as well.
 std::size_t distance(std::string_view given, std::string_view known) {
     return std::min(editDistance(given, known), editDistance(lastPart(given), lastPart(known)) + 1);
 }
 
-/// TOML++ sorts by name; the file's order may matter.
+/// In the order of the file, which may matter; TOML++ sorts by name.
 std::vector<std::pair<std::string, const toml::node*>> asWritten(const toml::table& table) {
     std::vector<std::pair<std::string, const toml::node*>> out;
     for (const auto& [name, value] : table)
@@ -79,7 +80,7 @@ std::string place(const std::string& file, const toml::source_position& at) {
     return fmt::format("{}:{}:{}: ", file, at.line, at.column);
 }
 
-// TOML++ gives no double for a whole number above 2^53.
+// TOML++ does not convert integers above 2^53 to double.
 double numberOf(const toml::node& node) {
     const auto whole = node.value_exact<std::int64_t>();
     return whole ? static_cast<double>(*whole) : node.value_exact<double>().value();
@@ -292,7 +293,7 @@ void TomlReader::refuseUnknown(const toml::table& table, const std::string& pref
 void TomlReader::refuseUnknown(const toml::key& key, const toml::node& value,
                                const std::string& name) {
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) {
-        // Of a list of sections each is looked through.
+        // Checks the keys of every section in a list.
         if (const toml::array* list = value.as_array())
             for (std::size_t i = 0; i < list->size(); ++i)
                 if (const toml::table* section = (*list)[i].as_table())

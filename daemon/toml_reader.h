@@ -15,43 +15,44 @@
 
 namespace mfar {
 
-/// Reads typed values from TOML text and collects every fault with its place, so that a file with
-/// three mistakes says all three. A key that is asked for is a known key; finish() refuses others.
+/// Reads typed values from TOML text and collects every fault with its place, so that all faults of
+/// a file are reported at once. Keys that have been read are known; finish() refuses all others.
 class TomlReader {
 public:
-    /// Says what is wrong with a text, nothing when it is good.
+    /// Returns the fault of a text, nothing for a valid one.
     using Check = std::function<std::optional<std::string>(std::string_view)>;
 
-    /// The same for a number that is in its range.
+    /// The same for a number within its range.
     using NumberCheck = std::function<std::optional<std::string>(double)>;
 
     using NumbersCheck = std::function<std::optional<std::string>(std::span<const double>)>;
 
-    /// `table` has the types and ranges of all keys that are asked for; to ask for another one
-    /// throws std::logic_error. `file` is for messages. Throws ConfigError on broken syntax.
+    /// `table` has the types and ranges of all keys that may be read; reading another key throws
+    /// std::logic_error. `file` is for messages. Throws ConfigError on invalid syntax.
     TomlReader(std::string_view text, std::string file, std::span<const OptionSection> table);
 
-    /// Each takes a key "name", "section.name" or, of a list of sections, "section[0].name", and
-    /// leaves `out` alone when it is absent or wrong.
+    /// Each takes a key "name", "section.name" or, in a list of sections, "section[0].name", and
+    /// leaves `out` unchanged when it is absent or invalid.
     void number(std::string_view key, double& out, const NumberCheck& check = nullptr);
     void integer(std::string_view key, std::uint64_t& out);
     void integer(std::string_view key, int& out);
-    /// The same with a maximum below the table's.
+    /// The same with an upper limit below the table's.
     void integer(std::string_view key, int& out, int most);
     void boolean(std::string_view key, bool& out);
-    /// The text is good when `check` says nothing.
+    /// The text is valid when `check` returns nothing.
     void text(std::string_view key, std::string& out, const Check& check = nullptr);
-    /// A list of texts, at least one, each good for `check`.
+    /// A list of at least one text, each checked by `check`.
     void texts(std::string_view key, std::vector<std::string>& out, const Check& check = nullptr);
-    /// A list of exactly as many numbers as `out` holds.
+    /// A list of exactly as many numbers as `out` has.
     void numbers(std::string_view key, std::span<double> out, const NumbersCheck& check = nullptr);
-    /// A table of texts, numbers and true or false by any name, each as text: "1", "0.5", "true";
-    /// in the order of the file.
+    /// A table with any keys and texts, numbers and booleans as values, each returned as text: "1",
+    /// "0.5", "true"; in the order of the file.
     void values(std::string_view key, std::vector<std::pair<std::string, std::string>>& out);
     template <class E>
     void choice(std::string_view key, E& out,
                 std::span<const std::pair<std::string_view, E>> words);
-    /// The prefix of the keys in each section [[key]], "key[0].". More than `most` are a fault.
+    /// The prefixes of the keys in each section [[key]], "key[0].". More than `most` sections are a
+    /// fault.
     [[nodiscard]] std::vector<std::string> sections(std::string_view key, std::size_t most);
 
     /// Call when all keys have been read. Throws ConfigError with every fault, in file order.
@@ -63,11 +64,11 @@ private:
         std::string message;
     };
 
-    /// The row of the table. Throws std::logic_error when there is none of this type.
+    /// The table's entry of this key. Throws std::logic_error when there is none of this type.
     [[nodiscard]] const Option& option(std::string_view key, OptionType type) const;
     void word(std::string_view key, OptionType type, std::string& out, const Check& check);
     const toml::node* find(std::string_view key);
-    /// The node when it is of the `wanted` kind; another kind is a fault.
+    /// The node if it is of the `wanted` kind; another kind is a fault.
     const toml::node* find(std::string_view key, std::string_view wanted,
                            bool (toml::node::*is)() const);
     void fault(const toml::source_region& at, std::string message);

@@ -6,15 +6,15 @@
 
 namespace mfar {
 
-/// Finds what went wrong at the trigger line since the last look, for the log. Used by one thread.
+/// Finds new faults of the trigger line for the log. Used by one thread.
 class TriggerReports {
 public:
     struct Seen {
         std::uint64_t lost = 0;         ///< pulses without a still
-        std::uint64_t missedEdges = 0;  ///< pulses of which the loopback missed an edge
-        bool repeats = false;           ///< a lost still is asked for once more
+        std::uint64_t missedEdges = 0;  ///< pulses with an edge that the loopback missed
+        bool repeats = false;           ///< a lost still is requested again
     };
-    /// One sentence for each kind of event that is new. Allocates only then.
+    /// One sentence for each kind of event that is new since the last call. Allocates only then.
     [[nodiscard]] std::vector<std::string_view> newSince(const Seen& seen);
 
 private:

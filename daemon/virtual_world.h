@@ -9,19 +9,19 @@
 
 namespace mfar {
 
-/// Virtual objects, their light and the real surface under them, as the pipeline is to show them.
+/// The virtual objects, their light and the real surface below them, as given to the pipeline.
 /// Lives on the GL thread.
 class VirtualWorld {
 public:
     VirtualWorld(const VirtualOptions& options, const StereoRig& rig, Pipeline& pipeline);
 
-    /// Shows these, placed by the tag map, without those that are leftOut().
+    /// Shows these objects, placed by the tag map, without those that leftOut() names.
     void set(const std::vector<PlacedObject>& objects, const LightOptions& light,
              const TagMap& tags);
-    /// Whether `options` show previews, which are drawn with OpenGL ES, whatever engine does the
-    /// steps.
+    /// True when `options` show previews, which are drawn with OpenGL ES, whichever engine executes
+    /// the steps.
     [[nodiscard]] static bool drawsPreviews(const VirtualOptions& options);
-    /// Why models are not shown; empty when they are.
+    /// Why models are not shown; empty when they are shown.
     [[nodiscard]] std::string_view shapesAlone() const;
 
 private:
@@ -34,11 +34,11 @@ private:
     float exposure_ = 1;
 };
 
-/// Options of the traced layer but for its size, which the caller sets.
+/// Options of the traced layer except its size, which the caller sets.
 [[nodiscard]] TracedLayerOptions tracedLayerOptions(const VirtualOptions& options, float exposure);
 
-/// A scene of these objects, placed by the tag map, in this light. Light that the camera is to
-/// tell is a dim studio's until it does.
+/// A scene of these objects, placed by the tag map, in this light. Light estimated from the camera
+/// begins as a dim studio's.
 [[nodiscard]] Scene sceneOf(const std::vector<PlacedObject>& objects, const LightOptions& light,
                             const TagMap& tags);
 

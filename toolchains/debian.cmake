@@ -1,5 +1,6 @@
-# What the toolchain files share. Set before: MFAR_TRIPLE, MFAR_EMULATOR, CMAKE_SYSTEM_PROCESSOR.
-# The sysroot is the link that `./run cross` makes, .build/sysroot-<processor>.
+# Common part of the toolchain files. Set before: MFAR_TRIPLE, MFAR_EMULATOR,
+# CMAKE_SYSTEM_PROCESSOR.
+# The sysroot is the link that `./run cross` creates, .build/sysroot-<processor>.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_LIBRARY_ARCHITECTURE ${MFAR_TRIPLE})
 set(CMAKE_CXX_COMPILER ${MFAR_TRIPLE}-g++)

@@ -1,5 +1,5 @@
-# Under an emulator the start of a program takes seconds: what is one test each elsewhere is one per
-# program here. Those that are worth their time in an emulator have the label "emulated".
+# Under an emulator the start of a program takes seconds: all tests of a program become one test.
+# Programs that are worth their time in an emulator have the label "emulated".
 set(mfar_emulated
     mfar-composite-tests
     mfar-daemon-tests
@@ -19,15 +19,15 @@ set(mfar_emulated
 
 function(gtest_discover_tests target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "TEST_FILTER;TEST_LIST" "PROPERTIES")
-    # Tests of one program in two parts tell them apart by their lists.
+    # Two parts of one program's tests are distinguished by their lists.
     set(name ${target})
     if(arg_TEST_LIST)
         set(name ${arg_TEST_LIST})
     endif()
     set(filter)
     if(target STREQUAL "mfar-engine-tests-egl")
-        # Those of shaders alone are left out: llvmpipe on ARM has the still's luma up to 1.83 grey
-        # levels off, the bound is 1.5, and why is not known.
+        # Tests of shaders alone are left out: llvmpipe on ARM has errors of up to 1.83 grey levels
+        # in the still's luma (limit 1.5), for unknown reasons.
         set(arg_TEST_FILTER -*/gles)
     endif()
     if(arg_TEST_FILTER)

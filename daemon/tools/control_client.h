@@ -9,25 +9,25 @@
 
 namespace mfar {
 
-/// No mfard answers at the socket.
+/// No mfard listens at the socket.
 class NotReachable : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// mfard has answered that it will not, or cannot; the message is its own.
+/// mfard has refused the request or failed; the message is mfard's.
 class Refused : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// What mfard answers to a request, see answerControl().
+/// mfard's answer to a request, see answerControl().
 struct Reply {
     nlohmann::ordered_json body;
-    std::vector<std::uint8_t> data;  ///< as many as body's "bytes" says
+    std::vector<std::uint8_t> data;  ///< body's "bytes" is its size
 };
 
-/// Sends a request to the mfard that listens at this socket and waits for its answer, 15 s at most.
+/// Sends a request to the mfard that listens at this socket and waits up to 15 s for its answer.
 /// Throws NotReachable, Refused.
 [[nodiscard]] Reply ask(const std::filesystem::path& socket, const nlohmann::json& request);
 

@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 using View = SyntheticBoard::View;
 
-/// Also those that move, where they are at the beginning.
+/// Includes moving tags, at their initial places.
 TagMap mapOf(const std::vector<synthetic::Tag>& tags) {
     std::vector<MappedTag> out;
     for (const synthetic::Tag& tag : tags)
@@ -83,7 +83,7 @@ private:
         ++counts_.flows;
     }
 
-    /// The recorder never waits; a simulation may.
+    /// The recorder never waits and refuses a picture instead; a simulation must not lose one.
     void checked(bool taken) const {
         if (!taken)
             throw std::runtime_error(

@@ -10,18 +10,18 @@
 
 namespace mfar::test {
 
-/// A board in consumer pace that lives until the program ends; one per scene.
+/// The board of a scene, in consumer pace; it lives until the program ends.
 SyntheticBoard& sharedBoard(synthetic::Scene scene);
 
 /// Grey copy of a picture.
 cv::Mat1b grey(const ImageView& image);
-/// Colour copy of a picture, channels in its order, 0..1.
+/// Colour copy of a picture, in the picture's order of channels, [0, 1].
 cv::Mat3f colour(const StoredImage& image);
 
-/// Corners [px] of the tags 36h11 that libapriltag finds, by id: bottom left first, then round
-/// through bottom right, as the library orders them.
+/// Corners [px] of the tags 36h11 that libapriltag finds, by id, in the library's order: from
+/// bottom left via bottom right.
 std::map<int, std::array<Eigen::Vector2d, 4>> detectTags(const cv::Mat1b& picture);
-/// Where those corners are, from the tag's and the camera's pose.
+/// The true places of these corners, from the tag's and the camera's pose.
 std::array<Eigen::Vector2d, 4> projectedCorners(const synthetic::Tag& tag,
                                                 const CameraModel& camera,
                                                 const RigidTransform& T_world_camera);

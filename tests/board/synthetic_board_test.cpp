@@ -29,11 +29,11 @@ std::vector<std::uint8_t> bytes(const Frame& frame) {
 struct Delivery {
     std::vector<Timestamp> videoTimes, stillTimes;
     std::vector<std::vector<std::uint8_t>> pictures;
-    std::vector<std::size_t> stillsAfterFrame;  ///< video frames given out before each still
+    std::vector<std::size_t> stillsAfterFrame;  ///< number of video frames before each still
 };
 
-/// Pulses at the given frames, one thread, until the board ends. Polls for stills while frames
-/// come; after them only a caller who waits gets what is left.
+/// Fires pulses at the given frames, in one thread, until the board ends. Polls for stills while
+/// frames come; after the last frame it waits for the remaining stills.
 Delivery runBoard(SyntheticBoard& board, const std::vector<std::size_t>& pulses) {
     Delivery out;
     board.video().start();
@@ -71,7 +71,7 @@ TEST(SyntheticBoard, AStillComesOnlyAfterAPulseAndItsLatency) {
     const Delivery run = runBoard(board, {2});
     ASSERT_EQ(run.videoTimes.size(), 8U);
     ASSERT_EQ(run.stillTimes.size(), 1U);
-    // Exposed 1 ms after the pulse for 8 ms, there 60 ms after it: two frames later.
+    // Exposed for 8 ms, from 1 ms after the pulse; arrives 60 ms after the pulse: two frames later.
     EXPECT_EQ(run.stillTimes[0], run.videoTimes[1] + 5ms);
     EXPECT_EQ(run.stillsAfterFrame[0], 4U);
     for (std::size_t i = 1; i < run.videoTimes.size(); ++i)

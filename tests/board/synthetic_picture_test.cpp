@@ -20,7 +20,7 @@ cv::Mat3f linear(const cv::Mat3f& picture) {
 
 class EveryScene : public testing::TestWithParam<synthetic::Scene> {};
 
-/// Takes frames until the still of one pulse arrives.
+/// Takes frames until the still of the pulse arrives.
 struct Pair {
     std::optional<Frame> video, still;
 };
@@ -67,7 +67,7 @@ TEST_P(EveryScene, HighResTruthAveragesToTheVideo) {
     const cv::Mat3f video = linear(colour(board.cleanVideo(t)));
     cv::Mat3f high = linear(colour(board.highRes(t))), small;
     cv::resize(high, small, video.size(), 0, 0, cv::INTER_AREA);
-    cv::GaussianBlur(small, small, {3, 3}, 0.36);  // the video sensor's own blur
+    cv::GaussianBlur(small, small, {3, 3}, 0.36);  // the video sensor's blur
     EXPECT_GT(psnr(small, video), 36);
 }
 
@@ -85,7 +85,7 @@ TEST(SyntheticPicture, TheCalibrationTargetsTagsAreWhereTheyAre) {
     SyntheticBoard board(options);
     const Timestamp t = board.epoch();
     cv::Mat1b picture = grey(board.cleanVideo(t).view());
-    // Black squares that touch crosswise would hide the tags from the detector.
+    // The detector does not find tags whose black squares touch at their corners.
     cv::dilate(picture, picture, cv::Mat::ones(3, 3, CV_8U));
     const auto found = detectTags(picture);
     EXPECT_GE(found.size(), 30U);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Sizes that every sample has, for the files that do not say theirs.
+/// The sizes of every sample, for the files without sizes.
 const WantedSizes kSizes{Size{640, 480}, Size{2304, 1728}};
 
 std::string faultOf(const fs::path& path) {
@@ -35,7 +35,8 @@ void writeAll(const fs::path& root) {
     writeFile(root / "cv.yml", openCvText());
 }
 
-/// What to load, which file of it to edit and how, how the message has to begin and what it says.
+/// load: what to load; file: which of its files to edit; from, to: the edit; where: how the message
+/// has to begin; what: a part of the message.
 struct Fault {
     const char *load, *file, *from, *to, *where, *what;
 };
@@ -151,7 +152,7 @@ TEST(RigFiles, ADeviceOrAPipeIsNoCalibration) {
                   file.string() + ": is not a regular file, so this camera has no calibration");
 }
 
-// The table in docs/calibration.md is that of the code.
+// docs/calibration.md has the same table as the code.
 TEST(RigFiles, TheDocumentationShowsWhatIsPlausible) {
     const std::string page = readFile(MFAR_CALIBRATION_PAGE);
     for (const plausible::Range& range : plausible::kRanges)

@@ -45,7 +45,8 @@ TEST(RigFiles, KalibrsCamerasMayBePlacedByTheInertialSensor) {
     const fs::path file = folder / "camchain.yaml";
     writeFile(file, kKalibrText);
     replaceInFile(file, "T_cn_cnm1", "T_cam_imu");
-    // Video: 0.1 m behind the inertial sensor. Then still <- video is still <- imu <- video.
+    // The video camera is 0.1 m behind the inertial sensor: T_still_video = T_still_imu *
+    // T_imu_video.
     replaceInFile(file, "  camera_model",
                   "  T_cam_imu: [[1, 0, 0, 0], [0, 1, 0, 0], "
                   "[0, 0, 1, 0.1], [0, 0, 0, 1]]\n  camera_model");

@@ -22,7 +22,7 @@ void expectCamera(const SensorResult& found, const CameraModel& truth) {
     EXPECT_NEAR(c.fy, truth.fy, 1e-3 * truth.fy);
     EXPECT_NEAR(c.cx, truth.cx, 0.5);
     EXPECT_NEAR(c.cy, truth.cy, 0.5);
-    // The deviations are honest: the truth lies within four of them.
+    // The reported deviations are realistic: the errors are within four of them.
     EXPECT_LT(std::abs(c.fx - truth.fx), 4 * found.deviations[0]);
     EXPECT_LT(std::abs(c.cx - truth.cx), 4 * found.deviations[2]);
     EXPECT_LT(std::abs(c.distortion[0] - truth.distortion[0]), 4 * found.deviations[4]);
@@ -69,7 +69,7 @@ TEST(Calibrate, WrongCornersAndWrongViewsAreLeftOut) {
     for (const std::size_t bad : {2U, 9U})
         for (Corner& c : views.still.views[bad].corners)
             c.pixel.y() *= 1.004;
-    // A still that is sharp but has the wrong time contradicts the video's motion.
+    // A still with a wrong time contradicts the video's motion, although its corners fit well.
     views.still.views[5].time = views.still.views[5].time + std::chrono::milliseconds(60);
     const Calibration found = calibrate(kGrid, views.video, views.still, {});
     expectRig(found);
@@ -130,7 +130,7 @@ TEST(Calibrate, AllViewsFromOneDirectionAreRefused) {
 }
 
 TEST(Calibrate, OneDistanceIsRefused) {
-    // A small target has no depth of its own, and here it is tilted only about its own middle.
+    // The target is small and only tilted about its own centre, so that depths hardly differ.
     const Target small = aprilGrid(6, 6, 0.008, 0.25);
     Motion motion;
     motion.distance = 0.02;

@@ -16,7 +16,8 @@ using calibration::Target;
 
 constexpr double kRateHz = 30;
 
-/// T_video_target: tilted to all sides, near and far, the target in every part of the picture.
+/// T_video_target: tilted to all sides, at near and far distances, the target in every part of the
+/// picture.
 RigidTransform poseAt(const Target& target, const Motion& m, double t) {
     if (m.rests) {
         const double second = std::floor(t), s = std::max(0., (t - second - 0.8) / 0.2);

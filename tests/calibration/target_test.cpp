@@ -23,7 +23,8 @@ TEST(Target, KalibrsDescriptionIsRead) {
     writeFile(folder / "grid.yaml", kGridText);
     const Target grid = readAprilGrid(folder / "grid.yaml");
     ASSERT_EQ(grid.points.size(), 120U);
-    // Tag 7 is the second one of the second row from below; its third corner is the upper right.
+    // Tag 7 is the second tag of the second row from below; its third corner is the upper right
+    // one.
     const double expected = 0.088 * 1.3 + 0.088;
     EXPECT_TRUE(grid.points[30].isApprox(Eigen::Vector3d(expected, expected, 0), 1e-12));
 }
@@ -64,20 +65,21 @@ TEST(Target, CheckerboardsThatLookTheSameUpsideDownAreRefused) {
     EXPECT_THROW((void)checkerboard("9x6", std::nan("")), std::runtime_error);
 }
 
-/// A print of `metres` x `metres` whose lower left corner is at -margin, as a picture through the
-/// homography from target metres to pixels. Drawn three times too large and reduced, so that edges
-/// have the grey levels that a sensor would see.
+/// A simulated photograph of a print. `pixelOfTarget`: homography from target metres to pixels.
+/// Drawn four times too large and reduced, so that edges have the grey levels that a sensor would
+/// see.
 struct Scene {
     cv::Mat1b picture;
     cv::Matx33d pixelOfTarget;
 };
 
-/// Paper drawn at `texels` per metre, target origin at texel `origin`, y upwards if asked.
+/// Photograph of paper with `texels` per metre, the target's origin at texel `origin`, y upwards if
+/// `upwards`.
 Scene photograph(const cv::Mat1b& paper, double texels, cv::Point2d origin, bool upwards,
                  double turn) {
     const cv::Matx33d texelOfTarget{texels,   0, origin.x, 0, upwards ? -texels : texels,
                                     origin.y, 0, 0,        1};
-    // Texel edges, not middles, are where the print's edges are: half a texel less.
+    // The print's edges are at texel edges, not at texel centres: half a texel less.
     const cv::Matx33d middle{1, 0, -0.5, 0, 1, -0.5, 0, 0, 1};
     const double c = std::cos(turn), s = std::sin(turn), w = paper.cols / 2., h = paper.rows / 2.;
     const double scale = 430. / paper.rows;
@@ -87,7 +89,7 @@ Scene photograph(const cv::Mat1b& paper, double texels, cv::Point2d origin, bool
     const cv::Matx33d place{1, 0, 318.3, 0, 1, 241.7, 0, 0, 1};
     const cv::Matx33d pixelOfTexel = place * tilt * centred;
     constexpr double kFine = 4;
-    // Pixel p of the picture covers fine pixels 4 p to 4 p + 3.
+    // Pixel p of the picture covers the fine pixels 4 p to 4 p + 3.
     const cv::Matx33d fine{kFine, 0, kFine / 2 - 0.5, 0, kFine, kFine / 2 - 0.5, 0, 0, 1};
     cv::Mat1b large;
     cv::warpPerspective(paper, large, fine * pixelOfTexel,
@@ -114,10 +116,11 @@ void expectCorners(const Target& target, const Scene& scene, const std::vector<C
         bias += error / static_cast<double>(corners.size());
     }
     EXPECT_LT(std::sqrt(sum / static_cast<double>(corners.size())), 0.08);
-    EXPECT_LT(bias.norm(), 0.03);  // half a pixel would show here
+    EXPECT_LT(bias.norm(), 0.03);  // an offset of half a pixel would fail here
 }
 
-/// A grid as Kalibr prints it, `turn` quarter turns of each tag, its border 1 or 2 cells wide.
+/// A grid as Kalibr prints it; each tag rotated by `turn` quarter turns, with a border of 1 or 2
+/// cells.
 cv::Mat1b printedGrid(const Target& grid, int cell, int turn, int border) {
     const int tagCells = 6 + 2 * border;
     const int gap = static_cast<int>(std::lround(tagCells * grid.spacing));
@@ -150,7 +153,8 @@ Scene photographOfGrid(const Target& grid, int printTurn, int border, double tur
     constexpr int kCell = 20;
     const int tagCells = 6 + 2 * border;
     const cv::Mat1b paper = printedGrid(grid, kCell, printTurn, border);
-    // The first corner: one cell of rim and the lowest row of squares from the lower left.
+    // Distance of the first corner from the lower left: one cell of rim and the lowest row of
+    // squares.
     const double first = (1 + tagCells * grid.spacing) * kCell;
     return photograph(paper, kCell * tagCells / 0.08, {first, paper.rows - first}, true, turn);
 }

@@ -73,7 +73,7 @@ std::string textOf(const ordered_json& said, const char* key) {
 }  // namespace
 
 Judge& Judge::get() {
-    static auto* judge = new Judge;  // threads outlive main()
+    static auto* judge = new Judge;  // never destroyed, as threads outlive main()
     return *judge;
 }
 

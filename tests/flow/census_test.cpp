@@ -26,7 +26,7 @@ std::vector<std::uint32_t> censusOf(const LumaImage& picture) {
     return out;
 }
 
-/// Row by row from the top left, the first neighbour in the highest bit.
+/// Row by row from the top left; the first neighbour is the highest bit.
 std::uint32_t twin(const LumaImage& picture, int x, int y) {
     const auto at = [&](int i, int j) {
         return picture.row(
@@ -81,7 +81,7 @@ LumaImage toned(LumaImage picture, const std::function<double(double)>& curve) {
     return picture;
 }
 
-// Fifty levels are few enough that each of these curves keeps them apart.
+// With only fifty levels, each of these curves keeps neighbouring levels distinct.
 TEST(Census, AnyRisingToneCurveLeavesItAlone) {
     const LumaImage picture = randomPicture({31, 23}, 100, 149, 9);
     const auto bits = censusOf(picture);
@@ -97,7 +97,7 @@ TEST(Census, AnyRisingToneCurveLeavesItAlone) {
     EXPECT_NE(censusOf(toned(picture, [](double v) { return 255 - v; })), bits);
 }
 
-// Where a curve makes neighbours equal, bits may go; none may come.
+// Where a curve makes neighbours equal, bits may be cleared; none may be set.
 TEST(Census, FlatterCurvesNeverTurnAnOrderRound) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);

@@ -1,4 +1,4 @@
-// Pictures and poses that a search must survive, and what it must not depend on.
+// Hostile pictures and poses, and independence of earlier frames.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
@@ -40,7 +40,7 @@ LumaImage wholePictureOf(Size size, const std::function<int(int, int)>& grey) {
     return out;
 }
 
-/// The field is finite, and no way longer than what is sought.
+/// The field is finite, and displacements are within the search range.
 void expectSane(const EpipolarSearch& search, Size size) {
     ASSERT_TRUE(test::isFinite(search));
     ASSERT_EQ(search.inverseDepth().size(), static_cast<std::size_t>(size.width) * size.height);
@@ -80,7 +80,7 @@ TEST(EpipolarSearchOdd, EvenAndExtremePicturesGiveFiniteFields) {
     }
 }
 
-// Nothing to be found out: nothing may jump either.
+// Without information the field must not jump.
 TEST(EpipolarSearchOdd, EvenPicturesGiveAnEvenField) {
     const Size size{97, 71};
     EpipolarSearch search = test::searchWith(cameraOf(size), 2);
@@ -186,7 +186,7 @@ TEST(EpipolarSearchOdd, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// Every frame has its own canvas; none may show what was there before.
+// Every frame has its own canvas, without remains of an earlier frame.
 TEST(EpipolarSearchOdd, RemembersNothingOfEarlierFrames) {
     const CameraModel camera = barrelOf({180, 130});
     const LumaImage video = scene().render(camera, {}),

@@ -30,12 +30,12 @@ Scene flatScene() {
     return {{{{0, 0, 1}, 2}}, 30, 100};
 }
 
-/// A wall, slanted to the right and down.
+/// A wall that is slanted to the right and down.
 Scene slantedScene() {
     return {{{Eigen::Vector3d(0.35, 0.2, 1).normalized(), 2}}, 30, 100};
 }
 
-/// A panel before a wall.
+/// A panel in front of a wall.
 Scene stepScene() {
     return {{{{0, 0, 1}, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
@@ -48,8 +48,9 @@ EpipolarSearch searched(const View& view, int threads = 2) {
     return search;
 }
 
-// Costs are those of the nearest pixels. How far along the line these lie is made up for, not how
-// far beside it; and what is found is drawn to their places.
+// Upper limits of the median error. Costs are those of the nearest pixels. The distance of these
+// pixels along the line is corrected for, not their distance from the line; and results are biased
+// towards pixel centres.
 constexpr double kAcross = 0.38, kAlongAxis = 0.22;
 
 void expectErrors(const View& view, double median, double bad) {
@@ -67,8 +68,8 @@ TEST(EpipolarSearch, FindsAWallSideways) {
     expectErrors({plain(), flatScene(), motion({0, 0, 0}, {0, 0.15, 0})}, kAlongAxis, 0.02);
 }
 
-// Two labels in a row are nearest to the same pixel, and the two pixels beside the match differ
-// from it as much: between those two is where it lies.
+// Two consecutive labels have the same nearest pixel, and the two pixels next to the match differ
+// from it equally: the true place is between them.
 TEST(EpipolarSearch, FindsAWallHalfAPixelAlongADiagonal) {
     const CameraModel camera = plain();
     for (const double pixels : {5.4, 5.5, 5.6, -8.5}) {
@@ -99,7 +100,7 @@ TEST(EpipolarSearch, FindsDepthAsWellAsFlow) {
     EXPECT_NEAR(depthAt(170, 20), 3, 0.1);
 }
 
-// The epipole lies within the picture: the longest ways are at its border.
+// The epipole is within the picture: displacements are longest at the border.
 TEST(EpipolarSearch, FindsScenesAhead) {
     for (const double t : {-0.4, 0.4}) {
         expectErrors({plain(), stepScene(), motion({0, 0, 0}, {0, 0, t})}, 0.15, 0.04);
@@ -114,7 +115,7 @@ TEST(EpipolarSearch, FindsScenesAfterATurnThroughALens) {
     expectErrors({barrel(), flatScene(), motion({2, -28, 5}, {0.15, 0, 0.1})}, 0.2, 0.04);
 }
 
-// Three levels, and a way longer than a window of the coarsest.
+// Three levels, and a displacement longer than the window of the coarsest level.
 TEST(EpipolarSearch, FindsLongWaysThroughThreeLevels) {
     const CameraModel camera{{320, 240}, 300, 300, 159.5, 119.5, {}};
     const Scene scene{{{{0, 0, 1}, 3}, {{0, 0, 1}, 1.5, {-0.3, -0.3}, {0.3, 0.3}}}, 35, 100};
@@ -141,7 +142,7 @@ TEST(EpipolarSearch, PureRotationNeedsNoSearch) {
     }
 }
 
-// One unit of s moves no pixel of the picture by more, and some by nearly as much.
+// One unit of s moves no pixel by more than this, and some by nearly as much.
 TEST(EpipolarSearch, PixelsPerUnitIsTheLongestWay) {
     for (const Eigen::Vector3d& t :
          {Eigen::Vector3d(0.2, 0, 0), Eigen::Vector3d(0.1, -0.1, 0.3), Eigen::Vector3d(0, 0, -1)}) {
@@ -170,7 +171,7 @@ TEST(EpipolarSearch, UnitOfLengthIsFree) {
         EXPECT_EQ(search.labels(), metres.labels());
         EXPECT_NEAR(search.pixelsPerUnit(), unit * metres.pixelsPerUnit(),
                     1e-3 * unit * metres.pixelsPerUnit());
-        // The step along the line is measured in floats: a rounding may tip a pixel here or there.
+        // Steps along the line are single precision: rounding may change a few pixels.
         int apart = 0;
         for (int y = 0; y < 150; ++y)
             for (int x = 0; x < 200; ++x)
@@ -185,7 +186,7 @@ LumaImage developed(LumaImage picture, const std::function<double(double)>& curv
     return picture;
 }
 
-// About s of the cells, as a frame before would have left it, is worth as much as the coarser
+// A search around predicted s, as from a previous frame, is as good as one through the coarser
 // levels.
 TEST(EpipolarSearch, FindsAroundAPredictionWhatItFindsFromCoarseToFine) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
@@ -205,7 +206,7 @@ TEST(EpipolarSearch, FindsAroundAPredictionWhatItFindsFromCoarseToFine) {
     const FlowErrors around = errorsOf(search, view), from = errorsOf(whole, view);
     EXPECT_LT(around.median, 1.05 * from.median);
     EXPECT_LT(around.bad, from.bad + 0.005);
-    // It is the prediction that is searched around: far from the truth it leads astray.
+    // Only the prediction's surroundings are searched: a wrong prediction yields a wrong result.
     const auto far = static_cast<float>(30 / whole.pixelsPerUnit());
     for (float& s : predicted)
         s += far;
@@ -213,7 +214,8 @@ TEST(EpipolarSearch, FindsAroundAPredictionWhatItFindsFromCoarseToFine) {
     EXPECT_GT(errorsOf(search, view).bad, 0.9);
 }
 
-/// Share of the pixels in which both find the same surface: steps along the line are not the same.
+/// Share of the pixels in which both find the same surface; exact values differ, as the steps along
+/// the line do.
 double alikeIn(const PixelRect& area, const EpipolarSearch& part, const EpipolarSearch& whole) {
     const PixelRect& from = part.area();
     int alike = 0, all = 0;

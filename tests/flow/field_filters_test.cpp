@@ -35,7 +35,7 @@ float medianAt(const std::vector<float>& field, Size size, int x, int y) {
     return around[4];
 }
 
-// Few different values make many ties.
+// A small number of different values yields many ties.
 TEST(Median3x3, IsTheMiddleOfTheNineSorted) {
     for (int threads = 1; threads <= 3; ++threads) {
         Workers workers(threads);
@@ -54,7 +54,7 @@ TEST(Median3x3, IsTheMiddleOfTheNineSorted) {
     }
 }
 
-// The border repeats, so a network that misplaces one of the nine shows here.
+// Random orders of nine distinct values: a wrong sorting network fails only for some orders.
 TEST(Median3x3, EveryOrderOfNineHasTheSameMiddle) {
     Workers workers(1);
     std::vector<float> in{1, 2, 3, 4, 5, 6, 7, 8, 9}, out(9);
@@ -92,7 +92,7 @@ TEST(LocalRange, IsTheLeastAndGreatestOfTheSquare) {
     }
 }
 
-// Scratch that is used again must not remember a greater picture.
+// Scratch memory must not keep values of a larger picture.
 TEST(LocalRange, MayBeUsedAgainForAnotherSize) {
     LocalRange range;
     localRange(randomField({40, 30}, 100), {40, 30}, 2, range);

@@ -13,14 +13,14 @@ CameraModel barrelCamera() {
     return {{322, 241}, 250, 252, 163, 119, {-0.2, 0.05, 0.001, -0.001, 0}};
 }
 
-/// A panel before a slanted wall.
+/// A panel in front of a slanted wall.
 Scene slantedStep() {
     const Eigen::Vector3d normal = Eigen::Vector3d(0.5, 0.2, 1).normalized();
     return {{{normal, 3}, {{0, 0, 1}, 2, {-0.35, -0.4}, {0.45, 0.3}}}, 28, 100};
 }
 
-/// s of the cells of a frame that stands at `T_frame_world`, whose still stands at the world's
-/// origin, where that scene is described.
+/// s of the cells of a frame at `T_frame_world`. Its still is at the world's origin, and the scene
+/// is given in the still's frame.
 std::vector<float> truth(const EpipolarLens& cells, const RigidTransform& T_frame_world,
                          const Scene& scene) {
     const RigidTransform T_still_frame = T_frame_world.inverse();
@@ -38,8 +38,9 @@ RigidTransform scaled(RigidTransform T, double factor) {
     return T;
 }
 
-/// Share of cells whose s the prediction misses by more than 0.7 %: what a cell more or less makes
-/// on the wall. Three cells at the picture's border, where something came in, are left out.
+/// Share of cells whose predicted s is wrong by more than 0.7 %, the change from one cell to the
+/// next on the wall. Three cells at the border are left out, as new parts of the scene came in
+/// there.
 double missed(std::span<const float> predicted, const std::vector<float>& expected, Size cells,
               double unit = 1) {
     int missed = 0, all = 0;
@@ -60,7 +61,7 @@ TEST(FieldPrediction, CarriesSurfacesOverByThePoses) {
     const auto predicted = prediction.in(after.inverse(), 1);
     const auto expected = truth(cells, after, slantedStep());
     ASSERT_EQ(predicted.size(), expected.size());
-    // All but the panel's edges.
+    // Only cells at the panel's edges may be missed.
     EXPECT_LT(missed(predicted, expected, cells.size()), 0.03);
     EXPECT_GT(missed(truth(cells, before, slantedStep()), expected, cells.size()), 0.2)
         << "what to beat";
@@ -81,14 +82,14 @@ TEST(FieldPrediction, EveryFrameHasItsOwnUnit) {
 }
 
 TEST(FieldPrediction, TheNearestOfWhatMeetsIsSeen) {
-    // Everything at infinity, but one cell: that lands beside a far one, and is kept.
+    // All cells are at infinity except one, which lands on a far cell and replaces it.
     const EpipolarLens cells(barrelCamera(), 2);
     const int width = cells.size().width, middle = 30 * width + 40;
     std::vector<float> kept(static_cast<std::size_t>(width) * cells.size().height, 0.0F);
     kept[middle] = 0.5F;
     FieldPrediction prediction(barrelCamera());
     prediction.keep(kept, {}, 1);
-    // Two cells to the right: f = 62 cells, at a depth of two units.
+    // Moves it by two cells to the right: f = 62 cells, at a depth of two units.
     const auto predicted = prediction.in(motion({0, 0, 0}, {-2 * 2 / 62.0, 0, 0}), 1);
     ASSERT_FALSE(predicted.empty());
     EXPECT_FLOAT_EQ(predicted[middle + 2], 0.5F);

@@ -10,21 +10,21 @@
 
 namespace mfar::test {
 
-/// The plane normal . p = distance of the video's coordinates, where `within` holds: x and y of
-/// its points between these. It carries a texture that fills space.
+/// The plane normal . p = distance in the video's frame, limited to points with x and y between
+/// `least` and `greatest`. Its texture is a function of space.
 struct Surface {
     Eigen::Vector3d normal{0, 0, 1};
     double distance = 2;
     Eigen::Vector2d least{-1e9, -1e9}, greatest{1e9, 1e9};
 };
 
-/// Surfaces of unit size as a camera with about `grain` units of texture a unit of length sees it.
+/// A scene for a camera that sees surfaces of unit size with about `grain` cells of texture.
 struct Scene {
     std::vector<Surface> surfaces;
-    double grain = 20;     ///< cells of the finest texture a unit of length
-    double contrast = 90;  ///< grey levels either side of 128
+    double grain = 20;     ///< cells of the finest texture per unit of length
+    double contrast = 90;  ///< grey levels above and below 128
 
-    /// Depth z of what the pixel's ray hits first, seen from T_camera_video; zero: nothing.
+    /// Depth z of the first surface on the pixel's ray, seen from T_camera_video; zero: no surface.
     [[nodiscard]] double depth(const RigidTransform& T_camera_video,
                                const Eigen::Vector2d& ray) const;
     [[nodiscard]] LumaImage render(const CameraModel& camera,
@@ -43,28 +43,28 @@ struct View {
 
 using mfar::viewOf;
 
-/// Of an odd size, without and with a lens that bends.
+/// Of an odd size, without and with distortion.
 [[nodiscard]] CameraModel oddPlain();
 [[nodiscard]] CameraModel oddBarrel();
 
-/// A search whose two cameras are the same.
+/// A search in which both cameras are the same.
 [[nodiscard]] EpipolarSearch searchWith(const CameraModel& camera, int threads);
 
-/// Where a search says that the frame's pixel lies in the still.
+/// The place of the frame's pixel in the still, according to a search.
 [[nodiscard]] Eigen::Vector2d landing(const EpipolarSearch& search, const View& view, int x, int y);
 
-/// Errors of a search's flow over pixels that the still shows, not hidden there [px].
+/// Errors of a search's flow [px], over the pixels that are visible in the still.
 struct FlowErrors {
     std::size_t pixels = 0;
     double median = 0;
-    double bad = 0;  ///< share of pixels more than one pixel off
+    double bad = 0;  ///< share of pixels with an error of more than one pixel
 };
 [[nodiscard]] FlowErrors errorsOf(const EpipolarSearch& search, const View& view);
 
-/// All of the field is finite.
+/// True when the whole field is finite.
 [[nodiscard]] bool isFinite(const EpipolarSearch& search);
 
-/// Rotations [degrees] about x, then y, then z; translation of points.
+/// Rotates by the angles [degrees] about x, then y, then z, then translates.
 [[nodiscard]] RigidTransform motion(const Eigen::Vector3d& degrees, const Eigen::Vector3d& t);
 
 }  // namespace mfar::test

@@ -1,4 +1,4 @@
-// The search with a pose that is off, on rendered scenes of known depth.
+// The search with an inexact pose, on rendered scenes of known depth.
 #include "pipeline/epipolar/epipolar_search.h"
 #include "tests/flow/flow_scene.h"
 
@@ -36,8 +36,8 @@ Matrix6 covarianceOf(double degrees, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Median over the scene of how far a pose's epipolar lines pass by what they are to find [px];
-/// without parallax, of how far it shows points off their place.
+/// Median distance of the true points from a pose's epipolar lines [px]; without parallax, from the
+/// points that the pose predicts.
 double missOf(const RigidTransform& pose, const View& view) {
     const CameraModel& camera = view.camera;
     std::vector<double> out;
@@ -60,14 +60,14 @@ double missOf(const RigidTransform& pose, const View& view) {
     return out[out.size() / 2];
 }
 
-/// A view with its pictures.
+/// A view with its rendered pictures.
 struct Shots {
     View view;
     LumaImage video, still;
     Shots(const View& v) : view(v), video(v.video()), still(v.still()) {}
 };
 
-/// A search from a pose that is off by `error`.
+/// A search from a pose with the error `error`.
 EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
                         const Matrix6& covariance) {
     EpipolarSearch search = test::searchWith(shots.view.camera, 2);
@@ -77,7 +77,7 @@ EpipolarSearch searched(const Shots& shots, const RigidTransform& error,
     return search;
 }
 
-/// Share of the pixels whose inverse depth is off by more than a pixel's way.
+/// Share of the pixels whose inverse depth is wrong by more than one pixel of displacement.
 double depthErrorOf(const EpipolarSearch& search, const View& view) {
     const Size size = view.camera.size;
     int bad = 0, all = 0;
@@ -102,7 +102,7 @@ std::vector<View> views() {
             {pagePlain(), panelScene(), motion({0, 0, 0}, {0.02, 0.01, 0.4})}};
 }
 
-// 2 px at this focal length are half a degree.
+// At this focal length 2 px are half a degree.
 TEST(PoseRefinement, BringsEpipolarLinesBackToAQuarterPixel) {
     for (const View& view : views()) {
         const Shots shots(view);
@@ -149,13 +149,15 @@ TEST(PoseRefinement, PureRotationIsRefinedWithoutASearch) {
     EXPECT_LT(missOf(search.pose(), view), 0.1);
 }
 
-// A panel before a wall moves by itself, across the lines; it holds nearly half of the patches.
+// A panel in front of a wall moves on its own, across the epipolar lines; it contains nearly half
+// of the patches.
 TEST(PoseRefinement, FollowsTheSceneAndNotWhatMovesInIt) {
     View view{pagePlain(), panelScene(), motion({0, 0, 0}, {-0.2, 0, 0})};
     view.scene.surfaces[1].least = {-0.75, -0.75};
     view.scene.surfaces[1].greatest = {0.65, 0.35};
     const LumaImage video = view.video();
-    // The texture fills space, so the panel is seen from elsewhere instead of being moved.
+    // The texture is a function of space, so the panel is rendered from another pose instead of
+    // being moved.
     const RigidTransform lifted = view.T_still_video * motion({0, 0, 0}, {0, 0.06, 0});
     LumaImage still = view.still();
     const Scene moving{{view.scene.surfaces[1]}, 28, 100};
@@ -247,9 +249,9 @@ TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
     }
 }
 
-// Too few patches to refine by: the search itself looks beside its lines.
+// With too few patches for a refinement, the search also looks next to its lines.
 TEST(PoseRefinement, WithoutPatchesTheSearchHasRoomBesideItsLines) {
-    // A small panel before nothing.
+    // A small panel without a background.
     const Shots shots({pagePlain(),
                        {{{{0.3, 0, 1}, 2, {-0.1, -0.1}, {0.15, 0.1}}}, 60, 100},
                        motion({0, 0, 0}, {0.2, 0, 0})});

@@ -20,12 +20,12 @@ Matrix6 priorCovariance(double turn, double shift) {
     return diagonal.asDiagonal();
 }
 
-/// Matches of a prior that is off by `motion`; its orientation is that of the rays `still`.
+/// Matches for a prior with the error `motion`, in the orientation of the rays `still`.
 struct Case {
     Eigen::Vector3d translation{0.2, 0.02, 0.01};
     Vector6 motion = Vector6::Zero();
     double noise = 0.2;  // of a match [px]
-    double wrong = 0;    // share of matches that are anywhere
+    double wrong = 0;    // share of outliers
     int count = 250;
 
     [[nodiscard]] std::vector<RayMatch> matches() const {
@@ -94,7 +94,7 @@ TEST(RelativePose, StandsWrongMatches) {
     }
 }
 
-// Nothing in two pictures tells how long the way between them was.
+// Two pictures do not determine the length of the translation.
 TEST(RelativePose, LengthOfTheTranslationIsThePriors) {
     const Case c{.motion = motionOf({0.2, 0, 0.1}, {0, 0, 0})};
     for (const double shift : {0.002, 0.02}) {

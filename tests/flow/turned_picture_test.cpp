@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kBeyond = 0.8;
 
-// Folds back not far beyond its corners: rays 61 degrees off its axis come back to the centre.
+// The model folds back not far beyond its corners: rays 61 degrees off the axis are projected to
+// the centre again.
 CameraModel folding() {
     return {{161, 119}, 150, 150, 80, 59, {-0.3, 0, 0, 0, 0}};
 }
@@ -20,7 +21,7 @@ Eigen::Matrix3d turn(double x, double y, double z) {
     return test::motion({x, y, z}, {0, 0, 0}).rotation.toRotationMatrix();
 }
 
-/// Smooth, so that what is drawn between pixels is known.
+/// Smooth, so that values between pixels are known.
 double grey(double x, double y) {
     return 128 + 50 * std::sin(0.11 * x) + 50 * std::cos(0.13 * y + 0.02 * x);
 }
@@ -48,7 +49,7 @@ Canvas turned(const CameraModel& camera, const Eigen::Matrix3d& rotation) {
     return out;
 }
 
-/// Where the camera's pixel is in the picture; far outside where it cannot be.
+/// The place of the camera's pixel in the picture; far outside when it is not visible.
 Eigen::Vector2d source(const CameraModel& camera, const Eigen::Matrix3d& rotation,
                        const Eigen::Vector2d& pixel) {
     constexpr double kNowhere = -1e6;
@@ -57,7 +58,7 @@ Eigen::Vector2d source(const CameraModel& camera, const Eigen::Matrix3d& rotatio
     const Eigen::Vector3d p = rotation * ray.homogeneous();
     if (!(p.z() > 0)) return {kNowhere, kNowhere};
     const Eigen::Vector2d at = camera.project(p.hnormalized());
-    // The model of a lens folds rays from far beside the picture back into it.
+    // The lens model projects rays from far outside back into the picture.
     const bool real = (camera.unproject(at) - p.hnormalized()).norm() < 1e-3;
     return real ? at : Eigen::Vector2d(kNowhere, kNowhere);
 }
@@ -71,7 +72,7 @@ struct Agreement {
     double worst = 0;  // [grey levels]
 };
 
-// A band of two pixels at the picture's border is anybody's.
+// Pixels within two pixels of the picture's border may be either.
 Agreement compare(const CameraModel& camera, const Eigen::Matrix3d& rotation,
                   const Canvas& canvas) {
     Agreement out;
@@ -93,8 +94,8 @@ Agreement compare(const CameraModel& camera, const Eigen::Matrix3d& rotation,
     return out;
 }
 
-/// Pixels of the camera's own frame, and of `beyond` around it, that show the picture but are not
-/// on the canvas.
+/// Number of pixels in the camera's own frame, and in `beyond` around it, that show the picture but
+/// are outside the canvas.
 int leftOff(const CameraModel& camera, const Eigen::Matrix3d& rotation, const Canvas& canvas) {
     const int reach = static_cast<int>(kBeyond * camera.size.width) - 1;
     const auto [ox, oy] = canvas.placed.origin();
@@ -134,8 +135,8 @@ TEST(TurnedPicture, ShowsWhatDirectProjectionFinds) {
             ASSERT_GT(canvas.placed.size().width, 0);
             const Agreement found = compare(camera, rotation, canvas);
             EXPECT_GT(found.shown, 500);
-            // Towards a fold the way between two points of the grid is no longer straight, and
-            // cells that reach across it show nothing.
+            // Near a fold, interpolation between two points of the grid is not linear, and cells
+            // across it show nothing.
             const bool folds = camera.distortion[1] == 0 && camera.distortion[0] < 0;
             EXPECT_LT(found.worst, folds ? 15 : 3) << rotation;
             EXPECT_LE(found.missing, folds ? found.shown / 12 : 0) << rotation;
@@ -147,7 +148,8 @@ TEST(TurnedPicture, ShowsWhatDirectProjectionFinds) {
 
 TEST(TurnedPicture, CanvasLiesWhereTheCameraTurnedTo) {
     const CameraModel camera = test::oddPlain();
-    // Rays of the new orientation come from the right of the picture: it lies to the left.
+    // Rays of the new orientation come from the right of the picture, so the picture is on the
+    // left.
     const Canvas left = turned(camera, turn(0, 38, 0));
     EXPECT_LT(left.placed.origin().x, -camera.size.width / 4);
     EXPECT_LT(left.placed.origin().x + left.placed.size().width, camera.size.width);

@@ -53,7 +53,7 @@ TEST(Workers, PartsAreConsecutiveAndNoShorterThanTheGrain) {
                 for (const auto& [first, last] : parts) {
                     ASSERT_EQ(first, next);
                     ASSERT_GT(last, first);
-                    // What is left for the last part may be less.
+                    // The last part may be smaller.
                     ASSERT_TRUE(last == end || last - first >= grain);
                     next = last;
                 }
@@ -70,7 +70,7 @@ TEST(Workers, NothingToDoCallsNobody) {
     EXPECT_EQ(partsOf(workers, 1, 1).size(), 1U);
 }
 
-// A part that is left over from one loop, or taken twice, breaks the sum of the next.
+// A part of an earlier loop that is left over or done twice would change the next loop's sum.
 TEST(Workers, ManyLoopsInARowStayApart) {
     for (int threads = 1; threads <= 4; ++threads) {
         Workers workers(threads);
@@ -86,7 +86,7 @@ TEST(Workers, ManyLoopsInARowStayApart) {
     }
 }
 
-// What a body wrote without a lock is there for the caller afterwards (ThreadSanitizer looks on).
+// Without locks, the caller sees what the loop's body wrote (checked by ThreadSanitizer).
 TEST(Workers, ResultsAreVisibleToTheCaller) {
     Workers workers(4);
     std::vector<int> values(500);
@@ -104,7 +104,7 @@ TEST(Workers, OtherThreadsHelp) {
     std::mutex mutex;
     std::set<std::thread::id> seen;
     std::atomic<bool> both = false;
-    // The part of whoever comes first ends only when the other has begun one.
+    // The first thread's part ends only after the second thread has begun one.
     workers.forRange(2, 1, [&](int, int) {
         {
             const std::scoped_lock lock(mutex);

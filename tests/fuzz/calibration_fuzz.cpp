@@ -1,4 +1,4 @@
-// Calibrations in all formats: a folder, each file by itself, and two files together.
+// Calibrations in all formats: a folder, each file on its own, and two files together.
 #include "base/calibration/camera_info.h"
 #include "base/calibration/rig_files.h"
 #include "tests/fuzz/file_bundle.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace mfar;
 
-/// What a calibration promises: pixels become rays.
+/// Properties of every calibration that is accepted.
 void requireSound(const CameraModel& camera) {
     test::requireThat(camera.size.width > 0 && camera.size.height > 0, "a size");
     test::requireThat(camera.fx > 0 && camera.fy > 0, "a focal length");

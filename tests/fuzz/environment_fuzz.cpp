@@ -1,4 +1,4 @@
-// Pictures of an environment: Radiance, PNG, JPEG.
+// Environment pictures: Radiance, PNG, JPEG.
 #include "pipeline/models/environment_map.h"
 #include "pipeline/models/gltf_model.h"
 #include "tests/fuzz/target.h"

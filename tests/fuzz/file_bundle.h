@@ -8,10 +8,10 @@
 
 namespace mfar::test {
 
-/// Files in a folder, from one input: "#@ NAME", a line end and the file's bytes, up to the line
-/// end before the next such line or to the input's end. The names are those of `known`; what has
-/// another name is left out. The folder is in memory where the machine has such a one, and is
-/// removed.
+/// A folder of files, made from one input: "#@ NAME", a line end and the file's bytes, until the
+/// line end before the next such line or the end of the input. Only files with names in `known` are
+/// written. The folder is in memory where the machine has a file system for that, and is removed in
+/// the end.
 class FileBundle {
 public:
     FileBundle(const std::uint8_t* data, std::size_t size, const std::vector<std::string>& known);

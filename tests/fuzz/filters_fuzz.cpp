@@ -1,6 +1,6 @@
-// The state of the learned filters. An input edits a file that is whole: two bytes choose a place
-// in 64ths of the file and beyond it, the next one how many bytes follow and replace what is there.
-// The checksum is made right, as it would hide everything behind it.
+// The state of the learned filters. An input edits a valid file: two bytes select a place (in 64ths
+// of the file, plus an offset), the third the number of bytes that follow and replace the file's.
+// The checksum is corrected afterwards; otherwise nothing behind its check would be reached.
 #include "pipeline/enlarge/enlarger_learner.h"
 #include "pipeline/enlarge/filter_bank.h"
 #include "pipeline/enlarge/stored_numbers.h"

@@ -1,4 +1,4 @@
-# Of `./run`: fuzz(). Needs its functions.
+# Part of `./run`, whose functions it needs: fuzz().
 
 fuzzPackages() {
     cat <<'EOF'
@@ -16,7 +16,7 @@ EOF
 
 fuzzTargets() { sed -n 's/^ *mfar_fuzz_target(\([a-z0-9]*\).*/\1/p' tests/fuzz/CMakeLists.txt | sort -u; }
 
-# The room of a target: sources whose coverage is counted, as a regular expression.
+# The sources whose coverage is counted for a target, as a regular expression.
 fuzzRoom() {
     case $1 in
     calibration) echo 'base/calibration/' ;;
@@ -36,7 +36,7 @@ fuzzRoom() {
     esac
 }
 
-# Inputs that were found before: kept beside what else takes long to make.
+# Folder of inputs that were found before, next to other results that take long to make.
 fuzzFolder() {
     local folder
     folder=$(cacheFolder)/fuzz/$1
@@ -44,7 +44,7 @@ fuzzFolder() {
     echo "$folder"
 }
 
-# Arguments: preset, target, seconds. An input that fails is kept, and its path printed.
+# Arguments: preset, target, seconds. Keeps an input that fails and prints its path.
 fuzzOne() {
     local build=.build/$1 target=$2 seconds=$3 seeds=tests/fuzz/corpus/$2 found
     local dictionary=tests/fuzz/$2.dict
@@ -68,7 +68,7 @@ fuzzOne() {
     ' "$build/$target.log"
 }
 
-# Share of the lines of its room that a target's inputs reach.
+# Share of its sources' lines that a target's inputs reach.
 fuzzCoverage() {
     local target=$1 program=.build/fuzz-coverage/tests/fuzz/mfar-fuzz-$1 data=.build/fuzz-coverage/$1
     LLVM_PROFILE_FILE=$data.profraw "$program" "tests/fuzz/corpus/$target" "$(fuzzFolder "$target")" >/dev/null
@@ -81,8 +81,8 @@ fuzzCoverage() {
         awk '/^TOTAL/ { print $10 " of " $8 " lines, " $7 " of " $5 " functions" }'
 }
 
-# Makes the libraries that decode pictures and read YAML with coverage and sanitizers, and the link
-# by which the preset finds them. CMake remembers where the link led to.
+# Builds the libraries that decode pictures and read YAML with coverage and sanitizers, and creates
+# the link by which the preset finds them. CMake remembers the target of the link.
 instrumentLibraries() {
     local made link=.build/instrumented
     ensurePackages fuzzLibraryPackages
@@ -93,7 +93,7 @@ instrumentLibraries() {
     ln -sfn "$made" "$link"
 }
 
-# Arguments: targets (none: all), --minutes N (1), --coverage, --instrument-libraries.
+# Arguments: targets (none: all), --minutes N (default 1), --coverage, --instrument-libraries.
 fuzz() {
     local preset=fuzz seconds=60 coverage='' targets=() running=0 status=0 target
     while [[ $# -gt 0 ]]; do

@@ -1,11 +1,11 @@
-// Models in one piece. What is read is what scene.h says of a model.
+// Models in one file. Every accepted model satisfies scene.h.
 #include "pipeline/models/gltf_model.h"
 #include "tests/fuzz/sound_model.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace mfar;
-    ModelLimits limits;  // small, so that a damaged count is refused and not only slow
+    ModelLimits limits;  // small, so that a huge count is refused at once
     limits.bytes = 1U << 20U;
     limits.vertices = limits.triangles = 10'000;
     limits.elements = 1'000;

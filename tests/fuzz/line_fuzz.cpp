@@ -1,4 +1,4 @@
-// The note about the trigger's line.
+// The note of the trigger line, see taken_line.h.
 #include "daemon/exit_code.h"
 #include "daemon/taken_line.h"
 #include "tests/fuzz/file_bundle.h"

@@ -10,8 +10,8 @@ extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, st
 
 namespace mfar::test {
 
-/// What LLVMFuzzerCustomMutator() is to do: libFuzzer's own mutation, after which `mend` makes a
-/// length or a checksum right that would hide all behind it; one time in ten it does not.
+/// Implements LLVMFuzzerCustomMutator(): libFuzzer's own mutation, then `mend` corrects a length or
+/// checksum whose check would refuse the input early; one time in ten it does not.
 template <class Mend>
 std::size_t mutated(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed,
                     const Mend& mend) {

@@ -1,5 +1,5 @@
-// Gives a fuzz target each file of some folders once: its seeds, and what was found with it. Stands
-// in for libFuzzer, which has a main() of its own.
+// Runs a fuzz target once for each file in some folders: seeds and inputs that failed before.
+// Replaces libFuzzer's main().
 #include "tests/fuzz/target.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ int main(int argc, char** argv) {
             std::ifstream in(file, std::ios::binary);
             const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
             fmt::print("{}\n", file.string());
-            std::fflush(stdout);  // before it may end the process
+            std::fflush(stdout);  // before the target may end the process
             LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()),
                                    bytes.size());
             ++count;

@@ -9,11 +9,11 @@
 
 namespace mfar::test {
 
-/// A driver whose answers are bytes of a script, as far as the kernel lets a driver choose: it
-/// gives an error or fills the structure of a call, but neither moves the caller's pointers nor
-/// gives away descriptors that are not new. Each call takes a byte first: 0 to 7 are errors; with 8
-/// to 127 the answer is the one a sound camera would give, with more the script fills it. Once the
-/// script is at its end, the answers are sound.
+/// A driver whose answers are bytes of a script, within the limits that the kernel sets to a
+/// driver: it returns an error or fills the structure of a call, but neither changes the caller's
+/// pointers nor returns descriptors that are not new. The first byte of each call selects the
+/// answer: 0 to 7 are errors, 8 to 127 the answer of a correct camera, and for larger values the
+/// script fills the structure. After the end of the script all answers are correct.
 class ScriptedV4l2 final : public V4l2Api {
 public:
     explicit ScriptedV4l2(std::span<const std::uint8_t> script) : script_(script) {}

@@ -4,7 +4,7 @@
 
 namespace mfar::test {
 
-/// Throws std::runtime_error unless the model is what scene.h says of one.
+/// Throws std::runtime_error for a model that does not satisfy scene.h.
 void requireSoundModel(const Model& model);
 
 }  // namespace mfar::test

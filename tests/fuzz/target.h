@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <string_view>
 
-/// What a fuzz target is: it reads one input and returns 0. A fault ends the process: what the
-/// sanitizers see, or an exception other than those that the room's header names.
+/// The interface of a fuzz target: it reads one input and returns 0. A fault ends the process: one
+/// that a sanitizer reports, or an exception that the tested header does not document.
 // NOLINTNEXTLINE(readability-identifier-naming): its name for libFuzzer
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
@@ -17,7 +17,7 @@ namespace mfar::test {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-/// For what must hold of an answer.
+/// Checks a property of a result.
 inline void requireThat(bool holds, const char* what) {
     if (!holds) throw std::logic_error(what);
 }

@@ -1,4 +1,4 @@
-// A driver that answers anything: the input is what its calls return.
+// A driver with arbitrary answers: the input is the script of its answers.
 #include "base/image_layout.h"
 #include "hal/device/camera_v4l2.h"
 #include "tests/fuzz/scripted_v4l2.h"
@@ -22,7 +22,7 @@ void run(test::ScriptedV4l2& driver) {
         if (auto frame = camera.next(std::chrono::milliseconds(0))) {
             requireSound(frame->view(), "a camera's picture");
             const ImageView view = frame->view();
-            // The whole picture can be read.
+            // Every byte of the picture must be readable.
             const std::uint8_t last = view.data[view.stride * (view.size.height - 1U)];
             static_cast<void>(last);
             held.push_back(std::move(*frame));

@@ -24,7 +24,8 @@ TEST(FineMatchLearner, BeginsWithoutAnything) {
 TEST(FineMatchLearner, FindsTheNoiseOfTheVideo) {
     EXPECT_LT(learned({}).noise, 0.5);
     for (const double noise : {2.0, 4.0}) {
-        // Three quarters of it are in the finest detail; a tenth of the cells has half of that.
+        // Three quarters of the noise are in the finest detail; a tenth of the cells has less than
+        // half of that.
         const double fine = 0.75 * noise * noise;
         const float found = learned({.videoNoise = noise}).noise;
         EXPECT_GT(found, 0.4 * fine) << noise;

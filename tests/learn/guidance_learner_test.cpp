@@ -9,7 +9,8 @@
 namespace mfar::enlarge {
 namespace {
 
-/// A noisy video of the discs, the still that it is drawn with and the one that tells the truth.
+/// `truth`: a noisy video of the discs with a sharp still; `older`: the same with the noisy still
+/// that it is drawn with.
 struct Stills {
     Stills(double videoNoise, double olderNoise, unsigned seed, SensorPair how = {}) {
         const twin::Grey sharp = sharpDiscs(seed);
@@ -38,7 +39,7 @@ TEST(GuidanceLearner, BeginsWithNone) {
 }
 
 TEST(GuidanceLearner, FindsTheBestMeanOfTwoNoisyValues) {
-    // The mean over a pixel of the video has a quarter of the still's noise.
+    // The mean of the still over a video pixel has a quarter of the still's noise.
     for (const auto& [video, still] : {std::pair{4.0, 0.0}, {4.0, 8.0}, {4.0, 16.0}}) {
         const double best = video * video / (video * video + still * still / 16);
         const GuidanceLearner learner = learned(video, still);
@@ -50,8 +51,8 @@ TEST(GuidanceLearner, FindsTheBestMeanOfTwoNoisyValues) {
 }
 
 TEST(GuidanceLearner, FindsWhatEachExposureAsksFor) {
-    // The weight of the detail brings the still to the video's exposure.
-    for (const double gain : {0.5, 0.8}) {  // no more: it would be saturated
+    // `weight` scales the still's detail to the video's exposure.
+    for (const double gain : {0.5, 0.8}) {  // a larger gain would be saturated
         GuidanceLearner learner;
         for (unsigned i = 1; i <= 3; ++i) {
             const Stills of(4, 0, i, {.gain = gain, .weight = 1 / gain});

@@ -42,7 +42,7 @@ protected:
         : current_(makeCurrent()), still_(sharp_.values.begin(), sharp_.values.end()),
           video_(low_.values.begin(), low_.values.end()), pipeline_(made()), other_(made()) {}
 
-    // Before the pipelines.
+    // The context must be current before the pipelines are created.
     static bool makeCurrent() {
         context().makeCurrent();
         return true;
@@ -60,7 +60,7 @@ protected:
                      {});
         return pipeline.readImage();
     }
-    /// Both draw the same.
+    /// True when both pipelines draw the same picture.
     bool alike() { return picture(pipeline_) == picture(other_); }
 
     bool current_;

@@ -1,10 +1,10 @@
 #!/bin/bash
-# SIGTERM and SIGINT end mfard within one second, whatever it waits for. The limits leave half a
-# second for the scheduler.
+# SIGTERM and SIGINT end mfard within one second, whatever it waits for. The limits allow half a
+# second more for the scheduler.
 . "$(dirname "$0")/lib.sh"
 
 limit=1500
-# SIGHUP, SIGINT and SIGTERM are blocked as soon as mfard waits for them itself.
+# mfard blocks SIGHUP, SIGINT and SIGTERM as soon as it handles them itself.
 signals_watched() { grep -q '^SigBlk:.*4003$' "/proc/$pid/status"; }
 record run 3 --source synthetic:flat,rest
 mkfifo pipe
@@ -45,7 +45,8 @@ sleep 1
 kill -TERM "$pid"
 ends_with 0 $limit
 
-# All of mfard's threads wait, in each of five looks. One that others keep from the processor does not.
+# True when all of mfard's threads sleep in five checks. A thread that only lacks processor time
+# does not.
 at_rest() {
     for _ in 1 2 3 4 5; do
         if cat /proc/"$pid"/task/*/stat | grep -q ') [RD] '; then return 1; fi
@@ -53,10 +54,10 @@ at_rest() {
     done
 }
 
-# The reader takes the first bytes of a picture. The pipe holds a hundredth of the others, so that
-# mfard soon waits.
+# The reader takes the first bytes of a picture. The pipe holds a hundredth of the rest, so mfard
+# soon blocks.
 start_blocked() {
-    exec 3>&- # nobody has it open any more, so it is empty again
+    exec 3>&- # no process has the pipe open any more, so it is empty again
     exec 3<>pipe
     start --recording run --display y4m:pipe --summary summary.json
     timeout $((30 * patience)) head -c 5000 <&3 >/dev/null || fail "no picture comes"
@@ -64,8 +65,8 @@ start_blocked() {
 }
 
 echo "while the reader of the display pipe takes nothing more"
-# The threads get half a second to give up, then mfard ends without them. A starved machine may need
-# longer, which is as good an end; on any other they make it, so one of a few tries must.
+# The threads have half a second to give up, then mfard ends without them. On a starved machine the
+# second is accepted, but at least one of a few tries must give up in time.
 for _ in $(seq "$patience"); do
     start_blocked
     kill -TERM "$pid"
@@ -89,7 +90,7 @@ echo "during the first milliseconds"
 start --source synthetic:flat
 sleep 0.02
 kill -TERM "$pid"
-# Before signals are taken over, the system's own way to end is as good.
+# Before mfard handles signals, they end it directly, which is accepted.
 code=0
 wait "$pid" || code=$?
 [ "$code" = 0 ] || [ "$code" = 143 ] || fail "ended with $code"
@@ -106,7 +107,7 @@ done
 echo "while nobody takes its messages"
 mkfifo words
 exec 4<>words
-head -c 65536 /dev/zero >&4 # all that a pipe holds
+head -c 65536 /dev/zero >&4 # fills the pipe
 "$mfard" --source synthetic:flat,rest --display none >out 2>words 4>&- &
 pid=$!
 pids+=("$pid")

@@ -1,5 +1,6 @@
 #!/bin/bash
-# A wrong configuration is refused with the place of every fault, and nothing is touched.
+# An invalid configuration is refused with the place of every fault, and no device or file is
+# touched.
 . "$(dirname "$0")/lib.sh"
 
 cat >mfard.toml <<'END'

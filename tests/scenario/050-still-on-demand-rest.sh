@@ -1,8 +1,8 @@
 #!/bin/bash
-# A board at rest takes exactly one still, uses it, and leaves the picture alone afterwards.
+# A board at rest takes exactly one still and uses it; the picture does not change afterwards.
 . "$(dirname "$0")/lib.sh"
 
-# More frames than the age limit, so that it would show if age alone asked for a still.
+# The run is longer than the age limit: age alone must not request a still.
 printf '[trigger]\nmax_age_s = 0.2\nmin_interval_s = 0.0\n' >mfard.toml
 run 0 --config mfard.toml --source synthetic:still --pace consumer --frames 16 \
     --summary summary.json

@@ -1,5 +1,5 @@
 #!/bin/bash
-# What was shown live is shown again from its recording: same frames, same still, same pictures.
+# A recording of a live run replays it: same frames, same still, same pictures.
 . "$(dirname "$0")/lib.sh"
 
 record run 8 --source synthetic:office --display png:live --summary summary.json
@@ -10,12 +10,12 @@ summary_has frames 8
 [ "$(grep -vc '^#' run/cam0/data.csv)" = 8 ] || fail "not all frames were recorded"
 [ "$(grep -vc '^#' run/cam1/data.csv)" = 1 ] || fail "the still was not recorded"
 
-# The still was taken before the frame it was first used for, so the recording may use it a few
-# frames earlier. Before its exposure and at the end both runs are in the same state.
+# The still was taken before the frame that first used it, so the replay may use it a few frames
+# earlier. Before the still's exposure and at the end both runs have the same state.
 first=$(ls live | sort -n | head -n 1)
 cmp "live/$first" "again/$first" || fail "the first picture differs"
 
-# The live run may not have shown every frame, the recording has them all with their poses.
+# The live run may have dropped frames; the recording has all of them with their poses.
 echo "its tags and the poses they gave are recorded, too"
 [ "$(grep -c '^id = ' run/tags.toml)" -ge 3 ] || fail "tags are missing"
 poses=run/state_groundtruth_estimate0/data.csv

@@ -1,5 +1,5 @@
 #!/bin/bash
-# The tags of the scene give every frame and still its pose, and flow follows epipolar lines.
+# The scene's tags give every frame and still a pose, and flow is searched along epipolar lines.
 . "$(dirname "$0")/lib.sh"
 
 run 0 --source synthetic:office --pace consumer --frames 8 --summary summary.json

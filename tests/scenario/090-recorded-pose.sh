@@ -1,5 +1,5 @@
 #!/bin/bash
-# Poses of a recording replace the tags; a recording without poses is refused when they are wanted.
+# Recorded poses replace the tags; a recording without poses is refused when poses are required.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path pan --seconds 0.2 --stills 5 --no-truth \

@@ -1,19 +1,19 @@
 #!/bin/bash
-# A virtual object stands in the world of the tags, is hidden by what is nearer, and can be changed
-# while mfard runs.
+# A virtual object has a fixed place in the world of the tags, is hidden by nearer real things, and
+# can be changed while mfard runs.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 0.3 --stills 3 --no-truth \
     --out run >/dev/null || fail "no recording"
 
-# last NAME [ARGUMENT...]: the last picture of the recording, its bytes in NAME.raw.
+# last NAME [ARGUMENT...]: saves the last picture of the recording, its bytes as NAME.raw.
 last() {
     local name=$1
     shift
     run 0 --recording run --display "y4m:$name.y4m" --summary summary.json "$@"
     tail -c $((2304 * 1728 * 3 / 2)) "$name.y4m" >"$name.raw"
 }
-# How many bytes differ from those of the picture without objects.
+# Number of bytes that differ from the picture without objects.
 differing() { { cmp -l plain.raw "$1.raw" || true; } | wc -l; }
 
 last plain
@@ -33,7 +33,7 @@ last far --config far.toml
 near=$(differing near) far=$(differing far)
 echo "$near bytes differ with the object in front, $far with the one behind"
 [ "$near" -gt 50000 ] || fail "the object is not shown"
-# What is not known hides nothing: specks at the edges of things.
+# Cells of unknown depth hide nothing: specks at the edges of things.
 [ "$far" -lt $((near / 50)) ] || fail "the wall does not hide what is behind it"
 
 echo "without a map, what stands on a tag is shown as soon as one is the world"

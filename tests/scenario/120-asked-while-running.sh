@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# mfarctl asks a running mfard how it is, for a picture, a still, a recording.
+# mfarctl asks a running mfard for its status, a picture, a still and a recording.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"
-# refused EXIT-CODE ARGUMENT...: mfarctl must end with this code. Its words are in answer and err.ctl.
+# refused EXIT-CODE ARGUMENT...: mfarctl must end with this code. Its output is in answer and
+# err.ctl.
 refused() {
     local code=$1 got=0
     shift

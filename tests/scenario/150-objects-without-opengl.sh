@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # On a machine without OpenGL ES, path-traced objects are shown as on any other. Previews need it:
-# mfard says so and shows the pictures without them.
+# mfard reports that and shows the pictures without them.
 . "$(dirname "$0")/lib.sh"
 
 "$sim" --scene office --path handheld --seconds 1.5 --stills 3 --no-truth \
     --out run >/dev/null || fail "no recording"
 
-# The dynamic linker takes the first file of a name, and gives up where that is no library.
+# The dynamic linker takes the first file of a name, and fails if it is not a library.
 mkdir hidden
 : >hidden/libEGL.so.1
 : >hidden/libGLESv2.so.2
 export LD_LIBRARY_PATH=$PWD/hidden${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 
-# last NAME [ARGUMENT...]: the last picture of the recording, its bytes in NAME.raw.
+# last NAME [ARGUMENT...]: saves the last picture of the recording, its bytes as NAME.raw.
 last() {
     local name=$1
     shift
@@ -21,7 +21,7 @@ last() {
     tail -c $((2304 * 1728 * 3 / 2)) "$name.y4m" >"$name.raw"
     rm "$name.y4m"
 }
-# How many bytes differ from those of the picture without objects.
+# Number of bytes that differ from the picture without objects.
 differing() { { cmp -l plain.raw "$1.raw" || true; } | wc -l; }
 
 last plain
@@ -34,7 +34,7 @@ shape = "box"
 size = [0.1, 0.1, 0.1]
 position = [0.0, 0.0, 0.06]
 END
-# Few pixels and samples: there is a picture soon, however slow the machine is.
+# Few pixels and samples, so that there is a picture soon even on a slow machine.
 sed 's/"preview"/"path-traced"\nresolution = 0.1\nsamples = 1\nbudget_ms = 60/' preview.toml >traced.toml
 
 last preview --config preview.toml

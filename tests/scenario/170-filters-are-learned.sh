@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Filters are learned from matched stills, survive a restart, and are forgotten on demand.
+# Filters are learned from matched stills, survive a restart, and are deleted on demand.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"

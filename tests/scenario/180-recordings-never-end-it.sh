@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every start records into a folder of its own; one that cannot be written ends, and mfard goes on.
+# Every start records into a new folder. A recording that cannot be written ends, and mfard goes on.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# A program that reads the display's pipe and stops: a live source goes on, and status says who takes
-# nothing; a recording waits for it, and says that. When the reader goes away, mfard ends.
+# The reader of the display's pipe stalls: with a live source the pictures go on, and status names
+# the reader; a recording waits for it and reports that. When the reader closes the pipe, mfard
+# ends.
 . "$(dirname "$0")/lib.sh"
 
 ctl="$(dirname "$sim")/mfarctl"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What a service needs is missing, and the service manager starts it again at once: mfard says what to
-# do and waits longer each time before it ends. From a command line it ends at once.
+# Something that a service needs is missing, and the service manager restarts it at once: mfard logs
+# what to do and waits longer each time before it ends. From a command line it ends at once.
 # Usage: 210-service-that-cannot-run.sh MFARD MFAR-SIM NOTIFY-LISTENER
 . "$(dirname "$0")/lib.sh"
 

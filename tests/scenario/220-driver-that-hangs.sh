@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# A driver that never returns: the watchdog is no longer fed, and status, log and service manager say
-# which thread hangs. A camera that is away, which somebody tries to open, is fed for. The cameras
-# are a library under mfard, the service manager is a program that writes down what it hears.
+# A driver never returns: the watchdog is no longer fed, and status, log and service manager name
+# the thread that hangs. While a missing camera is being reopened, the watchdog is fed. The cameras
+# are simulated by a preloaded library, the service manager by a program that writes down its
+# messages.
 # Usage: 220-driver-that-hangs.sh MFARD MFAR-SIM PRETENDED.so NOTIFY-LISTENER
 . "$(dirname "$0")/lib.sh"
 
@@ -18,12 +19,12 @@ meals() { grep -c '^WATCHDOG=1$' heard || true; }
 fed() { [ "$(meals)" -gt $((before + $1)) ]; }
 status() { timeout 10 "$ctl" --socket control status; }
 status_says() { status | grep -Eq -- "$1"; }
-# Fed three times from now.
+# Fed three times from now on.
 is_fed() {
     before=$(meals)
     until_true fed 2
 }
-# Not fed for four seconds, though a tick comes every second.
+# Not fed for four seconds, although a tick comes every second.
 is_hungry() {
     before=$(meals)
     sleep 4

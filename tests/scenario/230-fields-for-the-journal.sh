@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# As a service, mfard gives the journal messages with fields: which kind, which camera, how many.
-# Without the journal, or when it takes nothing, they go to standard error.
+# As a service, mfard sends messages with fields to the journal: kind, camera, count. Without a
+# journal, or when it takes nothing, messages go to standard error.
 # Usage: 230-fields-for-the-journal.sh MFARD MFAR-SIM JOURNAL.so NOTIFY-LISTENER
 ids=$(realpath "$(dirname "$0")/../../daemon/message_ids.h")
 . "$(dirname "$0")/lib.sh"
@@ -12,7 +12,8 @@ id() { sed -n "s/^constexpr std::string_view $1 = \"\(.*\)\";/\1/p" "$ids"; }
 "$listener" socket heard &
 pids+=($!)
 until_true test -S socket
-# One message has both. Each ends with an empty line; texts of several lines come with their length.
+# One message has both fields. Each message ends with an empty line; texts of several lines are sent
+# with their length.
 heard() {
     tr '\0' ' ' <heard |
         awk -v RS= -v a="$1" -v b="$2" '$0 ~ a && $0 ~ b {found = 1} END {exit !found}'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A GPU that is lost or hangs is named and set up anew while control and cameras go on. One that is
-# lost three times within a minute draws no more: the processor does, and the picture says so. A
-# driver that does not return is named, and holds up no run of some seconds.
+# A GPU that is lost or hangs is named and set up again while control and cameras go on. After three
+# losses within a minute the processor draws instead, and the picture says so. A driver that does
+# not return is named, and a run with a time limit ends nevertheless.
 # Usage: 240-gpu-that-fails.sh MFARD MFAR-SIM PRETENDED.so FAULTY-GL-FOLDER
 . "$(dirname "$0")/lib.sh"
 
@@ -11,7 +11,7 @@ ctl="$(dirname "$sim")/mfarctl"
 control() { timeout 10 "$ctl" --socket control "$@"; }
 status_says() { control status | grep -Eq -- "$1"; }
 frames() { [ "$(control status | sed -n 's/^frames  *//p')" -gt "$1" ] 2>/dev/null; }
-# What is wrong with the GPU from now on.
+# Sets the GPU's fault from now on.
 gpu_says() {
     echo "$1" >gl.new
     mv gl.new gl

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# mfard is killed at random moments, also during a pulse, again and again: each start shows its first
-# picture within five seconds, finds the control socket of the dead one, what systemd starts after a
-# crash gives the trigger's line its level at rest, and every recording can be read.
+# mfard is killed at random moments, also during a pulse, again and again. Each start shows its
+# first picture within five seconds and replaces the control socket of the dead process; the hook
+# that systemd runs after a crash releases the trigger line; every recording can be read.
 # Usage: 260-killed-at-random.sh MFARD MFAR-SIM PRETENDED.so [TIMES]
 . "$(dirname "$0")/lib.sh"
 
@@ -38,7 +38,7 @@ for round in $(seq "$times"); do
     before=$(recorded)
     begin
     sleep 0.$((RANDOM % 3))$((RANDOM % 10))
-    # Every second one has shown its first picture before, every fourth has recorded, and is in a pulse.
+    # Every second process has shown its first picture; every fourth has recorded and is in a pulse.
     if [ $((round % 2)) = 0 ]; then
         until_true shows_pictures
         took=$(($(milliseconds) - begun))

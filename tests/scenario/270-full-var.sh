@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The disk under recordings, kept state and a log file is full, really: a small file system of its own.
-# mfard starts, goes on, says what is not written, and what has been written can be read.
+# The disk of recordings, state and a log file is really full: a small file system of its own. mfard
+# starts, goes on, reports what is not written, and everything that has been written can be read.
 # Usage: 270-full-var.sh MFARD MFAR-SIM PRETENDED.so. Exit status 77: no file system can be mounted.
 if [ -z "${MFAR_MOUNTS:-}" ]; then
     for how in "--mount" "--mount --map-root-user"; do
@@ -27,7 +27,7 @@ goes_on() {
 trap 'umount --lazy "$work/var"; clean_up' EXIT
 mkdir var
 mount -t tmpfs -o size=6m none var
-# As the service does, it works there, and all that it says is kept elsewhere.
+# Works in this folder, as the service does; its messages are kept elsewhere.
 printf '#!/bin/sh\ncd "%s/var" && exec "%s" "$@"\n' "$work" "$mfard" >mfard
 chmod +x mfard
 mfard=$work/mfard

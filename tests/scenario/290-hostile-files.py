@@ -20,7 +20,7 @@ MB = 1 << 20
 LEAST_MB = 64  # the smallest budget that can be configured
 RUNNING_MB = 128
 LONGEST = 20 * float(os.environ.get('MFAR_PATIENCE', '1'))  # s
-# As daemon/exit_code.h says: data, input, configuration.
+# Exit codes of daemon/exit_code.h: data, input, configuration.
 REFUSED = (65, 66, 78)
 
 mfard = os.path.abspath(sys.argv[1])
@@ -257,7 +257,8 @@ def while_it_runs():
         wait_for(lambda: 'display ' in said(), 'it does not start')
         for name, text in CONFIGURATIONS.items():
             before = answers()
-            # Beside the old file, as it is read while it is written otherwise.
+            # Written next to the old file and renamed: mfard could read a file that is only partly
+            # written.
             Path('next.toml').write_text(text() + '\n' + sound.split('\n', 2)[2])
             os.replace('next.toml', config)
             process.send_signal(signal.SIGHUP)

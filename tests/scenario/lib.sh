@@ -1,7 +1,7 @@
-# Common words of the scenarios. Each is run as "NNN-name.sh MFARD MFAR-SIM LIBRARY", the paths of the
-# two programs and of tests/device/pretended_v4l2.cpp, and tells one story of the real program in a
-# folder of its own. MFAR_PATIENCE (default 1) stretches all time limits, for sanitizers and slow
-# machines.
+# Common functions of the scenarios. Each is run as "NNN-name.sh MFARD MFAR-SIM LIBRARY", with the
+# paths of the two programs and of tests/device/pretended_v4l2.cpp, and tells one story of the real
+# program in a folder of its own. MFAR_PATIENCE (default 1) multiplies all time limits, for
+# sanitizers and slow machines.
 
 set -eu -o pipefail
 
@@ -12,8 +12,8 @@ work=$(mktemp -d)
 cd "$work"
 pids=()
 
-# ThreadSanitizer cannot see into TBB, behind OpenCV's loops, which stays alone on a single CPU. It
-# finds the races of other threads all the same, as it looks for order, not for simultaneity.
+# ThreadSanitizer does not understand TBB, which runs OpenCV's loops; on a single CPU TBB uses one
+# thread. Races of other threads are found all the same, as it checks order, not simultaneity.
 if [ -n "${MFAR_ONE_CPU:-}" ]; then
     first=$(sed -n 's/^Cpus_allowed_list:[[:space:]]*\([0-9]*\).*/\1/p' /proc/self/status)
     taskset -pc "$first" $$ >/dev/null
@@ -46,9 +46,10 @@ run() {
     [ "$code" = "$expected" ] || fail "mfard $* ended with $code instead of $expected"
 }
 
-# start ARGUMENT...: mfard in the background, its id in $pid.
+# start ARGUMENT...: starts mfard in the background, its id in $pid.
 start() {
-    # Here, as what the last one said would pass for its words until the new process runs.
+    # Emptied here, as messages of the previous process would be taken for the new one's until it
+    # runs.
     : >err
     "$mfard" "$@" >out 2>err &
     pid=$!
@@ -64,7 +65,7 @@ until_true() {
     done
 }
 
-# The line with renderer, sensors and display: devices are open and frames come.
+# The start line with renderer, sensors and display: devices are open and frames come.
 started() { grep -q 'display ' err; }
 
 # Vulkan's validation layer, where one is loaded, writes to standard output.
@@ -74,11 +75,13 @@ no_complaint() {
     fi
 }
 
-# ends_with EXIT-CODE LIMIT-MS: the background mfard ends with this code, this long from now at most.
+# ends_with EXIT-CODE LIMIT-MS: the background mfard must end with this code within this time from
+# now.
 ends_with() {
     local begin code=0 took
     begin=$(milliseconds)
-    # Only the process table is asked, so that a hanging mfard fails this test and not the timeout.
+    # Only checks the process table, so that a mfard that hangs fails this test and not the test's
+    # timeout.
     while kill -0 "$pid" 2>/dev/null && [ $(($(milliseconds) - begin)) -lt 30000 ]; do
         sleep 0.02
     done
@@ -91,7 +94,7 @@ ends_with() {
     [ "$took" -le $(($2 * patience)) ] || fail "took $took ms, limit $2 ms times $patience"
 }
 
-# two_cameras [TOML]: a configuration with two V4L2 cameras and these lines.
+# two_cameras [TOML]: writes a configuration with two V4L2 cameras and these lines.
 two_cameras() {
     cat >mfard.toml <<END
 source = "cameras"
@@ -114,21 +117,21 @@ ${1:-}
 END
 }
 
-# pretended_cameras [TOML]: the same, where cameras/video90 and cameras/video91 name the faults of
-# each camera.
+# pretended_cameras [TOML]: the same with simulated cameras, whose faults are in the files
+# cameras/video90 and cameras/video91.
 pretended_cameras() {
     mkdir cameras
     touch cameras/video90 cameras/video91
     two_cameras "$@"
 }
 
-# says FILE PATTERN
+# says FILE PATTERN: the file must contain the pattern.
 says() { grep -Eq -- "$2" "$1" || fail "$1 does not say: $2"; }
 
-# summary_has KEY VALUE: one scalar of summary.json, keys are unique there.
+# summary_has KEY VALUE: checks one scalar of summary.json, where keys are unique.
 summary_has() { says summary.json "\"$1\": $2,?\$"; }
 
-# record DIR FRAMES [ARGUMENT...]: a small recording of the synthetic board.
+# record DIR FRAMES [ARGUMENT...]: makes a small recording of the synthetic board.
 record() {
     local dir=$1 frames=$2
     shift 2

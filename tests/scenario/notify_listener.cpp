@@ -1,4 +1,5 @@
-// A pretended service manager: what a service says to $NOTIFY_SOCKET, as lines of a file.
+// A simulated service manager: writes the messages that a service sends to $NOTIFY_SOCKET into a
+// file, one per line.
 // Usage: notify-listener SOCKET FILE
 
 #include <sys/socket.h>

@@ -1,5 +1,5 @@
-// A library to be loaded before a program (LD_PRELOAD): what goes to the journal of systemd goes to
-// the socket MFAR_PRETENDED_JOURNAL.
+// A library to be preloaded (LD_PRELOAD): redirects messages for the systemd journal to the socket
+// MFAR_PRETENDED_JOURNAL.
 
 #include <sys/socket.h>
 #include <sys/syscall.h>
@@ -11,7 +11,7 @@
 
 namespace {
 
-/// In place of the address of the journal another; any other address as it is.
+/// Replaces the address of the journal; leaves other addresses unchanged.
 class Address {
 public:
     Address(const void* wanted, socklen_t bytes) : to_(wanted), bytes_(bytes) {

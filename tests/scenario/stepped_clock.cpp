@@ -1,5 +1,5 @@
-// A library to be loaded before a program (LD_PRELOAD): the wall clock is wrong by as many seconds
-// as the file MFAR_CLOCK_IS_OFF says, which may change at any time.
+// A library to be preloaded (LD_PRELOAD): shifts the wall clock by the number of seconds in the
+// file MFAR_CLOCK_IS_OFF, which may change at any time.
 
 #include <sys/syscall.h>
 #include <sys/time.h>

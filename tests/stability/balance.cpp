@@ -6,7 +6,7 @@
 namespace mfar::stress {
 namespace {
 
-constexpr double kTrial = 60;  // of a case for a pass that it has not brought at this size [s]
+constexpr double kTrial = 60;  // time limit of a case that has not yet reached its pass [s]
 
 }  // namespace
 

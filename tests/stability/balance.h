@@ -11,16 +11,17 @@
 
 namespace mfar::stress {
 
-/// Chooses cases at the product's size so that as many pixels go through each pass: the one that
-/// brings the pass with the fewest on fastest, by what each case did before. A pass that has come
-/// with small pictures alone is tried with the case that brought it, for some time.
+/// Chooses cases at the product's size so that the passes get equal numbers of pixels: for the pass
+/// with the fewest, the case that has yielded its pixels fastest so far. A pass that was only
+/// reached with small pictures is tried for some time with the case that reached it.
 class Balance {
 public:
     explicit Balance(const std::vector<Case>& cases);
 
-    /// Nothing when `enough` pixels went through each pass, or no case brings one on.
+    /// Nothing when each pass got `enough` pixels, or no case reaches the missing ones.
     [[nodiscard]] const Case* next(const Checks& checks, long enough) const;
-    /// `before` and `after` it ran, that took so long; with pictures of which size.
+    /// Reports a run of a case: the pixels of all passes `before` and `after` it, its time, the
+    /// size of its pictures.
     void ran(const Case& one, const std::map<std::string, long>& before,
              const std::map<std::string, long>& after, double seconds, Scale scale);
 
@@ -29,7 +30,7 @@ private:
         Case one;
         double seconds = 0;
         std::map<std::string, long> pixels;  // of all its runs
-        std::set<std::string> passes;        // at other sizes, too
+        std::set<std::string> passes;        // reached, at any size
     };
     [[nodiscard]] const Known* quickest(const std::string& pass) const;
 

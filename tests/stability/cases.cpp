@@ -32,7 +32,7 @@ std::vector<Case> allCases() {
 
 std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks, GlWatch& gl,
                              Scale scale) {
-    // Neighbouring seeds, and the same seed in two cases, draw nothing alike.
+    // Mixed, so that neighbouring seeds, and the same seed in two cases, draw different inputs.
     std::uint64_t mixed = seed;
     for (const char* c = one.name; *c != '\0'; ++c)
         mixed = (mixed ^ static_cast<unsigned char>(*c)) * 0x100000001B3ULL;

@@ -9,14 +9,14 @@
 #include <string>
 #include <vector>
 
-/// Each case draws an input that is hard to bear from its seed, runs one part of the pipeline on it
-/// and checks what must hold whatever the input: no NaN, nothing infinite, everything in its stated
-/// range; and where truth is known, its error, and that scaling the world, mirroring the pictures
-/// or exchanging the views changes nothing else.
+/// Each case draws a hostile input from its seed, runs one part of the pipeline on it and checks
+/// invariants: no NaN, nothing infinite, everything within its stated range; where truth is known,
+/// the error; and that scaling the world, mirroring the pictures or exchanging the views changes
+/// nothing else.
 namespace mfar::stress {
 
-/// How large the pictures are: small ones, as in the tests; some of the product's size among them;
-/// of the product's size alone.
+/// Size of the pictures: small, as in the tests; a mixture of small and the product's size; the
+/// product's size only.
 enum class Scale { Tests, Mixed, Product };
 
 struct Context {
@@ -25,22 +25,22 @@ struct Context {
     GlWatch& gl;
     Scale scale = Scale::Tests;
 
-    /// Of the video; hostile.size(least, most) where it is small.
+    /// Size of the video; hostile.size(least, most) where it is small.
     [[nodiscard]] Size size(int least, int most);
 };
 
-/// Two cameras beside each other: small ones, or with lenses bent at the product's size.
+/// Two cameras next to each other: small ones, or with distorted lenses at the product's size.
 [[nodiscard]] StereoRig hostileRig(Context& context);
 
 struct Case {
     const char* name;
     void (*run)(Context& context);
-    bool atProductSize = false;  ///< quick enough to be run again and again at that
+    bool atProductSize = false;  ///< fast enough for many runs at the product's size
 };
 
 [[nodiscard]] std::vector<Case> allCases();
 
-// By file.
+// One function per file.
 [[nodiscard]] std::vector<Case> flowCases();
 [[nodiscard]] std::vector<Case> triangulationCases();
 [[nodiscard]] std::vector<Case> pipelineCases();
@@ -61,7 +61,7 @@ struct Case {
 }
 #endif
 
-/// Runs a case; what is thrown is a fault as well. The faults, each with the case and the seed.
+/// Runs a case; an exception is a fault, too. Returns the faults, each with the case and the seed.
 [[nodiscard]] std::vector<std::string> run(const Case& one, std::uint64_t seed, Checks& checks,
                                            GlWatch& gl, Scale scale);
 

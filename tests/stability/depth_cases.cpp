@@ -1,4 +1,4 @@
-// Real depth on the host: the filter over time, the stage with its keyframes, edges.
+// Depth of the real scene, on the host: the filter over time, the stage with its keyframes, edges.
 #include "pipeline/depth/depth_filter.h"
 #include "pipeline/depth/depth_stage.h"
 #include "pipeline/depth/edge_snap.h"
@@ -29,7 +29,7 @@ InverseDepthField fieldOf(Context& c, Size size, double unit, double spoilt) {
     return out;
 }
 
-/// Known or not; known is finite, not negative and not surer than anything can be.
+/// Known values are finite and not negative, and their variances are valid.
 void checkField(Context& c, const InverseDepthField& field) {
     for (std::size_t i = 0; i < field.rho.size(); ++i) {
         c.checks.within(field.rho[i], 0, 3.4e38, "filtered inverse depth");
@@ -55,7 +55,7 @@ void hostileFilter(Context& c) {
     }
 }
 
-// What is carried, in any unit of length, is where geometry says; there and back again.
+// Depth carried over to a moved camera agrees with geometry, in any unit of length.
 void carriedDepth(Context& c) {
     const Size size{c.hostile.integer(20, 90), c.hostile.integer(20, 70)};
     CameraModel camera = c.hostile.camera(size);
@@ -69,7 +69,7 @@ void carriedDepth(Context& c) {
     filter.predict({}, 0.03);
     filter.fuse(plane, {0, 0, size.width, size.height});
     RigidTransform ahead;
-    // So far that the filter does not wait for more.
+    // Far enough that the filter carries the field over at once.
     const double way = c.hostile.real(0.15, 0.4) * c.hostile.pick({-1, 1});
     ahead.translation = unit * Eigen::Vector3d(way, 0, way);
     filter.predict(ahead, 0.03);

@@ -1,5 +1,5 @@
-// Both engines on the same hostile input: each step reads what the GLES step before it wrote, so
-// that one search that decides otherwise does not make all that follows differ.
+// Both engines on the same hostile input. Each step reads the output of the previous GLES step, so
+// that a single different decision of a search does not make all following steps differ.
 #include "pipeline/engine/engine.h"
 #include "pipeline/plan/work_plan.h"
 #include "tests/stability/cases.h"
@@ -12,7 +12,7 @@
 namespace mfar::stress {
 namespace {
 
-/// Pictures of both sensors: of one scene, which the still then shows, or anything hard to bear.
+/// Pictures of both sensors: of one scene, which the still shows, or arbitrary hostile ones.
 struct Sensors {
     StereoRig rig;
     TestPicture video, still;
@@ -31,14 +31,15 @@ Sensors hostileSensors(Context& c) {
     Sensors out{hostileRig(c), {}, {}};
     out.video = c.hostile.picture(out.rig.video.size);
     out.still = c.hostile.picture(out.rig.still.size);
-    // Leaves room for what sharpening and enlarging overshoot: the GPU clamps between passes.
+    // Limits the contrast, so that sharpening and enlarging do not overshoot: the GPU clamps
+    // between passes.
     for (TestPicture* picture : {&out.video, &out.still})
         for (std::uint8_t& byte : picture->bytes)
             byte = static_cast<std::uint8_t>(96 + byte / 4);
     return out;
 }
 
-/// The plan of a frame.
+/// A frame with its work plan.
 struct Shot {
     RgbPlanes planes;
     TileWork work;
@@ -68,7 +69,7 @@ int channelDifference(std::uint32_t a, std::uint32_t b) {
     return most;
 }
 
-/// Pixels of a level that differ by more than rounding.
+/// Number of pixels of a level that differ by more than rounding.
 long differingPixels(const LumaPyramid& a, const LumaPyramid& b, const LumaLevel& level) {
     const std::uint32_t* words[] = {a.words.host()[0], b.words.host()[0]};
     const auto pixel = [&](int which, int x, int y) {
@@ -118,17 +119,18 @@ void compareWeights(Context& c, const CellWeights& gles, const CellWeights& simd
             c.checks.within(b[y][x].weight - a[y][x].weight, -0.02, 0.02, "difference of a weight");
             c.checks.within(b[y][x].confidence - a[y][x].confidence, -0.02, 0.02,
                             "difference of a confidence");
-            // The GPU keeps look-ups in half precision.
+            // The GPU stores look-ups in half precision.
             const double slack = 0.01 + 1e-3 * std::abs(lb[y][x].x) + 1e-3 * std::abs(lb[y][x].y);
             c.checks.within(lb[y][x].x - la[y][x].x, -slack, slack, "difference of a look-up");
             c.checks.within(lb[y][x].y - la[y][x].y, -slack, slack, "difference of a look-up");
         }
 }
 
-// Unlike detail, blending trusts cells whose patches differ, if only the way there and back agrees.
-// Between two such cells a look-up may jump by many pixels, and the GPU filters it in 8 bits.
+// In contrast to detail, blending trusts cells with different patches when the forward and backward
+// flow agree. Between two such cells a look-up may jump by many pixels, which the GPU filters with
+// 8 bits.
 constexpr double kJumps = 0.05;
-constexpr int kRounding = 5;  // of the GPU's passes in 8 bits, three of them [grey levels]
+constexpr int kRounding = 5;  // of three GPU passes with 8 bits [grey levels]
 
 void compareDrawn(Context& c, SuperResMode mode, DetailStep& gles, DetailStep& simd) {
     const auto a = gles.output().host(), b = simd.output().host();

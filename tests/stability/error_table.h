@@ -6,16 +6,16 @@
 
 namespace mfar::stress {
 
-/// Errors of one quantity, for a line of a table.
+/// Errors of one quantity, printed as a line of a table.
 class ErrorTable {
 public:
-    /// `what`: pass and quantity; `unit` of the errors. `least`: of values below it, such as pixels
-    /// beside 0, units in the last place are its own.
+    /// `what`: pass and quantity; `unit`: of the errors. Values below `least`, such as pixels near
+    /// 0, use the unit in the last place of `least`.
     ErrorTable(std::string what, std::string unit, double least = 0)
         : what_(std::move(what)), unit_(std::move(unit)), least_(least) {}
 
-    /// `error` in the unit; `got` and `wanted` for the distance in units in the last place of
-    /// single precision.
+    /// `error`: in the unit; `got` and `wanted`: for the error in units in the last place of single
+    /// precision.
     void add(double error, double got, double wanted);
     void add(double error) { errors_.push_back(error); }
 

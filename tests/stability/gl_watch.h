@@ -10,8 +10,8 @@
 
 namespace mfar::stress {
 
-/// Watches the GL's passes: their outputs (gpu::Validation), the bytes behind their buffers, and
-/// each index into a buffer, a texture or an image (watched_shaders.h). Makes the context.
+/// Checks all GL passes: their outputs (gpu::Validation), the bytes behind their buffers, and every
+/// index into a buffer, a texture or an image (watched_shaders.h). Creates the context.
 class GlWatch {
 public:
     GlWatch();
@@ -19,8 +19,8 @@ public:
     GlWatch(const GlWatch&) = delete;
     GlWatch& operator=(const GlWatch&) = delete;
 
-    /// All passes since the last call worked on pictures of so many pixels, or on as many as they
-    /// wrote where those are more; what is wrong with them is a fault.
+    /// Counts the passes since the last call with this number of pixels each, or with the number
+    /// that they wrote if that is larger, and reports their faults.
     void frame(Checks& checks, long pixels);
 
 private:

@@ -2,8 +2,8 @@
 
 namespace mfar::stress {
 
-/// What half precision, rounded after every operation as a GPU with real mediump does, makes of the
-/// passes that might use it; which of them may.
+/// Prints the errors of passes in half precision, rounded after every operation as on a GPU with
+/// real mediump, and which passes may use it.
 void printHalfPrecision();
 
 }  // namespace mfar::stress

@@ -10,7 +10,7 @@ namespace {
 
 using Limits = std::numeric_limits<float>;
 
-constexpr int kPatterns = 9;  // that greyAt() knows; one more is plane waves
+constexpr int kPatterns = 9;  // patterns of greyAt(); plane waves are one more
 
 }  // namespace
 

@@ -13,12 +13,12 @@
 
 namespace mfar::stress {
 
-/// Draws inputs that are hard to bear, each a function of the seed alone.
+/// Draws hostile inputs, each a function of the seed alone.
 class Hostile {
 public:
     explicit Hostile(std::uint64_t seed) : random_(seed) {}
 
-    [[nodiscard]] int integer(int low, int high);  ///< both included
+    [[nodiscard]] int integer(int low, int high);  ///< both limits included
     [[nodiscard]] double real(double low, double high);
     [[nodiscard]] double logarithmic(double low, double high);
     [[nodiscard]] bool chance(double probability) { return real(0, 1) < probability; }
@@ -27,29 +27,30 @@ public:
         return of.begin()[integer(0, static_cast<int>(of.size()) - 1)];
     }
 
-    /// 1x1, 1xN, primes, beside multiples of the tile, up to about `most` each way.
+    /// 1x1, 1xN, primes, near multiples of the tile, up to about `most` in each direction.
     [[nodiscard]] Size size(int least, int most);
     /// NaN, infinities, the ends of float's range, denormals, zeros.
     [[nodiscard]] double bad();
-    /// The same without what is not finite.
+    /// The same without NaN and infinities.
     [[nodiscard]] double extreme();
 
     /// Constant, saturated, checkerboard and columns at Nyquist, impulse, noise, extreme gain,
-    /// ramp, photographs' like.
+    /// ramp, photograph-like.
     [[nodiscard]] TestPicture picture(Size size, PixelFormat format = PixelFormat::Rgba8);
     [[nodiscard]] LumaImage luma(Size size);
 
-    /// A lens for such a picture, from none to a strong barrel or cushion, off centre.
+    /// A lens for such a picture: undistorted to strong barrel or pincushion distortion, off
+    /// centre.
     [[nodiscard]] CameraModel camera(Size size);
     [[nodiscard]] Eigen::Vector3d direction();
-    /// Turns from none to all the way round.
+    /// Rotations from zero to all orientations.
     [[nodiscard]] Eigen::Quaterniond turn();
-    /// Small and large turns; translations from nothing to a thousand units aside, ahead, back,
-    /// with the epipole in, on and near the border.
+    /// Small and large rotations; translations from zero to a thousand units sideways, forwards,
+    /// backwards; with the epipole in, on and near the border.
     [[nodiscard]] RigidTransform motion(double unit = 1);
-    /// One that a camera in the hand makes.
+    /// A small motion, as of a hand-held camera.
     [[nodiscard]] RigidTransform gentle(double unit = 1);
-    /// A bad number in one place, or a rotation that is none.
+    /// With an invalid number in one place, or an invalid rotation.
     [[nodiscard]] RigidTransform spoilt(RigidTransform T);
     [[nodiscard]] Matrix6 covariance();
 

@@ -1,4 +1,4 @@
-// What hostile cases found once, each by itself.
+// Inputs on which hostile cases once failed, one test each.
 #include "pipeline/depth/depth_filter.h"
 #include "pipeline/depth/edge_snap.h"
 #include "pipeline/epipolar/epipolar_flow.h"
@@ -88,7 +88,7 @@ TEST(Mended, InvalidDepthStaysUnknownAtEdges) {
     }
 }
 
-// The one ray is the axis: the rim of such a lens has no radius.
+// The only ray is the optical axis: the lens's rim has radius zero.
 TEST(Mended, APictureOfOnePixelHasALens) {
     const EpipolarLens lens(smallCamera({1, 1}), 0);
     const auto p = lens.project(0, 0);
@@ -96,7 +96,7 @@ TEST(Mended, APictureOfOnePixelHasALens) {
     EXPECT_EQ(p.y, 0);
 }
 
-// A cell has no second column, or row, to look at.
+// There is no second column or row of cells.
 TEST(Mended, PicturesOneOrTwoPixelsWideHaveAFlow) {
     for (const Size size : {Size{1, 1}, Size{1, 40}, Size{40, 1}, Size{2, 3}}) {
         EpipolarFlow flow({smallCamera(size), smallCamera(size), {}}, oneWorker());
@@ -150,7 +150,7 @@ TEST(Mended, PosesWithAnInvalidCovarianceAreRejected) {
     pose.covariance.setIdentity();
     pose.T_world_video.rotation.coeffs().setZero();
     EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Rejected);
-    // Not quite a rotation is one.
+    // A rotation that is only slightly off is accepted.
     pose.T_world_video.rotation.coeffs() << 0, 0, 0, 1.001;
     EXPECT_EQ(filter.update(pose, 1), PoseFilter::Outcome::Started);
     ASSERT_TRUE(filter.predict(pose.time));

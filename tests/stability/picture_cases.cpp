@@ -20,7 +20,7 @@
 namespace mfar::stress {
 namespace {
 
-// Bilinear look-ups have weights of 8 bits; both chroma channels add up.
+// Bilinear look-ups have weights of 8 bits; the errors of both chroma channels add up.
 constexpr double kFormatError = 2.7;  // [grey levels]
 
 void pictureFormats(Context& c) {
@@ -52,7 +52,7 @@ void pictureFormats(Context& c) {
         }
 }
 
-// Rounded twice on the way: once a level more at most.
+// Rounded twice, which makes at most one level of difference.
 void lumaPyramids(Context& c) {
     const Size size = c.size(1, 120);
     const TestPicture a = c.hostile.picture(size), b = c.hostile.picture(size);
@@ -69,7 +69,7 @@ void lumaPyramids(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-/// Another picture, or one that differs by a pixel, by a few pixels, or not at all.
+/// A different picture, or one that differs in one pixel, a few pixels, or nowhere.
 TestPicture changed(Context& c, const TestPicture& before) {
     const Size size = before.size;
     if (c.hostile.chance(0.3)) return c.hostile.picture(size);
@@ -111,7 +111,7 @@ void changePlan(Context& c) {
                                 twin.energy[k] / (1 + twin.energy[k]),
                             -1e-3, 1e-3, "what a tile's difference varies by");
     }
-    // Bounds as WorkPlan::update() sets them before anything is measured.
+    // The thresholds of WorkPlan::update() before any measurement.
     const auto wanted = twin::changedTiles(twins, tiles.width, {1 + 2 * 0.29, 1.5 + 4 * 0.29});
     for (std::size_t t = 0; t < count; ++t)
         c.checks.require(!wanted[t] ||
@@ -122,7 +122,7 @@ void changePlan(Context& c) {
     c.gl.frame(c.checks, pixelsOf(size));
 }
 
-// Without a still the picture is the video, enlarged: columns are kept in 8 bits.
+// Without a still the output is the enlarged video, with columns rounded to 8 bits.
 void enlargement(Context& c) {
     const Size video = c.size(1, 60);
     const Size output{video.width * c.hostile.integer(1, 4) + c.hostile.integer(0, 3),
@@ -151,7 +151,7 @@ void enlargement(Context& c) {
     }
 }
 
-// An even picture stays what it is, whatever the still.
+// A constant picture stays constant, whatever the still.
 void evenPicture(Context& c) {
     const Size video = c.hostile.size(1, 60), still = c.hostile.size(8, 150);
     const auto level = static_cast<std::uint8_t>(c.hostile.integer(0, 255));
@@ -168,7 +168,7 @@ void evenPicture(Context& c) {
             c.checks.within(v - level, -1, 1, "change of an even picture");
 }
 
-/// Statistics as two patches can have them, from nothing to the most that bytes allow.
+/// Statistics of two patches, from zero to the maximum for 8 bits.
 twin::Cells statisticsOf(Context& c, Size size) {
     twin::Cells out{size, {}};
     constexpr double kMost = 64 * 255.0 * 255.0 / 4;

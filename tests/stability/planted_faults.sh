@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Plants faults in shaders and host sources, one at a time, and runs the cases that have to find them.
-# Usage: planted_faults.sh BUILD-FOLDER [shaders|host|kernels|texts]. Prints each with what found it; exit
-# status 1 when one was not found. Shaders are changed as the program is handed them; a host source is
-# changed in a copy, compiled as its unity file is, and linked before the library that has the sound one.
-# `texts` only looks whether the sources still contain what is to be changed, once each.
+# Usage: planted_faults.sh BUILD-FOLDER [shaders|host|kernels|texts]. Prints each fault with the case that
+# found it; exit status 1 when a fault was not found. Shaders are changed when the program loads them. A host
+# source is changed in a copy, compiled with the flags of its unity file, and linked before the library with
+# the original. `texts` only checks that the sources still contain the texts to be replaced, once each.
 set -euo pipefail
 build=$(readlink -f "$1") which=${2:-all}
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
@@ -34,9 +34,9 @@ inShaders() {
     done < <("$program" --list-planted)
 }
 
-# Arguments: source, object. Compiles the source with the changed copies, its own or that of a header, which
-# lie in $scratch under their own paths: a kernel includes itself once per instruction set. The command is
-# that of the source's unity file or, where it has none, its own.
+# Arguments: source, object. Compiles the source with the changed copies (its own or that of a
+# header), which lie in $scratch under their own paths, as a kernel includes itself once per
+# instruction set. Uses the command of the source's unity file or, without one, its own.
 compile() {
     local source=$1 object=$2 unit command
     unit=$(grep -lsF "/$source\"" "$build"/pipeline/CMakeFiles/*/Unity/*.cxx \
@@ -49,8 +49,8 @@ compile() {
     (cd "$build" && eval "$command -w -I$PWD -c $scratch/$source -o $object")
 }
 
-# Arguments: source, its text, what comes instead, what that is, cases, the source that includes it if it
-# is a header.
+# Arguments: source, text to replace, replacement, description, cases, and for a header the source
+# that includes it.
 inHost() {
     local source=$1 from=$2 to=$3 what=$4 cases=$5 unit=${6:-$1} link
     if [[ $(grep -cF -- "$from" "$source") != 1 ]]; then
@@ -103,7 +103,7 @@ hostFaults() {
         'distance <= mostDistance_;' 'removed guard' triangulation
 }
 
-# In kernels of the SIMD engine.
+# Kernels of the SIMD engine.
 kernelFaults() {
     local simd=pipeline/simd
     inHost $simd/luma_kernels.cpp 'hn::Set(d, params::kLumaGreen)' 'hn::Set(d, 0.614F)' 'wrong weight of green' engines
@@ -134,7 +134,7 @@ kernelFaults() {
     rowFaults
 }
 
-# In those of the search's lines, of depth, of tiles and of turned pictures.
+# Kernels of the search along lines, of depth, of tiles and of turned pictures.
 rowFaults() {
     local simd=pipeline/simd
     inHost $simd/label_costs.cpp 'hn::IfNegativeThenElse(seen, hn::Set(d, kUnseenCost), count)' 'count' \

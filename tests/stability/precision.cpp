@@ -58,7 +58,7 @@ twin::TwoViews productViews() {
             {Eigen::Quaterniond(turn), {-0.12, 0.03, 0.02}}};
 }
 
-// The flow's error that would make the same of the depth.
+// Expresses the error of the depth as the flow error with the same effect.
 void triangulation(TriangulationMethod method, const char* what) {
     const twin::TwoViews views = productViews();
     std::vector<float> flow;
@@ -85,7 +85,7 @@ void triangulation(TriangulationMethod method, const char* what) {
     table.print();
 }
 
-/// Where the still shows each cell of a video that has not moved, less the scaled cell.
+/// The still pixel of each cell of a video without motion, minus the scaled cell centre.
 std::vector<float> assessedStillPixels(const StereoRig& rig) {
     const Size cells = cellsOf(rig.video.size);
     const TestPicture even(rig.video.size, PixelFormat::Rgba8, 128);
@@ -116,7 +116,7 @@ std::vector<float> assessedStillPixels(const StereoRig& rig) {
     return displacement.readRgba32F();
 }
 
-// Both lenses and the rotation between them.
+// Includes both lenses and the rotation between them.
 void stillPixels() {
     const StereoRig rig = bentRig({640, 480}, {2304, 1728});
     const Size cells = cellsOf(rig.video.size);

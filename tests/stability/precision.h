@@ -2,8 +2,8 @@
 
 namespace mfar::stress {
 
-/// Prints the errors of each geometric pass against double precision, and what half precision would
-/// make of those that might use it.
+/// Prints the errors of each geometric pass against double precision, and of passes that might use
+/// half precision in that precision.
 void printPrecision();
 
 }  // namespace mfar::stress

@@ -112,7 +112,7 @@ Tally inProcesses(int count, bool keepGoing, const std::function<Tally(int)>& wo
             std::ranges::find_if(running, [id](const Process& p) { return p.id == id; });
         if (process == running.end()) continue;
         const bool sound = ended(*process, status);
-        // What it wrote is less than a pipe holds.
+        // Its output is smaller than the capacity of a pipe.
         add(readAll(process->results), sum);
         close(process->results);
         running.erase(process);

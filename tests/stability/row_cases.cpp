@@ -1,5 +1,5 @@
-// Kernels that work on rows of the epipolar search and of depth, against their rules in double
-// precision: from hostile pictures, lenses and values, and where rounding does not decide.
+// Row kernels of the epipolar search and of depth against their definitions in double precision, on
+// hostile pictures, lenses and values, where rounding does not decide.
 #include "pipeline/epipolar/epipolar_lens.h"
 #include "pipeline/simd/census_rows.h"
 #include "pipeline/simd/depth_rows.h"
@@ -53,8 +53,8 @@ void turnedPoints(Context& c) {
         const auto p = test::turned(lens.turn, {raysX[i], raysY[i], 1});
         const double radius = std::hypot(p.x, p.y) / p.z;
         const bool isShown = p.z > 0.05 && radius < rim;
-        // A tenth of a percent beside the rim, and rays so long that floats overflow, may go
-        // either way.
+        // Skipped: results within a tenth of a percent of the rim, and rays so long that floats
+        // overflow.
         if (std::abs(radius / rim - 1) < 1e-3 || std::abs(p.z - 0.05) < 1e-3) continue;
         if (!isShown) {
             c.checks.within(x[i], -1e7, -1e5, "place of a ray that does not show");
@@ -72,7 +72,7 @@ void turnedPoints(Context& c) {
 void turnedRow(Context& c) {
     Size size = c.size(2, 60);
     size = {std::max(size.width, 2), std::max(size.height, 2)};
-    // Rows without a gap: no byte behind the last pixel may be read.
+    // Rows without padding: no byte behind the last pixel may be read.
     const LumaImage picture = c.hostile.luma(size);
     const std::size_t width = lengthOf(c), cells = width / simd::kTurnedCell + 2;
     const double right = size.width + 2, bottom = size.height + 2;
@@ -102,20 +102,21 @@ void turnedRow(Context& c) {
         const double wanted =
             std::lerp(std::lerp(p[0], p[1], sx - ix),
                       std::lerp(p[size.width], p[size.width + 1], sx - ix), sy - iy);
-        // Rounded, and read up to a thousandth of a pixel beside the last column and row.
+        // The result is rounded, and read up to a thousandth of a pixel beyond the last column and
+        // row.
         c.checks.within(grey[i] - wanted, -1.1, 1.1, "error of a turned pixel [grey levels]");
     }
     c.checks.through("turnedRow", static_cast<long>(width));
 }
 
-/// A lens without distortion whose labels are whole pixels apart along a row or a column, either
-/// way: a pixel's feet and costs can be told without a line.
+/// A lens without distortion whose labels are whole pixels apart along a row or a column, in either
+/// direction, so that a pixel's feet and costs are known without following a line.
 struct WholeLabels {
     simd::LabelLines lines{};
     Row raysX, raysY;
-    std::vector<std::array<int, 2>> pixels;  ///< nearest to label 0
-    std::vector<double> feet;                ///< labels from label 0 to the nearest pixel's foot
-    std::array<int, 2> way{};                ///< of a label [px]
+    std::vector<std::array<int, 2>> pixels;  ///< nearest pixel to label 0
+    std::vector<double> feet;  ///< distance of the nearest pixel's foot from label 0 [labels]
+    std::array<int, 2> way{};  ///< step per label [px]
 
     WholeLabels(Context& c, std::size_t count, Size canvas) {
         const double focal = c.hostile.integer(60, 120);
@@ -152,7 +153,7 @@ Valley valleyOf(Context& c) {
     return out;
 }
 
-/// The bottom of two straight lines as steep, through a label and those beside it.
+/// The minimum of two straight lines of the same slope, through a label and its two neighbours.
 double bottomOf(const Valley& v) {
     const int left = v.rise[1], right = v.rise[2], most = std::max(left, right);
     if (most == 0 || most == Valley::kUnknown) return 0;
@@ -176,7 +177,7 @@ void labelPlaces(Context& c) {
     c.checks.through("labelPlaces", static_cast<long>(count));
 }
 
-/// What a picture's pixel costs.
+/// The matching costs of a picture's pixels.
 struct CensusCosts {
     Size size;
     std::vector<std::uint32_t> census;

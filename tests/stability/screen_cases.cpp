@@ -1,4 +1,4 @@
-// The picture on a screen: sizes that hardly fit, from a pixel to many times the screen.
+// The picture on a screen: extreme sizes, from a pixel to several times the screen.
 #include "hal/device/display_scaler.h"
 #include "tests/oracle/area_mean.h"
 #include "tests/stability/cases.h"
@@ -11,11 +11,11 @@
 namespace mfar::stress {
 namespace {
 
-// A linear sampler has at least 8 bits between two pixels, cut off along both axes; and half a
-// level of rounding.
+// A linear sampler has at least 8 bits between two pixels, truncated in both directions, plus half
+// a level of rounding.
 constexpr double kSampling = 2.5;  // [grey levels]
 
-/// So many times as wide and high as the screen, or as often smaller.
+/// A size of 0.2 to 4 times the screen's in each direction.
 Size sizeFor(Context& c, Size screen) {
     const auto side = [&](int pixels) {
         const double times = c.hostile.pick({1.0, c.hostile.real(0.2, 1), c.hostile.real(1, 4)});
@@ -24,7 +24,7 @@ Size sizeFor(Context& c, Size screen) {
     return {side(screen.width), side(screen.height)};
 }
 
-// The same without GL: all weights are rounded to 16 bits and their products cut off.
+// The host's scaler: weights are rounded to 16 bits and their products truncated.
 void onTheHost(Context& c, const TestPicture& picture, Size screen, const ScreenRect& to) {
     AlignedRows<std::uint32_t> rows(picture.size);
     for (int y = 0; y < picture.size.height; ++y)
@@ -46,7 +46,7 @@ void onTheHost(Context& c, const TestPicture& picture, Size screen, const Screen
         }
 }
 
-// Each pixel is the mean of what it covers; beside the picture there is black.
+// Each pixel is the mean of the area it covers; outside the picture the screen is black.
 void screens(Context& c) {
     const Size screen = c.size(1, 120), size = sizeFor(c, screen);
     const TestPicture picture = c.hostile.picture(size);

@@ -10,23 +10,24 @@
 
 namespace mfar::stress {
 
-/// Which seeds a program draws, for how long and in how many processes.
+/// Options of a program that draws seeds: which seeds, how long, in how many processes.
 struct SeededRun {
     double minutes = 1;
-    std::optional<std::uint64_t> seed;  ///< this one alone
-    std::uint64_t first = 0;            ///< 0: by the clock
+    std::optional<std::uint64_t> seed;  ///< only this one
+    std::uint64_t first = 0;            ///< 0: from the clock
     int rounds = 0;                     ///< 0: until the time is over
     int jobs = 1;
     bool keepGoing = false;
 
     void addOptions(CLI::App& app);
     [[nodiscard]] bool stops(long failures) const { return failures > 0 && !keepGoing; }
-    /// Whether to run another seed after this many seeds and minutes in one process.
+    /// True when another seed is to be run, after this number of seeds and minutes in one process.
     [[nodiscard]] bool goesOn(long seeds, double spentMinutes, long failures) const;
 
-    /// Draws seeds from the first on, in the process of this number.
+    /// Draws seeds beginning with `first`, in process number `job`.
     using Draw = std::function<Tally(std::uint64_t first, int job)>;
-    /// In this process for a single seed. Otherwise as inProcesses(), with seeds that differ.
+    /// A single seed runs in this process. Otherwise as inProcesses(), with different seeds in
+    /// each.
     [[nodiscard]] Tally run(const Draw& draw) const;
 };
 

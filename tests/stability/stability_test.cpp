@@ -1,4 +1,4 @@
-// A few seeds of every case, and what no seed can show.
+// A few seeds of every case, and tests that do not depend on a seed.
 #include "pipeline/depth/depth_filter.h"
 #include "tests/stability/cases.h"
 
@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Group{"tracer", tracerCases, 12}, Group{"warp", warpCases, 6}),
     [](const testing::TestParamInfo<Group>& one) { return std::string(one.param.name); });
 
-// Found by long runs: triangles seen edge on, whose depth ran away beyond them.
+// Found by long runs: triangles seen edge-on, whose depth was extrapolated far beyond them.
 TEST(HostileInput, SeedsThatFailedOnceBreakNothing) {
     GlWatch gl;
     Checks checks;

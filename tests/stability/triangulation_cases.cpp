@@ -1,4 +1,5 @@
-// Depth from flow by both methods, against double precision, scaled, mirrored, exchanged.
+// Depth from flow by both methods, against double precision, scaled, mirrored and with exchanged
+// views.
 #include "tests/measure/triangulation/triangulation.h"
 #include "tests/oracle/triangulation.h"
 #include "tests/stability/cases.h"
@@ -51,7 +52,7 @@ void hostileTriangulation(Context& c) {
     triangulate(c, views, flow, options);
 }
 
-/// Two views as they are in use and the flow of a surface whose inverse depth changes over them.
+/// Two realistic views and the flow of a surface whose inverse depth varies.
 struct SurfaceScene {
     twin::TwoViews views;
     std::vector<float> flow;
@@ -88,13 +89,14 @@ SurfaceScene usualScene(Context& c, double unit) {
     return out;
 }
 
-/// What an error of 2e-6 in normalised rays, a thousandth of a pixel, makes of inverse depth.
+/// The error of inverse depth for an error of 2e-6 in normalised rays, a thousandth of a pixel.
 double bound(const twin::TwoViews& views, const twin::FlowDepth& truth, double flowSigma) {
     const double focal = std::sqrt(views.b.fx * views.b.fy);
     return truth.sigma * 2e-6 * focal / flowSigma + 2e-6 * std::abs(truth.inverseDepth);
 }
 
-/// Depth is told at this pixel: the point is before both cameras, seen by both, with parallax.
+/// True when depth can be determined at this pixel: the point is in front of both cameras, seen by
+/// both, with parallax.
 bool isTold(const twin::TwoViews& views, const Vector2d& pixel, const Vector2d& flow,
             const twin::FlowDepth& truth) {
     const Vector2d q = pixel + flow, end(views.b.size.width - 1, views.b.size.height - 1);
@@ -128,7 +130,7 @@ void usualTriangulation(Context& c) {
         TriangulationOptions options;
         options.method = method;
         const Points points = triangulate(c, s.views, s.flow, options);
-        // Within the rounding of its flow the midpoint is the point.
+        // In smaller units rounding of the flow moves the midpoint.
         if (unit >= 1e-3) checkAgainstTwin(c, s, points, options.flowSigma);
     }
 }
@@ -176,7 +178,7 @@ void mirroredTriangulation(Context& c) {
         for (int x = 0; x < size.width; ++x) {
             const std::size_t row = static_cast<std::size_t>(y) * size.width;
             const std::size_t i = row + x, j = row + size.width - 1 - x;
-            // Mirrored about the middles of pictures that may differ in width.
+            // Mirrored about the centres of pictures that may differ in width.
             const double across = s.views.b.size.width - size.width;
             mirror.flow[2 * i] = static_cast<float>(across - s.flow[2 * j]);
             mirror.flow[2 * i + 1] = s.flow[2 * j + 1];
@@ -186,14 +188,14 @@ void mirroredTriangulation(Context& c) {
     for (std::size_t i = 0; i < one.size(); ++i) {
         const std::size_t row = i / size.width * size.width;
         const auto& m = other[row + size.width - 1 - (i - row)];
-        if (one[i].sigma > 1 || m.sigma > 1) continue;  // beside the epipole
+        if (one[i].sigma > 1 || m.sigma > 1) continue;  // near the epipole
         const double slack = 1e-4 * one[i].sigma + 4e-6;
         c.checks.within(m.inverseDepth - one[i].inverseDepth, -slack, slack, "depth in a mirror");
         c.checks.within(m.residual + one[i].residual, -2e-3, 2e-3, "residual in a mirror");
     }
 }
 
-// What a sees of b, and b of a, is the same point.
+// A point seen from a in b, and from b in a, is the same.
 void exchangedTriangulation(Context& c) {
     const SurfaceScene s = usualScene(c, 1);
     const twin::TwoViews back{s.views.b, s.views.a, s.views.T_b_a.inverse()};

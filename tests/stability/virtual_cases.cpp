@@ -1,4 +1,4 @@
-// Virtual objects: their preview, and who hides whom.
+// Virtual objects: their preview, and occlusion.
 #include "pipeline/composite/preview_renderer.h"
 #include "pipeline/composite/silhouette.h"
 #include "pipeline/gles/layer_composite.h"
@@ -84,7 +84,7 @@ void compositing(Context& c) {
         for (int x = 0; x < output.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * output.width + x;
             const double wanted = scene.visibility(x, y, layer.z[i], options);
-            // Steeper, it tells single from double precision.
+            // A steeper transition shows the difference between single and double precision.
             const double slack = options.softness >= 1 ? 0.012 : 1;
             c.checks.within(seen[4 * i] / 255.0 - wanted, -slack, slack, "error of visibility");
             const double over = layer.colour[4 * i + 3] / 255.0 * seen[4 * i];
@@ -110,7 +110,8 @@ VirtualObject objectOf(Context& c) {
     return o;
 }
 
-/// All of it in front of the camera and in reach of its lens: a ray tells where.
+/// True for an object entirely in front of the camera and of a valid size: only then can rays be
+/// compared.
 bool isCast(const VirtualObject& o) {
     const bool sound = isFinite(o.T_world_object) && o.size.allFinite() &&
                        std::abs(o.T_world_object.rotation.norm() - 1) < 1e-9;
@@ -149,9 +150,9 @@ void preview(Context& c) {
                     "pixels off their ray");
 }
 
-constexpr double kInterpolation = 0x1p-20;  // of the largest value, a few roundings
+constexpr double kInterpolation = 0x1p-20;  // relative to the largest value: a few roundings
 
-// Every pixel that an object is drawn in lies in a tile whose range holds its depth.
+// Every pixel of an object lies in a tile whose range contains its depth.
 void silhouettes(Context& c) {
     const CameraModel camera = c.hostile.camera(c.size(1, 120));
     Silhouette silhouette(camera, 0);

@@ -1,4 +1,4 @@
-// The warp of the virtual layer: pictures that are spoilt, poses they were not made for.
+// The warp of the virtual layer: invalid pictures, and poses far from the pictures'.
 #include "pipeline/gles/edge_refiner.h"
 #include "tests/stability/cases.h"
 #include "tests/warp/warp_support.h"
@@ -12,7 +12,7 @@
 namespace mfar::stress {
 namespace {
 
-constexpr double kDistance = 0.6;  // of the camera from the scene [m]
+constexpr double kDistance = 0.6;  // distance of the camera from the scene [m]
 
 test::CastScene ballsOf(Context& c) {
     test::CastScene out;
@@ -30,7 +30,7 @@ RigidTransform around(Context& c) {
                        c.hostile.real(5, 85));
 }
 
-/// Depths, numbers and colours that no renderer gives.
+/// Replaces some depths, numbers and colours by ones that no renderer produces.
 void spoilPicture(Context& c, std::vector<float>& depth, std::vector<std::uint8_t>& id,
                   std::vector<std::array<std::uint8_t, 4>>& colour, double share) {
     for (std::size_t i = 0; i < depth.size(); ++i) {
@@ -72,7 +72,7 @@ void checkLayer(Context& c, const LayerPicture& layer) {
         }
 }
 
-/// One frame, in which what is asked for is answered.
+/// One frame; a request for pixels is answered.
 void showFrame(Context& c, Warp& warp, const test::CastScene& balls, const RigidTransform& pose,
                double spoilt) {
     checkLayer(c, warp.run(pose));
@@ -109,12 +109,12 @@ void hostileWarp(Context& c) {
         if (c.hostile.chance(0.1)) warp.dropReference();
     }
     if (c.hostile.chance(0.5)) return;
-    const RigidTransform rest = from * c.hostile.gentle(0.3);  // edges are sharpened there
+    const RigidTransform rest = from * c.hostile.gentle(0.3);  // at rest edges are sharpened
     for (int frame = 0; frame < 12; ++frame)
         showFrame(c, warp, balls, rest, spoilt);
 }
 
-// What an older picture shows of the scene is where the scene has it.
+// The warped older picture shows the scene's points at their places.
 void knownWarp(Context& c) {
     test::CastScene balls = test::twoBalls();
     balls.contrast = 0.5;
@@ -151,7 +151,8 @@ gpu::Texture textureOf(Size size, const Pixels& pixels) {
     return out;
 }
 
-/// warp_edges.comp: the largest difference of a colour in the 3x3 pixels around, of kLevels.
+/// As warp_edges.comp: the largest difference of a colour in the 3x3 neighbourhood, in steps of
+/// kLevels.
 int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, int y) {
     int most = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -167,7 +168,8 @@ int contrastAt(const Pixels& pixels, Size size, const PixelRect& where, int x, i
     return std::min(most * EdgeRefiner::kLevels / 255, EdgeRefiner::kLevels - 1);
 }
 
-/// The highest levels that make up the share of the objects' pixels; the highest one at least.
+/// The highest levels whose pixels together are at most `share` of the objects' pixels; at least
+/// the highest one.
 std::vector<std::uint32_t> edgesOf(const Pixels& colour, const Pixels& state, Size size,
                                    const PixelRect& where, double share) {
     std::array<std::vector<std::uint32_t>, EdgeRefiner::kLevels> byLevel;
@@ -195,7 +197,7 @@ PixelRect partOf(Context& c, Size size) {
     return {x, y, c.hostile.integer(x + 1, size.width), c.hostile.integer(y + 1, size.height)};
 }
 
-/// Colours for what was listed, and for some that were not.
+/// Colours for most of the listed pixels, and for some others.
 HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size size) {
     HoleAnswer out;
     for (const std::uint32_t pixel : listed)
@@ -212,7 +214,7 @@ HoleAnswer answerOf(Context& c, const std::vector<std::uint32_t>& listed, Size s
     return out;
 }
 
-// The edges of pictures that no surface shows.
+// Edges of pictures that no surface shows.
 void edges(Context& c) {
     const Size size = c.size(1, 90);
     const double share = c.hostile.pick({0.01, 0.15, 1.0});

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-// The texts as they were embedded: the generated source, its namespace under another name.
+// The embedded shader texts: the generated source, with its namespace renamed.
 namespace mfar::embedded_shaders {
 struct Source {
     std::string_view name, text;
@@ -45,7 +45,8 @@ bool isName(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// An array of a storage block, and its length as an expression: less the guard behind a buffer.
+/// An array of a storage block, and its length as an expression, without the guard behind the
+/// buffer.
 struct StorageArray {
     std::string name, length;
 };
@@ -57,7 +58,7 @@ std::string guardOf(std::string_view type) {
     return std::to_string(kGuardBytes / (4 * components));
 }
 
-/// The arrays of one block, given the text between its braces.
+/// Adds the arrays of one block, given the text between its braces.
 void addArrays(std::string_view block, std::vector<StorageArray>& out) {
     for (auto open = block.find('['); open != std::string_view::npos;
          open = block.find('[', open + 1)) {
@@ -79,7 +80,8 @@ void addArrays(std::string_view block, std::vector<StorageArray>& out) {
     }
 }
 
-/// The text with every index of these arrays in watchIndex(). Nested indices are found again.
+/// The text with every index of these arrays wrapped in watchIndex(). Nested indices are handled
+/// recursively.
 std::string withIndices(std::string_view text, const std::vector<StorageArray>& arrays) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {
@@ -152,7 +154,7 @@ std::string watched(std::string_view text, std::size_t index) {
     constexpr std::string_view kBuffer = " buffer ";
     for (auto at = text.find(kBuffer); at != std::string_view::npos;
          at = text.find(kBuffer, at + 1)) {
-        // A comment may speak of a buffer; a block has a binding before it on its line.
+        // " buffer " may occur in a comment; a block's line begins with its layout.
         const auto line = text.rfind('\n', at) + 1;
         if (text.substr(line, 6) != "layout") continue;
         const auto open = text.find('{', at), close = text.find('}', at);

@@ -17,7 +17,7 @@ Timestamp momentOf(int i) {
     return Timestamp::fromSeconds(1 + i / 30.);
 }
 
-/// A hand that holds a camera before a tag: tilts are those of two slow and two fast sines.
+/// A hand-held camera in front of a tag; each coordinate is a sum of slow and fast sines.
 RigidTransform hand(int i, double tiltDeg, double offsetDeg) {
     const double t = i / 30.;
     const auto sway = [&](double phase) {
@@ -46,10 +46,10 @@ private:
     double unit_;
 };
 
-/// How often the error of the pose turns by more than `limit` from frame to frame.
+/// `turns`: how often the pose error changes by more than a limit from frame to frame.
 struct Followed {
     int turns = 0, flips = 0, lost = 0;
-    double worst = 0;  ///< error [rad]
+    double worst = 0;  ///< rotation error [rad]
 };
 
 Followed follow(double tiltDeg, double offsetDeg, double sigma, int frames) {

@@ -32,7 +32,7 @@ Pose measured(const RigidTransform& T, Timestamp time, double angle = 0.002,
     return out;
 }
 
-/// Turns and moves at a constant rate in its own frame: a helix.
+/// Motion at a constant rate in the body's own frame: a helix.
 RigidTransform helix(double seconds) {
     Vector6 twist;
     twist << 0.3, -0.2, 0.4, 0.1, 0.2, -0.15;
@@ -114,7 +114,8 @@ TEST(PoseFilter, SmoothsNoiseAndKnowsHowSureItIs) {
         ++count;
     }
     EXPECT_LT(filtered, 0.5 * raw);
-    // It allows for acceleration that this path does not have: sure enough, never too sure.
+    // The filter allows for acceleration, which this path does not have: its covariance may be too
+    // large, never too small.
     EXPECT_LT(normalised / count, 7);
     EXPECT_GT(normalised / count, 0.5);
 }

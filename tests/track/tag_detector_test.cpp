@@ -64,7 +64,8 @@ TEST(TagDetector, FindsEveryFamilyWithItsCornersInOrder) {
     }
 }
 
-// Raw values of a sensor: the library's own half pixel is all that can be wrong on average.
+// Linear sensor values: only a wrong convention of pixel centres could shift the corners on
+// average.
 TEST(TagDetector, PixelCentresAreAtIntegers) {
     const CameraModel camera = testCamera();
     for (const double decimation : {1., 1.5, 2., 3.}) {
@@ -117,7 +118,7 @@ TEST(CornerRefiner, LeavesCornersAloneWhereNothingIsSeen) {
         EXPECT_EQ(detection.corners, made.corners);
     }
     for (Eigen::Vector2d& corner : made.corners)
-        corner.array() -= 139.5;  // over the picture's edge
+        corner.array() -= 139.5;  // beyond the picture's edge
     TagDetection detection = made;
     CornerRefiner().refine(GrayPicture(camera.size, 90).view(), camera, detection);
     EXPECT_EQ(detection.corners, made.corners);

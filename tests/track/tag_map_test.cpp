@@ -41,7 +41,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text.replace(at, from.size(), to);
 }
 
-/// The message of a text that must be refused.
+/// The error message for an invalid text.
 template <class F>
 std::string refusal(const F& read) {
     try {
@@ -100,7 +100,7 @@ TEST(TagMap, ReadsAnAprilTagRosBundleAndTurnsItsTagFrame) {
     ASSERT_EQ(map.tags().size(), 2U);
     const MappedTag* tag = map.find({TagFamily::Tag36h11, 2});
     ASSERT_NE(tag, nullptr);
-    // The bottom left corner is at (-, +) for us with y down, at (-, -) there with y up.
+    // With y down (mfar) the bottom left corner is at (-, +), with y up (apriltag_ros) at (-, -).
     const Eigen::Vector3d corner = tag->T_world_tag * Eigen::Vector3d(-0.025, 0.025, 0);
     EXPECT_TRUE(corner.isApprox(Eigen::Vector3d(0.1 - 0.025, 0.2 - 0.025, 0)));
     EXPECT_EQ(map.find({TagFamily::Tag36h11, 9}), nullptr);

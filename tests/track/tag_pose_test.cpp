@@ -42,7 +42,7 @@ RigidTransform randomView(std::mt19937& random) {
 
 const PlacedTag kTag{{TagFamily::Tag36h11, 0}, 0.08, {}};
 
-/// 2 x 2 tags in one plane, like a printed page.
+/// 2 x 2 tags in one plane, as on a printed page.
 std::vector<PlacedTag> page() {
     std::vector<PlacedTag> out;
     for (int i = 0; i < 4; ++i) {
@@ -108,7 +108,8 @@ TEST(TagPose, CovarianceIsThatOfTheErrors) {
         mean += error / kRuns;
         distance += error.dot(poses->best.covariance.ldlt().solve(error)) / kRuns;
     }
-    // Six degrees of freedom, standard error 0.08; the variance is never underestimated.
+    // Expected: six, for six degrees of freedom, with a standard error of 0.08. The variance must
+    // not be underestimated.
     EXPECT_GT(distance, 4.5);
     EXPECT_LT(distance, 6.4);
     EXPECT_LT(mean.head<3>().norm(), 0.05 * kDegree);
@@ -136,7 +137,7 @@ TEST(TagPose, SeveralTagsAreMoreExactThanOne) {
     EXPECT_LT(all, 0.5 * one);
 }
 
-// Blur, gamma and ink move the edges of all tags alike.
+// Blur, gamma and ink move the edges of all tags in the same way.
 TEST(TagPose, SeveralTagsTellHowFarOutTheirEdgesAreSeen) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.5, 0.3, 0.2, 0.4);
@@ -150,7 +151,7 @@ TEST(TagPose, SeveralTagsTellHowFarOutTheirEdgesAreSeen) {
         }
         const auto many = solveTagPose(seen, camera), one = solveTagPose({seen.data(), 1}, camera);
         ASSERT_TRUE(many && one);
-        // The prior holds back a little of it.
+        // The prior reduces the estimate slightly.
         EXPECT_NEAR(many->best.edgeShift, shift, 0.1 * std::abs(shift) + 1e-6);
         const auto error = [&](const CameraPoses& poses) {
             return (poses.best.T_world_camera.translation - truth.translation).norm();
@@ -201,11 +202,11 @@ TEST(TagPose, UnfitTagsGiveNothing) {
     };
     const TagObservation good = observe(camera, cameraAt(0.6, 0.3, 0.2), kTag);
     ASSERT_TRUE(solveTagPose({&good, 1}, camera).has_value());
-    refused(observe(camera, cameraAt(0.6, 85 * kDegree, 0), kTag));  // grazing
-    refused(observe(camera, cameraAt(0.6, 3, 0), kTag));             // from behind
-    refused(observe(camera, cameraAt(9, 0.3, 0.2), kTag));           // tiny
+    refused(observe(camera, cameraAt(0.6, 85 * kDegree, 0), kTag));  // grazing angle
+    refused(observe(camera, cameraAt(0.6, 3, 0), kTag));             // seen from behind
+    refused(observe(camera, cameraAt(9, 0.3, 0.2), kTag));           // too small
     const RigidTransform aside{Eigen::Quaterniond::Identity(), {0.3, 0, -0.5}};
-    refused(observe(camera, aside, kTag));  // half out of the picture
+    refused(observe(camera, aside, kTag));  // partly outside the picture
     for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(), 1e300}) {
         TagObservation tag = good;
         tag.corners[2].y() = value;
@@ -226,7 +227,7 @@ TEST(TagPose, UnfitTagsGiveNothing) {
     EXPECT_FALSE(solveTagPose({}, camera).has_value());
 }
 
-// No picture of four points may end in NaN, however little it looks like a tag.
+// No four points may yield NaN, even if they do not look like a tag at all.
 TEST(TagPose, AnyFourCornersGiveAFinitePoseOrNone) {
     std::mt19937 random(9);
     std::uniform_real_distribution<double> x(-20, 660), y(-20, 500);

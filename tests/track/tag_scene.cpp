@@ -7,7 +7,7 @@
 namespace mfar::test {
 namespace {
 
-constexpr int kRays = 4;  // per pixel and direction
+constexpr int kRays = 4;  // per pixel, in each direction
 
 struct Drawn {
     RigidTransform T_tag_camera;
@@ -40,7 +40,7 @@ Drawn prepare(const CameraModel& camera, const RigidTransform& T_world_camera,
     return out;
 }
 
-/// 1: white paper, 0: black, nothing: beside the tag.
+/// 1: white paper, 0: black paper, nothing: outside the tag.
 std::optional<int> paperAt(const Drawn& tag, const Eigen::Vector2d& ray) {
     const Eigen::Vector3d direction = tag.T_tag_camera.rotation * ray.homogeneous();
     const Eigen::Vector3d& from = tag.T_tag_camera.translation;

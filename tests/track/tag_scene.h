@@ -17,7 +17,7 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 struct PlacedTag {
     TagKey tag;
-    double size = 0.1;  ///< between corners [m]
+    double size = 0.1;  ///< distance between corners [m]
     RigidTransform T_world_tag;
 };
 
@@ -36,26 +36,26 @@ struct GrayPicture {
 struct SensorLook {
     double gamma = 2.2;   ///< grey = 255 light^(1 / gamma)
     double noise = 0;     ///< standard deviation [grey levels]
-    unsigned seed = 1;    ///< of the noise
-    double dark = 0.03;   ///< light of black paper
-    double bright = 0.8;  ///< light of white paper
+    unsigned seed = 1;    ///< seed of the noise
+    double dark = 0.03;   ///< brightness of black paper
+    double bright = 0.8;  ///< brightness of white paper
 };
 
-/// Tags with their quiet zones on a grey ground, through the lens, 4 x 4 rays a pixel.
+/// Renders tags with their quiet zones on grey ground through the lens, with 4 x 4 rays per pixel.
 [[nodiscard]] GrayPicture renderTags(const CameraModel& camera,
                                      const RigidTransform& T_world_camera,
                                      const std::vector<PlacedTag>& tags,
                                      const SensorLook& look = {});
 
-/// Where the corners of a tag are in the picture, in the order of TagDetection::corners.
+/// True places of the tag's corners in the picture, in the order of TagDetection::corners.
 [[nodiscard]] std::array<Eigen::Vector2d, 4>
 cornersOf(const CameraModel& camera, const RigidTransform& T_world_camera, const PlacedTag& tag);
 
-/// A camera of 640x480 with the distortion of a cheap lens.
+/// A camera of 640x480 with the distortion of an inexpensive lens.
 [[nodiscard]] CameraModel testCamera();
 
-/// Camera `distance` in front of the world's origin, looking at it along +z, then tilted around it
-/// by pitch (about x) and yaw (about y) and rolled [rad].
+/// Pose of a camera at `distance` in front of the world's origin, looking at it along +z, then
+/// rotated about the origin by pitch (about x) and yaw (about y), and rolled [rad].
 [[nodiscard]] RigidTransform cameraAt(double distance, double pitch, double yaw, double roll = 0);
 
 /// Angle between two rotations [rad].

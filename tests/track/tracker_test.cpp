@@ -143,7 +143,7 @@ TEST(Tracker, AStillIsMeasuredInItself) {
         EXPECT_LT(angleBetween(pose->T_world_video, view(i)), 0.2 * kDegree);
         EXPECT_LT((pose->T_world_video.translation - view(i).translation).norm(), 0.002);
     };
-    check(3);  // nothing is predicted yet: the whole still
+    check(3);  // without a prediction the whole still is searched
     for (int i = 0; i < 3; ++i)
         ASSERT_TRUE(tracker.track(picture(i).view(), frameTime(i)));
     check(3);
@@ -208,10 +208,10 @@ TEST(Tracker, WrongSizesAndOptionsAreRefused) {
 TEST(SearchRegions, HoldTheTagsThatCanBeSeenAndNoOther) {
     std::vector<PlacedTag> tags = world();
     const Eigen::Quaterniond back(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitY()));
-    tags.push_back({{TagFamily::Tag36h11, 20}, 0.07, {back, {0, 0, 0}}});          // shows its back
-    tags.push_back({{TagFamily::Tag36h11, 21}, 0.07, {{1, 0, 0, 0}, {3, 0, 0}}});  // beside
+    tags.push_back({{TagFamily::Tag36h11, 20}, 0.07, {back, {0, 0, 0}}});  // seen from behind
+    tags.push_back({{TagFamily::Tag36h11, 21}, 0.07, {{1, 0, 0, 0}, {3, 0, 0}}});   // outside
     tags.push_back({{TagFamily::Tag36h11, 22}, 0.07, {{1, 0, 0, 0}, {0, 0, -3}}});  // behind
-    tags.push_back({{TagFamily::Tag36h11, 23}, 0.005, {{1, 0, 0, 0}, {0, 0, 1}}});  // tiny
+    tags.push_back({{TagFamily::Tag36h11, 23}, 0.005, {{1, 0, 0, 0}, {0, 0, 1}}});  // too small
     const Matrix6 sure = Matrix6::Identity() * 1e-8;
     const auto regions = searchRegions(mapOf(tags), kRig.video, view(0), sure);
     ASSERT_EQ(regions.size(), 2U);

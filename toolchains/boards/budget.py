@@ -1,4 +1,4 @@
-"""What each shader may cost on each GPU: budget.csv, and what is worse than it."""
+"""Limits of each shader on each GPU (budget.csv), and the entries that exceed them."""
 import csv
 
 COLUMNS = ('gpu', 'shader', 'instructions', 'spills', 'fills', 'scratch')

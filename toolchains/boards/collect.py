@@ -1,4 +1,4 @@
-"""Runs mfar-frame-work: what frames ask of a GPU and of processors, and how long they take here."""
+"""Runs mfar-frame-work: work of frames for a GPU and for processors, and their time on this machine."""
 import json
 import os
 import re
@@ -9,7 +9,8 @@ import cpu_model
 
 CASES = ('moving', 'rest')
 TIMED = 20  # frames
-# The difference is one frame, without what is done once; rest is complete after a few.
+# The difference of two runs is one frame, without work done once; at rest a frame is typical after
+# a few.
 FRAMES = {'moving': (2, 3), 'rest': (5, 6)}
 
 

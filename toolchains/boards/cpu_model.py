@@ -1,4 +1,4 @@
-"""What a frame costs on a processor: executed blocks of the program, and llvm-mca's cycles for each.
+"""Cycles of a frame on a processor: executed blocks of the program, and llvm-mca's cycles for each.
 
 QEMU counts how often each block of instructions runs (block_counts.c). llvm-mca knows how many cycles a
 block takes on a processor when it runs again and again with everything in the first cache. Where a block
@@ -17,7 +17,7 @@ ITERATIONS = 50
 
 
 class Counts:
-    """Executions of each block, by its offset from where the program's code begins."""
+    """Executions of each block, by its offset from the begin of the program's code."""
 
     def __init__(self, text=''):
         self.blocks = {}  # offset: (bytes, instructions, count)
@@ -32,7 +32,7 @@ class Counts:
             self.blocks[key] = size, self.blocks.get(key, (size, 0))[1] + count
 
     def less(self, before, share):
-        """What these have more than `before`, times `share`: frames without what comes before them."""
+        """The difference to `before`, times `share`: the counts of frames without the start of the program."""
         out = Counts()
         for key, (size, count) in self.blocks.items():
             more = count - before.blocks.get(key, (size, 0))[1]
@@ -62,7 +62,7 @@ def instruction_text(line):
     if not found:
         return None
     text = re.sub(r'\s*(//|#\s|<unknown>).*', '', found.group(2).replace('\t', ' '))
-    # The target itself may be too far away for the assembler.
+    # The assembler may refuse the real target as too far away.
     branch = re.search(r'#?0x([0-9a-f]+) <[^>]*>', text)
     text = re.sub(r'#?-?0x[0-9a-f]+ <[^>]*>', 'target', text)
     return int(found.group(1), 16), text.strip(), int(branch.group(1), 16) if branch else 0
@@ -92,7 +92,7 @@ def basic_blocks(counts, base, texts):
             if address in texts:
                 ran[address] = ran.get(address, 0) + count
     leaders = {target for _, target in texts.values()}
-    out, last = [], None  # the instruction before, where it ran and does not end a block
+    out, last = [], None  # the previous instruction, if it ran and does not end a block
     for address, (text, _) in texts.items():
         if address not in ran:
             last = None
@@ -128,7 +128,7 @@ def mca_source(blocks, texts):
 
 
 def mca_cycles(answer):
-    """Region name: cycles of one iteration among others, and what its units need at least."""
+    """Region name: cycles of one iteration within a sequence, and the lower limit by its units."""
     out = {}
     for region in json.loads(answer)['CodeRegions']:
         view = region.get('SummaryView')

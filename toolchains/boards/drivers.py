@@ -17,7 +17,7 @@ def command(libraries, driver, program, arguments):
 def compile_shaders(libraries, gpu, program, files=()):
     """Key: Shader, of every shader of the product or of these files. Raises RuntimeError where one does not
     compile."""
-    # Without a GPU, Panfrost survives neither a dispatch nor a shader that spills.
+    # Without a GPU, Panfrost crashes on a dispatch and on a shader that spills.
     arguments = (['--link-only'] if gpu['driver'] == 'panfrost' else []) + list(files)
     environment = dict(os.environ, LIBGL_DRIVERS_PATH=libraries, GBM_BACKENDS_PATH=libraries,
                        MESA_SHADER_CACHE_DISABLE='1', **STATISTICS[gpu['driver']], **gpu['environment'])

@@ -1,9 +1,9 @@
-"""What a pass costs on a GPU, from what its compiler made of the shader and how often that runs."""
+"""Time of a pass on a GPU, from the compiled shader's statistics and the number of its invocations."""
 import ast
 import math
 
 
-MOST_BYTES = 16  # of one access
+MOST_BYTES = 16  # per access
 
 
 class UnknownLoops(Exception):
@@ -70,9 +70,9 @@ def waves_of_core(shader, gpu):
 
 
 def pass_time(work, shader, gpu, board, model):
-    """(time [ms], what limits it, milliseconds by limit) of one draw or dispatch."""
+    """(time [ms], limiting resource, milliseconds by resource) of one draw or dispatch."""
     trips = trips_of(shader, work['params'], model['loops'])
-    cores, clock = board['gpu']['cores'], board['gpu']['clock'] * 1e3  # cycles a millisecond
+    cores, clock = board['gpu']['cores'], board['gpu']['clock'] * 1e3  # cycles per millisecond
     waves = math.ceil(work['invocations'] / gpu['lanes'])
     ms = {}
     for unit, (cycles, shared) in unit_cycles(shader, trips, gpu).items():
@@ -80,7 +80,7 @@ def pass_time(work, shader, gpu, board, model):
     waits = shader.executed('memory', trips) + shader.executed('texture', trips)
     lone = executed_instructions(shader, trips) * gpu['lone_issue'] + waits * model['gpu_model']['memory_latency']
     ms['waiting'] = max(waves / (cores * waves_of_core(shader, gpu)), 1) * lone / clock
-    # A pass that looks up a few cells does not read the whole of what is bound.
+    # A pass that looks up only a few cells does not read its whole inputs.
     read = min(work['read'], work['invocations'] * waits * MOST_BYTES)
     ms['bandwidth'] = (read + work['written']) / bandwidth(board, model)
     limit = max(ms, key=ms.get)
@@ -88,5 +88,5 @@ def pass_time(work, shader, gpu, board, model):
 
 
 def bandwidth(board, model):
-    """Bytes a millisecond."""
+    """Bytes per millisecond."""
     return board['memory'] * 1e6 * model['gpu_model']['bandwidth_share']

@@ -3,7 +3,7 @@ from xml.sax.saxutils import escape
 
 import predict
 
-# Okabe and Ito's colours, which those who see colours differently tell apart.
+# Okabe and Ito's colours, which remain distinct with colour vision deficiencies.
 COLOURS = {'plan': '#999999', 'pyramid': '#F0E442', 'flow': '#0072B2', 'weigh': '#56B4E9', 'detail': '#E69F00'}
 LEFT, WIDTH, ROW, TOP = 260, 620, 22, 72
 
@@ -48,7 +48,7 @@ def scale(most, height):
         lines.append(text(x, height - 24, f'{value}', 'middle'))
         value += step
     lines.append(text(LEFT + WIDTH / 2, height - 6, 'ms a frame', 'middle'))
-    if most > 1000 / 30:  # a frame at 30 a second
+    if most > 1000 / 30:  # the time of a frame at 30 Hz
         x = LEFT + WIDTH * 1000 / 30 / most
         lines.append(f'<line x1="{x:.1f}" y1="{TOP - 6}" x2="{x:.1f}" y2="{height - 40}" stroke="#c00" '
                      'stroke-dasharray="4 3"/>')

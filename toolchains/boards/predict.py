@@ -54,7 +54,7 @@ def cpu_steps(board, cycles, output, model, cores, moving=True):
 
 def placements(cpu, gpu):
     """Milliseconds of a frame by where its steps run. `gpu`: None without one."""
-    host = cpu.get('plan', 0) + cpu.get('rest', 0)  # these have no shaders
+    host = cpu.get('plan', 0) + cpu.get('rest', 0)  # steps without shaders
     sums = {'simd': sum(cpu.values())}
     if gpu is None:
         return sums

@@ -45,7 +45,7 @@ def budget_rows(compiled):
 
 
 def check(compiled, allowed):
-    """Prints what is over the budget; the number of faults."""
+    """Prints the entries over their budget; returns their number."""
     faults = budget.faults(budget_rows(compiled), allowed)
     for fault in faults:
         print(fault)
@@ -59,7 +59,7 @@ def outputs(model):
 
 
 def predict_board(board, model, works, compiled, cycles):
-    """case: output width: what is predicted."""
+    """case: output width: prediction."""
     gpu = board.get('gpu')
     known = gpu is not None and gpu['kind'] in compiled
     out = {}
@@ -82,7 +82,7 @@ def predict_board(board, model, works, compiled, cycles):
 
 
 def check_host(args, model, plugin):
-    """The model of processors against what this machine measures."""
+    """Compares the processor model with measurements on this machine."""
     name, mca = collect.host_processor()
     if mca is None:
         return None
@@ -94,7 +94,7 @@ def check_host(args, model, plugin):
     measured = collect.host_times(args.frame_work, 1, width, '--avx2')
     clock = measured['clockGhz'] * 1e3
     predicted = {step: million * 1e3 / clock for step, million in cycles['cycles']['host'].items()}
-    # The fine check is timed as part of weigh; rows that it shares with detail are found in detail.
+    # The time of the fine check is in weigh; rows that it shares with detail are counted in detail.
     times = {step: one['least'] for step, one in measured.items() if isinstance(one, dict)}
     for table in (predicted, times):
         table['weigh and detail'] = table.pop('weigh', 0) + table.pop('detail', 0)

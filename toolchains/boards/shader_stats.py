@@ -1,4 +1,4 @@
-"""What a driver's compiler made of each shader: reads the output of mfar-compile-shaders.
+"""Statistics of each shader as compiled by a driver: reads the output of mfar-compile-shaders.
 
 Each driver prints a line of statistics, and the shader in NIR, Mesa's own form, just before it becomes
 machine code. The first counts instructions as they stand; the second has the loops, so that instructions
@@ -32,8 +32,8 @@ class Shader:
     registers: int = 0
     spills: int = 0
     fills: int = 0
-    scratch: int = 0  # accesses to local arrays in memory, as they stand
-    cycles: dict = dataclasses.field(default_factory=dict)  # by unit, of one invocation, loops run once
+    scratch: int = 0  # accesses to local arrays in memory, each counted once
+    cycles: dict = dataclasses.field(default_factory=dict)  # cycles by unit of one invocation, with loops run once
     loops: list = dataclasses.field(default_factory=list)
 
     @property
@@ -41,7 +41,7 @@ class Shader:
         return (self.name + ' ' + self.defines).strip()
 
     def structure(self):
-        """How loops lie in each other: 'L L(L)' is one loop, then one with another in it."""
+        """The structure of nested loops: 'L L(L)' is one loop, then one with another in it."""
         out, depth = '', 0
         for loop in self.loops[1:]:
             if loop.depth > depth:
@@ -71,7 +71,7 @@ class Shader:
 
 
 class NirReader:
-    """Takes a shader's NIR line by line."""
+    """Parses a shader's NIR line by line."""
 
     def __init__(self):
         self.loops = [Loop(0)]
@@ -133,7 +133,7 @@ def _mali(shader, text):
     _fill(shader, text)
     units = r'([\d.]+) (arith|texture|vary|ldst|fma|cvt|sfu|v|t|ls)\b'
     shader.cycles = {unit: float(cycles) for cycles, unit in re.findall(units, text)}
-    # The driver tells only whether there is room for all threads of a core or for half of them.
+    # The driver only reports whether a core has room for all threads or for half of them.
     shader.registers = 32 if shader.threads == 2 else 64
 
 
@@ -184,7 +184,7 @@ def parse(lines):
         if re.search(r'\b(stp|ldp)\.', line) and stage in wanted:
             shader.cycles['private'] = shader.cycles.get('private', 0) + 1
     for one in out.values():
-        if 'private' in one.cycles:  # Adreno tells no spills apart from local arrays
+        if 'private' in one.cycles:  # Adreno does not distinguish spills from local arrays
             one.fills = max(int(one.cycles.pop('private')) - one.scratch, 0)
     return out
 

@@ -18,7 +18,7 @@ def ms(value):
 
 
 def frames_a_second(value):
-    if value > 500:  # no camera, no screen
+    if value > 500:  # faster than any camera or screen
         return '> 500'
     return f'{value:.1f}' if value < 10 else f'{value:.0f}'
 
@@ -28,7 +28,7 @@ def gpu_name(board, model):
 
 
 def placement(result):
-    """Which engine does what, in one word or two."""
+    """The fastest placement of steps on engines, in one or two words."""
     names = {'simd': 'SIMD', 'gles': 'GLES', 'match simd, draw gles': 'SIMD, detail GLES',
              'match gles, draw simd': 'GLES, detail SIMD'}
     return names[result['best']]
@@ -103,7 +103,7 @@ def dearest_passes(model, results, width, count=6):
 
 
 def instructions_table(results):
-    """Million instructions of a frame, counted in the emulator: what the cycles stand on."""
+    """Million instructions of a frame, counted in the emulator, from which cycles are computed."""
     steps = predict.STEPS
     rows = [[case, *(f'{one.get(step, 0):.1f}' for step in steps), f'{sum(one.values()):.0f}']
             for case, one in results['instructions'].items()]
@@ -140,7 +140,7 @@ def markdown(model, compiled, results):
 
 
 def passes_csv(model, compiled, results):
-    """Every shader on every GPU as its compiler made it, and time and limit of every pass on every board."""
+    """Statistics of every shader on every GPU, and time and limit of every pass on every board."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator='\n')
     writer.writerow(['gpu', 'shader', 'instructions', 'threads', 'registers', 'spills', 'fills', 'scratch', 'cycles'])

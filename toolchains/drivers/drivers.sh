@@ -1,4 +1,4 @@
-# Tests of the shaders, the pipeline and one scenario on other drivers of Mesa than llvmpipe. Part of
+# Tests of the shaders, the pipeline and one scenario with Mesa drivers other than llvmpipe. Part of
 # `./run`.
 
 driverPackages() {
@@ -8,15 +8,15 @@ vulkan-validationlayers checks what zink asks of it
 EOF
 }
 
-# What Vulkan's validation layer complains of in a log; fails where that is nothing.
+# Prints the complaints of Vulkan's validation layer in a log; fails when there are none.
 complaints() {
     grep -E 'Validation (Error|Warning|Performance)' "$1" | sort | uniq -c | cut -c 1-400
 }
 
-# Arguments: the driver, then options of ctest. Tests with the label "driver": those that draw with
-# GL and whose display reads no pixels into a buffer, for which Mesa 22.3 draws into a framebuffer
-# without attachments: zink calls vkCmdSetColorBlendEnableEXT for none of them, which the layer
-# forbids.
+# Arguments: the driver, then options of ctest. Runs tests with the label "driver": those that draw
+# with GL and whose display does not read pixels into a buffer. For such reads Mesa 22.3 draws into
+# a framebuffer without attachments, for which zink does not call vkCmdSetColorBlendEnableEXT; the
+# layer reports that as an error.
 testDriver() {
     local driver=$1 icd log=.build/host/Testing/Temporary/LastTest.log label=driver said
     shift
@@ -24,7 +24,7 @@ testDriver() {
     build host mfard mfar-sim mfarctl mfar_faulty_gl mfar_pretended_v4l2 mfar-shader-tests-egl \
         mfar-engine-tests-egl mfar-warp-tests-egl mfar-lost-context-tests
     export LIBGL_ALWAYS_SOFTWARE=1 MFAR_GL_DEVICE=software GALLIUM_DRIVER=$driver
-    export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-/tmp} # Vulkan's loader complains without one
+    export XDG_RUNTIME_DIR=${XDG_RUNTIME_DIR:-/tmp} # Vulkan's loader needs one
     case $driver in
     zink)
         icd=$(find /usr/share/vulkan/icd.d -name 'lvp_icd.*' | head -n 1)

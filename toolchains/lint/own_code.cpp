@@ -1,6 +1,6 @@
-// A plugin of clang-tidy: the check mfar-own-code, which says nothing and keeps all the others to
-// what is declared outside of system headers. clang-tidy walks through the standard library, Eigen
-// and OpenCV with every check and drops what it finds there, which is most of its time.
+// A plugin of clang-tidy with the check mfar-own-code. It reports nothing and limits all other
+// checks to declarations outside of system headers. Otherwise clang-tidy runs every check on the
+// standard library, Eigen and OpenCV and discards the results, which takes most of its time.
 #include <clang-tidy/ClangTidyCheck.h>
 #include <clang-tidy/ClangTidyModule.h>
 #include <clang-tidy/ClangTidyModuleRegistry.h>
@@ -17,11 +17,11 @@ public:
         finder->addMatcher(clang::ast_matchers::translationUnitDecl(), this);
     }
 
-    // The walk reads the scope after it has shown the translation unit itself, the first of all.
+    // The scope is read after the translation unit itself, the first declaration, has been visited.
     void check(const clang::ast_matchers::MatchFinder::MatchResult& found) override {
         std::vector<clang::Decl*> own;
         for (clang::Decl* declaration : found.Context->getTranslationUnitDecl()->decls()) {
-            // Of a macro that is expanded here, too, such as TEST.
+            // Includes declarations from macros such as TEST, which are expanded in our files.
             if (!found.SourceManager->isInSystemHeader(declaration->getLocation())) {
                 own.push_back(declaration);
             }

@@ -1,4 +1,5 @@
-# clang-tidy over what has changed since it passed last. Read by `run`, in the project's folder.
+# Runs clang-tidy on everything that has changed since it last passed. Read by `run`, in the
+# project's folder.
 
 # clang-tidy reads a file once for each of its commands. The second build of the SIMD kernels, for
 # Highway's scalar target, is left out.
@@ -9,16 +10,17 @@ tidyCommands() {
         .build/host/compile_commands.json >.build/host/lint/compile_commands.json
 }
 
-# Everything, as the build's unity files: the headers that sources share are parsed and checked once.
-# Sources that the build makes are left out.
+# All files, as the build's unity files: headers that sources share are parsed and checked once.
+# Generated sources are left out.
 everything() {
     sed -n 's|^ *"file": "\(.*\)",\?$|\1|p' .build/host/lint/compile_commands.json |
         sort -u |
-        { xargs grep -sL '^#include "[^"]*/\.build/' || true; } | # of what is not made yet, too
-        grep . # which fails for an empty list
+        { xargs grep -sL '^#include "[^"]*/\.build/' || true; } | # -s: some do not exist yet
+        grep . # fails for an empty list
 }
 
-# What clang-tidy has not passed since it, a header or the checks changed.
+# Files that have to be checked since clang-tidy last passed: all when a header or the checks
+# changed.
 unlinted() {
     local stamp=$1 changed
     if [[ ! -f $stamp ]]; then everything; return; fi
@@ -28,15 +30,16 @@ unlinted() {
     if [[ -n $changed ]]; then everything; return; fi
     changed=$(find base daemon hal pipeline gles_shaders tests -name '*.cpp' -newer "$stamp" -printf "$PWD/%p\n")
     [[ -n $changed ]] || return 0
-    # What is read with the flags of its target: the unity file with it, or it alone.
+    # Unity files that include a changed source, or the source itself, each with the flags of its
+    # target.
     {
         everything | xargs grep -sFl -e "$changed" || true
         everything | grep -xF -e "$changed" || true
     } | sort -u
 }
 
-# Makes the plugin with which clang-tidy leaves other people's headers alone, in a third of the time.
-# LLVM is built without RTTI.
+# Builds the plugin that limits clang-tidy to our own code, which takes a third of the time. LLVM is
+# built without RTTI.
 tidyPlugin() {
     local plugin=$1 source=toolchains/lint/own_code.cpp
     [[ $plugin -nt $source ]] ||
@@ -44,8 +47,8 @@ tidyPlugin() {
             -c "$source" -o "$plugin.o" && c++ -shared "$plugin.o" -o "$plugin"; }
 }
 
-# The sources are named, which shows the progress; what clang-tidy has to say about them follows.
-# Flags that GCC alone knows do not disturb it. A kernel's file is read for one instruction set.
+# Prints the names of the sources as progress, then clang-tidy's messages. Unknown warning flags of
+# GCC are ignored. A kernel's file is checked for one instruction set.
 tidyFile() {
     local file=$1 sources=$1 said status=0
     if [[ $file == */Unity/* ]]; then

@@ -1,4 +1,5 @@
-# Run by CPack when the files are in place: which packages have the libraries of the programs.
+# Run by CPack when the files are in place: determines which packages have the libraries of the
+# programs.
 file(GLOB programs ${CPACK_TEMPORARY_DIRECTORY}/usr/bin/*)
 execute_process(
     COMMAND ${CMAKE_CURRENT_LIST_DIR}/shlibdeps.sh "${CPACK_MFAR_SYSROOT}"

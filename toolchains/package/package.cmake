@@ -26,11 +26,12 @@ set(CPACK_DEBIAN_PACKAGE_SECTION video)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_STRIP_FILES ON)
-# The configuration has its place outside the prefix.
+# The configuration is installed outside the prefix.
 set(CPACK_SET_DESTDIR ON)
 set(CPACK_INSTALL_PREFIX /usr)
 
-# The libraries that the programs name come before these. The service is reloaded by procps' kill.
+# The shared libraries' packages are put before these. procps has the kill command that reloads the
+# service.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "init-system-helpers, procps, systemd, udev")
 # OpenGL ES is loaded at run time: programs start without it.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri, libgles2")

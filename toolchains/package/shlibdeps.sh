@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints which Debian packages have the shared libraries that programs need, as a Depends line. Like
+# Prints the Debian packages of the shared libraries that programs need, as a Depends line. Like
 # dpkg-shlibdeps, but for the packages of any root: of this machine or of a sysroot.
 # Usage: shlibdeps.sh ROOT ARCHITECTURE PROGRAM...   (ROOT empty: this machine)
 set -euo pipefail
@@ -8,13 +8,13 @@ info=$1/var/lib/dpkg/info
 architecture=$2
 shift 2
 
-# "libfoo.so.1" and "libfoo-1.so" are both library libfoo of version 1 in the packages' shlibs files.
+# In shlibs files, "libfoo.so.1" and "libfoo-1.so" are both library libfoo, version 1.
 split() { sed -E 's/^(.*)\.so\.(.*)$/\1 \2/; t; s/^(.*)-([0-9][^-]*)\.so$/\1 \2/; t; s/$/ -/'; }
 
 needed=$(readelf -d "$@" | sed -n 's/.*(NEEDED).*\[\(.*\)\]$/\1/p' | sort -u | split)
 [[ -n $needed ]] || { echo "shlibdeps: no shared library is needed: $*" >&2; exit 1; }
 while read -r library version; do
-    # First those of this architecture alone: a machine may have libraries for several.
+    # Files of this architecture come first: a machine may have libraries for several.
     found=$(awk -v l="$library" -v v="$version" \
         '$1 == l && $2 == v { $1 = $2 = ""; sub(/^ +/, ""); print; exit }' "$info"/*":$architecture.shlibs" "$info"/*.shlibs)
     [[ -n $found ]] || { echo "shlibdeps: no package in $info has $library $version" >&2; exit 1; }

@@ -19,7 +19,7 @@ from pictures import Film, Pattern, film_times
 HERE = Path(__file__).resolve().parent
 VIDEO, STILL = (640, 480), (2304, 1728)
 
-# For mfard: the board's own devices; more keys of the trigger's line may follow.
+# For mfard: the board's own devices; further keys of the trigger line may follow.
 DEVICES = '''source = "cameras"
 [cameras.video]
 camera = "Bed video"
@@ -30,7 +30,7 @@ chip = "/dev/gpiochip0"
 line = "5"
 '''
 
-# Stills are not asked for unless a scenario wants them.
+# mfard requests stills only in some scenarios.
 CAMERAS = DEVICES + '''[pose]
 source = "none"
 [trigger]
@@ -39,7 +39,7 @@ mode = "off"
 
 
 def pictures(options):
-    """What both cameras see, of one world: the film, or patterns."""
+    """Pictures of both cameras, of the same scene: the film, or patterns."""
     if not options.film:
         return Pattern(*VIDEO), Pattern(*STILL)
     files = options.film / 'video', options.film / 'still'
@@ -48,7 +48,7 @@ def pictures(options):
 
 
 class Bed:
-    """What a scenario gets: the guest, and the world around it."""
+    """The argument of a scenario: the guest, and its surroundings."""
 
     devices, cameras = DEVICES, CAMERAS
 
@@ -85,12 +85,12 @@ class Bed:
             picture.held = on
 
     def journal(self, since=None):
-        """What mfard.service has said, without times."""
+        """Messages of mfard.service, without times."""
         return self.run('journalctl --no-pager -q -u mfard -o cat'
                         + (f' --since "{since}"' if since else ''))
 
     def now(self):
-        """The guest's time of day, as journal() wants it."""
+        """The guest's time of day, in the format for journal()."""
         return self.run('date "+%F %T.%6N"')
 
     def property(self, name):
@@ -142,7 +142,7 @@ def run_scenario(bed, scenario):
     try:
         scenario.run(bed)
         fault = None
-    except Exception:  # whatever it is, the other scenarios are of interest too
+    except Exception:  # after any failure the other scenarios run all the same
         fault = traceback.format_exc()
     took = time.monotonic() - begin
     print(f'{"ok" if fault is None else "FAILED":8}{scenario.name:40}{took:7.1f} s', flush=True)
@@ -157,18 +157,18 @@ def run_scenario(bed, scenario):
 
 
 def install(bed):
-    """As on a board that has been configured before: the service starts with its cameras."""
+    """Installs the package as on a configured board: the service starts with its cameras."""
     begin = time.monotonic()
     bed.run('mkdir -p /etc/mfar /etc/systemd/system/mfard.service.d')
     bed.write('/etc/mfar/mfard.toml', CAMERAS)
-    # The first picture, for which shaders are compiled, takes up to half a minute here.
+    # The first picture, for which shaders are compiled, takes up to half a minute in the guest.
     bed.write('/etc/systemd/system/mfard.service.d/10-emulated.conf', '[Service]\nWatchdogSec=120\n')
     bed.run('dpkg --force-confold -i /share/mfar.deb', 180)
     print(f'ok      {"install":40}{time.monotonic() - begin:7.1f} s', flush=True)
 
 
 def run_boot(options, boot, scenarios):
-    """One start of the guest with all scenarios that want it so: (passed, failed)."""
+    """Starts the guest once and runs all scenarios for this start: (passed, failed)."""
     print(f'boot    {boot or ""}', flush=True)
     try:
         bed = Bed(options, boot)

@@ -8,12 +8,12 @@ from collections import deque
 import usbredir
 import uvc
 
-END_OF_PICTURE = 0x8e  # of the header, with both of its times
+END_OF_PICTURE = 0x8e  # flags of the header: end of picture, both times present
 ERROR = 0x40
 
 
 class Fault:
-    """What happens to one picture."""
+    """A fault of one picture."""
 
     def __init__(self, kind, seconds=0.0):
         if kind not in ('missing', 'late', 'torn', 'long', 'error'):
@@ -42,7 +42,7 @@ class Camera:
         self._pulses = deque()
         self._faults = deque()
         self._streaming = False
-        self._generation = 0  # of the stream: what belongs to an older one is not sent
+        self._generation = 0  # of the stream: pictures of an older stream are not sent
         self._toggle = 0
         self.pulses = 0
         self.ignored_pulses = 0
@@ -51,7 +51,7 @@ class Camera:
         self.link = None
         threading.Thread(target=self._stream, daemon=True).start()
 
-    # From the host: what a person at the board would do.
+    # Called by the host, in the role of a person at the board.
 
     def attach(self, connection):
         self.link = usbredir.UsbRedirLink(connection, self)
@@ -76,7 +76,7 @@ class Camera:
                 self.ignored_pulses += 1
 
     def fault(self, kind, seconds=0.0, count=1):
-        """The next `count` pictures suffer this."""
+        """The next `count` pictures have this fault."""
         with self._changed:
             self._faults.extend([Fault(kind, seconds)] * count)
 
@@ -84,7 +84,7 @@ class Camera:
     def streaming(self):
         return self._streaming
 
-    # From the link.
+    # Called by the link.
 
     def connected(self):
         if self.plugged:
@@ -104,13 +104,13 @@ class Camera:
         return False
 
     def control(self, kind, request, value, index, _data):
-        if kind & 0x60 == 0x20:  # of the class
+        if kind & 0x60 == 0x20:  # a class request
             if index & 0xff != 1:
                 return None
             if (kind, request, value >> 8) == (0x21, uvc.SET_CUR, uvc.COMMIT):
                 self._start()
             return self._description.stream_request(kind, request, value >> 8)
-        if (kind, request, index) == (0x02, 1, 0x81):  # endpoint halt cleared: the stream's end
+        if (kind, request, index) == (0x02, 1, 0x81):  # halt of the endpoint cleared: end of the stream
             self._stop()
         return self._description.standard_request(kind, request, value)
 
@@ -128,7 +128,7 @@ class Camera:
             self._requests.clear()
             self._changed.notify_all()
 
-    # The thread that delivers.
+    # The delivering thread.
 
     def _stream(self):
         while True:
@@ -146,7 +146,7 @@ class Camera:
                 return  # the guest has ended
 
     def _next(self):
-        """Waits for the next picture's turn: its number, moment and stream."""
+        """Waits until the next picture is due; returns its number, time and stream."""
         with self._changed:
             while True:
                 while not self._streaming:

@@ -10,14 +10,14 @@ import time
 
 import usbredir
 
-TRIGGER_LINE = 5  # of the PL061, which is /dev/gpiochip0 of the guest
+TRIGGER_LINE = 5  # of the PL061, the guest's /dev/gpiochip0
 BOOT_LIMIT = 180  # s
 # A loop over the virtio devices that are displays (type 16).
 EACH_DISPLAY = 'for d in /sys/bus/virtio/devices/*; do [[ $(<$d/device) == 0x0010 ]] || continue; '
 
 
 class GuestError(Exception):
-    """The guest does not do as told."""
+    """A command or a wait failed in the guest."""
 
 
 class Result:
@@ -55,7 +55,7 @@ class Shell:
         """Runs a command line and waits for its end. Throws GuestError after `limit` seconds."""
         self._count += 1
         mark = b'\n\x01%d ' % self._count
-        # eval, as a fault in the command's syntax would otherwise swallow the mark.
+        # With eval, a syntax error in the command does not swallow the mark.
         quoted = command.replace("'", "'\\''")
         self._connection.sendall(f"eval '{quoted}' </dev/null; "
                                  f"printf '\\n\\001{self._count} %d\\n' $?\n".encode())
@@ -102,7 +102,7 @@ class Monitor:
 
 
 class Edges(threading.Thread):
-    """Levels that the guest gives to the lines of its GPIO chip, as QEMU traces them."""
+    """Levels to which the guest sets the lines of its GPIO chip, from QEMU's trace."""
 
     LINE = re.compile(rb'setting output (\d+) to (\d)')
 
@@ -167,10 +167,10 @@ class Guest:
             '-accel', 'tcg,thread=multi', '-nodefaults', '-display', 'none', '-no-reboot',
             '-serial', f'file:{self.log}',
             '-kernel', f'{image}/vmlinuz', '-initrd', f'{image}/initrd',
-            # A text cursor would blink in the framebuffer.
+            # Without a blinking text cursor in the framebuffer.
             '-append', 'console=ttyAMA0 quiet panic=-1 mitigations=off vt.global_cursor_default=0'
             + ('' if display else ' modprobe.blacklist=virtio_gpu'),
-            # The disks of virtio-mmio would be found in reverse order.
+            # PCI, as virtio-mmio disks are numbered in reverse order.
             '-drive', f'if=none,id=disk,file={image}/root.img,format=raw,snapshot=on,cache=unsafe',
             '-device', 'virtio-blk-pci,drive=disk', '-device', 'virtio-rng-pci',
             '-virtfs', f'local,path={share},mount_tag=share,security_model=none',
@@ -187,7 +187,7 @@ class Guest:
         return command
 
     def run(self, command, limit=60, check=True):
-        """Runs a command line in the guest: its output. `check`: throws when its status is not 0."""
+        """Runs a command line in the guest and returns its output. `check`: throws when its status is not 0."""
         result = self._shell.run(command, limit)
         if check and result.status != 0:
             raise GuestError(f'{command}: ended with {result.status}\n{result.output}')
@@ -198,7 +198,7 @@ class Guest:
         return self._shell.run(command, limit).status
 
     def wait_for(self, command, limit, pause=0.1):
-        """Waits until a command succeeds; the seconds that took, on the guest's own clock."""
+        """Waits until a command succeeds; returns the time [s] on the guest's clock."""
         loop = (f'begin=$(date +%s%N); until {command}; do sleep {pause}; '
                 f'[ $(( $(date +%s%N) - begin )) -lt {int(limit * 1e9)} ] || exit 1; done '
                 '>/dev/null 2>&1; echo $(( $(date +%s%N) - begin ))')
@@ -212,7 +212,7 @@ class Guest:
         return float(self.run('cut -d " " -f 1 /proc/uptime'))
 
     def screen(self):
-        """What the display shows: (width, height, bytes of R G B)."""
+        """The picture on the display: (width, height, bytes of R G B)."""
         path = self._path('screen.ppm')
         self.monitor('screendump', filename=path)
         with open(path, 'rb') as file:
@@ -222,7 +222,8 @@ class Guest:
             width, height = map(int, size.split())
             return width, height, file.read()
 
-    # QEMU can neither add nor remove this display while it runs: its driver comes and goes.
+    # QEMU can neither add nor remove this display while it runs, so its driver is bound and
+    # unbound.
 
     def plug_display(self):
         self.run('modprobe virtio_gpu; ' + EACH_DISPLAY

@@ -1,4 +1,4 @@
-"""What the emulated cameras see: functions from a time to a picture in NV12.
+"""Pictures of the emulated cameras: functions from a time to a picture in NV12.
 
 A number in the top rows tells pictures apart: 32 blocks side by side, bit 0 first, white for 1.
 """
@@ -19,7 +19,7 @@ def number_rows(number, width):
 
 
 class Pattern:
-    """A gradient that moves to the left, 60 pixels a second."""
+    """A gradient that moves to the left, 60 pixels per second."""
 
     def __init__(self, width, height):
         self.size = (width, height)
@@ -52,7 +52,7 @@ class Film:
             raise ValueError(f'{path}.nv12: not {len(self._times)} pictures of {width}x{height}')
 
     def index(self, time):
-        """Which picture of the file is shown at this time: the nearest one."""
+        """The number of the picture nearest to this time."""
         phase = time % (2 * self._span)
         moment = min(phase, 2 * self._span - phase)
         after = bisect.bisect_left(self._times, moment)

@@ -89,7 +89,7 @@ class UsbRedirLink:
         self.send(BULK_PACKET, ident, header + bytes(data))
 
     def plug(self, device_class, vendor, product, bulk_packet):
-        """Puts a device with a control endpoint and bulk endpoint 0x81 of interface 1 in."""
+        """Plugs in a device with a control endpoint and bulk endpoint 0x81 of interface 1."""
         kinds, interfaces, sizes = [NO_ENDPOINT] * 32, [0] * 32, [0] * 32
         kinds[0] = kinds[16] = CONTROL_TYPE
         sizes[0] = sizes[16] = 64

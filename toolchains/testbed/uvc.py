@@ -8,7 +8,7 @@ import struct
 
 VENDOR = 0x1d6b  # Linux Foundation, product "webcam gadget"
 PRODUCT = 0x0102
-DEVICE_CLASS = (0xef, 2, 1)  # several interfaces, associated by a descriptor
+DEVICE_CLASS = (0xef, 2, 1)  # several interfaces, grouped by an association descriptor
 BULK_PACKET = 512
 NV12 = b'NV12' + bytes.fromhex('00001000800000aa00389b71')
 HEADER = 12
@@ -33,7 +33,7 @@ def u32(value):
 
 
 class UvcDescription:
-    """What a camera says about itself. `rate` in frames per second."""
+    """Descriptors of a camera. `rate` in frames per second."""
 
     def __init__(self, name, serial, width, height, rate):
         self.frame_size = width * height * 3 // 2
@@ -41,7 +41,7 @@ class UvcDescription:
         bits = min(int(self.frame_size * 8 * rate), 0xffffffff)
         self.device = descriptor(1, u16(0x0200), *DEVICE_CLASS, 64, u16(VENDOR), u16(PRODUCT),
                                  u16(0x0100), 1, 2, 3, 1)
-        body = (descriptor(11, 0, 2, 14, 3, 0, 0)  # interfaces 0 and 1 are one video function
+        body = (descriptor(11, 0, 2, 14, 3, 0, 0)  # interfaces 0 and 1 form one video function
                 + self._control_interface() + self._stream_interface(width, height, bits))
         self.configuration = descriptor(2, u16(9 + len(body)), 2, 1, 0, 0x80, 50) + body
         self.strings = [b'\x04\x03\x09\x04'] + [
@@ -81,7 +81,7 @@ class UvcDescription:
         return b'' if kind in (0x00, 0x01, 0x02) else None
 
     def stream_request(self, kind, request, selector):
-        """Answer to a request about what is streamed: there is one choice."""
+        """Answer to a request about the stream's format: there is only one."""
         if selector not in (PROBE, COMMIT):
             return None
         if kind == 0x21 and request == SET_CUR:

@@ -11,10 +11,10 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastCorners = 6;
-constexpr int kRounds = 4;            // of leaving bad corners and views out
+constexpr int kRounds = 4;            // of removing bad corners and views
 constexpr double kCornerLimit = 6;    // [sigma], length of a residual
-constexpr double kLeastSigma = 0.01;  // [px]; no corner is found better
-constexpr double kMaxViewError = 20;  // [px] rms; beyond it the corners are not the target's
+constexpr double kLeastSigma = 0.01;  // [px]; lower limit of sigma
+constexpr double kMaxViewError = 20;  // [px] rms; above it the corners are not the target's
 
 struct Points {
     std::vector<cv::Point3f> target;
@@ -44,7 +44,7 @@ RigidTransform transformOf(const cv::Vec3d& rotation, const cv::Vec3d& translati
             {translation[0], translation[1], translation[2]}};
 }
 
-/// What tells views apart: where the target is, how far, how it is tilted and turned.
+/// Features that distinguish views: position in the picture, distance, tilt and turn of the target.
 using Features = Eigen::Matrix<double, 6, 1>;
 
 Features featuresOf(const TargetView& view, const RigidTransform& T, Size picture) {
@@ -58,7 +58,8 @@ Features featuresOf(const TargetView& view, const RigidTransform& T, Size pictur
     return out;
 }
 
-/// The view with the most corners, then always the one that is least like those chosen.
+/// Starts with the view with the most corners, then repeatedly adds the view least like those
+/// chosen.
 std::vector<int> mostDifferent(const std::vector<TargetView>& views,
                                const std::vector<std::optional<RigidTransform>>& poses,
                                Size picture, int most) {
@@ -128,7 +129,8 @@ double spreadOf(const Target& target, const std::vector<TargetView>& views, cons
     return std::max(kLeastSigma, 1.4826 * median(std::move(components)));
 }
 
-/// True when a corner was taken out: it was found where another one is, or none.
+/// Removes corners with large residuals: they belong to other corners of the target, or to none.
+/// True when any was removed.
 bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
                  const RigidTransform& pose) {
     const auto residuals = residualsOf(target, view, fit.camera, pose);
@@ -140,8 +142,8 @@ bool dropCorners(const Target& target, TargetView& view, const CameraFit& fit,
     return true;
 }
 
-/// Poses of all views with the camera. Corners and views that fit badly are left out; true when
-/// there were any.
+/// Computes the poses of all views with the camera. Removes corners and views that fit badly; true
+/// when there were any.
 bool placeViews(const Target& target, std::vector<TargetView>& views, CameraFit& fit) {
     for (std::size_t i = 0; i < views.size(); ++i)
         if (fit.poses[i]) fit.poses[i] = targetPose(target, views[i], fit.camera);
@@ -180,7 +182,7 @@ std::optional<RigidTransform> targetPose(const Target& target, const TargetView&
                           rotation, translation))
             return std::nullopt;
     } catch (const cv::Exception&) {
-        return std::nullopt;  // corners in a line
+        return std::nullopt;  // all corners on one line
     }
     RigidTransform T = transformOf(rotation, translation);
     if (!(T.translation.z() > 0) || !(rms(residualsOf(target, view, camera, T)) < kMaxViewError))

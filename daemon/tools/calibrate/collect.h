@@ -8,13 +8,13 @@
 
 namespace mfar::calibration {
 
-/// How far a sensor's pictures have been looked at.
+/// Progress of the search in a sensor's pictures.
 struct Progress {
     const Coverage& coverage;
-    int done = 0, of = 0, found = 0;  ///< pictures
+    int done = 0, of = 0, found = 0;  ///< numbers of pictures
 };
 
-/// Looks for the target in all pictures of one sensor. `progress` is called after each. Throws
+/// Searches the target in all pictures of one sensor. `progress` is called after each. Throws
 /// ImageFileError.
 [[nodiscard]] SensorViews collect(const std::vector<RecordedImage>& pictures, Size picture,
                                   const Target& target,

@@ -8,7 +8,7 @@
 
 namespace mfar::calibration {
 
-/// Where in a picture corners have been seen, in a grid of cells.
+/// Distribution of found corners over the picture, in a grid of cells.
 class Coverage {
 public:
     static constexpr int kColumns = 16, kRows = 12;
@@ -16,9 +16,9 @@ public:
     explicit Coverage(Size picture);
     void add(const std::vector<Corner>& corners);
 
-    /// Share of the cells with a corner, 0..1.
+    /// Share of the cells with a corner, [0, 1].
     [[nodiscard]] double share() const;
-    /// The part of the picture that most lacks corners, in words: "the top left".
+    /// The part of the picture with the fewest corners, in words: "the top left".
     [[nodiscard]] std::string emptiest() const;
     /// kRows lines of kColumns characters, from ' ' (none) to '#' (many).
     [[nodiscard]] std::vector<std::string> map() const;

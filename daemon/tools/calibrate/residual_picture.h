@@ -6,9 +6,9 @@
 
 namespace mfar::calibration {
 
-/// A PNG of what the calibration leaves unexplained, a row for each sensor. Left the picture's
-/// area: every corner a dot, the mean residual of each cell an arrow, magnified as the scale says;
-/// where the lens model fits, the arrows are short and have no order. Right all residuals around
+/// A PNG of the calibration's residuals, a row for each sensor. Left: the picture's area, a dot for
+/// every corner and an arrow for the mean residual of each cell, enlarged as the scale shows; where
+/// the lens model fits, the arrows are short and without a pattern. Right: all residuals around
 /// zero. Throws ImageFileError.
 void saveResidualPicture(const std::filesystem::path& file, const Calibration& calibration);
 

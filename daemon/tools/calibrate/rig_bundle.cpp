@@ -12,10 +12,10 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr double kHuber = 2.5;  // [sigma] from where on a corner's error counts linearly
+constexpr double kHuber = 2.5;  // [sigma]; above it a corner's cost grows linearly
 constexpr int kIterations = 40;
-constexpr double kConverged = 1e-9;  // share by which a step lowers the cost
-constexpr double kStep = 1e-6;       // of the derivative of a tied pose [rad, m, s]
+constexpr double kConverged = 1e-9;  // relative decrease of the cost that ends the iteration
+constexpr double kStep = 1e-6;       // step of the numeric derivative of a tied pose [rad, m, s]
 
 using Vector9 = Eigen::Matrix<double, 9, 1>;
 
@@ -101,8 +101,8 @@ double RigBundle::cost(const std::array<double, 2>& sigma) const {
     return sum;
 }
 
-/// Motion of the view's pose, in its own frame, by the columns that it depends on: its own pose, or
-/// extrinsics, offset and four poses.
+/// Derivative of the view's pose, in its own frame, with respect to the parameters that it depends
+/// on: its own pose, or extrinsics, offset and four poses.
 Eigen::MatrixXd RigBundle::poseJacobian(const View& view) const {
     if (!view.tied) return Matrix6::Identity();
     Eigen::MatrixXd out(6, 31);

@@ -10,35 +10,37 @@
 
 namespace mfar::calibration {
 
-/// What all views share, in this order: video camera (fx fy cx cy k1 k2 p1 p2 k3), still camera
+/// The shared parameters, in this order: video camera (fx fy cx cy k1 k2 p1 p2 k3), still camera
 /// (the same), T_still_video (rotation [rad], translation [m], in the still's frame), offset of the
 /// still's clock [s].
 inline constexpr int kStillAt = 9, kExtrinsicAt = 18, kOffsetAt = 24, kShared = 25;
 
-/// All views of a board's two sensors adjusted together: the cameras, how they stand to each other,
-/// the offset of the still's clock and the target's pose in every video frame, from the corners in
-/// both sensors' pictures. A still's pose is that of the video between four frames around it, so
-/// that the stills know the baseline and the clocks without any frame at the very same time.
+/// Joint adjustment of all views of both sensors: cameras, extrinsics, offset of the still's clock
+/// and the target's pose in every video frame, from the corners in both sensors' pictures. A
+/// still's pose is interpolated between the four video frames around it, so that stills determine
+/// the baseline and the clock offset without a video frame at exactly their time.
 /// Levenberg-Marquardt with a robust cost.
 class RigBundle {
 public:
     RigBundle(const Target& target, const StereoRig& rig, double offset);
 
-    /// A pose T_camera_target that is to be found; returns its index.
+    /// Adds an unknown pose T_camera_target; returns its index.
     int addPose(const RigidTransform& start);
-    /// A view with a pose of its own. The corners must outlive this. Returns the view's index.
+    /// Adds a view with a pose of its own. The corners must outlive this. Returns the view's index.
     int addView(bool still, const std::vector<Corner>& corners, int pose);
-    /// A still between four poses of the video, at `times` [s] after the still, by their clocks.
+    /// Adds a still between four video poses. `times` [s]: of the poses minus the still's time,
+    /// each by its own clock.
     int addTied(const std::vector<Corner>& corners, const std::array<int, 4>& poses,
                 const std::array<double, 4>& times);
 
     /// sigma: of a corner's coordinate [px] per sensor, video first. `fixed`: shared parameters
-    /// that keep their value. Throws Unsuitable when the views do not determine the others.
+    /// that keep their values. Throws Unsuitable when the views do not determine the other
+    /// parameters.
     void solve(const std::array<double, 2>& sigma, const std::array<bool, kShared>& fixed);
 
     [[nodiscard]] const StereoRig& rig() const { return rig_; }
     [[nodiscard]] double offset() const { return offset_; }
-    /// Standard deviations of the shared parameters after solve(), 0 where fixed.
+    /// Standard deviations of the shared parameters after solve(), 0 for fixed ones.
     [[nodiscard]] const Eigen::Matrix<double, kShared, 1>& deviations() const {
         return deviations_;
     }

@@ -19,7 +19,8 @@ struct Agreement {
     int stills = 0;
 };
 
-/// The candidate that is nearest to all others is their middle, however bad a few of them are.
+/// Chooses the candidate with the smallest median distance to all others, which is robust against
+/// outliers.
 Agreement agreementAt(const PoseTrack& video, const std::vector<StillPose>& stills, double offset) {
     std::vector<RigidTransform> candidates;
     double distance = 0;
@@ -54,11 +55,12 @@ RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills
     RigStart out;
     Agreement best;
     const double step = std::max(1e-3, video.interval() / 8);
-    // From zero outwards: where nothing moves, every offset agrees, and zero stays.
+    // From zero outwards: without motion every offset agrees equally well, and zero is kept.
     for (int i = 0; i * step <= maxOffset; ++i) {
         for (const double offset : {i * step, -i * step}) {
             const Agreement now = agreementAt(video, stills, offset);
-            // At the ends of the video fewer stills agree more easily.
+            // Offsets that leave stills outside the video are refused: fewer stills agree more
+            // easily.
             if (now.stills * 4 < best.stills * 3 || !(now.spread < best.spread)) continue;
             best = now;
             out = {now.T_still_video, offset, now.stills};

@@ -15,11 +15,11 @@ struct StillPose {
 struct RigStart {
     RigidTransform T_still_video;
     double offset = 0;  ///< [s] still's time + offset = video's time
-    int stills = 0;     ///< whose time the video covers
+    int stills = 0;     ///< number of stills within the video's time
 };
 
-/// How the sensors stand to each other, and the offset of their clocks within +-maxOffset [s] for
-/// which all stills agree the best about it: at any other the camera's motion spreads them.
+/// Initial extrinsics, and the offset of the clocks within +-maxOffset [s] at which the stills
+/// agree best about the extrinsics: at a wrong offset the camera's motion spreads them.
 [[nodiscard]] RigStart startOfRig(const PoseTrack& video, const std::vector<StillPose>& stills,
                                   double maxOffset);
 

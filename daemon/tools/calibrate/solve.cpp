@@ -14,19 +14,19 @@ namespace mfar::calibration {
 namespace {
 
 constexpr int kLeastVideoViews = 12, kLeastStillViews = 6, kLeastPairs = 5;
-constexpr double kMaxOffsetDeviation = 0.002;  // [s]; beyond it the offset is not known
-constexpr double kLeastMotion = 1;             // [px of the video] over three frame intervals
-constexpr int kLeastMoving = 3;  // stills that the offset of the clocks is measured with
-constexpr double kMaxFocalDeviation = 0.005;     // of the focal length
+constexpr double kMaxOffsetDeviation = 0.002;  // [s]; above it the offset is unknown
+constexpr double kLeastMotion = 1;             // [video px] over three frame intervals
+constexpr int kLeastMoving = 3;                // moving stills needed to estimate the clock offset
+constexpr double kMaxFocalDeviation = 0.005;   // relative to the focal length
 constexpr double kMaxBaselineDeviation = 0.002;  // [m]
 
-/// Which view of which sensor stands behind a view of the bundle.
+/// Maps a view of the bundle to a view of a sensor.
 struct Member {
     int view = 0;
-    int index = 0;  ///< in the bundle
+    int index = 0;  ///< of the view in the bundle
 };
 
-/// The joint adjustment, from two cameras that were calibrated on their own.
+/// The joint adjustment of two cameras, which are first calibrated on their own.
 class Assembly {
 public:
     Assembly(const Target& target, const SensorViews& video, const SensorViews& still,
@@ -54,7 +54,7 @@ public:
         Calibration out;
         std::optional<RigBundle> bundle = adjusted(start_.offset, true, out);
         if (!out.offsetKnown) bundle = adjusted(0, false, out);
-        // Stills that contradict the video's motion only show up together with it.
+        // Stills that contradict the video's motion can only be found after the joint adjustment.
         if (leaveOut(*bundle)) bundle = adjusted(bundle->offset(), out.offsetKnown, out);
         out.rig = {bundle->rig(), bundle->offset()};
         out.extrinsicDeviations = bundle->deviations().segment<6>(kExtrinsicAt);
@@ -66,8 +66,8 @@ public:
     }
 
 private:
-    /// Stills around which the video moves by more than noise; at rest, noise passes for motion and
-    /// makes up an offset with a small deviation.
+    /// Number of stills around which the video's motion exceeds noise. At rest, noise would be
+    /// taken for motion and yield a wrong offset with a small deviation.
     [[nodiscard]] int movingStills() const {
         const CameraModel& camera = videoFit_.camera;
         const auto seen = [&](const RigidTransform& T, const Eigen::Vector3d& point) {
@@ -147,8 +147,8 @@ private:
     }
 
     bool leaveOut(const RigBundle& bundle) {
-        // A still sees its pose more sharply than the video does and would draw the bundle's video
-        // poses to itself: they are taken from the video alone.
+        // Uses poses from the video alone: a still is more precise than the video and would pull
+        // the bundle's video poses towards itself.
         const auto shift = static_cast<std::int64_t>(std::llround(bundle.offset() * 1e9));
         std::vector<double> errors;
         for (const Member& m : stillMembers_) {
@@ -198,13 +198,13 @@ private:
     }
 
     const Target& target_;
-    SensorViews video_, still_;  ///< less the corners that do not fit
+    SensorViews video_, still_;  ///< without the corners that do not fit
     SolveOptions options_;
     CameraFit videoFit_, stillFit_;
     PoseTrack track_;
-    std::vector<int> trackViews_;  ///< view of the video behind a pose of the track
+    std::vector<int> trackViews_;  ///< view of the video for each pose of the track
     RigStart start_;
-    std::map<int, int> videoPoses_;  ///< view of the video -> pose of the bundle
+    std::map<int, int> videoPoses_;  ///< maps a view of the video to a pose of the bundle
     std::vector<Member> videoMembers_, stillMembers_;
     int pairs_ = 0;
 };

@@ -11,13 +11,13 @@
 namespace mfar::calibration {
 namespace {
 
-constexpr int kLeastWindow = 2;  // [px], half the side of the window that a corner is refined in
+constexpr int kLeastWindow = 2;  // [px], half the side of the refinement window
 constexpr int kLargestWindow = 11;
-constexpr int kLargeWidth = 1000;  // pictures from here on are searched at half their size
-constexpr int kLeastTags = 3;      // to tell how they are printed
+constexpr int kLargeWidth = 1000;  // pictures from this width on are searched at half their size
+constexpr int kLeastTags = 3;      // needed to determine the orientation of the printed tags
 
 cv::Mat matOf(const ImageView& luma) {
-    // OpenCV has no view of constant pixels; nothing here writes.
+    // OpenCV has no matrix of const data; nothing here writes.
     return {luma.size.height, luma.size.width, CV_8UC1, const_cast<std::uint8_t*>(luma.data),
             luma.stride};
 }
@@ -38,8 +38,9 @@ double shortestEdge(const TagDetection& tag) {
     return out;
 }
 
-/// Half the side of a window that sees nothing but the tag's border and the square in the gap. The
-/// border is at least one of eight cells wide; a slanted edge leaves the square window earlier.
+/// Half the side of a window that contains only the tag's border and the square in the gap. The
+/// border is at least one of eight cells wide; a slanted edge leaves the window earlier, hence the
+/// factor.
 int windowFor(const TagDetection& tag, const Target& target) {
     const double clear = shortestEdge(tag) * std::min(1. / 8, target.spacing);
     return std::min(kLargestWindow, static_cast<int>(0.9 * clear));
@@ -50,7 +51,7 @@ void refine(const cv::Mat& picture, std::vector<cv::Point2f>& points, int window
                      {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 0.001});
 }
 
-/// Corner k of the target's tag is corner (k + turn) % 4 of the printed one.
+/// Corner k of the target's tag is corner (k + turn) % 4 of the detected tag.
 std::vector<Corner> cornersOf(const TagDetection& tag, int slot, int turn) {
     std::vector<Corner> out;
     for (int k = 0; k < 4; ++k)
@@ -58,7 +59,7 @@ std::vector<Corner> cornersOf(const TagDetection& tag, int slot, int turn) {
     return out;
 }
 
-/// How badly a plane explains the corners [px].
+/// Mean distance of the corners from a homography of the target's plane [px].
 double planeError(const Target& target, const std::vector<Corner>& corners) {
     std::vector<cv::Point2d> on, seen;
     for (const Corner& c : corners) {
@@ -75,11 +76,12 @@ double planeError(const Target& target, const std::vector<Corner>& corners) {
     return sum / static_cast<double>(seen.size());
 }
 
-/// Corners whose window lies in the picture and that did not move farther than `reach` [px].
+/// Refines the corners. Keeps those whose window lies in the picture and that moved by less than
+/// `reach` [px].
 void keepRefined(const cv::Mat& picture, std::vector<Corner>& corners, int window, double reach) {
     const cv::Rect inside(window + 2, window + 2, picture.cols - 2 * window - 4,
                           picture.rows - 2 * window - 4);
-    // A tag at the picture's edge may be found with corners beyond it, which OpenCV 4.10 refuses.
+    // A tag at the edge may be found with corners outside the picture, which OpenCV 4.10 refuses.
     std::erase_if(corners, [&](const Corner& c) {
         return !inside.contains(cv::Point2d(c.pixel.x(), c.pixel.y()));
     });
@@ -117,8 +119,8 @@ std::vector<Corner> TargetFinder::find(const ImageView& luma) {
     return target_.kind == TargetKind::AprilGrid ? findTags(luma) : findBoard(luma);
 }
 
-// Kalibr prints its tags in another orientation than the AprilTag library draws them, and grids of
-// other makers differ: of the four ways to turn them only one fits a plane.
+// Kalibr prints its tags in another orientation than the AprilTag library, and other makers' grids
+// differ: of the four possible turns only one fits a plane.
 void TargetFinder::learnTurn(const std::vector<TagDetection>& tags) {
     double least = std::numeric_limits<double>::infinity();
     for (int turn = 0; turn < 4; ++turn) {
@@ -133,9 +135,9 @@ void TargetFinder::learnTurn(const std::vector<TagDetection>& tags) {
     }
 }
 
-// Where squares meet crosswise, their black may touch and make one shape of the whole grid, in
-// which no tag is found. With the black made thinner by a pixel or two it never does; the corners
-// are measured in the picture as it is. In a clean print that took 5 of 20 tags to 19.
+// Black squares that meet at a corner may touch and merge the whole grid into one shape, in which
+// no tag is found. Making black thinner by a pixel or two prevents it (5 of 20 tags became 19 in a
+// clean print); the corners are measured in the unchanged picture.
 std::vector<TagDetection> TargetFinder::detect(const cv::Mat& picture) {
     const int side = picture.cols >= kLargeWidth ? 4 : 2;
     cv::dilate(picture, thinned_, cv::Mat::ones(side, side, CV_8U));
@@ -148,7 +150,7 @@ std::vector<TagDetection> TargetFinder::detect(const cv::Mat& picture) {
         if (found.size() > tags.size()) tags = std::move(found);
         if (border_ < 0 && static_cast<int>(tags.size()) >= leastTags()) border_ = border;
     }
-    // White grew one pixel farther to the right and down than to the left and up.
+    // The dilation's even size shifts the picture by half a pixel.
     for (TagDetection& tag : tags)
         for (Eigen::Vector2d& corner : tag.corners)
             corner.array() -= 0.5;
@@ -187,7 +189,7 @@ std::vector<Corner> TargetFinder::findBoard(const ImageView& luma) const {
         edge = std::min(edge, static_cast<float>(cv::norm(points[i] - points[i - 1])));
     const int window = std::clamp(static_cast<int>(0.45F * edge), kLeastWindow, kLargestWindow);
     refine(picture, points, window);
-    // The first square has to be a dark one: the search itself may begin at either end.
+    // The first square must be dark: the search may begin at either end.
     const int first = squareLevel(picture, points, 0, columns);
     const int second = squareLevel(picture, points, 1, columns);
     if (first > second) std::reverse(points.begin(), points.end());

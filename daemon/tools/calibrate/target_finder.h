@@ -12,28 +12,28 @@
 namespace mfar::calibration {
 
 /// Finds the corners of a target in pictures of one size. All corners of both kinds of target are
-/// places where black and white squares meet crosswise: they look the same turned by 180 degrees,
-/// so that neither blur nor gamma moves them.
+/// places where black and white squares meet crosswise. Such corners have a symmetry of 180
+/// degrees, so neither blur nor gamma moves them.
 class TargetFinder {
 public:
     /// The target must outlive this.
     TargetFinder(const Target& target, Size picture);
 
-    /// Corners to about 0.05 px, empty when the target is not seen. `luma`: Gray8.
+    /// Corners, precise to about 0.05 px; empty when the target is not found. `luma`: Gray8.
     [[nodiscard]] std::vector<Corner> find(const ImageView& luma);
 
 private:
     [[nodiscard]] std::vector<Corner> findTags(const ImageView& luma);
     [[nodiscard]] std::vector<Corner> findBoard(const ImageView& luma) const;
     [[nodiscard]] std::vector<TagDetection> detect(const cv::Mat& picture);
-    [[nodiscard]] int leastTags() const;  ///< in one picture that tell how they are printed
+    [[nodiscard]] int leastTags() const;  ///< needed in one picture to determine their orientation
     void learnTurn(const std::vector<TagDetection>& tags);
 
     const Target& target_;
-    std::array<TagDetector, 2> detectors_;  ///< borders of one and of two cells
-    int border_ = -1;  ///< which of the two finds this target, -1: not known yet
+    std::array<TagDetector, 2> detectors_;  ///< for borders of one and of two cells
+    int border_ = -1;  ///< index of the detector that finds this target, -1: unknown
     cv::Mat thinned_;
-    int turn_ = -1;  ///< quarter turns of the printed tags against the grid, -1: not known yet
+    int turn_ = -1;  ///< quarter turns of the printed tags against the grid, -1: unknown
 };
 
 }  // namespace mfar::calibration

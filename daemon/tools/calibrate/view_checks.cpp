@@ -11,11 +11,11 @@ namespace mfar::calibration {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// With less the focal length and the distance can be exchanged for each other.
+// Below these limits, focal length and distance cannot be separated.
 constexpr double kLeastTilt = 12 * kDegree;
 constexpr double kLeastDepth = 1.2;     // farthest corner / nearest corner
 constexpr double kLeastCoverage = 0.6;  // share of the cells
-constexpr double kMostlyAt = 0.9;       // quantile that single views cannot move
+constexpr double kMostlyAt = 0.9;       // quantile that single views hardly change
 
 double quantile(std::vector<double> values, double q) {
     const auto at =
@@ -25,7 +25,7 @@ double quantile(std::vector<double> values, double q) {
 }
 
 struct Spread {
-    double tilt = 0;   ///< of the target's normals around their mean, and of the mean view [rad]
+    double tilt = 0;   ///< of the target's normals around their mean [rad]
     double depth = 1;  ///< farthest corner / nearest corner
 };
 

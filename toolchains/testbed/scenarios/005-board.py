@@ -1,4 +1,4 @@
-"""The emulated board itself, by other people's tools: 30 frames a second, one still for each pulse."""
+"""The emulated board itself, tested with standard tools: 30 frames per second, one still for each pulse."""
 
 import re
 import statistics
@@ -30,7 +30,7 @@ def video(bed):
 
 
 def stills(bed):
-    """The second sensor delivers what the pulses asked for, in their order, and nothing else."""
+    """The second sensor delivers one still for each pulse, in order, and nothing else."""
     device = bed.run("v4l2-ctl --list-devices | grep -A1 'Bed still' | tail -n 1 | tr -d '\\t'")
     first = bed.still.pulses + 1
     bed.run(f'v4l2-ctl -d {device} --stream-mmap=4 --stream-count={PULSES} --stream-to=/tmp/stills '

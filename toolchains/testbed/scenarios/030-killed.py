@@ -1,4 +1,4 @@
-"""Killed without warning it runs again within 5 s and is ready as after a start, its trigger at rest."""
+"""A killed service runs again within 5 s and becomes ready as after a start; its trigger line is released."""
 
 LIMIT = 5  # s
 READY_LIMIT = 10  # s

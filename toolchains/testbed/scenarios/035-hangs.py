@@ -1,7 +1,7 @@
-"""A service that makes no pictures any more is ended by its watchdog and runs again, its trigger at rest."""
+"""A service that stops making pictures is ended by its watchdog and restarted; its trigger line is released."""
 
-WATCHDOG = 20  # s; of the first pictures six times as long
-LIMIT = WATCHDOG + 10  # s: it is asked to end first, then killed
+WATCHDOG = 20  # s; six times as long for the first pictures
+LIMIT = WATCHDOG + 10  # s: the process is first asked to end, then killed
 
 
 def run(bed):

@@ -1,4 +1,4 @@
-"""A reload takes the new configuration, and keeps the old one when the new one is wrong."""
+"""A reload applies the new configuration, and keeps the old one when the new one is invalid."""
 
 
 def run(bed):

@@ -1,4 +1,4 @@
-"""Video comes through libcamera at 30 frames a second, less than one of a hundred lost."""
+"""Video comes through libcamera at 30 frames per second, with less than 1 % of the frames lost."""
 
 import re
 import statistics

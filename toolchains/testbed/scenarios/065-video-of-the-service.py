@@ -1,4 +1,4 @@
-"""The service gets every frame of the video, whatever its own pictures take."""
+"""The service gets every frame of the video, however long its own pictures take."""
 
 import json
 
@@ -19,6 +19,6 @@ def run(bed):
 
 
 def counted(bed):
-    """Frames that came, in pictures or too late for one, and those that did not."""
+    """Numbers of received frames, used or too late, and of lost frames."""
     stats = json.loads(bed.run('mfarctl stats'))
     return stats['frames'] + stats['drops']['mailbox'], stats['drops']['sensor']

@@ -1,4 +1,4 @@
-"""What is sent to a screen is on it, pixel by pixel: over KMS and over the framebuffer."""
+"""A screen shows exactly the pictures sent to it, pixel by pixel: over KMS and over the framebuffer."""
 
 PICTURES = 5
 

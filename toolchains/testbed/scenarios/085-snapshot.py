@@ -1,4 +1,4 @@
-"""Asked for a snapshot of its screen, the service gives what the display shows, pixel by pixel."""
+"""A snapshot of the screen equals the picture on the display, pixel by pixel."""
 
 from png import read_png
 

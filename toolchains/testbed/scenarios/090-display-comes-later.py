@@ -5,7 +5,7 @@ import re
 
 BOOT = {'display': False}
 LIMIT = 1  # s
-# A size that a screen will have: without, a service that starts headless makes its pictures as large as stills,
+# A size that a screen may have: otherwise a service without a screen makes its pictures as large as stills,
 # which take a second each in the guest.
 CONFIG = '''[superres]
 mode = "off"
@@ -28,7 +28,7 @@ def run(bed):
 
 
 def of_the_probe(bed):
-    # The guest's own clock tells when the device came and when the picture was there.
+    # The guest's own clock measures when the device came and when the picture was there.
     bed.run('/share/mfar-display-probe auto 3 /share/shown.ppm 600 2>&1 '
             '| while read -r line; do echo "$(cut -d " " -f 1 /proc/uptime) $line"; done '
             '>/tmp/probe & echo started')

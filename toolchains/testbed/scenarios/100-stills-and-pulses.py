@@ -1,4 +1,4 @@
-"""Fifty pulses, fifty stills, none swapped; late and missing ones are told apart from the rest."""
+"""Fifty pulses yield fifty stills, matched correctly; late and missing stills are detected."""
 
 import re
 
@@ -20,7 +20,7 @@ def run(bed):
 
 
 def fire(bed, pulses):
-    """The stills that were matched as (pulses so far, number in the picture), and the counters."""
+    """The matched stills as (number of pulses so far, number in the picture), and the counters."""
     first = bed.still.pulses
     said = bed.run(f'{PROBE} {pulses} {PERIOD} {JITTER} 2>/tmp/probe.err || cat /tmp/probe.err',
                    pulses * PERIOD / 1000 + 60)
@@ -44,7 +44,7 @@ def late_and_missing_stills(bed):
     bed.still.fault('missing')
     stills, counters = fire(bed, 6)
     print(f'        {counters}')
-    # The late one is out of the window or in it, the missing one is asked for once more.
+    # The late still may be inside or outside the window; the missing one is requested again.
     assert counters['lost'] >= 1 and counters['repeated'] >= 1, counters
     numbers = [still for _, still in stills]
     assert 2 not in numbers, 'a still that was never sent'

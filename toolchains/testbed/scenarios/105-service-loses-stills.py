@@ -1,5 +1,5 @@
-"""Of fifty stills of the service each has its pulse; one that is missing is asked for once more, one that is late is
-not used."""
+"""The service matches fifty stills to their pulses; a missing still is requested again, a late one is not
+used."""
 
 import json
 import time
@@ -13,12 +13,12 @@ source = "none"
 [status]
 interval_s = 0.5
 '''
-GOOD = 50  # the first one is asked for by the service itself
+GOOD = 50  # the service itself requests the first one
 LIMIT = 60  # s
 
 
 def run(bed):
-    bed.held(True)  # what rests needs no still but those that are asked for here
+    bed.held(True)  # at rest only the stills requested here are needed
     try:
         counts = lose_stills(bed)
     finally:
@@ -32,7 +32,7 @@ def lose_stills(bed):
     bed.fresh_service(bed.devices + CONFIG)
     bed.wait_for_pictures(1)
     counted(bed, fired=1, matched=1, lost=0)
-    bed.wait_for_pictures(8)  # some of them with that still
+    bed.wait_for_pictures(8)  # some of them use that still
     for good in range(2, GOOD + 1):
         ask(bed)
         counted(bed, fired=good, matched=good, lost=0)
@@ -43,17 +43,18 @@ def lose_stills(bed):
 
     bed.still.fault('late', 3)
     ask(bed)
-    # A USB picture is timed on arrival: when it comes at last, its repetition has a still already.
+    # A USB picture is timed on arrival: when the late one comes, its repetition has been matched
+    # already.
     return counted(bed, fired=GOOD + 4, matched=GOOD + 2, lost=2, repeated=2, unmatched=1)
 
 
 def ask(bed):
-    # In the guest a picture may take longer than mfarctl waits; the still is taken all the same.
+    # In the guest a picture may take longer than mfarctl waits; the still is taken nevertheless.
     bed.run('mfarctl trigger', check=False)
 
 
 def counted(bed, **wanted):
-    """The counters, once they are as wanted."""
+    """Waits until the counters have these values; returns all."""
     end = time.monotonic() + LIMIT
     while True:
         counts = json.loads(bed.run('mfarctl stats'))['trigger_line']

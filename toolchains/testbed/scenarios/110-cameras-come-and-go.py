@@ -12,12 +12,12 @@ source = "none"
 interval_s = 0.1
 '''
 TIMES = 10
-SAID_LIMIT = 2  # s: a picture with something new takes about one in the guest
+SAID_LIMIT = 2  # s: a picture that changes takes about one second in the guest
 BACK_LIMIT = 3  # s
 
 
 def run(bed):
-    bed.held(True)  # so that the picture shows nothing new but what is said
+    bed.held(True)  # so that only the banner changes the picture
     try:
         come_and_go(bed)
     finally:
@@ -27,7 +27,7 @@ def run(bed):
 def come_and_go(bed):
     seconds = bed.fresh_service('display = "auto"\n' + bed.devices + CONFIG, 'WatchdogSec=120\n')
     print(f'        ready after {seconds:.1f} s')
-    bed.wait_for_pictures(10)  # the first ones take long, as shaders are compiled
+    bed.wait_for_pictures(10)  # the first pictures take long, as shaders are compiled
     before = None
     for round_ in range(TIMES):
         for camera, role in ((bed.video, 'video camera'), (bed.still, 'still camera')):
@@ -46,7 +46,7 @@ def come_and_go(bed):
 
 
 def told_after(bed, event):
-    """The seconds until the screen shows something else."""
+    """Time until the screen's picture changes [s]."""
     before = bed.guest.screen()
     begin = time.monotonic()
     event()
@@ -57,7 +57,7 @@ def told_after(bed, event):
 
 
 def back_after(bed, event):
-    """The seconds from the kernel's to the service's word that the device is there, on the guest's clock."""
+    """Time from the kernel's message to the service's message about the device, on the guest's clock [s]."""
     since = bed.now()
     event()
     said = f'journalctl --no-pager -q -u mfard -o short-monotonic --since "{since}" | grep "all devices are there"'
@@ -68,7 +68,7 @@ def back_after(bed, event):
 
 
 def differ(a, b):
-    """In a thousandth of the bytes at least."""
+    """True when at least a thousandth of the bytes differ."""
     return a != b and sum(x != y for x, y in zip(a[::97], b[::97])) > len(a) / 97 / 1000
 
 
