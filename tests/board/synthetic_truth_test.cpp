@@ -144,7 +144,7 @@ TEST(SyntheticTruth, FlowUnderPureRotationDoesNotDependOnDepth) {
     EXPECT_GT(compared, 10000);
 }
 
-TEST(SyntheticTruth, WhatIsHiddenOrOutsideThereIsUnknown) {
+TEST(SyntheticTruth, OccludedAndOutsidePixelsAreUnknown) {
     const World world = makeWorld(Scene::Shelf, 1);
     const Viewpoint a = small(world, Path::Rest, 0);
     Viewpoint b = a;

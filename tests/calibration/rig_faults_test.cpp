@@ -126,7 +126,7 @@ TEST(RigFiles, EveryFaultIsRefusedWithFileAndLine) {
     }
 }
 
-TEST(RigFiles, WhatIsNestedOrGoesOnWithoutEndIsRefusedBeforeATreeIsBuilt) {
+TEST(RigFiles, DeepOrEndlessFilesAreRefusedBeforeParsing) {
     const TempFolder folder;
     std::string many = "a: [0";
     for (int i = 0; i < 150'000; ++i)
@@ -162,7 +162,7 @@ TEST(RigFiles, TheDocumentationShowsWhatIsPlausible) {
             << range.what;
 }
 
-TEST(RigFiles, AnOpenCvFileWithoutSizeMustFitTheOneThatIsWanted) {
+TEST(RigFiles, AnOpenCvFileWithoutSizeMustFitTheExpectedSize) {
     const TempFolder folder;
     std::string text = openCvText();
     writeFile(folder / "cv.yml", text.substr(0, text.find("image_size1")));

@@ -88,7 +88,7 @@ void expectNoOffset(const Calibration& found) {
     expectRig(found);
 }
 
-TEST(Calibrate, AnOffsetThatCannotBeSeenIsZeroAndSaidToBe) {
+TEST(Calibrate, AnUnobservableOffsetIsZeroAndReported) {
     Motion motion;
     motion.rests = true;
     motion.stillsHz = 1;
@@ -97,7 +97,7 @@ TEST(Calibrate, AnOffsetThatCannotBeSeenIsZeroAndSaidToBe) {
     expectNoOffset(calibrate(kGrid, views.video, views.still, {}));
 }
 
-TEST(Calibrate, AnOffsetThatIsNotSoughtIsZero) {
+TEST(Calibrate, WithoutASearchTheOffsetIsZero) {
     const BothViews views = makeViews(kGrid, {});
     SolveOptions options;
     options.maxOffset = 0;

@@ -42,7 +42,7 @@ TEST(CallQueue, WakesTheOtherThread) {
     queue.runAll(target);
 }
 
-TEST(CallQueue, WorkThatComesTooLateIsDoneAndHarmsNobody) {
+TEST(CallQueue, WorkAfterItsTimeoutIsHarmless) {
     CallQueue<std::string> queue;
     EXPECT_THROW(queue.call([](std::string& s) { s = "done"; }, 1ms), std::runtime_error);
     std::string target;
@@ -50,7 +50,7 @@ TEST(CallQueue, WorkThatComesTooLateIsDoneAndHarmsNobody) {
     EXPECT_EQ(target, "done");
 }
 
-TEST(CallQueue, NobodyWaitsForAClosedOne) {
+TEST(CallQueue, CallsOnAClosedQueueReturnAtOnce) {
     CallQueue<int> queue;
     std::atomic<bool> asked{false};
     std::thread waiting([&] {

@@ -80,7 +80,7 @@ TEST(CameraWatch, OnePictureForEverIsNamedOnceEachTime) {
     }
 }
 
-TEST(CameraWatch, WhatIsStoredOrRenderedMayRepeatAndHasNoRateToKeep) {
+TEST(CameraWatch, RecordingsAndSyntheticCamerasMayRepeatAndHaveNoRate) {
     for (const CameraKind kind : {CameraKind::Stored, CameraKind::Live}) {
         Watched camera(kind);
         for (int i = 0; i < 300; ++i)
@@ -109,7 +109,7 @@ TEST(CameraWatch, MissingFramesAreCountedByTheCameraOrByTimes) {
     EXPECT_EQ(stored.watch.state().counters.missed, std::nullopt);
 }
 
-TEST(CameraWatch, EverySumKnowsEachByteOfItsRows) {
+TEST(CameraWatch, ChecksumsDependOnEveryByte) {
     std::vector<std::uint8_t> pixels(40 * 64, 7);
     const ImageView view{pixels.data(), {37, 64}, 40, PixelFormat::Gray8};
     const std::uint64_t before = sparseChecksum(view);

@@ -62,7 +62,7 @@ arrival_ms = 700
               (TriggerLineConfig{"pl061", "5", true, 0.5, true, "gpiochip1", "6", 2, 3, 700}));
 }
 
-TEST(CamerasConfig, EveryFaultHasItsPlace) {
+TEST(CamerasConfig, FaultsAreReportedWithLineAndColumn) {
     EXPECT_THAT(
         configFaults("[cameras.video]\nwidth = 0\ndriver = \"usb\"\ncontrols = { gain = [1] }\n"
                      "colour = 3\n[cameras.trigger]\npulse_ms = nan\nline = 5\n"),

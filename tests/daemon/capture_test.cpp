@@ -126,7 +126,7 @@ TEST(CaptureThread, StillsThatNoFrameTakesAreCounted) {
     EXPECT_EQ(frame->stillsSuperseded, StillBox::kCapacity - 1);
 }
 
-TEST(CaptureThread, AFrameThatIsReplacedHandsItsCountOn) {
+TEST(CaptureThread, ADroppedFramePassesItsMissedCountOn) {
     CapturedFrame older{{ImageView{}, Timestamp{1}, nullptr},
                         CapturedStill{{ImageView{}, Timestamp{1}, nullptr}},
                         {}};
@@ -197,7 +197,7 @@ TEST(CaptureThread, ACameraThatIsSlowerThanConfiguredDropsNothing) {
     EXPECT_EQ(capture.stats.count().drops.sensor, 3U);
 }
 
-TEST(CaptureThread, AStillPictureIsWatchedForOfSensorsAlone) {
+TEST(CaptureThread, RepeatedPicturesAreDetectedOnlyForSensors) {
     for (const bool sensors : {true, false}) {
         Capture capture(HandOver::NewestWins, sensors);
         for (int i = 1; i <= 5; ++i) {

@@ -196,7 +196,7 @@ TEST(Config, ATextWithoutEndIsRefusedBeforeItIsParsed) {
     EXPECT_THAT(configFaults(tables), HasSubstr("more than 100000 values"));
 }
 
-TEST(Config, ManyFaultsAreNotAllSaid) {
+TEST(Config, TheNumberOfReportedFaultsIsLimited) {
     std::string text;
     for (int i = 0; i < 5'000; ++i)
         text += "x" + std::to_string(i) + " = 1\n";

@@ -93,7 +93,7 @@ TEST_F(ControlSocketTest, EndlessRequestIsCutOff) {
     close(client);
 }
 
-TEST_F(ControlSocketTest, ClientsThatGoAwayOrSayTooLittleDoNoHarm) {
+TEST_F(ControlSocketTest, DisconnectedAndIncompleteClientsAreHarmless) {
     const ControlSocket socket(path, echo);
     close(connected());
     const int half = connected();
@@ -219,7 +219,7 @@ TEST_F(ControlSocketTest, WithoutAFreeDescriptorItWaits) {
     close(waiting);
 }
 
-TEST_F(ControlSocketTest, SocketOfADeadProcessIsReplacedThatOfALivingOneIsNot) {
+TEST_F(ControlSocketTest, OnlyTheSocketOfADeadProcessIsReplaced) {
     const int fd = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -238,7 +238,7 @@ TEST_F(ControlSocketTest, SocketOfADeadProcessIsReplacedThatOfALivingOneIsNot) {
 TEST_F(ControlSocketTest, PathsThatCannotBeUsedAreNamed) {
     std::ofstream(folder / "file") << "important";
     EXPECT_THAT([&] { ControlSocket(folder / "file", echo); },
-                ThrowsMessage<Failure>(HasSubstr("no socket")));
+                ThrowsMessage<Failure>(HasSubstr("not a socket")));
     EXPECT_TRUE(std::filesystem::exists(folder / "file"));
     EXPECT_THAT([&] { ControlSocket(folder / "none" / "control", echo); },
                 ThrowsMessage<Failure>(HasSubstr("No such file")));

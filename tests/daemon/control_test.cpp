@@ -44,7 +44,7 @@ struct Control : testing::Test {
     int triggered = 0, resets = 0;
 };
 
-TEST_F(Control, DoesWhatItIsAskedFor) {
+TEST_F(Control, ExecutesEveryCommand) {
     EXPECT_EQ(ask(R"({"command": "status"})"), (json{{"ok", true}, {"state", "running"}}));
     EXPECT_EQ(ask(R"({"command": "stats"})"), (json{{"ok", true}, {"frames", 12}}));
     EXPECT_EQ(ask(R"({"command": "reload"})"), (json{{"ok", true}, {"message", "read again"}}));
@@ -68,7 +68,7 @@ TEST_F(Control, SnapshotIsRedGreenBlueAlphaAfterTheLine) {
     EXPECT_EQ(answer.data, (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
-TEST_F(Control, WhatIsNoRequestGetsOneClearError) {
+TEST_F(Control, InvalidRequestsGetOneError) {
     for (const char* text : {"", "status", "{", "[]", "7", "null", R"({"command": 7})", R"({})",
                              R"({"command": "status"} x)", "\xff\xfe", "{\"command\": \"status"})
         EXPECT_THAT(errorOf(text), HasSubstr("a request is one line")) << text;
@@ -94,14 +94,14 @@ TEST_F(Control, RecordsUnderASimpleNameOnly) {
     EXPECT_EQ(recorded, "");
 }
 
-TEST_F(Control, WhatGoesWrongIsSaid) {
+TEST_F(Control, FailuresAreReported) {
     actions.trigger = [] { throw std::runtime_error("there is no trigger"); };
     EXPECT_EQ(errorOf(R"({"command": "trigger"})"), "there is no trigger");
     actions.status = [] { return ordered_json{{"source", "\xff camera"}}; };
     EXPECT_EQ(ask(R"({"command": "status"})")["ok"], true) << "a name that is no text";
 }
 
-TEST_F(Control, AnObserverMayOnlyAskHowItIs) {
+TEST_F(Control, AnObserverMayOnlyQueryStatus) {
     const auto asObserver = [&](std::string_view request) {
         return json::parse(answerControl(actions, request, ControlRole::Observer).line);
     };

@@ -35,7 +35,7 @@ std::optional<double> stillTime(const CapturedFrame& captured) {
     return captured.still->frame.time().seconds();
 }
 
-TEST(FramePairer, NoStillNoPair) {
+TEST(FramePairer, WithoutAStillThereIsNoPair) {
     Stills stills({});
     FramePairer pairer(stills.source());
     const CapturedFrame captured = pairer.pair(frame(1), Timestamp{5});
@@ -73,7 +73,7 @@ Pose withTags(int tags) {
     return pose;
 }
 
-TEST(CapturedFrame, ADroppedFrameLeavesItsStillToTheNextOne) {
+TEST(CapturedFrame, ADroppedFramePassesItsStillOn) {
     CapturedFrame older{frame(1), CapturedStill{frame(0.5), withTags(3)}, {}};
     CapturedFrame newer{frame(2), std::nullopt, {}};
     newer.supersede(std::move(older));

@@ -56,7 +56,7 @@ Machine::Cost scaled(double factor) {
     return [factor](std::size_t level) { return factor * fourLevels()[level].ms; };
 }
 
-TEST(Governor, StartsWithWhatTheTablePromises) {
+TEST(Governor, StartsWithTheBestLevelPredictedByTheTable) {
     for (const auto& [deadline, level] :
          {std::pair{10., "off"}, {33., "off"}, {66., "a"}, {100., "b"}, {133., "b"}, {150., "c"}})
         EXPECT_EQ(Governor(fourLevels(), deadline).level().name, level) << deadline;
@@ -172,7 +172,7 @@ TEST(Governor, AStillThatMakesAFrameLateComesOnceInForty) {
     EXPECT_TRUE(governor.mayTakeStill()) << "in time";
 }
 
-TEST(Governor, WhatAStillTakesIsNotTheLevels) {
+TEST(Governor, TimeOfAStillIsNotChargedToTheLevel) {
     Governor governor(fourLevels(), 100);
     for (int i = 0; i < 10; ++i) {
         governor.add({.ms = 300, .newStill = true});
@@ -181,7 +181,7 @@ TEST(Governor, WhatAStillTakesIsNotTheLevels) {
     EXPECT_EQ(governor.level().name, "b");
 }
 
-TEST(Governor, TakesNoStillThatIsNotUsed) {
+TEST(Governor, RequestsNoStillForALevelWithoutStills) {
     Governor governor(fourLevels(), 30);
     EXPECT_EQ(governor.level().name, "off");
     EXPECT_FALSE(governor.mayTakeStill());
@@ -208,7 +208,7 @@ TEST(Governor, IgnoresInvalidTimes) {
     EXPECT_EQ(governor.changes(), 0U);
 }
 
-TEST(Governor, ALevelAloneIsKept) {
+TEST(Governor, ASingleLevelIsKept) {
     Governor governor({{"only", 100, 20, {}}}, 10);
     for (int i = 0; i < 100; ++i) {
         governor.add({200});

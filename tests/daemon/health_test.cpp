@@ -148,7 +148,7 @@ TEST_F(HealthTest, DisplayThatLeavesPicturesOutIsDegraded) {
     EXPECT_NEAR(look().sinceS, 0, 1e-6) << "counted anew";
 }
 
-TEST_F(HealthTest, NoCauseHidesAnother) {
+TEST_F(HealthTest, AllCausesAreReported) {
     const Heartbeat recorder(hearts, "recorder", budget::kWriter, ThreadRole::Helper);
     pass(2 * budget::kWriter);
     picture = banner = now;

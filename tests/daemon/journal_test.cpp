@@ -22,7 +22,7 @@ TEST(Journal, WithoutOneNothingIsTaken) {
     EXPECT_FALSE(journal({"MESSAGE=lost"}));
 }
 
-TEST(Journal, OneThatReadsNothingIsWaitedForOnce) {
+TEST(Journal, AStalledJournalIsWaitedForOnce) {
     const test::TempFolder folder;
     sockaddr_un address{};
     address.sun_family = AF_UNIX;

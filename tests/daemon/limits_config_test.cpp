@@ -40,7 +40,7 @@ std::string refusalOf(const Config& config) {
     }
 }
 
-TEST(Limits, TheBudgetIsTheMachinesOrAsConfigured) {
+TEST(Limits, TheBudgetComesFromTheMachineOrTheConfiguration) {
     EXPECT_GT(machineMemory(), 100U << 20U);
     EXPECT_LT(LimitsConfig{}.memoryBytes(), machineMemory());
     EXPECT_EQ(LimitsConfig{100}.memoryBytes(), 100U << 20U);
@@ -92,7 +92,7 @@ TEST(Limits, CamerasWithLargePicturesAreRefused) {
     EXPECT_THAT(refusalOf(config), StartsWith("cameras: video of 640x480 and stills of 8192x8192"));
 }
 
-TEST(Limits, AModelThatDoesNotFitHasItsPlace) {
+TEST(Limits, AModelThatDoesNotFitIsReportedWithItsPlace) {
     const test::TempFolder folder;
     test::GltfMaker textured = test::richModel();
     textured.texture(test::rgbaPng({1024, 1024}, std::vector<std::array<std::uint8_t, 4>>(1 << 20)),
@@ -121,7 +121,7 @@ TEST(Limits, AModelIsReadOnceWhateverItsNames) {
     EXPECT_EQ(config.objects[0].model, config.objects[1].model);
 }
 
-TEST(Limits, AnEnvironmentThatDoesNotFitHasItsPlace) {
+TEST(Limits, AnEnvironmentThatDoesNotFitIsReportedWithItsPlace) {
     const test::TempFolder folder;
     test::writeFile(folder / "sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4096 +X 8192\n");
     EXPECT_THAT(configFaults("[limits]\nmemory_mb = 64\n[light]\nenvironment = \"" +

@@ -21,7 +21,7 @@ TEST(Mailbox, NewestWinsAndTheReplacedAreCounted) {
     EXPECT_EQ(box.tryTake(), std::nullopt);
 }
 
-TEST(Mailbox, MovesWhatCannotBeCopied) {
+TEST(Mailbox, MoveOnlyItemsWork) {
     Mailbox<std::unique_ptr<int>> box(HandOver::NewestWins);
     box.put(std::make_unique<int>(7));
     EXPECT_EQ(**box.take(), 7);
@@ -98,7 +98,7 @@ TEST(Mailbox, LosslessSenderAndReceiverWorkInTurn) {
     box.finish();
 }
 
-TEST(Mailbox, WhoWaitsForAWhileLearnsWhetherItIsOver) {
+TEST(Mailbox, TimedWaitDistinguishesTimeoutFromEnd) {
     Mailbox<int> box(HandOver::NewestWins);
     EXPECT_EQ(box.takeWithin(std::chrono::milliseconds(1)), std::nullopt);
     EXPECT_FALSE(box.over());

@@ -49,7 +49,7 @@ colour = [0.5, 0.5, 0.5]
     EXPECT_EQ(second.colours[1], Eigen::Vector3f(0.5F, 0.5F, 0.5F)) << "one alone is the whole's";
 }
 
-TEST(ObjectsConfig, FaultsHaveTheirPlace) {
+TEST(ObjectsConfig, FaultsAreReportedWithLineAndColumn) {
     EXPECT_THAT(configFaults("[[objects]]\nshape = \"teapot\"\n"),
                 StartsWith("test.toml:2:9: objects[0].shape = \"teapot\": must be one of \"box\""));
     EXPECT_THAT(configFaults("[[objects]]\n[[objects]]\nsize = [1, 2]\n"),
@@ -129,7 +129,7 @@ TEST(ObjectsConfig, ModelsThatCannotBeReadHaveTheirPlace) {
 
 // The tag is on a wall that faces the world's -y: its x axis is the world's x, its y axis the
 // world's -z.
-TEST(ObjectsConfig, ATagCarriesWhatStandsOnIt) {
+TEST(ObjectsConfig, ObjectsAreAnchoredToTheirTag) {
     const TagKey key{TagFamily::Tag36h11, 5};
     Eigen::Matrix3d R_world_tag;
     R_world_tag << 1, 0, 0, 0, 0, 1, 0, -1, 0;
@@ -152,7 +152,7 @@ TEST(ObjectsConfig, ATagCarriesWhatStandsOnIt) {
 }
 
 // The default file shows an object in comments: as it stands there it must be right.
-TEST(ObjectsConfig, WhatIsLeftOutIsTold) {
+TEST(ObjectsConfig, OmittedObjectsAreReported) {
     const TagMap map({{{TagFamily::Tag36h11, 5}, 0.1, {}}});
     PlacedObject shape, onTag, model;
     onTag.tag = TagKey{TagFamily::Tag25h9, 6};

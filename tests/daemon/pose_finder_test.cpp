@@ -67,7 +67,7 @@ TEST(PoseFinder, TagsGiveFramesAndStillsTheirPose) {
     EXPECT_EQ(counts.ms.count(), 4U);
 }
 
-TEST(PoseFinder, AStillWithoutTagsStandsBetweenTheFramesAroundIt) {
+TEST(PoseFinder, AStillWithoutTagsIsInterpolatedBetweenFrames) {
     Stats stats;
     PoseFinder finder({}, inputs(), stats);
     for (int i = 0; i < 4; ++i)
@@ -83,7 +83,7 @@ TEST(PoseFinder, AStillWithoutTagsStandsBetweenTheFramesAroundIt) {
     EXPECT_EQ(counts.stillsMeasured, 0U);
 }
 
-TEST(PoseFinder, PredictedPosesAreNotWhatStillsStandBetween) {
+TEST(PoseFinder, StillPosesAreInterpolatedOnlyBetweenMeasuredPoses) {
     Stats stats;
     PoseFinder finder({}, inputs(), stats);
     for (int i = 0; i < 3; ++i)
@@ -95,7 +95,7 @@ TEST(PoseFinder, PredictedPosesAreNotWhatStillsStandBetween) {
     EXPECT_EQ(stats.count().poses.measured, 3U);
 }
 
-TEST(PoseFinder, NoFramesAreBridgedWhereThatIsConfigured) {
+TEST(PoseFinder, BridgingCanBeDisabled) {
     Stats stats;
     PoseConfig config;
     config.bridgeFrames = 0;
@@ -157,7 +157,7 @@ TEST(PoseFinder, ASourceWithoutPosesIsRefusedByName) {
     }
 }
 
-TEST(PoseFinder, NoneAsksNobody) {
+TEST(PoseFinder, SourceNoneRunsNoTracker) {
     Stats stats;
     PoseConfig config;
     config.source = PoseOrigin::None;

@@ -55,7 +55,7 @@ TEST(PoseHistory, AFramesOwnTimeGivesItsPose) {
     }
 }
 
-TEST(PoseHistory, OutsideOfWhatIsKnownThereIsNothing) {
+TEST(PoseHistory, NoPoseOutsideTheKnownSpan) {
     PoseHistory history;
     EXPECT_FALSE(history.at(timeOf(0)));
     history.add(steady(0));

@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-TEST(QualityTable, BuiltInLevelsAreAFront) {
+TEST(QualityTable, BuiltInLevelsFormAParetoFront) {
     const auto& levels = builtInQualityLevels();
     ASSERT_GE(levels.size(), 3U);
     for (std::size_t i = 1; i < levels.size(); ++i) {
@@ -18,7 +18,7 @@ TEST(QualityTable, BuiltInLevelsAreAFront) {
         EXPECT_NO_THROW(validate(level.quality)) << level.name;
 }
 
-TEST(QualityTable, WhatIsWrittenIsRead) {
+TEST(QualityTable, WrittenTablesAreReadBack) {
     Quality fast;
     fast.mode = SuperResMode::Blend;
     fast.alongLines = false;
@@ -54,7 +54,7 @@ std::string faultOf(const std::string& toml) {
     return "";
 }
 
-TEST(QualityTable, WhatIsWrongIsRefusedWithItsPlace) {
+TEST(QualityTable, FaultsAreReportedWithTheirPlace) {
     const std::string level = "[[level]]\nname = \"a\"\nms = 1\n";
     EXPECT_EQ(faultOf(level), "");
     EXPECT_EQ(faultOf(""), "file:1:1: no [[level]]");

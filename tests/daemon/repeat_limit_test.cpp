@@ -42,7 +42,7 @@ TEST_F(RepeatLimitTest, FirstIsSaidAtOnceAndTheOthersWithTheirCount) {
     EXPECT_EQ(said.back(), "gone") << "long after, it is news";
 }
 
-TEST_F(RepeatLimitTest, OnceMoreIsSaidInWords) {
+TEST_F(RepeatLimitTest, ASingleRepetitionIsWrittenInWords) {
     happen("plug", "gone");
     happen("plug", "gone");
     pass(seconds(28));
@@ -50,7 +50,7 @@ TEST_F(RepeatLimitTest, OnceMoreIsSaidInWords) {
 }
 
 // Without the limit: 16 lines in 28 s.
-TEST_F(RepeatLimitTest, LoosePlugSaysLittleAndItsLastWordIsTrue) {
+TEST_F(RepeatLimitTest, ALoosePlugLogsLittleAndTheLastMessageIsCorrect) {
     for (int i = 0; i < 8; ++i) {
         happen("camera", "camera: gone");
         pass(milliseconds(1750));
@@ -73,7 +73,7 @@ TEST_F(RepeatLimitTest, NewestTextOfAnEventIsKept) {
     EXPECT_EQ(said.back(), "gone from /dev/video4 (2 more times in 10 s)");
 }
 
-TEST_F(RepeatLimitTest, StormGoesOnOnceInTenSeconds) {
+TEST_F(RepeatLimitTest, AStormIsLoggedEveryTenSeconds) {
     for (int ms = 0; ms < 3'600'000; ms += 50) {
         happen("storm", "error");
         pass(milliseconds(50));

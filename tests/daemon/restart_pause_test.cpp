@@ -41,7 +41,7 @@ TEST_F(RestartPauseTest, DayOfFailuresIsFewRestarts) {
     EXPECT_LT(restarts, 3000) << "one a second before";
 }
 
-TEST_F(RestartPauseTest, ProcessThatHasRunIsNoneOfTheRow) {
+TEST_F(RestartPauseTest, ALongRunEndsTheRowOfFailures) {
     for (int i = 0; i < 4; ++i)
         (void)fail();
     EXPECT_EQ(fail(seconds(61)).wait.count(), 0);
@@ -62,7 +62,7 @@ TEST_F(RestartPauseTest, FailureBeforeTheSystemWasStartedDoesNotCount) {
     EXPECT_EQ(fail().inARow, 1);
 }
 
-TEST_F(RestartPauseTest, BrokenFileCountsAsNone) {
+TEST_F(RestartPauseTest, ADamagedFileCountsAsMissing) {
     for (const char* text : {"", "x", "-5 1", "2000000000 5000000000000", "3"}) {
         std::ofstream(file) << text;
         EXPECT_EQ(fail().wait.count(), 0) << text;

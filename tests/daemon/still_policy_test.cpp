@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kFrame = 1.0 / 30;
 
-TEST(StillPolicy, AskedWhileAPulseIsOnItAsksAgainAtOnce) {
+TEST(StillPolicy, ABusyTriggerIsRetriedAtOnce) {
     StillPolicy policy({.mode = TriggerMode::Rate, .rateHz = 0.5});
     const auto at = [](double s) { return Timestamp::fromSeconds(s); };
     ASSERT_TRUE(policy.decide(at(100), at(100), {}));
@@ -78,7 +78,7 @@ TEST(StillPolicy, CameraAtRestFiresOnceEvenWhereTheStillExplainsNothing) {
 }
 
 // Numbers of the first frame, in which everything is new, arrive after the trigger that it caused.
-TEST(StillPolicy, NumbersFromBeforeTheTriggerAreNoMotion) {
+TEST(StillPolicy, StatsOlderThanTheTriggerAreNotMotion) {
     Simulation board({});
     board.delay = kFrame;
     EXPECT_EQ(board.run(kFrame * 1.5, frame(0, 1)), 1);
@@ -101,7 +101,7 @@ TEST(StillPolicy, TheRedrawForANewStillIsNoMotion) {
     EXPECT_EQ(board.run(60, kRest), 0) << "a reload redraws, too";
 }
 
-TEST(StillPolicy, NumbersFromBeforeTheStillSayNothingAboutIt) {
+TEST(StillPolicy, StatsOlderThanTheStillAreIgnored) {
     TriggerConfig config;
     config.minIntervalS = 0;
     Simulation board(config);
@@ -129,7 +129,7 @@ TEST(StillPolicy, MotionThatTheStillExplainsWaitsForTheAge) {
 }
 
 // A sensor's noise must be learned first, so the first frames appear to change.
-TEST(StillPolicy, ChangesBeforeAStillIsInUseDoNotMakeItAge) {
+TEST(StillPolicy, ChangesBeforeTheFirstUseDoNotAgeAStill) {
     TriggerConfig config;
     config.maxAgeS = 5;
     Simulation board(config);
@@ -139,7 +139,7 @@ TEST(StillPolicy, ChangesBeforeAStillIsInUseDoNotMakeItAge) {
 }
 
 // The camera turns and stops while the still is pending, which then shows the wrong view.
-TEST(StillPolicy, AStillOutrunByTheMotionIsReplaced) {
+TEST(StillPolicy, AStillTakenDuringMotionIsReplaced) {
     Simulation board({});
     board.latency = 0.4;
     board.run(0.3, kMovingUnexplained);
@@ -202,7 +202,7 @@ TEST(StillPolicy, AfterTwoLostStillsItTriesAgainLater) {
     EXPECT_EQ(board.policy.lost(), 2);
 }
 
-TEST(StillPolicy, LateAnswerDoesNotSettleTheRepetition) {
+TEST(StillPolicy, ALateStillDoesNotAnswerTheRepetition) {
     TriggerConfig config;
     config.timeoutS = 1;
     Simulation board(config);

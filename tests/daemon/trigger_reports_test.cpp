@@ -23,7 +23,7 @@ TEST(TriggerReports, EachEventIsReportedOnce) {
 }
 
 // Another device is opened, whose counters start at zero.
-TEST(TriggerReports, CountsThatBeginAnewAreNoEvents) {
+TEST(TriggerReports, CounterResetsAreNotEvents) {
     TriggerReports reports;
     (void)reports.newSince({5, 5, false});
     EXPECT_THAT(reports.newSince({0, 0, false}), IsEmpty());

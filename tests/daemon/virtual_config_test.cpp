@@ -33,7 +33,7 @@ turn_deg = 2
                                        HoleFilling::PushPull, 3, false, 2}));
 }
 
-TEST(VirtualConfig, FaultsHaveTheirPlace) {
+TEST(VirtualConfig, FaultsAreReportedWithLineAndColumn) {
     EXPECT_THAT(configFaults("[virtual]\nrendering = \"raster\"\n"),
                 StartsWith("test.toml:2:13: virtual.rendering = \"raster\": must be one of "
                            "\"path-traced\", \"preview\""));
@@ -64,7 +64,7 @@ sun = { direction = [0, 0, 2], irradiance = [3, 2, 1], radius_deg = 1 }
     EXPECT_NEAR(light.sun->angularRadius, 0.01745F, 1e-4F);
 }
 
-TEST(LightConfig, ASunOfOneKeyHasTheRest) {
+TEST(LightConfig, MissingSunKeysHaveDefaults) {
     const LightOptions light =
         parseConfig("[light.sun]\nirradiance = [1, 1, 1]\n", "test.toml").light;
     ASSERT_TRUE(light.sun);
@@ -85,7 +85,7 @@ TEST(LightConfig, PicturesAreReadBesideTheFile) {
     EXPECT_EQ(light.environment->size, (Size{2, 1}));
 }
 
-TEST(LightConfig, FaultsHaveTheirPlace) {
+TEST(LightConfig, FaultsAreReportedWithLineAndColumn) {
     EXPECT_THAT(configFaults("[light]\nenvironment = \"dusk\"\n"),
                 StartsWith("test.toml:2:15: light.environment = \"dusk\": must be \"studio\", "
                            "\"sky\", \"camera\" or a picture; dusk: is missing"));

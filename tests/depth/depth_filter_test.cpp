@@ -94,7 +94,7 @@ TEST(DepthFilter, MovesAndGrowsWithTheCamera) {
     EXPECT_FALSE(filter.field().isKnown(middle()));
 }
 
-TEST(DepthFilter, ForgetsWithMotionAlone) {
+TEST(DepthFilter, ForgetsOnlyWhenTheCameraMoves) {
     DepthFilter filter = filterOf();
     filter.predict({}, 0);
     filter.fuse(evenField(1, 0.02F), kWhole);

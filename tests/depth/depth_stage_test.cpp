@@ -146,7 +146,7 @@ TEST(DepthStage, MeasuresOnlyWhereItIsNeeded) {
     }
 }
 
-TEST(DepthStage, ForgetsWhatItIsToldTo) {
+TEST(DepthStage, ForgetsOnRequest) {
     Walk walk;
     walk.goSideways(6, 0.012);
     walk.stage().forget(PixelRect{100, 80, 120, 90});

@@ -74,7 +74,7 @@ InverseDepthField snapped(const InverseDepthField& in, const std::vector<std::ui
     return snap.run(in, view, where);
 }
 
-TEST(EdgeSnap, AnEdgeGoesWhereThePictureHasIt) {
+TEST(EdgeSnap, DepthEdgesMoveToPictureEdges) {
     for (const int unknown : {0, 2})
         for (int too = -2; too <= 2; ++too) {
             const InverseDepthField out = snapped(field(too, unknown), picture());
@@ -156,7 +156,7 @@ TEST(EdgeSnap, WhatWasNotMeasuredIsMarked) {
     EXPECT_EQ(out.filled[24UL * 64 + 5], 0);
 }
 
-TEST(EdgeSnap, NothingComesFromNothing) {
+TEST(EdgeSnap, UnknownDepthStaysUnknown) {
     const InverseDepthField out = snapped(InverseDepthField(kPicture), picture());
     for (std::size_t i = 0; i < out.rho.size(); ++i)
         EXPECT_FALSE(out.isKnown(i));

@@ -32,7 +32,7 @@ Keyframes walked(const KeyframeOptions& options, int brightness = 100) {
     return out;
 }
 
-TEST(Keyframes, FixedIsSoManyFramesAgo) {
+TEST(Keyframes, FixedRuleTakesAFixedFrameDistance) {
     const Keyframes frames = walked({.rule = KeyframeRule::Fixed, .distance = 4});
     const auto choice = frames.choose(poseAt(0.1), 100, kAll, 1);
     ASSERT_TRUE(choice);
@@ -87,7 +87,7 @@ TEST(Keyframes, WithoutParallaxThereIsNone) {
     EXPECT_FALSE(frames.choose(poseAt(0.1), 100, kAll, 1));
 }
 
-TEST(Keyframes, APartAboutTheEpipoleHasNone) {
+TEST(Keyframes, RegionsAtTheEpipoleHaveNoKeyframe) {
     Keyframes frames(kKeyCamera, {});
     frames.add(grey(100), poseAt(0), 100, 1);
     EXPECT_FALSE(frames.choose(poseAt(0, 0.06), 100, {70, 50, 90, 70}, 1));

@@ -23,7 +23,7 @@ TEST(CameraSelection, FindsByIdLocationAndModel) {
     EXPECT_EQ(chooseCamera(kBoard, {"imx296"}), 0U);
 }
 
-TEST(CameraSelection, AnIdCountsBeforeAModelOfTheSameName) {
+TEST(CameraSelection, IdsTakePrecedenceOverModels) {
     EXPECT_EQ(chooseCamera({{"a", "b", ""}, {"b", "c", ""}}, {"b"}), 1U);
 }
 
@@ -40,7 +40,7 @@ TEST(CameraSelection, AnyIsTheSmallestOrTheLargest) {
     EXPECT_EQ(chooseCamera(board, {.except = "external", .largest = true}), 1U);
 }
 
-TEST(CameraSelection, TheOnlyCameraIsNotTakenFromTheOther) {
+TEST(CameraSelection, LargestNeverTakesTheOnlyCamera) {
     const std::vector<ListedCamera> one{{"a", "b", ""}};
     EXPECT_EQ(chooseCamera(one, {}), 0U);
     EXPECT_THAT(
@@ -51,7 +51,7 @@ TEST(CameraSelection, TheOnlyCameraIsNotTakenFromTheOther) {
     EXPECT_EQ(chooseCamera(one, {.except = "not there", .largest = true}), 0U);
 }
 
-TEST(CameraSelection, WhatIsAmbiguousOrUnknownListsTheCameras) {
+TEST(CameraSelection, AmbiguousAndUnknownNamesListTheCameras) {
     for (const char* wanted : {"external", "Webcam C270", "imx219", "usb-1.2"})
         EXPECT_THAT([&] { (void)chooseCamera(kBoard, {wanted}); },
                     ThrowsMessage<std::runtime_error>(AllOf(
@@ -60,7 +60,7 @@ TEST(CameraSelection, WhatIsAmbiguousOrUnknownListsTheCameras) {
                         HasSubstr("'usb-1.3-046d:0825' (model Webcam C270, location external)"))));
 }
 
-TEST(CameraSelection, NoCameraPointsToTheOtherDriver) {
+TEST(CameraSelection, WithoutCamerasTheMessageNamesTheOtherDriver) {
     EXPECT_THAT(
         [] { (void)chooseCamera({}, {"imx296"}); },
         ThrowsMessage<std::runtime_error>(AllOf(HasSubstr("finds no camera"), HasSubstr("v4l2"))));

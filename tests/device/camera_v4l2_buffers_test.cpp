@@ -53,7 +53,7 @@ TEST(CameraV4l2Buffers, EveryBufferMayBeLentAtOnce) {
     EXPECT_EQ(camera.cameraCounters().missed, 1U);
 }
 
-TEST(CameraV4l2Buffers, ABufferThatIsGivenBackReachesADriverThatWaitsForIt) {
+TEST(CameraV4l2Buffers, ReturnedBuffersAreQueuedWhileNextWaits) {
     FakeV4l2 fake;
     CameraV4l2 camera(fourBuffers(), fake);
     camera.start();
@@ -90,7 +90,7 @@ TEST(CameraV4l2Buffers, GivingAPictureBackDoesNotWaitForADriverThatHangs) {
     EXPECT_TRUE(hung.get());
 }
 
-TEST(CameraV4l2Buffers, AFewBuffersDoForManyPictures) {
+TEST(CameraV4l2Buffers, FewBuffersSufficeForManyPictures) {
     for (const bool refuses : {false, true})
         for (const std::uint32_t buffers : {1U, 2U, 3U}) {
             FakeV4l2 fake;
@@ -149,7 +149,7 @@ int eventDescriptors() {
     return out;
 }
 
-TEST(CameraV4l2Buffers, AFrameOfAClosedCameraHoldsItsMemoryAlone) {
+TEST(CameraV4l2Buffers, AFrameOfAClosedCameraKeepsOnlyItsMemory) {
     const int before = eventDescriptors();
     FakeV4l2 fake;
     std::optional<Frame> held;

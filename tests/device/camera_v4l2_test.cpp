@@ -69,7 +69,7 @@ TEST(CameraV4l2, FormatsAreTakenInTheOrderOfPreference) {
     EXPECT_EQ(chosen("GREY"), PixelFormat::Gray8);
 }
 
-TEST(CameraV4l2, WhatIsNotOfferedIsAnsweredByWhatIs) {
+TEST(CameraV4l2, RefusedSizesListTheOfferedOnes) {
     FakeV4l2 fake;
     fake.formats = {{V4L2_PIX_FMT_YUYV, {{64, 48}, {160, 120}}}, {V4L2_PIX_FMT_SBGGR8, {kSize}}};
     EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),
@@ -88,7 +88,7 @@ TEST(CameraV4l2, ADriverThatRoundsTheSizeIsRefused) {
               "/dev/video0: 'Fake Camera' makes 16x16 YUYV of 32x24 YUYV");
 }
 
-TEST(CameraV4l2, NumbersOfTheDriverAreNotBelievedUnchecked) {
+TEST(CameraV4l2, InvalidDriverDataIsRefused) {
     const auto errorWith = [](const std::function<void(FakeV4l2&)>& change) {
         FakeV4l2 fake;
         change(fake);
@@ -131,7 +131,7 @@ TEST(CameraV4l2, IsFoundByCardAndBus) {
               "/dev/video9: No such file or directory");
 }
 
-TEST(CameraV4l2, WithoutANameItIsAnyButTheOther) {
+TEST(CameraV4l2, WithoutANameTheExcludedCameraIsNotChosen) {
     FakeV4l2 fake;
     CameraV4l2Options options = wanted();
     options.device = {};
@@ -248,7 +248,7 @@ TEST(CameraV4l2, RunsAgainAfterStop) {
     EXPECT_EQ(fake.queued(), 4);
 }
 
-TEST(CameraV4l2, NumbersThatBeginAnewAreNoGap) {
+TEST(CameraV4l2, RestartedFrameNumbersAreNotDrops) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted({}, 30), fake);
     camera.start();
@@ -280,7 +280,7 @@ TEST(CameraV4l2, AnUnpluggedDeviceIsLost) {
 }
 
 // With vb2, poll() reports an error until a buffer has been queued since the start.
-TEST(CameraV4l2, AnErrorOfPollAloneIsNoLoss) {
+TEST(CameraV4l2, APollErrorAloneDoesNotMeanDeviceLost) {
     FakeV4l2 fake;
     CameraV4l2 camera(wanted(), fake);
     camera.start();

@@ -116,7 +116,7 @@ TEST_F(AutoDisplay, ShowsWithinASecondAfterADeviceAppears) {
     EXPECT_TRUE(display_->lastShown());
 }
 
-TEST_F(AutoDisplay, ShowsAtOnceWhenTheKernelTells) {
+TEST_F(AutoDisplay, KernelEventsShowTheScreenAtOnce) {
     run(std::chrono::milliseconds(600));
     kms_.presence = Presence::Ready;
     changed_ = true;
@@ -170,7 +170,7 @@ TEST_F(AutoDisplay, ReturnsToAScreenThatWasLostForAMoment) {
 }
 
 // Such a screen: its flips do not complete, which is noticed at every third picture.
-TEST_F(AutoDisplay, AScreenThatIsLostAgainAndAgainStaysAFault) {
+TEST_F(AutoDisplay, ARepeatedlyLostScreenStaysReported) {
     kms_.presence = Presence::Ready;
     run(kSecond);
     ASSERT_EQ(display_->fault(), std::nullopt);
@@ -202,7 +202,7 @@ TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsRefused) {
     EXPECT_FALSE(kms_.held);
 }
 
-TEST_F(AutoDisplay, TriesTheNextWhenTheFirstPictureIsNeverFollowedByAnother) {
+TEST_F(AutoDisplay, TriesTheNextWhenTheSecondFlipNeverCompletes) {
     kms_.presence = fbdev_.presence = Presence::Ready;
     kms_.refusesAfter = 2;  // a missing flip is noticed at the third picture
     EXPECT_GE(run(kSecond), 8);

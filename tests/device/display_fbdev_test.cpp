@@ -85,7 +85,7 @@ TEST(FbGeometry, NumbersThatLeaveTheMemoryAreRefused) {
         EXPECT_THROW((void)geometry(lies[i]), std::runtime_error) << "lie " << i;
 }
 
-TEST(FbGeometry, OnlyTrueColourOfPackedPixels) {
+TEST(FbGeometry, OnlyPackedTrueColourIsAccepted) {
     const std::vector<std::function<void(Info&)>> others{
         [](Info& i) { i.fix.type = FB_TYPE_PLANES; },
         [](Info& i) { i.fix.visual = FB_VISUAL_PSEUDOCOLOR; },

@@ -87,7 +87,7 @@ TEST_F(KmsScreenTest, AFlipThatNeverCompletesIsReportedAfterHalfASecondAndRetrie
     EXPECT_EQ(driver_.modeSets, 1);
 }
 
-TEST_F(KmsScreenTest, OtherEventsAreNoFlip) {
+TEST_F(KmsScreenTest, OtherEventsDoNotCompleteAFlip) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     show();
     show();
@@ -127,7 +127,7 @@ TEST_F(KmsScreenTest, FollowsTheMonitor) {
 }
 
 // The buffers of a lost GPU stay on the screen until new ones are shown.
-TEST_F(KmsScreenTest, ThePictureStaysWhileTheGpuIsMadeAnew) {
+TEST_F(KmsScreenTest, ThePictureStaysWhileTheContextIsRecreated) {
     ASSERT_EQ(screen_.look(true), Presence::Ready);
     show();
     screen_.releaseGl();

@@ -64,7 +64,7 @@ TEST(ChooseMode, NearestRateAndProgressiveFirst) {
     EXPECT_EQ(chosen(interlacedOnly, ModeWish{{1920, 1080}, 50.0}), "1920x1080@5000i");
 }
 
-TEST(ChooseMode, WhatIsNotOfferedGivesThePreferredOne) {
+TEST(ChooseMode, AnUnavailableModeFallsBackToThePreferredOne) {
     const ModeWish tooFast{{1280, 720}, 75.0};
     EXPECT_EQ(chosen(kMonitor, tooFast), "1920x1080@6000");
     EXPECT_EQ(chosen(kMonitor, ModeWish{{800, 600}, {}}), "1920x1080@6000");
@@ -73,7 +73,7 @@ TEST(ChooseMode, WhatIsNotOfferedGivesThePreferredOne) {
     EXPECT_EQ(chosen(nothingPreferred, {}), "1024x768@6000");
 }
 
-TEST(ChooseMode, ImpossibleModesAreNoModes) {
+TEST(ChooseMode, ImpossibleModesAreIgnored) {
     const std::vector impossible{mode(0, 720, 60, kPreferred), mode(1280, 0, 60),
                                  mode(20000, 100, 60), drmModeModeInfo{}};
     EXPECT_EQ(chosen(impossible, {}), "none");
@@ -113,7 +113,7 @@ TEST(WaitForFlip, EndsWithTheEventOfTheFlip) {
     EXPECT_TRUE(waitForFlip(card.told.get(), pending, std::chrono::seconds(60))) << "none pending";
 }
 
-TEST(WaitForFlip, OneThatDoesNotHappenEndsAtTheLimitWhateverElseHappens) {
+TEST(WaitForFlip, AMissingFlipEndsAtTheLimitDespiteOtherEvents) {
     const TalkingCard card;
     bool pending = true;
     const std::jthread other([&](const std::stop_token& stop) {

@@ -49,7 +49,7 @@ TEST(PixelLayout, SixteenBitsKeepTheUppermostBits) {
 
 // Rows on the host are packed like a GPU's picture, also at widths that do not fill vectors; alpha
 // is ignored.
-TEST(PixelLayout, RowsOfTheHostBecomeTheSame) {
+TEST(PixelLayout, HostRowsPackLikeGpuPictures) {
     constexpr Size kSize{37, 3};
     Bytes bgra(4UL * kSize.width * kSize.height, 255), rgba(bgra.size());
     for (std::size_t i = 0; i < bgra.size(); i += 4) {

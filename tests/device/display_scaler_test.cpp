@@ -113,7 +113,7 @@ TEST_F(DisplayScaler, BesideThePictureIsBlack) {
 
 // A zone plate contains all frequencies. Where it is finer than the screen, only grey may remain:
 // without a filter, sampling would show false rings of full contrast.
-TEST_F(DisplayScaler, WhatIsFinerThanTheScreenBecomesGrey) {
+TEST_F(DisplayScaler, DetailBeyondTheScreensResolutionBecomesGrey) {
     const Size from{2304, 1728}, screen{1280, 720};
     const auto stripes = [](int x, int) {
         const double phase = std::numbers::pi * x * x / 2304.0 / 2;  // x / 2304 / 2 cycles a pixel
@@ -160,7 +160,7 @@ TEST_F(DisplayScaler, DrawsOnAnotherContextOnceTheFirstIsReleased) {
     context().makeCurrent();
 }
 
-TEST_F(DisplayScaler, KeptTargetGivesTheCallersTargetBack) {
+TEST_F(DisplayScaler, TheCallersTargetIsRestored) {
     const gpu::Texture target({31, 17}, gpu::TexelFormat::Rgba8);
     const gpu::Framebuffer framebuffer(target);
     framebuffer.bind();
@@ -191,7 +191,7 @@ AlignedRows<std::uint32_t> noiseRows(Size size) {
     return rows;
 }
 
-TEST_F(DisplayScaler, RowsOfTheHostAreDrawnAsATextureIs) {
+TEST_F(DisplayScaler, HostRowsAreDrawnLikeATexture) {
     const AlignedRows<std::uint32_t> small = noiseRows({96, 54}), large = noiseRows({230, 172});
     ScreenScaler scaler;
     const Size screen{128, 72};

@@ -10,12 +10,12 @@ TEST(FieldOfView, WholeSensorIsWhole) {
     EXPECT_TRUE(showsWholeField({4032, 3024}, {4056, 3040}, {640, 480})) << "aligned mode";
 }
 
-TEST(FieldOfView, ShapeMayCostOneDirection) {
+TEST(FieldOfView, CroppingInOneDirectionIsAllowed) {
     EXPECT_TRUE(showsWholeField({1440, 1080}, {1920, 1080}, {640, 480}));
     EXPECT_TRUE(showsWholeField({4056, 2282}, {4056, 3040}, {1920, 1080}));
 }
 
-TEST(FieldOfView, CroppedModeIsSeen) {
+TEST(FieldOfView, CroppedModesAreDetected) {
     // imx477 at 1332x990: the central 2664x1980 pixels of the sensor, binned.
     EXPECT_FALSE(showsWholeField({2664, 1980}, {4056, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({1280, 720}, {1920, 1080}, {640, 480}));
@@ -23,7 +23,7 @@ TEST(FieldOfView, CroppedModeIsSeen) {
     EXPECT_FALSE(showsWholeField({1200, 1080}, {1920, 1080}, {640, 480}));
 }
 
-TEST(FieldOfView, NothingIsNoField) {
+TEST(FieldOfView, EmptySizesShowNoField) {
     EXPECT_FALSE(showsWholeField({0, 0}, {4056, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({4056, 3040}, {0, 3040}, {640, 480}));
     EXPECT_FALSE(showsWholeField({4056, 3040}, {4056, 3040}, {640, -1}));

@@ -65,7 +65,7 @@ TEST(FrameDrops, NumbersAreExactAtAnyRate) {
     }
 }
 
-TEST(FrameDrops, ACountThatBeginsAnewIsLeftToTheTimes) {
+TEST(FrameDrops, AfterACounterResetTimesAreUsed) {
     FrameDrops drops;
     Timestamp time{0};
     std::uint32_t number = 50000;
@@ -102,7 +102,7 @@ TEST(FrameDrops, BrokenFramesAreNotMissing) {
     }
 }
 
-TEST(FrameDrops, PauseAndTimesThatDoNotRiseAreNoGaps) {
+TEST(FrameDrops, PausesAndNonIncreasingTimesAreNotDrops) {
     FrameDrops drops;
     Timestamp time{0};
     for (int i = 0; i < 40; ++i)

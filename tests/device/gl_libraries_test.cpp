@@ -47,7 +47,7 @@ TEST(GlLibraries, AMissingLibraryIsNamedWithWhatToInstall) {
     EXPECT_EQ(glCreateShader(GL_VERTEX_SHADER), 0U) << "half is loaded";
 }
 
-TEST(GlLibraries, ALibraryThatIsNotTheOneIsRefused) {
+TEST(GlLibraries, AnUnrelatedLibraryIsRefused) {
     EXPECT_EQ(loading("libm.so.6", MFAR_FAKE_GL),
               std::string("libm.so.6 has no eglGetProcAddress") + kAdvice);
 }

@@ -115,7 +115,7 @@ TEST(JpegDecoder, FillBytesBeforeTheEndAreHarmless) {
     expectRamp(frame->view());
 }
 
-TEST(JpegDecoder, DamageGivesNothingAndKeepsNoBuffer) {
+TEST(JpegDecoder, DamagedPicturesAreDroppedAndReleaseTheirBuffer) {
     const Bytes jpeg = encoded(TJSAMP_422);
     JpegDecoder decoder(kJpegSize, 1);
     for (std::size_t bytes = 0; bytes < jpeg.size() - 40; bytes += 37)
@@ -126,7 +126,7 @@ TEST(JpegDecoder, DamageGivesNothingAndKeepsNoBuffer) {
     EXPECT_TRUE(decoder.decode(jpeg, {}).has_value());
 }
 
-TEST(JpegDecoder, AllBuffersLentGivesNothing) {
+TEST(JpegDecoder, WithAllBuffersLentNothingIsDecoded) {
     JpegDecoder decoder(kJpegSize, 1);
     const Bytes jpeg = encoded(TJSAMP_420);
     auto held = decoder.decode(jpeg, {});

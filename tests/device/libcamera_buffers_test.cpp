@@ -62,7 +62,7 @@ TEST(MappedPicture, OutlivesTheBufferAndReadsAroundSynchronisation) {
     picture->endRead();
 }
 
-TEST(MappedPicture, WhatDoesNotHoldThePictureIsRefused) {
+TEST(MappedPicture, TooSmallMemoryIsRefused) {
     const auto fd = memory(0);
     const PictureLayout layout{{32, 16}, PixelFormat::Nv12, 32};
     const FrameBuffer small(Planes{plane(fd, 0, 32 * 16), plane(fd, 512, 32 * 7)});

@@ -119,7 +119,7 @@ TEST(PulseTrigger, PulseIsNeverShorterThanAskedAndItsEdgeIsTimed) {
     }
 }
 
-TEST(PulseTrigger, LongPulseDoesNotHoldItsCallerAndEndsWithTheObject) {
+TEST(PulseTrigger, LongPulsesDoNotBlockFireAndEndWithTheObject) {
     const auto wire = std::make_shared<Wire>();
     auto trigger = triggerOn(wire, 10s);
     const Timestamp edge = trigger->fire();
@@ -188,7 +188,7 @@ TEST(PulseTrigger, LoopbackMeasuresStartAndLength) {
     }
 }
 
-TEST(PulseTrigger, MissedEdgesAreCountedAndNeverTakenForOthers) {
+TEST(PulseTrigger, MissedEdgesAreCountedAndNotConfused) {
     for (const int lost : {1, 2}) {
         for (const microseconds pulse : {microseconds{50}, microseconds{3000}}) {
             const auto wire = std::make_shared<Wire>();
@@ -206,7 +206,7 @@ TEST(PulseTrigger, MissedEdgesAreCountedAndNeverTakenForOthers) {
     }
 }
 
-TEST(PulseTrigger, LoopbackOnAnotherClockIsNotBelieved) {
+TEST(PulseTrigger, LoopbackTimesOfAnotherClockAreIgnored) {
     const auto wire = std::make_shared<Wire>();
     wire->clockOffset = std::chrono::hours(24 * 365 * 50);  // as CLOCK_REALTIME
     const auto trigger = triggerOn(wire, 50us, true);

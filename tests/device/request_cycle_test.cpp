@@ -97,7 +97,7 @@ bool takes(FakeDriver& camera, std::int64_t number) {
     return true;
 }
 
-TEST(RequestCycle, PicturesGoRound) {
+TEST(RequestCycle, RequestsCirculate) {
     FakeDriver camera;
     camera.cycle.start();
     for (int i = 1; i <= 3 * static_cast<int>(kRequests); ++i)
@@ -107,7 +107,7 @@ TEST(RequestCycle, PicturesGoRound) {
     EXPECT_FALSE(camera.cycle.next(kPatience));
 }
 
-TEST(RequestCycle, AllGivenBackUnfilledIsStartedAgainAndCounted) {
+TEST(RequestCycle, FullCancellationRestartsAndIsCounted) {
     FakeDriver camera(kPatient);
     camera.cycle.start();
     for (int i = 1; i <= 20; ++i) {
@@ -120,7 +120,7 @@ TEST(RequestCycle, AllGivenBackUnfilledIsStartedAgainAndCounted) {
     EXPECT_TRUE(takes(camera, 21));
 }
 
-TEST(RequestCycle, PicturesThatAreThereAreDeliveredBeforeTheRestart) {
+TEST(RequestCycle, ReadyPicturesAreDeliveredBeforeTheRestart) {
     FakeDriver camera(kPatient);
     camera.cycle.start();
     camera.fill();
@@ -131,7 +131,7 @@ TEST(RequestCycle, PicturesThatAreThereAreDeliveredBeforeTheRestart) {
     camera.cycle.giveBack(done->request);
 }
 
-TEST(RequestCycle, SomeGivenBackAreNoEnd) {
+TEST(RequestCycle, PartialCancellationDoesNotRestart) {
     FakeDriver camera(kPatient);
     camera.cycle.start();
     camera.cycle.cancelled(0);
@@ -162,7 +162,7 @@ TEST(RequestCycle, EarlyEndsInARowAreRestartedLaterAndLaterUntilTheDeviceIsLost)
     EXPECT_THROW((void)camera.cycle.next(kPatience), DeviceLost);
 }
 
-TEST(RequestCycle, WhatIsGivenBackAfterTheEndIsNoFurtherEnd) {
+TEST(RequestCycle, RequestsReturnedAfterTheEndDoNotCountAsAnotherEnd) {
     constexpr RestartLimits kLimits{
         .early = milliseconds(60'000), .firstPause = milliseconds(0), .most = 2};
     FakeDriver camera(kLimits);
@@ -178,7 +178,7 @@ TEST(RequestCycle, WhatIsGivenBackAfterTheEndIsNoFurtherEnd) {
     EXPECT_TRUE(takes(camera, 2));
 }
 
-TEST(RequestCycle, WhoAsksDoesNotWaitForTheBackOff) {
+TEST(RequestCycle, NextDoesNotBlockDuringBackOff) {
     constexpr RestartLimits kLimits{
         .early = milliseconds(60'000), .firstPause = milliseconds(60'000), .most = 5};
     FakeDriver camera(kLimits);
@@ -225,7 +225,7 @@ TEST(RequestCycle, DriverThatRefusesARequestIsLost) {
     EXPECT_THROW((void)camera.cycle.next(kPatience), DeviceLost);
 }
 
-TEST(RequestCycle, WhatIsGivenBackAfterTheCloseIsForgotten) {
+TEST(RequestCycle, RequestsReturnedAfterCloseAreIgnored) {
     FakeDriver camera;
     camera.cycle.start();
     camera.fill();

@@ -23,7 +23,7 @@ TEST(SensorClock, MonotonicTimesStayAsTheyAre) {
     }
 }
 
-TEST(SensorClock, BoottimeIsFoundByTimesOfTheFuture) {
+TEST(SensorClock, FutureMonotonicTimesSelectBoottime) {
     SensorClock clock;
     for (int i = 0; i < 20; ++i) {
         const Timestamp now = kNow + i * 33ms;
@@ -34,7 +34,7 @@ TEST(SensorClock, BoottimeIsFoundByTimesOfTheFuture) {
         << "the machine has slept again";
 }
 
-TEST(SensorClock, ShortSleepIsSeenByAnyOfTheFirstFrames) {
+TEST(SensorClock, AShortSuspendIsDetectedByAnyOfTheFirstFrames) {
     SensorClock clock;
     EXPECT_EQ(clock.toMonotonic(kNow + 20ms - 30ms, sleptFor(20ms)), kNow - 10ms)
         << "cannot be told";

@@ -75,7 +75,7 @@ TEST_F(V4l2ControlsTest, ListHasAllButTitlesAndTheDisabled) {
                    "region: of a kind that cannot be set here\n");
 }
 
-TEST_F(V4l2ControlsTest, ValuesGoThereAndComeBack) {
+TEST_F(V4l2ControlsTest, ValuesAreSetAndReadBack) {
     const V4l2Controls controls(device_);
     EXPECT_EQ(controls.get("brightness"), 100);
     EXPECT_EQ(controls.set("BRIGHTNESS", 203), 200) << "what the driver made of it";
@@ -130,7 +130,7 @@ TEST_F(V4l2ControlsTest, EachRefusalSaysWhy) {
     EXPECT_EQ(fake_.control("Brightness"), 100);
 }
 
-TEST_F(V4l2ControlsTest, WhatIsRefusedIsTriedThreeTimes) {
+TEST_F(V4l2ControlsTest, BusyControlsAreTriedThreeTimes) {
     FakeControl& gain = fake_.controls[7];
     ASSERT_EQ(gain.name, "Held Gain");
     const V4l2Controls controls(device_);

@@ -212,7 +212,7 @@ TEST_P(DetailEngineTest, TilesWithoutStructureAreNotEnlargedByFilters) {
         kLearnedError);
 }
 
-TEST_P(DetailEngineTest, NewFiltersAndNoneShowInTheNextFrame) {
+TEST_P(DetailEngineTest, ChangingOrRemovingFiltersActsInTheNextFrame) {
     const Size video{53, 37}, output{191, 133};
     const DetailCase frame = withRoom(DetailCase(video, {200, 140}));
     const std::array<const FilterBank*, 6> banks{&simd::evenBank(),    &simd::guidedBank(),
@@ -358,7 +358,7 @@ TEST_F(DetailEngines, EnlargeByTheSameFilters) {
     expectTheSamePicture(&FilterBank::prior(), 4, 0.6);
 }
 
-TEST_F(DetailEngines, GuideByTheSameShare) {
+TEST_F(DetailEngines, BothEnginesApplyTheSameGuidance) {
     expectTheSamePicture(&simd::guidedBank(), 4, 0.6);
 }
 

@@ -147,11 +147,11 @@ protected:
     }
 };
 
-TEST_F(FineEngines, HostsSharesAreTheOracles) {
+TEST_F(FineEngines, HostSharesMatchTheOracle) {
     expectTheOracles(onHost);
 }
 
-TEST_F(FineEngines, GpusSharesAreTheOracles) {
+TEST_F(FineEngines, GpuSharesMatchTheOracle) {
     expectTheOracles(onGpu);
 }
 

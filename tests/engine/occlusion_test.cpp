@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
                                      Sides{{40, 30}, {160, 120}})));
 
 // A step in real depth: most pixels need no weights, and all answers occur.
-TEST_P(OcclusionTest, EarlyAnswersAreThoseOfTheWeights) {
+TEST_P(OcclusionTest, EarlyExitsGiveTheWeightedResult) {
     twin::Scene scene = plainScene({0.4, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); ++i)
         if (i % kCoarse.width > 20) scene.real[i].rho = 0.8;
@@ -84,7 +84,7 @@ TEST_P(OcclusionTest, UnknownDepthNeverHides) {
         EXPECT_EQ(run(plainScene({100, bad}), {}).visibleEverywhere(), 1) << "sigma " << bad;
 }
 
-TEST_P(OcclusionTest, UnknownNeighboursOnlyShowMore) {
+TEST_P(OcclusionTest, UnknownNeighboursNeverReduceVisibility) {
     twin::Scene scene = plainScene({1, 0.01});
     for (std::size_t i = 0; i < scene.real.size(); i += 3)
         scene.real[i].rho = kNan;
@@ -246,7 +246,7 @@ struct EdgeScene {
     }
 };
 
-TEST_P(OcclusionTest, HalfHiddenThingEndsAtTheImageEdge) {
+TEST_P(OcclusionTest, PartlyOccludedObjectEndsAtTheImageEdge) {
     for (const double degrees : {0.0, 7.0, -20.0, 38.0})
         for (const auto& [contrast, most] : {std::pair{90.0, 0.08}, {0.0, 0.3}}) {
             const EdgeScene edge{degrees, contrast, kCoarse, kFine};

@@ -69,7 +69,7 @@ TEST(Census, FitsItsBitsAndNeverMeansNoCensus) {
     EXPECT_EQ(all & kNoCensus, 0U);
 }
 
-TEST(Census, EvenPicturesHaveNone) {
+TEST(Census, ConstantPicturesGiveZero) {
     for (const int grey : {0, 128, 255})
         for (const std::uint32_t bits : censusOf(randomPicture({17, 5}, grey, grey, 1)))
             ASSERT_EQ(bits, 0U);
@@ -82,7 +82,7 @@ LumaImage toned(LumaImage picture, const std::function<double(double)>& curve) {
 }
 
 // With only fifty levels, each of these curves keeps neighbouring levels distinct.
-TEST(Census, AnyRisingToneCurveLeavesItAlone) {
+TEST(Census, IsInvariantToRisingToneCurves) {
     const LumaImage picture = randomPicture({31, 23}, 100, 149, 9);
     const auto bits = censusOf(picture);
     const std::function<double(double)> curves[] = {
@@ -98,7 +98,7 @@ TEST(Census, AnyRisingToneCurveLeavesItAlone) {
 }
 
 // Where a curve makes neighbours equal, bits may be cleared; none may be set.
-TEST(Census, FlatterCurvesNeverTurnAnOrderRound) {
+TEST(Census, FlatterCurvesNeverReverseAnOrder) {
     const LumaImage picture = randomPicture({31, 23}, 0, 255, 9);
     const auto bits = censusOf(picture);
     const auto flat = censusOf(toned(picture, [](double v) { return 100 + v / 5; }));

@@ -51,7 +51,7 @@ TEST(EpipolarLens, RaysAreThoseOfThePixelsOfEveryLevel) {
     }
 }
 
-TEST(EpipolarLens, CopiesShareRaysAndAPartLeavesThoseOfTheWhole) {
+TEST(EpipolarLens, CopiesShareRaysUntilOneIsCropped) {
     const EpipolarLens whole(fisheye(), 1);
     EpipolarLens part = whole;
     EXPECT_EQ(part.raysX().data(), whole.raysX().data());

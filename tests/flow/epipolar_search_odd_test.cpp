@@ -119,7 +119,7 @@ TEST(EpipolarSearchOdd, SmallPicturesAreStillMatched) {
     EXPECT_LT(errors.bad, 0.03);
 }
 
-TEST(EpipolarSearchOdd, PosesFromWhichNothingIsSharedAreRefused) {
+TEST(EpipolarSearchOdd, PosesWithoutOverlapAreRefused) {
     for (const CameraModel& camera : {cameraOf({120, 90}), barrelOf({120, 90})}) {
         const LumaImage picture = scene().render(camera, {});
         EpipolarSearch search = test::searchWith(camera, 2);
@@ -153,7 +153,7 @@ TEST(EpipolarSearchOdd, EveryTurnGivesAFiniteFieldOrNone) {
     EXPECT_GT(searched, 10);
 }
 
-TEST(EpipolarSearchOdd, PosesThatAreNoNumbersGiveNoParallax) {
+TEST(EpipolarSearchOdd, NonFinitePosesGiveNoParallax) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const CameraModel camera = cameraOf({120, 90});

@@ -158,7 +158,7 @@ TEST(EpipolarSearch, PixelsPerUnitIsTheLongestWay) {
     }
 }
 
-TEST(EpipolarSearch, UnitOfLengthIsFree) {
+TEST(EpipolarSearch, IsInvariantToTheUnitOfLength) {
     const Eigen::Vector3d t(-0.15, 0.1, 0.05);
     View view{barrel(), stepScene(), motion({2, -3, 4}, t)};
     const LumaImage video = view.video(), still = view.still();
@@ -188,7 +188,7 @@ LumaImage developed(LumaImage picture, const std::function<double(double)>& curv
 
 // A search around predicted s, as from a previous frame, is as good as one through the coarser
 // levels.
-TEST(EpipolarSearch, FindsAroundAPredictionWhatItFindsFromCoarseToFine) {
+TEST(EpipolarSearch, PredictionIsAsGoodAsCoarseToFine) {
     const View view{plain(), stepScene(), motion({0, 2, 0}, {-0.2, 0.03, 0})};
     const EpipolarSearch whole = searched(view);
     const EpipolarLens cells(view.camera, 2);
@@ -232,7 +232,7 @@ double alikeIn(const PixelRect& area, const EpipolarSearch& part, const Epipolar
     return static_cast<double>(alike) / all;
 }
 
-TEST(EpipolarSearch, FindsInAPartWhatItFindsInTheWhole) {
+TEST(EpipolarSearch, APartGivesTheSameResultAsTheWhole) {
     const View view{barrel(), stepScene(), motion({1, -2, 3}, {-0.15, 0.1, 0.03})};
     const EpipolarSearch whole = searched(view);
     EpipolarSearch search = test::searchWith(view.camera, 2);

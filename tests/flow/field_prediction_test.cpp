@@ -81,7 +81,7 @@ TEST(FieldPrediction, EveryFrameHasItsOwnUnit) {
     EXPECT_LT(missed(predicted, truth(cells, after, slantedStep()), cells.size(), 700), 0.03);
 }
 
-TEST(FieldPrediction, TheNearestOfWhatMeetsIsSeen) {
+TEST(FieldPrediction, TheNearestSurfaceOccludesOthers) {
     // All cells are at infinity except one, which lands on a far cell and replaces it.
     const EpipolarLens cells(barrelCamera(), 2);
     const int width = cells.size().width, middle = 30 * width + 40;
@@ -96,7 +96,7 @@ TEST(FieldPrediction, TheNearestOfWhatMeetsIsSeen) {
     EXPECT_EQ(predicted[middle], 0) << "what comes to light is the background";
 }
 
-TEST(FieldPrediction, NothingIsSaidOfWhatWasNotSeen) {
+TEST(FieldPrediction, UnseenCellsHaveNoPrediction) {
     const EpipolarLens cells(barrelCamera(), 2);
     FieldPrediction prediction(barrelCamera());
     EXPECT_TRUE(prediction.in({}, 1).empty());

@@ -74,7 +74,7 @@ TEST(EpipolarOptions, HalfTheResolutionFindsAWallToAboutAPixel) {
         EXPECT_LT(errorsWith({.levels = levels, .finest = 1}).bad, 0.02) << levels;
 }
 
-TEST(EpipolarOptions, ChangedBetweenFramesFindAsMuchAsFromTheStart) {
+TEST(EpipolarOptions, ChangesBetweenFramesActAsInitialOptions) {
     const CameraModel camera{{200, 150}, 190, 190, 99.5, 74.5, {}};
     const test::View view{
         camera, {{{{0, 0, 1}, 2}}, 30, 100}, test::motion({0, 0, 0}, {-0.4, 0, 0})};
@@ -91,7 +91,7 @@ TEST(EpipolarOptions, ChangedBetweenFramesFindAsMuchAsFromTheStart) {
     EXPECT_THROW(search.setOptions({.windowRadius = -1}), std::invalid_argument);
 }
 
-TEST(EpipolarOptions, NothingIsSoughtBeyondTheLongestParallax) {
+TEST(EpipolarOptions, LongestParallaxLimitsTheSearch) {
     EXPECT_GT(errorsWith({.levels = 1, .longestParallax = 0.05}).bad, 0.9);
 }
 

@@ -92,7 +92,7 @@ TEST(LumaOf, PicturesWithLumaKeepIt) {
     }
 }
 
-TEST(LumaOf, GreyStaysAndAlphaCountsForNothing) {
+TEST(LumaOf, GreyIsUnchangedAndAlphaIsIgnored) {
     LumaImage luma;
     for (int grey = 0; grey < 256; ++grey) {
         for (const int alpha : {0, 255}) {

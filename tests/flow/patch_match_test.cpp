@@ -86,7 +86,7 @@ TEST(PatchMatcher, FindsShiftsBetweenPixelsWhateverTheGain) {
     }
 }
 
-TEST(PatchMatcher, RefusesWhatFitsTwice) {
+TEST(PatchMatcher, AmbiguousMatchesAreRefused) {
     const auto grid = drawn({60, 50}, [](double x, double y) {
         return 120 + 60 * std::sin(2 * M_PI * x / 6) + 60 * std::sin(2 * M_PI * y / 6);
     });
@@ -97,7 +97,7 @@ TEST(PatchMatcher, RefusesWhatFitsTwice) {
     EXPECT_TRUE(matcher.find(place, {place.middle(), {1, 0}, 2, 2}));
 }
 
-TEST(PatchMatcher, RefusesWhatIsNotThere) {
+TEST(PatchMatcher, MissingPatchesAreRefused) {
     const LumaImage from = drawn({60, 50}, waves);
     const auto seen = allSeen(from);
     const PatchPlace place{25, 21};

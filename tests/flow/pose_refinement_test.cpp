@@ -151,7 +151,7 @@ TEST(PoseRefinement, PureRotationIsRefinedWithoutASearch) {
 
 // A panel in front of a wall moves on its own, across the epipolar lines; it contains nearly half
 // of the patches.
-TEST(PoseRefinement, FollowsTheSceneAndNotWhatMovesInIt) {
+TEST(PoseRefinement, MovingObjectsDoNotDisturbThePose) {
     View view{pagePlain(), panelScene(), motion({0, 0, 0}, {-0.2, 0, 0})};
     view.scene.surfaces[1].least = {-0.75, -0.75};
     view.scene.surfaces[1].greatest = {0.65, 0.35};
@@ -200,7 +200,7 @@ TEST(PoseRefinement, PicturesThatShowNothingKeepThePrior) {
     }
 }
 
-TEST(PoseRefinement, WhatIsNoNumberIsNotRefined) {
+TEST(PoseRefinement, NonFiniteInputIsNotRefined) {
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
     const View view = views()[1];
     EpipolarSearch search = test::searchWith(view.camera, 2);
@@ -216,7 +216,7 @@ TEST(PoseRefinement, WhatIsNoNumberIsNotRefined) {
     EXPECT_TRUE(test::isFinite(search));
 }
 
-TEST(PoseRefinement, UnitOfLengthIsFree) {
+TEST(PoseRefinement, IsInvariantToTheUnitOfLength) {
     const View view = views()[2];
     const RigidTransform error = motion({0.3, 0.1, -0.3}, {0.002, 0, 0.001});
     const EpipolarSearch metres = searched(view, error, kUsual);
@@ -250,7 +250,7 @@ TEST(PoseRefinement, IsTheSameWithAnyNumberOfThreads) {
 }
 
 // With too few patches for a refinement, the search also looks next to its lines.
-TEST(PoseRefinement, WithoutPatchesTheSearchHasRoomBesideItsLines) {
+TEST(PoseRefinement, WithoutPatchesTheSearchIsWidenedAcrossTheLines) {
     // A small panel without a background.
     const Shots shots({pagePlain(),
                        {{{{0.3, 0, 1}, 2, {-0.1, -0.1}, {0.15, 0.1}}}, 60, 100},

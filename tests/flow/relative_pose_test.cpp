@@ -82,7 +82,7 @@ TEST(RelativePose, FindsAWrongDirection) {
     EXPECT_LT(std::acos(found.normalized().dot(truth.normalized())), 0.6 * kDegree);
 }
 
-TEST(RelativePose, StandsWrongMatches) {
+TEST(RelativePose, IsRobustToOutliers) {
     for (const double wrong : {0.2, 0.4}) {
         const Case c{.motion = motionOf({0.2, 0.05, -0.1}, {0, 0, 0}), .wrong = wrong};
         const auto out = refineRelativePose(c.matches(), {c.translation, kUsualCovariance}, kFocal);
@@ -139,7 +139,7 @@ TEST(RelativePose, KeepsThePriorWhereMatchesAreFewOrDisagree) {
     EXPECT_FALSE(refineRelativePose(c.matches(), prior, kFocal).accepted);
 }
 
-TEST(RelativePose, UnitOfLengthIsFree) {
+TEST(RelativePose, IsInvariantToTheUnitOfLength) {
     const Case c{.motion = motionOf({0.2, -0.05, 0.1}, {0.001, 0.002, 0})};
     const auto matches = c.matches();
     const auto metres = refineRelativePose(matches, {c.translation, kUsualCovariance}, kFocal);
@@ -155,7 +155,7 @@ TEST(RelativePose, UnitOfLengthIsFree) {
     }
 }
 
-TEST(RelativePose, WhatIsNoNumberIsRefused) {
+TEST(RelativePose, NonFiniteInputIsRefused) {
     const Case c{.motion = motionOf({0.2, 0, 0}, {0, 0, 0})};
     const auto matches = c.matches();
     for (const double bad :
@@ -172,7 +172,7 @@ TEST(RelativePose, WhatIsNoNumberIsRefused) {
     EXPECT_FALSE(refineRelativePose(matches, {c.translation, -kUsualCovariance}, kFocal).accepted);
 }
 
-TEST(RelativePose, SpreadIsThatOfTheTurnAndTheParallax) {
+TEST(RelativePose, SpreadCoversTurnAndParallax) {
     const Matrix6 turn = priorCovariance(0.01, 0), shift = priorCovariance(0, 0.02);
     const RayMatch far{{0, 0}, {0, 0}}, near{{0, 0}, {0.1, 0}};
     const Eigen::Vector3d t(0.2, 0, 0);

@@ -49,7 +49,7 @@ TEST(EnlargerLearner, BeginsWithTheShippedFilters) {
     EXPECT_EQ(learner.counts().classes, 0);
 }
 
-TEST(EnlargerLearner, APointSpreadUnlikeThePriorsIsLearned) {
+TEST(EnlargerLearner, ADifferentPointSpreadIsLearned) {
     const SensorPair pair{.videoBlur = 2};
     const EnlargerLearner learner = learned(pair);
     const Errors errors = errorsOf(learner, pair);
@@ -141,7 +141,7 @@ TEST(EnlargerLearner, ClassesWithFewPixelsKeepTheShippedFilters) {
     EXPECT_FALSE(sameFilters(*learner.filters(), FilterBank::prior()));
 }
 
-TEST(EnlargerLearner, WhatHasBeenLearnedFromTeachesNothingNew) {
+TEST(EnlargerLearner, RepeatedStillsAreIgnored) {
     EnlargerLearner learner;
     const SensorPair pair{.videoNoise = 1};
     EXPECT_NE(learner.add(matchedPictures(sharpDiscs(1), pair)), Outcome::Repeated);
@@ -158,7 +158,7 @@ TEST(EnlargerLearner, TheSamePicturesGiveTheSameFilters) {
     EXPECT_NE(learned(pair, 3).stored("x"), learned(pair, 2).stored("x"));
 }
 
-TEST(EnlargerLearner, AStopEndsItWithNothingLearned) {
+TEST(EnlargerLearner, AStopDiscardsTheStill) {
     std::stop_source stop;
     stop.request_stop();
     EnlargerLearner learner;

@@ -16,7 +16,7 @@ FineMatch learned(const SensorPair& pair, unsigned stills = 2) {
     return out.fineMatch();
 }
 
-TEST(FineMatchLearner, BeginsWithoutAnything) {
+TEST(FineMatchLearner, StartsWithoutAFineMatch) {
     EXPECT_FALSE(FineMatchLearner().fineMatch().isKnown());
     EXPECT_FALSE(FilterBank::prior().fineMatch().isKnown());
 }
@@ -51,7 +51,7 @@ TEST(FineMatchLearner, APartThatIsMatchedWronglyDoesNotDecide) {
     EXPECT_NEAR(learner.fineMatch().share, right.share, 0.05);
 }
 
-TEST(FineMatchLearner, OnWhatIsNotMatchedNothingIsLearned) {
+TEST(FineMatchLearner, UnmatchedCellsAreIgnored) {
     FineMatchLearner learner;
     EXPECT_FALSE(learner.add(matchedPictures(sharpDiscs(1), {.weight = 0.1})));
     EXPECT_FALSE(learner.fineMatch().isKnown());

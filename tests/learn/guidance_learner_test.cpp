@@ -32,7 +32,7 @@ GuidanceLearner learned(double videoNoise, double olderNoise, unsigned stills = 
     return out;
 }
 
-TEST(GuidanceLearner, BeginsWithNone) {
+TEST(GuidanceLearner, StartsWithoutGuidance) {
     EXPECT_FALSE(GuidanceLearner().guidance().any());
     EXPECT_FALSE(FilterBank::prior().guidance().any());
     EXPECT_EQ(GuidanceLearner().gainDb(), 0);
@@ -68,7 +68,7 @@ TEST(GuidanceLearner, NoiseOfTheStillAloneTeachesNothing) {
     EXPECT_FALSE(learned(1, 24).guidance().any()) << "it would gain less than it may cost";
 }
 
-TEST(GuidanceLearner, GoesBackToNoneWhereItNoLongerHelps) {
+TEST(GuidanceLearner, GuidanceIsDroppedWhenItNoLongerHelps) {
     GuidanceLearner learner = learned(4, 0);
     ASSERT_GT(learner.guidance().still, 0.8);
     for (unsigned i = 10; i < 13 || (i < 60 && learner.guidance().any()); ++i) {
@@ -120,7 +120,7 @@ TEST(GuidanceLearner, AFewLookUpsThatAreNotNumbersChangeLittle) {
     EXPECT_NEAR(learner.guidance().still, learned(4, 8).guidance().still, 0.03);
 }
 
-TEST(GuidanceLearner, AStillOfSomethingElseIsNoGuide) {
+TEST(GuidanceLearner, StillsOfAnotherSceneAreIgnored) {
     GuidanceLearner learner;
     for (unsigned i = 1; i <= 3; ++i) {
         Stills of(4, 0, i);

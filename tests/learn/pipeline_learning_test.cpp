@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Engines, PipelineLearning,
                          testing::Values(EngineKind::Gles, EngineKind::Simd),
                          [](const auto& tested) { return std::string(nameOf(tested.param)); });
 
-TEST_P(PipelineLearning, EachStillThatIsMatchedIsHeardOfOnce) {
+TEST_P(PipelineLearning, EachMatchedStillIsReportedOnce) {
     Heard heard;
     pipeline_.setMatchListener(&heard);
     (void)picture(pipeline_);
@@ -96,7 +96,7 @@ TEST_P(PipelineLearning, EachStillThatIsMatchedIsHeardOfOnce) {
     EXPECT_EQ(heard.times, 2);
 }
 
-TEST_P(PipelineLearning, AStillThatIsReplacedIsHeardOfWithTheLastPicture) {
+TEST_P(PipelineLearning, AReplacedStillIsReportedWithTheLastPicture) {
     Heard heard;
     pipeline_.setMatchListener(&heard);
     setStill(pipeline_);

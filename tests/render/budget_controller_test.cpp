@@ -108,7 +108,7 @@ TEST(BudgetController, PortionsLeaveTheFrameInSmallParts) {
     EXPECT_GT(grant.samples, 200);
 }
 
-TEST(BudgetController, WhatIsOutIsReserved) {
+TEST(BudgetController, OutstandingGrantsAreReserved) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);
@@ -125,7 +125,7 @@ TEST(BudgetController, WhatIsOutIsReserved) {
     EXPECT_EQ(budget.used(), 0);
 }
 
-TEST(BudgetController, WhatIdleFramesLeaveIsNotSaved) {
+TEST(BudgetController, IdleFramesSaveNoBudget) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 10, 1000, [](int) { return 0.001; });
     for (int i = 0; i < 100; ++i)
@@ -135,7 +135,7 @@ TEST(BudgetController, WhatIdleFramesLeaveIsNotSaved) {
     EXPECT_EQ(budget.kept().frames, 9) << "idle frames do not count";
 }
 
-TEST(BudgetController, AConversionIsPaidBackALittleInEachFrame) {
+TEST(BudgetController, ConversionsAreRepaidInSmallParts) {
     BudgetController budget(kBudget);
     const auto cheap = [](int) { return 0.001; };
     (void)usedIn(budget, 2, 1000, cheap);
@@ -158,7 +158,7 @@ TEST(BudgetController, AConversionIsPaidBackALittleInEachFrame) {
     EXPECT_LE(budget.kept().deviation, 0.1);
 }
 
-TEST(BudgetController, AtRestADebtIsPaidBackAtOnce) {
+TEST(BudgetController, DebtIsRepaidAtOnceWhenIdle) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);
@@ -181,7 +181,7 @@ TEST(BudgetController, FramesWithoutProcessorTimeAreNotCounted) {
     EXPECT_LE(budget.kept().deviation, 0.02);
 }
 
-TEST(BudgetController, TheMeanIsThatOfAllFramesInWhichWorkWaited) {
+TEST(BudgetController, MeanCoversAllFramesWithWaitingWork) {
     BudgetController budget(kBudget);
     EXPECT_EQ(budget.kept().mean, 0);
     budget.beginFrame(true);
@@ -193,7 +193,7 @@ TEST(BudgetController, TheMeanIsThatOfAllFramesInWhichWorkWaited) {
     EXPECT_NEAR(budget.kept().mean, 0.25 * 20 / 21, 1e-6);
 }
 
-TEST(BudgetController, TimesThatAreNoNumbersChangeNothing) {
+TEST(BudgetController, InvalidTimesAreIgnored) {
     BudgetController budget(kBudget);
     (void)usedIn(budget, 2, 1000, [](int) { return 0.001; });
     budget.beginFrame(true);

@@ -28,7 +28,7 @@ auto overSphere(F f) {
     return sum;
 }
 
-TEST(EnvironmentLight, LiesAsDeclared) {
+TEST(EnvironmentLight, FollowsTheDocumentedOrientation) {
     auto picture = std::make_shared<Environment>();
     picture->size = {8, 4};
     picture->radiance.assign(32, {0, 0, 0});
@@ -93,7 +93,7 @@ TEST(EnvironmentLight, SamplesAndEvenDirectionsTogetherGiveTheIntegral) {
     EXPECT_GT(light.density({0, 0, 1}), 0);
 }
 
-TEST(EnvironmentLight, NoneIsDark) {
+TEST(EnvironmentLight, MissingEnvironmentIsDark) {
     EXPECT_TRUE(EnvironmentLight(nullptr).dark());
     EXPECT_EQ(EnvironmentLight(nullptr).radiance({0, 0, 1}), Eigen::Vector3f(0, 0, 0));
     EXPECT_TRUE(EnvironmentLight(render_scenes::evenLight(0)).dark());

@@ -63,7 +63,7 @@ TEST(Film, ObjectIsItsMeanPremultiplied) {
     EXPECT_EQ(picture.samples, 4);
 }
 
-TEST(Film, AMillionSamplesAreAtDoublePrecision) {
+TEST(Film, AMillionSamplesKeepDoublePrecision) {
     Film film({2, 1});
     double sum = 0, squares = 0;
     constexpr int kSamples = 1000000;
@@ -129,7 +129,7 @@ TEST(Film, UnchangedCatcherIsNothing) {
     EXPECT_EQ(picture.depth[0], 0);
 }
 
-TEST(Film, WhatIsNotFiniteIsDroppedAndCounted) {
+TEST(Film, NonFiniteSamplesAreDroppedAndCounted) {
     Film film({1, 1});
     film.add(0, objectSample(0.2F));
     film.add(0, objectSample(kNan));
@@ -147,7 +147,7 @@ TEST(Film, WhatIsNotFiniteIsDroppedAndCounted) {
 }
 
 // The object seen through the pixel's centre was hit by no sample.
-TEST(Film, LightThatNoSampleKnowsIsThatOfNoShade) {
+TEST(Film, UnknownLightIsShownUnshaded) {
     SeenSurface seen{{1, 3}};
     seen.paint.diffuse = {0.5F, 0.5F, 0.5F};
     seen.far.diffuse = {0.4F, 0.4F, 0.4F};
@@ -163,7 +163,7 @@ TEST(Film, LightThatNoSampleKnowsIsThatOfNoShade) {
     EXPECT_NEAR(film.resolvedFrom(unknown, 0, {}).colour[0], 255 * srgbEncoded(0.2F), 1);
 }
 
-TEST(Film, ErrorIsThatOfTheMeanInGreyLevels) {
+TEST(Film, ErrorIsTheStandardErrorInGreyLevels) {
     Film film({1, 1});
     film.add(0, objectSample(0.4F));
     EXPECT_TRUE(std::isinf(film.error(0)));
@@ -179,7 +179,7 @@ TEST(Film, ErrorIsThatOfTheMeanInGreyLevels) {
     EXPECT_NEAR(dim.error(0, {2}), film.error(0), 0.01F);
 }
 
-TEST(Film, ErrorOfWhatIsEvenIsNone) {
+TEST(Film, UniformLightHasZeroError) {
     Film film({2, 1});
     for (int i = 0; i < 4; ++i) {
         film.add(0, {});
@@ -219,7 +219,7 @@ TEST(Film, ClearForgets) {
     EXPECT_EQ(film.dropped(), 1U);
 }
 
-TEST(Exposure, SrgbIsTheStandards) {
+TEST(Exposure, SrgbFollowsTheStandard) {
     EXPECT_NEAR(srgbEncoded(0.214041F), 0.5F, 1e-4F);
     EXPECT_EQ(srgbEncoded(-1), 0);
     EXPECT_EQ(srgbEncoded(kNan), 0);

@@ -78,7 +78,7 @@ TEST(HoleTracer, EachPixelInsideThePictureIsTracedOnce) {
     EXPECT_EQ(answer.pixels, (PixelList{3, 7, 900, 48 * 36 - 1}));
 }
 
-TEST(HoleTracer, HoldsToItsBounds) {
+TEST(HoleTracer, RespectsItsLimits) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(5);
     EXPECT_EQ(answered(holes, tracer, requestFor({1, 2, 3, 4, 5, 6, 7}, 1), 10).pixels.size(), 5U);
@@ -87,7 +87,7 @@ TEST(HoleTracer, HoldsToItsBounds) {
     EXPECT_EQ(answered(holes, tracer, requestFor({1}, -3), 10).samples, 1);
 }
 
-TEST(HoleTracer, AViewThatIsNotSoundHasNoPixels) {
+TEST(HoleTracer, InvalidViewsHaveNoPixels) {
     const PathTracer tracer(render_scenes::stillLife());
     HoleTracer holes(100);
     HoleRequest request = requestFor({1, 2, 3}, 1);

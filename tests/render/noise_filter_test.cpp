@@ -78,7 +78,7 @@ TEST(NoiseFilter, FindsVariancesThatAreNotKnown) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-TEST(NoiseFilter, LeavesWhatIsMoreThanNoise) {
+TEST(NoiseFilter, KeepsDifferencesAboveNoise) {
     const auto edge = [](int x, int) { return x < kNoisySize.width / 2 ? 0.1F : 0.9F; };
     Pixels pixels = noisyPicture(edge);
     pixels = filtered(kNoisySize, pixels);
@@ -110,7 +110,7 @@ TEST(NoiseFilter, KeepsToItsSurface) {
               1e-6);
 }
 
-TEST(NoiseFilter, ChangesNothingElse) {
+TEST(NoiseFilter, KeepsPixelsWithoutNoise) {
     Pixels pixels = noisyPicture(flat);
     for (std::size_t i = 0; i < pixels.size(); i += 3) {
         pixels[i].id = i % 2 == 0 ? 0 : 1;
@@ -125,7 +125,7 @@ TEST(NoiseFilter, ChangesNothingElse) {
 }
 
 // One pixel in 16 was sampled; the second part is known in fewer pixels.
-TEST(NoiseFilter, FillsWhatNoSampleKnows) {
+TEST(NoiseFilter, FillsPixelsWithoutSamples) {
     Pixels pixels = noisyPicture(flat, 0);
     for (int y = 0; y < kNoisySize.height; ++y)
         for (int x = 0; x < kNoisySize.width; ++x) {
@@ -147,7 +147,7 @@ TEST(NoiseFilter, FillsWhatNoSampleKnows) {
 }
 
 // If the neighbours of one part differ by more than noise, the other part is filtered all the same.
-TEST(NoiseFilter, FiltersBothPartsApart) {
+TEST(NoiseFilter, FiltersBothPartsSeparately) {
     Pixels pixels = noisyPicture(flat);
     for (std::size_t i = 0; i < pixels.size(); ++i)
         pixels[i].second.setConstant(static_cast<int>(i % kNoisySize.width) < 20 ? 0.1F : 0.9F);

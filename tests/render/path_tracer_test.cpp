@@ -74,7 +74,7 @@ TEST(PathTracer, ABowlGivesBackNoMoreThanItGets) {
     EXPECT_LT(meanRadiance(traced(PathTracer(scene, options), view, 16)).mean(), deep);
 }
 
-TEST(PathTracer, RouletteChangesNoMean) {
+TEST(PathTracer, RouletteKeepsTheMean) {
     auto scene = sceneOf(sphere({0, 0, 0}, 1, 16), materialOf({0.8F, 0.8F, 0.8F}, 0, 1));
     scene->catcher = ground(3, 0.8F);
     for (Eigen::Vector3f& p : scene->catcher.positions)
@@ -165,7 +165,7 @@ TEST(PathTracer, EmissionIsSeenAndLights) {
     EXPECT_EQ(film.means(5).without.x(), 0);
 }
 
-TEST(PathTracer, TexturesAlphaMasksAndSidesAreMinded) {
+TEST(PathTracer, TexturesAlphaMasksAndSidesAreRespected) {
     auto texture = SurfaceTexture{{2, 1}, false, {{255, 0, 0, 255}, {0, 255, 0, 0}}};
     Material masked = materialOf({1, 1, 1}, 0, 1);
     masked.baseColourTexture = 0;
@@ -251,7 +251,7 @@ TEST(PathTracer, BoundsHoldObjectsAndShadows) {
     }
 }
 
-TEST(PathTracer, RefusesWhatIsNotSound) {
+TEST(PathTracer, InvalidInputIsRefused) {
     auto scene = sceneOf(square(1, 0), {});
     PathTracerOptions options;
     options.maxDepth = 0;

@@ -54,7 +54,7 @@ TEST_P(PictureResolving, PortionsInAnyOrderMakeThePicture) {
     expectSame(parts, whole);
 }
 
-TEST_P(PictureResolving, OfNothingIsNothing) {
+TEST_P(PictureResolving, EmptyFilmGivesAnEmptyPicture) {
     RenderedPicture out;
     PictureResolver resolver;
     resolver.begin(film, view, {}, {}, GetParam(), out);

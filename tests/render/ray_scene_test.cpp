@@ -52,7 +52,7 @@ std::vector<Ray> fan(std::size_t count, std::mt19937& random) {
     return out;
 }
 
-TEST(RayScene, TogetherRaysFindTheSameToTheBit) {
+TEST(RayScene, PacketsMatchSingleRaysExactly) {
     const RayScene scene = sphereOnSquare();
     std::mt19937 random(5);
     int different = 0, found = 0;

@@ -31,7 +31,7 @@ double errorOf(const RenderedPicture& picture, double azimuth) {
     return std::sqrt(squares / values);
 }
 
-TEST(ReferenceLight, AFirstPictureIsShownOfOneSampleInSixteenPixels) {
+TEST(ReferenceLight, FirstPictureNeedsOneSamplePerSixteenPixels) {
     Driver driver(kThirtyTwo, kProduct);
     driver.look(20);
     driver.untilShown(1);
@@ -66,7 +66,7 @@ TEST(ReferenceLight, ANextPictureTakesOverTheLightOfTheOneBefore) {
     EXPECT_LT(errorOf(going.shown.back(), 26), 0.7 * errorOf(fresh.shown.back(), 26));
 }
 
-TEST(ReferenceLight, ColoursAreShownOfEnoughSamples) {
+TEST(ReferenceLight, ColoursAreShownOnceSamplesSuffice) {
     ReferencePolicy policy = kProduct;
     policy.soon = false;
     Driver driver(kThirtyTwo, policy);
@@ -80,7 +80,7 @@ TEST(ReferenceLight, ColoursAreShownOfEnoughSamples) {
     EXPECT_GT(driver.shown.back().samples, 4) << "8 of objects, 2 of other surfaces";
 }
 
-TEST(ReferenceLight, LightOfAnotherLightIsSoonOutweighed) {
+TEST(ReferenceLight, CarriedLightOfOtherLightingIsSoonOutweighed) {
     Driver driver(kThirtyTwo, kProduct);
     const auto dark = std::make_shared<Scene>(*render_scenes::stillLife());
     dark->lighting.sun->irradiance *= 0.2F;

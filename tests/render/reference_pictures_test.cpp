@@ -38,7 +38,7 @@ TEST(NextStep, FollowsTheCamera) {
     }
 }
 
-TEST(NextStep, ComesLaterWhereColoursAreTaken) {
+TEST(NextStep, StartsLaterWhenColoursAreUsed) {
     using enum ReferenceStep;
     EXPECT_EQ(nextStep(0.9, {}, 1), Refine);
     EXPECT_EQ(nextStep(1.0, {}, 1), Start);
@@ -140,7 +140,7 @@ TEST(ReferencePictures, ACameraThatComesBackFindsItsPictureAndRefinesIt) {
     EXPECT_TRUE(driver.shows(20));
 }
 
-TEST(ReferencePictures, ACameraThatGoesOnFindsThePictureOfItsWay) {
+TEST(ReferencePictures, PicturesArePredictedForMovingCameras) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -166,7 +166,7 @@ TEST(ReferencePictures, ACameraThatTurnsRoundIsFollowed) {
     EXPECT_EQ(driver.pictures.finished(), 2U) << "that of 26 degrees was given up";
 }
 
-TEST(ReferencePictures, NewObjectsAreShownAtOnceNewLightWhenItIsCalm) {
+TEST(ReferencePictures, NewObjectsAreShownAtOnceNewLightWithEnoughSamples) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();
@@ -182,7 +182,7 @@ TEST(ReferencePictures, NewObjectsAreShownAtOnceNewLightWhenItIsCalm) {
     EXPECT_EQ(driver.shown.back().samples, 1);
 }
 
-TEST(ReferencePictures, WaitsForPortionsOfThePictureThatGoes) {
+TEST(ReferencePictures, WaitsForPortionsOfTheReplacedPicture) {
     Driver driver(kThirtyTwo);
     driver.look(20);
     driver.settle();

@@ -295,7 +295,7 @@ TEST(ReferenceRenderer, AnUnsoundSceneIsReportedAndTheOldOneStays) {
     EXPECT_TRUE(frames.finish(render_scenes::viewFrom(kRenderSize, 40), 2));
 }
 
-TEST(ReferenceRenderer, NewObjectsAndNewLightMakeANewPictureALittleMoreLightDoesNot) {
+TEST(ReferenceRenderer, NewObjectsOrLightStartAPictureSmallChangesDoNot) {
     Frames frames(quick());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);
     auto scene = std::make_shared<Scene>(*render_scenes::stillLife());
@@ -329,7 +329,7 @@ TEST(ReferenceRenderer, NoSceneShowsNothing) {
         ASSERT_EQ(id, 0);
 }
 
-TEST(ReferenceRenderer, AViewThatIsNotSoundIsNoView) {
+TEST(ReferenceRenderer, InvalidViewsAreIgnored) {
     Frames frames(quick());
     frames.renderer.setScene(render_scenes::stillLife());
     const RenderView view = render_scenes::viewFrom(kRenderSize, 20);

@@ -110,7 +110,7 @@ TEST(Slices, SamplesArePlacedAlikeForBothWaysAndAnyThreads) {
         }
 }
 
-TEST(Slices, NoPixelIsOutTwice) {
+TEST(Slices, NoPixelIsInTwoOutstandingPortions) {
     for (const Slicing slicing : {Slicing::Time, Slicing::Spatial}) {
         Slices slices({slicing, 16, 4, 0, 2});
         slices.begin(kBounds, kPicture);
@@ -182,7 +182,7 @@ TEST(Slices, TheFirstSamplesAreSpreadEvenly) {
     }
 }
 
-TEST(Slices, WhatALookKnowsGetsNoSamples) {
+TEST(Slices, PixelsKnownAfterTheFirstLookGetNoSamples) {
     Slices slices({Slicing::Time, 16, 4, 1, 8});
     slices.begin({0, 0, 32, 24}, {32, 24});
     NoisyPicture picture([](std::uint32_t) { return 1e6F; });
@@ -291,7 +291,7 @@ TEST(Slices, CalmPixelsGetNoMoreSamplesNoisyOnesAll) {
     EXPECT_EQ(many, 9);
 }
 
-TEST(Slices, AnErrorThatIsNoNumberIsNoCalm) {
+TEST(Slices, NanErrorsKeepAPixelActive) {
     Slices slices({Slicing::Spatial, 32, 4, 1, 4});
     slices.begin({0, 0, 8, 8}, {8, 8});
     const auto states = [](std::uint32_t) {

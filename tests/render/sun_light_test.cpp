@@ -42,7 +42,7 @@ TEST(SunLight, SamplesAreInTheDiscWithItsDensity) {
     }
 }
 
-TEST(SunLight, IsNothingElsewhere) {
+TEST(SunLight, IsDarkOutsideTheDisc) {
     const Sun sun = sunOf(0.05F);
     const SunLight light(sun);
     EXPECT_EQ(light.density(-sun.towards), 0);

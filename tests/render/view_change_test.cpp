@@ -42,7 +42,7 @@ TEST(ViewChange, IsTheDistancesRatioInUnitsOfTheLimit) {
     EXPECT_NEAR(change(far, near), 1.5, 1e-9);
 }
 
-TEST(ViewChange, TurningOnTheSpotIsNoneForWhatIsWhollySeen) {
+TEST(ViewChange, RotationOnTheSpotIsIgnoredForWhollyVisibleObjects) {
     const RenderView from = viewFrom(kSize, 20);
     EXPECT_NEAR(change(from, turned(from, 8)), 0, 1e-9);
     const RenderView cut = turned(from, 24);  // the object crosses the picture's border
@@ -50,7 +50,7 @@ TEST(ViewChange, TurningOnTheSpotIsNoneForWhatIsWhollySeen) {
     EXPECT_NEAR(change(cut, turned(cut, -8)), 2, 0.01);
 }
 
-TEST(ViewChange, WhatIsNotSeenCountsForNothingAndWhatComesIntoViewAtOnce) {
+TEST(ViewChange, HiddenObjectsAreIgnoredAppearingOnesForceAChange) {
     const RenderView from = viewFrom(kSize, 20), away = turned(viewFrom(kSize, 60), 180);
     EXPECT_EQ(change(from, away), 0);
     EXPECT_TRUE(std::isinf(change(away, from)));

@@ -76,7 +76,7 @@ TEST(ViewPredictor, AGapOrAStepBackIsANewStart) {
     }
 }
 
-TEST(ViewPredictor, LimitsThatAreNoLimitsAreRefused) {
+TEST(ViewPredictor, InvalidLimitsAreRefused) {
     for (const double odd : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
         EXPECT_THROW(ViewPredictor({odd, 1}), std::invalid_argument);
         EXPECT_THROW(ViewPredictor({1, odd}), std::invalid_argument);

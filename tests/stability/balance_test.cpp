@@ -22,7 +22,7 @@ std::string_view nextOf(const Balance& balance, const Checks& checks) {
     return next == nullptr ? "" : next->name;
 }
 
-TEST(Balance, ThePassWithTheFewestPixelsIsBroughtOnByItsQuickestCase) {
+TEST(Balance, TheFastestCaseIsChosenForThePassWithTheFewestPixels) {
     const auto cases = twoCases();
     Balance balance(cases);
     Checks checks;
@@ -40,7 +40,7 @@ TEST(Balance, ThePassWithTheFewestPixelsIsBroughtOnByItsQuickestCase) {
     EXPECT_EQ(nextOf(balance, checks), "");
 }
 
-TEST(Balance, APassThatCameWithSmallPicturesAloneIsTriedForSomeTime) {
+TEST(Balance, PassesReachedOnlyBySmallPicturesAreTriedForALimitedTime) {
     const auto cases = twoCases();
     Balance balance(cases);
     Checks checks;

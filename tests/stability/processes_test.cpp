@@ -28,7 +28,7 @@ TEST(StressProcesses, AddUp) {
     EXPECT_EQ(sum.failures, 0);
 }
 
-TEST(StressProcesses, ACrashIsAFailureAndTheOthersCount) {
+TEST(StressProcesses, ACrashIsAFailureAndOtherResultsAreKept) {
     const Tally sum = inProcesses(2, true, [](int job) {
         if (job == 1) std::raise(SIGKILL);
         return tallyOf(job);
@@ -49,7 +49,7 @@ TEST(StressProcesses, AFailureEndsTheOthers) {
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
-TEST(StressProcesses, WhatIsThrownIsAFailure) {
+TEST(StressProcesses, AnExceptionIsAFailure) {
     const Tally sum =
         inProcesses(1, false, [](int) -> Tally { throw std::runtime_error("broken"); });
     EXPECT_EQ(sum.failures, 1);

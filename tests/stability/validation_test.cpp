@@ -46,7 +46,7 @@ protected:
     static std::unique_ptr<GlContext> context() { return createGlContext(); }
 };
 
-TEST_F(ValidationTest, SoundOutputsAreNoFaults) {
+TEST_F(ValidationTest, ValidOutputsAreNoFaults) {
     const auto gl = context();
     gpu::Validation validation;
     weigh(withValue(0, 3));
@@ -106,7 +106,7 @@ TEST_F(ValidationTest, WritesBehindABufferAreFaults) {
     EXPECT_EQ(faults[0].output, "guard");
 }
 
-TEST_F(ValidationTest, NothingIsWatchedOnceItIsGone) {
+TEST_F(ValidationTest, NothingIsCheckedAfterItsDestruction) {
     const auto gl = context();
     {
         const gpu::Validation validation;

@@ -93,7 +93,7 @@ TEST(PoseEstimator, FollowsATagThatIsSeenAskew) {
     EXPECT_LT(run.worst, 1 * kDegree);
 }
 
-TEST(PlanarChoice, AWrongStartIsPutRightByEvidence) {
+TEST(PlanarChoice, AWrongStartIsCorrected) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.6, 0.3, 0.2);
     Corners corners(0.1);
@@ -112,7 +112,7 @@ TEST(PlanarChoice, AWrongStartIsPutRightByEvidence) {
     EXPECT_FALSE(choice.flipped());
 }
 
-TEST(PlanarChoice, EqualErrorsLeaveThePredictionStanding) {
+TEST(PlanarChoice, WithEqualErrorsThePredictionIsKept) {
     CameraPoses poses;
     poses.best.T_world_camera = cameraAt(0.6, 0.05, 0);
     poses.best.squaredError = 0.02;

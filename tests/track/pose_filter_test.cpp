@@ -95,7 +95,7 @@ TEST(PoseFilter, FollowsAConstantTwistExactlyAndPredictsIt) {
     }
 }
 
-TEST(PoseFilter, SmoothsNoiseAndKnowsHowSureItIs) {
+TEST(PoseFilter, SmoothsNoiseWithAConsistentCovariance) {
     std::mt19937 random(1);
     PoseFilter filter;
     double raw = 0, filtered = 0, normalised = 0;
@@ -162,7 +162,7 @@ TEST(PoseFilter, ARealJumpIsFollowedAfterThreeFrames) {
     EXPECT_LT((pose->T_world_video.translation - jumped(32).translation).norm(), 5e-3);
 }
 
-TEST(PoseFilter, BridgesSoManyFramesAndThenHasNoPose) {
+TEST(PoseFilter, BridgesALimitedNumberOfFrames) {
     PoseFilterOptions options;
     options.bridgeFrames = 5;
     options.bridge = 10s;
@@ -184,7 +184,7 @@ TEST(PoseFilter, BridgesSoManyFramesAndThenHasNoPose) {
     EXPECT_TRUE(filter.predict(timeOf(60)));
 }
 
-TEST(PoseFilter, BridgesSoMuchTimeAndThenHasNoPose) {
+TEST(PoseFilter, BridgesALimitedTime) {
     PoseFilter filter;
     filter.update(measured(helix(0), timeOf(0)), 0.7);
     EXPECT_TRUE(filter.predict(timeOf(0) + 399ms));

@@ -188,7 +188,7 @@ TEST(TagDetector, DoesNotWriteToItsInput) {
     EXPECT_EQ(picture.pixels, before);
 }
 
-TEST(TagDetector, RefusesWhatTheLibraryWouldDieOf) {
+TEST(TagDetector, InputThatCrashesTheLibraryIsRefused) {
     const auto refused = [](auto change) {
         DetectorOptions options;
         change(options);

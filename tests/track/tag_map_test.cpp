@@ -155,7 +155,7 @@ TEST(TagMap, ATextWithoutEndIsRefusedBeforeItIsParsed) {
               "t.yaml:1: nested deeper than 16");
 }
 
-TEST(TagMap, AWholeNumberThatNoDoubleHoldsHasItsPlace) {
+TEST(TagMap, TooLargeIntegersAreReportedWithTheirPlace) {
     for (const char* key : {"size", "position", "orientation"}) {
         std::string text = "[[tags]]\nfamily = \"tag36h11\"\nid = 1\nsize = 1\n"
                            "position = [0, 0, 0]\norientation = [1, 0, 0, 0]\n";

@@ -138,7 +138,7 @@ TEST(TagPose, SeveralTagsAreMoreExactThanOne) {
 }
 
 // Blur, gamma and ink move the edges of all tags in the same way.
-TEST(TagPose, SeveralTagsTellHowFarOutTheirEdgesAreSeen) {
+TEST(TagPose, SeveralTagsDetermineTheEdgeShift) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.5, 0.3, 0.2, 0.4);
     for (const double shift : {-0.3, 0., 0.3}) {

@@ -93,7 +93,7 @@ TEST(Tracker, RegionsFindWhatTheFullSearchFinds) {
     EXPECT_EQ(full.stats().roiSearches, 0);
 }
 
-TEST(Tracker, ATagThatVanishesIsSoughtEverywhereAndBridgedForAWhile) {
+TEST(Tracker, AVanishedTagIsBridgedAndSearchedInTheWholePicture) {
     Tracker tracker = trackerFor(mapOf(world()), 1000);
     for (int i = 0; i < 4; ++i)
         ASSERT_TRUE(tracker.track(picture(i).view(), frameTime(i)));

@@ -42,7 +42,7 @@ struct Resting {
     Warp warp;
 };
 
-TEST_F(WarpEdgesGl, ArePutRightWhileTheCameraRests) {
+TEST_F(WarpEdgesGl, EdgesAreRerenderedAtRest) {
     Resting sharpened({}), plain({.sharpenShare = 0});
     const RenderedPicture truth = sharpened.truthAt(2);
     EXPECT_GT(test::psnrInside(sharpened.rest(2), truth),

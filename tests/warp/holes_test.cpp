@@ -118,7 +118,7 @@ TEST_F(WarpHolesGl, ModesThatDoNotRenderDoNotAsk) {
 
 // The small ball is occluded by the big one; when a little of it appears, it must be opaque at
 // once.
-TEST_F(WarpHolesGl, AnObjectThatComesOutFromBehindAnotherIsNoHole) {
+TEST_F(WarpHolesGl, AppearingObjectsAreFilledAtOnce) {
     const CastScene scene = test::twoBalls();
     const auto engine = test::warpEngine();
     Warp warp(test::bentCamera(kHoleLayer), kHoleLayer, *engine,

@@ -45,7 +45,7 @@ TEST(WarpReference, ShadowsAreShownLiftedAndMovedAsTheyAre) {
     EXPECT_EQ(r.tiles.at(0).farthest, 0.8F);
 }
 
-TEST(WarpReference, FaultyDepthIsNothing) {
+TEST(WarpReference, InvalidDepthIsEmpty) {
     RenderedPicture p = smallPicture();
     p.depth[0] = std::numeric_limits<float>::quiet_NaN();
     p.depth[1] = std::numeric_limits<float>::infinity();

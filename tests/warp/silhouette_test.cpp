@@ -64,7 +64,7 @@ std::array<int, 256> seen(std::vector<SceneObject> objects) {
 
 constexpr int kSquare = 4 * 20 * 20;  // pixels, at twice the resolution
 
-TEST_F(SilhouetteGl, WhatFacesAwayIsSeenOfTwoSidedSurfacesAlone) {
+TEST_F(SilhouetteGl, BackFacesAreVisibleOnlyIfTwoSided) {
     Material twoSided;
     twoSided.doubleSided = true;
     EXPECT_NEAR(seen({squareAt(0, {})})[1], kSquare, 200);
@@ -72,7 +72,7 @@ TEST_F(SilhouetteGl, WhatFacesAwayIsSeenOfTwoSidedSurfacesAlone) {
     EXPECT_NEAR(seen({turnedRound(squareAt(0, twoSided))})[1], kSquare, 200);
 }
 
-TEST_F(SilhouetteGl, WhatIsTransparentByItsFactorAloneIsAHole) {
+TEST_F(SilhouetteGl, TransparentAlphaFactorsMakeHoles) {
     Material pane;
     pane.baseColour.w() = 0.2F;
     pane.alphaCutoff = 0.5F;

@@ -199,7 +199,7 @@ Material textured(int baseColour = 0, int metallic = -1) {
     return out;
 }
 
-TEST(SurfacePaint, IsTheMeanOverThePixelOfAPlane) {
+TEST(SurfacePaint, PlanesAreAveragedOverEachPixel) {
     for (const auto& [slant, side, mean, worst] : {std::tuple{0.3, 8, 1.0, 20.0},
                                                    {0.3, 32, 3.5, 40.0},
                                                    {0.3, 256, 3.0, 20.0},
@@ -227,7 +227,7 @@ TEST(SurfacePaint, OfABallHasFactorsAndTexturesOfTwoSizes) {
 }
 
 // Textures store roots of linear values in bytes: half a step is 0.75 grey levels in dark areas.
-TEST(SurfacePaint, OfPlainColoursIsRoundedTwice) {
+TEST(SurfacePaint, PlainColoursAreExactUpToTwoRoundings) {
     for (const bool hasTexture : {false, true})
         for (int level = 0; level < 256; ++level) {
             Material material;
@@ -266,7 +266,7 @@ TEST(SurfacePaint, WithoutTextureCoordinatesIsTheFactorAlone) {
 
 // A nearer square covers the upper right quarter of pixel (30, 20) and half of each of two
 // neighbours.
-TEST(SurfacePaint, OfTwoObjectsInAPixelIsThatOfMostQuarters) {
+TEST(SurfacePaint, TheObjectWithMostQuartersIsPainted) {
     Material red, blue;
     red.baseColour = {1, 0, 0, 1};
     blue.baseColour = {0, 0, 1, 1};
@@ -338,7 +338,7 @@ TEST(SurfacePaint, ThreadsAndTheRowsEndsChangeNothing) {
     }
 }
 
-TEST(SurfacePaint, IsThatOfTheNewScene) {
+TEST(SurfacePaint, FollowsSetScene) {
     const auto made = [](unsigned seed) {
         return modelOf(square(), textured(), {noise({32, 16}, seed)});
     };

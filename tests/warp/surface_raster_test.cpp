@@ -110,7 +110,7 @@ TEST(SurfaceRaster, DepthIsThatOfTheSlantedPlane) {
 }
 
 // A floor from behind the camera to far in front of it.
-TEST(SurfaceRaster, WhatReachesBehindTheCameraIsClipped) {
+TEST(SurfaceRaster, TrianglesBehindTheCameraAreClipped) {
     Material both;
     both.doubleSided = true;
     Mesh floor;

@@ -54,7 +54,7 @@ TEST_F(WarpGl, SmallTurnsAreAsSharpAsInterpolationAllows) {
         EXPECT_GT(s.psnrAt(degrees), 35) << degrees;
 }
 
-TEST_F(WarpGl, RenderedHolesAreBetterThanFilledOnesAndThoseThanNone) {
+TEST_F(WarpGl, RenderedHolesBeatFilledOnesFilledOnesBeatNone) {
     std::array<double, 4> psnr{};
     for (int i = 0; i < 4; ++i) {
         // A ball far in front of another one.

@@ -155,7 +155,7 @@ twin::Grey seen(const twin::Grey& still, const LookUp& l) {
 const std::vector<LookUp> kLookUps{
     {0, 0, 0, 1}, {0, 0, 1, 1}, {3.25, -5.5, 0.5, 1}, {-7.75, 2, 2.25, 0}, {-400, 900, 1, 0}};
 
-TEST_F(Draw, VideoGetsWhatItWouldShowOfTheStill) {
+TEST_F(Draw, VideoAlphaIsTheStillAveragedOverThePixel) {
     const TestPicture video = Waves(2, 6, 40, 20).shoot(kSmallVideo, {});
     const TestPicture still =
         Waves(3, 8, 60, 20).shoot(kSmallStill, {.format = PixelFormat::Gray8});

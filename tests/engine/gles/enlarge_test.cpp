@@ -95,7 +95,7 @@ void expectResidual(const Grey& residual, const Grey& luma, int x, int y, const 
             << luma.size.width << ": " << x << " " << y << " " << phase;
 }
 
-TEST_F(Enlarge, ResidualIsTheOraclesOfTheSameClasses) {
+TEST_F(Enlarge, ResidualMatchesTheOracleForEqualClasses) {
     // Small weights, and weights so large that the limits take effect.
     for (const int most : {500, 8000}) {
         const FilterBank bank = randomBank(most, 11);

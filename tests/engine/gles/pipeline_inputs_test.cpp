@@ -39,7 +39,7 @@ TEST_F(PipelineInputs, OptionsOutOfRangeAreRefused) {
 }
 
 // Only the coarsest level can reach a shift of 9 px.
-TEST_F(PipelineInputs, FlowHasTheLevelsAskedFor) {
+TEST_F(PipelineInputs, FlowUsesTheConfiguredLevels) {
     const PipelineCase c;
     const auto errorWith = [&](int levels) {
         PipelineOptions options;

@@ -76,7 +76,7 @@ TEST_F(PipelinePose, TheUnitOfLengthIsFree) {
         ASSERT_NEAR(metres.second[i], millimetres.second[i], 1e-3) << i;
 }
 
-TEST_F(PipelinePose, AFrameIsSearchedAroundWhatTheOneBeforeShowed) {
+TEST_F(PipelinePose, SearchStartsFromThePreviousFrame) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setStill(c.still().view(), {}, poseAt(Vector3d::Zero()));

@@ -162,7 +162,7 @@ TEST_F(PipelineTest, OnlyTilesAroundAChangeAreDrawn) {
     EXPECT_GT(inside, 2000);
 }
 
-TEST_F(PipelineTest, NoiseIsNoChange) {
+TEST_F(PipelineTest, NoiseDoesNotMarkTilesChanged) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     p.setStill(c.still().view(), {});

@@ -128,7 +128,7 @@ DriftScene brightening(double perFrame, bool redAlone) {
 }
 
 // If a picture's only error is the video's noise, 0.1 dB are 2.3 % of this noise's variance.
-TEST_F(PlanDrift, NothingStaysBehindASceneThatChangesSlowly) {
+TEST_F(PlanDrift, SlowChangesLeaveNoStaleTiles) {
     const std::vector<std::pair<const char*, DriftScene>> scenes{
         {"slow", slopes(25, 0.05)},
         {"faster", slopes(25, 0.5)},
@@ -143,25 +143,25 @@ TEST_F(PlanDrift, NothingStaysBehindASceneThatChangesSlowly) {
 
 // A change of colour without luma cannot be detected over many tiles: each tile's own test must
 // detect it.
-TEST_F(PlanDrift, ColourThatChangesAloneIsDrawnBeforeItShows) {
+TEST_F(PlanDrift, ChangesOfColourOnlyAreRedrawnBeforeTheyAreVisible) {
     for (const double sigma : {0.5, 2.0})
         EXPECT_LT(watch(brightening(0.3, true), {sigma}, 4, 12).stale,
                   0.1 * (sigma * sigma + 1.0 / 12))
             << "noise " << sigma;
 }
 
-TEST_F(PlanDrift, NoiseAtRestIsLeftAlone) {
+TEST_F(PlanDrift, NoiseOfAStaticSceneRedrawsNothing) {
     for (const double sigma : {0.0, 0.5, 2.0})
         EXPECT_LT(watch(slopes(60, 0), {sigma}, 20, 24).changed, 0.0005) << "noise " << sigma;
 }
 
 // Noise that a sensor's processing has smoothed must be learned first.
-TEST_F(PlanDrift, SmoothedNoiseAtRestIsLeftAloneOnceItIsKnown) {
+TEST_F(PlanDrift, SmoothedNoiseRedrawsNothingOnceItIsLearned) {
     EXPECT_LT(watch(slopes(60, 0), {1.5, 0.25}, 80, 16).changed, 0.0005);
 }
 
 // Tiles around a small moving object must stay as they are without it.
-TEST_F(PlanDrift, WhatMovesInOnePlaceLeavesTheRestAlone) {
+TEST_F(PlanDrift, AMovingObjectRedrawsOnlyItsTiles) {
     const DriftScene scene = [](int x, int y, int frame) {
         const bool moves = std::hypot(x - 100 - 2 * (frame % 20), y - 90) < 12;
         return grey((moves ? 200 : 90) + 0.1 * x);

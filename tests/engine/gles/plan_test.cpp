@@ -85,7 +85,7 @@ TEST_F(Plan, FlagsAndNoiseMatchTwin) {
     EXPECT_LE(changed, 26);
 }
 
-TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
+TEST_F(Plan, OverdrawnTilesAreRedrawnWithAnyOtherTile) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);
     WorkPlan plan(kSize);
@@ -112,7 +112,7 @@ TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithAnyOtherTile) {
     EXPECT_EQ(plan.work().changed, 28) << "none counts twice";
 }
 
-TEST_F(Plan, WhatWasDrawnOverIsDrawnAnewWithItsTilesOrTheWhole) {
+TEST_F(Plan, OverdrawnTilesAreRedrawnWithTheirTilesOrTheWholePicture) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     const TestPicture oneTile = changedIn(base, 1, 64);  // the first
     WorkPlan plan(kSize);
@@ -141,7 +141,7 @@ TEST_F(Plan, NoiseOfAKnownGaussianIsFound) {
 }
 
 // Enlarging reads two pixels beyond a tile.
-TEST_F(Plan, AChangeAtATilesBorderIsOneOfTheTileBesideIt) {
+TEST_F(Plan, AChangeAtATileBorderMarksTheNeighbour) {
     const TestPicture base = Waves(1, 6, 60, 30).shoot(kSize, {});
     struct Case {
         int x, y;
@@ -250,7 +250,7 @@ std::vector<int> matchedColumns(const WorkPlan& plan) {
     return out;
 }
 
-TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
+TEST_F(Plan, TilesWithStructureAndTheirNeighboursAreMatched) {
     const Size size{256, 96};  // 16 columns
     const TestPicture picture = dotted(size, {20, 60, 0, 40});
     WorkPlan plan(size);
@@ -272,7 +272,7 @@ TEST_F(Plan, TilesWithStructureAndThoseBesideThemAreMatched) {
     EXPECT_EQ(update().size(), 16U);
 }
 
-TEST_F(Plan, NoiseMakesNoDetailComeAndGo) {
+TEST_F(Plan, NoiseDoesNotToggleDetail) {
     const Size size{512, 256};  // 32x16 tiles
     TestPicture quiet(size, PixelFormat::Rgba8, 90);
     std::mt19937 random(5);

@@ -157,7 +157,7 @@ std::array<int, 2> slackOf(const VirtualLayer& layer) {
     return {least, most};
 }
 
-TEST_F(Preview, BoundsHoldWhatIsCoveredAndLittleMore) {
+TEST_F(Preview, BoundsEncloseCoveredPixelsTightly) {
     PreviewRenderer renderer(lens(), kOutput);
     struct Case {
         Eigen::Vector2d shift;

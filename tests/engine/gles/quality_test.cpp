@@ -70,7 +70,7 @@ TEST_F(QualityTest, WithoutTheStillAFrameMayBeEnlargedLinearly) {
 }
 
 // The change is in the two lowest rows of a tile.
-TEST_F(QualityTest, WhatAChangeReachesIntoIsDrawnAnewWithIt) {
+TEST_F(QualityTest, NeighboursAffectedByAChangeAreRedrawn) {
     const PipelineCase c;
     Pipeline p(c.rig, {}), whole(c.rig, {});
     TestPicture frame = c.video({2, 0});
@@ -88,7 +88,7 @@ TEST_F(QualityTest, WhatAChangeReachesIntoIsDrawnAnewWithIt) {
 }
 
 // All pipelines saw the same frames before, so they know the same noise.
-TEST_F(QualityTest, ChangedBetweenFramesIsAsFromTheStart) {
+TEST_F(QualityTest, SettingsChangedBetweenFramesActAsIfSetAtTheStart) {
     const PipelineCase c;
     for (const bool withPoses : {false, true}) {
         Pipeline made(c.rig, madeWith(quick())), usual(c.rig, {}), changed(c.rig, {});
@@ -105,7 +105,7 @@ TEST_F(QualityTest, ChangedBetweenFramesIsAsFromTheStart) {
     }
 }
 
-TEST_F(QualityTest, WithoutLinesAFrameIsMatchedAsWithoutItsPose) {
+TEST_F(QualityTest, WithoutEpipolarLinesPosesAreIgnored) {
     const PipelineCase c;
     Pipeline blind(c.rig, {}), posed(c.rig, {});
     posed.setQuality({.alongLines = false});
@@ -113,7 +113,7 @@ TEST_F(QualityTest, WithoutLinesAFrameIsMatchedAsWithoutItsPose) {
     EXPECT_FALSE(posed.readStats().usedPose);
 }
 
-TEST_F(QualityTest, WhatDoesNotChangeStaysAsItWasDrawn) {
+TEST_F(QualityTest, UnchangedTilesKeepTheirPixels) {
     const PipelineCase c;
     Pipeline p(c.rig, {});
     const Image sharp = pictureOf(p, c, false);
@@ -169,7 +169,7 @@ int mostDifference(const Image& a, const Image& b) {
     return out;
 }
 
-TEST_F(QualityTest, WorkThatIsNotLeftOutDrawsTheSamePicture) {
+TEST_F(QualityTest, DisablingSkipsDrawsTheSamePicture) {
     const PipelineCase c;
     Pipeline usual(c.rig, {});
     const Image wanted = pictureOf(usual, c, false);
@@ -235,7 +235,7 @@ std::vector<TileClass> classesAfterAChange(const SkipOptions& skips) {
     return p.readTileClasses();
 }
 
-TEST_F(QualityTest, SkipsThatAreOffAreNotTaken) {
+TEST_F(QualityTest, DisabledSkipsDoTheWork) {
     const auto count = [](const std::vector<TileClass>& classes, TileClass which) {
         return std::ranges::count(classes, which);
     };

@@ -67,7 +67,7 @@ TEST_F(StillReducerTest, MatchesItsTwin) {
     }
 }
 
-TEST_F(StillReducerTest, StillsKeepTheirPixelsWhereTheOutputShowsThem) {
+TEST_F(StillReducerTest, StillsAreNotReducedIfTheOutputResolvesThem) {
     const StereoRig rig = plainRig({50, 35}, {200, 140});
     EXPECT_EQ(stillFor({200, 140}, rig).still.size, (Size{200, 140}));
     EXPECT_EQ(stillFor({400, 280}, rig).still.size, (Size{200, 140}));

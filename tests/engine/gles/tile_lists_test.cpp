@@ -111,7 +111,7 @@ TEST_F(TileListsGl, FlagsAndListsMatchTheTwins) {
     EXPECT_LT(count, 200);
 }
 
-TEST_F(TileListsGl, CoarserLevelsHaveWhatTheFinerLookAt) {
+TEST_F(TileListsGl, CoarserLevelsContainAllGroupsThatFinerOnesRead) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     std::vector<Cell> fields(2UL * kCount, Cell{0, 0, 0, 1e4F});
@@ -134,7 +134,7 @@ TEST_F(TileListsGl, CoarserLevelsHaveWhatTheFinerLookAt) {
     EXPECT_LT(listed(lists, 1).size(), 40U);
 }
 
-TEST_F(TileListsGl, AShutPlanListsNothing) {
+TEST_F(TileListsGl, AnEmptyPlanListsNothing) {
     TileBuffer tiles(kVideoSize);
     TileLists lists(kCells, kLevels);
     const auto fields = randomFields(2);
@@ -196,7 +196,7 @@ public:
     Flow2d flow;
 };
 
-TEST_F(TileListsGl, WhatMovedIsFoundAndTheRestStays) {
+TEST_F(TileListsGl, MovedObjectsAreFoundAndTheRestStays) {
     const MovedSquare s;
     const Refined r(s.now, s.then);
     const auto vectors = r.vectors(), errors = r.errors();
@@ -226,7 +226,7 @@ TEST_F(TileListsGl, WhereNothingMovedNothingIsSearched) {
     EXPECT_EQ(r.flow.searched().read(), std::vector<bool>(kTiles.width * kTiles.height));
 }
 
-TEST_F(TileListsGl, UnrelatedTilesAreSearchedAndTrustedByTheirCost) {
+TEST_F(TileListsGl, TilesWithUnrelatedContentAreSearchedAndWeighedByCost) {
     const Refined r(randomPicture(kVideoSize, 1), randomPicture(kVideoSize, 2));
     EXPECT_EQ(r.flow.searched().count(), kTiles.width * kTiles.height);
     const auto vectors = r.vectors(), errors = r.errors();

@@ -59,7 +59,7 @@ private:
     std::unique_ptr<VirtualView> view_;
 };
 
-TEST_F(ShadowDepthGl, TheSurfaceItLiesOnIsMeasuredNowAndThen) {
+TEST_F(ShadowDepthGl, TheShadowsSurfaceIsMeasuredPeriodically) {
     int all = 0, none = 0;
     for (const PixelRect& r : placed(tableField(0.01))) {
         all += isAll(r) ? 1 : 0;
@@ -69,13 +69,13 @@ TEST_F(ShadowDepthGl, TheSurfaceItLiesOnIsMeasuredNowAndThen) {
     EXPECT_EQ(none, 16);
 }
 
-TEST_F(ShadowDepthGl, WhatIsKnownBadlyIsMeasuredAlways) {
+TEST_F(ShadowDepthGl, UncertainDepthIsAlwaysMeasured) {
     for (const InverseDepthField& field : {tableField(0.03), InverseDepthField(kSeen)})
         for (const PixelRect& r : placed(field))
             EXPECT_TRUE(isAll(r));
 }
 
-TEST_F(ShadowDepthGl, ThingsBeforeItAreMeasuredAlways) {
+TEST_F(ShadowDepthGl, NearerObjectsAreAlwaysMeasured) {
     InverseDepthField field = tableField(0.01);
     constexpr PixelRect kThing{110, 130, 116, 136};
     for (int y = kThing.y0; y < kThing.y1; ++y)

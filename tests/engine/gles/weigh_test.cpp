@@ -136,7 +136,7 @@ TEST_F(Weigh, ATornFlowIsNotTrusted) {
     EXPECT_GT(even.at(5, 5)[2], 0.9);
 }
 
-TEST_F(Weigh, AlikeTextureCountsFullyAndUnrelatedNotAtAll) {
+TEST_F(Weigh, EqualTextureHasFullWeightAndUnrelatedNone) {
     const twin::Cells half = constantCells(kHalf, {1e5F, 1e5F, 1e5F, 0});
     const twin::Cells alike = constantCells(kWhole, {1e5F, 1e5F, 1e5F, 1});
     for (const float v : {weigh(alike, alike, half, 0.3).field.at(5, 5)[2]})

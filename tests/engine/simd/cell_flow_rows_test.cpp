@@ -61,7 +61,7 @@ TEST(CellFlow, EndsWhereTheStillShowsThePoint) {
     }
 }
 
-TEST(CellFlow, EndsNowhereBehindTheCameraOrFromNoNumber) {
+TEST(CellFlow, PointsBehindTheCameraAndNanHaveNoFlow) {
     Cells cells(20);
     cells.ends.motion.turn = {1, 0, 0, 0, 1, 0, 0, 0, -1};  // looks backwards
     for (const auto& v : cells.flow(cells.s))
@@ -104,7 +104,7 @@ TEST(CellLandings, AreTheNearestCell) {
     }
 }
 
-TEST(CellsHidden, AreBehindWhatLandsOnTheSamePlace) {
+TEST(CellsHidden, OccludedCellsLieBehindOthersAtTheSamePixel) {
     for (const std::size_t count : test::kLengths) {
         const auto landing = test::randomValues<std::int32_t>(count, -1, 4.9, 1);
         const Row nearest = test::randomValues<float>(5, 0, 1, 2),

@@ -71,7 +71,7 @@ void expectAlike(const AlignedRows<std::uint32_t>& a, const AlignedRows<std::uin
             ASSERT_EQ(a.rows()[y][x], b.rows()[y][x]) << x << " " << y;
 }
 
-TEST(DetailStepSecond, AStillThatCountsForNoMoreIsNotSeen) {
+TEST(DetailStepSecond, ASecondStillWithNoHigherWeightIsInvisible) {
     for (const float more : {-0.3F, 0.0F, 0.9F * params::kSecondFrom}) {
         const TwoStills stills(more);
         const DrawnWithBoth both(stills);
@@ -82,7 +82,7 @@ TEST(DetailStepSecond, AStillThatCountsForNoMoreIsNotSeen) {
     }
 }
 
-TEST(DetailStepSecond, WhereItCountsForMoreItFadesInWithoutASeam) {
+TEST(DetailStepSecond, ASecondStillWithHigherWeightBlendsWithoutASeam) {
     const TwoStills stills(0.6F);
     test::onEveryTarget([&] {
         const DrawnWithBoth both(stills);
@@ -122,7 +122,7 @@ TEST(DetailStepSecond, ChangedTilesLookAsInAWholeFrame) {
         }
 }
 
-TEST(DetailStepSecond, ATileThatItExplainsIsExplained) {
+TEST(DetailStepSecond, ATileExplainedByTheSecondStillCountsAsExplained) {
     TwoStills stills(0.6F);
     for (TrustCell& cell : stills.frame.trust)
         cell.unexplained = 1;
@@ -133,7 +133,7 @@ TEST(DetailStepSecond, ATileThatItExplainsIsExplained) {
     EXPECT_EQ(DrawnWithBoth(stills).summary.unexplained, 10 * 8);
 }
 
-TEST(DetailStepSecond, OtherModesDoNotShowIt) {
+TEST(DetailStepSecond, OtherModesDoNotShowTheSecondStill) {
     const TwoStills stills(0.6F);
     for (const SuperResMode mode : {SuperResMode::Off, SuperResMode::Blend}) {
         const DrawnWithBoth both(stills, mode);

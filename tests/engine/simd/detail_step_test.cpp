@@ -122,7 +122,7 @@ TEST(DetailStep, DetailOfAWholeFrameStaysInItsRectangle) {
     });
 }
 
-TEST(DetailStep, WholeFrameWithAListHasDetailInMatchedTilesAlone) {
+TEST(DetailStep, AWholeFrameWithAListHasDetailOnlyInMatchedTiles) {
     const Size output{576, 432};
     DetailCase frame({160, 120}, {400, 300});
     frame.work.draw = TileWork::Draw::WholeEnlarged;
@@ -189,7 +189,7 @@ TEST(DetailStep, LookUpsBeyondTheStillShowItsBorder) {
             ASSERT_NEAR(drawn.channel(x, y, 0), wanted.withStill(x, y, 0, still), 0.8);
 }
 
-TEST(DetailStep, WeightlessTilesAreEnlargedAlone) {
+TEST(DetailStep, TilesWithoutWeightAreOnlyEnlarged) {
     DetailCase frame({160, 120}, {400, 300});
     const Drawn skipping(frame, {576, 432}, kDetail),
         drawing(frame, {576, 432}, {SuperResMode::Detail, true, false, true});

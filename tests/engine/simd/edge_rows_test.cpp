@@ -87,7 +87,7 @@ OpenPixel decide(const Scene& scene, const VoteRule& rule, const PixelRect& wher
     return pixel;
 }
 
-TEST(VotePixels, GiveTheSurfaceThatLooksLikeThem) {
+TEST(VotePixels, PixelsGetTheSurfaceOfSimilarColour) {
     const VoteRule rule{10, 12, 0.75F};
     for (const double invalid : {0.0, 0.5, 0.98, 1.0}) {
         const Scene scene(invalid);

@@ -128,7 +128,7 @@ TEST(EnlargeRows, ClassesAreTheOracles) {
     });
 }
 
-TEST(EnlargeRows, EveryAngleAndStrengthIsMet) {
+TEST(EnlargeRows, EveryAngleAndStrengthClassOccurs) {
     // Waves of all directions, with contrast from flat to steep.
     std::vector<bool> gradient(GradientClasses::kCount), curvature(CurvatureClasses::kCount);
     for (int angle = 0; angle < 64; ++angle)
@@ -174,7 +174,7 @@ struct Residual {
     AlignedRows<std::int16_t> grid;
 };
 
-TEST(EnlargeRows, ResidualIsTheOraclesOfTheSameClasses) {
+TEST(EnlargeRows, ResidualMatchesTheOracleForEqualClasses) {
     // Small weights, and weights so large that the limits take effect.
     for (const int most : {500, 8000}) {
         const FilterBank bank(randomFilters(most, 11));

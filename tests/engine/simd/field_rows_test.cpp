@@ -29,7 +29,7 @@ TEST(FieldRows, MediansAreTheMiddleOfNine) {
     }
 }
 
-TEST(FieldRows, RangesAreLeastAndGreatestOfWhatIsSound) {
+TEST(FieldRows, RangesCoverValidValuesOnly) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const std::size_t width : {1UL, 5UL, 40UL, 255UL, 256UL, 300UL, 700UL}) {
         for (const int radius : {0, 2, 4, kMostRange}) {

@@ -156,7 +156,7 @@ TEST(Flow2d, EveryNumberOfLevelsAndRoundsWorks) {
     EXPECT_THROW(Flow2d(kSmall, options, twoWorkers()), std::invalid_argument);
 }
 
-TEST(Flow2d, NothingMatchedNothingChanges) {
+TEST(Flow2d, WithoutMatchedTilesTheFlowStays) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {3, 1}));
     pair.work.matched = 0;
     pair.run();
@@ -177,7 +177,7 @@ TileWork someWork(Size video) {
     return work;
 }
 
-TEST(Flow2d, TilesThatAreLeftOutChangeNoOther) {
+TEST(Flow2d, SkippedTilesDoNotAffectOthers) {
     constexpr Size kVideo{333, 251};
     const FlowPicture a = wavesMoved(kVideo, {0, 0}), b = wavesMoved(kVideo, {5.3, -3.1});
     Pair all(a, b), some(a, b);
@@ -257,7 +257,7 @@ TEST(Flow2d, RefineAligns) {
     EXPECT_FALSE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, ErrorsAreGivenByTheLastFrameThoughNothingIsMatched) {
+TEST(Flow2d, TwoWayErrorsAreKeptWhenNothingIsMatched) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 0}));
     pair.refine(seedsAround({1, 0}, 0.1), std::vector<Cell>(1200));
     pair.work.matched = 0;
@@ -267,7 +267,7 @@ TEST(Flow2d, ErrorsAreGivenByTheLastFrameThoughNothingIsMatched) {
     EXPECT_TRUE(pair.flow.errorsGiven());
 }
 
-TEST(Flow2d, SeedsThatAreNoNumbersDoNoHarm) {
+TEST(Flow2d, InvalidSeedsAreIgnored) {
     Pair pair(wavesMoved(kSmall, {0, 0}), wavesMoved(kSmall, {1, 1}));
     std::vector<Cell> seeds = seedsAround({1, 1}, 0.1);
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -280,7 +280,7 @@ TEST(Flow2d, SeedsThatAreNoNumbersDoNoHarm) {
     expectBounded(pair.flow.forward(), 200);
 }
 
-TEST(Flow2d, WhatMovedOnItsOwnIsSearched) {
+TEST(Flow2d, MovingObjectsAreSearched) {
     constexpr Size kVideo{320, 240};
     constexpr int kFirst = 96, kEnd = 176, kBy = 12;
     const FlowPicture now = wavesMoved(kVideo, {0, 0});

@@ -167,7 +167,7 @@ TEST(StillPreparation, GreyAndBlueFirstAreRead) {
     EXPECT_LE(twin::worst(wanted, s.preparation.luma()), 1);
 }
 
-TEST(StillPreparation, PictureHasTheColoursAndOutlivesWhatItWasMadeOf) {
+TEST(StillPreparation, PictureKeepsColoursAndOutlivesItsSource) {
     Still s({40, 25}, {91, 60}, {91, 60});
     auto picture = std::make_unique<TestPicture>(Size{91, 60});
     s.preparation.set(picture->view);

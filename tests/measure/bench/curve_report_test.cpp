@@ -68,7 +68,7 @@ TEST(WriteCurves, SaysWhichFileCannotBeWritten) {
     }
 }
 
-TEST(IsWellFormed, KnowsWhatIsNot) {
+TEST(IsWellFormed, RejectsMalformedXml) {
     EXPECT_TRUE(isWellFormed("<a b=\"1\"><c/><d>x &amp; y</d></a>\n"));
     for (const char* broken : {"", "<a>", "<a></b>", "<a b=1\"></a>", "<a>&</a>", "<a/><b></b><",
                                "<a><b></a></b>", "<a x=\"<\"></a>"})

@@ -17,7 +17,7 @@ TEST(GovernorReport, SettledIsWhereOneInTwentyIsLateAtMost) {
     EXPECT_EQ(settledAfter(ms, 33), 9);
 }
 
-TEST(GovernorReport, WhatIsNeverKeptNeverSettles) {
+TEST(GovernorReport, UnmetDeadlinesNeverSettle) {
     const std::vector<double> ms(50, 40);
     EXPECT_EQ(settledAfter(ms, 33), 50);
     EXPECT_EQ(settledAfter({}, 33), 0);

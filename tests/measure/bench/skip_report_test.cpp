@@ -32,7 +32,7 @@ TEST(SkipReport, TableSaysWhatSavesAndWhatCostsTooMuch) {
     EXPECT_EQ(std::count(table.begin(), table.end(), '!'), 1);
 }
 
-TEST(SkipReport, WhatSavesNothingIsNamed) {
+TEST(SkipReport, UselessSkipsAreListed) {
     SkipReport report = twoSkips();
     report.results.resize(1);
     report.results[0].msWithout = 1.51;

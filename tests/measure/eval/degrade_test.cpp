@@ -21,7 +21,7 @@ TEST(Degrade, RefusesWhatItCannotDo) {
         EXPECT_THROW((void)parseDegradation(text), std::invalid_argument) << text;
 }
 
-TEST(Degrade, NothingAskedChangesNothing) {
+TEST(Degrade, NoDegradationIsIdentity) {
     cv::Mat picture(20, 30, CV_8UC3);
     cv::RNG(3).fill(picture, cv::RNG::UNIFORM, 0, 256);
     EXPECT_EQ(cv::norm(degrade(picture, {}, 1), picture, cv::NORM_INF), 0);

@@ -73,7 +73,7 @@ TEST(KnownPoses, TagsTellWhereFramesAndStillsWere) {
     EXPECT_FALSE(poses.of({5}, {6}).still);
 }
 
-TEST(KnownPoses, RecordedOnesAndNone) {
+TEST(KnownPoses, RecordedOrNoPosesAsSelected) {
     const TempFolder folder;
     const Recording recording = recordedIn(folder / "recorded");
     const PosePair recorded = KnownPoses(recording, PoseSource::Recorded).of(timeOf(1), kStillTime);

@@ -51,7 +51,7 @@ TEST(MfarEval, MetricComparesTwoPictures) {
     EXPECT_TRUE(colour.back().empty());
 }
 
-TEST(MfarEval, Figure7OfARecordingIsToldAndDrawn) {
+TEST(MfarEval, Figure7OfARecordingIsReportedAndDrawn) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
     const Outcome outcome =

@@ -51,7 +51,7 @@ TEST(Report, TableLeavesOutWhatWasNotMeasured) {
                                       "a          mean   x       2.0   1.000\n");
 }
 
-TEST(Report, AHeadIsShownAboveTheTableAlone) {
+TEST(Report, HeadIsPrintedOnlyAboveTheTable) {
     Report report = twoFrames("a");
     const std::string table = report.table(), csv = report.csv();
     report.setHead("how to read it\n");

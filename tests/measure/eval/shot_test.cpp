@@ -21,7 +21,7 @@ TEST(PosesOf, AreTheRecordedOnesWhereTheyReach) {
     EXPECT_TRUE(beyond.frame && !beyond.still);
 }
 
-TEST(PosesOf, WithoutAnyOnlyEqualTimesAreKnown) {
+TEST(PosesOf, WithoutPosesOnlyEqualTimesHaveOne) {
     const PosePair equal = posesOf({}, {100}, {100});
     ASSERT_TRUE(equal.frame && equal.still);
     StereoRig rig;

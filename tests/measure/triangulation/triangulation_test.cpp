@@ -150,7 +150,7 @@ TEST(Triangulation, ErrorResidualAndRayDistanceAreThoseOfDoublePrecision) {
     }
 }
 
-TEST(Triangulation, WhatIsBehindACameraIsUnknown) {
+TEST(Triangulation, PointsBehindACameraAreUnknown) {
     const OffLine wall;
     int behind = 0;
     const auto fast = triangulated(wall.views, wall.flow, {});
@@ -192,7 +192,7 @@ TEST(Triangulation, RaysThatPassFarFromEachOtherAreRefused) {
     }
 }
 
-TEST(Triangulation, SigmaIsWhatAnErrorAlongTheLineDoes) {
+TEST(Triangulation, SigmaMatchesTheEffectOfFlowErrors) {
     const twin::TwoViews views = plainViews(moved(0, Vector3d::UnitX(), {-0.2, 0.1, 0.05}));
     const double step = 0.1;  // [px]
     const auto shifted = [&](double by) {

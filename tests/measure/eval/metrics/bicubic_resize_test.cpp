@@ -19,7 +19,7 @@ TEST(BicubicResize, KeepsConstantsAndSlopes) {
     EXPECT_LT(cv::norm(level, cv::Mat(11, 3, CV_64F, cv::Scalar(4)), cv::NORM_INF), 1e-12);
 }
 
-TEST(BicubicResize, ToTheSameSizeIsNothing) {
+TEST(BicubicResize, SameSizeIsIdentity) {
     cv::Mat noise(9, 8, CV_64F);
     cv::RNG(1).fill(noise, cv::RNG::UNIFORM, 0, 1);
     EXPECT_EQ(cv::norm(bicubicResize(noise, noise.size()), noise, cv::NORM_INF), 0);

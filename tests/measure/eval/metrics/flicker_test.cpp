@@ -29,7 +29,7 @@ TEST(Flicker, ErrorsThatStayWithTheirPlaceDoNotCount) {
     EXPECT_GT(flicker(before, after, flowOf(1, 2), kBorder), 4) << "x and y";
 }
 
-TEST(Flicker, OfIndependentErrorsIsTheirDeviation) {
+TEST(Flicker, IndependentErrorsGiveTheirDeviation) {
     EXPECT_NEAR(flicker(noise(3, 1), noise(3, 2), flowOf(0, 0), kBorder), 3, 0.05);
 }
 

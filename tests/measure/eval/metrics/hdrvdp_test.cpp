@@ -69,13 +69,13 @@ TEST(HdrVdp, FallsAsTheNoiseRises) {
 
 // A difference below a thousandth of the light does not count, and larger ones only count where
 // they are.
-TEST(HdrVdp, DoesNotSeeAThousandth) {
+TEST(HdrVdp, DifferencesBelowAThousandthAreInvisible) {
     const cv::Mat light(40, 40, CV_64F, cv::Scalar(50));
     EXPECT_EQ(hdrVdp(light * 1.0009, light, 30).q, 100);
     EXPECT_LT(hdrVdp(light * 1.1, light, 30).q, 99);
 }
 
-TEST(HdrVdp, OneNumberWhateverTheThreads) {
+TEST(HdrVdp, ResultIsIndependentOfThreads) {
     const cv::Mat a = smoothNoise({64, 48}), b = cv::Mat(255 - a);
     const double together = q(a, b);
     const int threads = cv::getNumThreads();

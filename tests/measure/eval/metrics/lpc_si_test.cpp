@@ -37,7 +37,7 @@ TEST(LpcSi, FallsWithBlurInBothForms) {
     }
 }
 
-TEST(LpcSi, NothingIsNotSharp) {
+TEST(LpcSi, EmptyPicturesAreNotSharp) {
     EXPECT_NEAR(lpcSi(cv::Mat(40, 50, CV_64F, cv::Scalar(128))), 0, 1e-9);
 }
 

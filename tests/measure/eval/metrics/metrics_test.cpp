@@ -93,7 +93,7 @@ TEST(TilesBelow, OneBadPixelMakesATileWorse) {
     EXPECT_EQ(tilesBelow(picture, bicubic, truth), 1);
 }
 
-TEST(TilesBelow, NoTileHasNoShare) {
+TEST(TilesBelow, WithoutWholeTilesTheShareIsNan) {
     EXPECT_TRUE(std::isnan(tilesBelow(constant(1), constant(2), constant(3))));
 }
 
@@ -142,7 +142,7 @@ TEST(FlowError, UnknownTruthIsLeftOutAndMissingAnswersAreBad) {
     EXPECT_DOUBLE_EQ(error.coverage, 0.5);
 }
 
-TEST(FlowError, NothingKnownGivesNoNumber) {
+TEST(FlowError, UnknownTruthGivesNan) {
     const cv::Mat truth(2, 2, CV_32FC2, cv::Scalar(2e9, 2e9));
     const FlowError error = flowError(truth, truth);
     EXPECT_EQ(error.known, 0U);
