@@ -45,11 +45,12 @@ void App::onSignal(int signal) {
 }
 
 void App::onDeadline() {
-    if (!stopSignal_ && ended_) leave("a device did not end in time, ended without it");
+    if (!stopSignal_ && ended_)
+        leave("a device did not stop in time; ended without waiting for it");
     if (!stopSignal_) return stop("--seconds");
-    if (!writes()) leave("ended in the midst of a picture");
+    if (!writes()) leave("ended before the current picture was complete");
     if (cancel_.request_stop()) return events_.deadlineIn(kCancelTime);
-    leave("a device or display did not end in time, ended without it");
+    leave("a device or display did not stop in time; ended without waiting for it");
 }
 
 void App::onOver() {
@@ -66,7 +67,8 @@ void App::onOver() {
 void App::leaveIfHanging() {
     if (!stopReason_ || stopSignal_ || ended_) return;
     for (const Heartbeats::Late& late : stats_.heartbeats().late(isProven_ ? 1 : kFirstPatience))
-        if (late.thread == kPictureThread) leave("the picture thread hangs, ended without it");
+        if (late.thread == kPictureThread)
+            leave("the picture thread hangs; ended without waiting for it");
 }
 
 bool App::writes() {

@@ -28,9 +28,10 @@ std::optional<Frame> CameraReader::next(std::chrono::milliseconds timeout) {
     if (!frame) return frame;
     const Size size = frame->view().size;
     if (size != expected_)
-        throw Failure(failure_, fmt::format("{}: sent a picture of {}x{}, calibrated are {}x{}",
-                                            camera_.info().name, size.width, size.height,
-                                            expected_.width, expected_.height));
+        throw Failure(failure_,
+                      fmt::format("{}: sent a picture of {}x{}, the calibration is for {}x{}",
+                                  camera_.info().name, size.width, size.height, expected_.width,
+                                  expected_.height));
     return frame;
 }
 

@@ -30,7 +30,7 @@ void readCamera(TomlReader& file, const std::string& section, CameraConfig& came
     file.text(section + "format", camera.format,
               [&](std::string_view word) -> std::optional<std::string> {
                   if (word == "auto" || camera.driver == CameraDriver::V4l2) return std::nullopt;
-                  return "must be \"auto\": libcamera's pictures are chosen among what it offers";
+                  return "must be \"auto\" with libcamera, which selects the format itself";
               });
     file.boolean(section + "allow_crop", camera.allowCrop);
     file.values(section + "controls", camera.controls);

@@ -44,10 +44,10 @@ std::filesystem::path learnedFiltersFile(const std::string& sensors) {
 std::string describe(const LearningCounts& counts) {
     const EnlargerLearner::Counts& of = counts.learner;
     std::string out =
-        fmt::format("{} stills, {} of {} classes, {:.2f} dB over the cubic ({:.2f} as shipped)",
+        fmt::format("{} stills, {} of {} classes, {:.2f} dB over bicubic ({:.2f} as shipped)",
                     of.stills, of.classes, enlarge::kUnique, of.gainDb, of.priorDb);
     if (of.guidance.any())
-        out += fmt::format("; guided by {:.2f} of the still for {:.2f} of the video: {:.2f} dB",
+        out += fmt::format("; guidance {:.2f} of the still, {:.2f} of the video: {:.2f} dB",
                            of.guidance.still, of.guidance.video, of.guidanceGainDb);
     return out;
 }
@@ -78,7 +78,7 @@ void FilterLearning::restore() {
     try {
         learner_ = EnlargerLearner::restored(bytesOf(options_.file), options_.sensors, name);
     } catch (const FilterBankError& fault) {
-        warnings_.push_back(std::string(fault.what()) + "; learning begins anew");
+        warnings_.push_back(std::string(fault.what()) + "; learning starts again");
     }
 }
 

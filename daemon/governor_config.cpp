@@ -35,8 +35,8 @@ std::vector<QualityLevel> governedLevels(const GovernorConfig& governor) {
     if (governor.pin.empty()) return all;
     const auto pinned = std::ranges::find(all, governor.pin, &QualityLevel::name);
     if (pinned == all.end())
-        throw ConfigError(fmt::format("governor.pin \"{}\" is no level; there are {}", governor.pin,
-                                      namesOf(all)));
+        throw ConfigError(fmt::format("governor.pin: unknown level \"{}\"; known levels: {}",
+                                      governor.pin, namesOf(all)));
     return {*pinned};
 }
 

@@ -21,11 +21,11 @@ void GpuFailures::forgetOld(Timestamp now) {
 
 std::optional<std::string> GpuFailures::fault(Timestamp now) {
     if (givenUp_)
-        return fmt::format("the GPU failed {} times within a minute, the processor draws ({})",
-                           kMost, why_);
+        return fmt::format("the GPU failed {} times within a minute, the CPU draws ({})", kMost,
+                           why_);
     forgetOld(now);
     if (times_.empty()) return std::nullopt;
-    return fmt::format("the GPU failed and was set up anew ({})", why_);
+    return fmt::format("the GPU failed and was restarted ({})", why_);
 }
 
 std::optional<std::string> GpuFailures::banner(Timestamp now) {

@@ -62,8 +62,8 @@ Judged missing(const Observed& seen) {
     std::vector<Judged> all;
     if (seen.fault) all.push_back({HealthState::Degraded, *seen.fault, std::nullopt, "", true});
     if (seen.repeats)
-        all.push_back({HealthState::Degraded,
-                       "video camera: sends the same picture again and again", seen.repeats});
+        all.push_back(
+            {HealthState::Degraded, "video camera: repeats the same picture", seen.repeats});
     if (seen.gpu) all.push_back({HealthState::Degraded, *seen.gpu});
     if (seen.waiting && seen.waiting->since > kWorthTelling)
         all.push_back({HealthState::Degraded, fmt::format("waiting for {}", seen.waiting->what),

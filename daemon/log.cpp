@@ -105,7 +105,7 @@ bool Log::isWritable() {
 void Log::put(std::string_view bytes) {
     // Errors of standard error itself are ignored: there is nowhere to report them.
     std::string all;
-    if (dropped_ > 0) all = fmt::format("mfard: {} messages were not taken\n", dropped_);
+    if (dropped_ > 0) all = fmt::format("mfard: {} messages were dropped\n", dropped_);
     all += bytes;
     std::string_view left = all;
     while (!left.empty()) {

@@ -253,14 +253,13 @@ constexpr Option kVirtual[] = {
          "little."),
     number("budget_ms", {0.1, 1000, "ms"}, "8.0",
            "Time of the path tracer in each frame. A picture is made over many frames."),
-    word(
-        "slicing", "time space", R"("time")",
-        "What a frame's share of the work is: \"time\", some samples of all pixels; \"space\", all "
-        "samples of some tiles."),
+    word("slicing", "time space", R"("time")",
+         "Work of each frame: \"time\", some samples of all pixels; \"space\", all samples of some "
+         "tiles."),
     whole("samples", {1, 65536, ""}, "64",
           "Samples per pixel of a finished picture. More are smoother and take longer."),
     number("resolution", {0.05, 1, ""}, "0.28",
-           "Side of the path-traced picture as a share of the still's; at most what is shown."),
+           "Side of the path-traced picture as a share of the still's; limited to the shown size."),
     word("holes", "push-pull re-render both none", R"("both")",
          "What fills places that come into view between two pictures: \"push-pull\", their "
          "surroundings; \"re-render\", the path tracer with few samples; \"both\"; or \"none\"."),
@@ -293,8 +292,8 @@ constexpr Option kObjects[] = {
     number("scale", {0.0001, 10000, ""}, "1.0", "Scale of a model."),
     absent(whole("tag", {0, 2114, ""}, "0",
                  "The tag that the object stands on: x right and y up in its print, z out of it. "
-                 "Absent: the object is in the world of the tag map. The most depends on the "
-                 "family.")),
+                 "Absent: the object is in the world of the tag map. The upper limit depends on "
+                 "the family.")),
     word("family", kFamilies, R"("tag36h11")", "Family of that tag."),
     numbers("position", 3, {-1000, 1000, "m"}, "[0.0, 0.0, 0.0]",
             "Position in the world or on the tag."),
@@ -341,9 +340,11 @@ constexpr Option kLevel[] = {
     flag("cubic", "true", "Enlarge by bicubic instead of linear interpolation."),
     flag("learned", "true", "Enlarge by learned filters; mode detail."),
     flag("along_lines", "true", "Search along epipolar lines where poses are known."),
-    number("detail_share", {0.001, 1, ""}, "1.0", "Most tiles that are matched, as a share."),
+    number("detail_share", {0.001, 1, ""}, "1.0",
+           "Upper limit of the share of tiles that are matched."),
     number("second_share", kShare, "0.25",
-           "Most tiles that are matched with the second still, as a share; 0: no second still."),
+           "Upper limit of the share of tiles that are matched with the second still; 0: none is "
+           "kept."),
     whole("depth_every", {1, 60, "frames"}, "1", "Interval at which real depth is measured."),
     whole("flow2d.search_radius", {0, 40, "px"}, "10", "Search radius at the coarsest level."),
     whole("flow2d.candidates", {1, 4, ""}, "4", "Vectors of the coarser level that a cell tries."),
@@ -357,7 +358,7 @@ constexpr Option kLevel[] = {
     whole("epipolar.jump_penalty", {1, 60, ""}, "60", "Smoothness: penalty of more labels."),
     whole("epipolar.finest", kSmall, "0", "Finest level: all, half or a quarter of the pixels."),
     whole("epipolar.most_predicted", {0, 60, "frames"}, "7",
-          "Frames in a row that are searched around the last field alone."),
+          "Upper limit of consecutive frames searched only around the previous result."),
 };
 
 constexpr OptionSection kLevels[] = {{"level", kLevel, "", false, OptionSection::Kind::List}};

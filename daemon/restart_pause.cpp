@@ -89,10 +89,10 @@ void pauseBeforeRestart(ExitCode code, const std::string& error, Timestamp start
     if (!service.listening() || !isRestarted(code)) return;
     const RestartPause::Next next =
         RestartPause(RestartPause::defaultFile()).failed(started, Timestamp::now());
-    log.notice(fmt::format("{}\nfailed {} in a row, ends in {} s to be started again", hint(code),
-                           next.inARow == 1 ? "once" : fmt::format("{} times", next.inARow),
-                           next.wait.count()));
-    service.status(fmt::format("{}; to be started again in {} s", error, next.wait.count()));
+    log.notice(fmt::format(
+        "{}\nfailed {} in a row; exits in {} s, then systemd restarts it", hint(code),
+        next.inARow == 1 ? "once" : fmt::format("{} times", next.inARow), next.wait.count()));
+    service.status(fmt::format("{}; restart in {} s", error, next.wait.count()));
     sigset_t ends;
     sigemptyset(&ends);
     sigaddset(&ends, SIGTERM);

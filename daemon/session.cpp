@@ -40,8 +40,7 @@ Session::Session(const Config& config, Stats& stats, Mailbox<Tunables>& changes,
       policy_(config.trigger), levels_(governedLevels(config.governor)), tags_(poses_.tags()),
       sensors_(sensorsOf(config, rig_)) {
     if (!gl_.without.empty())
-        stats_.warn("without OpenGL ES the processor's vector units compute the pictures: " +
-                    gl_.without);
+        stats_.warn("OpenGL ES is not available, the CPU computes the pictures: " + gl_.without);
     try {
         makeDrawing();
     } catch (const std::runtime_error& error) {
@@ -132,7 +131,7 @@ std::string Session::showFrames(Mailbox<CapturedFrame>& mailbox, CaptureThread& 
     checkRecording();
     stats_.recorderDropped(rig_.notRecorded());
     finishDisplay();
-    return enough ? "all frames asked for are shown" : "end of the source";
+    return enough ? "the requested number of frames is shown" : "end of the source";
 }
 
 bool Session::mayDraw() {
@@ -190,7 +189,7 @@ void Session::apply(const Tunables& wanted) {
         placeObjects();
     } catch (const std::exception& error) {
         drawing_->gpu.requireSound();
-        stats_.warn(fmt::format("objects: {}; those before stay", error.what()),
+        stats_.warn(fmt::format("objects: {}; the previous objects stay", error.what()),
                     {message::kObjects});
         std::tie(config_.objects, config_.light) = before;
         placeObjects();
@@ -214,8 +213,7 @@ bool Session::canShowObjects() {
             gl_.without = error.what();
         }
     }
-    stats_.warn("previews of virtual objects are drawn with OpenGL ES 3.1 and are not shown: " +
-                    gl_.without,
+    stats_.warn("previews of virtual objects need OpenGL ES 3.1 and are not shown: " + gl_.without,
                 {message::kObjects});
     return false;
 }
@@ -270,7 +268,8 @@ void Session::tell(Timestamp time) {
     tellLearning();
     if (auto error = drawing_->pipeline.takeSceneError())
         stats_.warn("objects: " + *error, {message::kObjects});
-    if (auto error = drawing_->pipeline.takeImportFault()) stats_.warn(*error + ": it is copied");
+    if (auto error = drawing_->pipeline.takeImportFault())
+        stats_.warn(*error + "; video frames are copied instead");
     stats_.recorderDropped(rig_.notRecorded());
     if (auto matching = rig_.matching()) {
         // Repetitions are counted by the policy, not by the matching.

@@ -32,7 +32,7 @@ std::string_view valueOf(std::string_view key, std::string_view& text) {
     if (end == text.npos || !text.starts_with(key))
         throw std::runtime_error(fmt::format("has no line {}", key));
     const std::string_view value = text.substr(key.size(), end - key.size());
-    if (!isName(value)) throw std::runtime_error(fmt::format("{} is no name", key));
+    if (!isName(value)) throw std::runtime_error(fmt::format("{} is not a valid name", key));
     text.remove_prefix(end + 1);
     return value;
 }
@@ -59,7 +59,7 @@ std::filesystem::path takenLineFile() {
 
 void noteTakenLine(const std::filesystem::path& file, const TriggerLineConfig& line) {
     if (!isName(line.chip) || !isName(line.line))
-        throw std::runtime_error("the chip or the line has a name that is none");
+        throw std::runtime_error("invalid name of chip or line");
     const std::string text =
         fmt::format("chip={}\nline={}\nactive_low={}\n", line.chip, line.line, line.activeLow);
     writeWholeFile(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});

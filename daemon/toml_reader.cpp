@@ -246,7 +246,8 @@ std::vector<std::string> TomlReader::sections(std::string_view key, std::size_t 
         return out;
     }
     if (list->size() > most) {
-        fault(node->source(), fmt::format("{} [[{}]], at most {} are", list->size(), key, most));
+        fault(node->source(),
+              fmt::format("{} sections [[{}]], at most {} are allowed", list->size(), key, most));
         return out;
     }
     for (std::size_t i = 0; i < list->size(); ++i)

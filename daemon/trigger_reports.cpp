@@ -5,8 +5,8 @@ namespace mfar {
 std::vector<std::string_view> TriggerReports::newSince(const Seen& seen) {
     std::vector<std::string_view> out;
     if (seen.lost > reported_.lost)
-        out.push_back(seen.repeats ? "no still has come for a pulse, it is asked for once more"
-                                   : "no still has come for a pulse");
+        out.push_back(seen.repeats ? "no still arrived after a pulse; it is requested again"
+                                   : "no still arrived after a pulse");
     if (seen.missedEdges > reported_.missedEdges)
         out.push_back("the loopback missed an edge of a pulse, exposure unverified");
     reported_ = seen;

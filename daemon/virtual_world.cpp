@@ -78,7 +78,7 @@ TracedLayerOptions VirtualWorld::layerOptions() const {
 std::string_view VirtualWorld::shapesAlone() const {
     if (traced_) return "";
     if (!TracedLayer::isAvailable()) return "this build has no path tracer";
-    return "virtual.rendering = \"preview\" shows simple shapes alone";
+    return "virtual.rendering = \"preview\" shows only simple shapes";
 }
 
 void VirtualWorld::set(const std::vector<PlacedObject>& objects, const LightOptions& light,

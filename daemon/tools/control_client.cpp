@@ -51,7 +51,7 @@ public:
                 read_.erase(0, end + 1);
                 return out;
             }
-            if (read_.size() > kLongestLine) fail("the answer is no line");
+            if (read_.size() > kLongestLine) fail("the answer is not one line");
             more();
         }
     }
@@ -91,7 +91,7 @@ Reply ask(const std::filesystem::path& socket, const nlohmann::json& request) {
     connection.send(request.dump() + "\n");
     Reply reply{ordered_json::parse(connection.line(), nullptr, false), {}};
     if (!reply.body.is_object() || !reply.body.contains("ok") || !reply.body["ok"].is_boolean())
-        throw NotReachable(socket.string() + ": what listens there is no mfard");
+        throw NotReachable(socket.string() + ": the process that listens there is not mfard");
     if (!reply.body["ok"].get<bool>()) throw Refused(reply.body.value("error", "refused"));
     reply.body.erase("ok");
     if (const auto bytes = reply.body.find("bytes");

@@ -38,7 +38,7 @@ void declare(CLI::App& app, Arguments& a) {
     app.add_option("--out", a.out, "folder for rig.yaml, video.yaml, still.yaml, residuals.png")
         ->required();
     app.add_option("--max-offset", a.solve.maxOffset,
-                   "largest offset between the clocks that is sought [s], 0: there is none")
+                   "search range of the clock offset, +- [s]; 0: no offset")
         ->check(CLI::Range(0.0, 2.0))
         ->capture_default_str();
     app.add_flag("--k3", a.solve.k3, "estimate the third radial coefficient, for wide lenses");

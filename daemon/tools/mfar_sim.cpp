@@ -121,8 +121,7 @@ int simulate(Arguments a) {
 }  // namespace mfar
 
 int main(int argc, char** argv) {
-    CLI::App app("Writes a recording of the synthetic board, with everything that is true about it",
-                 "mfar-sim");
+    CLI::App app("Writes a recording of the synthetic board, with ground truth", "mfar-sim");
     mfar::Arguments arguments;
     mfar::declare(app, arguments);
     CLI11_PARSE(app, argc, argv);

@@ -32,7 +32,7 @@ void saveSnapshot(const Reply& reply, const std::string& file) {
     const bool possible = size.width > 0 && size.height > 0 && size.width <= kMaxImageSide &&
                           size.height <= kMaxImageSide;
     if (!possible || reply.data.size() != std::size_t{4} * size.width * size.height)
-        throw Refused("what mfard sent is no picture");
+        throw Refused("mfard sent an invalid picture");
     savePng(file, {reply.data.data(), size, std::size_t{4} * size.width, PixelFormat::Rgba8});
     fmt::print("{}: {}x{}\n", file, size.width, size.height);
 }

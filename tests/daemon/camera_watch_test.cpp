@@ -46,7 +46,7 @@ TEST(CameraWatch, AWrongRateIsNamedOnceAndAfterAWhile) {
     for (int i = 0; i < 100; ++i)
         camera.send(66'666'667ns);
     EXPECT_THAT(camera.watch.takeWarnings(),
-                ElementsAre("video camera: sends 15.0 pictures a second, 30 are configured"));
+                ElementsAre("video camera: sends 15.0 frames per second, 30 are configured"));
     for (int i = 0; i < 100; ++i)
         camera.send(66'666'667ns);
     EXPECT_THAT(camera.watch.takeWarnings(), IsEmpty());

@@ -148,7 +148,8 @@ TEST(CaptureThread, AWrongStillEndsTheRunWhoeverReadsIt) {
         Capture capture(handOver);
         capture.still().send(1, 0, Size{4, 4});
         capture.video().send(2);
-        EXPECT_EQ(endOf(capture), "fake still: sent a picture of 4x4, calibrated are 16x12");
+        EXPECT_EQ(endOf(capture),
+                  "fake still: sent a picture of 4x4, the calibration is for 16x12");
     }
 }
 

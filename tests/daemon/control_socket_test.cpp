@@ -257,7 +257,7 @@ TEST_F(ControlSocketTest, ClientSaysWhatIsWrong) {
     const ControlSocket babbling(
         folder / "other", [](std::string_view, ControlRole) { return ControlAnswer{"hello"}; });
     EXPECT_THAT([&] { std::ignore = ask(folder / "other", {{"command", "status"}}); },
-                ThrowsMessage<NotReachable>(HasSubstr("is no mfard")));
+                ThrowsMessage<NotReachable>(HasSubstr("is not mfard")));
     const ControlSocket lying(folder / "lying", [](std::string_view, ControlRole) {
         return ControlAnswer{R"({"ok": true, "bytes": 1000})", {1, 2, 3}};
     });

@@ -117,7 +117,7 @@ TEST_F(FilterLearningTest, AStateThatIsCutOffIsReportedAndReplaced) {
         FilterLearning learning(options);
         EXPECT_EQ(learning.counts().learner.stills, 0U);
         EXPECT_THAT(learning.takeWarnings(),
-                    ElementsAre(HasSubstr("the checksum is wrong; learning begins anew")));
+                    ElementsAre(HasSubstr("the checksum is wrong; learning starts again")));
         EXPECT_THAT(learning.takeWarnings(), IsEmpty());
         show(learning, 1, 1);
     }
@@ -200,7 +200,7 @@ TEST(LearnedFilters, AreDescribedInOneLine) {
     LearningCounts counts;
     counts.learner = {12, 0, 0, 71, 1.02, 0.54};
     EXPECT_EQ(describe(counts),
-              "12 stills, 71 of 104 classes, 1.02 dB over the cubic (0.54 as shipped)");
+              "12 stills, 71 of 104 classes, 1.02 dB over bicubic (0.54 as shipped)");
 }
 
 }  // namespace

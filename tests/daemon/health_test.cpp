@@ -52,7 +52,7 @@ TEST_F(HealthTest, OnePictureForEverIsDegraded) {
     picture = now;
     const Health health = look();
     EXPECT_EQ(health.state, HealthState::Degraded);
-    EXPECT_EQ(health.cause, "video camera: sends the same picture again and again");
+    EXPECT_EQ(health.cause, "video camera: repeats the same picture");
     EXPECT_NEAR(health.sinceS, 4, 1e-6);
     EXPECT_TRUE(health.isAlive());
 }

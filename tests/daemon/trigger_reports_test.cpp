@@ -14,11 +14,11 @@ TEST(TriggerReports, EachEventIsReportedOnce) {
     TriggerReports reports;
     EXPECT_THAT(reports.newSince({}), IsEmpty());
     EXPECT_THAT(reports.newSince({1, 0, true}),
-                ElementsAre("no still has come for a pulse, it is asked for once more"));
+                ElementsAre("no still arrived after a pulse; it is requested again"));
     EXPECT_THAT(reports.newSince({1, 0, false}), IsEmpty());
     EXPECT_THAT(reports.newSince({1, 2, false}),
                 ElementsAre("the loopback missed an edge of a pulse, exposure unverified"));
-    EXPECT_THAT(reports.newSince({2, 2, false}), ElementsAre("no still has come for a pulse"));
+    EXPECT_THAT(reports.newSince({2, 2, false}), ElementsAre("no still arrived after a pulse"));
     EXPECT_THAT(reports.newSince({2, 2, false}), IsEmpty());
 }
 

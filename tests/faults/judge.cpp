@@ -168,7 +168,7 @@ void Judge::status(const ordered_json& said, Ns asked) {
 void Judge::judgeState(const ordered_json& said, Ns asked) {
     const ordered_json health = said.value("health", ordered_json::object());
     const std::string state = textOf(health, "state"), cause = textOf(health, "cause");
-    isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the processor draws") != cause.npos;
+    isGpuGivenUp_ = isGpuGivenUp_ || cause.find("the CPU draws") != cause.npos;
     const std::string fault = textOf(said, "fault");
     const bool isFine = state == "ok" && fault.empty();
     // A pipe without a reader takes some pictures; then one may wait for the writer's whole budget.

@@ -73,7 +73,7 @@ for _ in $(seq "$patience"); do
     ends_with 0 $limit
     summary_has exit_reason '"SIGTERM"'
     if grep -q 'not everything was written' err; then break; fi
-    says err 'did not end in time'
+    says err "did not stop in time"
 done
 says err 'not everything was written'
 

@@ -38,7 +38,7 @@ END
 sed 's/"preview"/"path-traced"\nresolution = 0.1\nsamples = 1\nbudget_ms = 60/' preview.toml >traced.toml
 
 last preview --config preview.toml
-says err "warning: previews of virtual objects are drawn with OpenGL ES 3.1 and are not shown: "
+says err "warning: previews of virtual objects need OpenGL ES 3.1 and are not shown: "
 [ "$(differing preview)" = 0 ] || fail "the picture without the preview differs"
 
 last traced --config traced.toml

@@ -21,7 +21,7 @@ learn --frames 6
 echo "what is cut off is reported and replaced"
 truncate -s 5000 "$file"
 learn --frames 6
-says err 'filters-.*\.learned: .*; learning begins anew'
+says err 'filters-.*\.learned: .*; learning starts again'
 [ "$(stills)" = "$first" ] || fail "$(stills) stills instead of $first"
 learn --frames 1
 if grep -q 'begins anew' err; then fail "the file was not replaced"; fi

@@ -80,7 +80,7 @@ goes_on
 
 echo "one picture for ever"
 says_of video90 repeat
-until_true warned 'video camera: sends the same picture again and again'
+until_true warned 'video camera: repeats the same picture'
 says_of video90
 goes_on
 stats
@@ -108,7 +108,7 @@ stop_now 1500
 echo "a camera at half its rate drops nothing and is named"
 says_of video90 rate 15
 begin
-until_true warned 'video camera: sends 1[45]\.[0-9] pictures a second, 30 are configured'
+until_true warned 'video camera: sends 1[45]\.[0-9] frames per second, 30 are configured'
 stats
 [ "$(counts video missed)" -le 3 ] || fail "missed $(counts video missed) at half the rate"
 stop_now 1500

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A GPU that is lost or hangs is named and set up again while control and cameras go on. After three
-# losses within a minute the processor draws instead, and the picture says so. A driver that does
+# losses within a minute the CPU draws instead, and the picture says so. A driver that does
 # not return is named, and a run with a time limit ends nevertheless.
 # Usage: 240-gpu-that-fails.sh MFARD MFAR-SIM PRETENDED.so FAULTY-GL-FOLDER
 . "$(dirname "$0")/lib.sh"
@@ -35,25 +35,25 @@ begin --engine gles --mode detail
 gpu_says "lost once"
 until_true failed_times 1
 until_true status_says \
-    '"state":"degraded","cause":"the GPU failed and was set up anew \(the context of OpenGL ES is lost\)"'
+    '"state":"degraded","cause":"the GPU failed and was restarted \(the context of OpenGL ES is lost\)"'
 goes_on
-until_true says err 'the GPU failed and was set up anew \(.*\): within [0-9]{1,4} ms'
+until_true says err 'the GPU failed and was restarted \(.*\): within [0-9]{1,4} ms'
 
 echo "it does not finish a picture"
 gpu_says never
 until_true failed_times 2
 gpu_says ""
 goes_on
-status_says '"cause":"the GPU failed and was set up anew \(the GPU does not finish a picture\)"' ||
+status_says '"cause":"the GPU failed and was restarted \(the GPU does not finish a picture\)"' ||
     fail "that is not told"
 status_says '^engine +gles' || fail "it does not draw any more"
 control snapshot before.png
 
-echo "the third time the processor draws"
+echo "the third time the CPU draws"
 gpu_says "lost again"
 until_true status_says '^engine +simd'
 goes_on
-status_says '"state":"degraded","cause":"the GPU failed 3 times within a minute, the processor draws' ||
+status_says '"state":"degraded","cause":"the GPU failed 3 times within a minute, the CPU draws' ||
     fail "health does not say so"
 status_says '^renderer +without OpenGL ES' || fail "it still has a renderer"
 control snapshot after.png
@@ -76,5 +76,5 @@ begin --engine gles --seconds 4
 gpu_says hang
 until_true status_says '"state":"stalled","cause":"the picture thread hangs"'
 ends_with 0 6000
-says err 'the picture thread hangs, ended without it'
+says err 'the picture thread hangs; ended without waiting for it'
 summary_has exit_reason '"--seconds"'

@@ -36,8 +36,8 @@ void StillLearning::report(const char* program) const {
     fmt::print(
         stderr,
         "{}: learned from {} stills ({} refused, {} showed nothing new), {} of {} "
-        "classes; held out {:.2f} dB over the cubic, as shipped {:.2f}; guided by {:.2f} "
-        "of the still for {:.2f} of the video from {} pairs of stills, held out {:.2f} dB; the "
+        "classes; held out {:.2f} dB over bicubic, as shipped {:.2f}; guidance {:.2f} "
+        "of the still, {:.2f} of the video, from {} pairs of stills, held out {:.2f} dB; the "
         "finest detail differs by {:.2f} + {:.3f} of its variance\n",
         program, counts.stills, counts.refused, counts.repeated, counts.classes, enlarge::kUnique,
         counts.gainDb, counts.priorDb, counts.guidance.still, counts.guidance.video, counts.pairs,
