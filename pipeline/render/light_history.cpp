@@ -33,22 +33,21 @@ void addShare(KnownLight& sum, float share, const KnownLight& light) {
 LightHistory::LightHistory(const Film& film, const RenderView& view,
                            std::shared_ptr<const LensRays> lens, float mostSamples)
     : film_(film), camera_(view.camera), lens_(std::move(lens)),
-      R_world_camera_(view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
+      rotation_(view.T_world_camera.rotation.normalized().toRotationMatrix().cast<float>()),
       eye_(view.T_world_camera.translation.cast<float>()), mostSamples_(mostSamples) {}
 
 bool LightHistory::isSame(std::size_t pixel, const Eigen::Vector2f& ray, const SeenSurface& seen,
                           const Eigen::Vector3f& point) const {
     const SeenSurface& there = film_.centre(pixel);
     if (there.hit.id != seen.hit.id || there.normal.dot(seen.normal) < kSameBend) return false;
-    const Eigen::Vector3f other =
-        eye_ + there.hit.depth * (R_world_camera_ * ray.homogeneous().eval());
+    const Eigen::Vector3f other = eye_ + there.hit.depth * (rotation_ * ray.homogeneous().eval());
     return std::abs(seen.normal.dot(other - point)) < kOffPlane * there.hit.depth;
 }
 
 KnownLight LightHistory::at(const SeenSurface& seen, const Eigen::Vector3f& point,
                             const Eigen::Vector3f& eye) const {
     if (seen.hit.id == 0) return {};
-    const Eigen::Vector3f there = R_world_camera_.transpose() * (point - eye_);
+    const Eigen::Vector3f there = rotation_.transpose() * (point - eye_);
     if (!(there.z() > kNearest)) return {};
     const Eigen::Vector2d pixel = camera_.project(there.hnormalized().cast<double>());
     const Size size = camera_.size;

@@ -32,7 +32,7 @@ private:
     const Film& film_;
     CameraModel camera_;
     std::shared_ptr<const LensRays> lens_;
-    Eigen::Matrix3f R_world_camera_;
+    Eigen::Matrix3f rotation_;  // camera to world
     Eigen::Vector3f eye_;
     float mostSamples_;
 };

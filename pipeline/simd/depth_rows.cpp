@@ -90,8 +90,7 @@ void MoveRow(const Lens& lens, Size size, const Motion& motion, const MoveRule& 
         const auto p = projected(d, lens, hn::Mul(u, inverse), hn::Mul(v, inverse));
         const PixelOf<decltype(d)> at(d, p, size);
         const auto moved = hn::Mul(rho, inverse);
-        const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);  // derivative of `moved` by
-                                                                         // rho
+        const auto slope = hn::Mul(hn::Mul(turnedZ, inverse), inverse);  // d moved / d rho
         const auto grown = hn::MulAdd(hn::Mul(set(rule.growth), rho), rho, before);
         const auto variance = hn::Mul(hn::Mul(grown, slope), slope);
         const auto known = hn::And(hn::Lt(before, set(kUnknown)), hn::Gt(z, set(rule.leastDepth)));

@@ -53,7 +53,7 @@ Values lookedUp(const SurfaceTexture& texture, float u, float v) {
 }
 
 std::uint32_t nearestByte(float level) {
-    return static_cast<std::uint32_t>(level + 0.5F);
+    return static_cast<std::uint32_t>(std::lround(level));
 }
 std::uint32_t rootByte(float linear) {
     return nearestByte(kMost * std::sqrt(linear));
@@ -145,7 +145,8 @@ PaintTextures::Source PaintTextures::sourceOf(const SilhouetteModels::Part& part
 
 void PaintTextures::fill(const Source& source, Size size, std::span<PaintWords> out) {
     for (std::size_t i = 0; i < out.size(); ++i) {
-        const auto x = static_cast<float>(i % size.width), y = static_cast<float>(i / size.width);
+        const std::size_t row = i / size.width;
+        const auto x = static_cast<float>(i % size.width), y = static_cast<float>(row);
         const float u = (x + 0.5F) / static_cast<float>(size.width);
         const float v = (y + 0.5F) / static_cast<float>(size.height);
         const auto valueOf = [&](const SurfaceTexture& texture) {

@@ -203,7 +203,7 @@ RestPixel RestPixels::at(const Asked& asked) const {
     Colour ofObject, ofCatcher;
     const float objectKnown =
         covered > 0 ? known({point, static_cast<float>(id), asked.paint}, ofObject) : 1;
-    const float catcherKnown = below > 0 ? known({under, kCatcherId, 0}, ofCatcher) : 1;
+    const float catcherKnown = below > 0 ? known({under, kCatcherId, {}}, ofCatcher) : 1;
     RestPixel out{};
     for (std::size_t c = 0; c < 4; ++c) {
         const float shown =

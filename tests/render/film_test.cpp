@@ -84,7 +84,7 @@ TEST(Film, AMillionSamplesKeepDoublePrecision) {
 
 TEST(Film, CentreDecidesDepth) {
     Film film({1, 1});
-    film.setCentre(0, {1.5F, 2});
+    film.setCentre(0, {{1.5F, 2}});
     film.add(0, objectSample(0.1F, 1.0F, 1));
     const RenderedPicture picture = pictureOf(film);
     EXPECT_EQ(picture.depth[0], 1.5F);
@@ -93,7 +93,7 @@ TEST(Film, CentreDecidesDepth) {
 
 TEST(Film, ShadowIsBlackOfTheRatiosCoverage) {
     Film film({1, 1});
-    film.setCentre(0, {2, kCatcherId});
+    film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.1F, 0.05F, 0.025F}, {0.4F, 0.2F, 0.1F}));
     const RenderedPicture picture = pictureOf(film);
     const int coverage = static_cast<int>(std::lround(255 * (1 - std::pow(0.25F, 1 / 2.2F))));
@@ -121,7 +121,7 @@ TEST(Film, BouncedLightOnADarkSurfaceIsSeen) {
 
 TEST(Film, UnchangedCatcherIsNothing) {
     Film film({1, 1});
-    film.setCentre(0, {2, kCatcherId});
+    film.setCentre(0, {{2, kCatcherId}});
     film.add(0, catcherSample({0.37F, 0.2F, 0.11F}, {0.37F, 0.2F, 0.11F}));
     const RenderedPicture picture = pictureOf(film);
     EXPECT_EQ(picture.colour[0], Rgba{});
@@ -201,7 +201,7 @@ TEST(Film, AnEdgesErrorFalls) {
 
 TEST(Film, ClearForgets) {
     Film film({2, 1});
-    film.setCentre(0, {1, 1});
+    film.setCentre(0, {{1, 1}});
     film.add(0, objectSample(0.5F));
     film.add(1, objectSample(0.5F));
     film.clear(0);

@@ -171,8 +171,9 @@ Errors errorsOf(const Words& words, const Scene& scene) {
             Six sum = Six::Zero();
             int hits = 0;
             for (int i = 0; i < kRays * kRays; ++i) {
-                const Eigen::Vector2d at(x + (i % kRays + 0.5) / kRays - 0.5,
-                                         y + (i / kRays + 0.5) / kRays - 0.5);
+                const int column = i % kRays, row = i / kRays;
+                const Eigen::Vector2d at(x + (column + 0.5) / kRays - 0.5,
+                                         y + (row + 0.5) / kRays - 0.5);
                 const auto found = met(scene, paintCamera().unproject(at).homogeneous());
                 if (!found) break;
                 sum += *found / (kRays * kRays);

@@ -77,10 +77,10 @@ std::string resultText(const Calibration& calibration) {
                        1000 * t.x(), 1000 * t.y(), 1000 * t.z(), 1000 * d[3], 1000 * d[4],
                        1000 * d[5], d.head<3>().maxCoeff() / kDegree);
     if (calibration.offsetKnown)
-        return out +
-               fmt::format("clocks: add {:.3f} ms to still times to get video times, +- {:.3f} ms\n",
-                           1000 * calibration.rig.stillTimeOffset,
-                           1000 * calibration.offsetDeviation);
+        return out + fmt::format(
+                         "clocks: add {:.3f} ms to still times to get video times, +- {:.3f} ms\n",
+                         1000 * calibration.rig.stillTimeOffset,
+                         1000 * calibration.offsetDeviation);
     return out + "clocks: the offset of the still's clock was not measured and is taken as 0: the "
                  "camera moved too little while stills were taken\n";
 }
