@@ -32,7 +32,8 @@ for count in 1 2; do
     until_true started
     listed() { [ "$(cat films/*/cam0/data.csv 2>/dev/null | wc -l)" -gt $((4 * count)) ]; }
     until_true listed
-    says <(status) '^recording +films/[0-9]{8}-[0-9]{6}(-[0-9]+)?$'
+    named() { status | grep -Eq '^recording +films/[0-9]{8}-[0-9]{6}(-[0-9]+)?$'; }
+    until_true named
     stop_it
     [ "$(find films -mindepth 1 -maxdepth 1 | wc -l)" = "$count" ] || fail "not $count folders"
 done
