@@ -199,7 +199,7 @@ TEST_F(FileDisplays, CancelEndsTheWaitForAReaderThatTakesNothing) {
     close(reader);
 }
 
-/// A pipe whose reader takes what the test says.
+/// A pipe whose reader takes only the number of pictures that the test asks for.
 struct PipeDisplays : FileDisplays {
     PipeDisplays() {
         mkfifo(pipe.c_str(), 0600);
@@ -208,8 +208,7 @@ struct PipeDisplays : FileDisplays {
     ~PipeDisplays() override {
         if (reader >= 0) close(reader);
     }
-    /// Takes everything until `count` pictures have come, and says what the first pixel's luma of
-    /// the last one was.
+    /// Reads until `count` pictures have come; returns the luma of the last one's first pixel.
     int readPictures(std::size_t count) const {
         const std::size_t header = y4mHeader(kSize, 30).size();
         const std::size_t picture = 6 + 640 * 480 * 3 / 2;
@@ -247,7 +246,7 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAReaderThatTakesNothing) {
     EXPECT_EQ(display->fault(), "y4m:" + pipe.string() + ": the reader of the pipe takes nothing");
     for (int i = 1; i <= 50; ++i)
         show(*display, plain(kSize, static_cast<std::uint8_t>(5 * i)), {i});
-    // One is in work, and of the others as many wait as there are buffers.
+    // One picture is being written, and one waits in each buffer.
     EXPECT_EQ(display->leftOut(), 47U);
     const int last = readPictures(4);
     EXPECT_NEAR(last, 16 + 219 * 250 / 255., 1) << "the newest picture is written";

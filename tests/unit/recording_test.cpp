@@ -27,7 +27,7 @@ std::string faultOf(const fs::path& root) {
     return "no fault found";
 }
 
-/// One way to break a valid recording, and how the message has to begin and what it has to say.
+/// One way to break a valid recording, and the required beginning and content of the message.
 struct Fault {
     const char* name;
     std::function<void(const fs::path& root)> inflict;
@@ -230,7 +230,7 @@ TEST(Recording, StillSensorToTheRightSeesThePointFurtherLeft) {
 TEST(Recording, PosesAreThoseOfTheVideoCameraNotOfTheBody) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
-    // Quarter turn about z and an offset: the video camera no longer is the body.
+    // Quarter turn about z and an offset: the video camera's frame is no longer the body's.
     replaceInFile(folder / kVideoYaml, "[1.0, 0.0, 0.0, 0,", "[0.0, -1.0, 0.0, 0.5,");
     replaceInFile(folder / kVideoYaml, "0.0, 1.0, 0.0, 0.0,", "1.0, 0.0, 0.0, 0.0,");
     const Recording r = loadRecording(folder.path());
