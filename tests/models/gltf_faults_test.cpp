@@ -34,7 +34,7 @@ std::string faultOf(const GltfMaker& maker, const ModelLimits& limits = {}) {
     return faultOf([&] { (void)parseGltf(maker.glb(), "test.glb", {}, limits); });
 }
 
-/// What is wrong after one change of a sound model.
+/// The error message after one change of a valid model.
 std::string faultAfter(const std::function<void(json&)>& change) {
     GltfMaker maker = richModel();
     change(maker.root);
@@ -61,7 +61,7 @@ TEST(GltfFaults, BytesThatAreNoModel) {
     std::vector<std::uint8_t> glb = oneTriangle().glb();
     glb[4] = 1;
     EXPECT_THAT(faultOfBytes(glb), HasSubstr("version 1"));
-    // Wherever a file ends, it is one clear error.
+    // A file cut off at any byte gives one clear error.
     glb = richModel().glb();
     for (std::size_t size = 0; size < glb.size(); size += 7)
         EXPECT_THAT(faultOfBytes({glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)}),
@@ -241,7 +241,7 @@ TEST(GltfFaults, Limits) {
     limits = {};
     limits.elements = 3;
     EXPECT_THAT(faultOf(richModel(), limits), saysAt("accessors", "4 entries, at most 3"));
-    // Two showings of three vertices.
+    // Two instances of three vertices.
     GltfMaker maker = oneTriangle();
     maker.root["scenes"][0]["nodes"] = {0, 0};
     limits = {};
