@@ -1,4 +1,4 @@
-// Real depth is measured only where it may decide about a virtual object.
+// Real depth is measured only where it may decide whether a virtual object is visible.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/scene_run.h"
 
@@ -24,7 +24,8 @@ protected:
         pipeline_.emplace(scene_->rig(), PipelineOptions{});
     }
 
-    /// A sphere of 10 cm before the camera's first place, at this share of the way to the desk.
+    /// A sphere of 10 cm in front of the camera's first position, at this share of the way to the
+    /// desk.
     void placeSphere(double share) {
         VirtualObject sphere;
         sphere.shape = VirtualShape::Sphere;

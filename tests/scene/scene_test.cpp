@@ -69,7 +69,7 @@ TEST_F(SceneTest, WhatMovesIsSearchedInBothDimensionsAndNotSmeared) {
     EXPECT_GT(psnr(detail, truth, moving), psnr(off, truth, moving));
 }
 
-/// The epipole in the picture, and (but for the sensors' distance) no parallax at all.
+/// Two paths: the epipole lies in the picture, or the distance of the sensors causes all parallax.
 class Motion : public SceneTest, public testing::WithParamInterface<Path> {};
 
 TEST_P(Motion, GetsDetail) {
