@@ -34,7 +34,7 @@ Bytes bytesOf(const Grey& picture) {
     return {picture.values.begin(), picture.values.end()};
 }
 
-/// A scene, a still that shows all of it, and one that does not show its left.
+/// A scene, a still that shows all of it, and a still that does not show its left part.
 class SecondStillTest : public GlTest {
 protected:
     static Pipeline made(double share, const EngineChoice& engines) {
@@ -51,7 +51,7 @@ protected:
         pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
         return pipeline.readStats();
     }
-    /// Mean square error where the newest still shows another scene, or where it does not.
+    /// Mean square error inside or outside the part in which the newest still shows another scene.
     double error(const Pipeline& pipeline, bool inHidden) const {
         const Bytes picture = pipeline.readImage();
         double sum = 0, count = 0;
@@ -71,7 +71,7 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-/// Each engine alone, and each drawing what the other has matched.
+/// Each engine alone, and each drawing with the other's match.
 struct Engines {
     const char* name;
     EngineChoice choice;
