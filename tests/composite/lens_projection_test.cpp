@@ -51,7 +51,7 @@ TEST(LensProjection, BeyondTheRimNothingComesBackIntoThePicture) {
     }
 }
 
-TEST(LensProjection, ContinuousAndFiniteBesideAndBehindTheCamera) {
+TEST(LensProjection, IsContinuousAndFiniteOutsideTheViewAndBehindTheCamera) {
     const LensProjection lens(barrel());
     for (const Eigen::Vector2d& xy :
          {Eigen::Vector2d(0.3, -0.2), Eigen::Vector2d(-2, 1), Eigen::Vector2d(1e-9, 0)}) {

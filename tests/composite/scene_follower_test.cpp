@@ -68,7 +68,7 @@ TEST(SceneFollower, ShadowsFallOntoThePlaneUntilDepthIsKnown) {
     EXPECT_EQ(measured->objects.size(), 1U);
 }
 
-TEST(SceneFollower, CatcherIsMadeAnewFromAnotherSideAfterAWhile) {
+TEST(SceneFollower, CatcherIsRebuiltLaterWhenTheViewChanges) {
     SceneFollower follower({.settling = 1, .leastKnown = 0.5, .turn = 0.3, .leastInterval = 4});
     follower.set(cube());
     const auto follow = [&](double angle, int s) {

@@ -35,7 +35,7 @@ Eigen::Vector3d surfacePoint(VirtualShape shape, Eigen::Vector3d p) {
     return 0.5 * p / p.cwiseAbs().maxCoeff();
 }
 
-TEST(Silhouette, EveryPixelNearASurfacePointKnowsIt) {
+TEST(Silhouette, EveryPixelNearASurfacePointIsCovered) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);
     const int margin = 5;

@@ -126,7 +126,7 @@ TEST_F(FilterLearningTest, AStateThatIsCutOffIsReportedAndReplaced) {
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
-TEST_F(FilterLearningTest, WhatOtherSensorsTaughtIsNotUsed) {
+TEST_F(FilterLearningTest, FiltersLearnedFromOtherSensorsAreNotUsed) {
     {
         FilterLearning learning(options);
         show(learning, 1, 1);

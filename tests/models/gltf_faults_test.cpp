@@ -45,7 +45,7 @@ auto saysAt(const std::string& place, const std::string& what) {
     return AllOf(StartsWith("test.glb: " + place), HasSubstr(what), Not(HasSubstr("\n")));
 }
 
-TEST(GltfFaults, SoundModelsHaveNone) {
+TEST(GltfFaults, ValidModelsHaveNoFaults) {
     EXPECT_EQ(faultOf(oneTriangle()), "none");
     EXPECT_EQ(faultOf(richModel()), "none");
 }
@@ -183,7 +183,7 @@ TEST(GltfFaults, Nodes) {
 }
 
 // A tree that shows each node twice per level would have 2^40 of them.
-TEST(GltfFaults, NodesAreCountedAsOftenAsTheyAreShown) {
+TEST(GltfFaults, EveryInstanceOfANodeIsCounted) {
     GltfMaker maker = oneTriangle();
     for (int i = 0; i < 40; ++i)
         maker.root["nodes"].push_back({{"children", {i, i}}});
@@ -252,7 +252,7 @@ TEST(GltfFaults, Limits) {
     EXPECT_THAT(faultOf(maker, limits), HasSubstr("more than 1 triangles"));
 }
 
-TEST(GltfFaults, BuffersThatSayTheyAreOneAreCounted) {
+TEST(GltfFaults, RepeatedBuffersCountTowardsTheLimit) {
     GltfMaker maker = richModel();
     ModelLimits limits;
     for (int i = 0; i < 100; ++i)
@@ -305,7 +305,7 @@ TEST_F(GltfFiles, AFileInMemoryNamesNone) {
                 HasSubstr("other files are not read"));
 }
 
-TEST_F(GltfFiles, BuffersHaveTheSizeTheySay) {
+TEST_F(GltfFiles, BuffersHaveTheirStatedSize) {
     write("model/data.bin", "short");
     EXPECT_THAT(faultWithUri("data.bin"), HasSubstr("mismatch"));
     EXPECT_THAT(faultOf([&] { (void)loadGltf(folder_.path() / "none.glb"); }),

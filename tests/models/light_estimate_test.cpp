@@ -146,7 +146,7 @@ TEST(LightEstimate, ALampInViewGivesItsDirection) {
     EXPECT_GT(lighting.sun->irradiance.minCoeff(), 0);
 }
 
-TEST(LightEstimate, WhatIsOutOfViewIsRemembered) {
+TEST(LightEstimate, LightOutOfViewIsRemembered) {
     Watcher watcher;
     for (const RigidTransform& T : allAround())
         watcher.look(T, smoothLight);

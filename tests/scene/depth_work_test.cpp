@@ -54,7 +54,7 @@ private:
     int count_ = 0;
 };
 
-TEST_F(DepthWork, WhatLiesBehindAnObjectIsLookedAtNowAndThen) {
+TEST_F(DepthWork, DepthBehindAnObjectIsMeasuredPeriodically) {
     placeSphere(0.5);
     run(6);
     int measured = 0, skipped = 0;
@@ -69,14 +69,14 @@ TEST_F(DepthWork, WhatLiesBehindAnObjectIsLookedAtNowAndThen) {
     EXPECT_GE(skipped, 8);
 }
 
-TEST_F(DepthWork, WhatMayHideItIsMeasuredInEveryFrame) {
+TEST_F(DepthWork, PossibleOccludersAreMeasuredInEveryFrame) {
     placeSphere(1.0);
     run(6);
     for (const FrameStats& stats : run(3))
         EXPECT_GT(stats.depthTiles, 0);
 }
 
-TEST_F(DepthWork, WhatIsBehindTheDeskIsNotDrawnButLookedFor) {
+TEST_F(DepthWork, AnOccludedObjectIsNotDrawnButDepthIsStillMeasured) {
     placeSphere(1.5);
     run(6);
     for (const FrameStats& stats : run(4)) {

@@ -48,7 +48,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_F(SceneTest, WhatMovesIsSearchedInBothDimensionsAndNotSmeared) {
+TEST_F(SceneTest, MovingObjectsAreSearchedInBothDimensionsAndNotSmeared) {
     const SceneShots s(synthetic::Scene::Moving, Path::Handheld, 8);
     const auto moving = s.movingTiles();
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);

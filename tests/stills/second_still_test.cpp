@@ -103,7 +103,7 @@ protected:
     }
 };
 
-TEST_P(SecondStillOfEngines, ShowsWhatTheNewestDoesNot) {
+TEST_P(SecondStillOfEngines, ShowsPartsThatTheNewestStillLacks) {
     Pipeline one = made(0), two = made(1);
     FrameStats stats;
     for (Pipeline* pipeline : {&one, &two}) {
@@ -191,7 +191,7 @@ TEST_F(SecondStill, StaysWhileNewStillsMissTheSame) {
     }
 }
 
-TEST_F(SecondStillTest, IsSeenAlikeByAllEngines) {
+TEST_F(SecondStillTest, AllEnginesGiveTheSamePicture) {
     Pipeline simd = made(1, EngineChoice::all(EngineKind::Simd));
     std::vector<FrameStats> stats;
     const auto show = [&](Pipeline& pipeline) {
@@ -219,7 +219,7 @@ TEST_F(SecondStillTest, IsSeenAlikeByAllEngines) {
     }
 }
 
-TEST_F(SecondStill, OfAnotherExposureDoesNoHarm) {
+TEST_F(SecondStill, ADifferentExposureDoesNoHarm) {
     const Bytes dark = bytesOf(twin::greyOf(
         kStill, [&](int x, int y) { return 255 * 0.7 * std::pow(scene_.at(x, y) / 255, 1.3); }));
     Pipeline one = made(0), two = made(1);
@@ -233,7 +233,7 @@ TEST_F(SecondStill, OfAnotherExposureDoesNoHarm) {
     EXPECT_LT(error(two, false), 1.02 * error(one, false));
 }
 
-TEST_F(SecondStill, OfAnotherSceneDoesNoHarm) {
+TEST_F(SecondStill, ADifferentSceneDoesNoHarm) {
     const Bytes other = bytesOf(sharpDiscs(5));
     Pipeline one = made(0), two = made(1);
     for (Pipeline* pipeline : {&one, &two}) {

@@ -58,7 +58,7 @@ TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
     EXPECT_EQ(loadImage(folder_ / "out/frames/123.png").pixels, picture.pixels);
 }
 
-TEST_F(FileDisplays, RowsOfTheHostAreWrittenAsATextureIs) {
+TEST_F(FileDisplays, HostRowsAreWrittenLikeATexture) {
     AlignedRows<std::uint32_t> rows({7, 5});  // padded
     StoredImage picture = plain({7, 5}, 0);
     for (int y = 0; y < 5; ++y)
@@ -186,7 +186,7 @@ TEST_F(FileDisplays, AClosedPipeIsAnErrorNotTheEndOfTheProcess) {
     }
 }
 
-TEST_F(FileDisplays, CancelEndsTheWaitForAReaderThatTakesNothing) {
+TEST_F(FileDisplays, CancelEndsTheWaitForAStalledReader) {
     const fs::path pipe = folder_ / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
@@ -238,7 +238,7 @@ struct PipeDisplays : FileDisplays {
     int reader = -1;
 };
 
-TEST_F(PipeDisplays, LivePicturesDoNotWaitForAReaderThatTakesNothing) {
+TEST_F(PipeDisplays, LivePicturesDoNotWaitForAStalledReader) {
     const FileDisplayPolicy live{.isLive = true, .stalled = std::chrono::milliseconds(20)};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
     show(*display, plain(kSize, 0), {0});
@@ -281,7 +281,7 @@ TEST_F(PipeDisplays, LivePicturesAreGivenUpAtTheEnd) {
     }
 }
 
-TEST_F(PipeDisplays, WaitForAReaderIsSaid) {
+TEST_F(PipeDisplays, WaitingForAReaderIsReported) {
     std::atomic<const char*> said{""};
     const FileDisplayPolicy lossless{.waiting = [&](const char* what) { said = what; }};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, lossless);
@@ -328,7 +328,7 @@ TEST_F(FileDisplays, NoneTakesEverythingAndLeavesNothing) {
     EXPECT_EQ(display->name(), "none");
 }
 
-TEST(OpenFileDisplay, SaysWhatIsWrong) {
+TEST(OpenFileDisplay, ErrorsAreReported) {
     const TempFolder folder;
     test::writeFile(folder / "file", "x");
     EXPECT_EQ(refusal("jpg:/tmp"),

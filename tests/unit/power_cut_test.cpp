@@ -267,7 +267,7 @@ protected:
     std::mt19937 random_{7};
 };
 
-TEST_F(PowerCut, WhatWasSafeReadsBackAfterACutAtAnyMoment) {
+TEST_F(PowerCut, SynchronisedDataReadsBackAfterACutAtAnyMoment) {
     ASSERT_EQ(loadRecording(whole_.path()).video.size(), 12U);
     const std::string video = (whole_ / "cam0/data.csv").string(),
                       stills = (whole_ / "cam1/data.csv").string();

@@ -39,7 +39,7 @@ StereoRig smallRig() {
     return rig;
 }
 
-TEST(Recorder, WhatIsRecordedIsWhatIsPlayed) {
+TEST(Recorder, ARecordingPlaysBackUnchanged) {
     const TempFolder folder;
     const StereoRig rig = smallRig();
     const Pose pose{{20}, rig.T_still_video};

@@ -217,7 +217,7 @@ TEST(RecordingPlayer, TriggerCountsAndDoesNothingElse) {
     EXPECT_TRUE(player.stills().ended());
 }
 
-TEST(RecordingPlayer, TellsWhatTheCamerasAre) {
+TEST(RecordingPlayer, ReportsTheCamerasProperties) {
     const TempFolder folder;
     writeSmallRecording(folder.path());
     RecordingPlayer player(loadRecording(folder.path()), {});

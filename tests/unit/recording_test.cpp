@@ -201,7 +201,7 @@ TEST(Recording, MissingFolderIsNamed) {
     EXPECT_EQ(faultOf("/nonexistent/recording"), "/nonexistent/recording: folder is missing");
 }
 
-TEST(Recording, HoldsWhatTheFilesSay) {
+TEST(Recording, HasTheContentOfItsFiles) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     const Recording r = loadRecording(folder.path());
@@ -227,7 +227,7 @@ TEST(Recording, StillSensorToTheRightSeesThePointFurtherLeft) {
     EXPECT_TRUE(p.isApprox(Eigen::Vector3d(-0.014, 0, 1), 1e-12)) << p.transpose();
 }
 
-TEST(Recording, PosesAreThoseOfTheVideoCameraNotOfTheBody) {
+TEST(Recording, PosesDescribeTheVideoCameraNotTheBody) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     // Quarter turn about z and an offset: the video camera's frame is no longer the body's.
@@ -240,7 +240,7 @@ TEST(Recording, PosesAreThoseOfTheVideoCameraNotOfTheBody) {
     EXPECT_TRUE(q.isApprox(Eigen::Vector3d(0.486, 1, 0), 1e-9)) << q.transpose();
 }
 
-TEST(Recording, PoseBetweenTwoIsInterpolatedAndOutsideThereIsNone) {
+TEST(Recording, PosesAreInterpolatedAndNotExtrapolated) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     writeFile(folder / kPoses, "1000000000,1,0,0,1,0,0,0\n1200000000,2,0,0,0,0,0,1\n");

@@ -94,7 +94,7 @@ bool drivenUntil(ReopeningCamera& camera, const std::function<bool(bool frame)>&
     return false;
 }
 
-TEST(ReopeningCamera, SaysWhatIsMissingAndGoesOnWhenItComes) {
+TEST(ReopeningCamera, AMissingCameraIsReportedAndUsedWhenItAppears) {
     Socket socket;
     socket.plugged = false;
     ReopeningCamera camera = cameraOn(socket);
@@ -122,7 +122,7 @@ TEST(ReopeningCamera, SurvivesManyLosses) {
     EXPECT_EQ(camera.losses(), 20U);
 }
 
-TEST(ReopeningCamera, OneThatGoesSilentIsNamedAndThenOpenedAgain) {
+TEST(ReopeningCamera, ASilentCameraIsReportedAndThenReopened) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);
     camera.start();
@@ -136,7 +136,7 @@ TEST(ReopeningCamera, OneThatGoesSilentIsNamedAndThenOpenedAgain) {
     EXPECT_EQ(camera.fault(), std::nullopt);
 }
 
-TEST(ReopeningCamera, OneThatIsSilentBesideABusyLibraryIsLeftAloneForLonger) {
+TEST(ReopeningCamera, ASilentCameraIsReopenedLaterWhileTheLibraryIsBusy) {
     Socket socket;
     std::atomic<bool> busy{true};
     ReopeningOptions options = quick();
@@ -273,7 +273,7 @@ TEST(ReopeningCamera, AStopThatNeverReturnsIsOverItsBudget) {
     socket.answers = true;
 }
 
-TEST(ReopeningCamera, CountsWhatEveryDeviceThatItWasHasCounted) {
+TEST(ReopeningCamera, CountersIncludeEarlierDevices) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);
     EXPECT_EQ(camera.cameraCounters().missed, std::nullopt);
@@ -292,7 +292,7 @@ TEST(ReopeningCamera, CountsWhatEveryDeviceThatItWasHasCounted) {
     }
 }
 
-TEST(ReopeningCamera, OneThatIsLostBeforeItSendsIsNotOpenedAtFullSpeed) {
+TEST(ReopeningCamera, ACameraLostBeforeItsFirstFrameIsReopenedSlowly) {
     Socket socket;
     ReopeningOptions options = quick();
     options.firstPause = options.longestPause = std::chrono::hours(1);
@@ -336,7 +336,7 @@ TEST(ReopeningCamera, AnotherSizeCountsAsNotThere) {
     EXPECT_EQ(socket.open, 0);
 }
 
-TEST(ReopeningCamera, StopWakesWhoWaits) {
+TEST(ReopeningCamera, StopWakesWaitingThreads) {
     Socket socket;
     socket.plugged = false;
     ReopeningCamera camera = cameraOn(socket);

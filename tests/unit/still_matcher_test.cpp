@@ -159,7 +159,7 @@ TEST(StillMatcher, LateStillIsMatchedAndSparesItsRepetition) {
     EXPECT_EQ(matcher.counters().lost, 1U);
 }
 
-TEST(StillMatcher, SteppedClockIsLearnedAnew) {
+TEST(StillMatcher, SteppedClockIsLearnedAgain) {
     for (const milliseconds step : {-40ms, 7ms, 80ms}) {
         StillMatcher matcher({});
         Timestamp pulse = kStart;

@@ -135,7 +135,7 @@ TEST_F(TriggeredStills, StillHasTheTimeOfItsPulse) {
     EXPECT_EQ(camera->counters().matched, 30U);
 }
 
-TEST_F(TriggeredStills, PulseGivesTheExposureThatTheCameraDoesNotSay) {
+TEST_F(TriggeredStills, PulseGivesTheExposureIfTheCameraDoesNotReportIt) {
     TriggeredStillOptions options;
     options.exposure = 6ms;
     const auto camera = open(options);
@@ -237,7 +237,7 @@ TEST_F(TriggeredStills, TimesNeverGoBackwards) {
     EXPECT_EQ(sensor.loans, 1);
 }
 
-TEST_F(TriggeredStills, StopWakesTheOneWhoWaits) {
+TEST_F(TriggeredStills, StopWakesTheWaitingThread) {
     const auto camera = open();
     std::thread waiting([&] { EXPECT_FALSE(camera->next(1h)); });
     std::this_thread::sleep_for(5ms);
