@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Synthetic, EveryScene,
                                          synthetic::Scene::Moving, synthetic::Scene::Still),
                          [](const auto& p) { return std::string(synthetic::name(p.param)); });
 
-TEST(SyntheticPicture, TheCalibrationTargetsTagsAreWhereTheyAre) {
+TEST(SyntheticPicture, CalibrationTagsAreAtTheirTruePositions) {
     SyntheticOptions options;
     options.scene = synthetic::Scene::Calibration;
     options.path = synthetic::Path::Rest;

@@ -64,7 +64,7 @@ void replace(FilterLearning& learning, unsigned seed) {
     learning.finish();
 }
 
-TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheStillBeforeAndKept) {
+TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKept) {
     options.rig = discsRig();
     {
         FilterLearning learning(options);
