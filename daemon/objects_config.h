@@ -21,7 +21,7 @@ inline constexpr std::size_t kMostObjects = 64;
 void readObjects(TomlReader& file, const std::filesystem::path& folder, FileMemory& memory,
                  std::vector<PlacedObject>& objects);
 
-/// Where an object is. Nothing when it stands on a tag that is not in the map.
+/// Pose of an object in the world. Empty if it stands on a tag that is not in the map.
 [[nodiscard]] std::optional<RigidTransform> worldPlace(const PlacedObject& object,
                                                        const TagMap& tags);
 

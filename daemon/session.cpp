@@ -352,8 +352,8 @@ void Session::fireIfNeeded(Timestamp frame, const FrameStats& stats) {
     stats_.triggers(static_cast<std::uint64_t>(policy_.fired()), lost);
 }
 
-// A frame's picture has the fault as its banner; without frames the last picture is shown again
-// with it.
+// Each frame's picture shows the fault in a banner. If no frames arrive, the last picture is shown
+// again with the banner.
 void Session::showFault() {
     const std::optional<std::string> fault = rig_.fault();
     // Reported here as well, as the capture thread may wait for the faulty device.

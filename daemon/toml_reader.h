@@ -36,7 +36,7 @@ public:
     void number(std::string_view key, double& out, const NumberCheck& check = nullptr);
     void integer(std::string_view key, std::uint64_t& out);
     void integer(std::string_view key, int& out);
-    /// The same with an upper limit below the table's.
+    /// As above, with an upper limit lower than the table's.
     void integer(std::string_view key, int& out, int most);
     void boolean(std::string_view key, bool& out);
     /// The text is valid when `check` returns nothing.

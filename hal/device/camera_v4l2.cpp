@@ -26,7 +26,7 @@ using std::chrono::steady_clock;
 constexpr nanoseconds kAhead = std::chrono::milliseconds(50), kOldest = std::chrono::seconds(10);
 constexpr std::chrono::milliseconds kTroublePause{5};
 
-/// With fewer buffers a driver may find none to fill while pictures are held.
+/// With fewer buffers, a driver may have no free buffer while pictures are lent.
 constexpr int kEnoughBuffers = 4;
 
 /// A filled buffer, returned when its last holder releases it.

@@ -54,7 +54,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t j = 0; j < 3; ++j)
                 factors_[i][j] = static_cast<std::int16_t>(std::lround(rows[i][j] * kOne));
-            // Chroma is taken around its middle, 128.
+            // 128 is subtracted from chroma.
             const float offset = rows[i][3] + 128 * (rows[i][1] + rows[i][2]);
             offsets_[i] = static_cast<std::int16_t>(std::lround(16 * offset) + 8);
         }

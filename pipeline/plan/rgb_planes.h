@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] Size size() const { return size_; }
     [[nodiscard]] Size tiles() const { return tiles_; }
-    /// Bytes of a row: those of whole tiles.
+    /// Bytes of a row, padding to whole tiles included.
     [[nodiscard]] int pitch() const { return pitch_; }
     /// `channel`: 0 red, 1 green, 2 blue.
     [[nodiscard]] const std::uint8_t* row(int channel, int y) const {

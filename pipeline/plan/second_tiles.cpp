@@ -29,7 +29,7 @@ float lackOf(Size tiles, int tile, const SecondTiles::Match& newest) {
     return sum / (kCells * kCells);
 }
 
-/// The same mean of how much the second still's weight exceeds the newest's.
+/// As above, for the second still's weight minus the newest's.
 float gainOf(Size tiles, int tile, const SecondTiles::Match& newest,
              const Rows<const WeighedCell>& second) {
     float sum = 0;
@@ -48,7 +48,7 @@ SecondTiles::SecondTiles(Size tiles) : work_(TileWork::everything(tiles)) {
     candidates_.reserve(count);
     showed_.resize(count);
     rest_.resize(count);
-    // Nothing is kept from the last frame, because each matches other tiles.
+    // All tiles are set again, because each frame matches other tiles.
     work_.draw = TileWork::Draw::WholeEnlarged;
 }
 

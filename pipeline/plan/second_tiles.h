@@ -21,7 +21,7 @@ public:
     static constexpr float kLack = 0.1F;
     /// Mean weight that a second still has to add to be worth its time.
     static constexpr float kGain = 0.05F;
-    /// For this many frames a tile is not tried again that the second still does not show either.
+    /// A tile that the second still does not show either is not tried again for this many frames.
     static constexpr int kRest = 8;
 
     /// How the newest still matches, cell by cell.
@@ -32,21 +32,21 @@ public:
 
     explicit SecondTiles(Size tiles);
 
-    /// The tiles that the frame draws and matches and that the newest still does not show, at most
-    /// `most`: those that lack the most structure first, and those that the second still showed
-    /// before preferred. `measured`: of the same frame. Valid until the next call.
+    /// Chooses at most `most` tiles that the frame draws and matches and that the newest still does
+    /// not show. Tiles that lack the most structure come first; tiles that the second still showed
+    /// before are preferred. `measured`: of the same frame. Valid until the next call.
     const TileWork& choose(const TileWork& work, std::span<const TileMeasure> measured,
                            const Match& newest, int most);
     /// Remembers which of the chosen tiles the second still shows.
     void judge(const Match& newest, Rows<const WeighedCell> second);
-    /// Another second still, or another newest.
+    /// To be called when the second or the newest still changes.
     void forget();
 
-    /// Tiles that are matched in the frame of the last choose().
+    /// Number of tiles that are matched in the frame of the last choose().
     [[nodiscard]] int matched() const { return matched_; }
-    /// Those of them that the newest still shows.
+    /// Number of the matched tiles that the newest still shows.
     [[nodiscard]] int shownByNewest() const { return shownByNewest_; }
-    /// Of the chosen tiles, as of the last judge().
+    /// Number of chosen tiles that the second still improved, found by the last judge().
     [[nodiscard]] int gained() const { return gained_; }
 
 private:

@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// Sums over the tiles for which a change is not certain.
+/// Sums over the tiles that did not certainly change.
 struct TileEnergy {
     int tiles = 0;
     double pixels = 0, means = 0, bends = 0;  ///< sums, see TileMeasure
@@ -39,7 +39,7 @@ public:
     void choose(std::span<const TileMeasure> tiles, int columns, double none, int most);
     [[nodiscard]] bool operator[](std::size_t tile) const { return chosen_[tile]; }
     [[nodiscard]] int count() const;
-    /// The least rectangle with all in it.
+    /// The smallest rectangle that holds all chosen tiles.
     [[nodiscard]] PixelRect bounds(int columns) const;
 
 private:

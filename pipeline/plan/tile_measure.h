@@ -15,7 +15,8 @@ struct TileMeasure {
     /// structure that moved), or the tile's mean and slopes do. The channel that differs most
     /// counts. Changes that are too weak for one tile are found over many, by markDrifted().
     bool changed = false;
-    /// The cells of 4x4 pixels that changed by themselves, one bit each, row-major.
+    /// The cells of 4x4 pixels whose own differences exceed the thresholds, one bit each,
+    /// row-major.
     std::uint16_t changedCells = 0;
     float noise = 0;  ///< standard deviation of the video's noise [grey levels]
     /// Sum of squares of the luma's 2x2 means after a plane is fitted to 8x8 pixels and subtracted;

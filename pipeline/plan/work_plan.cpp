@@ -14,8 +14,8 @@ constexpr double kInitialNoise = 0.29;
 constexpr double kMaxNoise = 4.0;
 // Drawing by tiles costs 2.2 times as much an area as one full-screen draw (llvmpipe).
 constexpr double kWholeShare = 0.45;
-// The same for detail where the rest is enlarged at once, at 0.4 of the cost: share of the tiles
-// in the detail rectangle.
+// Threshold for detail, as a share of the tiles in the detail rectangle, where the rest of the
+// frame is enlarged at once, at 0.4 of the cost.
 constexpr double kListedShare = 0.27;
 // Least structure to match, in variances of a mean: 13 come from noise alone (16 means less three
 // of the plane); the rest is the signal that gives detail a tenth of its weight in
@@ -26,7 +26,7 @@ constexpr double kRoundingVariance = 1.0 / 12;  // of a pixel [grey levels^2]
 constexpr double kGrainFalls = 0.2, kGrainAtRest = 0.05, kGrainMoving = 1.0 / 256;
 constexpr double kRestingShare = 0.75;  // of the tiles: the others may be misjudged
 constexpr double kMaxGrain = 8;
-// Limit of one frame's grain: without noise it would divide by almost 0.
+// Upper limit of one frame's grain: without noise the divisor is almost 0.
 constexpr double kMostRatio = 64;
 constexpr int kNoiseBins = 64;  // of 1/16 grey level
 

@@ -19,35 +19,36 @@ namespace mfar {
 /// on the host. A frame without any changed tile costs that comparison alone.
 ///
 /// A tile is not drawn again as long as its difference to the drawn picture is noise: it passes
-/// its own tests, and the sums over all such tiles and over each block of 8x8 tiles do not exceed
-/// the pixels' noise. The mean accumulated error stays below 3 % of the noise's variance, however
-/// slowly the scene changes; at rest nothing is drawn.
+/// the tests of one tile, and the sums over all such tiles and each block of 8x8 tiles do not
+/// exceed the pixels' noise. The mean accumulated error stays below 3 % of the noise's variance,
+/// however slowly the scene changes; at rest nothing is drawn.
 class WorkPlan {
 public:
-    /// `workers` share the comparison.
+    /// The comparison runs on `workers`.
     explicit WorkPlan(Size video, std::shared_ptr<Workers> workers = nullptr);
 
     /// Compares `now` with `drawn` (both video size). `force` counts every tile as changed.
     void update(const RgbPlanes& now, const RgbPlanes& drawn, bool force);
-    /// When an overlay has to be drawn again.
+    /// Which changes make it necessary to draw an overlay again.
     enum class Redraw : std::uint8_t {
-        WithThem,    ///< one of the tiles has changed, or one beside them
-        WithOthers,  ///< any tile has
-        Always,      ///< whatever has
+        WithThem,    ///< if one of the tiles or a neighbour changed
+        WithOthers,  ///< if any tile changed
+        Always,      ///< even without a change
     };
     /// An overlay was drawn on these tiles of the output. If the next update() finds that it has
     /// to be drawn again, all of these tiles count as changed. update() resets to WithThem.
     void drawnOver(const PixelRect& tiles, Redraw redraw);
-    /// The whole frame is drawn at once from this share of changed tiles on, [0, 1]; 0: if any did.
+    /// Share of changed tiles, [0, 1], at or above which the whole frame is drawn at once; 0: if
+    /// any tile changed.
     void drawWholeFrom(double share) { wholeShare_ = share; }
     /// Tiles with structure above the noise, and their neighbours, are matched with the still, but
     /// at most this share of all tiles, (0, 1]: those with the most structure. The others are only
     /// enlarged. The default matches all.
     void matchStructured(double mostShare) { matchedShare_ = mostShare; }
     void matchEverything() { matchedShare_ = 0; }
-    /// What the last update() found.
+    /// Result of the last update().
     [[nodiscard]] const TileWork& work() const { return work_; }
-    /// Does the overlay have to be drawn again, as of the last update()?
+    /// Did the last update() find that the overlay has to be drawn again?
     [[nodiscard]] bool redraws() const { return redraws_; }
     [[nodiscard]] const std::vector<TileMeasure>& measured() const { return measured_; }
     [[nodiscard]] Size tileCount() const { return work_.tiles; }
@@ -60,10 +61,10 @@ public:
     [[nodiscard]] double grain() const { return grain_; }
 
 private:
-    /// If nothing is drawn by tiles, detail is not either.
+    /// If frames are always drawn whole, so is detail.
     [[nodiscard]] bool mayList() const { return matchedShare_ > 0 && wholeShare_ > 0; }
     void chooseMatched();
-    /// Decides from what update() measured which tiles changed.
+    /// Decides from the measurements of update() which tiles changed.
     void chooseChanged(Redraw redraw);
     [[nodiscard]] double quietestDecile() const;
     void followNoise(const TileEnergy& unchanged);

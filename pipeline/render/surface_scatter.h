@@ -72,8 +72,8 @@ private:
     Eigen::Vector3f f0_{0, 0, 0};
     Eigen::Vector3f manyfoldFactor_{0, 0, 0}, diffuseColour_{0, 0, 0};
     float whiteFactor_ = 0;
-    float dielectricManyfold_ = 0;  // share that a dielectric returns of the light that hits it
-                                    // again
+    // A dielectric returns this share of the light that hits it again.
+    float dielectricManyfold_ = 0;
     Passed passedOut_;
     Reflectance reflectance_;
     float specularShare_ = 0;  // share of the samples

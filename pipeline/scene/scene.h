@@ -27,7 +27,7 @@ struct Material {
     float metallic = 1, roughness = 1;  ///< [0, 1]
     Eigen::Vector3f emission{0, 0, 0};  ///< radiance, finite, not negative
     float normalScale = 1;
-    /// Where the base colour's alpha is below it, the surface has a hole; 0: opaque.
+    /// The surface has a hole where the base colour's alpha is below this limit; 0: opaque.
     float alphaCutoff = 0;
     bool doubleSided = false;
     int baseColourTexture = -1, metallicRoughnessTexture = -1;  ///< the latter: G rough, B metallic

@@ -18,9 +18,9 @@ namespace mfar::simd {
 /// Dense flow between video and still in both directions, without knowledge of the pose:
 /// mfar::Flow2d on the CPU, on the same pyramids.
 ///
-/// Skips work whose result is not read: tiles that are not matched, and unchanged tiles where only
-/// changed tiles are drawn, are searched at the two finest levels only as far as their neighbours
-/// use vectors from them; cells of the still only where vectors of the video end.
+/// Skips work whose result is not read. At the two finest levels, tiles that are not matched (and
+/// unchanged tiles, if only changed tiles are drawn) are searched only where neighbours use their
+/// vectors. Cells of the still are searched only where vectors of the video end.
 class Flow2d {
 public:
     /// Throws std::invalid_argument for options out of range.

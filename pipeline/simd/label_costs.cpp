@@ -23,7 +23,8 @@ using DLabels = hn::CappedTag<std::int32_t, kLabels>;
 /// Segments of a run of pixels on the canvas [px], each of kSteps steps.
 struct Segments {
     HWY_ALIGN float fromX[kRun], fromY[kRun], wayX[kRun], wayY[kRun];
-    /// The same in 1/kFixed px from the pixels' edges; valid if both ends are in the picture.
+    /// Start and step in fixed point [1/kFixed px], measured from the pixels' edges; valid if both
+    /// ends are in the picture.
     HWY_ALIGN std::int32_t x[kRun], y[kRun], dx[kRun], dy[kRun], isInside[kRun];
 };
 

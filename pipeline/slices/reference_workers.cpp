@@ -80,7 +80,7 @@ void ReferenceWorkers::readMail() {
     if (mail_.ticks.fetch()) takeTick();
 }
 
-// Drops a request for a picture whose scene was replaced: it comes again with the next picture.
+// Drops a request for a picture whose scene was replaced; the next picture brings a new request.
 void ReferenceWorkers::takeHoles(HoleRequest& request) {
     const std::shared_ptr<const Scene> source = std::exchange(request.source, nullptr);
     const std::shared_ptr<const ReferenceScene>& scene =

@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Synthetic, EveryScene,
                                          synthetic::Scene::Moving, synthetic::Scene::Still),
                          [](const auto& p) { return std::string(synthetic::name(p.param)); });
 
-TEST(SyntheticPicture, TheCalibrationTargetsTagsAreWhereTheyAre) {
+TEST(SyntheticPicture, CalibrationTagsAreAtTheirTruePositions) {
     SyntheticOptions options;
     options.scene = synthetic::Scene::Calibration;
     options.path = synthetic::Path::Rest;
@@ -107,7 +107,7 @@ double lostInVideo(synthetic::Scene scene) {
     return psnr(up, high);
 }
 
-TEST(SyntheticPicture, TheStillsResolutionShowsWhatTheVideoCannot) {
+TEST(SyntheticPicture, TheStillShowsDetailThatTheVideoLacks) {
     const double office = lostInVideo(synthetic::Scene::Office);
     EXPECT_LT(office, 27);
     EXPECT_LT(lostInVideo(synthetic::Scene::Outdoor), 28);

@@ -23,7 +23,7 @@ void expectSameRig(const RigCalibration& a, const RigCalibration& b, double offs
     EXPECT_NEAR(a.stillTimeOffset, offset, 1e-15);
 }
 
-TEST(RigFiles, WhatIsSavedIsReadBack) {
+TEST(RigFiles, SavedFilesAreReadBack) {
     const TempFolder folder;
     RigCalibration rig = sampleRig();
     rig.rig.video.fx = 560.1234567890123;

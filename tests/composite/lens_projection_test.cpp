@@ -11,7 +11,7 @@ CameraModel barrel() {
     return {{160, 120}, 150, 152, 82.5, 57.1, {-0.31, 0.08, 0.002, -0.0015, 0.004}};
 }
 
-// Folds back soon beyond the corners of the picture.
+// The distortion folds back not far outside the corners of the picture.
 CameraModel folding() {
     return {{160, 120}, 110, 110, 80, 59, {-0.17, 0, 0, 0, 0}};
 }
@@ -51,7 +51,7 @@ TEST(LensProjection, BeyondTheRimNothingComesBackIntoThePicture) {
     }
 }
 
-TEST(LensProjection, ContinuousAndFiniteBesideAndBehindTheCamera) {
+TEST(LensProjection, IsContinuousAndFiniteOutsideTheViewAndBehindTheCamera) {
     const LensProjection lens(barrel());
     for (const Eigen::Vector2d& xy :
          {Eigen::Vector2d(0.3, -0.2), Eigen::Vector2d(-2, 1), Eigen::Vector2d(1e-9, 0)}) {

@@ -14,7 +14,7 @@ namespace {
 const CameraModel kWide{{157, 123}, 150, 152, 82.5, 57.1, {-0.28, 0.07, 0.002, -0.001, 0.004}};
 const RigidTransform kEye{Eigen::Quaterniond(0.7, 0.3, -0.5, 0.4).normalized(), {1, 2, -0.5}};
 
-/// Points of a sphere's surface joined to many small triangles, two meshes.
+/// Points of a sphere's surface joined to many small triangles; two meshes.
 std::shared_ptr<Model> crumpledBall(float radius) {
     std::mt19937 random(7);
     std::normal_distribution<float> normal;
@@ -77,7 +77,7 @@ TEST(SceneBoxes, AreFewAndTight) {
     SceneBoxes boxes(scene);
     EXPECT_LT(boxes.world().size(), 217U);
     Silhouette silhouette(kWide, 0);
-    // A ball of radius 0.3 at 3 m: some 16 px around the principal point.
+    // A ball of radius 0.3 at 3 m: about 16 px around the principal point.
     EXPECT_LE(coveredTiles(silhouette.run(boxes, kEye)), 16);
 }
 
@@ -92,7 +92,7 @@ TEST(SceneBoxes, ShadowCatcherHasItsOwn) {
     EXPECT_EQ(boxes.world()[0].max(), Eigen::Vector3d(1, 1, 0));
 }
 
-TEST(SceneBoxes, OutOfViewOrWithoutAPoseCoverNothing) {
+TEST(SceneBoxes, ObjectsOutOfViewOrWithoutAPoseCoverNothing) {
     Silhouette silhouette(kWide, 4);
     for (const Eigen::Vector3d& p :
          {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(3, 0, 1), Eigen::Vector3d(0, -4, 2)}) {

@@ -10,7 +10,7 @@ namespace {
 const CameraModel kFollowing{{160, 120}, 150, 150, 79.5, 59.5, {}};
 constexpr PixelRect kPicture{0, 0, 160, 120};
 
-/// Looks down at the world's origin from above, turned about x by `angle`.
+/// A camera that looks down at the world's origin, turned about x by `angle`.
 RigidTransform downAt(double angle) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()));
     const Eigen::Quaterniond down(Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()));
@@ -29,7 +29,7 @@ Scene cube() {
     return scene;
 }
 
-/// Depth of a table at this height.
+/// Depth picture of a table at this height.
 InverseDepthField table(double height, double known = 1) {
     InverseDepthField field(kFollowing.size);
     for (std::size_t i = 0; i < field.rho.size(); ++i) {
@@ -68,7 +68,7 @@ TEST(SceneFollower, ShadowsFallOntoThePlaneUntilDepthIsKnown) {
     EXPECT_EQ(measured->objects.size(), 1U);
 }
 
-TEST(SceneFollower, CatcherIsMadeAnewFromAnotherSideAfterAWhile) {
+TEST(SceneFollower, CatcherIsRebuiltLaterWhenTheViewChanges) {
     SceneFollower follower({.settling = 1, .leastKnown = 0.5, .turn = 0.3, .leastInterval = 4});
     follower.set(cube());
     const auto follow = [&](double angle, int s) {

@@ -28,14 +28,14 @@ int covered(const std::vector<SurfaceRange>& tiles) {
         std::count_if(tiles.begin(), tiles.end(), [](const auto& t) { return t.farthest > 0; }));
 }
 
-/// A point of the shape's surface, for any three numbers in [-1, 1].
+/// Maps any three numbers in [-1, 1] to a point of the shape's surface.
 Eigen::Vector3d surfacePoint(VirtualShape shape, Eigen::Vector3d p) {
     if (shape == VirtualShape::Sphere) return 0.5 * p.normalized();
     if (shape == VirtualShape::Quad) return 0.5 * Eigen::Vector3d(p.x(), p.y(), 0);
     return 0.5 * p / p.cwiseAbs().maxCoeff();
 }
 
-TEST(Silhouette, EveryPixelNearASurfacePointKnowsIt) {
+TEST(Silhouette, EveryPixelNearASurfacePointIsCovered) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(-1, 1);
     const int margin = 5;
@@ -58,7 +58,8 @@ TEST(Silhouette, EveryPixelNearASurfacePointKnowsIt) {
             if (tile.x() < 0 || tile.y() < 0 || tile.x() >= tiles.width || tile.y() >= tiles.height)
                 continue;
             const SurfaceRange& r = ranges[tile.y() * tiles.width + tile.x()];
-            // Spheres are inscribed: their triangles are up to a thousandth farther in.
+            // Meshes of spheres are inscribed: their triangles lie up to a thousandth of the radius
+            // inside.
             ASSERT_LE(r.nearest, p.z() + 1e-3);
             ASSERT_GE(r.farthest, p.z() - 1e-3);
         }
@@ -66,7 +67,7 @@ TEST(Silhouette, EveryPixelNearASurfacePointKnowsIt) {
 }
 
 TEST(Silhouette, TilesAwayFromObjectsStayFree) {
-    // A sphere of radius 0.1 at 2 m: some 8 px around the principal point.
+    // A sphere of radius 0.1 at 2 m: about 8 px around the principal point.
     Silhouette silhouette(kCamera, 0);
     const auto& ranges =
         silhouette.run(std::vector{at({0, 0, 2}, VirtualShape::Sphere, 0.2)}, kPose);

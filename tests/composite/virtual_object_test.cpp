@@ -8,7 +8,7 @@
 namespace mfar {
 namespace {
 
-/// Twice the area, as a vector along the normal.
+/// Vector along the normal with twice the triangle's area as its length.
 Eigen::Vector3f cross(const ShapeMesh& mesh, const std::array<std::uint32_t, 3>& t) {
     const auto at = [&](int i) { return mesh.vertices[t[i]].position; };
     return (at(1) - at(0)).cross(at(2) - at(0));

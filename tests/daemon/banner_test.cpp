@@ -60,7 +60,7 @@ TEST_F(BannerText, TextsDifferAndLongOnesTakeMoreLines) {
     EXPECT_GT(rowsOf(pixelsOf(banner.over(source, endless + " " + endless)), 90), 120);
 }
 
-TEST_F(BannerText, OnTheHostItIsTheSame) {
+TEST_F(BannerText, HostPicturesGetTheSameBanner) {
     Banner banner(kPictureSize);
     const gpu::Texture texture = plainPicture(90);
     AlignedRows<std::uint32_t> rows(kPictureSize);

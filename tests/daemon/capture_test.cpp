@@ -143,7 +143,7 @@ TEST(CaptureThread, ADroppedFramePassesItsMissedCountOn) {
     EXPECT_EQ(newest.stillsSuperseded, 4U);
 }
 
-TEST(CaptureThread, AWrongStillEndsTheRunWhoeverReadsIt) {
+TEST(CaptureThread, AnInvalidStillEndsTheRunOnAnyThread) {
     for (const HandOver handOver : {HandOver::NewestWins, HandOver::Lossless}) {
         Capture capture(handOver);
         capture.still().send(1, 0, Size{4, 4});
@@ -153,7 +153,7 @@ TEST(CaptureThread, AWrongStillEndsTheRunWhoeverReadsIt) {
     }
 }
 
-TEST(CaptureThread, AStillCameraThatFailsEndsTheRunWhoeverReadsIt) {
+TEST(CaptureThread, AFailingStillCameraEndsTheRunOnAnyThread) {
     for (const HandOver handOver : {HandOver::NewestWins, HandOver::Lossless}) {
         Capture capture(handOver);
         capture.still().fail("the still camera has burnt");
@@ -162,7 +162,7 @@ TEST(CaptureThread, AStillCameraThatFailsEndsTheRunWhoeverReadsIt) {
     }
 }
 
-TEST(CaptureThread, MissedFramesAreThoseThatTheCameraCounts) {
+TEST(CaptureThread, MissedFramesAreCountedByTheCamera) {
     Capture capture(HandOver::NewestWins);
     CameraCounters counters;
     counters.missed = 7;

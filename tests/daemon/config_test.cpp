@@ -133,7 +133,7 @@ TEST(Config, RangesAreHeld) {
     EXPECT_THAT(configFaults("[status]\ninterval_s = 0\n"), HasSubstr("from 0.1 to 3600"));
 }
 
-TEST(Config, UnknownWordsSayWhichExist) {
+TEST(Config, UnknownWordsAreReportedWithTheValidOnes) {
     EXPECT_THAT(configFaults("[superres]\nmode = \"best\"\n"),
                 AllOf(StartsWith("test.toml:2:8: "), HasSubstr("detail"), HasSubstr("blend")));
     EXPECT_THAT(configFaults("source = \"libcamera\"\n"),
@@ -145,7 +145,7 @@ TEST(Config, UnknownWordsSayWhichExist) {
     EXPECT_THAT(configFaults("display = \"png:\"\n"), HasSubstr("png:"));
 }
 
-TEST(Config, EveryFaultIsSaidInFileOrder) {
+TEST(Config, FaultsAreReportedInFileOrder) {
     const std::string all =
         configFaults("colour = 1\nseed = -3\n[trigger]\nrate_hz = 99\nzoom = 1\n");
     std::vector<std::string> lines;
@@ -237,7 +237,7 @@ TEST(Config, ADeviceOrAPipeIsNoConfiguration) {
     }
 }
 
-TEST(Config, ATagMapIsBesideTheFileThatNamesIt) {
+TEST(Config, TagMapPathsAreRelativeToTheConfiguration) {
     const char* text = "[pose]\ntags = \"maps/tags.toml\"\n";
     EXPECT_EQ(parseConfig(text, "/etc/mfar/mfard.toml").pose.tags, "/etc/mfar/maps/tags.toml");
     EXPECT_EQ(parseConfig(text, "mfard.toml").pose.tags, "maps/tags.toml");

@@ -102,7 +102,7 @@ TEST_F(ControlSocketTest, DisconnectedAndIncompleteClientsAreHarmless) {
     close(half);
 }
 
-TEST_F(ControlSocketTest, NobodyWaitsForAClientThatSaysNothing) {
+TEST_F(ControlSocketTest, SilentClientsDelayNobody) {
     const ControlSocket socket(path, echo);
     const std::array<int, 3> idle{connected(), connected(), connected()};
     const Timestamp begun = Timestamp::now();
@@ -113,7 +113,7 @@ TEST_F(ControlSocketTest, NobodyWaitsForAClientThatSaysNothing) {
 }
 
 // Such an answer: a recording that ends waits for the disk.
-TEST_F(ControlSocketTest, NobodyWaitsForAnAnswerThatTakesLong) {
+TEST_F(ControlSocketTest, SlowAnswersDelayNobody) {
     std::promise<void> goOn;
     const std::shared_future<void> gone = goOn.get_future().share();
     std::promise<void> asked;
@@ -132,7 +132,7 @@ TEST_F(ControlSocketTest, NobodyWaitsForAnAnswerThatTakesLong) {
     slow.wait();
 }
 
-TEST_F(ControlSocketTest, NobodyWaitsForAClientThatDoesNotTakeItsAnswer) {
+TEST_F(ControlSocketTest, ClientsThatDoNotReadDelayNobody) {
     const ControlSocket socket(path, [&](std::string_view request, ControlRole) -> ControlAnswer {
         if (request != "large") return echo(request, ControlRole::Operator);
         return {json{{"ok", true}}.dump(), std::vector<std::uint8_t>(10'000'000)};
@@ -246,7 +246,7 @@ TEST_F(ControlSocketTest, PathsThatCannotBeUsedAreNamed) {
                 ThrowsMessage<Failure>(HasSubstr("longer than")));
 }
 
-TEST_F(ControlSocketTest, ClientSaysWhatIsWrong) {
+TEST_F(ControlSocketTest, ClientReportsErrors) {
     EXPECT_THAT([&] { std::ignore = ask(path, {{"command", "status"}}); },
                 ThrowsMessage<NotReachable>(HasSubstr("no mfard listens there")));
     const ControlSocket refusing(path, [](std::string_view, ControlRole) {

@@ -45,7 +45,7 @@ TEST(Events, ANewDeadlineReplacesTheOldOne) {
     EXPECT_EQ(events.wait().kind, Event::Kind::Deadline);
 }
 
-TEST(OwnedFd, RefusesWhatCouldNotBeOpened) {
+TEST(OwnedFd, InvalidDescriptorsAreRefused) {
     EXPECT_THROW((void)opened(-1, "thing"), std::system_error);
 }
 

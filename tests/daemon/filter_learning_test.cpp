@@ -64,7 +64,7 @@ void replace(FilterLearning& learning, unsigned seed) {
     learning.finish();
 }
 
-TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheStillBeforeAndKept) {
+TEST_F(FilterLearningTest, GuidanceIsLearnedFromTheOlderStillAndKept) {
     options.rig = discsRig();
     {
         FilterLearning learning(options);
@@ -126,7 +126,7 @@ TEST_F(FilterLearningTest, AStateThatIsCutOffIsReportedAndReplaced) {
     EXPECT_THAT(learning.takeWarnings(), IsEmpty());
 }
 
-TEST_F(FilterLearningTest, WhatOtherSensorsTaughtIsNotUsed) {
+TEST_F(FilterLearningTest, FiltersLearnedFromOtherSensorsAreNotUsed) {
     {
         FilterLearning learning(options);
         show(learning, 1, 1);

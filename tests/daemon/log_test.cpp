@@ -73,7 +73,7 @@ TEST(Log, StatusLineNeverWraps) {
 }
 
 // A pipe replaces standard error and the test sets the clock.
-TEST(Log, EventsThatRepeatAreSaidWithTheirCount) {
+TEST(Log, RepeatedEventsAreLoggedWithTheirCount) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);
     Timestamp now = Timestamp::fromSeconds(100);
@@ -136,7 +136,7 @@ TEST(Log, TheJournalGetsFields) {
                                            "SYSLOG_IDENTIFIER=mfard", "MFAR_COUNT=1"));
 }
 
-TEST(Log, WhatTheJournalDoesNotTakeGoesToStandardError) {
+TEST(Log, MessagesThatTheJournalRefusesGoToStandardError) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe(ends.data()), 0);
     Log log(ends[1], Log::Style::Journal, &Timestamp::now, [](const auto&) { return false; });
@@ -149,7 +149,7 @@ TEST(Log, WhatTheJournalDoesNotTakeGoesToStandardError) {
     EXPECT_EQ(all.substr(0, static_cast<std::size_t>(n)), "<4>mfard: warning: late\n");
 }
 
-TEST(Log, MessagesThatNobodyTakesDoNotHangAThread) {
+TEST(Log, UnreadMessagesDoNotBlockAThread) {
     std::array<int, 2> ends{};
     ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC | O_NONBLOCK), 0);
     const std::string part(4096, 'x');

@@ -164,7 +164,7 @@ void theParserHasTheWords(const Key& key) {
         EXPECT_THAT(list, HasSubstr('"' + word + '"'));
 }
 
-TEST(OptionTable, TheParserHasTheWords) {
+TEST(OptionTable, TheParserAcceptsTheTablesWords) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         theParserHasTheWords(key);
@@ -192,7 +192,7 @@ void whatIsReloadableNeedsNoRestart(const Key& key) {
     }
 }
 
-TEST(OptionTable, WhatIsReloadableNeedsNoRestart) {
+TEST(OptionTable, ReloadableOptionsNeedNoRestart) {
     for (const Key& key : allKeys()) {
         SCOPED_TRACE(key.name());
         whatIsReloadableNeedsNoRestart(key);
@@ -207,7 +207,7 @@ std::string section(std::string_view name, std::span<const OptionSection> table)
     return out;
 }
 
-TEST(OptionDefaults, OfAnObjectAreThoseOfTheParser) {
+TEST(OptionDefaults, ObjectDefaultsMatchTheParser) {
     const auto read = [](const std::string& text) {
         return parseConfig(text, "test.toml").objects.at(0);
     };
@@ -228,7 +228,7 @@ TEST(OptionDefaults, OfAnObjectAreThoseOfTheParser) {
     EXPECT_EQ(coloured.shape.colours, without.shape.colours);
 }
 
-TEST(OptionDefaults, OfTheSunAreThoseOfTheParser) {
+TEST(OptionDefaults, SunDefaultsMatchTheParser) {
     const Sun byDefault;
     std::string text = "[light.sun]\n";
     for (const Key& key : keysOf(configOptions()))
@@ -240,7 +240,7 @@ TEST(OptionDefaults, OfTheSunAreThoseOfTheParser) {
     EXPECT_NEAR(given.angularRadius, byDefault.angularRadius, 1e-5F);
 }
 
-TEST(OptionDefaults, OfALevelAreThoseOfTheParser) {
+TEST(OptionDefaults, LevelDefaultsMatchTheParser) {
     const std::string text = section("level", levelOptions()) + "name = \"a\"\nms = 1\n";
     const auto levels = parseQualityLevels(text, "levels.toml");
     EXPECT_EQ(levels.at(0).quality, Quality{});

@@ -76,7 +76,7 @@ TEST(Options, TheCommandLineComesBeforeTheFile) {
     EXPECT_EQ(both.seed, 5U);
 }
 
-TEST(Options, UsageFaultsSayWhatIsPossible) {
+TEST(Options, UsageErrorsListTheValidChoices) {
     EXPECT_THAT(usageFault({"--source", "webcam"}), HasSubstr("synthetic"));
     EXPECT_THAT(usageFault({"--display", "screen"}), AllOf(HasSubstr("none"), HasSubstr("y4m")));
     EXPECT_THAT(usageFault({"--mode", "best"}), HasSubstr("detail"));

@@ -28,7 +28,7 @@ struct RepeatLimitTest : testing::Test {
     std::vector<std::string> said;
 };
 
-TEST_F(RepeatLimitTest, FirstIsSaidAtOnceAndTheOthersWithTheirCount) {
+TEST_F(RepeatLimitTest, FirstIsLoggedAtOnceAndTheOthersWithTheirCount) {
     for (int i = 0; i < 8; ++i)
         happen("plug", "gone");
     EXPECT_THAT(said, ElementsAre("gone"));

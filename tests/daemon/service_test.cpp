@@ -44,7 +44,7 @@ private:
     int fd_;
 };
 
-TEST(Service, SaysWhatTheManagerUnderstands) {
+TEST(Service, SendsValidNotifications) {
     const Manager manager;
     const Service service;
     ASSERT_TRUE(service.listening());
@@ -76,7 +76,7 @@ TEST(Service, FeedsTheWatchdogTwiceAsOftenAsAsked) {
     EXPECT_EQ(Service().watchdogPeriod(), std::nullopt);
 }
 
-TEST(Service, WithoutAManagerItSaysNothing) {
+TEST(Service, WithoutAManagerNothingIsSent) {
     unsetenv("NOTIFY_SOCKET");
     setenv("WATCHDOG_USEC", "3000000", 1);
     const Service service;

@@ -31,7 +31,7 @@ void showPictures(Stats& stats, int count) {
     }
 }
 
-TEST(Stats, RatesLatencyAndSharesAreThoseOfThePictures) {
+TEST(Stats, RatesLatencyAndSharesMatchThePictures) {
     Stats stats;
     showPictures(stats, 21);
     const Counted counted = stats.count(Timestamp::fromSeconds(11.05));
@@ -71,7 +71,7 @@ TEST(Stats, RecentRateOfSlowPicturesIsTrueWheneverItIsAsked) {
         EXPECT_NEAR(stats.count(Timestamp::fromSeconds(s)).recentFps, 0.4, 1e-6) << s;
 }
 
-TEST(Stats, RecentRateIsThatOfTheLastSecond) {
+TEST(Stats, RecentRateCoversTheLastSecond) {
     Stats stats;
     const auto show = [&](double s) {
         const Timestamp shown = Timestamp::fromSeconds(s);
@@ -85,7 +85,7 @@ TEST(Stats, RecentRateIsThatOfTheLastSecond) {
     EXPECT_NEAR(stats.count(Timestamp::fromSeconds(15)).recentFps, 10, 1e-3);
 }
 
-TEST(Status, SummaryHoldsWhatTheRunMeasured) {
+TEST(Status, SummaryHoldsTheRunsMeasurements) {
     Stats stats;
     showPictures(stats, 21);
     stats.stillReceived();
@@ -120,7 +120,7 @@ TEST(Status, SummaryHoldsWhatTheRunMeasured) {
     EXPECT_EQ(json["first_picture"]["resident_mb"], 90.4);
 }
 
-TEST(Status, TellsWhatTheCamerasDo) {
+TEST(Status, ReportsTheStateOfTheCameras) {
     Stats stats;
     CameraState video;
     video.configuredHz = 30;
@@ -171,12 +171,12 @@ TEST(Status, ACameraThatHasFallenSilentHasNoRate) {
     EXPECT_EQ(stats.count().cameras[0].rateHz, 0);
 }
 
-TEST(Status, SaysWhenTheFirstPictureWasThere) {
+TEST(Status, ReportsTheTimeOfTheFirstPicture) {
     EXPECT_EQ(firstPictureLine({431.6, 380, 90.4}),
               "first picture 432 ms after the start, 90 MB resident");
 }
 
-TEST(Status, TellsHowTheDeadlineWasKept) {
+TEST(Status, ReportsTheShareOfFramesWithinTheDeadline) {
     Stats stats;
     showPictures(stats, 2);
     EXPECT_EQ(summary(stats.count(), {}, "", 0)["quality"]["frames_of_level"].size(), 0U);
@@ -217,7 +217,7 @@ void findPoses(Stats& stats) {
     stats.stillPose(Pose{}, 8.);
 }
 
-TEST(Status, SummaryTellsHowPosesWereFound) {
+TEST(Status, SummaryReportsTheSourcesOfPoses) {
     Stats stats;
     showPictures(stats, 4);
     findPoses(stats);
@@ -260,7 +260,7 @@ void showLines(Stats& stats) {
     show();
 }
 
-TEST(Status, TellsHowWellTheLinesFit) {
+TEST(Status, ReportsTheEpipolarError) {
     Stats stats;
     EXPECT_EQ(summary(stats.count(), {}, "", 0)["pose"]["epipolar_px"], 0);
     showLines(stats);
@@ -274,7 +274,7 @@ TEST(Status, TellsHowWellTheLinesFit) {
     EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("lines")));
 }
 
-TEST(Status, LineTellsHowTheLastPoseWasFound) {
+TEST(Status, LineReportsTheSourceOfTheLastPose) {
     Stats stats;
     showPictures(stats, 2);
     EXPECT_THAT(statusLine(stats.count(), {}, 1), Not(HasSubstr("tracked"))) << "not asked for";
@@ -309,7 +309,7 @@ TEST(Status, LineShowsTheLastFrame) {
     EXPECT_THAT(line, Not(HasSubstr("["))) << "no bar where the end is unknown";
 }
 
-TEST(Status, LineBeginsWithWhatIsWrong) {
+TEST(Status, LineBeginsWithFaults) {
     Stats stats;
     showPictures(stats, 2);
     Health health{HealthState::Stalled, "the capture thread hangs", 5.2, 5.3, "capture"};
@@ -318,7 +318,7 @@ TEST(Status, LineBeginsWithWhatIsWrong) {
                                     "s ago) | "));
 }
 
-TEST(Status, LineSaysThatNothingHasComeYet) {
+TEST(Status, LineReportsThatNoFrameHasArrived) {
     Stats stats;
     EXPECT_EQ(statusLine(stats.count(), {}, 1), "waiting for the first picture");
 }
@@ -356,7 +356,7 @@ TEST(Summary, VirtualLayerIsCountedWhereThereIsOne) {
     EXPECT_NEAR(json["path_tracer"]["reference_age_s"].get<double>(), 0.5, 1e-9);
 }
 
-TEST(StatusLine, PathTracingTellsHowFarItIs) {
+TEST(StatusLine, PathTracingReportsItsProgress) {
     Stats stats;
     FrameStats frame;
     frame.objectsInView = true;

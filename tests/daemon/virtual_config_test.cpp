@@ -72,7 +72,7 @@ TEST(LightConfig, MissingSunKeysHaveDefaults) {
     EXPECT_GT(light.sun->angularRadius, 0);
 }
 
-TEST(LightConfig, PicturesAreReadBesideTheFile) {
+TEST(LightConfig, PicturePathsAreRelativeToTheFile) {
     const test::TempFolder folder;
     const std::vector<std::uint8_t> png =
         test::rgbaPng({2, 1}, {{{255, 255, 255, 255}}, {{0, 0, 0, 255}}});

@@ -12,7 +12,7 @@
 namespace mfar::demo {
 namespace {
 
-/// By TileClass, B G R.
+/// Colour of each TileClass, B G R.
 const std::array<cv::Scalar, kTileClasses> kClassColours{
     cv::Scalar(170, 170, 170), cv::Scalar(200, 130, 60), cv::Scalar(100, 180, 80),
     cv::Scalar(60, 170, 240), cv::Scalar(60, 60, 60)};

@@ -11,7 +11,7 @@
 
 namespace mfar::demo {
 
-/// Means over the frames that have a truth. Luma, 32 px of border left out.
+/// Means over the frames that have a truth: of luma, without a border of 32 px.
 struct Quality {
     int frames = 0;
     double upscaledPsnrDb = 0;
@@ -40,7 +40,7 @@ struct DemoRun {
 };
 
 /// Runs the pipeline over the frames, each with the newest still taken before it. Needs a current
-/// GL context. `progress` is told frames done and frames in all. Throws std::runtime_error when
+/// GL context. `progress` gets the frames done and in total. Throws std::runtime_error when
 /// the recording has no frame with a truth.
 [[nodiscard]] DemoRun runDemo(const Recording& recording,
                               const std::function<void(int, int)>& progress);

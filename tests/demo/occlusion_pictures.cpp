@@ -20,7 +20,7 @@ struct Range {
     double far, near;
 };
 
-// Without the farthest and nearest hundredth.
+// Ignores the farthest and the nearest 1 % of the pixels.
 Range rangeOf(const cv::Mat& rho) {
     std::vector<float> values;
     for (const float value : cv::Mat_<float>(rho))
@@ -47,7 +47,7 @@ cv::Mat errorColours(const cv::Mat& rho, const cv::Mat& truth) {
     return colours(cv::abs(truth / rho - 1) / kMostError, known);
 }
 
-/// A bar of the colours with what its ends mean.
+/// A bar of the colours with labels at its ends.
 void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const std::string& to) {
     constexpr int kLabel = 90;
     cv::Mat ramp(kMargin, 256, CV_32F);
@@ -58,7 +58,7 @@ void addScale(cv::Mat& canvas, cv::Point corner, const std::string& from, const 
     write(canvas, to, {corner.x + kLabel + ramp.cols + 12, corner.y + 18});
 }
 
-/// Where much of the object is hidden beside much that is seen of it.
+/// The place where large hidden and large visible parts of the object are close together.
 cv::Rect mostHidden(const OcclusionShown& shown) {
     const cv::Size window = detailSize(shown.composite.size());
     cv::Mat hidden, visible, both;

@@ -6,11 +6,11 @@
 
 namespace mfar::demo {
 
-/// Depth, its truth and how far they are apart, with their scales.
+/// Depth, true depth and the error, with their scales.
 [[nodiscard]] cv::Mat depthPicture(const OcclusionRun& run);
 
-/// The object over everything, as composed, and as it should be, and below each the place where
-/// most of it is hidden, magnified.
+/// Three pictures: the object over everything, as composed, and the truth; below each, the place
+/// where most of the object is hidden, magnified.
 [[nodiscard]] cv::Mat occlusionPicture(const OcclusionRun& run);
 
 }  // namespace mfar::demo

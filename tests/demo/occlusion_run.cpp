@@ -26,7 +26,7 @@ cv::Mat depthOf(const InverseDepthField& field) {
     return out;
 }
 
-/// What the frame really shows, with and without the objects.
+/// The true picture of the frame, with and without the objects.
 class SceneTruth {
 public:
     SceneTruth(const Recording& recording, synthetic::Scene scene,
@@ -34,7 +34,7 @@ public:
         : recording_(recording), world_(synthetic::makeWorld(scene, 1)), objects_(objects),
           output_(output), renderer_(recording.rig.video, output) {}
 
-    /// The pictures of a frame, but for the pipeline's.
+    /// The pictures of a frame without those that the pipeline draws.
     void fill(OcclusionShown& shown, Timestamp time, const Pose& pose) {
         const CameraModel camera = recording_.rig.video.scaledTo(output_);
         const eval::VirtualTruth truth =

@@ -35,8 +35,8 @@ struct OcclusionRun {
 };
 
 /// Shows objects in a recording of a synthetic scene, with the poses that its tags give, and
-/// measures depth in the whole picture. Needs a current GL context. `progress` is told frames done
-/// and frames in all. Throws std::runtime_error when its last frame has no truth.
+/// measures depth in the whole picture. Needs a current GL context. `progress` gets the frames done
+/// and in total. Throws std::runtime_error when the last frame has no truth.
 [[nodiscard]] OcclusionRun runOcclusion(const Recording& recording, synthetic::Scene scene,
                                         const std::vector<VirtualObject>& objects,
                                         const std::function<void(int, int)>& progress);

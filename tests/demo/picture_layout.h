@@ -18,7 +18,7 @@ void write(cv::Mat& canvas, const std::string& text, cv::Point leftBase);
 void place(cv::Mat& canvas, const cv::Mat& picture, cv::Point corner);
 [[nodiscard]] cv::Mat resized(const cv::Mat& picture, cv::Size size, int how);
 
-/// A picture with what is written above it. B G R, all of one size.
+/// A picture and the caption above it. B G R; all panels have the same size.
 struct Column {
     std::string title;
     cv::Mat picture;
@@ -26,7 +26,7 @@ struct Column {
 
 /// Size of the window that fills a panel when magnified.
 [[nodiscard]] cv::Size detailSize(cv::Size picture);
-/// Side by side, each with the same detail magnified below it.
+/// Panels side by side, each with the same detail magnified below it.
 [[nodiscard]] cv::Mat columnsWithDetail(std::span<const Column> columns, const cv::Rect& detail);
 
 }  // namespace mfar::demo

@@ -8,10 +8,10 @@
 
 namespace mfar::demo {
 
-/// Gives the pipeline the newest still taken before the frame, once each.
+/// Gives the pipeline the newest still taken before the frame; each still once.
 class StillFeed {
 public:
-    /// `poses`: of the stills; nullptr: the pipeline is told none. Both must outlive this.
+    /// `poses`: of the stills; nullptr: the pipeline gets no poses. Both must outlive this.
     explicit StillFeed(const Recording& recording, const eval::KnownPoses* poses = nullptr)
         : recording_(recording), poses_(poses) {}
 

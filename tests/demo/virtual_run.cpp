@@ -18,7 +18,7 @@ namespace mfar::demo {
 namespace {
 
 constexpr std::chrono::milliseconds kFrameInterval{33};
-// A camera that has rested for some frames gets a picture of its very view.
+// A camera that has rested for some frames gets a reference picture of exactly its view.
 constexpr int kLeastLooks = 15, kMostRestFrames = 20000;
 
 bool isSettled(const TracedLayerCounters& counters) {
@@ -115,7 +115,7 @@ VirtualRun runVirtual(const Recording& recording, const Config& config,
         seen = show.counters().render.frame;
         ++looks;
     }
-    // What is finished is shown by a frame after that.
+    // Finished samples are shown by the frame after that.
     for (int i = 0; i < 5; ++i) {
         std::this_thread::sleep_for(kFrameInterval);
         show.again();

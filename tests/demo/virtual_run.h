@@ -19,7 +19,7 @@ struct VirtualRun {
 };
 
 /// Shows the configuration's objects with the poses that the recording's tags give. Needs a current
-/// GL context. `progress` is told frames done and frames in all. Throws std::runtime_error when no
+/// GL context. `progress` gets the frames done and in total. Throws std::runtime_error when no
 /// object is in view at the end.
 [[nodiscard]] VirtualRun runVirtual(const Recording& recording, const Config& config,
                                     const std::function<void(int, int)>& progress);

@@ -91,7 +91,7 @@ void expectGood(const Walk::Errors& errors) {
     testing::Test::RecordProperty("complete", std::to_string(errors.complete));
 }
 
-TEST(DepthStage, KnowsNothingWithoutParallax) {
+TEST(DepthStage, DepthIsUnknownWithoutParallax) {
     Walk walk;
     for (int i = 0; i < 5; ++i)
         walk.go(motion({0.3 * i, -0.4 * i, 0}, {0, 0, 0}));

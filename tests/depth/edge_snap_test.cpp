@@ -89,7 +89,7 @@ TEST(EdgeSnap, DepthEdgesMoveToPictureEdges) {
 }
 
 // The surfaces differ only in colour, so that it must be read correctly from every format.
-TEST(EdgeSnap, ColourOfEveryFormatTellsSurfacesApart) {
+TEST(EdgeSnap, ColourOfEveryFormatDistinguishesSurfaces) {
     for (const PixelFormat format : test::kEveryFormat) {
         if (format == PixelFormat::Gray8) continue;
         test::PaddedPicture painted(format, kPicture, 1);
@@ -150,7 +150,7 @@ TEST(EdgeSnap, ASlopeStaysAsItIs) {
     EXPECT_EQ(out.filled, in.filled);
 }
 
-TEST(EdgeSnap, WhatWasNotMeasuredIsMarked) {
+TEST(EdgeSnap, UnmeasuredPixelsAreMarked) {
     const InverseDepthField out = snapped(field(0, 5), picture());
     EXPECT_EQ(out.filled[24UL * 64 + kEdge + 2], 1);
     EXPECT_EQ(out.filled[24UL * 64 + 5], 0);

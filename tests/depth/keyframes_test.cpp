@@ -65,7 +65,7 @@ TEST(Keyframes, AnotherExposureCounts) {
     EXPECT_NEAR(frames.choose(poseAt(0.1), 30, kAll, 1)->frame->brightness, 30, 1e-9);
 }
 
-TEST(Keyframes, ARestingOrTurningCameraKeepsThoseItHas) {
+TEST(Keyframes, ARestingOrTurningCameraKeepsItsKeyframes) {
     Keyframes frames = walked({});
     for (int i = 0; i < 300; ++i)
         frames.add(grey(100), poseAt(0.09), 100, 1);
@@ -74,7 +74,7 @@ TEST(Keyframes, ARestingOrTurningCameraKeepsThoseItHas) {
               0.05);
 }
 
-TEST(Keyframes, WithoutParallaxThereIsNone) {
+TEST(Keyframes, WithoutParallaxThereIsNoKeyframe) {
     Keyframes frames(kKeyCamera, {});
     EXPECT_FALSE(frames.choose(poseAt(0), 100, kAll, 1));
     frames.add(grey(100), poseAt(0), 100, 1);

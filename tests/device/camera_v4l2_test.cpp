@@ -102,7 +102,7 @@ TEST(CameraV4l2, InvalidDriverDataIsRefused) {
               "/dev/video0: the driver's timestamps are not of CLOCK_MONOTONIC");
 }
 
-TEST(CameraV4l2, ABusyDeviceIsSaidToBe) {
+TEST(CameraV4l2, ABusyDeviceIsReported) {
     FakeV4l2 fake;
     fake.busy = true;
     EXPECT_EQ(errorOf([&] { CameraV4l2(wanted(), fake); }),

@@ -81,7 +81,7 @@ protected:
 
 constexpr std::chrono::milliseconds kSecond{1000};
 
-TEST_F(AutoDisplay, RunsWithoutAScreenAndSaysSo) {
+TEST_F(AutoDisplay, RunsWithoutAScreenAndReportsIt) {
     EXPECT_EQ(run(kSecond * 2), 0);
     EXPECT_THAT(display_->name(), HasSubstr("no screen yet"));
     EXPECT_THAT(display_->name(), HasSubstr("kms missing; fbdev missing"));
@@ -91,7 +91,7 @@ TEST_F(AutoDisplay, RunsWithoutAScreenAndSaysSo) {
     EXPECT_NO_THROW(display_->finish());
 }
 
-TEST_F(AutoDisplay, KnowsTheSizeOfTheScreenThatIsThere) {
+TEST_F(AutoDisplay, HasTheSizeOfTheConnectedScreen) {
     EXPECT_FALSE(display_->screenSize());
     fbdev_.presence = Presence::Ready;
     changed_ = true;

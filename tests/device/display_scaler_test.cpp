@@ -239,7 +239,7 @@ TEST_F(DisplayScaler, ReaderTakesBothKindsOfPictures) {
     EXPECT_EQ(reader.last().pixels, fromTexture.pixels);
 }
 
-TEST_F(DisplayScaler, LastIsWhatWasShown) {
+TEST_F(DisplayScaler, LastReturnsTheShownPicture) {
     const gpu::Texture from = picture({230, 172}, noise);
     ScreenScaler scaler;
     ScreenReader reader({128, 72}, scaler);

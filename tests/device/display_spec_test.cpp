@@ -10,7 +10,7 @@ namespace {
 
 using Kind = ScreenSpec::Kind;
 
-TEST(ScreenSpec, KindsWithoutOptionsTakeWhatThereIs) {
+TEST(ScreenSpec, KindsAloneHaveNoDeviceOrMode) {
     EXPECT_EQ(parseScreenSpec("auto"), (ScreenSpec{Kind::Auto, "", "", {}}));
     EXPECT_EQ(parseScreenSpec("kms"), (ScreenSpec{Kind::Kms, "", "", {}}));
     EXPECT_EQ(parseScreenSpec("fbdev"), (ScreenSpec{Kind::Fbdev, "", "", {}}));
@@ -25,7 +25,7 @@ TEST(ScreenSpec, NamesCardConnectorAndMode) {
     EXPECT_EQ(parseScreenSpec("fbdev:/dev/fb12"), (ScreenSpec{Kind::Fbdev, "/dev/fb12", "", {}}));
 }
 
-TEST(ScreenSpec, RefusesEveryOtherWordAndSaysWhich) {
+TEST(ScreenSpec, UnknownWordsAreRefusedAndNamed) {
     for (const char* spec : {"",
                              "kmsx",
                              "auto:card0",

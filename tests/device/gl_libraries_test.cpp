@@ -37,7 +37,7 @@ TEST(GlLibraries, FunctionsDoNothingBeforeTheyAreLoaded) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST(GlLibraries, AMissingLibraryIsNamedWithWhatToInstall) {
+TEST(GlLibraries, AMissingLibraryIsNamedWithItsPackage) {
     EXPECT_EQ(loading("libno-such-egl.so.1", MFAR_FAKE_GL),
               std::string("libno-such-egl.so.1 cannot be loaded: cannot open shared object file: "
                           "No such file or directory") +

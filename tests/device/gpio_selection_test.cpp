@@ -69,7 +69,7 @@ TEST(GpioSelection, UnknownLineListsTheNamedLinesOfTheCandidates) {
     EXPECT_THAT(faultOf(board(), "gpiochip0", "5"), HasSubstr("no line 5"));
 }
 
-TEST(GpioSelection, WhatIsAmbiguousIsRefused) {
+TEST(GpioSelection, AmbiguousNamesAreRefused) {
     EXPECT_THAT(faultOf(board(), "", "RESET"),
                 AllOf(HasSubstr("more than one"), HasSubstr("line 3 'RESET' of gpiochip0"),
                       HasSubstr("line 1 'RESET' of gpiochip1")));
@@ -108,7 +108,7 @@ TEST(GpioSelection, BusyLineNamesItsConsumer) {
                 HasSubstr("in use by another program"));
 }
 
-TEST(GpioSelection, MachineWithoutChipsSaysSo) {
+TEST(GpioSelection, MissingChipsAreReported) {
     EXPECT_THAT(faultOf({}, "gpiochip0", "2"), HasSubstr("no GPIO chip that programs can use"));
     EXPECT_THAT(faultOf({}, "", "TRIGGER"), HasSubstr("no GPIO chip that programs can use"));
 }

@@ -107,7 +107,7 @@ TEST_F(V4l2ControlsTest, ButtonsArePressed) {
               "/dev/video0: control single_trigger cannot be read");
 }
 
-TEST_F(V4l2ControlsTest, EachRefusalSaysWhy) {
+TEST_F(V4l2ControlsTest, EachRefusalStatesItsReason) {
     const V4l2Controls controls(device_);
     EXPECT_EQ(errorOf([&] { controls.set("contrast", 3); }),
               "/dev/video0: no control 'contrast'; it has brightness, horizontal_flip, "
@@ -149,7 +149,7 @@ TEST_F(V4l2ControlsTest, BusyControlsAreTriedThreeTimes) {
     EXPECT_EQ(gain.refusals, 2) << "an answer that will not change";
 }
 
-TEST_F(V4l2ControlsTest, LostDeviceIsSaidAsSuch) {
+TEST_F(V4l2ControlsTest, LostDeviceIsReported) {
     const V4l2Controls controls(device_);
     fake_.unplug();
     EXPECT_THROW(controls.set("brightness", 5), DeviceLost);

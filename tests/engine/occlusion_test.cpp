@@ -34,7 +34,7 @@ struct Sides {
 class OcclusionSizes : public OcclusionCase,
                        public testing::WithParamInterface<std::tuple<EngineKind, Sides>> {};
 
-TEST_P(OcclusionSizes, VisibilityIsThatOfTheOracle) {
+TEST_P(OcclusionSizes, VisibilityMatchesTheOracle) {
     const auto& [engine, sides] = GetParam();
     const auto& [video, output] = sides;
     std::mt19937 random(5);

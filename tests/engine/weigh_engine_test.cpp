@@ -17,7 +17,7 @@ Rows<const FlowCell> flowRows(const std::vector<FlowCell>& cells, const Flow2d::
     return {cells.data() + field.offset, field.cells.width, field.cells};
 }
 
-TEST_F(WeighEngines, BothWeighAStillAlike) {
+TEST_F(WeighEngines, BothEnginesGiveTheSameWeights) {
     constexpr Size kVideo{317, 235}, kStill{1141, 846};
     const StereoRig rig = bentRig(kVideo, kStill);
     const Waves waves(1, 6, 90, 40);

@@ -28,7 +28,7 @@ double rimOf(const CameraModel& camera) {
     return rim;
 }
 
-TEST(EpipolarLens, RaysAreThoseOfThePixelsOfEveryLevel) {
+TEST(EpipolarLens, RaysMatchThePixelsOfEveryLevel) {
     for (const CameraModel& camera :
          {test::oddPlain(), test::oddBarrel(), pincushion(), fisheye()}) {
         Size size = camera.size;

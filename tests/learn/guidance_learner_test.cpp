@@ -50,7 +50,7 @@ TEST(GuidanceLearner, FindsTheBestMeanOfTwoNoisyValues) {
     }
 }
 
-TEST(GuidanceLearner, FindsWhatEachExposureAsksFor) {
+TEST(GuidanceLearner, FindsTheGuidanceForEachExposure) {
     // `weight` scales the still's detail to the video's exposure.
     for (const double gain : {0.5, 0.8}) {  // a larger gain would be saturated
         GuidanceLearner learner;
@@ -78,7 +78,7 @@ TEST(GuidanceLearner, GuidanceIsDroppedWhenItNoLongerHelps) {
     EXPECT_FALSE(learner.guidance().any());
 }
 
-TEST(GuidanceLearner, WhatCannotBeUsedIsIgnored) {
+TEST(GuidanceLearner, UnusablePicturesAreIgnored) {
     GuidanceLearner learner = learned(4, 8, 1);
     const auto before = learner.stored();
     const auto ignores = [&](const Stills& of) {

@@ -29,7 +29,7 @@ std::string faultOf(std::span<const std::uint8_t> bytes, const std::string& key 
     return "";
 }
 
-TEST(LearnerState, IsRestoredToTheBitAndGoesOnAlike) {
+TEST(LearnerState, IsRestoredToTheBitAndContinuesEqually) {
     EnlargerLearner first = learned();
     ASSERT_GT(first.counts().classes, 0);
     const auto bytes = first.stored("a, b");
@@ -45,7 +45,7 @@ TEST(LearnerState, IsRestoredToTheBitAndGoesOnAlike) {
     EXPECT_EQ(second.stored("a, b"), first.stored("a, b"));
 }
 
-TEST(LearnerState, OfOtherSensorsIsRefused) {
+TEST(LearnerState, StateOfOtherSensorsIsRefused) {
     EXPECT_EQ(faultOf(EnlargerLearner().stored("a, b"), "a, c"),
               "state: was learned from other sensors");
 }
@@ -118,7 +118,7 @@ TEST(LearnerState, AGuidanceOutOfRangeIsRefusedThoughTheSumIsRight) {
     EXPECT_THAT(faultOf(bytes), HasSubstr("usual match that is out of range"));
 }
 
-TEST(LearnerState, OneThatIsTooLongOrShortIsRefusedThoughTheSumIsRight) {
+TEST(LearnerState, AWrongLengthIsRefusedThoughTheSumIsRight) {
     auto bytes = EnlargerLearner().stored("a, b");
     bytes.resize(bytes.size() - 4);
     auto longer = bytes;

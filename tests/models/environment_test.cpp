@@ -42,7 +42,7 @@ TEST(EnvironmentMap, FlatPixels) {
     const Environment e =
         parseEnvironment(hdr(kHeader + "-Y 1 +X 2\n", {128, 64, 0, 129, 255, 255, 255, 130}), "a");
     EXPECT_EQ(e.size, (Size{2, 1}));
-    // Mantissas stand for the middle of their step.
+    // A mantissa means the middle of its quantization step.
     expectClose(e.radiance[0], {128.5F / 128, 64.5F / 128, 0.5F / 128});
     expectClose(e.radiance[1], Eigen::Vector3f::Constant(255.5F / 64));
 }
@@ -57,7 +57,7 @@ TEST(EnvironmentMap, RunsOfBothKinds) {
     }
     const Environment split = parseEnvironment(hdr(kHeader + "-Y 4 +X 8\n", rows), "a");
     expectClose(split.radiance[3 * 8 + 5], {30.5F, 6.5F, 9.5F});
-    // One pixel, and seven more of it.
+    // One pixel, then a run that repeats it seven times.
     rows.clear();
     for (int y = 0; y < 4; ++y)
         rows.insert(rows.end(), {5, 6, 7, 136, 1, 1, 1, 7});

@@ -34,7 +34,7 @@ std::string faultOf(const GltfMaker& maker, const ModelLimits& limits = {}) {
     return faultOf([&] { (void)parseGltf(maker.glb(), "test.glb", {}, limits); });
 }
 
-/// What is wrong after one change of a sound model.
+/// The error message after one change of a valid model.
 std::string faultAfter(const std::function<void(json&)>& change) {
     GltfMaker maker = richModel();
     change(maker.root);
@@ -45,7 +45,7 @@ auto saysAt(const std::string& place, const std::string& what) {
     return AllOf(StartsWith("test.glb: " + place), HasSubstr(what), Not(HasSubstr("\n")));
 }
 
-TEST(GltfFaults, SoundModelsHaveNone) {
+TEST(GltfFaults, ValidModelsHaveNoFaults) {
     EXPECT_EQ(faultOf(oneTriangle()), "none");
     EXPECT_EQ(faultOf(richModel()), "none");
 }
@@ -61,7 +61,7 @@ TEST(GltfFaults, BytesThatAreNoModel) {
     std::vector<std::uint8_t> glb = oneTriangle().glb();
     glb[4] = 1;
     EXPECT_THAT(faultOfBytes(glb), HasSubstr("version 1"));
-    // Wherever a file ends, it is one clear error.
+    // A file cut off at any byte gives one clear error.
     glb = richModel().glb();
     for (std::size_t size = 0; size < glb.size(); size += 7)
         EXPECT_THAT(faultOfBytes({glb.begin(), glb.begin() + static_cast<std::ptrdiff_t>(size)}),
@@ -183,7 +183,7 @@ TEST(GltfFaults, Nodes) {
 }
 
 // A tree that shows each node twice per level would have 2^40 of them.
-TEST(GltfFaults, NodesAreCountedAsOftenAsTheyAreShown) {
+TEST(GltfFaults, EveryInstanceOfANodeIsCounted) {
     GltfMaker maker = oneTriangle();
     for (int i = 0; i < 40; ++i)
         maker.root["nodes"].push_back({{"children", {i, i}}});
@@ -241,7 +241,7 @@ TEST(GltfFaults, Limits) {
     limits = {};
     limits.elements = 3;
     EXPECT_THAT(faultOf(richModel(), limits), saysAt("accessors", "4 entries, at most 3"));
-    // Two showings of three vertices.
+    // Two instances of three vertices.
     GltfMaker maker = oneTriangle();
     maker.root["scenes"][0]["nodes"] = {0, 0};
     limits = {};
@@ -252,7 +252,7 @@ TEST(GltfFaults, Limits) {
     EXPECT_THAT(faultOf(maker, limits), HasSubstr("more than 1 triangles"));
 }
 
-TEST(GltfFaults, BuffersThatSayTheyAreOneAreCounted) {
+TEST(GltfFaults, RepeatedBuffersCountTowardsTheLimit) {
     GltfMaker maker = richModel();
     ModelLimits limits;
     for (int i = 0; i < 100; ++i)
@@ -305,7 +305,7 @@ TEST_F(GltfFiles, AFileInMemoryNamesNone) {
                 HasSubstr("other files are not read"));
 }
 
-TEST_F(GltfFiles, BuffersHaveTheSizeTheySay) {
+TEST_F(GltfFiles, BuffersHaveTheirStatedSize) {
     write("model/data.bin", "short");
     EXPECT_THAT(faultWithUri("data.bin"), HasSubstr("mismatch"));
     EXPECT_THAT(faultOf([&] { (void)loadGltf(folder_.path() / "none.glb"); }),

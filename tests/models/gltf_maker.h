@@ -11,7 +11,7 @@
 
 namespace mfar::test {
 
-/// Puts a glTF document together. What it makes is sound until `root` is changed by hand.
+/// Builds a glTF document, which is valid until `root` is changed by hand.
 class GltfMaker {
 public:
     GltfMaker();

@@ -44,7 +44,7 @@ TEST(GltfModel, MaterialIsRead) {
     EXPECT_EQ(m.normalScale, 0.5F);
     EXPECT_EQ(m.alphaCutoff, 0.25F);
     EXPECT_TRUE(m.doubleSided);
-    // One picture as colour and as data.
+    // One image used as colour and as data.
     ASSERT_EQ(model.textures.size(), 2U);
     EXPECT_EQ(m.baseColourTexture, m.emissionTexture);
     EXPECT_EQ(m.normalTexture, m.metallicRoughnessTexture);

@@ -22,7 +22,7 @@ std::uint8_t encoded(float linear) {
     return static_cast<std::uint8_t>(std::lround(255 * s));
 }
 
-/// What the camera sees of light from all around.
+/// The camera's picture of light from all directions.
 std::vector<std::uint8_t> seenFrom(const RigidTransform& T_world_camera, const Radiance& light) {
     std::vector<std::uint8_t> out;
     for (int y = 0; y < kSmall.height; ++y) {
@@ -65,7 +65,7 @@ RigidTransform lookingDown() {
     return lookingAlong({0.2, 0.5, -1});
 }
 
-/// All around, in even steps.
+/// Directions all around, evenly spaced.
 std::vector<RigidTransform> allAround() {
     std::vector<RigidTransform> out;
     constexpr int kViews = 80;
@@ -81,7 +81,7 @@ double degreesBetween(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
     return std::acos(std::clamp<double>(a.dot(b), -1, 1)) * 180 / std::numbers::pi;
 }
 
-// Smooth light that nine harmonics hold.
+// Smooth light that nine harmonics represent exactly.
 const Eigen::Vector3f kFrom = Eigen::Vector3f(0.5F, -0.4F, 0.7F).normalized();
 Eigen::Vector3f smoothLight(const Eigen::Vector3f& d) {
     return Eigen::Vector3f(0.4F, 0.35F, 0.3F) * (1 + 0.8F * d.dot(kFrom));
@@ -113,7 +113,7 @@ TEST(LightEstimate, KnownLightIsFoundWhenAllOfItWasSeen) {
         const Eigen::Vector3f truth = smoothLight(d);
         EXPECT_LT((radianceOf(estimate.radiance, d) - truth).norm(), 0.1F * 0.35F * 1.73F);
     }
-    // 0.8 / 3 of what one direction alone would have.
+    // 0.8 / 3 of the value for light from one direction.
     EXPECT_NEAR(estimate.directionality, 0.8 / 3, 0.03);
 }
 
@@ -146,7 +146,7 @@ TEST(LightEstimate, ALampInViewGivesItsDirection) {
     EXPECT_GT(lighting.sun->irradiance.minCoeff(), 0);
 }
 
-TEST(LightEstimate, WhatIsOutOfViewIsRemembered) {
+TEST(LightEstimate, LightOutOfViewIsRemembered) {
     Watcher watcher;
     for (const RigidTransform& T : allAround())
         watcher.look(T, smoothLight);
@@ -235,7 +235,7 @@ TEST(LightEstimate, EveryFormatGivesTheSameLight) {
 
 TEST(Lighting, IsNeverNegativeAndKeepsTheLight) {
     LightEstimate estimate;
-    // A lamp straight above alone.
+    // Only a lamp straight above.
     estimate.radiance = harmonicsAt({0, 0, 1}) * Eigen::RowVector3f(3, 3, 3);
     estimate.mainDirection = {0, 0, 1};
     estimate.directionality = 1;

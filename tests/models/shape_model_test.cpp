@@ -37,7 +37,7 @@ TEST(ShapeModel, AnEllipsoidsNormalsAreItsOwn) {
     }
 }
 
-TEST(ShapeModel, TheCheckerboardIsThatOfThePreview) {
+TEST(ShapeModel, TheCheckerboardMatchesThePreview) {
     VirtualObject object;
     object.squares = 3;
     const Model model = shapeModel(object);

@@ -46,7 +46,7 @@ TEST(LensRays, CellsHoldEveryPixelOfABox) {
     EXPECT_LT((found.x1 - found.x0) * (found.y1 - found.y0), 3 * inside);
 }
 
-TEST(ViewBounds, OfABoxBehindTheCameraIsEmpty) {
+TEST(ViewBounds, ABoxBehindTheCameraHasEmptyBounds) {
     const RenderView view{wideLens(), {}};
     const LensRays rays(view.camera);
     EXPECT_TRUE(

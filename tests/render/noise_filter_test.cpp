@@ -70,7 +70,7 @@ TEST(NoiseFilter, SmoothsNoise) {
     EXPECT_LT(errorOf(pixels, flat), kSigma / 2);
 }
 
-TEST(NoiseFilter, FindsVariancesThatAreNotKnown) {
+TEST(NoiseFilter, FindsUnknownVariances) {
     Pixels pixels = noisyPicture(flat);
     for (LightPixel& p : pixels)
         p.firstVariance = p.secondVariance = -1;

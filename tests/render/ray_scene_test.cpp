@@ -20,7 +20,7 @@ RayScene sphereOnSquare() {
     return out;
 }
 
-TEST(RayScene, FindsWhatIsNearest) {
+TEST(RayScene, FindsTheNearestSurface) {
     const RayScene scene = sphereOnSquare();
     const RayHit ball = scene.first({{0, -4, 0.01F}, {0, 2, 0}});
     EXPECT_EQ(ball.mesh, 0U);

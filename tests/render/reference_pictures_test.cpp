@@ -197,7 +197,7 @@ TEST(ReferencePictures, WaitsForPortionsOfTheReplacedPicture) {
     EXPECT_TRUE(driver.pictures.toBegin());
 }
 
-TEST(ReferencePictures, NothingInViewIsShownAsNothing) {
+TEST(ReferencePictures, AnEmptyViewShowsNothing) {
     Driver driver(kThirtyTwo);
     RenderView away = render_scenes::viewFrom(kReferenceSize, 20);
     away.T_world_camera.translation.z() += 100;

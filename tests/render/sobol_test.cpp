@@ -16,7 +16,7 @@ std::uint32_t secondCoordinate(std::uint32_t index) {
     return out;
 }
 
-TEST(Sobol, CoordinatesAreThoseOfTheDirectionNumbers) {
+TEST(Sobol, CoordinatesMatchTheDirectionNumbers) {
     for (std::uint32_t i = 0; i < 5000; i += 7) {
         const auto [x, y] = sobolReversed(i * 859U);
         EXPECT_EQ(x, i * 859U);

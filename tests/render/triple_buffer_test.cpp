@@ -21,7 +21,7 @@ TEST(TripleBuffer, TheNewestWins) {
     EXPECT_EQ(buffer.front(), 3);
 }
 
-TEST(TripleBuffer, WhatTheReaderHasStaysAndMemoryIsReused) {
+TEST(TripleBuffer, TheReadersValueStaysAndMemoryIsReused) {
     TripleBuffer<std::vector<int>> buffer;
     for (int i = 0; i < 3; ++i) {  // allocates the memory of all three slots
         buffer.back().assign(100, i);

@@ -1,4 +1,4 @@
-// The depth of synthetic scenes while the camera does what people do, against the truth.
+// Depth of synthetic scenes during typical camera motion, compared with the truth.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/picture.h"
 #include "tests/measure/eval/scene_objects.h"
@@ -21,8 +21,8 @@ using synthetic::Path;
 
 constexpr int kSettling = 12;  // frames
 constexpr double kMostError = 0.015, kLeastKnown = 0.85;
-/// One match against the still knows inverse depth to 4.5 % here, and a filter in balance takes a
-/// twelfth of what it says: 0.26 % a frame in the median. Three times that is a jump.
+/// One match with the still has an error of 4.5 % of the inverse depth here, and a filter in
+/// balance gives it a weight of 1/12: 0.26 % a frame in the median. Three times that is a jump.
 constexpr double kMostChange = 0.0075;
 
 /// A scene with an object, and its depth in the whole picture.
@@ -45,7 +45,7 @@ struct Watched {
     Pipeline pipeline;
 };
 
-/// `poseError`: of the position, as a share of the distance; it is one of depth as well.
+/// `poseError`: error of the position, as a share of the distance; it causes an equal depth error.
 void expectGood(const DepthState& state, int frame, double poseError = 0) {
     SCOPED_TRACE(frame);
     EXPECT_LE(state.absrel, kMostError + poseError);
@@ -58,7 +58,7 @@ class DepthScenario : public testing::Test {
 protected:
     void SetUp() override { context_->makeCurrent(); }
 
-    /// Along the path, with one still at its start.
+    /// Runs along the path, with one still at its start.
     static void follow(Watched& w, int frames) {
         for (int frame = 0; frame < frames; ++frame) {
             const SceneRun::Shots shots = w.run.next();
@@ -118,7 +118,7 @@ cv::Mat covered(const ImageView& view, const SyntheticBoard& board, Timestamp ti
     return out;
 }
 
-/// How far a pose is from the true one, as a share of the distance to the object.
+/// Error of a pose, as a share of the distance to the object.
 double errorOf(const Pose& pose, const SyntheticBoard& board) {
     const Eigen::Vector3d truth = board.pose(pose.time).T_world_video.translation;
     const Eigen::Vector3d object =
@@ -126,7 +126,7 @@ double errorOf(const Pose& pose, const SyntheticBoard& board) {
     return (pose.T_world_video.translation - truth).norm() / (object - truth).norm();
 }
 
-// Lost for a second: predicted at first, then unknown.
+// Tags lost for a second: the pose is predicted at first, then unknown.
 TEST_F(DepthScenario, StaysWhileTheTagsAreLostAndFoundAgain) {
     constexpr int kLost = kSettling + 4, kFound = kLost + 15, kEnd = kFound + 8;
     Watched w(synthetic::Scene::Office, Path::Handheld, 15, PoseSource::None);

@@ -23,7 +23,7 @@ double medianOf(std::vector<double>& values) {
 
 }  // namespace
 
-// 1/z of the pixels that are looked at, 0 of all others.
+// 1/z of the measured pixels, 0 elsewhere.
 cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     const CameraModel& video = board_.rig().video;
     const RigidTransform pose = board_.pose(time).T_world_video;
@@ -42,7 +42,7 @@ cv::Mat DepthWatch::trueDepth(Timestamp time) const {
     return out;
 }
 
-// Where the pixel's point was then, the nearest of the pixels that were looked at.
+// The measured pixel nearest to where the point was in the frame before.
 double DepthWatch::ratioBefore(int x, int y, double rho, const RigidTransform& pose) const {
     const CameraModel& video = board_.rig().video;
     const Eigen::Vector3d p =

@@ -9,14 +9,14 @@
 
 namespace mfar::test {
 
-/// What a frame's depth is worth in the silhouette of an object. Medians over its pixels, of which
-/// every third of every third row is looked at.
+/// Accuracy of a frame's depth in the silhouette of an object. Medians over every third pixel of
+/// every third row.
 struct DepthState {
     double absrel = 0;        ///< |z - true z| / true z where known; NaN: nowhere
     double completeness = 0;  ///< share of the pixels that are known
     double sigma = 0;         ///< what the pipeline takes for the error, as a share of rho
-    /// Of rho / true rho since the frame before, at the same point of the scene, where known in
-    /// both; 0: nowhere.
+    /// Change of rho / true rho since the frame before, at the same point of the scene, where known
+    /// in both; 0: nowhere.
     double change = 0;
 };
 
@@ -27,7 +27,7 @@ public:
     DepthWatch(const SyntheticBoard& board, const VirtualObject& object)
         : board_(board), object_(object) {}
 
-    /// `time`: of what the frame shows.
+    /// `time`: when the frame was taken.
     [[nodiscard]] DepthState look(const Pipeline& pipeline, Timestamp time);
 
 private:

@@ -1,4 +1,4 @@
-// Real depth is measured only where it may decide about a virtual object.
+// Real depth is measured only where it may decide whether a virtual object is visible.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/scene_run.h"
 
@@ -24,7 +24,8 @@ protected:
         pipeline_.emplace(scene_->rig(), PipelineOptions{});
     }
 
-    /// A sphere of 10 cm before the camera's first place, at this share of the way to the desk.
+    /// A sphere of 10 cm in front of the camera's first position, at this share of the way to the
+    /// desk.
     void placeSphere(double share) {
         VirtualObject sphere;
         sphere.shape = VirtualShape::Sphere;
@@ -53,7 +54,7 @@ private:
     int count_ = 0;
 };
 
-TEST_F(DepthWork, WhatLiesBehindAnObjectIsLookedAtNowAndThen) {
+TEST_F(DepthWork, DepthBehindAnObjectIsMeasuredPeriodically) {
     placeSphere(0.5);
     run(6);
     int measured = 0, skipped = 0;
@@ -68,14 +69,14 @@ TEST_F(DepthWork, WhatLiesBehindAnObjectIsLookedAtNowAndThen) {
     EXPECT_GE(skipped, 8);
 }
 
-TEST_F(DepthWork, WhatMayHideItIsMeasuredInEveryFrame) {
+TEST_F(DepthWork, PossibleOccludersAreMeasuredInEveryFrame) {
     placeSphere(1.0);
     run(6);
     for (const FrameStats& stats : run(3))
         EXPECT_GT(stats.depthTiles, 0);
 }
 
-TEST_F(DepthWork, WhatIsBehindTheDeskIsNotDrawnButLookedFor) {
+TEST_F(DepthWork, AnOccludedObjectIsNotDrawnButDepthIsStillMeasured) {
     placeSphere(1.5);
     run(6);
     for (const FrameStats& stats : run(4)) {

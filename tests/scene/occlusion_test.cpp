@@ -1,4 +1,4 @@
-// Virtual objects behind real things of the synthetic scenes, against the truth.
+// Virtual objects behind real things of the synthetic scenes, compared with the truth.
 #include "hal/gl_context.h"
 #include "tests/measure/eval/metrics/occlusion_score.h"
 #include "tests/measure/eval/scene_objects.h"
@@ -20,8 +20,8 @@ using synthetic::Path;
 
 constexpr int kUnscored = 8;  // frames
 
-/// On the shelf the windows of the matching reach farther beside thin things than the picture's
-/// edges put right.
+/// Bounds per scene. On the shelf, matching windows widen thin things by more than the edges of the
+/// picture correct.
 struct Case {
     synthetic::Scene scene;
     double leastOverlap, mostBoundary;  // [px]
@@ -75,7 +75,7 @@ TEST_P(Occlusion, RealThingsHideAVirtualOneAtTheirEdges) {
 
 class Rest : public Occlusion {};
 
-/// The overlap of what a pipeline shows now with what it should.
+/// Overlap of the object's visible part in a pipeline's output with the true one.
 double overlapOf(const Pipeline& pipeline, const VirtualTruth& truth) {
     return occlusionScore(
                shownAtVideo(shownObjects(pipeline), {truth.visible.cols, truth.visible.rows}),
@@ -96,7 +96,7 @@ TEST_P(Rest, AStillShowsWhatIsInFront) {
               GetParam().leastOverlap);
 }
 
-// Carried by hand, then put down where the scene's resting camera is.
+// The camera is carried by hand, then put down at the position of the scene's resting camera.
 TEST_P(Rest, NothingFlickersNorComesThrough) {
     constexpr int kFrames = 30;
     constexpr double kMostFlicker = 0.001;

@@ -55,7 +55,7 @@ std::vector<bool> SceneShots::movingTiles() const {
     const Size size = camera.size;
     const FloatImage rho = board->inverseDepth(frame.time());
     const FlowImage flow = board->flow(View::Video, frame.time(), View::StillAtVideo, still.time());
-    // The still's place with the video's orientation: no rotation of the rig in it.
+    // The still's position with the video's orientation: excludes the rig's rotation.
     RigidTransform T_still_video = board->rig().T_still_video;
     const Eigen::Matrix3d unturn = T_still_video.rotation.toRotationMatrix().transpose();
     const RigidTransform T_then_now =

@@ -11,8 +11,8 @@ namespace mfar::test {
 struct SceneShots {
     SceneShots(synthetic::Scene scene, synthetic::Path path, int framesLater);
 
-    /// Of every tile of 16x16 pixels: does at least a quarter of it move against the still other
-    /// than the camera's motion explains, by a pixel or more?
+    /// For every tile of 16x16 pixels: does the motion of at least a quarter of it against the
+    /// still differ by a pixel or more from the motion that the camera causes?
     [[nodiscard]] std::vector<bool> movingTiles() const;
 
     std::unique_ptr<SyntheticBoard> board;

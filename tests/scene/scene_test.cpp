@@ -48,7 +48,7 @@ private:
     std::unique_ptr<GlContext> context_ = createGlContext();
 };
 
-TEST_F(SceneTest, WhatMovesIsSearchedInBothDimensionsAndNotSmeared) {
+TEST_F(SceneTest, MovingObjectsAreSearchedInBothDimensionsAndNotSmeared) {
     const SceneShots s(synthetic::Scene::Moving, Path::Handheld, 8);
     const auto moving = s.movingTiles();
     const Pipeline detail = ran(s, SuperResMode::Detail), off = ran(s, SuperResMode::Off);
@@ -69,7 +69,7 @@ TEST_F(SceneTest, WhatMovesIsSearchedInBothDimensionsAndNotSmeared) {
     EXPECT_GT(psnr(detail, truth, moving), psnr(off, truth, moving));
 }
 
-/// The epipole in the picture, and (but for the sensors' distance) no parallax at all.
+/// Two paths: the epipole lies in the picture, or the distance of the sensors causes all parallax.
 class Motion : public SceneTest, public testing::WithParamInterface<Path> {};
 
 TEST_P(Motion, GetsDetail) {

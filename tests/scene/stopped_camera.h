@@ -7,11 +7,11 @@
 
 namespace mfar::test {
 
-/// A camera that has come to rest: one view again and again, each time with other noise.
+/// A camera at rest: the same view again and again, each time with different noise.
 class StoppedCamera {
 public:
-    /// `last`: a frame of the board, where the camera stops. Its noise, moved by some pixels, is
-    /// that of all later pictures: as strong as the board's in every part of them.
+    /// `last`: the frame of the board at which the camera stops. All later pictures have its noise,
+    /// shifted by some pixels, so that it is as strong as the board's everywhere.
     StoppedCamera(SyntheticBoard& board, const Frame& last);
 
     /// Valid until the next call.

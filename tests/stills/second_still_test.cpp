@@ -34,7 +34,7 @@ Bytes bytesOf(const Grey& picture) {
     return {picture.values.begin(), picture.values.end()};
 }
 
-/// A scene, a still that shows all of it, and one that does not show its left.
+/// A scene, a still that shows all of it, and a still that does not show its left part.
 class SecondStillTest : public GlTest {
 protected:
     static Pipeline made(double share, const EngineChoice& engines) {
@@ -51,7 +51,7 @@ protected:
         pipeline.run({video_.data(), kVideo, std::size_t(kVideo.width), PixelFormat::Gray8}, {});
         return pipeline.readStats();
     }
-    /// Mean square error where the newest still shows another scene, or where it does not.
+    /// Mean square error inside or outside the part in which the newest still shows another scene.
     double error(const Pipeline& pipeline, bool inHidden) const {
         const Bytes picture = pipeline.readImage();
         double sum = 0, count = 0;
@@ -71,7 +71,7 @@ protected:
                 video_ = bytesOf(videoOf(scene_, {}));
 };
 
-/// Each engine alone, and each drawing what the other has matched.
+/// Each engine alone, and each drawing with the other's match.
 struct Engines {
     const char* name;
     EngineChoice choice;
@@ -103,7 +103,7 @@ protected:
     }
 };
 
-TEST_P(SecondStillOfEngines, ShowsWhatTheNewestDoesNot) {
+TEST_P(SecondStillOfEngines, ShowsPartsThatTheNewestStillLacks) {
     Pipeline one = made(0), two = made(1);
     FrameStats stats;
     for (Pipeline* pipeline : {&one, &two}) {
@@ -191,7 +191,7 @@ TEST_F(SecondStill, StaysWhileNewStillsMissTheSame) {
     }
 }
 
-TEST_F(SecondStillTest, IsSeenAlikeByAllEngines) {
+TEST_F(SecondStillTest, AllEnginesGiveTheSamePicture) {
     Pipeline simd = made(1, EngineChoice::all(EngineKind::Simd));
     std::vector<FrameStats> stats;
     const auto show = [&](Pipeline& pipeline) {
@@ -219,7 +219,7 @@ TEST_F(SecondStillTest, IsSeenAlikeByAllEngines) {
     }
 }
 
-TEST_F(SecondStill, OfAnotherExposureDoesNoHarm) {
+TEST_F(SecondStill, ADifferentExposureDoesNoHarm) {
     const Bytes dark = bytesOf(twin::greyOf(
         kStill, [&](int x, int y) { return 255 * 0.7 * std::pow(scene_.at(x, y) / 255, 1.3); }));
     Pipeline one = made(0), two = made(1);
@@ -233,7 +233,7 @@ TEST_F(SecondStill, OfAnotherExposureDoesNoHarm) {
     EXPECT_LT(error(two, false), 1.02 * error(one, false));
 }
 
-TEST_F(SecondStill, OfAnotherSceneDoesNoHarm) {
+TEST_F(SecondStill, ADifferentSceneDoesNoHarm) {
     const Bytes other = bytesOf(sharpDiscs(5));
     Pipeline one = made(0), two = made(1);
     for (Pipeline* pipeline : {&one, &two}) {

@@ -52,13 +52,13 @@ protected:
 
 using Tiles = std::vector<int>;
 
-TEST_F(SecondTilesTest, NoneWhereTheNewestShowsAll) {
+TEST_F(SecondTilesTest, ChoosesNoTileIfTheNewestStillShowsAll) {
     EXPECT_EQ(chosen(), Tiles{});
     EXPECT_EQ(tiles_.matched(), 20);
     EXPECT_EQ(tiles_.shownByNewest(), 20);
 }
 
-TEST_F(SecondTilesTest, ThoseThatTheNewestDoesNotShow) {
+TEST_F(SecondTilesTest, ChoosesTilesThatTheNewestStillDoesNotShow) {
     fill(weighed_, 3, 0);
     fill(weighed_, 17, 0.5F);
     fill(weighed_, 18, 0.95F);
@@ -72,7 +72,7 @@ TEST_F(SecondTilesTest, WithoutStructureNothingIsMissing) {
     EXPECT_EQ(chosen(), Tiles{});
 }
 
-TEST_F(SecondTilesTest, OfTooManyThoseThatMissTheMost) {
+TEST_F(SecondTilesTest, IfTooManyTilesQualifyTheWorstAreChosen) {
     for (const int tile : {2, 3, 9, 11})
         fill(weighed_, tile, 0);
     measured_[9].structure = 300;
@@ -95,7 +95,7 @@ TEST_F(SecondTilesTest, TilesThatAreNotDrawnOrNotMatchedAreLeftAlone) {
     EXPECT_EQ(chosen(), (Tiles{2, 9})) << "all are drawn";
 }
 
-TEST_F(SecondTilesTest, WhatTheSecondDoesNotShowEitherRests) {
+TEST_F(SecondTilesTest, TilesThatNeitherStillShowsAreNotTriedForAWhile) {
     for (const int tile : {2, 3})
         fill(weighed_, tile, 0);
     fill(second_, 3, 0.8F);

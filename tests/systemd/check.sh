@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The service's files are sound: systemd understands them, little is exposed, and mfard accepts the
+# Checks the service's files: systemd understands them, little is exposed, and mfard accepts the
 # configuration. Usage: check.sh UNIT MFARD SOURCE-FOLDER. Exit status 77: skipped.
 set -euo pipefail
 unit=$1
@@ -17,14 +17,14 @@ command -v systemd-analyze >/dev/null || { echo "systemd-analyze is not installe
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# systemd wants to see the program that the unit names.
+# systemd requires that the program in the unit exists.
 sed "s|/usr/bin/mfard|$mfard|; s|^Documentation=.*|Documentation=man:systemd(1)|" "$unit" \
     >"$work/mfard.service"
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify ended with $?"
 [[ -z $said ]] || fault "verify: $said"
 
-# The drop-in for those who want a reboot at the end: systemd takes it, and the starts that it counts
-# happen within its time, though mfard waits before each.
+# The optional drop-in that reboots after repeated failures: systemd accepts it, and the starts that
+# it limits happen within its interval, although mfard waits before each.
 reboot=$(dirname "$unit")/reboot.conf
 install -D -m 644 "$reboot" "$work/mfard.service.d/reboot.conf"
 said=$(systemd-analyze verify --man=no "$work/mfard.service" 2>&1) || fault "verify of reboot.conf ended with $?"
@@ -34,7 +34,7 @@ minutes=$(sed -n 's/^StartLimitIntervalSec=\([0-9]*\)min$/\1/p' "$reboot")
 starts=$(sed -n 's/^StartLimitBurst=//p' "$reboot")
 wait=$(sed -n 's/^constexpr std::chrono::seconds kLongestWait{\([0-9]*\)};$/\1/p' \
     "$sources/../daemon/restart_pause.cpp")
-# A hang costs as long as the watchdog and the start may take.
+# A hang lasts as long as the timeouts of the watchdog and the start together.
 ((60 * minutes > starts * (wait + 20))) || fault "reboot.conf never counts $starts starts"
 rm -r "$work/mfard.service.d"
 
@@ -59,24 +59,24 @@ done
 # The configuration error of daemon/exit_code.h must not be tried again.
 grep -q '^RestartPreventExitStatus=.*\<78\>' "$unit" || fault "exit code 78 would restart"
 
-# Debian 12 has systemd 252, which ignores what it does not know.
+# Debian 12 has systemd 252, which ignores unknown settings.
 grep -Eq '^(RestartSteps|RestartMaxDelaySec|RestartMode)=' "$unit" &&
     fault "a key that needs systemd 254"
-# The budgets of the threads are made for this limit.
+# The threads' time budgets assume this limit.
 limit=$(sed -n "s/^constexpr milliseconds kWatchdog{\([0-9]*\)'000};$/\1/p" \
     "$sources/../daemon/budgets.h")
 grep -qx "WatchdogSec=$limit" "$unit" || fault "WatchdogSec is not the $limit s of budgets.h"
-# Every code that is started again is one that mfard waits out.
+# mfard waits before every start that follows one of the restarted exit codes.
 grep -qx 'RestartPreventExitStatus=64 65 66 78' "$unit" || fault "isRestarted() knows other codes"
 
-# What the service may take is bounded, and its hook has no rights that it has not.
+# The service's resources are limited, and its hook has no more rights than the service.
 for key in MemoryMax OOMPolicy TasksMax LimitNOFILE; do
     grep -q "^$key=" "$unit" || fault "no $key="
 done
 grep -Eq '^ExecStopPost=-?[^+!:@]' "$unit" || fault "the hook of the service runs outside its sandbox"
 grep -q '^ExecStopPost=.*--config' "$unit" && fault "the hook reads the configuration"
 
-# The chip of the configured line, by each of its names, and no other.
+# Only the chip of the configured line is found, by each of its names.
 isChip() {
     printf '%s\n' "$2" >"$work/trigger.toml"
     "$sources/is-trigger-chip" "$1" "$work/sys/chip/$1" "$work/trigger.toml"

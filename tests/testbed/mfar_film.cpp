@@ -19,7 +19,7 @@
 namespace mfar {
 namespace {
 
-/// U and V of OpenCV's planes, taken in turn.
+/// Interleaves U and V of OpenCV's planes.
 void writeNv12(std::ofstream& out, const StoredImage& image) {
     cv::Mat rgba(image.size.height, image.size.width, CV_8UC4,
                  const_cast<std::uint8_t*>(image.pixels.data()));

@@ -16,7 +16,7 @@ using test::PaddedPicture;
 constexpr Size kSize{32, 24};
 constexpr PixelRect kPart{5, 3, 27, 20};
 
-TEST(LumaWindow, EveryFormatGivesItsLumaInThePartAskedFor) {
+TEST(LumaWindow, EveryFormatGivesItsLumaInTheRequestedPart) {
     for (const PixelFormat format : test::kEveryFormat) {
         const PaddedPicture picture(format, kSize, 7);
         LumaWindow window;

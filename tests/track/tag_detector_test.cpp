@@ -124,7 +124,7 @@ TEST(CornerRefiner, LeavesCornersAloneWhereNothingIsSeen) {
     EXPECT_EQ(detection.corners, made.corners);
 }
 
-TEST(TagDetector, ARegionGivesWhatTheWholePictureGives) {
+TEST(TagDetector, ARegionGivesTheResultOfTheWholePicture) {
     const CameraModel camera = testCamera();
     const std::vector<PlacedTag> tags{{{TagFamily::Tag36h11, 1}, 0.06, upright(-0.15, -0.1)},
                                       {{TagFamily::Tag36h11, 2}, 0.06, upright(0.15, 0.1)}};

@@ -88,7 +88,7 @@ TEST(PlanarPoses, WithNoiseOneOfTheTwoIsNearTheTruth) {
     }
 }
 
-TEST(TagPose, CovarianceIsThatOfTheErrors) {
+TEST(TagPose, CovarianceMatchesTheErrors) {
     const CameraModel camera = testCamera();
     const RigidTransform truth = cameraAt(0.5, 0.5, 0.4, 0.2);
     Noise noise(0.2);

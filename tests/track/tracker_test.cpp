@@ -75,7 +75,7 @@ TEST(Tracker, FollowsTheCameraMostlyInRegions) {
     EXPECT_LT(angleBetween(ahead->T_world_video, view(12)), 0.5 * kDegree);
 }
 
-TEST(Tracker, RegionsFindWhatTheFullSearchFinds) {
+TEST(Tracker, RegionsGiveTheResultOfTheFullSearch) {
     Tracker regions = trackerFor(mapOf(world()), 1000), full = trackerFor(mapOf(world()), 1);
     for (int i = 0; i < 5; ++i) {
         const GrayPicture frame = picture(i);

@@ -58,7 +58,7 @@ TEST_F(FileDisplays, PngHoldsTheShownPixelsWithTheTopRowFirst) {
     EXPECT_EQ(loadImage(folder_ / "out/frames/123.png").pixels, picture.pixels);
 }
 
-TEST_F(FileDisplays, RowsOfTheHostAreWrittenAsATextureIs) {
+TEST_F(FileDisplays, HostRowsAreWrittenLikeATexture) {
     AlignedRows<std::uint32_t> rows({7, 5});  // padded
     StoredImage picture = plain({7, 5}, 0);
     for (int y = 0; y < 5; ++y)
@@ -186,7 +186,7 @@ TEST_F(FileDisplays, AClosedPipeIsAnErrorNotTheEndOfTheProcess) {
     }
 }
 
-TEST_F(FileDisplays, CancelEndsTheWaitForAReaderThatTakesNothing) {
+TEST_F(FileDisplays, CancelEndsTheWaitForAStalledReader) {
     const fs::path pipe = folder_ / "pipe";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
     const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
@@ -199,7 +199,7 @@ TEST_F(FileDisplays, CancelEndsTheWaitForAReaderThatTakesNothing) {
     close(reader);
 }
 
-/// A pipe whose reader takes what the test says.
+/// A pipe whose reader takes only the number of pictures that the test asks for.
 struct PipeDisplays : FileDisplays {
     PipeDisplays() {
         mkfifo(pipe.c_str(), 0600);
@@ -208,8 +208,7 @@ struct PipeDisplays : FileDisplays {
     ~PipeDisplays() override {
         if (reader >= 0) close(reader);
     }
-    /// Takes everything until `count` pictures have come, and says what the first pixel's luma of
-    /// the last one was.
+    /// Reads until `count` pictures have come; returns the luma of the last one's first pixel.
     int readPictures(std::size_t count) const {
         const std::size_t header = y4mHeader(kSize, 30).size();
         const std::size_t picture = 6 + 640 * 480 * 3 / 2;
@@ -239,7 +238,7 @@ struct PipeDisplays : FileDisplays {
     int reader = -1;
 };
 
-TEST_F(PipeDisplays, LivePicturesDoNotWaitForAReaderThatTakesNothing) {
+TEST_F(PipeDisplays, LivePicturesDoNotWaitForAStalledReader) {
     const FileDisplayPolicy live{.isLive = true, .stalled = std::chrono::milliseconds(20)};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, live);
     show(*display, plain(kSize, 0), {0});
@@ -247,7 +246,7 @@ TEST_F(PipeDisplays, LivePicturesDoNotWaitForAReaderThatTakesNothing) {
     EXPECT_EQ(display->fault(), "y4m:" + pipe.string() + ": the reader of the pipe takes nothing");
     for (int i = 1; i <= 50; ++i)
         show(*display, plain(kSize, static_cast<std::uint8_t>(5 * i)), {i});
-    // One is in work, and of the others as many wait as there are buffers.
+    // One picture is being written, and one waits in each buffer.
     EXPECT_EQ(display->leftOut(), 47U);
     const int last = readPictures(4);
     EXPECT_NEAR(last, 16 + 219 * 250 / 255., 1) << "the newest picture is written";
@@ -282,7 +281,7 @@ TEST_F(PipeDisplays, LivePicturesAreGivenUpAtTheEnd) {
     }
 }
 
-TEST_F(PipeDisplays, WaitForAReaderIsSaid) {
+TEST_F(PipeDisplays, WaitingForAReaderIsReported) {
     std::atomic<const char*> said{""};
     const FileDisplayPolicy lossless{.waiting = [&](const char* what) { said = what; }};
     const auto display = openFileDisplay("y4m:" + pipe.string(), 30, {}, lossless);
@@ -329,7 +328,7 @@ TEST_F(FileDisplays, NoneTakesEverythingAndLeavesNothing) {
     EXPECT_EQ(display->name(), "none");
 }
 
-TEST(OpenFileDisplay, SaysWhatIsWrong) {
+TEST(OpenFileDisplay, ErrorsAreReported) {
     const TempFolder folder;
     test::writeFile(folder / "file", "x");
     EXPECT_EQ(refusal("jpg:/tmp"),

@@ -68,7 +68,7 @@ TEST(ImageFiles, PngKeepsEveryColourButAlpha) {
             }
 }
 
-TEST(ImageFiles, PngOfBlueFirstIsThatOfRedFirst) {
+TEST(ImageFiles, PngDoesNotDependOnTheOrderOfChannels) {
     const Padded source({5, 3}, PixelFormat::Rgba8);
     Padded swapped = source;
     swapped.view = {swapped.bytes.data(), {5, 3}, source.view.stride, PixelFormat::Bgra8};
@@ -121,7 +121,7 @@ TEST(ImageFiles, LoadingIntoABufferOfAnotherSizeIsRefused) {
     EXPECT_EQ(untouched, 77);
 }
 
-TEST(ImageFiles, SavingWhereNothingCanBeWrittenNamesTheFileAndLeavesNothing) {
+TEST(ImageFiles, AFailedSaveNamesTheFileAndLeavesNothing) {
     const TempFolder folder;
     const fs::path file = folder / "none/a.png";
     EXPECT_EQ(errorOf([&] { savePng(file, test::plain({8, 8}, 9).view()); }),

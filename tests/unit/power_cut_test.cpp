@@ -1,6 +1,6 @@
-// A recording, cut off at any moment: what a disk may hold after a cut of power reads back. The
-// recorder's calls into the kernel are noted (the linker's --wrap); what came before the last
-// synchronisation is on the disk, of what came after it any part may be.
+// A recording can be read back after a power cut at any moment. The recorder's system calls are
+// logged (the linker's --wrap). Data written before the last synchronisation is on the disk; any
+// part of the later data may be.
 #include "base/whole_file.h"
 #include "hal/virtual/image_files.h"
 #include "hal/virtual/recorder.h"
@@ -39,7 +39,7 @@ struct SyncedFile {
 };
 using Operation = std::variant<Written, Renamed, Synced, SyncedFile>;
 
-/// What was done to files below a folder, in order.
+/// Log of the operations on files below a folder, in order.
 class Journal {
 public:
     void begin(const fs::path& folder) {
@@ -57,7 +57,7 @@ public:
         files_.erase(fd);
         if (fd >= 0 && isOurs(file)) files_[fd] = file;
     }
-    /// Called with the operation's own lock held, so that notes have its order.
+    /// Called with the operation's own lock held, so that the log has the operations' order.
     template <class Call>
     auto note(const Call& call) {
         const std::lock_guard lock(mutex_);
@@ -151,7 +151,7 @@ StereoRig smallRig() {
     return rig;
 }
 
-/// 12 pictures, 4 stills and 12 poses, synchronised as often as the writer gets to it.
+/// 12 pictures, 4 stills and 12 poses, synchronised as often as the writer has time to.
 std::vector<Operation> record(const fs::path& folder) {
     journal().begin(folder);
     Recorder recorder(folder, smallRig(), 30, {.syncEvery = {}});
@@ -163,7 +163,7 @@ std::vector<Operation> record(const fs::path& folder) {
         }
         EXPECT_TRUE(recorder.pose({{1000 * i}, smallRig().T_still_video}));
         if (i == 6) recorder.addFile("tags.toml", "family = \"tag36h11\"\n");
-        // So that there are some of these points on a slow machine, too.
+        // Ensures some synchronisations on a slow machine, too.
         if (i % 4 == 1) recorder.finish();
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -171,8 +171,8 @@ std::vector<Operation> record(const fs::path& folder) {
     return journal().end();
 }
 
-/// What a disk may have of a file that was to grow from `safe` to `now`: a part of what is new, or
-/// its length without its bytes.
+/// A possible state on disk of a file that was growing from `safe` to `now`: with a part of the new
+/// bytes, or with the new length but without the bytes.
 std::string part(const std::string& safe, const std::string& now, std::mt19937& random) {
     if (!now.starts_with(safe)) return random() % 2 == 0 ? safe : now;
     const std::size_t more = random() % (now.size() - safe.size() + 1);
@@ -181,7 +181,7 @@ std::string part(const std::string& safe, const std::string& now, std::mt19937& 
     return out;
 }
 
-/// A disk after so many operations and a cut of power.
+/// A possible state of the disk after this number of operations and a power cut.
 Files afterCut(const std::vector<Operation>& operations, std::size_t count, std::mt19937& random) {
     Files safe, now;
     std::set<std::string> safeBytes;  // whose bytes are on the disk, under whatever name
@@ -212,7 +212,7 @@ Files afterCut(const std::vector<Operation>& operations, std::size_t count, std:
     return disk;
 }
 
-/// Rows of a list that a synchronisation has made safe before so many operations.
+/// Rows of a list that synchronisations among the first operations have made safe.
 std::size_t safeRows(const std::vector<Operation>& operations, std::size_t count,
                      const std::string& list) {
     std::size_t rows = 0, safe = 0;
@@ -248,7 +248,7 @@ void expectWhole(const std::vector<RecordedImage>& images, Size size) {
 
 class PowerCut : public testing::Test {
 protected:
-    /// Reads what is left; nothing where not even a picture was safe.
+    /// Reads the recording that is left; nothing if not even one picture was safe.
     std::optional<Recording> leftAfter(std::size_t count) {
         fs::remove_all(cut_.path() / "run");
         for (const char* folder : {"cam0/data", "cam1/data"})
@@ -260,14 +260,14 @@ protected:
         return loadRecording(cut_.path() / "run");
     }
 
-    // Folders in memory, where there is such a file system: they are made a thousand times.
+    // In memory if there is such a file system: the folders are created a thousand times.
     const int inMemory_ = fs::is_directory("/dev/shm") ? setenv("TMPDIR", "/dev/shm", 1) : 0;
     test::TempFolder whole_, cut_;
     const std::vector<Operation> operations_ = record(whole_.path());
     std::mt19937 random_{7};
 };
 
-TEST_F(PowerCut, WhatWasSafeReadsBackAfterACutAtAnyMoment) {
+TEST_F(PowerCut, SynchronisedDataReadsBackAfterACutAtAnyMoment) {
     ASSERT_EQ(loadRecording(whole_.path()).video.size(), 12U);
     const std::string video = (whole_ / "cam0/data.csv").string(),
                       stills = (whole_ / "cam1/data.csv").string();
@@ -290,7 +290,7 @@ TEST_F(PowerCut, WhatWasSafeReadsBackAfterACutAtAnyMoment) {
 TEST_F(PowerCut, RowsAreSafeBeforeTheNextPicturesAre) {
     std::vector<int> syncs = syncsAfterRows(operations_, (whole_ / "cam0/data.csv").string());
     ASSERT_GT(syncs.size(), 2U);
-    ++syncs.back();  // as no pictures follow
+    ++syncs.back();  // counts as a further one: no pictures follow
     EXPECT_THAT(syncs, testing::Each(testing::Ge(2)));
 }
 

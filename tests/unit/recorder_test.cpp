@@ -39,7 +39,7 @@ StereoRig smallRig() {
     return rig;
 }
 
-TEST(Recorder, WhatIsRecordedIsWhatIsPlayed) {
+TEST(Recorder, ARecordingPlaysBackUnchanged) {
     const TempFolder folder;
     const StereoRig rig = smallRig();
     const Pose pose{{20}, rig.T_still_video};
@@ -143,8 +143,7 @@ TEST(Recorder, ALockedDiskDropsAndCountsPicturesButNeverHoldsTheCaller) {
     const TempFolder folder;
     const std::set<fs::path> before = threads();
     Recorder recorder(folder.path(), smallRig(), 30, {.videoBuffers = 4, .poses = 3});
-    // A pipe without a reader in place of a thread's first file holds it in open(), as a dead disk
-    // would.
+    // A pipe without a reader replaces the thread's first file: open() blocks, as on a dead disk.
     std::vector<fs::path> pipes;
     for (const fs::path& thread : threads())
         if (!before.contains(thread)) {

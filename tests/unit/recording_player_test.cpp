@@ -15,7 +15,7 @@ using test::writeSmallRecording;
 
 constexpr std::int64_t kMs = 1'000'000;
 
-/// What one thread sees that asks both cameras in turn: "V" or "S", the time in ms, the level.
+/// Frames that one thread gets by asking both cameras in turn: "V" or "S", time in ms, level.
 std::string played(RecordingPlayer& player, std::size_t limit = 1000) {
     std::string seen;
     for (std::size_t n = 0; n < limit && !(player.video().ended() && player.stills().ended());) {
@@ -164,7 +164,7 @@ TEST(RecordingPlayer, LoopGoesOnWithRisingTimesThatMapBackToTheFiles) {
     writeSmallRecording(folder.path(), {1000 * kMs, 1500 * kMs}, {1200 * kMs});
     RecordingPlayer player(loadRecording(folder.path()), {.pace = Pace::Consumer, .loop = true});
     startBoth(player);
-    // One lap is 500 ms and a 30th of a second.
+    // One loop lasts 500 ms plus 1/30 s.
     EXPECT_EQ(played(player, 7), "V1000=0 S1200=0 V1500=10 V1533=0 S1733=0 V2033=10 V2066=0 ");
     EXPECT_FALSE(player.video().ended());
     EXPECT_EQ(player.recordedTime({1'200 * kMs}).ns, 1200 * kMs);
@@ -217,7 +217,7 @@ TEST(RecordingPlayer, TriggerCountsAndDoesNothingElse) {
     EXPECT_TRUE(player.stills().ended());
 }
 
-TEST(RecordingPlayer, TellsWhatTheCamerasAre) {
+TEST(RecordingPlayer, ReportsTheCamerasProperties) {
     const TempFolder folder;
     writeSmallRecording(folder.path());
     RecordingPlayer player(loadRecording(folder.path()), {});

@@ -27,7 +27,7 @@ std::string faultOf(const fs::path& root) {
     return "no fault found";
 }
 
-/// One way to break a valid recording, and how the message has to begin and what it has to say.
+/// One way to break a valid recording, and the required beginning and content of the message.
 struct Fault {
     const char* name;
     std::function<void(const fs::path& root)> inflict;
@@ -201,7 +201,7 @@ TEST(Recording, MissingFolderIsNamed) {
     EXPECT_EQ(faultOf("/nonexistent/recording"), "/nonexistent/recording: folder is missing");
 }
 
-TEST(Recording, HoldsWhatTheFilesSay) {
+TEST(Recording, HasTheContentOfItsFiles) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     const Recording r = loadRecording(folder.path());
@@ -227,10 +227,10 @@ TEST(Recording, StillSensorToTheRightSeesThePointFurtherLeft) {
     EXPECT_TRUE(p.isApprox(Eigen::Vector3d(-0.014, 0, 1), 1e-12)) << p.transpose();
 }
 
-TEST(Recording, PosesAreThoseOfTheVideoCameraNotOfTheBody) {
+TEST(Recording, PosesDescribeTheVideoCameraNotTheBody) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
-    // Quarter turn about z and an offset: the video camera no longer is the body.
+    // Quarter turn about z and an offset: the video camera's frame is no longer the body's.
     replaceInFile(folder / kVideoYaml, "[1.0, 0.0, 0.0, 0,", "[0.0, -1.0, 0.0, 0.5,");
     replaceInFile(folder / kVideoYaml, "0.0, 1.0, 0.0, 0.0,", "1.0, 0.0, 0.0, 0.0,");
     const Recording r = loadRecording(folder.path());
@@ -240,7 +240,7 @@ TEST(Recording, PosesAreThoseOfTheVideoCameraNotOfTheBody) {
     EXPECT_TRUE(q.isApprox(Eigen::Vector3d(0.486, 1, 0), 1e-9)) << q.transpose();
 }
 
-TEST(Recording, PoseBetweenTwoIsInterpolatedAndOutsideThereIsNone) {
+TEST(Recording, PosesAreInterpolatedAndNotExtrapolated) {
     const TempFolder folder;
     test::writeSmallRecording(folder.path());
     writeFile(folder / kPoses, "1000000000,1,0,0,1,0,0,0\n1200000000,2,0,0,0,0,0,1\n");

@@ -13,14 +13,14 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A device as somebody plugs it in and out; may outlive its cameras and be used by any thread.
+/// A device that can be plugged and unplugged; may outlive its cameras and be used by any thread.
 struct Socket {
     std::atomic<bool> plugged{true};
     std::atomic<bool> sends{true};
     std::atomic<int> asked{0}, open{0}, opened{0};
-    std::atomic<bool> opens{true};    ///< opening it ends
-    std::atomic<bool> closes{true};   ///< closing it ends
-    std::atomic<bool> answers{true};  ///< asking it for a picture ends, and so does stopping it
+    std::atomic<bool> opens{true};    ///< false: opening it hangs
+    std::atomic<bool> closes{true};   ///< false: closing it hangs
+    std::atomic<bool> answers{true};  ///< false: getting a picture or stopping hangs
     Size size{4, 2};
 };
 
@@ -94,7 +94,7 @@ bool drivenUntil(ReopeningCamera& camera, const std::function<bool(bool frame)>&
     return false;
 }
 
-TEST(ReopeningCamera, SaysWhatIsMissingAndGoesOnWhenItComes) {
+TEST(ReopeningCamera, AMissingCameraIsReportedAndUsedWhenItAppears) {
     Socket socket;
     socket.plugged = false;
     ReopeningCamera camera = cameraOn(socket);
@@ -122,7 +122,7 @@ TEST(ReopeningCamera, SurvivesManyLosses) {
     EXPECT_EQ(camera.losses(), 20U);
 }
 
-TEST(ReopeningCamera, OneThatGoesSilentIsNamedAndThenOpenedAgain) {
+TEST(ReopeningCamera, ASilentCameraIsReportedAndThenReopened) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);
     camera.start();
@@ -136,7 +136,7 @@ TEST(ReopeningCamera, OneThatGoesSilentIsNamedAndThenOpenedAgain) {
     EXPECT_EQ(camera.fault(), std::nullopt);
 }
 
-TEST(ReopeningCamera, OneThatIsSilentBesideABusyLibraryIsLeftAloneForLonger) {
+TEST(ReopeningCamera, ASilentCameraIsReopenedLaterWhileTheLibraryIsBusy) {
     Socket socket;
     std::atomic<bool> busy{true};
     ReopeningOptions options = quick();
@@ -206,7 +206,7 @@ TEST(ReopeningCamera, OneWhoseDriverHangsIsNamedAndStopDoesNotWaitForIt) {
     socket.answers = true;
 }
 
-/// What the watch over a camera's opener finds after a time, at which its budget of 10 s ends.
+/// The watchdog's finding about a camera's opener after a time; its budget is 10 s.
 struct WatchedOpener {
     [[nodiscard]] std::vector<std::string> lateAfter(std::chrono::seconds time) {
         passed = passed.load() + time.count();
@@ -273,7 +273,7 @@ TEST(ReopeningCamera, AStopThatNeverReturnsIsOverItsBudget) {
     socket.answers = true;
 }
 
-TEST(ReopeningCamera, CountsWhatEveryDeviceThatItWasHasCounted) {
+TEST(ReopeningCamera, CountersIncludeEarlierDevices) {
     Socket socket;
     ReopeningCamera camera = cameraOn(socket);
     EXPECT_EQ(camera.cameraCounters().missed, std::nullopt);
@@ -292,7 +292,7 @@ TEST(ReopeningCamera, CountsWhatEveryDeviceThatItWasHasCounted) {
     }
 }
 
-TEST(ReopeningCamera, OneThatIsLostBeforeItSendsIsNotOpenedAtFullSpeed) {
+TEST(ReopeningCamera, ACameraLostBeforeItsFirstFrameIsReopenedSlowly) {
     Socket socket;
     ReopeningOptions options = quick();
     options.firstPause = options.longestPause = std::chrono::hours(1);
@@ -336,7 +336,7 @@ TEST(ReopeningCamera, AnotherSizeCountsAsNotThere) {
     EXPECT_EQ(socket.open, 0);
 }
 
-TEST(ReopeningCamera, StopWakesWhoWaits) {
+TEST(ReopeningCamera, StopWakesWaitingThreads) {
     Socket socket;
     socket.plugged = false;
     ReopeningCamera camera = cameraOn(socket);

@@ -12,7 +12,7 @@
 
 namespace mfar::test {
 
-/// A picture of one colour, which tells pictures apart after any lossless round trip.
+/// A picture of one colour, which distinguishes it after any lossless round trip.
 inline StoredImage plain(Size size, std::uint8_t level, PixelFormat format = PixelFormat::Rgba8) {
     StoredImage image{size, format, {}};
     image.pixels.assign(static_cast<std::size_t>(size.width) * size.height * bytesPerPixel(format),

@@ -159,7 +159,7 @@ TEST(StillMatcher, LateStillIsMatchedAndSparesItsRepetition) {
     EXPECT_EQ(matcher.counters().lost, 1U);
 }
 
-TEST(StillMatcher, SteppedClockIsLearnedAnew) {
+TEST(StillMatcher, SteppedClockIsLearnedAgain) {
     for (const milliseconds step : {-40ms, 7ms, 80ms}) {
         StillMatcher matcher({});
         Timestamp pulse = kStart;
@@ -229,7 +229,7 @@ TEST(StillMatcher, ManyPulsesWithoutStillsAreAllLost) {
     EXPECT_EQ(matcher.counters().lost, 1000U);
 }
 
-/// A camera and a trigger with every fault, and who belongs to whom.
+/// A camera and a trigger with every fault, and the true pulse of each still.
 class Chaos {
 public:
     explicit Chaos(unsigned seed) : random_(seed) {
@@ -252,7 +252,7 @@ private:
     struct Still {
         Timestamp arrival;
         Timestamp exposed;
-        std::optional<Timestamp> pulse;  ///< nothing: a stray
+        std::optional<Timestamp> pulse;  ///< empty: a still without a pulse
     };
 
     std::int64_t pick(std::int64_t from, std::int64_t to) {
@@ -280,7 +280,7 @@ private:
         expose(now_, clean);
     }
 
-    /// Everything that arrives until then, with a look at lost pulses in between.
+    /// Delivers everything that arrives until then, and checks for lost pulses in between.
     void deliver(StillMatcher& matcher, Timestamp until) {
         const Timestamp end = until;
         for (Timestamp t = lastPoll_ + 5ms; t <= end; t = t + 5ms) {
@@ -292,7 +292,7 @@ private:
             }
             const StillMatcher::Due due = matcher.poll(t);
             lost_ += due.lost;
-            // A pulse closer than that to another is not what this is about.
+            // Closer pulses are not tested here.
             if (due.repeat && t - now_ > 60ms && end - t > 60ms) {
                 now_ = t;
                 fire(matcher, Pulse::Repetition, false);

@@ -43,7 +43,7 @@ inline std::string readFile(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Replaces the first occurrence; throws when there is none, so that a test cannot pass by
+/// Replaces the first occurrence; throws if the text does not occur, so that a test cannot pass by
 /// accident.
 inline void replaceInFile(const std::filesystem::path& file, std::string_view from,
                           std::string_view to) {

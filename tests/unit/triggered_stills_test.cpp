@@ -17,18 +17,18 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using namespace std::chrono_literals;
 
-/// A sensor behind a line, as the two see it: what is exposed is up to the test.
+/// A sensor and its trigger line; the test decides which pulses expose a still.
 struct Sensor {
     std::mutex mutex;
     std::condition_variable changed;
     std::deque<Frame> ready;
     std::vector<Timestamp> pulses;
     int loans = 0;
-    int busy = 0;   ///< refuses so many pulses
-    int blind = 0;  ///< exposes nothing for so many pulses
+    int busy = 0;   ///< number of pulses to refuse
+    int blind = 0;  ///< number of pulses that expose nothing
     bool stopped = false;
-    int rests = 0;      ///< times that the line was asked to rest
-    bool high = false;  ///< the line, from a pulse until somebody ends it
+    int rests = 0;      ///< number of requests to deactivate the line
+    bool high = false;  ///< level of the line after a pulse
     nanoseconds exposure{0};
     nanoseconds delay{300us};  ///< from edge to the start of exposure
 
@@ -135,7 +135,7 @@ TEST_F(TriggeredStills, StillHasTheTimeOfItsPulse) {
     EXPECT_EQ(camera->counters().matched, 30U);
 }
 
-TEST_F(TriggeredStills, PulseGivesTheExposureThatTheCameraDoesNotSay) {
+TEST_F(TriggeredStills, PulseGivesTheExposureIfTheCameraDoesNotReportIt) {
     TriggeredStillOptions options;
     options.exposure = 6ms;
     const auto camera = open(options);
@@ -237,7 +237,7 @@ TEST_F(TriggeredStills, TimesNeverGoBackwards) {
     EXPECT_EQ(sensor.loans, 1);
 }
 
-TEST_F(TriggeredStills, StopWakesTheOneWhoWaits) {
+TEST_F(TriggeredStills, StopWakesTheWaitingThread) {
     const auto camera = open();
     std::thread waiting([&] { EXPECT_FALSE(camera->next(1h)); });
     std::this_thread::sleep_for(5ms);

@@ -29,7 +29,7 @@ struct Turned {
     Warp warp;
 };
 
-TEST_F(WarpHolesGl, RequestsAreWhatTheReferenceDoesNotShow) {
+TEST_F(WarpHolesGl, HolesOfTheReferenceAreRequested) {
     Turned s({});
     const auto request = s.requestAt(15);
     ASSERT_TRUE(request);

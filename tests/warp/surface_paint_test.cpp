@@ -215,7 +215,7 @@ TEST(SurfacePaint, PlanesAreAveragedOverEachPixel) {
     }
 }
 
-TEST(SurfacePaint, OfABallHasFactorsAndTexturesOfTwoSizes) {
+TEST(SurfacePaint, ABallIsPaintedWithFactorsAndTexturesOfTwoSizes) {
     Material material = textured(0, 1);
     material.baseColour = {0.8F, 0.5F, 0.3F, 1};
     material.metallic = 0.7F;

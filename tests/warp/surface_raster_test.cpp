@@ -88,7 +88,7 @@ TEST(SurfaceRaster, CoversASurfaceWithoutGapsOrRims) {
     }
 }
 
-TEST(SurfaceRaster, DepthIsThatOfTheSlantedPlane) {
+TEST(SurfaceRaster, DepthMatchesTheSlantedPlane) {
     Material both;
     both.doubleSided = true;
     const Eigen::Quaterniond slant(Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 0.3, 0).normalized()));

@@ -83,7 +83,7 @@ TEST_F(WarpGl, NothingIsShownOutsideOfSilhouetteAndShadow) {
     EXPECT_LT(coverage / pixels, 4) << "mean error of coverage [grey levels]";
 }
 
-TEST_F(WarpGl, DepthIsThatOfTheCurrentPose) {
+TEST_F(WarpGl, DepthMatchesTheCurrentPose) {
     Shown s;
     const RenderedPicture truth = s.scene.cast(s.view(8));
     const auto z = test::valuesOf(s.warp.run(test::orbit(8)).depth);

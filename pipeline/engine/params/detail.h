@@ -35,8 +35,9 @@ inline constexpr float kCubicSlope = -0.75F;
 inline constexpr float kSharpenNear = -0.14123F;
 inline constexpr float kSharpenFar = 0.0385F;
 
-/// Width of a video pixel's footprint in the still, relative to the pixel pitch: 4x4 samples a
-/// quarter of this apart (1.08 is as good on photographs, and worse where a still was reduced).
+/// Width of a video pixel's footprint in the still, relative to the pixel pitch. The footprint has
+/// 4x4 samples, spaced a quarter of this width. (1.08 is as good on photographs, but worse for
+/// reduced stills.)
 inline constexpr float kSeen = 1.0F;
 
 /// A still guides the video's finest detail: the difference of both pictures, minus its mean over

@@ -59,7 +59,7 @@ TEST_F(PipelinePose, ExtremePicturesAndPosesGiveNoNan) {
     }
 }
 
-TEST_F(PipelinePose, TheUnitOfLengthIsFree) {
+TEST_F(PipelinePose, ResultsDoNotDependOnTheUnitOfLength) {
     const PipelineCase c;
     const auto run = [&](double unit) {
         StereoRig rig = c.rig;

@@ -73,7 +73,7 @@ struct Classes {
 
 const std::vector<Size> kSizes{{1, 1}, {3, 5}, {16, 9}, {33, 12}, {97, 41}};
 
-TEST(EnlargeRows, LumaIsThatOfTheColours) {
+TEST(EnlargeRows, LumaMatchesTheColours) {
     std::mt19937 random(3);
     onEveryTarget([&] {
         for (const int width : {1, 7, 16, 33, 100}) {

@@ -55,7 +55,7 @@ struct Problem {
 
 // Costs are the differences to the nearest pixels along the straight line from a vector's first
 // label to its last.
-TEST(LabelCosts, AreThoseOfTheNearestPixels) {
+TEST(LabelCosts, MatchTheNearestPixels) {
     for (const std::size_t width : {1UL, 5UL, 64UL, 150UL}) {
         for (const int vectors : {1, 3}) {
             for (const bool slack : {false, true}) {

@@ -78,7 +78,7 @@ void expectCostsOf(const FlowPicture& first, const FlowPicture& second) {
         }
 }
 
-TEST(PatchFlow, CostAndTextureAreThoseOfTheOracle) {
+TEST(PatchFlow, CostAndTextureMatchTheOracle) {
     expectCostsOf(wavesMoved(kSize, {0, 0}), noiseOf(kSize, 3));
     expectCostsOf(noiseOf(kSize, 5), wavesMoved(kSize, {0, 0}));
     FlowPicture chess(kSize);  // largest possible sums
@@ -88,7 +88,7 @@ TEST(PatchFlow, CostAndTextureAreThoseOfTheOracle) {
     expectCostsOf(chess, chess);
 }
 
-TEST(PatchFlow, OneStepIsThatOfTheOracle) {
+TEST(PatchFlow, OneStepMatchesTheOracle) {
     const FlowPicture first = wavesMoved(kSize, {0, 0}), second = wavesMoved(kSize, {1.3, -0.6});
     const auto vectors = randomVectors(5, 1);
     const twin::Grey a = greyOf(first), b = greyOf(second);
@@ -189,7 +189,7 @@ void expectBentCosts(const Vector2d& dx, const Vector2d& dy, int span) {
         }
 }
 
-TEST(PatchFlow, BentPatchesAreThoseOfTheOracle) {
+TEST(PatchFlow, BentPatchesMatchTheOracle) {
     expectBentCosts({0.0637, -0.0613}, {0.0419, 0.1931}, 8);
     expectBentCosts({0.1837, -0.0613}, {0.0419, 0.1931}, 4);
 }

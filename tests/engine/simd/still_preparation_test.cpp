@@ -46,7 +46,7 @@ struct TestPicture {
     ImageView view;
 };
 
-TEST(StillPreparation, LumaIsThatOfTheOracleAtAnySize) {
+TEST(StillPreparation, LumaMatchesTheOracleAtAnySize) {
     struct Sizes {
         Size video, still, output;
     };
@@ -189,7 +189,7 @@ TEST(StillPreparation, PictureThatIsNotKeptIsGrey) {
         ASSERT_EQ(got[7][x], 0xff000000U | 0x10101U * s.preparation.luma()[7][x]);
 }
 
-TEST(StillPreparation, ReducedPictureIsThatOfTheOracle) {
+TEST(StillPreparation, ReducedPictureMatchesTheOracle) {
     Still s({80, 60}, {300, 225}, {100, 75});
     const TestPicture picture({300, 225});
     s.preparation.set(picture.view);

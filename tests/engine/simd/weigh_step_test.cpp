@@ -190,7 +190,7 @@ struct Shape {
 
 class WeighShapes : public testing::TestWithParam<Shape> {};
 
-TEST_P(WeighShapes, EveryCellIsThatOfTheOracle) {
+TEST_P(WeighShapes, EveryCellMatchesTheOracle) {
     const Shape& s = GetParam();
     WeighCase c(s.video, s.still, s.distort, s.backwardLevel);
     for (const bool givenErrors : {false, true}) {

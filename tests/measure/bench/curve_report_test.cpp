@@ -44,7 +44,7 @@ TEST(CurvesSvg, IsXmlWithALineForEachKnob) {
     EXPECT_NE(svg.find("a&lt;b, c&amp;d"), std::string::npos);
 }
 
-TEST(CurvesSvg, LeavesOutWhatCannotBeDrawn) {
+TEST(CurvesSvg, LeavesOutInvalidPoints) {
     Curves curves = twoCurves();
     curves.curves[0].points[0].bad1 = std::numeric_limits<double>::quiet_NaN();
     curves.curves[0].points[1].ms = 0;
@@ -57,7 +57,7 @@ TEST(CurvesSvg, LeavesOutWhatCannotBeDrawn) {
     EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-TEST(WriteCurves, SaysWhichFileCannotBeWritten) {
+TEST(WriteCurves, AFailedWriteNamesTheFile) {
     const mfar::test::TempFolder folder;
     mfar::test::writeFile(folder / "file", "");
     try {

@@ -6,7 +6,7 @@ namespace {
 
 using GpuTimer = GlTest;
 
-TEST_F(GpuTimer, TellsAPlausibleTimeOrThatThereIsNone) {
+TEST_F(GpuTimer, ReportsAPlausibleTimeOrThatItIsUnavailable) {
     Timer timer;
     timer.start();
     glFinish();

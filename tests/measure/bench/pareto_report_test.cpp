@@ -21,7 +21,7 @@ ParetoStage fivePoints() {
              {"slow peer", Kind::Peer, 15, 4.5}}};
 }
 
-TEST(Pareto, APointDominatesWhatIsSlowerOrLessAccurate) {
+TEST(Pareto, APointDominatesSlowerOrLessAccurateOnes) {
     const ParetoPoint a{"a", Kind::Ours, 1, 1};
     EXPECT_TRUE(dominates(a, {"b", Kind::Ours, 2, 1}));
     EXPECT_TRUE(dominates(a, {"b", Kind::Ours, 1, 2}));

@@ -29,7 +29,7 @@ TEST(SyntheticWorkload, TheStillHasDetailTheVideoLacks) {
     EXPECT_GT(meanDifference(up, work.stills[0]), 5);
 }
 
-TEST(HandheldWorkload, KnowsWhereEveryFrameAndTheStillWere) {
+TEST(HandheldWorkload, HasThePosesOfEveryFrameAndTheStill) {
     const Workload work = handheldWorkload({160, 120}, {576, 432}, 3);
     ASSERT_EQ(work.frames.size(), 3U);
     ASSERT_EQ(work.framePoses.size(), 3U);

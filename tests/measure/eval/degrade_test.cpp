@@ -15,7 +15,7 @@ TEST(Degrade, ReadsAnySubset) {
               (Degradation{0.7, 1.3, 0.7, 4}));
 }
 
-TEST(Degrade, RefusesWhatItCannotDo) {
+TEST(Degrade, InvalidDegradationsAreRefused) {
     for (const char* text : {"gian=1", "gain", "gain=", "gain=0", "gain=-1", "blur=-1", "noise=x",
                              "gamma=1.3x", "gain=nan", ",gain=1"})
         EXPECT_THROW((void)parseDegradation(text), std::invalid_argument) << text;

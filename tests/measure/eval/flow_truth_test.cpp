@@ -67,7 +67,7 @@ TEST(FlowTruth, IsZeroAtInfinityAndUnknownWithoutDepth) {
 
 /// A wall at 2 m with a panel at 1 m in front, columns 30 to 49; the still stands 0.1 m to the
 /// right.
-TEST(FlowTruth, WhatIsHiddenOrOutsideInTheStillIsUnknown) {
+TEST(FlowTruth, PixelsOccludedOrOutsideInTheStillAreUnknown) {
     StereoRig rig;
     rig.video = {{80, 60}, 100, 100, 39.5, 29.5, {}};
     rig.still = rig.video.scaledTo({240, 180});

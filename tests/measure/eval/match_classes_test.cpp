@@ -28,7 +28,7 @@ int count(const cv::Mat& classes, int of) {
     return cv::countNonZero(classes == of);
 }
 
-TEST(MatchClasses, ConfidenceTellsMatchedFromUnmatched) {
+TEST(MatchClasses, ConfidenceDistinguishesMatchedFromUnmatched) {
     StillMatch match = evenMatch({0, 0}, kWellMatched);
     match.confidence.at<float>(2, 5) = 0.49F;
     match.confidence.at<float>(3, 5) = NAN;
@@ -51,7 +51,7 @@ TEST(MatchClasses, LookUpsBeyondTheStillAreOutside) {
               48 * 36);
 }
 
-TEST(MatchClasses, WhatLiesBehindTheStillsCameraIsOutside) {
+TEST(MatchClasses, PointsBehindTheStillsCameraAreOutside) {
     StereoRig rig = finerStillRig();
     rig.T_still_video.rotation = Eigen::AngleAxisd(CV_PI, Eigen::Vector3d::UnitY());
     EXPECT_EQ(count(matchClasses(rig, {48, 36}, evenMatch({0, 0}, 1)), kOutside), 48 * 36);

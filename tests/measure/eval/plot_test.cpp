@@ -58,7 +58,7 @@ TEST(PlotSvg, PutsPointsOnLogarithmicAxes) {
     EXPECT_LT(steep[0].second, steep[1].second) << "more is further up";
 }
 
-TEST(PlotSvg, LeavesOutWhatHasNoPlace) {
+TEST(PlotSvg, LeavesOutInvalidPoints) {
     PlotPanel panel = twoLines();
     panel.lines[0].points = {{0, 1, "", ""},
                              {std::nan(""), 1, "", ""},
@@ -73,7 +73,7 @@ TEST(PlotSvg, LeavesOutWhatHasNoPlace) {
     EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
 
-TEST(WritePlot, SaysWhichFileCannotBeWritten) {
+TEST(WritePlot, AFailedWriteNamesTheFile) {
     const mfar::test::TempFolder folder;
     writePlot(folder / "plot.svg", "<svg/>");
     EXPECT_EQ(mfar::test::readFile(folder / "plot.svg"), "<svg/>");

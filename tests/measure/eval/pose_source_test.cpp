@@ -53,7 +53,7 @@ void expectNear(const std::optional<Pose>& pose, Timestamp time) {
     EXPECT_LT((pose->T_world_video.translation - truth.translation).norm(), 0.005 * kDistance);
 }
 
-TEST(KnownPoses, TagsTellWhereFramesAndStillsWere) {
+TEST(KnownPoses, TagsGivePosesOfFramesAndStills) {
     const TempFolder folder;
     const Recording recording = recordedIn(folder / "tags");
     const KnownPoses poses(recording, PoseSource::Tags);

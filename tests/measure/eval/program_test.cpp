@@ -110,7 +110,7 @@ void writeStereo(const fs::path& root) {
             {{160, 120}, std::vector<float>(160 * 120, 0.5F)});
 }
 
-TEST(MfarEval, FlowOfAStereoPairKnowsItsPoseAndHowFarItIsOff) {
+TEST(MfarEval, StereoFlowReportsItsPoseAndError) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const auto bad1 = [&](const std::string& options) {
@@ -141,7 +141,7 @@ TEST(MfarEval, FlowOfAStereoPairKnowsItsPoseAndHowFarItIsOff) {
     EXPECT_NE(off[2], other[2]);
 }
 
-TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
+TEST(MfarEval, StereoDepthMatchesTheWall) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const Outcome outcome = execute(folder, fmt::format("{0} depth {1}/wall --csv {1}/out.csv",
@@ -172,7 +172,7 @@ TEST(MfarEval, DepthOfAStereoPairIsThatOfTheWall) {
 }
 
 // Without poses the epipolar method must give the result of the 2-D method.
-TEST(MfarEval, PosesCanBeKeptFromTheMethods) {
+TEST(MfarEval, PosesCanBeWithheldFromTheMethods) {
     const TempFolder folder;
     writeStereo(folder / "wall");
     const auto epe = [&](const std::string& source) {

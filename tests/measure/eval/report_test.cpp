@@ -44,7 +44,7 @@ TEST(Report, MediansAreOfFramesAlone) {
     EXPECT_EQ(report.rows()[4].values[0], 2.0);
 }
 
-TEST(Report, TableLeavesOutWhatWasNotMeasured) {
+TEST(Report, TableLeavesOutMissingMeasurements) {
     EXPECT_EQ(twoFrames("a").table(), "recording  frame  method   ms  epe_px\n"
                                       "a          1      x       1.0   0.500\n"
                                       "a          2      x       3.0   1.500\n"

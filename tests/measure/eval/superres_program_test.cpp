@@ -43,7 +43,7 @@ TEST(MfarEval, SuperResWritesItsColumnsAndTheMean) {
     EXPECT_TRUE(fs::exists(folder / "pictures/tiny/1001_truth.png"));
 }
 
-TEST(MfarEval, SuperResWithoutAStillComparesWhatEnlargesTheVideo) {
+TEST(MfarEval, SuperResWithoutAStillComparesEnlargers) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
     const Outcome outcome = execute(
@@ -57,7 +57,7 @@ TEST(MfarEval, SuperResWithoutAStillComparesWhatEnlargesTheVideo) {
     EXPECT_EQ(rows[2][2], "bicubic");
 }
 
-TEST(MfarEval, SuperResTellsClassesOfPixelsApart) {
+TEST(MfarEval, SuperResDistinguishesClassesOfPixels) {
     const TempFolder folder;
     writeRecording(folder / "tiny", true);
     const Outcome outcome = execute(

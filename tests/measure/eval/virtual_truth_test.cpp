@@ -52,7 +52,7 @@ TEST(VirtualTruth, NothingBehindTheCameraOrAroundIt) {
     }
 }
 
-TEST(VirtualTruth, WhatIsNearerHides) {
+TEST(VirtualTruth, NearerSurfacesOccludeOthers) {
     const CameraModel camera{{64, 48}, 60, 60, 31.5, 23.5, {}};
     const VirtualObject quad = objectAt(VirtualShape::Quad, {0, 0, 2});
     FloatImage real{{64, 48}, std::vector<float>(64 * 48)};

@@ -35,7 +35,7 @@ TEST(DisplayedLight, RunsFromBlackToWhite) {
     EXPECT_DOUBLE_EQ(shown[2], 100);
 }
 
-TEST(DisplayedLight, RefusesWhatNoDisplayShows) {
+TEST(DisplayedLight, ImpossibleValuesAreRefused) {
     const cv::Mat grey(2, 2, CV_64F, cv::Scalar(7)), wrong(2, 2, CV_64F, cv::Scalar(256));
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW((void)displayedLight(wrong, {}), std::invalid_argument);
@@ -84,7 +84,7 @@ TEST(HdrVdp, ResultIsIndependentOfThreads) {
     cv::setNumThreads(threads);
 }
 
-TEST(HdrVdp, RefusesWhatItCannotCompare) {
+TEST(HdrVdp, InvalidPicturesAreRefused) {
     const cv::Mat light(20, 20, CV_64F, cv::Scalar(50)), small(16, 20, CV_64F, cv::Scalar(50));
     const cv::Mat dark(20, 20, CV_64F, cv::Scalar(0)),
         colour(20, 20, CV_64FC3, cv::Scalar(1, 1, 1));

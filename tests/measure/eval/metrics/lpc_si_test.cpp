@@ -42,7 +42,7 @@ TEST(LpcSi, EmptyPicturesAreNotSharp) {
 }
 
 // The reason for the tiles.
-TEST(LpcTiles, TellOneSharpPatchFromASharpPicture) {
+TEST(LpcTiles, DistinguishOneSharpPatchFromASharpPicture) {
     const cv::Mat sharp = shapes({320, 256});
     cv::Mat patched = softened(sharp, 3);
     const double soft = lpcSi(patched);
@@ -55,7 +55,7 @@ TEST(LpcTiles, TellOneSharpPatchFromASharpPicture) {
     EXPECT_LE(tiles.median, tiles.p90);
 }
 
-TEST(LpcSi, RefusesWhatItCannotJudge) {
+TEST(LpcSi, InvalidPicturesAreRefused) {
     const cv::Mat picture = shapes({40, 40});
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW((void)lpcSi(shapes({40, 31})), std::invalid_argument);

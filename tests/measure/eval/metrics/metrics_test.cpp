@@ -111,7 +111,7 @@ TEST(FlowError, MeasuresDistanceAndShares) {
     EXPECT_DOUBLE_EQ(error.coverage, 1);
 }
 
-TEST(FlowError, AngleIsThatOfDirectionsInSpaceAndTime) {
+TEST(FlowError, AngleIsBetweenDirectionsInSpaceAndTime) {
     const cv::Mat truth(1, 2, CV_32FC2, cv::Scalar(0, 0));
     cv::Mat flow = truth.clone();
     EXPECT_EQ(flowError(flow, truth).angular, 0);

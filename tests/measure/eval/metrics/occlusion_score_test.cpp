@@ -15,7 +15,7 @@ cv::Mat rectangle(const cv::Rect& where) {
     return out;
 }
 
-TEST(OcclusionScore, WhatIsRightIsPerfect) {
+TEST(OcclusionScore, TheTruthScoresPerfectly) {
     const cv::Mat mask = rectangle({5, 6, 10, 8});
     const OcclusionScore score = occlusionScore(mask, mask);
     EXPECT_EQ(score.overlap, 1);
@@ -31,7 +31,7 @@ TEST(OcclusionScore, AMoveByTwoPixelsIsSeen) {
     EXPECT_NEAR(score.boundary, (right + left) / 32, 1e-6);
 }
 
-TEST(OcclusionScore, SaysWhereThereIsNothingToMeasure) {
+TEST(OcclusionScore, EmptyMasksScoreNanOrZero) {
     const cv::Mat none(kSize, CV_8U, cv::Scalar(0)), some = rectangle({5, 6, 10, 8});
     EXPECT_TRUE(std::isnan(occlusionScore(none, none).overlap));
     EXPECT_EQ(occlusionScore(none, some).overlap, 0);
@@ -40,7 +40,7 @@ TEST(OcclusionScore, SaysWhereThereIsNothingToMeasure) {
     EXPECT_TRUE(std::isnan(occlusionScore(some, none).boundary));
 }
 
-TEST(OcclusionScore, FlickerCountsWhatChangesItsClass) {
+TEST(OcclusionScore, FlickerCountsPixelsThatChangeClass) {
     cv::Mat before(kSize, CV_32F, cv::Scalar(0)), now;
     before(cv::Rect(0, 0, 20, 10)).setTo(1);
     now = before.clone();

@@ -28,7 +28,7 @@ TEST(ReferenceScene, IsTheOneOfThePictures) {
 }
 
 // 2304x1728: the size of a still.
-TEST(FullSize, QualityAndSharpnessAreThoseOfTheTable) {
+TEST(FullSize, QualityAndSharpnessMatchTheTable) {
     const auto table = referenceTable("fullsize_2304x1728.csv");
     if (table.empty()) GTEST_SKIP() << referenceFolder().string() << " is not there";
     const cv::Mat scene = referenceScene(8);
