@@ -63,7 +63,7 @@ private:
     std::list<Slot> slots_;
 };
 
-/// How a class registers the threads that it starts. The class uses `all` as long as it lives.
+/// Registers the threads that a class starts. The class uses `all` as long as it lives.
 struct WatchedThread {
     Heartbeats* all = nullptr;  ///< null: the thread is not watched
     std::string name{};

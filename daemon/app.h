@@ -50,7 +50,7 @@ public:
     [[nodiscard]] ExitCode run();
 
 private:
-    /// What the GL thread reports after set-up.
+    /// The GL thread's report after set-up.
     struct Ready {
         RunDescription description;
         std::string startLine;

@@ -5,8 +5,8 @@
 
 namespace mfar {
 
-/// How long a thread may go without a heartbeat, see Heartbeat. A vital thread that exceeds its
-/// budget hangs, and the watchdog is no longer fed.
+/// Upper limits of the time between two heartbeats of a thread, see Heartbeat. A vital thread that
+/// exceeds its budget hangs, and the watchdog is no longer fed.
 namespace budget {
 
 using std::chrono::milliseconds;

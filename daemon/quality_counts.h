@@ -10,7 +10,7 @@
 
 namespace mfar {
 
-/// How frames kept their deadline, and at which levels. `level` is empty without a governor.
+/// Counts of met and missed deadlines, and the levels used. `level` is empty without a governor.
 struct QualityCounts {
     std::string level;      ///< of the latest frame
     double deadlineMs = 0;  ///< 0: the level is pinned

@@ -12,9 +12,9 @@ namespace mfar {
 
 class Log;
 
-/// How long a failed service waits before it ends, as the service manager restarts it at once,
-/// without limit. The first failure ends at once, the next ones in a row wait 1, 3, 7, 15 and then
-/// 30 s each. Systemd's own RestartSteps= begins with 254 and counts every restart since the unit
+/// Delay before a failed service exits, because the service manager restarts it at once, without
+/// limit. The first failure exits at once, the next ones in a row wait 1, 3, 7, 15 and then 30 s
+/// each. Systemd's own RestartSteps= begins with 254 and counts every restart since the unit
 /// was started by hand, so that one crash a month would wait as well.
 class RestartPause {
 public:

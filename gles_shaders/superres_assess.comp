@@ -1,4 +1,4 @@
-// How the still matches the video at each cell: the inputs of superres_weigh.comp.
+// Statistics of the match between still and video in each cell: the inputs of superres_weigh.comp.
 // In: forward field (video -> still) in patches[], with the backward field, which may be of a coarser level, or two-way
 // errors; both pictures' finest luma.
 // Out: displacement image = flow (x, y) [video px], its end in the still minus the scaled cell centre [still px];

@@ -8,7 +8,7 @@
 
 namespace mfar {
 
-/// How pixels reach the screen.
+/// Ways of transferring pixels to the screen.
 enum class ScanoutMethod {
     GbmFenced,  ///< the GPU draws into the screen's memory; the kernel waits for its fence
     Gbm,        ///< the GPU draws into the screen's memory; this process waits for the GPU

@@ -32,7 +32,7 @@ private:
         Axis() = default;
         Axis(int from, int to);
         std::vector<Footprint> footprints;
-        /// Of all footprints; each footprint's weights add up to 1.
+        /// Weights of all footprints, one after the other; those of each footprint add up to 1.
         std::vector<float> weights;
         std::vector<std::uint16_t> fixed;  ///< the weights as integers, sum 65535
     };
