@@ -7,7 +7,8 @@
 namespace mfar {
 namespace {
 
-// Far enough outside the picture that the continuation distorts no visible part.
+// Upper limit of the rim, in radii of the picture's corners: far enough outside the picture that
+// the continuation beyond the rim distorts no visible part.
 constexpr double kBeyondPicture = 2;
 
 }  // namespace

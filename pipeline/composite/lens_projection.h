@@ -4,16 +4,17 @@
 
 namespace mfar {
 
-/// A camera's projection, continued to all points of space so that triangles can be clipped after
-/// it. Within the rim of the lens it is CameraModel::project. Beyond the rim, where the lens model
-/// would fold back into the picture, pixels continue outwards in proportion to the ray. Its twin is
-/// lens_projection.glsl.
+/// A camera's projection, extended to all points in space, so that projected triangles can be
+/// clipped. Within the rim of the lens, it equals CameraModel::project. Beyond the rim, the lens
+/// model would fold points back into the picture; there, pixels move outwards in proportion to the
+/// ray instead. lens_projection.glsl implements the same projection.
 struct LensProjection {
     static constexpr double kNear = 0.01;  ///< near plane [m]: nothing nearer is drawn
 
     explicit LensProjection(const CameraModel& model);
 
-    /// Camera coordinates [m] to (w u, w v, w) for pixel (u, v) [px], with w = z of any sign.
+    /// Maps camera coordinates [m] to (w u, w v, w), where (u, v) is the pixel [px] and w = z,
+    /// which may have any sign.
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const;
 
     CameraModel camera;

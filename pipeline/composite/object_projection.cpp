@@ -9,7 +9,7 @@ namespace mfar {
 namespace {
 
 bool isPlausible(const Eigen::Vector3d& metres) {
-    constexpr double kFarthest = 1e5;  // beyond it, pixels exceed single precision
+    constexpr double kFarthest = 1e5;  // [m]; single precision cannot resolve pixels beyond it
     return (metres.array().abs() < kFarthest).all();
 }
 
@@ -21,8 +21,8 @@ Eigen::Vector3d nearCut(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return cut;
 }
 
-// A renderer rounds corners to this grid [px], which changes the depth between them accordingly. No
-// surface is farther away than kFarthest [m].
+// A GPU rounds the corners of triangles to this grid [px], which changes the depth between the
+// corners. kFarthest is an upper limit of every surface's depth [m].
 constexpr double kGrid = 1.0 / 256;
 constexpr double kFarthest = 3e5;
 

@@ -11,29 +11,29 @@
 
 namespace mfar {
 
-/// The area of the picture that a piece of surface covers, and its range of z.
+/// The area of the picture that a piece of surface covers, and the range of its depth z.
 struct SurfaceExtent {
     Eigen::AlignedBox2d pixels;
     double nearest = std::numeric_limits<double>::max();  ///< z [m]
     double farthest = 0;
 
-    /// Includes a point beyond the near plane, in the form of LensProjection: (w u, w v, w).
+    /// Adds a point beyond the near plane, given as (w u, w v, w), see LensProjection.
     void extend(const Eigen::Vector3d& point);
-    /// Includes the part of a straight line beyond the near plane, as the rasteriser clips it. Both
-    /// ends have the form of LensProjection.
+    /// Adds the part of a straight line that lies beyond the near plane, as a rasteriser clips it.
+    /// Both ends are given as (w u, w v, w).
     void extendBySegment(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 };
 
-/// Projects the triangles of virtual objects on the host: only their extents, not their colours.
-/// Allocates only in its constructor.
+/// Projects the triangles of virtual objects on the CPU. Computes only their extents, not their
+/// colours. Allocates only in its constructor.
 class ObjectProjection {
 public:
     explicit ObjectProjection(const CameraModel& camera);
 
-    /// Extents of every triangle that is at least partly beyond the near plane, inside the picture
-    /// or not. Depths include the error of a renderer, which rounds corners to 1/256 px. Empty for
-    /// an object whose pose or size is not finite or above 100 km, or whose size is negative. Valid
-    /// until the next call.
+    /// Returns the extents of all triangles that lie at least partly beyond the near plane, even
+    /// outside the picture. The ranges of depth include the error of a GPU that rounds corners to
+    /// 1/256 px. Returns no extents if the object's pose or size is not finite or exceeds 100 km,
+    /// or if a size is negative. The result is valid until the next call.
     const std::vector<SurfaceExtent>& operator()(const VirtualObject& object,
                                                  const RigidTransform& T_world_video);
 

@@ -5,17 +5,17 @@
 
 #include <cstdint>
 
-// Virtual objects in the picture: preview.vert, preview.frag, and definitions shared with the warp.
-// Shaders read this header, too: gles_shaders/params_to_glsl.cmake.
+// Parameters of the preview's shaders (preview.vert, preview.frag), and definitions shared with the
+// warp. Shaders include this header, too, see gles_shaders/params_to_glsl.cmake.
 namespace mfar::params {
 
-/// From one frame to another [m]: rows of rotation and translation; may include a scale, applied
-/// first.
+/// Transforms points [m] from one coordinate system to another: rows of rotation and translation.
+/// May include a scale, which is applied first.
 struct alignas(16) Transform {
     Row4 rows[3];
 };
 
-/// LensProjection: a lens, continued beyond its rim.
+/// A LensProjection in single precision.
 struct alignas(16) Projection {
     Lens lens;
     float rim;        ///< radius of the outermost ray for which the lens model is valid
@@ -29,21 +29,21 @@ struct alignas(16) PixelBounds {
 };
 
 struct alignas(16) Colour {
-    float red, green, blue;  ///< display values
+    float red, green, blue;  ///< display values, [0, 1]
 };
 
 /// One virtual object of the preview.
 struct alignas(16) PreviewObject {
     Transform object;  ///< T_video_object
     Projection projection;
-    Colour colours[2];                ///< of the checkerboard
+    Colour colours[2];                ///< of the checkerboard's squares
     float width, height, depth;       ///< of the object [m]
-    float squares;                    ///< along each side of the shape
+    float squares;                    ///< number of squares along each side
     float lightX, lightY, lightZ;     ///< unit vector towards the light, camera frame
     float ambient;                    ///< share of the ambient light
     float targetWidth, targetHeight;  ///< [px]
-    float reach, squaredRadius;       ///< of the unit shape: largest coordinate; squared distance
-                                      ///< of its corners from the centre
+    float reach, squaredRadius;       ///< limits of the unit shape: largest coordinate, and squared
+                                      ///< distance of its corners from the centre
 };
 
 }  // namespace mfar::params

@@ -6,7 +6,7 @@
 
 namespace mfar {
 
-/// In single precision, as shaders take it; `scale` is applied before the transform.
+/// Converts T to single precision for shaders. `scale` is applied before T.
 [[nodiscard]] inline params::Transform transformOf(const RigidTransform& T, double scale = 1) {
     const Eigen::Matrix3f r = (scale * T.rotation.toRotationMatrix()).cast<float>();
     const Eigen::Vector3f t = T.translation.cast<float>();

@@ -13,20 +13,21 @@ namespace mfar {
 
 /// Lighting of the preview, in display values.
 struct PreviewLight {
-    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< towards the light in the world, z up; any length
+    Eigen::Vector3d towards{0.4, -0.3, 0.85};  ///< to the light, world frame, z up; any length
     double ambient = 0.35;                     ///< share of light from all directions, [0, 1]
 };
 
-/// Rasterises virtual objects as the video camera would see them: the fast preview. The lens's
-/// distortion acts on the vertices. Processes only the pixels where an object is or was. Needs a GL
-/// that draws into R32F; otherwise the constructor throws GlError.
+/// The fast preview: rasterises virtual objects as the video camera would see them. The lens's
+/// distortion is applied to vertices. Processes only the pixels where an object is or was. Needs an
+/// OpenGL that can draw into R32F textures; otherwise the constructor throws GlError.
 class PreviewRenderer {
 public:
-    /// `video`: any resolution of the camera; the layer has size `output`.
+    /// `video`: the camera model at any resolution; the layer has size `output`.
     PreviewRenderer(const CameraModel& video, Size output, const PreviewLight& light = {});
 
-    /// Solids show only their outside: a camera inside sees nothing. Objects behind the camera,
-    /// outside the picture or without a finite pose cost no drawing.
+    /// Solids are drawn from outside only, so a camera inside a solid does not see it. Objects
+    /// behind the camera, outside the picture or without a finite pose are not drawn and cost no
+    /// time.
     const VirtualLayer& render(std::span<const VirtualObject> objects,
                                const RigidTransform& T_world_video);
 

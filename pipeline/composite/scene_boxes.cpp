@@ -10,14 +10,17 @@
 namespace mfar {
 namespace {
 
-// Cells along each axis of an object's own box: about 150 boxes around its surface.
+// An object's bounding box is divided into this number of cells along each axis, which gives about
+// 150 boxes around its surface.
 constexpr int kCells = 6;
-// Edges of a box are projected in this number of pieces, because a lens bends them.
+// Edges of a box are divided into this number of pieces before projection, because a lens bends
+// them.
 constexpr int kEdgePieces = 4;
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Collects triangles in the cell that contains their centre.
+/// Assigns each triangle to the cell that contains its centre, and bounds the triangles of each
+/// cell by a box.
 class CellBoxes {
 public:
     explicit CellBoxes(const Eigen::AlignedBox3d& all) : all_(all) {}

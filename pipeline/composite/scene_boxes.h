@@ -8,17 +8,18 @@
 namespace mfar {
 
 /// Boxes around the parts of a scene's surfaces. They bound where virtual surfaces are in a
-/// picture, at a cost independent of the number of triangles.
+/// picture, at a cost that does not depend on the number of triangles.
 class SceneBoxes {
 public:
-    /// No boxes.
+    /// Creates no boxes.
     SceneBoxes() = default;
-    /// Boxes around the scene's objects.
+    /// Creates boxes around the scene's objects.
     explicit SceneBoxes(const Scene& scene);
-    /// Boxes around the surface that shows their shadows.
+    /// Creates boxes around the surface that catches the shadows of the objects.
     explicit SceneBoxes(const ShadowCatcher& catcher);
 
-    /// Extent of each box that is at least partly beyond the near plane. Valid until the next call.
+    /// Returns the extent of each box that lies at least partly beyond the near plane. The result
+    /// is valid until the next call.
     const std::vector<SurfaceExtent>& extents(const LensProjection& lens,
                                               const RigidTransform& T_world_video);
 

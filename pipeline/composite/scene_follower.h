@@ -10,28 +10,30 @@
 
 namespace mfar {
 
-/// When the surface that catches shadows is measured again.
+/// Decides when the surface that catches shadows (the shadow catcher) is measured again.
 struct CatcherRule {
-    int settling = 12;         ///< frames before the measured depth replaces the plane
-    double leastKnown = 0.7;   ///< lower limit of the known share of the region around the objects
-    double turn = 0.35;        ///< rotation around the objects until the next measurement [rad]
-    double leastInterval = 4;  ///< lower limit of the time between two measurements [s]
+    int settling = 12;         ///< number of frames before the measured surface replaces the plane
+    double leastKnown = 0.7;   ///< least share of pixels around the objects with known depth
+    double turn = 0.35;        ///< camera turn around the objects that causes a measurement [rad]
+    double leastInterval = 4;  ///< least time between two measurements [s]
 };
 
-/// Keeps the scene's shadow catcher up to date with the real scene: shadows of virtual objects
-/// first fall onto the plane of the tag map, later onto the measured surface.
+/// Keeps the scene's shadow catcher up to date with the real scene. At first, shadows of virtual
+/// objects fall onto the plane of the tag map; later, they fall onto the measured surface.
 class SceneFollower {
 public:
     explicit SceneFollower(const CatcherRule& rule = {}) : rule_(rule) {}
 
-    /// Sets other objects or light; the catcher is replaced. Returns the scene to show.
+    /// Replaces the scene. Its shadow catcher becomes the plane of the tag map again. Returns the
+    /// scene to show.
     std::shared_ptr<const Scene> set(Scene scene);
 
-    /// The same scene in another light.
+    /// Changes the light. Returns the scene to show.
     std::shared_ptr<const Scene> relight(Lighting lighting);
 
-    /// Call after a frame with the depths measured in `region` [video px] around the objects.
-    /// Returns the scene if it has changed, otherwise null.
+    /// Call this after each frame. `field` holds the depths that were measured in `region` [video
+    /// px] around the objects. Returns the scene to show if the shadow catcher has changed,
+    /// otherwise null.
     std::shared_ptr<const Scene> follow(const InverseDepthField& field, const CameraModel& video,
                                         const RigidTransform& T_world_video,
                                         const PixelRect& region, Timestamp time);
@@ -43,7 +45,7 @@ private:
     Scene scene_;
     Eigen::AlignedBox3d objects_;
     int frames_ = 0;
-    std::optional<Timestamp> caught_;  // time of the catcher's measurement
+    std::optional<Timestamp> caught_;  // when the shadow catcher was measured
     Eigen::Vector3d caughtFrom_{0, 0, 0};
 };
 

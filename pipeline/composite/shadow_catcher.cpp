@@ -7,21 +7,22 @@
 namespace mfar {
 namespace {
 
-// Cells of the plane along each axis.
+// Number of cells of the plane along each axis.
 constexpr int kPlaneCells = 8;
-// Video pixels between vertices: shadows are smooth, but noise of the depth is not.
+// Distance between vertices [video px]. Shadows need no finer grid, and a finer grid would only
+// show the noise of the depth.
 constexpr int kStep = 4;
-// Share of the nearer depth: larger steps separate two surfaces.
+// A step in depth above this share of the nearer depth separates two surfaces.
 constexpr double kJump = 0.04;
-// Surfaces within this distance of the plane belong to it: the paper with the tags has a thickness
-// and waves [m].
+// A surface within this distance of the tags' plane [m] counts as the plane, because the paper with
+// the tags has a thickness and waves.
 constexpr double kPlaneSlack = 0.004;
 
 double radiusOf(const Eigen::AlignedBox3d& box) {
     return 0.5 * box.diagonal().norm();
 }
 
-/// Vertices of a grid and the triangles between them.
+/// The vertices of a grid, and triangles between them.
 class Grid {
 public:
     Grid(int columns, int rows)
@@ -31,7 +32,7 @@ public:
         at(column, row) = static_cast<int>(out_.positions.size());
         out_.positions.push_back(p.cast<float>());
     }
-    /// Adds the cell whose first corner this is, if all its corners exist.
+    /// Adds the two triangles of the cell whose first corner is here, if all four corners exist.
     void addCell(int column, int row) {
         const int a = at(column, row), b = at(column + 1, row);
         const int c = at(column, row + 1), d = at(column + 1, row + 1);
@@ -55,14 +56,14 @@ private:
     ShadowCatcher out_;
 };
 
-/// Depth of the real scene at video pixels, as points in the world.
+/// Converts the real scene's depth at video pixels to points in the world.
 class SeenSurface {
 public:
     SeenSurface(const InverseDepthField& field, const CameraModel& video,
                 const RigidTransform& T_world_video)
         : field_(field), video_(video), eye_(T_world_video) {}
 
-    /// z; 0: unknown, or too far away to be near an object.
+    /// Returns z [m], or 0 if z is unknown or too large for a surface near an object.
     [[nodiscard]] double depth(int x, int y) const {
         const std::size_t i = pixel(x, y);
         return field_.isKnown(i) && field_.rho[i] > 1e-3F ? 1 / static_cast<double>(field_.rho[i])

@@ -8,7 +8,8 @@
 namespace mfar {
 namespace {
 
-// Deviation of triangles from a sphere's and the lens's curves, plus the pixel's own extent [px].
+// Distance between the triangles' straight edges and the curves of a sphere and of the lens, plus
+// the size of a pixel [px].
 constexpr double kSlack = 1;
 
 }  // namespace
@@ -42,7 +43,7 @@ void Silhouette::add(const SurfaceExtent& extent) {
     const int y0 = static_cast<int>(std::clamp(least.y(), 0.0, bottom + 1));
     const int x1 = static_cast<int>(std::clamp(most.x(), -1.0, right));
     const int y1 = static_cast<int>(std::clamp(most.y(), -1.0, bottom));
-    // Rounded outwards.
+    // Round outwards, so that the range of depth never becomes too small.
     const float nearest = std::nextafter(static_cast<float>(extent.nearest), 0.0F);
     const float farthest = std::nextafter(static_cast<float>(extent.farthest), 1e9F);
     for (int y = y0; y <= y1; ++y) {

@@ -6,14 +6,14 @@
 
 namespace mfar {
 
-/// Picture of the virtual objects only, seen by the video camera at the output's resolution.
-/// Borrowed: valid until the next run of the class that made it.
+/// A picture of the virtual objects only, seen by the video camera at the output's resolution. The
+/// textures are owned by the class that drew them and valid until its next run.
 struct VirtualLayer {
-    /// RGBA8, premultiplied by coverage; Filter::Linear if its size differs from the output's.
+    /// RGBA8, premultiplied by coverage. Has Filter::Linear if its size differs from the output's.
     const gpu::Texture* colour = nullptr;
-    /// R32F: z along the camera's axis [m], reduced for shadows (kShadowLift); 0 = nothing.
+    /// R32F: z along the camera's axis [m], reduced for shadows (kShadowLift); 0: no surface.
     const gpu::Texture* depth = nullptr;
-    PixelRect bounds;  ///< covered pixels, empty = nothing
+    PixelRect bounds;  ///< bounds of the covered pixels; empty: nothing is drawn
 };
 
 }  // namespace mfar

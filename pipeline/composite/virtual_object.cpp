@@ -6,7 +6,7 @@
 namespace mfar {
 namespace {
 
-/// One side of the box: its normal, and the directions in which u and v grow.
+/// One side of a box: its normal, and the directions in which u and v grow.
 struct Side {
     Eigen::Vector3f normal, u, v;
 };
@@ -16,7 +16,7 @@ void addSide(ShapeMesh& mesh, const Side& side, bool round, float offset) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     const auto along = [&](int i) {
         const float t = 2.0F * static_cast<float>(i) / kShapeSegments - 1;
-        // Equal angles rather than equal lengths make the cells of a sphere similar.
+        // On a sphere, cells of equal angle are more alike than cells of equal length.
         return round ? std::tan(t * std::numbers::pi_v<float> / 4) : t;
     };
     for (int j = 0; j <= kShapeSegments; ++j) {

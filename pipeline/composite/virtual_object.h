@@ -18,19 +18,20 @@ enum class VirtualShape : unsigned {
 };
 inline constexpr std::size_t kVirtualShapes = 3;
 
-/// A simple object in the world, for the preview and until path-traced pictures of the scene exist.
+/// An object of simple shape in the world. The preview rasterises it; path tracing uses its
+/// triangles.
 struct VirtualObject {
     VirtualShape shape = VirtualShape::Box;
     Eigen::Vector3d size{1, 1, 1};  ///< extent along x, y, z [m]
     RigidTransform T_world_object;
-    /// Colours of a checkerboard on each of the six sides (a quad has one), in display values, RGB,
-    /// [0, 1]. Equal colours: uniform.
+    /// The two colours of the checkerboard on each of the six sides (a quad has one side), as RGB
+    /// display values in [0, 1]. Equal colours make the side uniform.
     std::array<Eigen::Vector3f, 2> colours{Eigen::Vector3f{0.9F, 0.9F, 0.9F},
                                            Eigen::Vector3f{0.8F, 0.2F, 0.1F}};
-    int squares = 4;  ///< along each side, at least 1
+    int squares = 4;  ///< number of squares along each side; at least 1
 };
 
-/// Triangles of a shape of extent 1 along each axis.
+/// The triangles of a shape that extends over 1 unit along each axis.
 struct ShapeMesh {
     struct Vertex {
         Eigen::Vector3f position, normal;  ///< normal: outwards, unit length
@@ -40,9 +41,9 @@ struct ShapeMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// Each side has kShapeSegments^2 cells of two triangles: even if the side fills the picture of a
-/// lens with k1 = -0.3, its edges are within 0.25 px (of 2304) of the exact curves. A sphere is the
-/// projected box.
+/// A side consists of kShapeSegments^2 cells with two triangles each. Even if the side fills the
+/// picture of a lens with k1 = -0.3, its edges deviate from the exact curves by at most 0.25 px (of
+/// 2304). The triangles of a sphere are those of a box, projected onto the sphere.
 inline constexpr int kShapeSegments = 24;
 [[nodiscard]] ShapeMesh shapeMesh(VirtualShape shape);
 

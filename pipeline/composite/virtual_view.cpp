@@ -9,40 +9,40 @@
 namespace mfar {
 namespace {
 
-// Real depth is needed for the pixels at the silhouette, including the margin that is used to align
-// it with the picture's edges [video px].
+// Real depth is also needed this far around the silhouette [video px], because the edges of depth
+// are aligned with the edges of the picture there.
 constexpr int kMargin = 8;
-// Upper limit of the consecutive frames in which known depth behind an object is not measured
-// again: something may have moved in front of it.
+// Depth is not measured where it is known to lie behind an object. After this number of frames it
+// is measured again, because something may have moved in front of the object.
 constexpr int kMostRelied = 8;
-// If the camera moves the objects by less than this, it is at rest [px]: poses from tags are not
-// more accurate.
+// The camera counts as at rest while the objects move by less than this in the picture [px],
+// because poses from tags are not more accurate.
 constexpr double kLeastMotion = 0.3;
-// Upper limit of the unknown pixels in a tile that hides an object: with more, specks of the object
-// would be visible.
+// Upper limit of the unknown pixels in a tile whose objects count as hidden. With more unknown
+// pixels, specks of the objects would be visible.
 constexpr int kMostGaps = 4;
-constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // pixels of a tile
+constexpr int kMostUnknown = kTileSize * kTileSize / 4;  // upper limit of a tile's unknown pixels
 
 PixelRect tilesOf(const PixelRect& pixels, Size layer, Size video) {
     const auto tile = [](int pixel, int from, int to) {
         return static_cast<double>(pixel) * to / from / kTileSize;
     };
-    // Colours are interpolated, so a pixel is visible beyond its own borders.
+    // Colours are interpolated, so a pixel of the layer is visible beyond its own borders.
     return {static_cast<int>(std::floor(tile(pixels.x0 - 1, layer.width, video.width))),
             static_cast<int>(std::floor(tile(pixels.y0 - 1, layer.height, video.height))),
             static_cast<int>(std::ceil(tile(pixels.x1 + 1, layer.width, video.width))),
             static_cast<int>(std::ceil(tile(pixels.y1 + 1, layer.height, video.height)))};
 }
 
-/// Result of a test on a pixel's real surface.
+/// Result of a test of the real surface at a pixel. Finding: the test's condition is met.
 enum class Surface { Unknown, Finding, Other };
 
 struct TileBounds {
-    int findings, unknown;  // pixels
+    int findings, unknown;  // numbers of pixels
 };
 
-/// True when the pixels of a tile exceed one of the limits; `ask` classifies a pixel, given its
-/// index in the picture.
+/// True if a tile has more findings or more unknown pixels than `most`. `ask` classifies a pixel,
+/// given its index in the picture.
 template <typename Ask>
 bool holdsMore(const TileBounds& most, const PixelRect& tile, Size video, const Ask& ask) {
     TileBounds found{};
@@ -69,7 +69,8 @@ VirtualView::VirtualView(const CameraModel& video, Engine& occludes, TracedLayer
       occlusion_(occludes.occlusion(options.size)), focal_(std::max(video.fx, video.fy)) {}
 
 void VirtualView::setScene(std::shared_ptr<const Scene> scene) {
-    // A new scene is visible only when its first picture is finished.
+    // A scene that replaces another becomes visible only when its first picture is finished, so it
+    // is not a change yet.
     if (!scene || !scene_) changed_ = true;
     if (!scene || !scene_ || scene->objects != scene_->objects)
         boxes_ = scene ? SceneBoxes(*scene) : SceneBoxes();
@@ -123,7 +124,8 @@ void VirtualView::addTiles(const std::vector<SurfaceRange>& tiles, const Inverse
     }
 }
 
-// Within three standard deviations; unknown pixels may hide an object, too.
+// True if the real surface may be in front of the farthest virtual surface of the tile, within
+// three standard deviations, or if too many pixels are unknown.
 bool VirtualView::mayHide(const PixelRect& tile, float farthest,
                           const InverseDepthField& known) const {
     const float behind = 1 / farthest;
@@ -134,8 +136,9 @@ bool VirtualView::mayHide(const PixelRect& tile, float farthest,
     });
 }
 
-// The surface under a shadow is always close to it and need not be measured every time. Depth is
-// needed only for objects in front of it, and where its error exceeds kShadowLift.
+// The real surface that a shadow falls onto is always close to the shadow and need not be measured
+// every time. Depth is needed only for real things in front of the shadow, and where the error of
+// depth exceeds kShadowLift.
 bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
                                 const InverseDepthField& known) const {
     const float before = 1 / nearest;
@@ -147,7 +150,8 @@ bool VirtualView::mayHideShadow(const PixelRect& tile, float nearest,
     });
 }
 
-// A tile's range includes the surfaces around it, so the pixels of the tile suffice.
+// `nearest` includes the virtual surfaces around the tile, so only the tile's own pixels are
+// tested.
 bool VirtualView::isHidden(const PixelRect& tile, float nearest,
                            const InverseDepthField& known) const {
     const TileBounds most{.findings = 0, .unknown = kMostGaps};
@@ -169,7 +173,8 @@ WorkPlan::Redraw VirtualView::redraw() const {
 }
 
 PixelRect VirtualView::staleTiles() const {
-    // When everything is hidden, the hiding objects may move away.
+    // While all objects are hidden, nothing is drawn. But the real things in front may move away,
+    // so the objects' region is watched.
     const bool keepsAll = !mustRedraw() && !hidden_;
     if (keepsAll || region_.empty()) return drawn_;
     return around(drawn_, tilesAround(region_));

@@ -11,18 +11,19 @@
 namespace mfar {
 namespace {
 
-constexpr float kNearestShare = 0.05F;  // least depth after a motion [share of that before]
-// Relative standard deviation that a second of motion without a measurement adds to inverse depth.
+constexpr float kNearestShare = 0.05F;  // least depth after a motion [share of depth before]
+// Relative standard deviation of inverse depth that a second of motion without measurements adds.
 constexpr double kDrift = 0.02;
-// Upper limit of the time attributed to one motion [s]; before that the camera rested.
+// A motion is assumed to take at most this long [s]. In longer times without motion, the camera
+// rested.
 constexpr double kMostMoving = 0.2;
-// Smaller motions of the picture are summed up first [px], because every carry rounds points to
-// pixels.
+// Smaller motions of the picture [px] are summed up first, because every motion of the points
+// rounds them to pixels.
 constexpr float kLeastMotion = 0.25F;
-// Measurements against one still share its errors: the variance is never below this share of one
-// measurement's.
+// Measurements against the same still share its errors. So the fused variance never falls below
+// this share of the variance of one measurement.
 constexpr float kLeastShare = 0.09F;
-constexpr float kGate = 9;  // of squared deviations
+constexpr float kGate = 9;  // values agree up to this (squared difference / variance)
 constexpr std::uint8_t kMostOutliers = 2;
 
 }  // namespace
@@ -71,7 +72,7 @@ bool DepthFilter::moves(const RigidTransform& T) const {
     return focal_ * (turn + nearest * static_cast<float>(T.translation.norm())) > kLeastMotion;
 }
 
-// Points are homogeneous, (x, y, 1, rho): infinitely distant points are only rotated.
+// Points are homogeneous, (x, y, 1, rho), so infinitely distant points (rho = 0) are only rotated.
 void DepthFilter::carry(const RigidTransform& T_now_before, float growth) {
     const Eigen::Matrix3d R = T_now_before.rotation.toRotationMatrix();
     simd::Motion motion{};
@@ -129,7 +130,7 @@ void DepthFilter::takeLanded(int firstRow, int lastRow) {
     }
 }
 
-// The points of a surface that comes nearer spread: fills the cracks between them.
+// The points of a surface that comes nearer move apart. This fills the cracks between them.
 void DepthFilter::closeCracks() {
     const int width = field_.size.width;
     const int columns = known_.x1 - known_.x0 - 2, rows = known_.y1 - known_.y0;

@@ -13,29 +13,30 @@
 
 namespace mfar {
 
-/// The scene's inverse depth over time: for every pixel a Kalman filter in (rho, variance), carried
-/// from frame to frame by the camera's motion. Assumes a static scene where depth is known. Source:
-/// Engel et al., Semi-dense visual odometry, ICCV 2013 (filter in inverse depth); Vogiatzis and
-/// Hernandez, Video-based real-time multi-view stereo, 2011 (outliers).
+/// The scene's inverse depth over time. Every pixel has a Kalman filter with state (rho, variance),
+/// which the camera's motion carries from frame to frame. Where depth is known, the scene is
+/// assumed to be static. Source: Engel et al., Semi-dense visual odometry, ICCV 2013 (filter in
+/// inverse depth); Vogiatzis and Hernandez, Video-based real-time multi-view stereo, 2011
+/// (outliers).
 class DepthFilter {
 public:
     DepthFilter(const CameraModel& video, std::shared_ptr<Workers> workers)
         : DepthFilter(video, EpipolarLens(video, 0), std::move(workers)) {}
-    /// As above, sharing the camera's rays.
+    /// As above, but shares the rays of `lens`.
     DepthFilter(const CameraModel& video, EpipolarLens lens, std::shared_ptr<Workers> workers);
 
     /// Discards all depths.
     void forget();
-    /// Carries the known depths to a camera at this pose; where several surfaces meet, the nearest
-    /// is kept (z-test). The variance grows with the duration of the motion. Camera motions too
-    /// small to be visible are summed up first; a camera at rest forgets nothing. An invalid pose
-    /// (soundMotion()) discards all depths, because nothing can be carried from there.
+    /// Moves the known depths to a camera at this pose. Where several surfaces land on a pixel, the
+    /// nearest is kept (z-test). The variance grows with the duration of the motion. Camera motions
+    /// too small to be visible are summed up first; a camera at rest loses no depth. An invalid
+    /// pose (soundMotion()) discards all depths, because no motion to or from it is known.
     void predict(const RigidTransform& T_world_video, double seconds);
     /// Fuses the measurement of a frame at the pose of the last predict(), within `where`. A
-    /// measurement that agrees with the known depth is fused; one that repeatedly disagrees
-    /// replaces it. Pixels without a valid inverse depth and variance are ignored.
+    /// measurement that agrees with the known depth is fused with it; measurements that repeatedly
+    /// disagree replace it. Pixels without a valid inverse depth and variance are ignored.
     void fuse(const InverseDepthField& measured, const PixelRect& where);
-    /// Discards the depths of these pixels, where something moves.
+    /// Discards the depths of these pixels, because something moves there.
     void forget(const PixelRect& where);
 
     [[nodiscard]] const InverseDepthField& field() const { return field_; }
@@ -43,8 +44,8 @@ public:
     [[nodiscard]] const PixelRect& known() const { return known_; }
 
 private:
-    /// Per pixel: the place of its point relative to the pixel's middle [px], and the number of
-    /// consecutive measurements that disagreed with it.
+    /// For each pixel: the offset of its point from the pixel's centre [px], and the number of
+    /// consecutive measurements that disagreed with the known depth.
     struct Points {
         std::vector<float> x, y;
         std::vector<std::uint8_t> outliers;
@@ -57,25 +58,26 @@ private:
     };
     [[nodiscard]] bool moves(const RigidTransform& T_now_before) const;
     void carry(const RigidTransform& T_now_before, float growth);
-    /// Takes the points that land in these rows of the picture; where several meet, the nearest.
+    /// Stores the points that land in these rows of the picture. If several land on a pixel, the
+    /// nearest is kept.
     void takeLanded(int firstRow, int lastRow);
     void closeCracks();
     void closeCrack(std::size_t i, std::size_t before, std::size_t after);
     void fusePixel(std::size_t i, float rho, float variance);
 
     EpipolarLens lens_;
-    float focal_, pixelX_, pixelY_;  // [px], and size of a pixel [rays]
+    float focal_, pixelX_, pixelY_;  // focal length [px]; size of a pixel at z = 1
     std::shared_ptr<Workers> workers_;
     std::optional<RigidTransform> fieldPose_;
-    double moving_ = 0;                  // time of motion since the field was last carried [s]
-    InverseDepthField field_, carried_;  // all pixels of carried_ are unknown between two motions
+    double moving_ = 0;                  // time of motion since points were last moved [s]
+    InverseDepthField field_, carried_;  // carried_ is completely unknown between two motions
     PixelRect known_;
     Points points_, carriedPoints_;
-    /// Where a motion moves the points of known_.
+    /// Where a motion moves the points of the pixels in known_.
     struct Moved {
         std::vector<std::int32_t> pixel;
         std::vector<float> x, y, rho, variance;
-        std::vector<PixelRect> bounds;  // of the pixels where each row lands
+        std::vector<PixelRect> bounds;  // bounds of the pixels that each row of points moves to
     };
     Moved moved_;
 };

@@ -8,11 +8,12 @@
 namespace mfar {
 namespace {
 
-// Standard deviation of a match along its line [px], measured against ground truth in smooth areas.
+// Standard deviation of a match along its epipolar line [px], measured against ground truth in
+// smooth areas.
 constexpr float kMatchError = 0.3F;
-// Neighbours on one slanted surface that land on the same pixel differ by this much [px].
+// Neighbours on one slanted surface that land on the same pixel differ by up to this much [px].
 constexpr float kSlope = 1.5F;
-// A cell's value within this distance of the pixel's belongs to the same surface [px].
+// A cell's match within this distance [px] of a pixel's own match belongs to the same surface.
 constexpr double kSameSurface = 0.5;
 constexpr float kLeastDepth = 0.05F;
 constexpr float kNothing = -1e9F;
@@ -29,7 +30,8 @@ DepthMeasurement::DepthMeasurement(const CameraModel& video, EpipolarLens lens,
     s_.resize(pixels);
 }
 
-// Cells are accurate to a fraction of a pixel; pixels show on which side of an edge they lie.
+// Values of cells are accurate to a fraction of a pixel, but only a pixel's own match shows on
+// which side of a depth edge the pixel lies. So the cell's value is used where both agree.
 void DepthMeasurement::takeField(const EpipolarSearch& search, std::span<const float> cells,
                                  const PixelRect& where) {
     const int width = lens_.size().width;

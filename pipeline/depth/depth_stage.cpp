@@ -8,16 +8,16 @@
 namespace mfar {
 namespace {
 
-constexpr int kSampleStep = 5;  // [px]
-constexpr int kPart = 160;      // upper limit of a part's side; a part chooses its keyframe [px]
+constexpr int kSampleStep = 5;  // distance between sampled pixels [px]
+constexpr int kPart = 160;      // largest side of a part; each part chooses a keyframe [px]
 constexpr int kSupport = 24;    // margin of searches, because neighbours influence the result [px]
-constexpr double kSameView = 0.3;  // [px]
-constexpr double kNearest = 0.01;  // [m]
-// A keyframe is searched when its parallax exceeds this multiple of the still's.
+constexpr double kSameView = 0.3;  // less motion than this in the picture is the same view [px]
+constexpr double kNearest = 0.01;  // lower limit of an assumed distance [m]
+// A keyframe is searched only if its parallax exceeds this multiple of the still's parallax.
 constexpr double kWorth = 2;
-// Upper limit of the relative error of the distance to the other picture: depth has the same error.
+// Upper limit of the relative error of the baseline. It causes the same relative error of depth.
 constexpr double kMostLengthError = 0.15;
-// A search starts from the known depths when this share of the picture has one.
+// A search starts from the known depths if at least this share of the pixels has one.
 constexpr double kMostlyKnown = 0.97;
 
 double medianOf(std::vector<float>& values) {
@@ -69,7 +69,7 @@ void DepthStage::run(const Rows<const std::uint8_t>& luma, const Pose& pose,
     keyframes_.add(luma, pose, brightness, before.rho);
 }
 
-// Measuring the same view again would only make its errors seem smaller.
+// Measuring the same view again repeats the same errors, but would reduce the filtered variance.
 bool DepthStage::seesMore(const Pose& pose, double rho, const PixelRect& where) const {
     if (!measuredPose_ || around(measuredWhere_, where) != measuredWhere_) return true;
     const RigidTransform T = measuredPose_->inverse() * pose.T_world_video;
@@ -78,7 +78,8 @@ bool DepthStage::seesMore(const Pose& pose, double rho, const PixelRect& where) 
 }
 
 // When the camera moves towards the scene, the area straight ahead has no parallax against a
-// keyframe that suits the rest of the picture. So each part chooses its own keyframe.
+// keyframe that suits the rest of the picture. So each part of the picture chooses its own
+// keyframe.
 void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBaseline,
                            const PixelRect& where) {
     const int columns = (where.x1 - where.x0 + kPart - 1) / kPart;
@@ -101,8 +102,8 @@ void DepthStage::findNeeds(const Pose& pose, double brightness, double stillBase
     }
 }
 
-// One search per frame: against the keyframe of the part with the largest uncertainty, for all
-// parts that chose the same keyframe.
+// Searches once per frame. The part with the largest uncertainty determines the keyframe; all parts
+// that chose this keyframe are measured.
 void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose& pose) {
     if (needs_.empty()) return;
     const auto knowsMore = [](const Need& a, const Need& b) { return a.share < b.share; };
@@ -126,8 +127,8 @@ void DepthStage::searchKeyframe(const Rows<const std::uint8_t>& luma, const Pose
     source_ = source_ == DepthSource::Still ? DepthSource::Both : DepthSource::Keyframe;
 }
 
-// s of every cell of the search's area, in the search's unit; empty when too little of `where` is
-// known to start from.
+// Returns s (see EpipolarLens) of every cell of the search's area, in the search's unit. Empty if
+// depth is known in too small a share of `where`.
 std::span<const float> DepthStage::predicted(const UnitPose& relative, const PixelRect& where) {
     const InverseDepthField& field = filter_.field();
     const PixelRect& area = search_.area();
@@ -135,7 +136,7 @@ std::span<const float> DepthStage::predicted(const UnitPose& relative, const Pix
         (relative.T_other_frame.rotation.conjugate() * relative.T_other_frame.translation).z();
     predicted_.clear();
     int inside = 0, known = 0;
-    float last = 0;  // fills cells without known depth
+    float last = 0;  // replaces the value of cells without known depth
     for (int y = area.y0 + kCell / 2; y < area.y1 + kCell / 2; y += kCell) {
         for (int x = area.x0 + kCell / 2; x < area.x1 + kCell / 2; x += kCell) {
             const int row = std::min(y, area.y1 - 1), column = std::min(x, area.x1 - 1);
@@ -168,7 +169,7 @@ DepthStage::Summary DepthStage::summaryOf(const PixelRect& where, const Pose& po
             shares_.push_back(std::sqrt(field.variance[i]) / field.rho[i]);
         }
     }
-    // While nothing is known: the distance to the world's origin, where a tag is.
+    // While no depth is known, use the distance to the world's origin, where a tag is.
     out.rho = 1 / std::max(pose.T_world_video.translation.norm(), kNearest);
     if (samples_.empty()) return out;
     out.rho = medianOf(samples_);

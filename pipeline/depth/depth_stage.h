@@ -12,30 +12,30 @@
 
 namespace mfar {
 
-/// The depth of the real scene, filtered over time. Measured against the still, which costs nothing
-/// because its flow is known, and against a keyframe where that promises more accuracy. Runs on the
-/// CPU, without GL.
+/// The depth of the real scene, filtered over time. Depth is measured against the still, which
+/// costs little because the flow to the still is known anyway. It is also measured against an
+/// earlier frame (keyframe) where that promises more accuracy. Runs on the CPU, without GL.
 class DepthStage {
 public:
     DepthStage(const CameraModel& video, std::shared_ptr<Workers> workers,
                const DepthOptions& options = {});
 
-    /// A search of this frame against the still.
+    /// The search that matched this frame with the still.
     struct StillSearch {
         const EpipolarSearch& search;
-        const Eigen::Matrix3f& R_still_video;  ///< rotates rays, at the video's geometry
-        double unit;                           ///< [m]
-        double lengthError;                    ///< of `unit`, see UnitPose
+        const Eigen::Matrix3f& R_still_video;  ///< rotates video rays to the still's frame
+        double unit;                           ///< the search's unit of length [m]
+        double lengthError;                    ///< relative error of `unit`, see UnitPose
         std::span<const float> cells;          ///< see DepthMeasurement::run()
     };
 
     void forget();
-    /// Call when the still changes: the same view may then be measured again.
+    /// Call this when the still changes, so that an unchanged view is measured again.
     void renew() { measuredPose_.reset(); }
-    /// Processes a changed frame. Measures inside `where`, which may be empty.
+    /// Processes a changed frame. Measures depth inside `where`, which may be empty.
     void run(const Rows<const std::uint8_t>& luma, const Pose& pose,
              const std::optional<StillSearch>& still, const PixelRect& where);
-    /// Discards the depths of these pixels, where something moves.
+    /// Discards the depths of these pixels, because something moves there.
     void forget(const PixelRect& where) { filter_.forget(where); }
 
     [[nodiscard]] const InverseDepthField& field() const { return filter_.field(); }
@@ -44,9 +44,9 @@ public:
 private:
     struct Summary {
         double rho = 0;    ///< median of the known inverse depths [1/m]
-        double share = 1;  ///< median of their relative standard deviation
+        double share = 1;  ///< median of the relative standard deviations of inverse depth
     };
-    /// A part of the picture with too large an uncertainty, and the keyframe that would reduce it.
+    /// A part of the picture whose depth is too uncertain, and the keyframe that would improve it.
     struct Need {
         PixelRect part;
         double share;

@@ -14,11 +14,11 @@ namespace {
 constexpr int kBand = 4;         // width of the undecided band on each side of a depth edge [px]
 constexpr int kVoteRadius = 10;  // radius from which candidate surfaces are taken [px]
 constexpr int kVoters = simd::kVoterStep;
-// An edge rather than a slope: the inverse depth changes within 2 kBand + 1 pixels by this share of
-// the larger value, and by more than noise does.
+// An edge differs from a slope: within 2 kBand + 1 pixels, the inverse depth changes by more than
+// this share of the larger value, and by more than this number of standard deviations.
 constexpr float kJump = 0.08F, kSigmas = 3;
-constexpr float kLikeness = 12;        // colour distance for a likeness of one half [grey levels]
-constexpr float kLeastWeight = 0.75F;  // sum over all voters, each at most one
+constexpr float kLikeness = 12;        // colour distance for a weight of one half [grey levels]
+constexpr float kLeastWeight = 0.75F;  // least sum of the weights, each at most one
 
 static_assert(kBand <= simd::kMostRange);
 
@@ -28,7 +28,8 @@ constexpr int nextVoter(int from) {
 
 using Colour = std::array<int, 3>;
 
-/// Colours of a picture of any format. Converted on request, because only few pixels are needed.
+/// Reads colours from a picture of any format. Converts single pixels on request, because only few
+/// are needed.
 class Colours {
 public:
     explicit Colours(const ImageView& picture) : picture_(picture) {
@@ -44,7 +45,7 @@ public:
         switch (picture_.format) {
         case PixelFormat::Gray8: return {p[0], p[0], p[0]};
         case PixelFormat::Rgba8:
-        case PixelFormat::Bgra8: return {p[0], p[1], p[2]};  // distances do not depend on the order
+        case PixelFormat::Bgra8: return {p[0], p[1], p[2]};  // distances ignore the channels' order
         case PixelFormat::Yuyv: {
             const std::uint8_t* pair = p - 2 * (x % 2);
             return rgbOf(p[0], pair[1], pair[3]);
@@ -108,7 +109,7 @@ const InverseDepthField& EdgeSnap::run(const InverseDepthField& in, const ImageV
     return out_;
 }
 
-// Range filters: first along rows, then along columns.
+// Finds the range of inverse depth around each pixel: first along rows, then along columns.
 void EdgeSnap::findEdges(const InverseDepthField& in, const PixelRect& where) {
     if (where.empty()) return;
     const std::ptrdiff_t pitch = size_.width;

@@ -14,16 +14,17 @@ namespace mfar {
 
 /// Aligns the edges of a depth field with those of the picture. Matching cannot decide on which
 /// side of a depth edge a nearby pixel lies: its windows reach across the edge, and one side is
-/// occluded in the other picture. Pixels near an edge, and unknown pixels, get the depth of the
-/// surface farther from the edge whose colour resembles theirs. Source: Tomasi and Manduchi 1998
+/// occluded in the other picture. So a pixel near an edge, or of unknown depth, takes its depth
+/// from pixels of similar colour that lie farther from the edge. Source: Tomasi and Manduchi 1998
 /// (weights); Ma et al., Constant time weighted median filtering for stereo matching, ICCV 2013
-/// (depth by the likeness of colours).
+/// (depth by similarity of colours).
 class EdgeSnap {
 public:
     EdgeSnap(Size video, std::shared_ptr<Workers> workers);
 
     /// `frame`: the picture that `in` belongs to, in any format. Processes only the pixels of
-    /// `where`; all others become unknown. Pixels decided by likeness are marked as filled.
+    /// `where`; all others become unknown. Pixels that take their depth from others are marked as
+    /// filled.
     const InverseDepthField& run(const InverseDepthField& in, const ImageView& frame,
                                  const PixelRect& where);
     /// The result of the last run.
@@ -34,7 +35,7 @@ public:
 private:
     void findEdges(const InverseDepthField& in, const PixelRect& where);
     void gatherVoters(const InverseDepthField& in, const ImageView& frame, const PixelRect& where);
-    /// Copies valid values unchanged.
+    /// Copies valid values of row y unchanged; the others become unknown.
     void takeRow(const InverseDepthField& in, const PixelRect& where, int y);
     void snapRow(const ImageView& frame, const PixelRect& where, int y);
     void decide(const PixelRect& where, int y, std::span<simd::OpenPixel> pixels);
@@ -43,9 +44,9 @@ private:
     std::shared_ptr<Workers> workers_;
     InverseDepthField out_;
     PixelRect where_;
-    std::vector<std::uint8_t> open_;  // 1: to be decided by likeness
+    std::vector<std::uint8_t> open_;  // 1: depth is decided by colour
     std::vector<float> low_, high_;   // range of rho along a row
-    /// Memory of simd::Voters.
+    /// Memory that simd::Voters refers to.
     struct {
         AlignedRows<float> rho, variance, red, green, blue;
     } voters_;

@@ -16,7 +16,7 @@ struct InverseDepthField {
     Size size;
     std::vector<float> rho;       ///< 1 / z along the video camera's axis [1/m]; 0: infinitely far
     std::vector<float> variance;  ///< of rho [1/m^2]; kUnknown where rho is invalid
-    std::vector<std::uint8_t> filled;  ///< 1: not measured, but agreed on by its neighbours
+    std::vector<std::uint8_t> filled;  ///< 1: not measured, but taken from pixels around
 
     InverseDepthField() = default;
     explicit InverseDepthField(Size s)
@@ -24,8 +24,8 @@ struct InverseDepthField {
           variance(rho.size(), kUnknown), filled(rho.size()) {}
 
     [[nodiscard]] bool isKnown(std::size_t pixel) const { return variance[pixel] < kUnknown; }
-    /// Limits of a known pixel's values, far enough from float's limits that their products and the
-    /// sums over a picture remain finite.
+    /// True if a known pixel may have these values. The limits keep products of values, and sums
+    /// over a picture, finite in single precision.
     [[nodiscard]] static bool isSound(float rho, float variance) {
         return rho >= 0 && rho < 1e15F && variance > 1e-30F && variance < 1e30F;
     }
@@ -34,7 +34,7 @@ struct InverseDepthField {
         variance[pixel] = kUnknown;
         filled[pixel] = 0;
     }
-    /// Forgets columns [x0, x1) of row y.
+    /// Makes columns [x0, x1) of row y unknown.
     void forgetRow(int y, int x0, int x1) {
         const auto row = static_cast<std::size_t>(y) * size.width;
         for (std::size_t i = row + x0; i < row + x1; ++i)

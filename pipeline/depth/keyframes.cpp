@@ -10,12 +10,13 @@
 namespace mfar {
 namespace {
 
-// A frame is kept when a typical point has moved by this angle since the newest keyframe [rad].
+// A frame is kept if the direction to a typical point has changed by this angle since the newest
+// keyframe [rad].
 constexpr double kLeastStep = 0.002;
-// The score doubles at this age [frames], and triples when the exposures differ by a factor of e.
+// The score doubles at this age [frames], and triples if the exposures differ by a factor of e.
 constexpr double kAge = 60;
 constexpr double kExposure = 2;
-constexpr int kGrid = 4;  // points a side, spread over a part
+constexpr int kGrid = 4;  // number of sample points along each side of a part
 
 }  // namespace
 

@@ -11,16 +11,16 @@
 
 namespace mfar {
 
-/// A frame to measure depth against.
+/// An earlier frame that depth is measured against.
 struct Keyframe {
     LumaImage luma;
     Pose pose;
     double brightness = 0;  ///< mean luma
-    long number = 0;        ///< of the frame, counted from the first
+    long number = 0;        ///< number of the frame, counted from the first
 };
 
-/// The last frames from different places. While the camera rests, the kept ones stay: other frames
-/// would add no view.
+/// The last frames that were taken from different places. While the camera rests, no frames are
+/// added or removed, because a new frame would not show a new view.
 class Keyframes {
 public:
     Keyframes(const CameraModel& video, const KeyframeOptions& options);
@@ -34,17 +34,18 @@ public:
         const Keyframe* frame;
         double angle;  ///< mean parallax [rad]
     };
-    /// Chooses a keyframe for these pixels of a frame at this pose; empty when none shows them with
-    /// parallax. The score is the expected error of inverse depth, sigma / (f sin(parallax)),
-    /// raised with age and difference in exposure (design, section 6). Valid until the next add().
+    /// Chooses a keyframe for the pixels `part` of a frame at this pose. Empty if no keyframe shows
+    /// them with enough parallax. The score is the expected error of inverse depth, sigma / (f
+    /// sin(parallax)), which is increased for older keyframes and for different exposure. Valid
+    /// until the next add().
     [[nodiscard]] std::optional<Choice> choose(const Pose& pose, double brightness,
                                                const PixelRect& part, double rho) const;
 
 private:
-    /// How the keyframe there sees the points of a part, all at inverse depth rho.
+    /// How a keyframe sees the points of a part, if all of them are at inverse depth rho.
     struct Relation {
         double angle = 0;    ///< mean parallax [rad]
-        double overlap = 0;  ///< share of the points that lie in its picture
+        double overlap = 0;  ///< share of the points that lie in the keyframe's picture
     };
     [[nodiscard]] Relation relationOf(const RigidTransform& T_key_now,
                                       std::span<const Eigen::Vector2d> rays, double rho) const;
@@ -55,7 +56,7 @@ private:
     long count_ = 0;
 };
 
-/// Mean of the pixels.
+/// Returns the mean of the pixels.
 [[nodiscard]] double brightnessOf(const Rows<const std::uint8_t>& luma);
 
 }  // namespace mfar
