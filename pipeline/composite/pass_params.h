@@ -6,7 +6,7 @@
 #include <cstdint>
 
 // Parameters of the preview's shaders (preview.vert, preview.frag), and definitions shared with the
-// warp. Shaders include this header, too, see gles_shaders/params_to_glsl.cmake.
+// warp. gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
 /// Transforms points [m] from one coordinate system to another: rows of rotation and translation.

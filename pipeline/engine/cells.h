@@ -14,7 +14,7 @@ struct FlowCell {
     float texture = 0;   ///< energy of the 8x8 patch around the cell [grey levels^2]
 };
 
-/// Two-way error of a cell (eq. 2), where the search along epipolar lines has determined it.
+/// Two-way error of a cell (eq. 2 of the paper), determined by the search along epipolar lines.
 struct ErrorCell {
     float error = 0;  ///< [px]
     float unused[3] = {};
@@ -24,20 +24,20 @@ struct ErrorCell {
 struct WeighedCell {
     float x = 0, y = 0;    ///< flow [video px]
     float weight = 0;      ///< of the still's detail, [0, 2.31]
-    float confidence = 0;  ///< eq. 2, [0, 1]
+    float confidence = 0;  ///< eq. 2 of the paper, [0, 1]
 };
 
-/// Where an output pixel at the cell reads the still.
+/// Where output pixels in the cell read the still.
 struct LookUpCell {
-    float x = 0, y = 0;  ///< end of the flow minus the scaled cell centre [still px]
+    float x = 0, y = 0;  ///< end of the flow in the still minus the scaled cell centre [still px]
     float weight = 0;    ///< see WeighedCell
     float confidence = 0;
 };
 
 /// Inputs of sharpening and of tile classes, per cell, each in [0, 1].
 struct TrustCell {
-    float halfWeight = 0;   ///< half of the weight
-    float confidence = 0;   ///< eq. 2
+    float halfWeight = 0;   ///< half of WeighedCell::weight
+    float confidence = 0;   ///< eq. 2 of the paper
     float signal = 0;       ///< share of the video's variance that noise does not explain
     float unexplained = 0;  ///< 1: textured, but the still does not show it
 };

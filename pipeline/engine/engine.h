@@ -18,10 +18,10 @@ enum class EngineKind : std::uint8_t {
     Gles,  ///< OpenGL ES 3.1 shaders
     Simd   ///< SIMD kernels on the CPU
 };
-/// "gles", "simd".
+/// Returns "gles" or "simd".
 [[nodiscard]] std::string_view nameOf(EngineKind kind);
 
-/// The engine of each step.
+/// The engine that runs each step.
 struct EngineChoice {
     EngineKind still = EngineKind::Gles;
     EngineKind pyramid = EngineKind::Gles;
@@ -33,10 +33,11 @@ struct EngineChoice {
     [[nodiscard]] static EngineChoice all(EngineKind kind) {
         return {kind, kind, kind, kind, kind, kind};
     }
-    /// All steps on the engine named by the environment variable MFAR_ENGINE, "simd" or "gles"
-    /// (default). For benchmarks and tests, which do not choose an engine themselves.
+    /// Chooses one engine for all steps: the one that the environment variable MFAR_ENGINE names
+    /// ("simd" or "gles", the default). For benchmarks and tests, which do not choose an engine
+    /// themselves.
     [[nodiscard]] static EngineChoice fromEnvironment();
-    /// True when at least one step runs on this engine.
+    /// True if at least one step runs on this engine.
     [[nodiscard]] bool uses(EngineKind kind) const {
         return still == kind || pyramid == kind || flow == kind || weigh == kind ||
                detail == kind || occlusion == kind;
@@ -53,7 +54,7 @@ struct StepSetup {
     Transfers* transfers = nullptr;  ///< counts the bytes that steps transfer; null: not counted
 };
 
-/// Creates the steps of one kind. Must outlive them.
+/// Creates the steps of one engine. The steps must not outlive it.
 class Engine {
 public:
     virtual ~Engine() = default;
@@ -63,28 +64,29 @@ public:
     [[nodiscard]] virtual std::unique_ptr<WeighStep> weigh() = 0;
     [[nodiscard]] virtual std::unique_ptr<DetailStep> detail() = 0;
     [[nodiscard]] virtual std::unique_ptr<OcclusionStep> occlusion(Size layer) = 0;
-    /// `layer`: the camera at the layer's resolution. The step draws into memory that occlusion()
-    /// reads directly. Throws std::invalid_argument for an option out of range.
+    /// `layer`: the camera at the resolution of the virtual layer. The step draws into memory that
+    /// the step of occlusion() reads directly. Throws std::invalid_argument if an option is out of
+    /// range.
     [[nodiscard]] virtual std::unique_ptr<WarpStep> warp(const CameraModel& layer,
                                                          const WarpOptions& options) = 0;
 
-    /// Prepares a new still for the weigh and detail steps, so that frames need no allocation for
-    /// it.
+    /// Prepares a new still for the weigh and detail steps, so that they allocate nothing while
+    /// they process frames.
     virtual void take(const StillPictures&) {}
     /// Submits the work requested so far.
     virtual void flush() {}
     /// Waits until all work is done; for benchmarks.
     virtual void finish() {}
-    /// Waits until the frame's memory is no longer read.
+    /// Waits until the steps no longer read the memory of the frame.
     virtual void finishReading() {}
-    /// Sets the importer that reads camera memory without a copy; null: everything is uploaded. The
-    /// importer must outlive the engine.
+    /// Sets the importer that gives the engine access to camera memory without a copy; null: all
+    /// pictures are uploaded. The importer must outlive the engine.
     virtual void setImporter(PlaneImporter*) {}
     /// Why zero-copy import failed; returned once.
     [[nodiscard]] virtual std::optional<std::string> takeImportFault() { return std::nullopt; }
 };
 
-/// Needs a current GL context for its whole lifetime. Throws GlError.
+/// The engine needs a current GL context for its whole lifetime. Throws GlError.
 [[nodiscard]] std::unique_ptr<Engine> makeGlesEngine(const StepSetup& setup);
 [[nodiscard]] std::unique_ptr<Engine> makeSimdEngine(const StepSetup& setup);
 

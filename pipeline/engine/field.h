@@ -9,7 +9,8 @@
 
 namespace mfar {
 
-/// Bytes moved between host and GPU. Increasing counters; readers take differences.
+/// Number of bytes moved between host and GPU. The counters only increase; readers take
+/// differences.
 struct Transfers {
     std::uint64_t uploadedBytes = 0, downloadedBytes = 0;
 };
@@ -22,19 +23,19 @@ public:
     DeviceCopy& operator=(const DeviceCopy&) = delete;
     virtual ~DeviceCopy() = default;
 
-    /// Writes all rows; `pitch`: bytes from one row to the next.
+    /// Writes all rows. `pitch`: bytes from the start of one row to the next.
     virtual void upload(const void* data, std::ptrdiff_t pitch) = 0;
     /// Reads all rows. Waits for the GPU.
     virtual void download(void* data, std::ptrdiff_t pitch) = 0;
 };
 
-/// The result of a step: rows of T on the host, on the GPU or on both. The step that writes it
-/// states where; a reader requests the copy that it needs, and only then are the rows moved. The
-/// newest copy's memory belongs to the step, a moved copy's memory to the field.
+/// The result of a step: rows of T on the host, on the GPU or on both. The step that writes the
+/// rows reports where they are. A reader requests the copy that it needs; only then are the rows
+/// moved. The step owns the memory that it wrote; the field owns the memory of a moved copy.
 template <class T>
 class Field {
 public:
-    /// `transfers` counts the bytes moved and must outlive the field; null: not counted.
+    /// `transfers` counts the moved bytes and must outlive the field; null: they are not counted.
     explicit Field(Size size = {}, Transfers* transfers = nullptr)
         : size_(size), transfers_(transfers) {}
 
@@ -43,7 +44,7 @@ public:
         return sizeof(T) * static_cast<std::size_t>(size_.width) * size_.height;
     }
 
-    /// Reports new rows on the host. Borrowed: valid until the next writtenOn...().
+    /// Reports new rows on the host. They must remain valid until the next writtenOn...().
     void writtenOnHost(Rows<const T> rows) {
         host_ = rows;
         size_ = rows.size;
@@ -57,7 +58,7 @@ public:
         writtenOnHost(Rows<const T>(rows));
         editable_ = rows;
     }
-    /// Reports a new copy on the GPU. Borrowed: valid until the next writtenOn...().
+    /// Reports a new copy on the GPU. It must remain valid until the next writtenOn...().
     void writtenOnDevice(DeviceCopy& copy, Size size) {
         device_ = &copy;
         size_ = size;
@@ -68,7 +69,7 @@ public:
     [[nodiscard]] bool isOnDevice() const { return device_ != nullptr; }
     [[nodiscard]] bool isEmpty() const { return !isOnHost() && !isOnDevice(); }
 
-    /// Rows on the host. Waits for the GPU if the newest copy is there.
+    /// Returns the rows on the host. Waits for the GPU if the newest copy is there.
     [[nodiscard]] Rows<const T> host() const {
         if (!isOnHost() && isOnDevice()) {
             if (downloaded_.size() != size_) downloaded_ = AlignedRows<T>(size_);
@@ -79,15 +80,15 @@ public:
         }
         return host_;
     }
-    /// Rows on the host for drawing; they become the newest copy. Requires that the step gave
-    /// editable rows or that the newest copy was on the GPU.
+    /// Returns the rows on the host for drawing; they become the newest copy. The step must have
+    /// reported rows that may be drawn into, or a copy on the GPU.
     [[nodiscard]] Rows<T> edit() {
         (void)host();
         device_ = nullptr;
         return editable_;
     }
-    /// The GPU's copy; `make` creates one of this field's size when host rows are uploaded for the
-    /// first time.
+    /// Returns the GPU's copy. `make` creates a copy of this field's size; it is called only when
+    /// host rows are uploaded for the first time.
     template <class Make>
     [[nodiscard]] DeviceCopy& device(const Make& make) const {
         if (!isOnDevice()) {
@@ -105,9 +106,9 @@ public:
 private:
     Size size_;
     Transfers* transfers_;
-    // Mutable: reading moves rows but changes no value.
-    mutable Rows<const T> host_;            // data is null: older than the GPU's copy
-    mutable Rows<T> editable_;              // the same rows, where they are editable
+    // Mutable, because reading moves rows but changes no value.
+    mutable Rows<const T> host_;            // null data: older than the GPU's copy
+    mutable Rows<T> editable_;              // the same rows, if they may be drawn into
     mutable DeviceCopy* device_ = nullptr;  // null: older than the host's rows
     mutable AlignedRows<T> downloaded_;
     mutable std::unique_ptr<DeviceCopy> uploaded_;

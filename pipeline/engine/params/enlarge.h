@@ -3,32 +3,32 @@
 #include <cstdint>
 
 // The learned enlarger, see pipeline/enlarge/filter_layout.h: superres_enlarge.comp,
-// superres_vertical.frag, learned.glsl and their SIMD twins. Shaders read this header, too:
-// gles_shaders/params_to_glsl.cmake.
+// superres_vertical.frag, learned.glsl and the SIMD code of the same steps.
+// gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
 inline constexpr int kGrid = 4;  ///< sub-pixels of a pixel along each axis
 inline constexpr int kGridShift = 2;
 static_assert(kGrid == 1 << kGridShift);
-inline constexpr int kPairs = 12;  ///< pairs of taps of a filter
+inline constexpr int kPairs = 12;  ///< pairs of taps in a filter
 
-inline constexpr int kLumaScale = 8;       ///< luma in steps of 1/8 grey level
-inline constexpr int kResidualScale = 32;  ///< residuals in steps of 1/32 grey level
-/// Colours and luma that shaders store between passes, in steps of 1/64 grey level.
+inline constexpr int kLumaScale = 8;       ///< luma is stored in steps of 1/8 grey level
+inline constexpr int kResidualScale = 32;  ///< residuals are stored in steps of 1/32 grey level
+/// Shaders store colours and luma between passes in steps of 1/64 grey level.
 inline constexpr int kPassScale = 64;
 
-/// Thresholds of GradientClasses: strength [grey levels per px] and coherence.
+/// Thresholds of GradientClasses: three of the strength [grey levels per px], two of the coherence.
 inline constexpr float kWeakFrom = 2.0F;
 inline constexpr float kMediumFrom = 6.0F;
 inline constexpr float kStrongFrom = 16.0F;
 inline constexpr float kPartlyCoherentFrom = 0.25F;
 inline constexpr float kCoherentFrom = 0.5F;
-/// Number of classes per angle.
+/// Number of classes per angle, and number of angles.
 inline constexpr int kGradientKinds = 12;
 inline constexpr int kGradientAngles = 16;
 
-/// Thresholds of CurvatureClasses [grey levels per px^2]: absolute Laplacian, difference of the
-/// eigenvalues.
+/// Thresholds of CurvatureClasses [grey levels per px^2]: three of the absolute Laplacian, three of
+/// the difference of the eigenvalues.
 inline constexpr float kLowLaplacian = 2.5F;
 inline constexpr float kMediumLaplacian = 8.0F;
 inline constexpr float kHighLaplacian = 24.0F;
@@ -38,12 +38,12 @@ inline constexpr float kHighDifference = 25.0F;
 inline constexpr int kCurvatureKinds = 28;
 inline constexpr int kCurvatureAngles = 8;
 
-/// Tangents of 22.5 and 67.5 degrees, the borders between bins of the double angle.
+/// Tangents of 22.5 and 67.5 degrees, where the bins of the double angle meet.
 inline constexpr float kLowTangent = 0.414213562F;
 inline constexpr float kHighTangent = kLowTangent + 2.0F;
 
 /// The residual is limited so that its sum with the cubic stays within the range of the surrounding
-/// 5x5 pixels, extended at both ends by this share of the range.
+/// 5x5 pixels, which is extended at both ends by this share of its width.
 inline constexpr float kOvershoot = 0.25F;
 
 struct alignas(16) EnlargeTiles {

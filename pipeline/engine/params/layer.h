@@ -1,12 +1,12 @@
 #pragma once
 
-// Definitions shared by the producers and users of the virtual layer. Shaders read this header,
-// too: gles_shaders/params_to_glsl.cmake.
+// Definitions shared by the code that draws the virtual layer and the code that uses it.
+// gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
-/// Depth of a shadow on the real scene is reduced by this share of its z. So real depth that cannot
-/// be distinguished from the shadowed surface does not hide the shadow, and flat objects on the
-/// surface are shadowed as well.
+/// The depth z of a shadow on the real scene is reduced by this share of z. So the shadow remains
+/// visible although its depth cannot be distinguished from that of the real surface, and flat
+/// objects on the surface are shadowed as well.
 inline constexpr float kShadowLift = 0.02F;
 
 }  // namespace mfar::params

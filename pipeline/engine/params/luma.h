@@ -4,15 +4,15 @@
 
 #include <cstdint>
 
-// Luma pyramids: luma_from_video.comp, luma_from_still.comp, luma_down.comp, their SIMD twins, and
-// all programs that read the pyramids. Shaders read this header, too:
-// gles_shaders/params_to_glsl.cmake.
+// Luma pyramids: luma_from_video.comp, luma_from_still.comp, luma_down.comp, the SIMD code of the
+// same steps, and all programs that read the pyramids. gles_shaders/params_to_glsl.cmake translates
+// this header for the shaders.
 namespace mfar::params {
 
-/// One level of a luma pyramid: 8 bits per pixel, four pixels per word, the leftmost in the low
-/// byte.
+/// One level of a luma pyramid: 8 bits per pixel, four pixels per word, the leftmost pixel in the
+/// low byte.
 struct alignas(16) LumaLevel {
-    std::int32_t offset;  ///< of the level in the pyramid's memory [words]
+    std::int32_t offset;  ///< start of the level in the pyramid's memory [words]
     std::int32_t pitch;   ///< [words], with kLumaMarginWords of replicated border on each side
     std::int32_t width;   ///< [px]
     std::int32_t height;  ///< [px]
@@ -24,23 +24,25 @@ inline constexpr float kLumaRed = 0.299F;
 inline constexpr float kLumaGreen = 0.587F;
 inline constexpr float kLumaBlue = 0.114F;
 
-/// Weight of each neighbour in the smoothing of the finest level. Compared with no smoothing, 0.18
-/// gains 0.3 dB on printed text and costs 0.05 dB on photographs.
+/// Weight of each neighbour in the smoothing of the finest level. Compared with no smoothing, a
+/// weight of 0.18 gains 0.3 dB on printed text and costs 0.05 dB on photographs.
 inline constexpr float kLumaSmoothing = 0.18F;
 
-/// Bilinear samples of the still per video pixel and axis: they cover a footprint of up to 8 px.
+/// Number of bilinear samples of the still along each axis of a video pixel. They cover a footprint
+/// of up to 8 still px.
 inline constexpr int kFootprintTaps = 4;
 
-/// Lower limit of the depth that a ray of unit depth keeps when it is rotated into the still
-/// camera; rays below it point away.
+/// A ray of depth 1 is rotated into the still camera's frame. If its depth there is less than this,
+/// the ray points away from what the still shows.
 inline constexpr float kLeastTurnedDepth = 0.05F;
-/// Both still pixel coordinates of a ray that points away: far outside.
+/// Coordinates in the still of a ray that points away [px]: far outside.
 inline constexpr float kFarOutside = -1e6F;
-/// Fixed-point iterations that invert a lens's distortion: for the lenses in use each gains a digit
-/// or more.
+/// Number of fixed-point iterations that invert the lens's distortion. With the lenses in use, each
+/// iteration adds at least one correct digit.
 inline constexpr int kUndistortSteps = 12;
 
-/// Where the still shows a video pixel at infinity: both lenses and the rotation between them.
+/// Both lenses and the rotation between them. They determine where the still shows a video pixel
+/// that is infinitely far away.
 struct alignas(16) Rig {
     Lens video, still;
     Row3 rotation[3];  ///< R_still_video
@@ -48,14 +50,14 @@ struct alignas(16) Rig {
 
 struct alignas(16) LumaFromVideo {
     LumaLevel target;
-    float smoothing;  ///< weight of the neighbour on each side
+    float smoothing;  ///< weight of each neighbour
 };
 
 struct alignas(16) LumaFromStill {
     Rig rig;
     LumaLevel target;
     float texelX, texelY;  ///< 1 / size of the still [1/px]
-    float footprint;       ///< of a video pixel [still px]
+    float footprint;       ///< size of a video pixel [still px]
 };
 
 struct alignas(16) LumaDown {

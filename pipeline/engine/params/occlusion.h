@@ -2,19 +2,19 @@
 
 #include <cstdint>
 
-// Which virtual pixels the real scene hides: visibility_*.frag and their SIMD twins. Shaders read
-// this header, too: gles_shaders/params_to_glsl.cmake.
+// Which pixels of virtual objects the real scene hides: visibility_*.frag and the SIMD code of the
+// same steps. gles_shaders/params_to_glsl.cmake translates this header for the shaders.
 namespace mfar::params {
 
-/// Limits of the inverse depth and sigma of a known real sample, both excluded [1/m]. Some GPUs
-/// flush denormal sigmas to zero.
+/// A real sample is known if its inverse depth and its sigma are between these limits, exclusive
+/// [1/m]. The limits exclude denormal sigmas, because some GPUs flush them to zero.
 inline constexpr float kLeastInverseDepth = 1e-6F;
 inline constexpr float kMostInverseDepth = 1e6F;
 inline constexpr float kLeastDepthSigma = 1e-20F;
-/// Limits of the z of a drawn virtual pixel, both excluded [m].
+/// A virtual pixel is drawn if its z is between these limits, exclusive [m].
 inline constexpr float kLeastVirtualDepth = 1e-4F;
 inline constexpr float kMostVirtualDepth = 1e6F;
-/// Added to the likeness of each sample: where no colour is alike, distance decides.
+/// Added to the colour weight of each sample, so that distance decides where no colour is similar.
 inline constexpr float kLikenessFloor = 1e-3F;
 
 struct alignas(16) Visibility {

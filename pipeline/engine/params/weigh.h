@@ -5,54 +5,59 @@
 
 #include <cstdint>
 
-// How far the still is trusted, cell by cell: superres_assess.comp, superres_gain.comp,
-// superres_weigh.comp and their SIMD twins. Shaders read this header, too:
-// gles_shaders/params_to_glsl.cmake.
+// How far the still is trusted at each cell: superres_assess.comp, superres_gain.comp,
+// superres_weigh.comp and the SIMD code of the same steps. gles_shaders/params_to_glsl.cmake
+// translates this header for the shaders.
 namespace mfar::params {
 
-/// Two-way error above which the confidence is zero: eq. 2's alpha [video px].
+/// Two-way error above which the confidence is zero: alpha in eq. 2 of the paper [video px].
 inline constexpr float kTwoWayAlpha = 2.0F;
-/// Upper limit of stored offsets [still px].
+/// Upper limit of the look-up offsets that are stored [still px].
 inline constexpr float kFarthestOffset = 4e3F;
 
-/// Variance of rounding to 8 bits [grey levels^2].
+/// Variance of the error of rounding to 8 bits [grey levels^2].
 inline constexpr float kByteVariance = 0.083F;
-/// Ratio of variance to noise variance at which the half resolution has half of its full weight.
+/// Ratio of the variance to the noise's variance at which the gain measured at half resolution has
+/// half of its full weight.
 inline constexpr float kLowContrast = 8.0F;
 inline constexpr float kLargestGain = 2.0F;
-/// Compensates the loss of the finest detail in bilinear look-ups.
+/// Factor of the detail that compensates for the loss of the finest detail in bilinear look-ups.
 inline constexpr float kLookUpLoss = 1.15F;
-/// Squared correlation up to which patches certainly differ, and from which they certainly match.
+/// Squared correlation of two patches: up to kUnlikePatches they certainly differ, from
+/// kAlikePatches on they certainly match.
 inline constexpr float kUnlikePatches = 0.2F;
 inline constexpr float kAlikePatches = 0.6F;
-/// Change of the flow per pixel that noise explains, and from which the surface is seen from
-/// another side.
+/// Change of the flow [px per px]: up to kEvenFlow it is explained by noise, from kBentFlow on the
+/// two cameras see the surface from different sides.
 inline constexpr float kEvenFlow = 0.015F;
 inline constexpr float kBentFlow = 0.07F;
-/// Second difference of the flow from cell to cell that a surface may have, and from which two
-/// cells show different objects, so that look-ups between them are invalid [video px].
+/// Second difference of the flow between neighbouring cells [video px]: a surface may cause up to
+/// kSmoothStep. From kTornStep on, the cells show different objects, and look-ups between them are
+/// invalid.
 inline constexpr float kSmoothStep = 1.0F;
 inline constexpr float kTornStep = 4.0F;
-/// Smaller weights have no visible effect.
+/// Weights below this have no visible effect.
 inline constexpr float kSmallestWeight = 0.004F;
-/// Lower limit of a textured patch's variance, as a multiple of the variance of noise plus one grey
-/// level.
+/// A patch is textured if its mean variance is at least this multiple of (noise variance + 1) [grey
+/// levels^2].
 inline constexpr float kTexturedContrast = 8.0F;
-/// A textured cell is unexplained up to this squared correlation times confidence.
+/// A textured cell is unexplained if its squared correlation times its confidence is at most this.
 inline constexpr float kUnexplainedMatch = 0.25F;
 
-/// The finest detail is the difference of pixels from the mean of their 2x2 block. The video's is
-/// compared with the still's at the same place, because only there look-up errors of a fraction of
-/// a pixel are visible. A cell keeps its weight while the variance that the still leaves
-/// unexplained is at most kFineRoom times the usual noise plus kFineShareRoom times the usual share
-/// of the detail's variance (FineMatch). Above that, the weight is multiplied by allowed /
-/// unexplained. 4 is twice the usual deviation; the factor of the share is smaller, because
-/// otherwise edges that only the still shows would pass.
+/// The finest detail is the difference of pixels from the mean of their 2x2 block. The video's
+/// finest detail is compared with the still's at the same place, because only this comparison shows
+/// look-up errors of a fraction of a pixel. The comparison determines the variance that the still
+/// leaves unexplained. A cell keeps its weight while this variance is at most kFineRoom times the
+/// usual noise plus kFineShareRoom times the usual share of the detail's variance (FineMatch).
+/// Above this limit, the weight is multiplied by limit / variance. kFineRoom = 4 allows twice the
+/// usual deviation. kFineShareRoom is smaller, because otherwise edges that only the still shows
+/// would be accepted.
 inline constexpr float kFineRoom = 4.0F;
 inline constexpr float kFineShareRoom = 3.0F;
-/// Step between sampled rows of cells; the rows between take the mean of both neighbours.
+/// Only every kFineStep-th row of cells is sampled. The rows between take the mean of both
+/// neighbours.
 inline constexpr int kFineStep = 2;
-/// Lower limit of variances that are taken into account [grey levels^2].
+/// Smaller variances are not significant [grey levels^2].
 inline constexpr float kFineLeast = 0.1F;
 
 struct alignas(16) AssessCells {
@@ -60,18 +65,18 @@ struct alignas(16) AssessCells {
     LumaLevel video, still;  ///< finest levels, both in the video's geometry
     std::int32_t columns, rows;
     std::int32_t backwardColumns, backwardRows;  ///< of the backward field
-    std::int32_t forward, backward;              ///< first cells of both fields in patches[]
-    std::int32_t errorsGiven;                    ///< 1: errors replace the backward field
+    std::int32_t forward, backward;              ///< index of each field's first cell in patches[]
+    std::int32_t errorsGiven;                    ///< 1: given errors replace the backward field
     std::int32_t backwardScale;     ///< video pixels per pixel of the backward field's level
     float stillWidth, stillHeight;  ///< [px]
     float scaleX, scaleY;           ///< still pixels per video pixel
 };
 
 struct alignas(16) MeasureGain {
-    LumaLevel video, still;      ///< second levels
+    LumaLevel video, still;      ///< second levels of both pyramids
     std::int32_t columns, rows;  ///< of half-resolution cells
     std::int32_t forwardColumns, forwardRows;
-    std::int32_t forward;  ///< first cell of the field in patches[]
+    std::int32_t forward;  ///< index in patches[] of the forward field's first cell
     std::int32_t tileColumns;
 };
 
@@ -90,7 +95,7 @@ struct alignas(16) SumFine {
 
 struct alignas(16) ConfirmCells {
     std::int32_t columns, rows;  ///< of cells
-    float noise, share;          ///< FineMatch
+    float noise, share;          ///< see FineMatch
 };
 
 }  // namespace mfar::params
